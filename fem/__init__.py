@@ -1,0 +1,1 @@
+"""Weak forms, the coupled pencil and its analyses on dolfinx."""

@@ -1,0 +1,1 @@
+"""Geometry, gmsh, tagged and graded meshes."""

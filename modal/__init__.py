@@ -1,0 +1,1 @@
+"""Closed forms and estimates of the older theories: NumPy and SciPy only."""

@@ -1,0 +1,1 @@
+"""Typed scenes, pipelines and the command line."""

@@ -1,0 +1,27 @@
+# shellcheck shell=bash
+# This checkout as an import package. Several checkouts share one virtual environment, so none is installed into it:
+# a folder of links on PYTHONPATH gives `hydroelastic.fem` and so on, and metadata beside it the version and the
+# command line.
+
+make_overlay() {
+    new_building
+    local folder version metadata requirement
+    version=$(sed -n 's/^version = "\(.*\)"/\1/p' "$checkout/pyproject.toml" | head -n 1)
+    mkdir -- "$building/hydroelastic" "$building/bin" "$building/hydroelastic-$version.dist-info"
+    for folder in meshes fem modal scenes; do
+        ln -s -- "$checkout/$folder" "$building/hydroelastic/$folder"
+    done
+    metadata=$building/hydroelastic-$version.dist-info
+    {
+        printf 'Metadata-Version: 2.1\nName: hydroelastic\nVersion: %s\n' "$version"
+        read_list "$checkout/requirements/run.txt" | while read -r requirement; do
+            printf 'Requires-Dist: %s\n' "$requirement"
+        done
+    } >"$metadata/METADATA"
+    printf 'hydro\n' >"$metadata/INSTALLER"
+    printf '[console_scripts]\nhydroelastic = hydroelastic.scenes.command_line:main\n' >"$metadata/entry_points.txt"
+    # shellcheck disable=SC2016
+    printf '#!/bin/sh\nexec python -m hydroelastic.scenes.command_line "$@"\n' >"$building/bin/hydroelastic"
+    chmod +x -- "$building/bin/hydroelastic"
+    publish "$overlay"
+}

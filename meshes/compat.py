@@ -1,0 +1,18 @@
+"""The one module that knows which dolfinx is installed. It probes features; nothing else asks for the version."""
+
+from __future__ import annotations
+
+from typing import Any
+
+try:  # dolfinx >= 0.10
+    from dolfinx.io import distribute_entity_data
+except ImportError:
+    from dolfinx.io.utils import distribute_entity_data
+
+__all__ = ["distribute_entity_data", "geometry_dofmap"]
+
+
+def geometry_dofmap(mesh: Any) -> Any:
+    """Node numbers of each cell's geometry; from 0.11 on a mesh may have several kinds of cells, ours has one."""
+    dofmaps = getattr(mesh.geometry, "dofmaps", None)
+    return mesh.geometry.dofmap if dofmaps is None or callable(dofmaps) else dofmaps[0]

@@ -1,0 +1,62 @@
+"""The tank as plain geometry: a rectangle whose top is cut into named surface segments."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+LIQUID = "liquid"
+FREE_SURFACE = "free_surface"
+LID = "lid"
+BOTTOM = "bottom"
+LEFT_WALL = "left_wall"
+RIGHT_WALL = "right_wall"
+
+
+def body_name(number: int) -> str:
+    """Physical name of the wetted surface of body ``number`` (counted from 1, in the scene's order)."""
+    return f"body_{number}"
+
+
+@dataclass(frozen=True, kw_only=True)
+class SurfaceSegment:
+    """A piece ``start < x < end`` of the tank's top, and the physical name that its facets carry."""
+
+    name: str
+    start: float
+    end: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class TankGeometry:
+    """Rectangle ``0 < x < length``, ``-depth < y < 0``; its top is covered by segments from left to right.
+
+    Raises:
+        ValueError: if the segments do not cover the top, one after the other, without gap or overlap.
+    """
+
+    length: float
+    depth: float
+    segments: tuple[SurfaceSegment, ...]
+
+    def __post_init__(self) -> None:
+        """Refuse gaps and overlaps."""
+        ends = [0.0, *(segment.end for segment in self.segments)]
+        starts = [*(segment.start for segment in self.segments), self.length]
+        if ends != starts or any(segment.start >= segment.end for segment in self.segments):
+            raise ValueError("the surface segments must cover the tank's top from 0 to its length, in order")
+
+    @property
+    def tips(self) -> tuple[float, ...]:
+        """Abscissae of the ends of bodies, where ψ is singular: every joint of two segments, and bodies at a wall."""
+        joints = [segment.end for segment in self.segments[:-1]]
+        if self.segments[0].name not in (FREE_SURFACE, LID):
+            joints.insert(0, 0.0)
+        if self.segments[-1].name not in (FREE_SURFACE, LID):
+            joints.append(self.length)
+        return tuple(joints)
+
+
+def tank_geometry(*, length: float, depth: float, pieces: tuple[tuple[float, float, str], ...]) -> TankGeometry:
+    """Geometry of a tank from ``(start, end, name)`` of the pieces of its top, from left to right."""
+    segments = tuple(SurfaceSegment(name=name, start=start, end=end) for start, end, name in pieces)
+    return TankGeometry(length=length, depth=depth, segments=segments)

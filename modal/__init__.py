@@ -1,1 +1,88 @@
 """Closed forms and estimates of the older theories: NumPy and SciPy only."""
+
+from hydroelastic.modal.added_mass import (
+    deep_open_added_mass,
+    deep_open_constant,
+    lid_added_mass,
+    rigid_heave_added_mass,
+    rigid_pitch_added_inertia,
+    shallow_added_mass,
+    shallow_constant,
+    strip_added_mass,
+)
+from hydroelastic.modal.dry_modes import free_free_roots, free_free_shape, free_free_wavenumber
+from hydroelastic.modal.estimate import (
+    Bound,
+    Estimate,
+    NoEstimateError,
+    added_mass_from_frequency,
+    frequency_from_added_mass,
+    paper_equivalent_mass,
+)
+from hydroelastic.modal.estimates import all_estimates
+from hydroelastic.modal.floating_beam import FloatingBeam
+from hydroelastic.modal.grammel import BeamQuotients, QuotientPair, beam_quotients, quotients
+from hydroelastic.modal.grammel_terms import best_term, one_term_root, term_tones
+from hydroelastic.modal.gravity_added_mass import gravity_added_mass, gravity_tones
+from hydroelastic.modal.paper_model import ERRATA, Erratum
+from hydroelastic.modal.pressure_release import pressure_release_added_mass
+from hydroelastic.modal.rayleigh import (
+    pressure_release_tones,
+    rayleigh,
+    rayleigh_dry_mode,
+    rayleigh_lid,
+    rayleigh_pressure_release,
+    rayleigh_pressure_release_dry_mode,
+)
+from hydroelastic.modal.sloshing import (
+    deep_sloshing_frequencies,
+    guided_cover_frequencies,
+    shallow_sloshing_frequencies,
+    sloshing_frequencies,
+)
+from hydroelastic.modal.tone_pencil import Tones
+
+__all__ = [
+    "ERRATA",
+    "BeamQuotients",
+    "Bound",
+    "Erratum",
+    "Estimate",
+    "FloatingBeam",
+    "NoEstimateError",
+    "QuotientPair",
+    "Tones",
+    "added_mass_from_frequency",
+    "all_estimates",
+    "beam_quotients",
+    "best_term",
+    "deep_open_added_mass",
+    "deep_open_constant",
+    "deep_sloshing_frequencies",
+    "free_free_roots",
+    "free_free_shape",
+    "free_free_wavenumber",
+    "frequency_from_added_mass",
+    "gravity_added_mass",
+    "gravity_tones",
+    "guided_cover_frequencies",
+    "lid_added_mass",
+    "one_term_root",
+    "paper_equivalent_mass",
+    "pressure_release_added_mass",
+    "pressure_release_tones",
+    "quotients",
+    "rayleigh",
+    "rayleigh_dry_mode",
+    "rayleigh_lid",
+    "rayleigh_pressure_release",
+    "rayleigh_pressure_release_dry_mode",
+    "rigid_heave_added_mass",
+    "rigid_pitch_added_inertia",
+    "shallow_added_mass",
+    "shallow_constant",
+    "shallow_sloshing_frequencies",
+    "sloshing_frequencies",
+    "strip_added_mass",
+    "term_tones",
+]

@@ -1,0 +1,230 @@
+"""All estimates at once: bounds, invariances and hard cases."""
+
+import dataclasses
+import math
+import time
+
+import pytest
+
+from hydroelastic.modal import Estimate, FloatingBeam, all_estimates, frequency_from_added_mass, term_tones
+
+BASE = FloatingBeam(
+    tank_length=10.0,
+    depth=5.0,
+    density=1000.0,
+    gravity=9.81,
+    start=3.0,
+    length=4.0,
+    flexural_rigidity=5e3,
+    mass_per_length=50.0,
+    hydrostatic=False,
+)
+NAMES = {
+    "grammel_1",
+    "grammel_best",
+    "grammel_n",
+    "grammel_quotient",
+    "rayleigh",
+    "rayleigh_dry_mode",
+    "rayleigh_lid",
+    "rayleigh_pressure_release",
+    "deep_water",
+    "strip",
+    "shallow",
+    "paper_no_volume_term",
+}
+
+
+def vary(**changes: float | bool) -> FloatingBeam:
+    return dataclasses.replace(BASE, **changes)
+
+
+HARD = {
+    "rigid": vary(flexural_rigidity=1e15, mass_per_length=2000.0, hydrostatic=True),
+    "rigid without hydrostatics": vary(flexural_rigidity=1e15),
+    "massless": vary(mass_per_length=1e-12),
+    "very heavy": vary(mass_per_length=1e9, hydrostatic=True),
+    "40 characteristic lengths": vary(flexural_rigidity=1e-3, hydrostatic=True),
+    "almost no rigidity": vary(flexural_rigidity=1e-12),
+    "tip on the left wall": vary(start=0.0),
+    "tip on the right wall": vary(start=6.0),
+    "slit": vary(start=1e-6),
+    "narrow slit": vary(start=1e-2),
+    "full cover": vary(start=0.0, length=10.0),
+    "full cover with hydrostatics": vary(start=0.0, length=10.0, hydrostatic=True),
+    "full cover, shallow": vary(start=0.0, length=10.0, depth=0.01),
+    "shallow": vary(depth=0.1),
+    "very shallow": vary(depth=1e-4),
+    "deep": vary(depth=1e5),
+    "long tank": vary(tank_length=400.0, start=198.0),
+    "very long tank": vary(tank_length=4e5, start=198.0),
+    "light liquid": vary(density=1e-6),
+    "weak gravity": vary(gravity=1e-6),
+    "strong gravity": vary(gravity=1e6),
+}
+
+
+@pytest.mark.parametrize("name", HARD)
+def test_hard_cases_never_raise(name: str) -> None:
+    beam = HARD[name]
+    estimates = all_estimates(beam)
+    assert set(estimates) == NAMES
+    for key, estimate in estimates.items():
+        assert estimate.note, key
+        if estimate.omega is None:
+            assert "No value:" in estimate.note
+            assert estimate.added_mass_per_length is None
+            assert estimate.bound == "none"
+            continue
+        assert math.isfinite(estimate.omega)
+        assert estimate.omega > 0
+        # m_a and ω are two names of one number; m_a + m may cancel, so compare the frequency.
+        back = frequency_from_added_mass(beam, estimate.added_mass_per_length)
+        assert back == pytest.approx(estimate.omega, rel=1e-8)
+
+
+def test_what_has_no_meaning_has_no_number() -> None:
+    assert all_estimates(HARD["full cover"])["rayleigh_pressure_release"].omega is None
+    assert all_estimates(HARD["full cover"])["rayleigh"].omega is not None
+    assert all_estimates(HARD["slit"])["rayleigh_pressure_release"].omega is None
+    assert all_estimates(HARD["slit"])["rayleigh"].omega == pytest.approx(3.876434, rel=1e-6)
+    assert all_estimates(HARD["rigid"])["rayleigh"].omega is None
+    assert all_estimates(BASE)["shallow"].omega is None
+    assert all_estimates(HARD["shallow"])["shallow"].omega is not None
+
+
+def test_base_tank_by_name() -> None:
+    # Table of the theory, § 1.4 and § 3.1, to its printed digits.
+    expected = {
+        "grammel_1": 4.925962,
+        "grammel_best": 4.597168,
+        "grammel_n": 4.232172,
+        "rayleigh": 4.231516,
+        "rayleigh_dry_mode": 4.036359,
+        "rayleigh_lid": 4.038978,
+        "rayleigh_pressure_release": 4.678779,
+        "deep_water": 4.172873,
+        "strip": 3.303851,
+        "paper_no_volume_term": 4.203569,
+    }
+    estimates = all_estimates(BASE)
+    for name, omega in expected.items():
+        assert estimates[name].omega == pytest.approx(omega, abs=6e-7), name
+
+
+@pytest.mark.parametrize("hydrostatic", [False, True])
+def test_frequencies_do_not_depend_on_the_unit_of_length(hydrostatic: bool) -> None:
+    # kg and s kept, m → mm: 1000 kg/m³ = 1e-6 kg/mm³, 50 kg/m² = 5e-5 kg/mm², EI = 5e3 kg m²/s² = 5e9 kg mm²/s².
+    # The solver scales to l = ρ = g = 1 first, so only rounding differs.
+    metres = vary(hydrostatic=hydrostatic, start=1.3)
+    millimetres = FloatingBeam(
+        tank_length=1e4,
+        depth=5e3,
+        density=1e-6,
+        gravity=9.81e3,
+        start=1.3e3,
+        length=4e3,
+        flexural_rigidity=5e9,
+        mass_per_length=5e-5,
+        hydrostatic=hydrostatic,
+    )
+    small, large = all_estimates(millimetres), all_estimates(metres)
+    for name in NAMES:
+        if large[name].omega is None:
+            assert small[name].omega is None
+        else:
+            assert small[name].omega == pytest.approx(large[name].omega, rel=1e-9), name
+            assert small[name].added_mass_per_length == pytest.approx(
+                large[name].added_mass_per_length * 1e-6, rel=1e-7
+            ), name
+
+
+@pytest.mark.parametrize("start", [0.0, 0.7])
+def test_mirrored_tank_gives_the_same_estimates(start: float) -> None:
+    left, right = all_estimates(vary(start=start)), all_estimates(vary(start=6.0 - start))
+    for name in NAMES:
+        if left[name].omega is None:
+            assert right[name].omega is None
+        else:
+            # The N-term space is the same up to signs; its rank cut leaves 1e-9.
+            assert right[name].omega == pytest.approx(left[name].omega, rel=1e-8), name
+            assert (right[name].bound, right[name].mode_index) == (left[name].bound, left[name].mode_index)
+
+
+@pytest.mark.parametrize("hydrostatic", [False, True])
+def test_bounds_against_a_fine_ritz_solution(hydrostatic: bool) -> None:
+    beam = vary(start=1.0, hydrostatic=hydrostatic)
+    # 96 cosines lie above the exact modes by O(N⁻²), here less than 2e-4 in λ: a bound may miss it by that much.
+    fine = term_tones(beam, 96).squared_frequencies
+    for name, estimate in all_estimates(beam).items():
+        if estimate.bound == "above_mode_index":
+            assert estimate.omega**2 > fine[estimate.mode_index - 1] * (1 - 4e-4), name
+
+
+def test_bound_of_the_dry_mode_counts_the_missing_pitch() -> None:
+    # Its space has no pitch, so without hydrostatics tone number 4 bounds mode 3 of those that are not zero only;
+    # with hydrostatics there is no zero mode to count.
+    assert all_estimates(BASE)["rayleigh_dry_mode"].mode_index == 3
+    assert all_estimates(vary(hydrostatic=True))["rayleigh_dry_mode"].mode_index == 8
+    # Narrow gaps: its tone is the first, which bounds the zero mode and so nothing.
+    assert all_estimates(vary(tank_length=4.4, start=0.2))["rayleigh_dry_mode"].bound == "none"
+
+
+def test_grammel_quotient_sits_below_the_pressure_release_rayleigh() -> None:
+    for beam in (BASE, vary(hydrostatic=True), vary(start=0.0), vary(depth=0.2)):
+        estimates = all_estimates(beam)
+        assert estimates["grammel_quotient"].omega < estimates["rayleigh_pressure_release"].omega
+        assert estimates["grammel_quotient"].mode_index == estimates["rayleigh_pressure_release"].mode_index
+
+
+def test_recoil_matters() -> None:
+    # Theory § 2: without heave and pitch the pressure-release tone is 11 % low; with them 0.15 % high.
+    estimates = all_estimates(BASE)
+    assert estimates["rayleigh_pressure_release"].omega / 4.671912304448743 - 1 == pytest.approx(1.47e-3, rel=0.01)
+
+
+def test_base_tank_is_quick() -> None:
+    all_estimates(BASE)
+    started = time.perf_counter()
+    all_estimates(vary(start=2.9))
+    # Measured 0.1 s on one busy core; the room is for a slow machine.
+    assert time.perf_counter() - started < 1.0
+
+
+def test_terms_must_be_positive() -> None:
+    with pytest.raises(ValueError, match="terms"):
+        all_estimates(BASE, terms=0)
+
+
+def test_an_estimate_is_a_number_or_none() -> None:
+    with pytest.raises(ValueError, match="None"):
+        Estimate(omega=math.nan, added_mass_per_length=None, note="", bound="none")
+    with pytest.raises(ValueError, match="mode_index"):
+        Estimate(omega=1.0, added_mass_per_length=1.0, note="", bound="above_mode_index")
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"depth": 0.0, "density": -1.0}, "depth, density"),
+        ({"mass_per_length": math.nan}, "mass_per_length"),
+        ({"start": -0.1}, "start"),
+        ({"start": 6.5}, "beyond the tank"),
+    ],
+)
+def test_impossible_beams_are_refused(changes: dict[str, float], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        vary(**changes)
+
+
+def test_geometry_of_the_beam() -> None:
+    assert BASE.is_centred
+    assert not BASE.covers_tank
+    assert not vary(start=1.0).is_centred
+    assert vary(start=0.0, length=10.0).covers_tank
+    # A tip that misses the wall by rounding touches it.
+    assert vary(start=6.0 - 1e-15).right_gap == 0.0
+    scaled = BASE.dimensionless()
+    assert scaled.length == scaled.density == scaled.gravity == 1.0
+    frequency = scaled.dry_angular_frequencies(1)[0] * BASE.frequency_unit
+    assert frequency == pytest.approx(BASE.dry_angular_frequencies(1)[0], rel=1e-14)

@@ -1,0 +1,157 @@
+"""Grammel's and Rayleigh's quotients, and the one-term root."""
+
+import dataclasses
+import itertools
+import math
+
+import numpy as np
+import pytest
+from scipy.linalg import eigh
+
+from hydroelastic.modal import FloatingBeam, beam_quotients, one_term_root, quotients, term_tones
+
+BASE = FloatingBeam(
+    tank_length=10.0,
+    depth=5.0,
+    density=1000.0,
+    gravity=9.81,
+    start=3.0,
+    length=4.0,
+    flexural_rigidity=5e3,
+    mass_per_length=50.0,
+    hydrostatic=False,
+)
+
+
+def _pencil(size: int, seed: int) -> tuple[np.ndarray, np.ndarray, np.random.Generator]:
+    generator = np.random.default_rng(seed)
+    root = generator.normal(size=(size, size))
+    stiffness = root @ root.T + 0.1 * np.eye(size)
+    root = generator.normal(size=(size, size))
+    return stiffness, root @ root.T + 0.1 * np.eye(size), generator
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_order_holds_for_any_trial_space(seed: int) -> None:
+    # Cauchy–Schwarz and min–max; strict for a random trial, so rounding of 1e-10 is no excuse.
+    stiffness, mass, generator = _pencil(9, seed)
+    exact = eigh(stiffness, mass, eigvals_only=True)
+    for count in (1, 3):
+        pair = quotients(stiffness, mass, generator.normal(size=(9, count)))
+        assert np.all(exact[:count] < pair.grammel * (1 + 1e-10))
+        assert np.all(pair.grammel < pair.rayleigh)
+
+
+def test_single_trial_is_the_textbook_quotient() -> None:
+    stiffness, mass, generator = _pencil(6, 7)
+    f = generator.normal(size=6)
+    load = mass @ f
+    pair = quotients(stiffness, mass, f)
+    assert pair.rayleigh[0] == pytest.approx((f @ stiffness @ f) / (f @ load), rel=1e-12)
+    assert pair.grammel[0] == pytest.approx((f @ load) / (load @ np.linalg.solve(stiffness, load)), rel=1e-10)
+
+
+def test_exact_mode_is_a_fixed_point() -> None:
+    stiffness, mass, _ = _pencil(6, 3)
+    values, vectors = eigh(stiffness, mass)
+    pair = quotients(stiffness, mass, vectors[:, 0])
+    # The error of a quotient is the square of the error of the vector: rounding only.
+    assert pair.grammel[0] == pytest.approx(values[0], rel=1e-9)
+    assert pair.rayleigh[0] == pytest.approx(values[0], rel=1e-9)
+
+
+def test_singular_stiffness_is_refused() -> None:
+    with pytest.raises(np.linalg.LinAlgError):
+        quotients(np.diag([1.0, 0.0]), np.eye(2), np.array([1.0, 1.0]))
+
+
+def test_grammel_gains_most_of_what_rayleigh_loses() -> None:
+    # One inverse iteration: for the base tank the excess over exact drops from 1.5e-3 to 3.3e-5 in ω.
+    result = beam_quotients(BASE)
+    assert result.index == 1
+    loss = [math.sqrt(value / result.exact) - 1 for value in (result.grammel, result.rayleigh)]
+    assert loss[0] == pytest.approx(3.29e-5, rel=0.02)
+    assert loss[1] == pytest.approx(1.470e-3, rel=0.01)
+
+
+@pytest.mark.parametrize("hydrostatic", [False, True])
+def test_quotients_grow_with_stiffness_and_fall_with_mass(hydrostatic: bool) -> None:
+    beam = dataclasses.replace(BASE, hydrostatic=hydrostatic)
+    first = beam_quotients(beam)
+    assert first.index == (3 if hydrostatic else 1)
+    stiffer = beam_quotients(dataclasses.replace(beam, flexural_rigidity=6e3))
+    heavier = beam_quotients(dataclasses.replace(beam, mass_per_length=80.0))
+    for name in ("grammel", "rayleigh", "exact"):
+        assert getattr(heavier, name) < getattr(first, name) < getattr(stiffer, name)
+
+
+def test_one_term_root_solves_the_printed_equation() -> None:
+    # F_n built from the differential equation itself: W by a boundary-value solve on Chebyshev points, 40 of which
+    # leave about 1e-9 in the fourth derivative.
+    beam, number = dataclasses.replace(BASE, start=1.0, hydrostatic=True), 4
+    omega = one_term_root(beam, number)
+    k, squared = number * math.pi / 10, omega**2
+    count = 40
+    grid = np.cos(np.pi * np.arange(count + 1) / count)
+    sign = np.hstack([2, np.ones(count - 1), 2]) * (-1.0) ** np.arange(count + 1)
+    gaps = grid[:, None] - grid[None, :] + np.eye(count + 1)
+    derivative = np.outer(sign, 1 / sign) / gaps
+    derivative -= np.diag(derivative.sum(axis=1))
+    derivative /= 2.0
+    powers = [np.linalg.matrix_power(derivative, order) for order in (2, 3, 4)]
+    x = 3.0 + 2.0 * grid
+    system = 5e3 * powers[2] + (1000 * 9.81 - 50 * squared) * np.eye(count + 1)
+    load = np.cos(k * x)
+    for row, order, point in ((0, 0, 0), (1, 1, 0), (-1, 0, -1), (-2, 1, -1)):
+        system[row] = powers[order][point]
+        load[row] = 0.0
+    shape = np.linalg.solve(system, load)
+    polynomial = np.polynomial.chebyshev.Chebyshev.fit(x, np.cos(k * x) * shape, count).integ()
+    compliance = polynomial(5.0) - polynomial(1.0)
+    wet = np.polynomial.chebyshev.Chebyshev.fit(x, np.cos(k * x) ** 2, count).integ()
+    free = 5.0 - (wet(5.0) - wet(1.0))
+    value = k * math.tanh(5 * k) * 5.0 - squared / 9.81 * free - squared * 1000 * compliance
+    assert value == pytest.approx(0.0, abs=1e-5 * squared * 1000 * abs(compliance))
+
+
+def test_one_term_skips_poles_that_decouple() -> None:
+    # Centred beam, odd n: symmetric shapes do not couple, so the root may pass their dry frequencies; the theory
+    # gives 30.127 against the dry 13.983 for narrow gaps. Even n must stay below the first dry frequency.
+    narrow = dataclasses.replace(BASE, tank_length=4.4, start=0.2)
+    assert one_term_root(narrow, 1) == pytest.approx(30.12721, rel=1e-6)
+    assert one_term_root(narrow, 2) < narrow.dry_angular_frequencies(1)[0]
+
+
+def test_one_term_root_survives_extremes() -> None:
+    # b l > 350 (soft or fast beam), rigid beam, massless beam: finite and positive.
+    for changes in (
+        {"flexural_rigidity": 1e-9},
+        {"flexural_rigidity": 1e15},
+        {"mass_per_length": 1e-12},
+        {"mass_per_length": 1e9},
+    ):
+        for number in (1, 2, 200):
+            root = one_term_root(dataclasses.replace(BASE, **changes), number)
+            assert math.isfinite(root)
+            assert root > 0
+
+
+def test_terms_and_numbers_must_be_positive() -> None:
+    with pytest.raises(ValueError, match="number"):
+        one_term_root(BASE, 0)
+    with pytest.raises(ValueError, match="terms"):
+        term_tones(BASE, 0)
+
+
+@pytest.mark.parametrize("hydrostatic", [False, True])
+def test_more_terms_never_raise_a_tone(hydrostatic: bool) -> None:
+    # Nested Ritz spaces; the cut of the rank may cost 1e-8.
+    beam = dataclasses.replace(BASE, start=1.3, hydrostatic=hydrostatic)
+    spectra = [term_tones(beam, terms).squared_frequencies[:5] for terms in (12, 16, 24, 40)]
+    for coarse, fine in itertools.pairwise(spectra):
+        assert np.all(fine < coarse * (1 + 1e-8))
+
+
+def test_participation_sums_to_one() -> None:
+    # K-orthonormal modes are complete in the space; directions without inertia carry less than 1e-9.
+    assert term_tones(BASE, 24).participation.sum() == pytest.approx(1.0, abs=1e-9)

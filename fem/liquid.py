@@ -1,0 +1,150 @@
+"""The liquid: Laplace's equation for the displacement potential, factorized once and solved for many loads.
+
+    ∫∇ψ·∇q = ∫ζ q        walls are natural boundaries
+
+A liquid without a surface of given pressure fixes ψ up to a constant and keeps its volume. One unknown is then
+grounded, which is exact for loads of zero total flux; loads and solutions are projected so that the solution operator
+
+    A⁺ = Πᵀ A⁻¹ Π       is symmetric, with ∫ψ = 0 over the surface
+
+whatever is grounded.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import ufl
+from dolfinx import fem
+from dolfinx.fem import petsc as fem_petsc
+from petsc4py import PETSc
+
+from hydroelastic.meshes.distribute import TankMesh
+
+
+@dataclass(frozen=True, kw_only=True)
+class LiquidSpace:
+    """Continuous piecewise polynomials of one degree on a tank mesh.
+
+    Attributes:
+        tank: the mesh.
+        space: the function space of ψ.
+        degree: polynomial degree.
+        pressure_release: names of the surfaces on which ψ = 0.
+    """
+
+    tank: TankMesh
+    space: fem.FunctionSpace
+    degree: int
+    pressure_release: tuple[str, ...]
+
+    @property
+    def size(self) -> int:
+        """Number of unknowns, those with a prescribed value included."""
+        return int(self.space.dofmap.index_map.size_global)
+
+    @property
+    def keeps_volume(self) -> bool:
+        """Whether ψ is fixed only up to a constant, so that ∫ζ = 0 over the liquid's surfaces."""
+        return not self.pressure_release
+
+    def surface_dofs(self, names: tuple[str, ...]) -> np.ndarray:
+        """Owned unknowns on the closure of named surfaces: sorted local indices."""
+        facets = np.concatenate([self.tank.facets(name) for name in names]) if names else np.empty(0, np.int32)
+        dim = self.tank.mesh.topology.dim - 1
+        # remote=True: a process may own an unknown of a surface none of whose facets it holds.
+        dofs = fem.locate_dofs_topological(self.space, dim, facets, remote=True)
+        return np.sort(dofs[dofs < self.space.dofmap.index_map.size_local])
+
+    def measure(self, quadrature_degree: int) -> ufl.Measure:
+        """Surface measure whose subdomains are the mesh's facet tags."""
+        return ufl.Measure(
+            "ds",
+            domain=self.tank.mesh,
+            subdomain_data=self.tank.facet_tags,
+            metadata={"quadrature_degree": quadrature_degree},
+        )
+
+
+def liquid_space(tank: TankMesh, degree: int, pressure_release: tuple[str, ...] = ()) -> LiquidSpace:
+    """Space of ψ of the given degree; its degree does not depend on the mesh's."""
+    space = fem.functionspace(tank.mesh, ("Lagrange", degree))
+    return LiquidSpace(tank=tank, space=space, degree=degree, pressure_release=pressure_release)
+
+
+def laplace_matrix(liquid: LiquidSpace) -> PETSc.Mat:
+    """Assemble A = ∫∇ψ·∇q, every unknown included."""
+    potential, test = ufl.TrialFunction(liquid.space), ufl.TestFunction(liquid.space)
+    dx = ufl.dx(metadata={"quadrature_degree": 2 * liquid.degree - 2})
+    matrix = fem_petsc.assemble_matrix(fem.form(ufl.inner(ufl.grad(potential), ufl.grad(test)) * dx))
+    matrix.assemble()
+    return matrix
+
+
+def surface_mass_matrix(liquid: LiquidSpace, names: tuple[str, ...]) -> PETSc.Mat:
+    """Assemble S = ∫ψ q over named surfaces, every unknown included."""
+    potential, test = ufl.TrialFunction(liquid.space), ufl.TestFunction(liquid.space)
+    tags = tuple(liquid.tank.facet_names[name] for name in names)
+    ds = liquid.measure(2 * liquid.degree)
+    matrix = fem_petsc.assemble_matrix(fem.form(ufl.inner(potential, test) * ds(tags)))
+    matrix.assemble()
+    return matrix
+
+
+def grounded_dofs(liquid: LiquidSpace) -> np.ndarray:
+    """Owned unknowns whose value is zero: a surface of given pressure, or one unknown of a closed liquid."""
+    if liquid.pressure_release:
+        return liquid.surface_dofs(liquid.pressure_release)
+    return np.array([0] if liquid.tank.mesh.comm.rank == 0 else [], dtype=np.int32)
+
+
+class LiquidSolver:
+    """Factorized Laplace operator A⁺ on the free unknowns of a liquid.
+
+    Args:
+        matrix: A on all unknowns.
+        grounded: owned local unknowns that are zero.
+        surface_load: ∫q over the moving surfaces if the liquid keeps its volume, else ``None``.
+    """
+
+    def __init__(self, matrix: PETSc.Mat, grounded: np.ndarray, surface_load: PETSc.Vec | None) -> None:
+        """Factorize (collective)."""
+        first, last = matrix.getOwnershipRange()
+        free = np.setdiff1d(np.arange(last - first, dtype=np.int32), grounded)
+        self.free = PETSc.IS().createGeneral((free + first).astype(PETSc.IntType), comm=matrix.comm)
+        self._local_free = free
+        block = matrix.createSubMatrix(self.free, self.free)
+        block.setOption(PETSc.Mat.Option.SPD, True)
+        self._solver = PETSc.KSP().create(matrix.comm)
+        self._solver.setOperators(block)
+        self._solver.setType("preonly")
+        preconditioner = self._solver.getPC()
+        preconditioner.setType("cholesky")
+        preconditioner.setFactorSolverType("mumps")
+        self._solver.setUp()
+        self._rhs, self._solution = block.createVecs()
+        self._surface_load = surface_load
+        self._surface_measure = surface_load.sum() if surface_load is not None else 0.0
+        self.solves = 0
+
+    def unconstrained(self, matrix: PETSc.Mat) -> PETSc.IS:
+        """Unknowns that no surface of given pressure fixes: all of them in a liquid that keeps its volume."""
+        if self._surface_load is None:
+            return self.free
+        first, last = matrix.getOwnershipRange()
+        return PETSc.IS().createStride(last - first, first=first, step=1, comm=matrix.comm)
+
+    def solve(self, load: PETSc.Vec, potential: PETSc.Vec) -> None:
+        """``potential`` ← A⁺ ``load`` (both on all unknowns; ``load`` is not changed)."""
+        if self._surface_load is not None:
+            flux = load.sum() / self._surface_measure
+            self._rhs.array[:] = (load.array_r - flux * self._surface_load.array_r)[self._local_free]
+        else:
+            self._rhs.array[:] = load.array_r[self._local_free]
+        self._solver.solve(self._rhs, self._solution)
+        potential.set(0.0)
+        potential.array[self._local_free] = self._solution.array_r
+        if self._surface_load is not None:
+            potential.shift(-self._surface_load.dot(potential) / self._surface_measure)
+        self.solves += 1

@@ -1,0 +1,229 @@
+"""Natural modes: SLEPc's Krylov–Schur method on the added-mass form of the pencil, and an independent count."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from petsc4py import PETSc
+from slepc4py import SLEPc
+
+from hydroelastic.fem.added_mass import CondensedKinetics, configure_direct
+from hydroelastic.fem.pencil import CoupledPencil
+from hydroelastic.meshes.interrupts import interrupts_deferred
+
+
+class EigenSolverError(RuntimeError):
+    """The eigen-solver did not deliver what was asked."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Mode:
+    """One natural mode with its shape, scaled to unit generalized mass.
+
+    Attributes:
+        eigenvalue: λ = ω².
+        displacement: surface unknowns ζ.
+        potential: ψ, its constant included.
+        residual: relative residual ‖Kζ − λ(Mζ + ρCᵀψ)‖ / ‖Kζ‖ in the norm of K⁻¹.
+        body_amplitudes: the body part of ζ, on every process.
+        energy: share of each block in the potential energy: body unknowns one by one, then the free surface.
+    """
+
+    eigenvalue: float
+    displacement: PETSc.Vec
+    potential: PETSc.Vec
+    residual: float
+    body_amplitudes: np.ndarray
+    energy: np.ndarray
+
+
+@dataclass(frozen=True, kw_only=True)
+class ModeSet:
+    """The lowest modes, in ascending order, and how they were found.
+
+    Attributes:
+        eigenvalues: λ of all modes found.
+        elastic_amplitudes: body part of each mode at unit generalized mass, free rigid motions left out, shape
+            (modes, body unknowns).
+        modes: the lowest modes with their shapes.
+        zero_modes: how many motions without stiffness exist (not reported as modes).
+        converged: eigenpairs that the solver delivered.
+        iterations: restarts of the Krylov–Schur method.
+        solves: solutions of Laplace's equation.
+    """
+
+    eigenvalues: np.ndarray
+    elastic_amplitudes: np.ndarray
+    modes: tuple[Mode, ...]
+    zero_modes: int
+    converged: int
+    iterations: int
+    solves: int
+
+
+def solve_modes(pencil: CoupledPencil, count: int, *, shapes: int | None = None, tolerance: float = 1e-12) -> ModeSet:
+    """Lowest modes of the coupled problem.
+
+    Solves (M + M_a) ζ = μ K ζ for the largest μ = 1/λ: only the liquid is factorized, the Krylov space lives on the
+    surface, and nothing is shifted.
+
+    Args:
+        pencil: the coupled problem.
+        count: how many modes; fewer come back if the model has fewer.
+        shapes: how many of them are wanted with their shapes, each at the cost of one solution of Laplace's equation;
+            all of them by default.
+        tolerance: relative residual at which an eigenpair counts as converged.
+
+    Returns:
+        The modes (collective).
+
+    Raises:
+        EigenSolverError: if SLEPc stops before enough pairs have converged.
+    """
+    kinetics = CondensedKinetics(pencil)
+    available = pencil.size - len(kinetics.free_rigid) - int(pencil.liquid.keeps_volume)
+    count = min(count, available)
+    before = pencil.solver.solves
+    solver = _krylov_schur(pencil, kinetics, count, tolerance)
+    with interrupts_deferred():
+        solver.solve()
+    converged = solver.getConverged()
+    if converged < count:
+        raise EigenSolverError(
+            f"{converged} of {count} eigenpairs converged to {tolerance:g} in {solver.getIterationNumber()} restarts"
+        )
+    inverses = np.array([solver.getEigenvalue(number).real for number in range(count)])
+    if inverses.min() <= 0.0:
+        raise EigenSolverError(f"an eigenvalue 1/ω² = {inverses.min():g} is not positive")
+    order = np.argsort(-inverses)
+    eigenvalues = 1.0 / inverses[order]
+    wanted = count if shapes is None else min(shapes, count)
+    displacement, force = pencil.stiffness.createVecs()
+    amplitudes, modes = [], []
+    for place, number in enumerate(order):
+        solver.getEigenvector(int(number), displacement)
+        # Unit generalized mass: ζᵀ(M + M_a)ζ = ζᵀKζ/λ = 1. Motions without stiffness do not enter.
+        pencil.stiffness.mult(displacement, force)
+        displacement.scale(np.sqrt(eigenvalues[place] / displacement.dot(force)))
+        amplitudes.append(pencil.body_values(displacement))
+        if place < wanted:
+            modes.append(_complete(pencil, kinetics, solver, float(eigenvalues[place]), displacement))
+    return ModeSet(
+        eigenvalues=eigenvalues,
+        elastic_amplitudes=np.array(amplitudes).reshape(count, pencil.body_size),
+        modes=tuple(modes),
+        zero_modes=zero_mode_count(pencil, kinetics),
+        converged=converged,
+        iterations=solver.getIterationNumber(),
+        solves=pencil.solver.solves - before,
+    )
+
+
+def _krylov_schur(pencil: CoupledPencil, kinetics: CondensedKinetics, count: int, tolerance: float) -> SLEPc.EPS:
+    operator = PETSc.Mat().createPython(pencil.stiffness.getSizes(), kinetics, comm=pencil.stiffness.comm)
+    operator.setUp()
+    solver = SLEPc.EPS().create(pencil.stiffness.comm)
+    solver.setOperators(operator, kinetics.definite_stiffness)
+    solver.setProblemType(SLEPc.EPS.ProblemType.GHEP)
+    solver.setWhichEigenpairs(SLEPc.EPS.Which.LARGEST_REAL)
+    solver.setTolerances(tolerance, 200)
+    # Measured from 10 to 200 modes: with twice the pairs asked, and some, the fewest solutions of Laplace's equation.
+    solver.setDimensions(count, min(2 * count + 16, pencil.size))
+    configure_direct(solver.getST().getKSP())
+    kinetics.definite_stiffness.setOption(PETSc.Mat.Option.SPD, True)
+    return solver
+
+
+def zero_mode_count(pencil: CoupledPencil, kinetics: CondensedKinetics) -> int:
+    """Motions of zero stiffness that the liquid's volume allows: rigid bodies, less one if they displace volume."""
+    constrained = pencil.liquid.keeps_volume and kinetics.rigid_displaces
+    return len(kinetics.free_rigid) - int(constrained)
+
+
+def _complete(
+    pencil: CoupledPencil, kinetics: CondensedKinetics, solver: SLEPc.EPS, eigenvalue: float, eigenvector: PETSc.Vec
+) -> Mode:
+    """Fill in what follows the eigenvector at once, rigid motions and ψ, and judge the whole by its residual."""
+    displacement, force = eigenvector.copy(), eigenvector.duplicate()
+    potential = pencil.coupling.createVecLeft()
+    kinetics.recover(displacement, potential)
+    pencil.stiffness.mult(displacement, force)
+    return Mode(
+        eigenvalue=eigenvalue,
+        displacement=displacement,
+        potential=potential,
+        residual=_residual(pencil, solver, eigenvalue, displacement, potential, force),
+        body_amplitudes=pencil.body_values(displacement),
+        energy=_energy_shares(pencil, displacement, force),
+    )
+
+
+def _residual(
+    pencil: CoupledPencil,
+    solver: SLEPc.EPS,
+    eigenvalue: float,
+    displacement: PETSc.Vec,
+    potential: PETSc.Vec,
+    force: PETSc.Vec,
+) -> float:
+    residual, image = force.copy(), force.duplicate()
+    pencil.coupling.multTranspose(potential, image)
+    residual.axpy(-eigenvalue * pencil.density, image)
+    pencil.mass.mult(displacement, image)
+    residual.axpy(-eigenvalue, image)
+    solver.getST().getKSP().solve(residual, image)
+    return float(np.sqrt(abs(residual.dot(image)) / force.dot(displacement)))
+
+
+def _energy_shares(pencil: CoupledPencil, displacement: PETSc.Vec, force: PETSc.Vec) -> np.ndarray:
+    total = displacement.dot(force)
+    bodies = pencil.body_values(displacement) * pencil.body_values(force) / total
+    return np.append(bodies, 1.0 - bodies.sum())
+
+
+def count_below(pencil: CoupledPencil, eigenvalue: float) -> int:
+    """Number of modes with 0 < λ < ``eigenvalue``, from the inertia of one factorization.
+
+    The matrix [[K − σM, −σρCᵀ], [−σρC, σρA]] has as many negative pivots as there are modes below σ, zero modes
+    included, and one more where the constant of ψ multiplies the volume constraint. It shares no step with the
+    iterative solution.
+
+    Args:
+        pencil: the coupled problem.
+        eigenvalue: σ > 0, not itself an eigenvalue.
+
+    Returns:
+        The count, without zero modes (collective).
+    """
+    kinetics = CondensedKinetics(pencil)
+    block = pencil.stiffness.copy()
+    block.axpy(-eigenvalue, pencil.mass, structure=PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN)
+    factor = eigenvalue * pencil.density
+    rows = pencil.solver.unconstrained(pencil.laplace)
+    # The copies matter: PETSc hands out the matrix itself where all of it is asked for.
+    laplace = pencil.laplace.createSubMatrix(rows, rows).copy()
+    laplace.scale(factor)
+    columns = PETSc.IS().createStride(
+        pencil.stiffness.getLocalSize()[0],
+        first=pencil.stiffness.getOwnershipRange()[0],
+        step=1,
+        comm=pencil.laplace.comm,
+    )
+    coupling = pencil.coupling.createSubMatrix(rows, columns).copy()
+    coupling.scale(-factor)
+    transpose = coupling.transpose(PETSc.Mat())
+    whole = PETSc.Mat().createNest([[block, transpose], [coupling, laplace]], comm=block.comm).convert("aij")
+    whole.setOption(PETSc.Mat.Option.SYMMETRIC, True)
+    solver = PETSc.KSP().create(whole.comm)
+    solver.setOperators(whole)
+    configure_direct(solver)
+    solver.getPC().setFactorSetUpSolverType()
+    factored = solver.getPC().getFactorMatrix()
+    factored.setMumpsIcntl(24, 1)  # a null pivot would be reported, not divided by
+    factored.setMumpsIcntl(13, 1)  # the last block stays out of ScaLAPACK, which does not tell the sign of its pivots
+    solver.setUp()
+    negative, zero, _ = factored.getInertia()
+    if zero:
+        raise EigenSolverError(f"the shift {eigenvalue:g} is an eigenvalue to working precision")
+    return int(negative) - int(pencil.liquid.keeps_volume) - zero_mode_count(pencil, kinetics)

@@ -1,0 +1,146 @@
+"""Pictures of natural modes, rendered by pyvista without a screen: one mode, or all of them on a sheet."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from hydroelastic.fem.picture_legend import (
+    draw_axes,
+    draw_colour_bar,
+    draw_legend,
+    mode_colours,
+    scale_notes,
+    write_line,
+)
+from hydroelastic.fem.picture_page import GREY, NoRendererError, Page
+from hydroelastic.fem.picture_tank import Frame, draw_tank
+from hydroelastic.fem.picture_view import ModePicture, SurfaceCurve, View, colour_limit, view_of
+
+__all__ = ["ModePicture", "NoRendererError", "SurfaceCurve", "draw_mode", "draw_overview"]
+
+_REFERENCE_WIDTH = 1600.0
+"""Sizes are given for this image width and scaled with it."""
+
+
+def draw_mode(picture: ModePicture, path: Path | str, *, width: int = 1600) -> None:
+    """Write a mode as one PNG with axes, colour bar and legend.
+
+    The height follows from the tank. Shallow tanks are stretched vertically and deep ones cut; the caption says so.
+
+    Args:
+        picture: the mode.
+        path: of the PNG file in an existing folder.
+        width: of the image in pixels.
+
+    Raises:
+        FileNotFoundError: the folder of the file does not exist.
+        ValueError: the file's name does not end in .png, or the width is below 400.
+        NoRendererError: no library of this computer can render.
+    """
+    path = _checked_path(path, width)
+    view = view_of(picture)
+    unit = width / _REFERENCE_WIDTH
+    drawn_width, drawn_height = _drawn_size(view, available=width - 230 * unit, highest=0.75 * width)
+    footer = 285 * unit
+    height = round(footer + drawn_height + 85 * unit)
+    frame = Frame(
+        left=0.5 * (width - drawn_width) + 45 * unit,
+        level=footer + view.stretch * view.depth * drawn_width / view.length,
+        per_metre=drawn_width / view.length,
+        stretch=view.stretch,
+        unit=unit,
+    )
+    with Page(width=width, height=height) as page:
+        draw_tank(page, picture, view, frame, colours=mode_colours(), spacing=44 * unit)
+        write_line(page, picture.title, (0.5 * width, height - 42 * unit), size=30 * unit, room=width - 60 * unit)
+        draw_axes(page, view, frame)
+        draw_colour_bar(page, colour_limit(picture), unit, centre=0.5 * width, y=112 * unit)
+        draw_legend(page, picture.surfaces, unit, centre=0.5 * width, y=172 * unit, vectors=True)
+        _write_caption(page, scale_notes(view), unit)
+        page.save(path)
+
+
+def draw_overview(
+    pictures: Sequence[ModePicture], path: Path | str, *, columns: int | None = None, width: int = 1600
+) -> None:
+    """Write several modes as panels of one PNG, without axes and colour bars.
+
+    Args:
+        pictures: the modes; each is drawn in its own scale.
+        path: of the PNG file in an existing folder.
+        columns: panels in a row; chosen from the shape of the tank by default.
+        width: of the image in pixels.
+
+    Raises:
+        FileNotFoundError: the folder of the file does not exist.
+        ValueError: no picture, no column, a wrong file name or a width below 400.
+        NoRendererError: no library of this computer can render.
+    """
+    path = _checked_path(path, width)
+    if not pictures:
+        raise ValueError("an overview needs at least one picture")
+    views = [view_of(picture) for picture in pictures]
+    aspect = max(view.aspect for view in views)
+    columns = min(_default_columns(aspect, len(pictures)) if columns is None else columns, len(pictures))
+    if columns < 1:
+        raise ValueError(f"an overview needs at least one column, got {columns}")
+    unit = width / _REFERENCE_WIDTH
+    margin, footer, heading = 40 * unit, 100 * unit, 62 * unit
+    panel = (width - margin * (columns + 1)) / columns
+    row = aspect * panel + heading
+    rows = -(-len(pictures) // columns)
+    height = round(footer + rows * row + 20 * unit)
+    with Page(width=width, height=height) as page:
+        for index, (picture, view) in enumerate(zip(pictures, views, strict=True)):
+            left = margin + (index % columns) * (panel + margin)
+            top = height - 15 * unit - (index // columns) * row
+            title = (left + 0.5 * panel, top - 32 * unit)
+            write_line(page, picture.title, title, size=19 * unit, room=panel)
+            scale = panel / view.length
+            level = top - heading - view.headroom * view.stretch * scale + 8 * unit
+            frame = Frame(left=left, level=level, per_metre=scale, stretch=view.stretch, unit=0.62 * unit)
+            draw_tank(page, picture, view, frame, colours=mode_colours(), spacing=0.0)
+        surfaces = [curve for picture in pictures for curve in picture.surfaces]
+        draw_legend(page, surfaces, unit, centre=0.5 * width, y=66 * unit, vectors=False)
+        _write_caption(page, _overview_note(views), unit)
+        page.save(path)
+
+
+def _checked_path(path: Path | str, width: int) -> Path:
+    path = Path(path)
+    if path.suffix.lower() != ".png":
+        raise ValueError(f"a picture is a PNG file, got {path.name}")
+    if not path.parent.is_dir():
+        raise FileNotFoundError(f"the folder {path.parent} of the picture {path.name} does not exist")
+    if width < 400:
+        raise ValueError(f"a picture is at least 400 pixels wide, got {width}")
+    return path
+
+
+def _drawn_size(view: View, *, available: float, highest: float) -> tuple[float, float]:
+    """Width and height of the drawn tank within the room on the page."""
+    width = min(available, highest / view.aspect)
+    return width, width * view.aspect
+
+
+def _default_columns(aspect: float, panels: int) -> int:
+    """Columns by the shape of the panels, as few as fill the same number of rows."""
+    most = 2 if aspect < 0.35 else 3 if aspect < 0.9 else 5
+    rows = -(-panels // most)
+    return -(-panels // rows)
+
+
+def _write_caption(page: Page, text: str, unit: float) -> None:
+    room = page.width - 40 * unit
+    write_line(page, text, (0.5 * page.width, 30 * unit), size=19 * unit, room=room, colour=GREY)
+
+
+def _overview_note(views: Sequence[View]) -> str:
+    notes = ["each panel has its own scale of ψ (green positive, purple negative) and of the displacement"]
+    stretches = {view.stretch for view in views}
+    if stretches != {1.0}:
+        notes.append("vertical scale " + ", ".join(f"×{stretch:g}" for stretch in sorted(stretches)))
+    if any(view.cut for view in views):
+        notes.append("only the upper part of the liquid shown")
+    return "; ".join(notes)

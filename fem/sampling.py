@@ -1,0 +1,157 @@
+"""Fields as plain arrays on one process, to draw and to write: ψ and ∇ψ on small triangles, displaced surfaces."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from dolfinx import fem
+from mpi4py import MPI
+from numpy.typing import NDArray
+from petsc4py import PETSc
+
+from hydroelastic.fem.facets import facet_groups
+from hydroelastic.fem.liquid import LiquidSpace
+from hydroelastic.meshes.compat import geometry_dofmap
+
+
+@dataclass(frozen=True, kw_only=True)
+class LiquidSample:
+    """Several modes sampled on the same triangles, in the units of the mesh.
+
+    Attributes:
+        points: coordinates, shape (points, 2); points on a cell's edge stand once per cell.
+        triangles: shape (triangles, 3).
+        potential: ψ of each mode, shape (modes, points).
+        displacement: ∇ψ of each mode, shape (modes, points, 2).
+    """
+
+    points: NDArray[np.float64]
+    triangles: NDArray[np.int64]
+    potential: NDArray[np.float64]
+    displacement: NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class SurfaceTrace:
+    """ψ of several modes along a named surface, ordered by x.
+
+    Attributes:
+        x: abscissae, shape (points,).
+        potential: shape (modes, points).
+    """
+
+    x: NDArray[np.float64]
+    potential: NDArray[np.float64]
+
+
+def as_functions(liquid: LiquidSpace, potentials: list[PETSc.Vec]) -> list[fem.Function]:
+    """Potentials as dolfinx functions with their ghost values."""
+    functions = []
+    for potential in potentials:
+        function = fem.Function(liquid.space)
+        function.x.array[: potential.getLocalSize()] = potential.array_r
+        function.x.scatter_forward()
+        functions.append(function)
+    return functions
+
+
+def sample_liquid(liquid: LiquidSpace, functions: list[fem.Function]) -> LiquidSample | None:
+    """Evaluate ψ and ∇ψ on a subdivision of each cell, finer in larger cells.
+
+    Returns:
+        The sample on rank 0, ``None`` elsewhere (collective).
+    """
+    mesh = liquid.tank.mesh
+    corners = mesh.geometry.x[geometry_dofmap(mesh)][:, :, :2]
+    owned = mesh.topology.index_map(mesh.topology.dim).size_local
+    corners = corners[:owned]
+    jacobian = np.stack([corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]], axis=2)
+    size = np.sqrt(np.abs(np.linalg.det(jacobian)))
+    largest = mesh.comm.allreduce(size.max(initial=0.0), op=MPI.MAX)
+    levels = np.select([size > 0.25 * largest, size > 0.05 * largest, size > 0.01 * largest], [10, 6, 4], 2)
+    pieces = []
+    for level in np.unique(levels):
+        cells = np.flatnonzero(levels == level)
+        pieces.append(_sample_cells(liquid, functions, cells, corners[cells], jacobian[cells], int(level)))
+    gathered = mesh.comm.gather(pieces, root=0)
+    if gathered is None:
+        return None
+    return _merge([piece for process in gathered for piece in process], len(functions))
+
+
+def _sample_cells(
+    liquid: LiquidSpace,
+    functions: list[fem.Function],
+    cells: np.ndarray,
+    corners: np.ndarray,
+    jacobian: np.ndarray,
+    level: int,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    reference, triangles = _subdivided_triangle(level)
+    table = liquid.space.element.basix_element.tabulate(1, reference)[:, :, :, 0]
+    dofs = liquid.space.dofmap.list[cells]
+    points = corners[:, :1] + np.einsum("cij,pj->cpi", jacobian, reference)
+    inverse = np.linalg.inv(jacobian)
+    potential = np.array([function.x.array[dofs] @ table[0].T for function in functions])
+    reference_gradient = np.array(
+        [np.stack([function.x.array[dofs] @ table[k].T for k in (1, 2)], axis=-1) for function in functions]
+    )
+    gradient = np.einsum("mcpj,cji->mcpi", reference_gradient, inverse)
+    connectivity = (np.arange(len(cells)) * len(reference))[:, None, None] + triangles[None]
+    modes = len(functions)
+    return (
+        points.reshape(-1, 2),
+        connectivity.reshape(-1, 3),
+        potential.reshape(modes, -1),
+        gradient.reshape(modes, -1, 2),
+    )
+
+
+def _merge(pieces: list[tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]], modes: int) -> LiquidSample:
+    offsets = np.cumsum([0, *(len(piece[0]) for piece in pieces)])
+    return LiquidSample(
+        points=np.vstack([piece[0] for piece in pieces]),
+        triangles=np.vstack([piece[1] + offset for piece, offset in zip(pieces, offsets[:-1], strict=True)]),
+        potential=np.hstack([piece[2].reshape(modes, -1) for piece in pieces]),
+        displacement=np.hstack([piece[3].reshape(modes, -1, 2) for piece in pieces]),
+    )
+
+
+def _subdivided_triangle(level: int) -> tuple[np.ndarray, np.ndarray]:
+    """Points and triangles of the unit triangle cut into ``level``² equal parts."""
+    index: dict[tuple[int, int], int] = {}
+    points: list[tuple[float, float]] = []
+    for j in range(level + 1):
+        for i in range(level + 1 - j):
+            index[i, j] = len(points)
+            points.append((i / level, j / level))
+    triangles = []
+    for i, j in index:
+        if i + j < level:
+            triangles.append((index[i, j], index[i + 1, j], index[i, j + 1]))
+        if i + j < level - 1:
+            triangles.append((index[i + 1, j], index[i + 1, j + 1], index[i, j + 1]))
+    return np.array(points), np.array(triangles)
+
+
+def sample_surface(liquid: LiquidSpace, functions: list[fem.Function], name: str) -> SurfaceTrace | None:
+    """ψ along a named line, at equal steps in each facet.
+
+    Returns:
+        The trace on rank 0, ``None`` elsewhere (collective).
+    """
+    local = np.linspace(0.0, 1.0, 2 * liquid.degree + 1)[:, None]
+    x, values = [np.empty(0)], [np.empty((len(functions), 0))]
+    for group in facet_groups(liquid, name):
+        reference = group.reference_points(local)
+        basis = liquid.space.element.basix_element.tabulate(0, reference)[0, :, :, 0]
+        dofs = liquid.space.dofmap.list[group.cells]
+        x.append(group.physical_points(reference)[:, :, 0].ravel())
+        values.append(np.array([(function.x.array[dofs] @ basis.T).ravel() for function in functions]))
+    gathered = liquid.tank.mesh.comm.gather((np.concatenate(x), np.hstack(values)), root=0)
+    if gathered is None:
+        return None
+    # Facets that meet share their end point.
+    positions, first = np.unique(np.concatenate([part[0] for part in gathered]), return_index=True)
+    return SurfaceTrace(x=positions, potential=np.hstack([part[1] for part in gathered])[:, first])

@@ -1,0 +1,261 @@
+"""The command ``hydroelastic``. What is heavy is imported inside the commands, so that help and errors come at once."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import os
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import IO, Any
+
+import click
+
+from hydroelastic.meshes.interrupts import interrupts_deferred
+from hydroelastic.scenes.errors import SceneError, UnsolvedError
+from hydroelastic.scenes.output import check_output
+from hydroelastic.scenes.read import read_scene, scene_path, shipped_scenes
+
+BAD_INPUT = 2
+NOT_TO_TOLERANCE = 3
+INTERRUPTED = 130
+
+RANK_VARIABLES = ("OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK")
+"""Where MPI launchers say which process this is; without one there is only one process."""
+
+
+class _BadInput(click.ClickException):
+    """What the user gave cannot be used."""
+
+    exit_code = BAD_INPUT
+
+
+class _Unsolved(click.ClickException):
+    """A valid scene was not solved."""
+
+    exit_code = NOT_TO_TOLERANCE
+
+
+class _Interrupted(click.ClickException):
+    """The user pressed Ctrl-C."""
+
+    exit_code = INTERRUPTED
+
+    def show(self, file: IO[Any] | None = None) -> None:
+        """Say so in one line."""
+        click.echo("Interrupted: no result folder was written.", file=file or sys.stderr)
+
+
+class _Commands(click.Group):
+    """A group that turns the errors of the project into one message and an exit code."""
+
+    def main(self, *arguments: Any, **settings: Any) -> Any:
+        with _printing_on_one_rank():
+            return super().main(*arguments, **settings)
+
+    def invoke(self, ctx: click.Context) -> Any:
+        try:
+            return super().invoke(ctx)
+        except SceneError as error:
+            raise _BadInput(str(error)) from error
+        except UnsolvedError as error:
+            raise _Unsolved(str(error)) from error
+        except KeyboardInterrupt as error:
+            raise _Interrupted("interrupted") from error
+
+
+@contextlib.contextmanager
+def _progress(*, shown: bool) -> Iterator[Callable[[str], None]]:
+    """A line on the terminal that says what is being done; nothing where there is no terminal."""
+    if not shown:
+        yield lambda _message: None
+        return
+    from rich.console import Console
+
+    with Console(stderr=True).status("starting") as status:
+        yield status.update
+
+
+def _is_first_rank() -> bool:
+    return all(os.environ.get(name, "0") == "0" for name in RANK_VARIABLES)
+
+
+@contextlib.contextmanager
+def _printing_on_one_rank() -> Iterator[None]:
+    if _is_first_rank():
+        yield
+        return
+    with (
+        open(os.devnull, "w", encoding="utf-8") as nowhere,
+        contextlib.redirect_stdout(nowhere),
+        contextlib.redirect_stderr(nowhere),
+    ):
+        yield
+
+
+def _print_version(context: click.Context, _parameter: click.Parameter, asked: bool) -> None:
+    if not asked or context.resilient_parsing:
+        return
+    from importlib.metadata import PackageNotFoundError, version
+
+    try:
+        click.echo(f"hydroelastic {version('hydroelastic')}")
+    except PackageNotFoundError:
+        click.echo("hydroelastic, run from a checkout that is not installed")
+    context.exit()
+
+
+@click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"]})
+@click.option(
+    "--version", is_flag=True, is_eager=True, expose_value=False, callback=_print_version, help="Show the version."
+)
+def main() -> None:
+    """Natural frequencies and mode shapes of elastic bodies that float in a liquid.
+
+    A SCENE is a TOML file or the name of a shipped scene.
+
+    \b
+    Example:
+      hydroelastic list
+      hydroelastic run aquarium
+    """
+    # A terminal without Greek letters shows question marks instead of ending in an error.
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(errors="replace")
+
+
+_scene_argument = click.argument("scene", metavar="SCENE")
+_set_option = click.option(
+    "--set",
+    "overrides",
+    multiple=True,
+    metavar="KEY=VALUE",
+    help="Replace a value of the scene, e.g. body.0.start=2.5 (entries count from 0). May be repeated.",
+)
+
+
+@main.command()
+@_scene_argument
+@click.option("--out", type=click.Path(path_type=Path), help="Result folder; default results/<scene name>.")
+@_set_option
+@click.option("--no-images", is_flag=True, help="Write no images.")
+@click.option("--quiet", is_flag=True, help="Print nothing but errors.")
+@click.pass_context
+def run(
+    context: click.Context, scene: str, out: Path | None, overrides: tuple[str, ...], no_images: bool, quiet: bool
+) -> None:
+    """Solve SCENE, print the table of modes and write the result folder.
+
+    A previous result folder of the same name is replaced when the new one is complete.
+
+    \b
+    Example:
+      hydroelastic run aquarium --set accuracy.tolerance=1e-8 --out results/fine
+    """
+    checked = read_scene(scene, overrides)
+    folder = out if out is not None else Path("results") / scene_path(scene).stem
+    check_output(folder)
+    start = time.perf_counter()
+    # Interrupted half way, the libraries below end in an error of their own, or abort.
+    with interrupts_deferred():
+        from hydroelastic.scenes.run import run_scene
+    seconds = time.perf_counter() - start
+    with _progress(shown=not quiet and sys.stderr.isatty()) as report:
+        outcome = run_scene(checked, images=not no_images, out=folder, import_seconds=seconds, report=report)
+    for warning in outcome.warnings:
+        click.echo(f"Warning: {warning}", err=True)
+    if not quiet:
+        click.echo(outcome.table())
+    if outcome.status == "unconverged":
+        if quiet:
+            click.echo(f"Not converged: {'; '.join(outcome.reasons)}", err=True)
+        context.exit(NOT_TO_TOLERANCE)
+
+
+@main.command()
+@_scene_argument
+@_set_option
+@click.pass_context
+def compare(context: click.Context, scene: str, overrides: tuple[str, ...]) -> None:
+    """Solve SCENE and print the field solution beside the estimates of the older theories.
+
+    \b
+    Example:
+      hydroelastic compare aquarium --set body.0.start=0
+    """
+    checked = read_scene(scene, overrides)
+    with interrupts_deferred():
+        from hydroelastic.scenes.compare import compare_scene
+    with _progress(shown=sys.stderr.isatty()) as report:
+        comparison = compare_scene(checked, report=report)
+    click.echo(comparison.table())
+    if comparison.status == "unconverged":
+        context.exit(NOT_TO_TOLERANCE)
+
+
+@main.command()
+@_scene_argument
+@click.option("--out", type=click.Path(path_type=Path), help="Folder; default results/<scene name>_study.")
+@_set_option
+def study(scene: str, out: Path | None, overrides: tuple[str, ...]) -> None:
+    """Measure error against cost: uniform and graded meshes, degrees, tolerances.
+
+    Writes study.csv and study.png, and prints the table with the observed orders of convergence. It takes a minute.
+
+    \b
+    Example:
+      hydroelastic study sloshing --set accuracy.modes=5
+    """
+    checked = read_scene(scene, overrides)
+    folder = out if out is not None else Path("results") / f"{scene_path(scene).stem}_study"
+    check_output(folder)
+    with interrupts_deferred():
+        from hydroelastic.scenes.study import study_scene
+        from hydroelastic.scenes.study_report import study_table, write_study
+    with _progress(shown=sys.stderr.isatty()) as report:
+        measured = study_scene(checked, report=report)
+        if _is_first_rank():
+            write_study(measured, folder)
+    click.echo(study_table(measured))
+    click.echo(f"Written to {folder}/")
+
+
+@main.command()
+@_scene_argument
+@_set_option
+def check(scene: str, overrides: tuple[str, ...]) -> None:
+    """Validate SCENE and say what will be modelled; solve nothing.
+
+    \b
+    Example:
+      hydroelastic check my_scene.toml
+    """
+    checked = read_scene(scene, overrides)
+    from rich.console import Console
+
+    from hydroelastic.scenes.check import print_check
+
+    print_check(checked, Console())
+
+
+@main.command("list")
+def list_scenes() -> None:
+    """List the scenes that come with the package.
+
+    \b
+    Example:
+      hydroelastic list
+    """
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table("name", "title")
+    for shipped in shipped_scenes():
+        table.add_row(shipped.name, shipped.title)
+    Console().print(table)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,77 @@
+"""The older theories' estimates of a scene, and the tone they lead one to expect."""
+
+from __future__ import annotations
+
+from hydroelastic.modal.dry_modes import free_free_roots
+from hydroelastic.modal.estimate import Estimate
+from hydroelastic.modal.estimates import all_estimates
+from hydroelastic.modal.floating_beam import FloatingBeam
+from hydroelastic.modal.sloshing import guided_cover_frequencies, sloshing_frequencies
+from hydroelastic.scenes.models import TankScene, top_segments
+from hydroelastic.scenes.plan import ScaledTank
+
+# Added mass per ρ l of dry mode 1 and of heave, and between them, on deep open water with ψ = 0 beside the beam.
+_DEEP_ELASTIC = 0.12787
+_DEEP_HEAVE = 0.39270
+_DEEP_COUPLING = 0.114
+
+
+def floating_beam(scene: TankScene, body: int = 0) -> FloatingBeam:
+    """One beam of a scene, alone in its tank, as the estimates take it."""
+    beam = scene.body[body]
+    # Ends within rounding of a wall lie on it, here as in the field model.
+    start, end = next((piece.start, piece.end) for piece in top_segments(scene) if piece.body == body)
+    return FloatingBeam(
+        tank_length=scene.tank.length,
+        depth=scene.liquid[0].depth,
+        density=scene.liquid[0].density,
+        gravity=scene.tank.gravity,
+        start=start,
+        length=end - start,
+        flexural_rigidity=beam.flexural_rigidity,
+        mass_per_length=beam.mass_per_length,
+        hydrostatic=beam.hydrostatic,
+    )
+
+
+def scene_estimates(scene: TankScene) -> dict[str, Estimate]:
+    """Every estimate of a scene's first elastic tone, for a scene with one beam with free ends beside free water.
+
+    Returns:
+        Estimates by name; none where the theories, which know one beam in a tank with an open top, do not apply.
+    """
+    if len(scene.body) != 1 or scene.tank.top != "free" or scene.body[0].ends != "free":
+        return {}
+    return all_estimates(floating_beam(scene))
+
+
+def exact_frequencies(scene: TankScene) -> tuple[str, tuple[float, ...]]:
+    """The formula and the frequencies of scenes with a closed form: sloshing, and a guided beam from wall to wall.
+
+    Returns:
+        What the formula is and ω in rad/s, ascending, as many as modes are asked for; an empty tuple elsewhere.
+    """
+    count = scene.accuracy.modes
+    if not scene.body and scene.tank.top == "free":
+        frequencies = sloshing_frequencies(scene.tank.length, scene.liquid[0].depth, scene.tank.gravity, count)
+        return "ω² = g k tanh kH, k = nπ/L", tuple(map(float, frequencies))
+    if len(scene.body) == 1 and scene.body[0].ends == "guided":
+        frequencies = guided_cover_frequencies(floating_beam(scene), count)
+        return "ω² = (EI k⁴ + s ρ g)/(m + ρ/(k tanh kH)), k = nπ/L", tuple(map(float, frequencies))
+    return "", ()
+
+
+def expected_tones(tank: ScaledTank) -> tuple[float, ...]:
+    """About the (dimensionless) λ of the first elastic tone of each beam.
+
+    Dry mode 1 with the recoil in heave, on deep open water with ψ = 0 beside the beam: enough to choose a mesh.
+    """
+    tones = []
+    for beam in tank.beams:
+        root = free_free_roots(1)[0]
+        elastic = beam.mass_per_length + _DEEP_ELASTIC * beam.length
+        heave = beam.mass_per_length + _DEEP_HEAVE * beam.length
+        inertia = elastic - (_DEEP_COUPLING * beam.length) ** 2 / heave
+        stiffness = beam.flexural_rigidity * (root / beam.length) ** 4 + float(beam.hydrostatic)
+        tones.append(stiffness / inertia)
+    return tuple(tones)

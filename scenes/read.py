@@ -1,0 +1,203 @@
+"""Scenes from TOML files: reading, overrides, and the scenes that come with the package."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, TypeAlias
+
+from pydantic import ValidationError
+
+from hydroelastic.scenes.errors import Problem, SceneError, nearest, proposal, scene_error, shown_value
+from hydroelastic.scenes.models import TankScene
+
+Document: TypeAlias = dict[str, Any]
+
+SCENE_MODELS = {"tank": TankScene}
+"""Which model a ``kind`` is read with."""
+
+SHIPPED_FOLDER = Path(__file__).resolve().parent
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShippedScene:
+    """A scene that comes with the package."""
+
+    name: str
+    path: Path
+    title: str
+
+
+def shipped_scenes() -> tuple[ShippedScene, ...]:
+    """Return the scenes that come with the package, by name."""
+    return tuple(
+        ShippedScene(name=path.stem, path=path, title=read_scene(path).title)
+        for path in sorted(SHIPPED_FOLDER.glob("*.toml"))
+    )
+
+
+def scene_path(scene: str | Path) -> Path:
+    """Return the file of a scene given by its path or, for a shipped one, by its bare name.
+
+    A file of that very name comes first.
+
+    Raises:
+        SceneError: if there is no such file, or it is a folder or a device.
+    """
+    path = Path(scene)
+    shipped = SHIPPED_FOLDER / f"{path}.toml"
+    try:
+        if path.is_file():
+            return path
+        if path.name == str(scene) and shipped.is_file():
+            return shipped
+        exists, is_folder = path.exists(), path.is_dir()
+    except OSError as error:
+        raise _unusable(path, f"it cannot be read ({error.strerror})") from error
+    if is_folder:
+        raise _unusable(path, "it is a folder", "Name a scene file (*.toml) in it")
+    if exists:
+        raise _unusable(path, "it is not a regular file", "Save the scene in a file")
+    names = [file.stem for file in SHIPPED_FOLDER.glob("*.toml")]
+    remedy = proposal(path.stem, names) or "See the shipped scenes with `hydroelastic list`"
+    raise _unusable(path, "there is no such file and no shipped scene of that name", remedy)
+
+
+def read_scene(path: str | Path, overrides: Iterable[str] = ()) -> TankScene:
+    """Read and validate a scene.
+
+    Args:
+        path: a TOML file, or the bare name of a shipped scene such as ``aquarium``.
+        overrides: replacements ``key=value`` with dotted keys and TOML values, made before validation:
+            ``body.0.start=2.5`` (entries are counted from 0), ``accuracy.tolerance=1e-8``. A bare word is a text.
+
+    Returns:
+        The scene; the path of a mesh file is complete.
+
+    Raises:
+        SceneError: if anything about the file, the overrides or the values is wrong; it lists all problems.
+    """
+    file = scene_path(path)
+    document = _parse(file)
+    changes = tuple(overrides)
+    for change in changes:
+        _override(document, change, file)
+    label = f"{file} with {' '.join(f'--set {change}' for change in changes)}" if changes else str(file)
+    model = _model_of(document, label)
+    try:
+        scene = model.model_validate(document)
+    except ValidationError as error:
+        raise scene_error(error, model, file=label) from error
+    return _with_mesh_beside(scene, file)
+
+
+def _unusable(path: Path, wrong: str, remedy: str = "") -> SceneError:
+    return SceneError(Problem(wrong=wrong, remedy=remedy), file=path)
+
+
+def _parse(file: Path) -> Document:
+    try:
+        content = file.read_bytes()
+    except OSError as error:
+        raise _unusable(file, f"it cannot be read ({error.strerror})") from error
+    try:
+        # Some editors put a byte order mark in front.
+        document = tomllib.loads(content.decode("utf-8-sig"))
+    except UnicodeDecodeError as error:
+        line = content.count(b"\n", 0, error.start) + 1
+        raise _unusable(file, f"it is not UTF-8 text (line {line})", "Save it as UTF-8") from error
+    except RecursionError as error:
+        raise _unusable(file, "it is not a scene: its lists are nested too deeply") from error
+    except ValueError as error:  # TOMLDecodeError, or a number of thousands of digits
+        raise _unusable(file, f"it is not TOML: {_uncapitalised(str(error))}") from error
+    if not document:
+        raise _unusable(file, "it is empty", f"A scene begins with {_known_kinds()}")
+    return document
+
+
+def _uncapitalised(text: str) -> str:
+    return text[:1].lower() + text[1:]
+
+
+def _known_kinds() -> str:
+    return " or ".join(f'kind = "{kind}"' for kind in SCENE_MODELS)
+
+
+def _model_of(document: Document, label: str) -> type[TankScene]:
+    if "kind" not in document:
+        near = nearest("kind", [key for key in document if key not in TankScene.model_fields])
+        remedy = f'Instead there is "{near}"' if near is not None else ""
+        missing = Problem(key='key "kind"', wrong="it is missing", allowed=_known_kinds(), remedy=remedy)
+        raise SceneError(missing, file=label)
+    kind = document["kind"]
+    if not isinstance(kind, str) or kind not in SCENE_MODELS:
+        allowed = " or ".join(f'"{known}"' for known in SCENE_MODELS)
+        problem = Problem(
+            key='key "kind"',
+            value=shown_value(kind),
+            wrong="it is not a kind of scene",
+            allowed=allowed,
+            remedy=proposal(str(kind), SCENE_MODELS),
+        )
+        raise SceneError(problem, file=label)
+    return SCENE_MODELS[kind]
+
+
+def _override(document: Document, change: str, file: Path) -> None:
+    """Replace one value in the document."""
+    key, equals, text = change.partition("=")
+    names = [name.strip() for name in key.split(".")]
+    if not equals or not all(names):
+        raise _bad_override(change, "it is not of the form key=value", "For example --set accuracy.tolerance=1e-8")
+    holder: Any = document
+    for name in names[:-1]:
+        index = _index_in(holder, name, change)
+        holder = holder.setdefault(index, {}) if isinstance(holder, dict) else holder[index]
+    holder[_index_in(holder, names[-1], change)] = _override_value(change, text.strip())
+
+
+def _index_in(holder: Any, name: str, change: str) -> Any:
+    """Return what selects ``name`` in a table (the key) or in a list (the number of the entry)."""
+    if isinstance(holder, dict) and not name.isdigit():
+        return name
+    if not isinstance(holder, list):
+        raise _bad_override(change, f'"{name}" needs a {"list" if name.isdigit() else "table"}, which is not there')
+    numbers = {str(number): number for number in range(len(holder))}
+    if name not in numbers:
+        entries = ", ".join(numbers) or "none, the list is empty"
+        raise _bad_override(change, f'"{name}" is not an entry of the list', allowed=entries)
+    return numbers[name]
+
+
+_BARE_TEXT = re.compile(r"[^\W\d][^\"'=\[\]{}\n]*|[./~][^\"'=\[\]{}\n]*")
+
+
+def _override_value(change: str, text: str) -> Any:
+    try:
+        parsed = tomllib.loads(f"value = {text}")
+        if list(parsed) == ["value"]:  # a line break in the text would start another key
+            return parsed["value"]
+    except (ValueError, RecursionError):
+        if _BARE_TEXT.fullmatch(text):
+            return text
+    raise _bad_override(change, "the value is not TOML", "Put a text in quotes")
+
+
+def _bad_override(change: str, wrong: str, remedy: str = "", *, allowed: str = "") -> SceneError:
+    return SceneError(Problem(key="--set", value=shown_value(change), wrong=wrong, allowed=allowed, remedy=remedy))
+
+
+def _with_mesh_beside(scene: TankScene, file: Path) -> TankScene:
+    """Complete the path of a user's mesh from the folder of the scene, and see that the mesh is there."""
+    if scene.mesh is None:
+        return scene
+    mesh_file = (file.parent / scene.mesh.file).resolve()
+    if not mesh_file.is_file():
+        problem = Problem(
+            key='[mesh], key "file"', value=shown_value(str(scene.mesh.file)), wrong=f"there is no file {mesh_file}"
+        )
+        raise SceneError(problem, file=file)
+    return scene.model_copy(update={"mesh": scene.mesh.model_copy(update={"file": mesh_file})})

@@ -1,0 +1,146 @@
+"""Mode shapes of a solution in metres, on one process: what is drawn and what is written for ParaView."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import meshio
+import numpy as np
+from numpy.typing import NDArray
+
+from hydroelastic.fem.pictures import ModePicture, SurfaceCurve, draw_mode, draw_overview
+from hydroelastic.fem.sampling import LiquidSample, SurfaceTrace, as_functions, sample_liquid, sample_surface
+from hydroelastic.meshes.geometry import FREE_SURFACE
+from hydroelastic.scenes.solve import TankSolution
+from hydroelastic.scenes.summary import Summary
+
+_BEAM_POINTS = 201
+
+
+@dataclass(frozen=True, kw_only=True)
+class ModeShapes:
+    """The modes asked for, sampled, in SI units and scaled to a generalized mass of 1 kg per metre of width.
+
+    Attributes:
+        liquid: ψ and ∇ψ.
+        curves: for each mode, the displaced surfaces.
+    """
+
+    liquid: LiquidSample
+    curves: tuple[tuple[SurfaceCurve, ...], ...]
+
+
+def sample_shapes(solution: TankSolution) -> ModeShapes | None:
+    """Sample the modes asked for; the largest displacement of a body (without bodies, of the water) is positive.
+
+    Returns:
+        The shapes on rank 0, ``None`` elsewhere (collective).
+    """
+    modes = solution.asked
+    functions = as_functions(solution.pencil.liquid, [mode.potential for mode in modes])
+    liquid = sample_liquid(solution.pencil.liquid, functions)
+    has_waves = solution.pencil.free_surface is not None
+    water = sample_surface(solution.pencil.liquid, functions, FREE_SURFACE) if has_waves else None
+    if liquid is None:
+        return None
+    length, root_density = solution.units.length, np.sqrt(solution.units.density)
+    # Generalized mass 1 in units of the tank is ρL⁴ for a displacement of L: divide by its root.
+    to_metres = 1.0 / (length * root_density)
+    liquid = LiquidSample(
+        points=liquid.points * length,
+        triangles=liquid.triangles,
+        potential=liquid.potential / root_density,
+        displacement=liquid.displacement * to_metres,
+    )
+    curves = []
+    for number, mode in enumerate(modes):
+        bodies = _body_curves(solution, mode.body_amplitudes)
+        waves = _water_curves(solution, water, number, mode.eigenvalue)
+        leading = bodies or waves
+        largest = max((curve.displacement for curve in leading), key=lambda w: np.abs(w).max())
+        sign = np.sign(largest[np.argmax(np.abs(largest))]) or 1.0
+        liquid.potential[number] *= sign
+        liquid.displacement[number] *= sign
+        curves.append(
+            tuple(
+                SurfaceCurve(kind=curve.kind, x=curve.x * length, displacement=sign * to_metres * curve.displacement)
+                for curve in (*bodies, *waves)
+            )
+        )
+    return ModeShapes(liquid=liquid, curves=tuple(curves))
+
+
+def _body_curves(solution: TankSolution, amplitudes: np.ndarray) -> list[SurfaceCurve]:
+    place = {body: (start, end) for start, end, body in solution.tank.pieces if body is not None}
+    curves, first = [], 0
+    for index, body in enumerate(solution.pencil.bodies):
+        x: NDArray[np.float64] = np.linspace(*place[index], _BEAM_POINTS, dtype=np.float64)
+        points = np.vstack([x, np.zeros((2, len(x)))])
+        own = amplitudes[first : first + body.size]
+        displacement = sum(
+            (amplitude * body.shapes(points, number) for number, amplitude in enumerate(own)), np.zeros_like(x)
+        )
+        curves.append(SurfaceCurve(kind="body", x=x, displacement=displacement))
+        first += body.size
+    return curves
+
+
+def _water_curves(
+    solution: TankSolution, water: SurfaceTrace | None, number: int, eigenvalue: float
+) -> list[SurfaceCurve]:
+    if water is None:
+        return []
+    # η = ω² ψ/g, in units of the tank λψ.
+    elevation = eigenvalue * water.potential[number]
+    curves = []
+    for start, end, body in solution.tank.pieces:
+        if body is None:
+            inside = (water.x >= start) & (water.x <= end)
+            curves.append(SurfaceCurve(kind="free_surface", x=water.x[inside], displacement=elevation[inside]))
+    return curves
+
+
+def mode_title(number: int, mode: Summary) -> str:
+    """Title of a mode's picture."""
+    bending = mode["elastic_energy_fraction"]
+    share = f" ({100 * bending:.0f} % bending)" if bending >= 0.005 else ""
+    return f"Mode {number}: ω = {mode['omega']:.6g} rad/s, {mode['frequency_hz']:.4g} Hz, {mode['kind']}{share}"
+
+
+def pictures(shapes: ModeShapes, summary: Summary) -> list[ModePicture]:
+    """One picture for each mode."""
+    return [
+        ModePicture(
+            points=shapes.liquid.points,
+            triangles=shapes.liquid.triangles,
+            potential=shapes.liquid.potential[number],
+            displacement=shapes.liquid.displacement[number],
+            surfaces=shapes.curves[number],
+            title=mode_title(number + 1, mode),
+            length=summary["scene"]["tank"]["length"],
+            depth=summary["scene"]["liquid"][0]["depth"],
+        )
+        for number, mode in enumerate(summary["modes"])
+    ]
+
+
+def draw_all(shapes: ModeShapes, summary: Summary, folder: Path) -> None:
+    """Draw every mode, and all of them on one sheet."""
+    folder.mkdir()
+    drawn = pictures(shapes, summary)
+    for number, picture in enumerate(drawn, 1):
+        draw_mode(picture, folder / f"mode_{number:03d}.png")
+    draw_overview(drawn, folder / "overview.png")
+
+
+def write_fields(shapes: ModeShapes, folder: Path) -> None:
+    """Write one VTU with ψ and ∇ψ of every mode; coordinates in metres, for ParaView."""
+    folder.mkdir()
+    data = {}
+    for number in range(len(shapes.liquid.potential)):
+        displacement = shapes.liquid.displacement[number]
+        data[f"potential_{number + 1:03d}"] = shapes.liquid.potential[number]
+        data[f"displacement_{number + 1:03d}"] = np.column_stack([displacement, np.zeros(len(displacement))])
+    points = np.column_stack([shapes.liquid.points, np.zeros(len(shapes.liquid.points))])
+    meshio.write(folder / "modes.vtu", meshio.Mesh(points, [("triangle", shapes.liquid.triangles)], point_data=data))

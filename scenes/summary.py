@@ -1,0 +1,214 @@
+"""The answer to a scene as one JSON-ready value: numbers with their errors, estimates beside them, cost."""
+
+from __future__ import annotations
+
+import platform
+import resource
+from importlib.metadata import PackageNotFoundError, version
+from typing import Any
+
+from hydroelastic.modal.estimate import Estimate
+from hydroelastic.scenes.estimates import exact_frequencies
+from hydroelastic.scenes.solve import TankSolution, ToneSolution
+from hydroelastic.scenes.tones import bending_fraction, mode_kind
+
+Summary = dict[str, Any]
+
+# A runner-up above this part of the largest participation makes the tone a shared one.
+SHARED = 0.5
+
+PACKAGES = ("hydroelastic", "fenics-dolfinx", "petsc4py", "slepc4py", "gmsh", "numpy", "scipy")
+
+
+def summarize(solution: TankSolution, estimates: dict[str, Estimate], *, import_seconds: float) -> Summary:
+    """Build the summary of a solved scene (collective: peak memory is summed over processes).
+
+    Args:
+        solution: the field solution.
+        estimates: older theories' estimates of the first beam's tone.
+        import_seconds: time spent importing libraries.
+
+    Returns:
+        The content of ``summary.json``.
+    """
+    first = _first_elastic(solution)
+    return {
+        "scene": solution.scene.model_dump(mode="json"),
+        "status": "unconverged" if solution.reasons else "ok",
+        "reasons": list(solution.reasons),
+        "modes": _modes(solution),
+        "zero_modes": solution.modes.zero_modes,
+        "first_elastic": first[0] if first else None,
+        "first_elastic_by_body": first,
+        "estimates": compared(solution, estimates),
+        "exact": _exact(solution),
+        "solver": {
+            "attempts": solution.attempts,
+            "pairs_asked": solution.resolution.modes + 1,
+            "pairs_converged": solution.modes.converged,
+            "pairs_kept": len(solution.asked),
+            "count_confirmed_by_inertia": solution.counted,
+            "largest_residual": max(mode.residual for mode in solution.modes.modes),
+            "restarts": solution.modes.iterations,
+            "laplace_solutions": solution.modes.solves,
+        },
+        "size": {
+            "cells": solution.mesh.cell_count,
+            "dofs": solution.pencil.liquid.size + solution.pencil.size,
+            "degree": solution.resolution.degree,
+            "surface_unknowns": solution.pencil.size,
+            "beam_shapes": list(solution.resolution.shapes),
+            "processes": solution.mesh.mesh.comm.size,
+        },
+        "timing": {"import": import_seconds, **solution.seconds},
+        "memory_peak": solution.mesh.mesh.comm.allreduce(_peak_memory()),
+        "versions": _versions(),
+    }
+
+
+def _modes(solution: TankSolution) -> list[dict[str, Any]]:
+    rows = []
+    for mode, error in zip(solution.asked, solution.relative_errors, strict=False):
+        omega = solution.omega(mode.eigenvalue)
+        rows.append(
+            {
+                "omega": omega,
+                "frequency_hz": solution.units.hertz(omega / solution.units.frequency),
+                "relative_error": float(error),
+                "kind": mode_kind(mode, solution.pencil.bodies),
+                "elastic_energy_fraction": bending_fraction(mode, solution.pencil.bodies),
+                "residual": mode.residual,
+            }
+        )
+    return rows
+
+
+def _exact(solution: TankSolution) -> list[dict[str, Any]]:
+    """The exact frequencies of the modes asked for, for scenes that have a closed form."""
+    formula, frequencies = exact_frequencies(solution.scene)
+    rows = []
+    for mode, exact in zip(solution.asked, frequencies, strict=False):
+        rows.append({"formula": formula, "omega": exact, "difference": solution.omega(mode.eigenvalue) / exact - 1.0})
+    return rows
+
+
+def _first_elastic(solution: TankSolution) -> list[dict[str, Any]]:
+    return [_tone(solution, body, tone) for body, tone in enumerate(solution.tones)]
+
+
+def _tone(solution: TankSolution, body: int, tone: ToneSolution) -> dict[str, Any]:
+    beam = solution.scene.body[body]
+    # Dry mode 1 of the body, in units of the tank: EI κ⁴ l, (EI κ⁴ + s) l and m l.
+    shapes = solution.pencil.bodies[body]
+    first = shapes.labels.index("elastic 1")
+    found = {
+        "body": body + 1,
+        "dry_omega": solution.omega(float(shapes.bending_stiffness[first] / shapes.mass[first])),
+        "pressure_release_omega": None,
+        "pressure_release_relative_error": None,
+        "omega": None,
+        "relative_error": None,
+        "index": None,
+        "participation": None,
+        "runner_up": None,
+        "shared": None,
+        "added_mass_per_length": None,
+        "added_mass_relative_error": None,
+        "note": tone.reason,
+    }
+    if tone.pressure_release is not None:
+        found["pressure_release_omega"] = solution.omega(tone.pressure_release)
+        found["pressure_release_relative_error"] = tone.pressure_release_error
+    if tone.tone is None:
+        return found
+    eigenvalue = float(solution.modes.eigenvalues[tone.tone.index])
+    error = float(solution.relative_errors[min(tone.tone.index, len(solution.relative_errors) - 1)])
+    added, added_error = added_mass(float(shapes.stiffness[first]), float(shapes.mass[first]), eigenvalue, error)
+    scale = solution.units.mass_per_length / (beam.length / solution.units.length)
+    shared = tone.tone.runner_up > SHARED * tone.tone.participation
+    found.update(
+        omega=solution.omega(eigenvalue),
+        relative_error=error,
+        index=tone.tone.index + 1,
+        participation=tone.tone.participation,
+        runner_up=tone.tone.runner_up,
+        shared=shared,
+        added_mass_per_length=added * scale,
+        added_mass_relative_error=added_error,
+        note="the tone is shared between hybrid modes; see the pressure-release tone" if shared else "",
+    )
+    return found
+
+
+def added_mass(stiffness: float, mass: float, eigenvalue: float, relative_error: float) -> tuple[float, float]:
+    """Added mass m_a = k/λ − m of a tone from its frequency, and the relative error that follows from ω's.
+
+    Args:
+        stiffness: EI κ⁴ + s ρ g of the dry mode, per unit of its shape.
+        mass: m of the dry mode, the same way.
+        eigenvalue: λ = ω².
+        relative_error: of ω.
+
+    Returns:
+        The added mass in the same unit as ``mass``, and its relative error.
+    """
+    whole = stiffness / eigenvalue
+    added = whole - mass
+    return added, 2.0 * relative_error * whole / abs(added) if added else float("inf")
+
+
+def compared(solution: TankSolution, estimates: dict[str, Estimate]) -> dict[str, Any]:
+    """Each estimate, its difference to the field solution, and whether the bound that theory promises holds."""
+    first = next(iter(_first_elastic(solution)), {})
+    rows = {}
+    for name, estimate in estimates.items():
+        rows[name] = {
+            "omega": estimate.omega,
+            "added_mass_per_length": estimate.added_mass_per_length,
+            "difference": _difference(estimate.omega, first.get("omega")),
+            "added_mass_difference": _difference(estimate.added_mass_per_length, first.get("added_mass_per_length")),
+            "difference_to_pressure_release": _difference(estimate.omega, first.get("pressure_release_omega")),
+            "bound": estimate.bound,
+            "bound_mode": estimate.mode_index,
+            "bound_holds": _bound_holds(solution, estimate),
+            "note": estimate.note,
+        }
+    return rows
+
+
+def _difference(value: float | None, reference: float | None) -> float | None:
+    return None if value is None or reference is None else value / reference - 1.0
+
+
+def _bound_holds(solution: TankSolution, estimate: Estimate) -> bool | None:
+    """Whether an upper bound lies above what it bounds; ``None`` where that was not computed or nothing is bounded."""
+    if estimate.omega is None or estimate.mode_index is None:
+        return None
+    number = estimate.mode_index - 1
+    if estimate.bound == "above_mode_index":
+        values = solution.modes.eigenvalues
+        errors = solution.relative_errors
+    elif estimate.bound == "above_pressure_release_tone" and solution.tones:
+        values = solution.tones[0].pressure_release_values  # type: ignore[assignment]
+        errors = [solution.tones[0].pressure_release_error or 0.0] * len(values)  # type: ignore[assignment]
+    else:
+        return None
+    if number >= min(len(values), len(errors)):
+        return None
+    # The field solution is itself an upper bound: its own error may not count against the estimate.
+    return bool(estimate.omega >= solution.omega(values[number]) * (1.0 - errors[number] - 1e-9))
+
+
+def _versions() -> dict[str, str]:
+    found = {"python": platform.python_version()}
+    for package in PACKAGES:
+        try:
+            found[package] = version(package)
+        except PackageNotFoundError:
+            found[package] = "unknown"
+    return found
+
+
+def _peak_memory() -> int:
+    """Peak resident memory of this process, bytes."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024

@@ -1,0 +1,207 @@
+"""The tables that a person reads: printed, and kept as Markdown and CSV."""
+
+from __future__ import annotations
+
+import csv
+import io
+
+from rich import box
+from rich.console import Console
+from rich.table import Table
+
+from hydroelastic.scenes.summary import Summary
+
+MODE_COLUMNS = ("mode", "omega", "frequency_hz", "relative_error", "kind", "elastic_energy_fraction", "residual")
+
+
+def mode_rows(summary: Summary) -> list[tuple[str, ...]]:
+    """One row for each mode, numbers at their certain digits."""
+    tones = {tone["index"] for tone in summary["first_elastic_by_body"]}
+    return [
+        (
+            str(number),
+            with_certain_digits(mode["omega"], mode["relative_error"]),
+            f"{mode['frequency_hz']:.6g}",
+            f"{mode['relative_error']:.1e}",
+            mode["kind"] + (", first elastic tone" if number in tones else ""),
+            f"{mode['elastic_energy_fraction']:.3f}",
+        )
+        for number, mode in enumerate(summary["modes"], 1)
+    ]
+
+
+MODE_HEADINGS = ("mode", "ω, rad/s", "f, Hz", "estimated error", "kind", "bending energy")
+
+
+def with_certain_digits(value: float, relative_error: float) -> str:
+    """A number with the digits that its error leaves certain, between 4 and 13."""
+    digits = 4
+    while digits < 13 and 10.0 ** (-digits) > relative_error:
+        digits += 1
+    return f"{value:#.{digits}g}"
+
+
+def tone_lines(summary: Summary) -> list[str]:
+    """What is said of each beam's first elastic tone."""
+    lines = []
+    several = len(summary["first_elastic_by_body"]) > 1
+    for tone in summary["first_elastic_by_body"]:
+        name = f"First elastic tone of body {tone['body']}" if several else "First elastic tone"
+        if tone["omega"] is None:
+            lines.append(f"{name}: none; {tone['note']}.")
+        else:
+            omega = with_certain_digits(tone["omega"], tone["relative_error"])
+            mass = with_certain_digits(tone["added_mass_per_length"], max(tone["added_mass_relative_error"], 1e-9))
+            lines.append(
+                f"{name}: mode {tone['index']}, ω = {omega} rad/s "
+                f"(estimated relative error {tone['relative_error']:.1e}), added mass {mass} kg/m², "
+                f"participation {tone['participation']:.3f} (runner-up {tone['runner_up']:.3f})."
+            )
+            if tone["note"]:
+                lines.append(f"  Note: {tone['note']}.")
+        limits = f"In vacuo: {tone['dry_omega']:.8g} rad/s"
+        if tone["pressure_release_omega"] is not None:
+            release = with_certain_digits(tone["pressure_release_omega"], tone["pressure_release_relative_error"])
+            limits += f"; with ψ = 0 on the water, the limit far above the waves: {release} rad/s"
+        lines.append(f"  {limits}.")
+    return lines
+
+
+ESTIMATE_HEADINGS = ("estimate", "ω, rad/s", "to field", "added mass, kg/m²", "to field", "bound")
+
+
+def estimate_rows(summary: Summary) -> list[tuple[str, ...]]:
+    """One row for each estimate."""
+    rows: list[tuple[str, ...]] = []
+    for name, estimate in summary["estimates"].items():
+        rows.append(
+            (
+                name,
+                _number(estimate["omega"]),
+                _per_cent(estimate["difference"]),
+                _number(estimate["added_mass_per_length"]),
+                _per_cent(estimate["added_mass_difference"]),
+                _bound(estimate),
+            )
+        )
+    return rows
+
+
+def _number(value: float | None) -> str:
+    return "–" if value is None else f"{value:.7g}"
+
+
+def _per_cent(value: float | None) -> str:
+    return "–" if value is None else f"{100.0 * value:+.3g} %"
+
+
+def _bound(estimate: Summary) -> str:
+    if estimate["bound"] == "none":
+        return "none"
+    what = f"≥ mode {estimate['bound_mode']}"
+    if estimate["bound"] == "above_pressure_release_tone":
+        what += ", ψ = 0"
+    return what + {True: ": holds", False: ": VIOLATED", None: ": not checked"}[estimate["bound_holds"]]
+
+
+def mode_lines(summary: Summary) -> list[str]:
+    """How far the modes lie from a known exact solution, where there is one, and what is not listed."""
+    lines = []
+    if summary["exact"]:
+        largest = max(abs(row["difference"]) for row in summary["exact"])
+        formula = summary["exact"][0]["formula"]
+        lines.append(f"{formula}: the largest relative difference to this exact solution is {largest:.1e}.")
+    if summary["zero_modes"]:
+        lines.append(f"{summary['zero_modes']} rigid motion(s) without stiffness (ω = 0) not listed.")
+    return lines
+
+
+def cost_line(summary: Summary) -> str:
+    """Size and cost of the solution."""
+    size, timing = summary["size"], summary["timing"]
+    seconds = ", ".join(f"{stage} {value:.2f}" for stage, value in timing.items() if value >= 0.005)
+    return (
+        f"{size['cells']} cells, degree {size['degree']}, {size['dofs']} unknowns "
+        f"({size['surface_unknowns']} on the surface); seconds: {seconds}; "
+        f"peak memory {summary['memory_peak'] / 2**20:.0f} MiB."
+    )
+
+
+def status_lines(summary: Summary) -> list[str]:
+    """A loud word if the answer does not keep what was asked."""
+    if summary["status"] == "ok":
+        return []
+    tolerance = summary["scene"]["accuracy"]["tolerance"]
+    return [f"NOT CONVERGED to the tolerance {tolerance:g}:", *(f"  - {reason}" for reason in summary["reasons"])]
+
+
+def printed(summary: Summary, *, notes: bool = False, width: int = 120) -> str:
+    """All tables as text for a terminal.
+
+    Args:
+        summary: content of ``summary.json``.
+        notes: whether to say what each estimate neglects.
+        width: of the text, in characters.
+    """
+    console = Console(file=io.StringIO(), width=width, color_system=None, highlight=False)
+    console.print(_title(summary), markup=False)
+    for line in status_lines(summary):
+        console.print(line, markup=False, style="bold")
+    console.print(_table(MODE_HEADINGS, mode_rows(summary)))
+    for line in mode_lines(summary):
+        console.print(line, markup=False)
+    for line in tone_lines(summary):
+        console.print(line, markup=False)
+    if notes and not summary["estimates"] and summary["scene"]["body"]:
+        console.print("No estimates: the older theories know one beam with free ends beside free water.")
+    if summary["estimates"]:
+        console.print(_table(ESTIMATE_HEADINGS, estimate_rows(summary)))
+        if notes:
+            for name, estimate in summary["estimates"].items():
+                console.print(f"{name}: {estimate['note']}", markup=False)
+    console.print(cost_line(summary), markup=False)
+    return console.file.getvalue().rstrip()  # type: ignore[attr-defined]
+
+
+def _title(summary: Summary) -> str:
+    return summary["scene"]["title"] or "Untitled scene"
+
+
+def _table(headings: tuple[str, ...], rows: list[tuple[str, ...]]) -> Table:
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    for number, heading in enumerate(headings):
+        leftwards = number == 0 or heading in ("kind", "bound")
+        table.add_column(heading, justify="left" if leftwards else "right", no_wrap=True)
+    for row in rows:
+        table.add_row(*row)
+    return table
+
+
+def markdown(summary: Summary) -> str:
+    """All tables as Markdown."""
+    parts = [f"# {_title(summary)}", ""]
+    complaint = [f"**{line}**" if number == 0 else line for number, line in enumerate(status_lines(summary))]
+    parts += [*complaint, ""] if complaint else []
+    parts += [_markdown_table(MODE_HEADINGS, mode_rows(summary)), ""]
+    parts += [line + "\n" for line in (*mode_lines(summary), *tone_lines(summary))]
+    if summary["estimates"]:
+        parts += [_markdown_table(ESTIMATE_HEADINGS, estimate_rows(summary)), ""]
+        parts += [f"- `{name}`: {estimate['note']}" for name, estimate in summary["estimates"].items()]
+        parts.append("")
+    parts.append(cost_line(summary))
+    return "\n".join(parts) + "\n"
+
+
+def _markdown_table(headings: tuple[str, ...], rows: list[tuple[str, ...]]) -> str:
+    lines = [headings, tuple("---" for _ in headings), *rows]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+
+
+def mode_csv(summary: Summary) -> str:
+    """All modes at full precision, as CSV."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(MODE_COLUMNS)
+    for number, mode in enumerate(summary["modes"], 1):
+        writer.writerow([number, *(mode[column] for column in MODE_COLUMNS[1:])])
+    return text.getvalue()

@@ -1,0 +1,83 @@
+"""The liquid of a scaled scene as a mesh on one process: made by gmsh, or the user's own after a check. No dolfinx."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hydroelastic.meshes.geometry import FREE_SURFACE, LID, LIQUID, TankGeometry, body_name, tank_geometry
+from hydroelastic.meshes.grading import Grading
+from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
+from hydroelastic.scenes.plan import Resolution, ScaledTank
+
+# A mesh that the user brings may miss the scene's abscissae by this part of the tank's length: files round.
+_MESH_ROUNDING = 1e-6
+
+
+def geometry_of(tank: ScaledTank) -> TankGeometry:
+    """The tank's outline with the physical names of its top."""
+    rest = LID if tank.top == "rigid" else FREE_SURFACE
+    pieces = tuple((start, end, rest if body is None else body_name(body + 1)) for start, end, body in tank.pieces)
+    return tank_geometry(length=1.0, depth=tank.depth, pieces=pieces)
+
+
+def make_mesh(tank: ScaledTank, resolution: Resolution) -> TaggedMesh:
+    """Mesh a scene with gmsh, in units of the tank.
+
+    Raises:
+        MeshError: if gmsh fails.
+    """
+    # gmsh takes a third of a second to import, and a scene that brings its mesh does not need it.
+    from hydroelastic.meshes.tank import build_tank_mesh
+
+    grading = Grading(
+        surface_sizes=resolution.surface_sizes, bulk_size=resolution.bulk_size, tip_size=resolution.tip_size
+    )
+    return build_tank_mesh(geometry_of(tank), grading)
+
+
+def unknown_count(mesh: TaggedMesh, degree: int) -> int:
+    """Number of unknowns of a continuous polynomial of a degree on a simply connected mesh of triangles."""
+    triangles, points = len(mesh.cells), len(mesh.points)
+    edges = points + triangles - 1
+    return points + (degree - 1) * edges + (degree - 1) * (degree - 2) // 2 * triangles
+
+
+def check_mesh(tank: ScaledTank, tagged: TaggedMesh) -> None:
+    """Check names and extents of a mesh against the scene.
+
+    Raises:
+        MeshError: naming the group, where it lies and where it should.
+    """
+    geometry = geometry_of(tank)
+    names = dict.fromkeys(segment.name for segment in geometry.segments)
+    tagged.require(cells=(LIQUID,), facets=names)
+    low, high = tagged.points.min(axis=0), tagged.points.max(axis=0)
+    expected = np.array([0.0, -tank.depth, 1.0, 0.0])
+    if np.abs(np.concatenate([low, high]) - expected).max() > _MESH_ROUNDING:
+        raise MeshError(
+            f"the mesh fills {low[0]:g} < x/L < {high[0]:g}, {low[1]:g} < y/L < {high[1]:g}; "
+            f"the scene's liquid fills 0 < x/L < 1, {-tank.depth:g} < y/L < 0"
+        )
+    pieces = {name: [piece for piece in geometry.segments if piece.name == name] for name in names}
+    for name, segments in pieces.items():
+        _check_extent(tagged, name, min(piece.start for piece in segments), max(piece.end for piece in segments))
+    for name, segments in pieces.items():
+        _check_length(tagged, name, sum(piece.end - piece.start for piece in segments))
+
+
+def _check_extent(tagged: TaggedMesh, name: str, start: float, end: float) -> None:
+    x, y = tagged.facet_nodes(name).T
+    if max(abs(x.min() - start), abs(x.max() - end), np.abs(y).max()) > _MESH_ROUNDING:
+        raise MeshError(
+            f"group {name} of the mesh spans {x.min():g} < x/L < {x.max():g}; "
+            f"the scene puts it at {start:g} < x/L < {end:g} on y = 0"
+        )
+
+
+def _check_length(tagged: TaggedMesh, name: str, length: float) -> None:
+    missing = length - tagged.facet_measure(name)
+    if abs(missing) > _MESH_ROUNDING:
+        raise MeshError(
+            f"the edges of group {name} of the mesh are {abs(missing):g} tank lengths too "
+            f"{'short' if missing > 0 else 'long'} for the scene: some lack the group, or have it in error"
+        )

@@ -1,0 +1,97 @@
+"""The first elastic tone: the mode in which a beam's first dry mode takes the largest part.
+
+pₙ = (e₁ᵀ K φₙ)², with the K-normalised dry mode e₁ and K-orthonormal modes φₙ; Σ pₙ = 1. In a tank with a free surface
+the elastic energy is spread over several hybrid modes, the more the shorter the beam beside the water; the tone then
+has a runner-up of nearly the same participation, and the pressure-release tone is the well-posed companion.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hydroelastic.fem.modes import Mode, ModeSet
+from hydroelastic.fem.surfaces import Body
+
+FIRST_ELASTIC = "elastic 1"
+
+
+@dataclass(frozen=True, kw_only=True)
+class ElasticTone:
+    """The first elastic tone of one beam among computed modes.
+
+    Attributes:
+        body: index of the beam.
+        index: index of the mode, from 0.
+        participation: its pₙ.
+        runner_up: the next largest pₙ.
+        certain: whether no mode that was not computed is expected to have a larger part: what is left is less than
+            the largest part, or the modes reach past the tone and down its flank.
+    """
+
+    body: int
+    index: int
+    participation: float
+    runner_up: float
+    certain: bool
+
+
+def participations(modes: ModeSet, bodies: tuple[Body, ...], body: int) -> np.ndarray:
+    """pₙ of a beam's first dry mode, one for each mode."""
+    position = sum(other.size for other in bodies[:body]) + bodies[body].labels.index(FIRST_ELASTIC)
+    stiffness = bodies[body].stiffness[bodies[body].labels.index(FIRST_ELASTIC)]
+    # Modes have unit generalized mass, so φᵀKφ = λ.
+    parts: np.ndarray = stiffness * modes.elastic_amplitudes[:, position] ** 2 / modes.eigenvalues
+    return parts
+
+
+def elastic_tone(modes: ModeSet, bodies: tuple[Body, ...], body: int, *, companion: float | None = None) -> ElasticTone:
+    """The mode of largest participation.
+
+    Args:
+        modes: the modes.
+        bodies: the bodies of the pencil.
+        body: index of the beam.
+        companion: λ of its pressure-release tone, about which the participations gather, where there is one.
+    """
+    parts = participations(modes, bodies, body)
+    order = np.argsort(parts)[::-1]
+    best, second = parts[order[0]], parts[order[1]] if len(parts) > 1 else 0.0
+    return ElasticTone(
+        body=body,
+        index=int(order[0]),
+        participation=float(best),
+        runner_up=float(second),
+        certain=bool(best > 1.0 - parts.sum()) or _reaches_past(modes, parts, companion),
+    )
+
+
+def _reaches_past(modes: ModeSet, parts: np.ndarray, companion: float | None) -> bool:
+    """Whether the last fifth of the modes lies above the companion, and holds less than half the largest part.
+
+    Without half of the energy in sight, what looks like a flank is not one.
+    """
+    start = len(parts) - len(parts) // 5
+    if companion is None or start == len(parts):
+        return False
+    past = companion < modes.eigenvalues[start] and parts[start:].max() < 0.5 * parts.max()
+    return bool(past and parts.sum() > 0.5)
+
+
+def mode_kind(mode: Mode, bodies: tuple[Body, ...]) -> str:
+    """What holds most of the potential energy: "sloshing", "heave", "pitch" or "elastic"."""
+    shares = {"sloshing": float(mode.energy[-1])}
+    position = 0
+    for body in bodies:
+        for label in body.labels:
+            kind = label.split()[0]
+            shares[kind] = shares.get(kind, 0.0) + float(mode.energy[position])
+            position += 1
+    return max(shares, key=lambda kind: shares[kind])
+
+
+def bending_fraction(mode: Mode, bodies: tuple[Body, ...]) -> float:
+    """Strain energy of bending over total potential energy."""
+    bending = np.concatenate([body.bending_stiffness for body in bodies] or [np.empty(0)])
+    return float(bending @ mode.body_amplitudes**2 / mode.eigenvalue)

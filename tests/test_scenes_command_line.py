@@ -1,0 +1,264 @@
+"""The command line: bad input is one clear message and exit code 2, and nothing heavy is loaded for it."""
+
+import os
+import subprocess
+import sys
+import types
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner, Result
+
+from hydroelastic.scenes.command_line import main
+
+HEAVY = {"dolfinx", "ufl", "gmsh", "pyvista", "vtk", "petsc4py", "mpi4py", "scipy"}
+
+GOOD = """
+kind = "tank"
+[tank]
+length = 10.0
+[[liquid]]
+density = 1000.0
+depth = 5.0
+[[body]]
+start = 3.0
+length = 4.0
+flexural_rigidity = 5e3
+mass_per_length = 50.0
+[accuracy]
+tolerance = 1e-6
+modes = 10
+"""
+AFTER_GOOD = f"line {len(GOOD.splitlines()) + 1}"
+SECOND_BEAM = "[[body]]\nstart = 6.0\nlength = 2.0\nflexural_rigidity = 5e3\nmass_per_length = 50.0\n"
+SECOND_LIQUID = "[[liquid]]\ndensity = 800.0\ndepth = 1.0\n"
+
+
+@pytest.fixture(autouse=True)
+def _in_an_empty_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    for name in ("OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK"):
+        monkeypatch.delenv(name, raising=False)
+
+
+def invoke(*arguments: str) -> Result:
+    return CliRunner().invoke(main, list(arguments))
+
+
+def process(*arguments: str, **environment: str) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "hydroelastic.scenes.command_line", *arguments]
+    return subprocess.run(
+        command, capture_output=True, text=True, encoding="utf-8", check=False, env=os.environ | environment, timeout=30
+    )
+
+
+def assert_refused(result: Result, *words: str) -> None:
+    assert result.exit_code == 2, result.output
+    assert result.stdout == ""
+    lines = result.stderr.strip().splitlines()
+    assert 1 <= len(lines) <= 2, result.stderr
+    assert lines[0].startswith("Error: ")
+    for word in words:
+        assert word in result.stderr
+    assert "Traceback" not in result.stderr
+
+
+BAD = {
+    "wrong type": (GOOD.replace("length = 10.0", "length = [10.0]"), ["[tank]", '"length"', "not a number"]),
+    "text for number": (GOOD.replace("length = 10.0", 'length = "10"'), ['"10"', "not a number", "without quotes"]),
+    "bool for number": (GOOD.replace("length = 10.0", "length = true"), ["true", "not a number"]),
+    "number for bool": (GOOD.replace("start = 3.0", "start = 3.0\nhydrostatic = 0"), ["true or false"]),
+    "unknown key": (GOOD.replace("depth =", "dept ="), ['"dept"', 'Did you mean "depth"?']),
+    "unknown table": (GOOD + "[solver]\n", ["[solver]", "not known"]),
+    "misspelt table": (GOOD.replace("[accuracy]", "[acuracy]"), ["[acuracy]", 'Did you mean "accuracy"?']),
+    "later table": (GOOD + '[[analysis]]\nkind = "radiation"\n', ["[[analysis]]", "not known"]),
+    "single brackets": (GOOD.replace("[[body]]", "[body]"), ["[[body]]"]),
+    "misspelt choice": (GOOD.replace("length = 10.0", 'length = 10.0\ntop = "fee"'), ['Did you mean "free"?']),
+    "open ends": (GOOD.replace("length = 10.0", 'length = 10.0\nends = "open"'), ['Allowed: "walls"']),
+    "float body": (GOOD.replace("start = 3.0", 'kind = "float"\nstart = 3.0'), ['Allowed: "beam"']),
+    "other kind": (GOOD.replace('"tank"', '"string"'), ['Allowed: "tank"']),
+    "no kind": (GOOD.replace('kind = "tank"', ""), ['"kind"', "missing"]),
+    "outside": (GOOD.replace("start = 3.0", "start = 7.0"), ['[[body]] number 1, key "start" = 7.0', "0 to 6 m"]),
+    "overlap": (GOOD + SECOND_BEAM, ["[[body]] number 2", "[[body]] number 1", "overlaps"]),
+    "two liquids": (GOOD + SECOND_LIQUID, ["[[liquid]]", "exactly one liquid"]),
+    "no liquid": (GOOD.replace("[[liquid]]\ndensity = 1000.0\ndepth = 5.0", ""), ["[[liquid]]", "missing"]),
+    "zero depth": (GOOD.replace("depth = 5.0", "depth = 0"), ['"depth" = 0', "positive"]),
+    "negative depth": (GOOD.replace("depth = 5.0", "depth = -5.0"), ['"depth" = -5.0', "positive"]),
+    "NaN": (GOOD.replace("depth = 5.0", "depth = nan"), ["nan", "finite"]),
+    "infinity": (GOOD.replace("depth = 5.0", "depth = inf"), ["inf", "finite"]),
+    "no mass": (GOOD.replace("mass_per_length = 50.0", "mass_per_length = 0.0"), ["mass_per_length"]),
+    "tolerance 0": (GOOD.replace("tolerance = 1e-6", "tolerance = 0"), ["from 1e-12 to 0.1"]),
+    "a million modes": (GOOD.replace("modes = 10", "modes = 1_000_000"), ["1000000", "from 1 to 200"]),
+    "broken modes": (GOOD.replace("modes = 10", "modes = 10.5"), ["whole number"]),
+    "nothing moves": (
+        'kind = "tank"\n[tank]\nlength = 1.0\ntop = "rigid"\n[[liquid]]\ndensity = 1.0\ndepth = 1.0\n',
+        ['"top"', "nothing oscillates"],
+    ),
+    "empty": ("", ["empty"]),
+    "comments alone": ("# nothing\n", ["empty"]),
+    "not TOML": (GOOD + "this is not TOML\n", ["not TOML", AFTER_GOOD]),
+    "key given twice": (GOOD + "modes = 11\n", ["not TOML", "line"]),
+    "deep": ("a = " + "[" * 5000, ["nested"]),
+}
+
+
+@pytest.mark.parametrize("command", ["check", "run", "compare"])
+@pytest.mark.parametrize("case", BAD)
+def test_bad_scenes_give_one_clear_message(tmp_path: Path, case: str, command: str) -> None:
+    text, words = BAD[case]
+    Path("scene.toml").write_text(text, encoding="utf-8")
+    assert_refused(invoke(command, "scene.toml"), "scene.toml", *words)
+    assert [path.name for path in tmp_path.iterdir()] == ["scene.toml"]
+
+
+@pytest.mark.parametrize("command", ["check", "run", "compare"])
+def test_files_that_cannot_be_read(tmp_path: Path, command: str) -> None:
+    Path("folder").mkdir()
+    Path("latin.toml").write_bytes(GOOD.encode() + 'title = "Länge"\n'.encode("latin-1"))
+    Path("wide.toml").write_bytes(GOOD.encode("utf-16"))
+    assert_refused(invoke(command, "missing.toml"), "missing.toml", "no such file")
+    assert_refused(invoke(command, "aquarum"), 'Did you mean "aquarium"?')
+    assert_refused(invoke(command, "folder"), "it is a folder")
+    assert_refused(invoke(command, "/dev/null"), "not a regular file")
+    assert_refused(invoke(command, "latin.toml"), "not UTF-8", AFTER_GOOD)
+    assert_refused(invoke(command, "wide.toml"), "not UTF-8")
+    # Python up to 3.13 says that the name is too long, later ones that there is no such file.
+    assert_refused(invoke(command, "n" * 300), "n" * 100)
+    assert_refused(invoke(command, "latin.toml/scene.toml"), "no such file")
+    assert {path.name for path in tmp_path.iterdir()} == {"folder", "latin.toml", "wide.toml"}
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="the superuser may read anything")
+def test_a_file_without_permission() -> None:
+    Path("scene.toml").write_text(GOOD, encoding="utf-8")
+    Path("scene.toml").chmod(0)
+    assert_refused(invoke("check", "scene.toml"), "Permission denied")
+
+
+@pytest.mark.parametrize("override", ["tank.length", "body.7.start=1", "tank.length=[", "tank.lenth=3"])
+def test_bad_overrides_give_one_clear_message(override: str) -> None:
+    assert_refused(invoke("check", "aquarium", "--set", override))
+
+
+def test_unwritable_output_is_refused_before_solving(tmp_path: Path) -> None:
+    Path("file").touch()
+    Path("mine").mkdir()
+    Path("mine", "thesis.tex").touch()
+    assert_refused(invoke("run", "aquarium", "--out", "file"), "not a folder")
+    assert_refused(invoke("run", "aquarium", "--out", "file/below"), "not a folder")
+    assert_refused(invoke("run", "aquarium", "--out", "mine"), "not a result folder")
+    assert_refused(invoke("run", "aquarium", "--out", "/proc/result"), "cannot be written")
+    assert_refused(invoke("run", "aquarium", "--out", "."), "current folder")
+    assert {path.name for path in tmp_path.iterdir()} == {"file", "mine"}
+
+
+@pytest.mark.parametrize("arguments", [["chek", "aquarium"], ["check"], ["run", "aquarium", "--fast"], ["list", "x"]])
+def test_usage_errors_exit_with_2(arguments: list[str]) -> None:
+    result = invoke(*arguments)
+    assert result.exit_code == 2
+    assert result.stdout == ""
+    assert "Error" in result.stderr
+
+
+@pytest.mark.parametrize("command", [[], ["run"], ["compare"], ["check"], ["list"]])
+def test_help_has_an_example(command: list[str]) -> None:
+    result = invoke(*command, "--help")
+    assert result.exit_code == 0
+    assert "Example:\n" in result.stdout
+    assert "hydroelastic " in result.stdout
+
+
+def test_list_and_check_and_version_print_to_the_output() -> None:
+    listed = invoke("list")
+    assert listed.exit_code == 0
+    assert "nearly_covered" in listed.stdout
+    checked = invoke("check", "aquarium", "--set", "body.0.start=2.5")
+    assert checked.exit_code == 0
+    assert "2.5" in checked.stdout
+    assert checked.stderr == ""
+    version = invoke("--version")
+    assert version.exit_code == 0
+    assert version.stdout.startswith("hydroelastic")
+
+
+def solver_that(behaves: Any) -> types.ModuleType:
+    module = types.ModuleType("hydroelastic.scenes.run")
+    module.run_scene = behaves  # type: ignore[attr-defined]
+    return module
+
+
+@pytest.mark.parametrize(("status", "code"), [("ok", 0), ("unconverged", 3)])
+def test_the_exit_code_tells_whether_the_tolerance_was_met(
+    monkeypatch: pytest.MonkeyPatch, status: str, code: int
+) -> None:
+    asked: dict[str, Any] = {}
+
+    def run_scene(scene: Any, **settings: Any) -> Any:
+        asked.update(settings)
+        return types.SimpleNamespace(status=status, table=lambda: "the table", warnings=("none",), reasons=("why",))
+
+    monkeypatch.setitem(sys.modules, "hydroelastic.scenes.run", solver_that(run_scene))
+    result = invoke("run", "aquarium")
+    assert result.exit_code == code
+    assert result.stdout == "the table\n"
+    assert (asked["images"], asked["out"]) == (True, Path("results/aquarium"))
+    quiet = invoke("run", "aquarium", "--quiet", "--no-images", "--out", "elsewhere")
+    assert (quiet.exit_code, quiet.stdout) == (code, "")
+    assert (asked["images"], asked["out"]) == (False, Path("elsewhere"))
+
+
+def test_an_interrupt_is_one_line_and_130(monkeypatch: pytest.MonkeyPatch) -> None:
+    def run_scene(scene: Any, **settings: Any) -> Any:
+        raise KeyboardInterrupt
+
+    monkeypatch.setitem(sys.modules, "hydroelastic.scenes.run", solver_that(run_scene))
+    result = invoke("run", "aquarium")
+    assert result.exit_code == 130
+    assert result.stdout == ""
+    assert len(result.stderr.strip().splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    ("arguments", "needed"),
+    [
+        # A check meshes the scene to say how large it is, and finds its shortest wave with SciPy.
+        (["check", "aquarium"], {"gmsh", "scipy"}),
+        (["list"], set()),
+        (["--help"], set()),
+        (["run", "missing.toml"], set()),
+    ],
+)
+def test_nothing_heavy_is_imported(arguments: list[str], needed: set[str]) -> None:
+    program = (
+        "import sys\n"
+        "from hydroelastic.scenes.command_line import main\n"
+        f"try: main({arguments!r})\n"
+        "except SystemExit: pass\n"
+        f"heavy = {HEAVY - needed!r}\n"
+        "sys.exit(9 if heavy & sys.modules.keys() else 0)\n"
+    )
+    finished = subprocess.run([sys.executable, "-c", program], capture_output=True, check=False, timeout=30)
+    assert finished.returncode == 0, finished.stderr
+
+
+def test_the_real_command_keeps_streams_and_exit_codes_apart() -> None:
+    bad = process("check", "missing.toml")
+    assert (bad.returncode, bad.stdout) == (2, "")
+    assert bad.stderr.count("\n") == 1
+    good = process("check", "aquarium")
+    assert (good.returncode, good.stderr) == (0, "")
+
+
+def test_a_terminal_without_greek_letters_gets_question_marks() -> None:
+    result = process("check", "aquarium", PYTHONIOENCODING="ascii", PYTHONUTF8="0")
+    assert result.returncode == 0, result.stderr
+    assert "?" in result.stdout
+
+
+@pytest.mark.parametrize("variable", ["OMPI_COMM_WORLD_RANK", "PMI_RANK"])
+def test_only_the_first_rank_prints(variable: str) -> None:
+    assert process("list", **{variable: "0"}).stdout != ""
+    silent = process("check", "missing.toml", **{variable: "1"})
+    assert (silent.returncode, silent.stdout, silent.stderr) == (2, "", "")
+    assert process("list", **{variable: "1"}).stdout == ""

@@ -1,0 +1,72 @@
+"""First elastic tones of beams that are unlike, and scenes at the ends of what is allowed."""
+
+import itertools
+
+import pytest
+
+from hydroelastic.scenes.estimates import floating_beam
+from hydroelastic.scenes.models import MASS_GROUP, STIFFNESS_GROUP, Accuracy, Beam, Liquid, Tank, TankScene
+from hydroelastic.scenes.plan import initial_resolution
+from hydroelastic.scenes.solve import TankSolution, solve_scene
+
+LONG = Beam(start=1.0, length=4.0, flexural_rigidity=5e3, mass_per_length=50.0, hydrostatic=False)
+SHORT = Beam(start=12.0, length=0.5, flexural_rigidity=5e3, mass_per_length=50.0, hydrostatic=False)
+
+
+def tank(*beams: Beam, length: float = 20.0) -> TankScene:
+    return TankScene(
+        tank=Tank(length=length),
+        liquid=(Liquid(density=1000.0, depth=5.0),),
+        body=beams,
+        accuracy=Accuracy(tolerance=1e-5, modes=6),
+    )
+
+
+@pytest.fixture(scope="module")
+def unlike() -> TankSolution:
+    return solve_scene(tank(LONG, SHORT))
+
+
+def test_each_beam_keeps_the_tone_it_has_alone(unlike: TankSolution) -> None:
+    assert not unlike.reasons
+    for beam, tone in zip((LONG, SHORT), unlike.tones, strict=True):
+        alone = solve_scene(tank(beam)).tones[0].pressure_release
+        assert alone is not None
+        # Another beam 7 m away is felt by the liquid's displacement, a part of (l/distance)² of the added mass.
+        assert tone.pressure_release == pytest.approx(alone, rel=2e-2)
+
+
+def test_a_tone_out_of_reach_does_not_hide_one_within(unlike: TankSolution) -> None:
+    long, short = unlike.tones
+    assert long.tone is not None
+    assert long.tone.participation > 0.1
+    assert short.tone is None
+    assert "not searched for" in short.reason
+
+
+def test_tones_follow_their_beams_when_the_scene_lists_them_otherwise(unlike: TankSolution) -> None:
+    swapped = solve_scene(tank(SHORT, LONG))
+    for one, other in zip(unlike.tones, reversed(swapped.tones), strict=True):
+        assert one.pressure_release == pytest.approx(other.pressure_release, rel=1e-5)
+        assert (one.tone is None) == (other.tone is None)
+
+
+@pytest.mark.parametrize(
+    ("rigidity", "mass", "hydrostatic"), itertools.product(STIFFNESS_GROUP, MASS_GROUP, (False, True))
+)
+def test_a_mesh_can_be_planned_at_the_ends_of_the_ranges(rigidity: float, mass: float, hydrostatic: bool) -> None:
+    beam = Beam(
+        start=3.0,
+        length=4.0,
+        flexural_rigidity=1.01 ** (1 if rigidity < 1 else -1) * rigidity * 1000.0 * 9.81 * 4.0**4,
+        mass_per_length=1.01 ** (1 if mass < 1 else -1) * mass * 1000.0 * 4.0,
+        hydrostatic=hydrostatic,
+    )
+    assert min(initial_resolution(tank(beam, length=10.0), modes=6).surface_sizes) > 0.0
+
+
+@pytest.mark.parametrize("beyond", [-0.5e-9, 0.0, 0.5e-9])
+def test_an_end_within_rounding_of_the_wall_lies_on_it_for_the_estimates_too(beyond: float) -> None:
+    beam = LONG.model_copy(update={"start": 6.0 + 10.0 * beyond})
+    given = floating_beam(tank(beam, length=10.0))
+    assert given.right_gap == 0.0

@@ -1,0 +1,69 @@
+"""Regenerate results/shipped: tables and pictures of every shipped scene, and two studies.
+
+    ./hydro python results/regenerate.py [SCENE ...]
+
+Each scene keeps its tables, the sheet of all its modes and the picture of its first elastic tone; fields stay out, they
+are large and one command away. Studies of error against cost are made of the scenes in `STUDIED`.
+"""
+
+from __future__ import annotations
+
+import shutil
+import sys
+import tempfile
+from pathlib import Path
+
+from PIL import Image
+
+from hydroelastic.scenes.read import read_scene, shipped_scenes
+from hydroelastic.scenes.run import run_scene
+from hydroelastic.scenes.study import study_scene
+from hydroelastic.scenes.study_report import write_study
+
+SHIPPED = Path(__file__).parent / "shipped"
+STUDIED = ("aquarium", "sloshing")
+SHOWN_WIDTH = 1000
+TABLES = ("summary.json", "summary.md", "modes.csv")
+
+
+def regenerate(name: str) -> str:
+    """Run one scene and keep the small part of its results.
+
+    Returns:
+        The status of the run.
+    """
+    with tempfile.TemporaryDirectory() as scratch:
+        outcome = run_scene(read_scene(name), out=Path(scratch) / name)
+        assert outcome.folder is not None
+        kept = SHIPPED / name
+        shutil.rmtree(kept, ignore_errors=True)
+        kept.mkdir(parents=True)
+        for table in TABLES:
+            shutil.copy(outcome.folder / table, kept)
+        _keep_picture(outcome.folder / "images" / "overview.png", kept / "overview.png")
+        tone = outcome.summary["first_elastic"]
+        if tone is not None and tone["index"] is not None and tone["index"] <= len(outcome.summary["modes"]):
+            _keep_picture(outcome.folder / "images" / f"mode_{tone['index']:03d}.png", kept / "first_elastic.png")
+    if name in STUDIED:
+        with tempfile.TemporaryDirectory() as scratch:
+            write_study(study_scene(read_scene(name)), Path(scratch) / name)
+            for file in ("study.csv", "study.txt", "study.png"):
+                shutil.copy(Path(scratch) / name / file, kept)
+    return outcome.status
+
+
+def _keep_picture(source: Path, target: Path) -> None:
+    """Store a picture at the width that pages show it."""
+    with Image.open(source) as picture:
+        height = round(picture.height * SHOWN_WIDTH / picture.width)
+        picture.convert("RGB").resize((SHOWN_WIDTH, height), Image.Resampling.LANCZOS).save(target, optimize=True)
+
+
+def main() -> None:
+    """Regenerate the scenes named on the command line, or all."""
+    for name in sys.argv[1:] or [scene.name for scene in shipped_scenes()]:
+        print(f"{name}: {regenerate(name)}", flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,61 @@
+"""The shipped results are those of the shipped scenes as they stand."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from hydroelastic.scenes.read import read_scene, shipped_scenes
+from hydroelastic.scenes.run import solved_scene
+from hydroelastic.scenes.tables import markdown, mode_csv
+
+SHIPPED = Path(__file__).parent.parent / "results" / "shipped"
+NAMES = [scene.name for scene in shipped_scenes()]
+
+
+def test_every_shipped_scene_has_its_results_and_no_other() -> None:
+    assert sorted(path.name for path in SHIPPED.iterdir()) == sorted(NAMES)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_results_are_true(name: str) -> None:
+    stored = json.loads((SHIPPED / name / "summary.json").read_text(encoding="utf-8"))
+    scene = read_scene(name)
+    assert stored["scene"] == scene.model_dump(mode="json")
+    assert stored["status"] == "ok"
+    _, summary = solved_scene(scene)
+    for old, new in zip(stored["modes"], summary["modes"], strict=True):
+        # Both carry an estimated error; gmsh of another version may mesh otherwise.
+        allowed = old["relative_error"] + new["relative_error"]
+        assert old["omega"] == pytest.approx(new["omega"], rel=allowed)
+        assert old["kind"] == new["kind"]
+    assert stored["zero_modes"] == summary["zero_modes"]
+    for old, new in zip(stored["first_elastic_by_body"], summary["first_elastic_by_body"], strict=True):
+        assert old["index"] == new["index"]
+        for value, error in (
+            ("omega", "relative_error"),
+            ("added_mass_per_length", "added_mass_relative_error"),
+            ("pressure_release_omega", "pressure_release_relative_error"),
+        ):
+            if old[value] is not None:
+                assert old[value] == pytest.approx(new[value], rel=old[error] + new[error])
+    for method, old in stored["estimates"].items():
+        new = summary["estimates"][method]
+        assert (old["omega"] is None) == (new["omega"] is None)
+        if old["omega"] is not None:
+            # Closed forms and dense solutions: rounding alone may differ.
+            assert old["omega"] == pytest.approx(new["omega"], rel=1e-8)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_tables_tell_what_the_summary_holds(name: str) -> None:
+    stored = json.loads((SHIPPED / name / "summary.json").read_text(encoding="utf-8"))
+    assert (SHIPPED / name / "modes.csv").read_text(encoding="utf-8") == mode_csv(stored)
+    assert (SHIPPED / name / "summary.md").read_text(encoding="utf-8") == markdown(stored)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_tables_and_pictures_are_there(name: str) -> None:
+    files = {path.name for path in (SHIPPED / name).iterdir()}
+    assert {"summary.json", "summary.md", "modes.csv", "overview.png"} <= files
+    assert all((SHIPPED / name / file).stat().st_size > 100 for file in files)

@@ -40,9 +40,6 @@ def reference_rounding(name: str) -> np.ndarray:
     return 10.0 ** (1.0 - np.array(CASES[name]["omega_digits"]))
 
 
-# --- against exact references
-
-
 @ALL
 def test_the_lowest_modes_keep_the_tolerance_asked(tanks: Any, name: str) -> None:
     solution = tanks.solve(tanks.case_scene(name))

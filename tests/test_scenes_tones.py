@@ -52,7 +52,7 @@ def test_tones_follow_their_beams_when_the_scene_lists_them_otherwise(unlike: Ta
 
 
 @pytest.mark.parametrize(
-    ("rigidity", "mass", "hydrostatic"), itertools.product(STIFFNESS_GROUP, MASS_GROUP, (False, True))
+    ("rigidity", "mass", "hydrostatic"), list(itertools.product(STIFFNESS_GROUP, MASS_GROUP, (False, True)))
 )
 def test_a_mesh_can_be_planned_at_the_ends_of_the_ranges(rigidity: float, mass: float, hydrostatic: bool) -> None:
     beam = Beam(

@@ -5,17 +5,23 @@ from __future__ import annotations
 import numpy as np
 from petsc4py import PETSc
 
+from hydroelastic.fem.direct import direct_solver
 from hydroelastic.fem.pencil import CoupledPencil
 
 
 def kinetic(pencil: CoupledPencil, displacement: PETSc.Vec, momentum: PETSc.Vec, potential: PETSc.Vec) -> None:
     """``momentum`` ← (M + ρ Cᵀ A⁺ C) ``displacement``; ``potential`` ← A⁺ C ``displacement``."""
+    _liquid_momentum(pencil, displacement, momentum, potential)
+    pencil.mass.multAdd(displacement, momentum, momentum)
+
+
+def _liquid_momentum(pencil: CoupledPencil, displacement: PETSc.Vec, momentum: PETSc.Vec, potential: PETSc.Vec) -> None:
+    """``momentum`` ← ρ Cᵀ A⁺ C ``displacement``; ``potential`` ← A⁺ C ``displacement``."""
     load = pencil.coupling.createVecLeft()
     pencil.coupling.mult(displacement, load)
     pencil.solver.solve(load, potential)
     pencil.coupling.multTranspose(potential, momentum)
     momentum.scale(pencil.density)
-    pencil.mass.multAdd(displacement, momentum, momentum)
 
 
 def body_added_mass(pencil: CoupledPencil) -> np.ndarray:
@@ -31,14 +37,11 @@ def body_added_mass(pencil: CoupledPencil) -> np.ndarray:
     size = pencil.body_size
     unit, momentum = pencil.stiffness.createVecs()
     potential = pencil.coupling.createVecLeft()
-    load = pencil.coupling.createVecLeft()
     rows = []
     for column in range(size):
         _set_unit(unit, column)
-        pencil.coupling.mult(unit, load)
-        pencil.solver.solve(load, potential)
-        pencil.coupling.multTranspose(potential, momentum)
-        rows.append(pencil.density * pencil.body_values(momentum))
+        _liquid_momentum(pencil, unit, momentum, potential)
+        rows.append(pencil.body_values(momentum))
     return np.array(rows).reshape(size, size)
 
 
@@ -63,15 +66,12 @@ class CondensedKinetics:
     def __init__(self, pencil: CoupledPencil) -> None:
         """Solve for the liquid's answer to each condensed motion (collective)."""
         self.pencil = pencil
-        self.free_rigid = np.flatnonzero(np.concatenate([b.stiffness for b in pencil.bodies] or [np.empty(0)]) == 0.0)
+        self.free_rigid = pencil.free_rigid
         self.definite_stiffness = _with_unit_diagonal(pencil.stiffness, self.free_rigid)
         self._closed = pencil.liquid.keeps_volume
         self._potential = pencil.coupling.createVecLeft()
         self._projected, self._momentum = pencil.stiffness.createVecs()
-        volume = pencil.body_values(pencil.volume)
-        # Pitch displaces no volume but for round-off: compare with the shape of unit size.
-        scale = np.abs(volume).max(initial=0.0)
-        self.rigid_displaces = bool(np.any(np.abs(volume[self.free_rigid]) > 1e-10 * scale))
+        self.rigid_displaces = pencil.rigid_displaces
         self._columns = self._condensed_columns()
         self._dense = self._dense_block()
         self._correction: PETSc.Vec | None = None
@@ -148,22 +148,6 @@ def set_entries(vector: PETSc.Vec, indices: np.ndarray, values: np.ndarray) -> N
     if vector.comm.rank == 0 and len(indices):
         vector.array[indices] = values
     vector.assemble()
-
-
-def direct_solver(matrix: PETSc.Mat) -> PETSc.KSP:
-    """Cholesky factorization of a symmetric positive definite matrix."""
-    matrix.setOption(PETSc.Mat.Option.SPD, True)
-    solver = PETSc.KSP().create(matrix.comm)
-    solver.setOperators(matrix)
-    configure_direct(solver)
-    return solver
-
-
-def configure_direct(solver: PETSc.KSP) -> None:
-    """Make a solver one application of a sparse Cholesky factorization."""
-    solver.setType("preonly")
-    solver.getPC().setType("cholesky")
-    solver.getPC().setFactorSolverType("mumps")
 
 
 def _with_unit_diagonal(matrix: PETSc.Mat, indices: np.ndarray) -> PETSc.Mat:

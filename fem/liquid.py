@@ -20,6 +20,7 @@ from dolfinx import fem
 from dolfinx.fem import petsc as fem_petsc
 from petsc4py import PETSc
 
+from hydroelastic.fem.direct import direct_solver
 from hydroelastic.meshes.distribute import TankMesh
 
 
@@ -115,13 +116,7 @@ class LiquidSolver:
         self.free = PETSc.IS().createGeneral((free + first).astype(PETSc.IntType), comm=matrix.comm)
         self._local_free = free
         block = matrix.createSubMatrix(self.free, self.free)
-        block.setOption(PETSc.Mat.Option.SPD, True)
-        self._solver = PETSc.KSP().create(matrix.comm)
-        self._solver.setOperators(block)
-        self._solver.setType("preonly")
-        preconditioner = self._solver.getPC()
-        preconditioner.setType("cholesky")
-        preconditioner.setFactorSolverType("mumps")
+        self._solver = direct_solver(block)
         self._solver.setUp()
         self._rhs, self._solution = block.createVecs()
         self._surface_load = surface_load

@@ -8,7 +8,8 @@ import numpy as np
 from petsc4py import PETSc
 from slepc4py import SLEPc
 
-from hydroelastic.fem.added_mass import CondensedKinetics, configure_direct
+from hydroelastic.fem.added_mass import CondensedKinetics
+from hydroelastic.fem.direct import configure_direct
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.meshes.interrupts import interrupts_deferred
 
@@ -113,7 +114,7 @@ def solve_modes(pencil: CoupledPencil, count: int, *, shapes: int | None = None,
         eigenvalues=eigenvalues,
         elastic_amplitudes=np.array(amplitudes).reshape(count, pencil.body_size),
         modes=tuple(modes),
-        zero_modes=zero_mode_count(pencil, kinetics),
+        zero_modes=pencil.zero_mode_count,
         converged=converged,
         iterations=solver.getIterationNumber(),
         solves=pencil.solver.solves - before,
@@ -133,12 +134,6 @@ def _krylov_schur(pencil: CoupledPencil, kinetics: CondensedKinetics, count: int
     configure_direct(solver.getST().getKSP())
     kinetics.definite_stiffness.setOption(PETSc.Mat.Option.SPD, True)
     return solver
-
-
-def zero_mode_count(pencil: CoupledPencil, kinetics: CondensedKinetics) -> int:
-    """Motions of zero stiffness that the liquid's volume allows: rigid bodies, less one if they displace volume."""
-    constrained = pencil.liquid.keeps_volume and kinetics.rigid_displaces
-    return len(kinetics.free_rigid) - int(constrained)
 
 
 def _complete(
@@ -196,7 +191,6 @@ def count_below(pencil: CoupledPencil, eigenvalue: float) -> int:
     Returns:
         The count, without zero modes (collective).
     """
-    kinetics = CondensedKinetics(pencil)
     block = pencil.stiffness.copy()
     block.axpy(-eigenvalue, pencil.mass, structure=PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN)
     factor = eigenvalue * pencil.density
@@ -226,4 +220,4 @@ def count_below(pencil: CoupledPencil, eigenvalue: float) -> int:
     negative, zero, _ = factored.getInertia()
     if zero:
         raise EigenSolverError(f"the shift {eigenvalue:g} is an eigenvalue to working precision")
-    return int(negative) - int(pencil.liquid.keeps_volume) - zero_mode_count(pencil, kinetics)
+    return int(negative) - int(pencil.liquid.keeps_volume) - pencil.zero_mode_count

@@ -65,6 +65,25 @@ class CoupledPencil:
         """Number of surface unknowns n."""
         return int(self.stiffness.getSize()[0])
 
+    @property
+    def free_rigid(self) -> np.ndarray:
+        """Indices of the body unknowns without stiffness: rigid motions that nothing restores."""
+        stiffness = np.concatenate([body.stiffness for body in self.bodies] or [np.empty(0)])
+        return np.flatnonzero(stiffness == 0.0)
+
+    @property
+    def rigid_displaces(self) -> bool:
+        """Whether one of them displaces volume (collective)."""
+        volume = np.abs(self.body_values(self.volume))
+        # Pitch displaces none but for round-off: compare with the largest.
+        return bool(np.any(volume[self.free_rigid] > 1e-10 * volume.max(initial=0.0)))
+
+    @property
+    def zero_mode_count(self) -> int:
+        """Motions of zero stiffness that the liquid's volume allows (collective)."""
+        constrained = self.liquid.keeps_volume and self.rigid_displaces
+        return len(self.free_rigid) - int(constrained)
+
     def body_values(self, vector: PETSc.Vec) -> np.ndarray:
         """The body unknowns of a surface vector, on every process."""
         comm = self.stiffness.comm.tompi4py()

@@ -8,9 +8,9 @@ from pathlib import Path
 import meshio
 import numpy as np
 
+from hydroelastic.meshes.formats import FORMATS
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 
-FORMATS = (".msh", ".vtu", ".xdmf")
 _TAG = "gmsh:physical"
 
 

@@ -11,6 +11,8 @@ from typing import Annotated, Literal, TypeAlias
 from pydantic import BaseModel, ConfigDict, Field, Strict, ValidationError, field_validator, model_validator
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
+from hydroelastic.meshes.formats import FORMATS
+
 SMALLEST, LARGEST = 1e-30, 1e30
 """Range of any positive quantity in SI: no product of a few of them overflows."""
 
@@ -29,8 +31,6 @@ STIFFNESS_GROUP = (1e-15, 1e15)
 
 MASS_GROUP = (1e-12, 1e12)
 """m/(ρ l): beyond this, the beam or the liquid is lost in the rounding of the other."""
-
-MESH_SUFFIXES = (".msh", ".vtu", ".xdmf")
 
 PositiveNumber: TypeAlias = Annotated[float, Strict(), Field(ge=SMALLEST, le=LARGEST)]
 
@@ -99,14 +99,14 @@ class MeshFile(SceneModel):
     """A mesh of the liquid made by the user instead of the built-in one."""
 
     file: Path = Field(
-        description=f"mesh file ({', '.join(MESH_SUFFIXES)}); a relative path starts at the folder of the scene"
+        description=f"mesh file ({', '.join(FORMATS)}); a relative path starts at the folder of the scene"
     )
 
     @field_validator("file")
     @classmethod
     def _known_format(cls, file: Path) -> Path:
-        if file.suffix.lower() not in MESH_SUFFIXES:
-            raise _problem("it is not a known mesh format", allowed=", ".join(f"*{s}" for s in MESH_SUFFIXES))
+        if file.suffix.lower() not in FORMATS:
+            raise _problem("it is not a known mesh format", allowed=", ".join(f"*{s}" for s in FORMATS))
         return file
 
 

@@ -123,12 +123,11 @@ def initial_resolution(scene: TankScene, *, modes: int, tones: tuple[float, ...]
     tolerance = scene.accuracy.tolerance
     # Measured on tanks with known modes: each degree gains a factor of 5 to 10 with rings of ratio 0.3.
     degree = min(max(ceil(-log10(tolerance)) + 1, 4), 9)
-    highest = squared_frequency_of_mode(tank.moving, tank.depth, modes)
     # Enough above each tone to hold its flank: the part in each mode falls off like a resonance curve.
     expected = [ceil(1.25 * modes_below(tank.moving, tank.depth, tone)) + 4 for tone in tones]
     reaches_tones = tuple(count <= MOST_MODES_TO_TONE for count in expected)
-    modes = max(modes, *(count for count in expected if count <= MOST_MODES_TO_TONE), 1)
-    highest = max(highest, squared_frequency_of_mode(tank.moving, tank.depth, modes))
+    modes = max([modes, *(count for count in expected if count <= MOST_MODES_TO_TONE)])
+    highest = squared_frequency_of_mode(tank.moving, tank.depth, modes)
     sizes, wavenumbers = [], {}
     for start, end, body in tank.pieces:
         piece = TopPiece(length=end - start, beam=None if body is None else tank.beams[body])

@@ -12,7 +12,8 @@ import meshio
 import numpy as np
 import pytest
 
-from hydroelastic.meshes.files import FORMATS, load_mesh, save_mesh
+from hydroelastic.meshes.files import load_mesh, save_mesh
+from hydroelastic.meshes.formats import FORMATS
 from hydroelastic.meshes.geometry import tank_geometry
 from hydroelastic.meshes.grading import Grading
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh

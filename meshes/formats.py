@@ -1,0 +1,3 @@
+"""Mesh file formats that can be read and written, by suffix; apart, so that a scene is validated without meshio."""
+
+FORMATS = (".msh", ".vtu", ".xdmf")

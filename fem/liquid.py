@@ -2,7 +2,7 @@
 
     ∫∇ψ·∇q = ∫ζ q        walls are natural boundaries
 
-A liquid without a surface of given pressure fixes ψ up to a constant and keeps its volume. One unknown is then
+A liquid on whose boundary ψ = 0 nowhere fixes ψ up to a constant and keeps its volume. One unknown is then
 grounded, which is exact for loads of zero total flux; loads and solutions are projected so that the solution operator
 
     A⁺ = Πᵀ A⁻¹ Π       is symmetric, with ∫ψ = 0 over the surface
@@ -32,13 +32,13 @@ class LiquidSpace:
         tank: the mesh.
         space: the function space of ψ.
         degree: polynomial degree.
-        pressure_release: names of the surfaces on which ψ = 0.
+        grounded: names of the surfaces on which ψ = 0: pressure release, or the mirror plane of antisymmetric modes.
     """
 
     tank: TankMesh
     space: fem.FunctionSpace
     degree: int
-    pressure_release: tuple[str, ...]
+    grounded: tuple[str, ...]
 
     @property
     def size(self) -> int:
@@ -48,7 +48,7 @@ class LiquidSpace:
     @property
     def keeps_volume(self) -> bool:
         """Whether ψ is fixed only up to a constant, so that ∫ζ = 0 over the liquid's surfaces."""
-        return not self.pressure_release
+        return not self.grounded
 
     def surface_dofs(self, names: tuple[str, ...]) -> np.ndarray:
         """Owned unknowns on the closure of named surfaces: sorted local indices."""
@@ -68,10 +68,40 @@ class LiquidSpace:
         )
 
 
-def liquid_space(tank: TankMesh, degree: int, pressure_release: tuple[str, ...] = ()) -> LiquidSpace:
+def liquid_space(tank: TankMesh, degree: int, grounded: tuple[str, ...] = ()) -> LiquidSpace:
     """Space of ψ of the given degree; its degree does not depend on the mesh's."""
     space = fem.functionspace(tank.mesh, ("Lagrange", degree))
-    return LiquidSpace(tank=tank, space=space, degree=degree, pressure_release=pressure_release)
+    return LiquidSpace(tank=tank, space=space, degree=degree, grounded=grounded)
+
+
+@dataclass(frozen=True, kw_only=True)
+class LiquidMatrices:
+    """Matrices on all unknowns of one space, the same whichever surface is grounded.
+
+    Attributes:
+        laplace: A = ∫∇ψ·∇q.
+        surface_mass: S = ∫ψ q over the free surface, or ``None`` without one.
+    """
+
+    laplace: PETSc.Mat
+    surface_mass: PETSc.Mat | None
+
+
+def liquid_matrices(liquid: LiquidSpace, free_surface: str | None) -> LiquidMatrices:
+    """Assemble what the problems on one space share (collective)."""
+    surface_mass = surface_mass_matrix(liquid, (free_surface,)) if free_surface is not None else None
+    return LiquidMatrices(laplace=laplace_matrix(liquid), surface_mass=surface_mass)
+
+
+def as_functions(liquid: LiquidSpace, potentials: list[PETSc.Vec]) -> list[fem.Function]:
+    """Potentials as dolfinx functions with their ghost values."""
+    functions = []
+    for potential in potentials:
+        function = fem.Function(liquid.space)
+        function.x.array[: potential.getLocalSize()] = potential.array_r
+        function.x.scatter_forward()
+        functions.append(function)
+    return functions
 
 
 def laplace_matrix(liquid: LiquidSpace) -> PETSc.Mat:
@@ -94,9 +124,9 @@ def surface_mass_matrix(liquid: LiquidSpace, names: tuple[str, ...]) -> PETSc.Ma
 
 
 def grounded_dofs(liquid: LiquidSpace) -> np.ndarray:
-    """Owned unknowns whose value is zero: a surface of given pressure, or one unknown of a closed liquid."""
-    if liquid.pressure_release:
-        return liquid.surface_dofs(liquid.pressure_release)
+    """Owned unknowns whose value is zero: those of the grounded surfaces, or one unknown of a closed liquid."""
+    if liquid.grounded:
+        return liquid.surface_dofs(liquid.grounded)
     return np.array([0] if liquid.tank.mesh.comm.rank == 0 else [], dtype=np.int32)
 
 
@@ -124,7 +154,7 @@ class LiquidSolver:
         self.solves = 0
 
     def unconstrained(self, matrix: PETSc.Mat) -> PETSc.IS:
-        """Unknowns that no surface of given pressure fixes: all of them in a liquid that keeps its volume."""
+        """Unknowns that no grounded surface fixes: all of them in a liquid that keeps its volume."""
         if self._surface_load is None:
             return self.free
         first, last = matrix.getOwnershipRange()

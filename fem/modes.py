@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -48,6 +49,8 @@ class ModeSet:
         elastic_amplitudes: body part of each mode at unit generalized mass, free rigid motions left out, shape
             (modes, body unknowns).
         modes: the lowest modes with their shapes.
+        completed: gives any other mode with its shape, by index, at the cost of one solution of Laplace's equation
+            (collective).
         zero_modes: how many motions without stiffness exist (not reported as modes).
         converged: eigenpairs that the solver delivered.
         iterations: restarts of the Krylov–Schur method.
@@ -57,6 +60,7 @@ class ModeSet:
     eigenvalues: np.ndarray
     elastic_amplitudes: np.ndarray
     modes: tuple[Mode, ...]
+    completed: Callable[[int], Mode]
     zero_modes: int
     converged: int
     iterations: int
@@ -101,19 +105,23 @@ def solve_modes(pencil: CoupledPencil, count: int, *, shapes: int | None = None,
     eigenvalues = 1.0 / inverses[order]
     wanted = count if shapes is None else min(shapes, count)
     displacement, force = pencil.stiffness.createVecs()
-    amplitudes, modes = [], []
+    displacements, amplitudes = [], []
     for place, number in enumerate(order):
         solver.getEigenvector(int(number), displacement)
         # Unit generalized mass: ζᵀ(M + M_a)ζ = ζᵀKζ/λ = 1. Motions without stiffness do not enter.
         pencil.stiffness.mult(displacement, force)
         displacement.scale(np.sqrt(eigenvalues[place] / displacement.dot(force)))
+        displacements.append(displacement.copy())
         amplitudes.append(pencil.body_values(displacement))
-        if place < wanted:
-            modes.append(_complete(pencil, kinetics, solver, float(eigenvalues[place]), displacement))
+
+    def completed(place: int) -> Mode:
+        return _complete(pencil, kinetics, solver, float(eigenvalues[place]), displacements[place])
+
     return ModeSet(
         eigenvalues=eigenvalues,
         elastic_amplitudes=np.array(amplitudes).reshape(count, pencil.body_size),
-        modes=tuple(modes),
+        modes=tuple(completed(place) for place in range(wanted)),
+        completed=completed,
         zero_modes=pencil.zero_mode_count,
         converged=converged,
         iterations=solver.getIterationNumber(),

@@ -11,19 +11,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import ufl
-from dolfinx import fem
-from dolfinx import la as dolfinx_la
 from petsc4py import PETSc
 
-from hydroelastic.fem.liquid import (
-    LiquidSolver,
-    LiquidSpace,
-    grounded_dofs,
-    laplace_matrix,
-    surface_mass_matrix,
-)
-from hydroelastic.fem.shape_loads import shape_loads
+from hydroelastic.fem.liquid import LiquidMatrices, LiquidSolver, LiquidSpace, grounded_dofs
+from hydroelastic.fem.shape_loads import shape_loads, surface_load
 from hydroelastic.fem.surfaces import Body, FreeSurface
 
 
@@ -92,12 +83,18 @@ class CoupledPencil:
 
 
 def build_pencil(
-    liquid: LiquidSpace, *, bodies: tuple[Body, ...], free_surface: FreeSurface | None, density: float
+    liquid: LiquidSpace,
+    matrices: LiquidMatrices,
+    *,
+    bodies: tuple[Body, ...],
+    free_surface: FreeSurface | None,
+    density: float,
 ) -> CoupledPencil:
     """Assemble the coupled problem.
 
     Args:
         liquid: space of the potential.
+        matrices: A and S on that space.
         bodies: what floats.
         free_surface: the gravity surface, or ``None`` when a lid, bodies or ψ = 0 take all of the top.
         density: ρ of the liquid.
@@ -105,7 +102,7 @@ def build_pencil(
     Returns:
         The matrices, with the liquid factorized (collective).
     """
-    laplace = laplace_matrix(liquid)
+    laplace = matrices.laplace
     blocks = [_body_coupling(liquid, bodies, laplace)] if bodies else []
     body_stiffness = np.concatenate([body.stiffness for body in bodies] or [np.empty(0)])
     body_mass = np.concatenate([body.mass for body in bodies] or [np.empty(0)])
@@ -116,7 +113,8 @@ def build_pencil(
         dofs = liquid.surface_dofs((free_surface.surface,)) + first
         on_surface = PETSc.IS().createGeneral(dofs.astype(PETSc.IntType), comm=laplace.comm)
         everything = PETSc.IS().createStride(laplace.getLocalSize()[0], first=first, step=1, comm=laplace.comm)
-        surface_mass = surface_mass_matrix(liquid, (free_surface.surface,))
+        surface_mass = matrices.surface_mass
+        assert surface_mass is not None
         blocks.append(surface_mass.createSubMatrix(everything, on_surface))
         gravity_stiffness = surface_mass.createSubMatrix(on_surface, on_surface)
         gravity_stiffness.scale(density * free_surface.gravity)
@@ -127,7 +125,7 @@ def build_pencil(
     ones.set(1.0)
     volume = coupling.createVecRight()
     coupling.multTranspose(ones, volume)
-    surface_load = _surface_load(liquid, bodies, free_surface) if liquid.keeps_volume else None
+    moving = _moving_surface_load(liquid, bodies, free_surface, laplace) if liquid.keeps_volume else None
     return CoupledPencil(
         liquid=liquid,
         bodies=bodies,
@@ -137,7 +135,7 @@ def build_pencil(
         mass=_joined(_block_diagonal(mass_blocks)),
         coupling=coupling,
         laplace=laplace,
-        solver=LiquidSolver(laplace, grounded_dofs(liquid), surface_load),
+        solver=LiquidSolver(laplace, grounded_dofs(liquid), moving),
         volume=volume,
     )
 
@@ -165,17 +163,13 @@ def _body_coupling(liquid: LiquidSpace, bodies: tuple[Body, ...], laplace: PETSc
     return matrix
 
 
-def _surface_load(liquid: LiquidSpace, bodies: tuple[Body, ...], free_surface: FreeSurface | None) -> PETSc.Vec:
+def _moving_surface_load(
+    liquid: LiquidSpace, bodies: tuple[Body, ...], free_surface: FreeSurface | None, laplace: PETSc.Mat
+) -> PETSc.Vec:
     """∫q over all moving surfaces."""
     names = [body.surface for body in bodies] + ([free_surface.surface] if free_surface else [])
-    test = ufl.TestFunction(liquid.space)
-    tags = tuple(liquid.tank.facet_names[name] for name in names)
-    one = fem.Constant(liquid.tank.mesh, 1.0)
-    vector = fem.assemble_vector(fem.form(ufl.inner(one, test) * liquid.measure(liquid.degree)(tags)))
-    vector.scatter_reverse(dolfinx_la.InsertMode.add)
-    index_map = liquid.space.dofmap.index_map
-    load = PETSc.Vec().createMPI((index_map.size_local, index_map.size_global), comm=liquid.tank.mesh.comm)
-    load.array[:] = vector.array[: index_map.size_local]
+    load = laplace.createVecRight()
+    load.array[:] = surface_load(liquid, tuple(names))
     return load
 
 

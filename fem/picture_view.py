@@ -147,8 +147,13 @@ def colour_limit(picture: ModePicture) -> float:
 
 
 def iso_levels(limit: float) -> Array:
-    """Round levels of ψ between −limit and limit, six to twelve on each side."""
-    return round_ticks(-limit, limit, 24)
+    """Round levels of ψ between −limit and limit, six to twelve on each side.
+
+    The level 0 is a hair above it: on the mirror plane of an antisymmetric mode ψ is 0 at whole edges of triangles,
+    where a line has no course.
+    """
+    levels = round_ticks(-limit, limit, 24)
+    return levels + np.where(levels == 0.0, 1e-6 * limit, 0.0)
 
 
 def round_ticks(low: float, high: float, count: int) -> Array:

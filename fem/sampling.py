@@ -8,7 +8,6 @@ import numpy as np
 from dolfinx import fem
 from mpi4py import MPI
 from numpy.typing import NDArray
-from petsc4py import PETSc
 
 from hydroelastic.fem.facets import facet_groups
 from hydroelastic.fem.liquid import LiquidSpace
@@ -43,17 +42,6 @@ class SurfaceTrace:
 
     x: NDArray[np.float64]
     potential: NDArray[np.float64]
-
-
-def as_functions(liquid: LiquidSpace, potentials: list[PETSc.Vec]) -> list[fem.Function]:
-    """Potentials as dolfinx functions with their ghost values."""
-    functions = []
-    for potential in potentials:
-        function = fem.Function(liquid.space)
-        function.x.array[: potential.getLocalSize()] = potential.array_r
-        function.x.scatter_forward()
-        functions.append(function)
-    return functions
 
 
 def sample_liquid(liquid: LiquidSpace, functions: list[fem.Function]) -> LiquidSample | None:

@@ -1,4 +1,4 @@
-"""Loads ∫φᵢ q of a body's shapes on the potential, by quadrature on the facets of its wetted surface.
+"""Loads ∫φᵢ q of a body's shapes, and ∫q, on the potential, by quadrature on the facets of a surface.
 
 The shapes are given as functions, not in the potential's space: high dry modes oscillate within an element, and a load
 that is not integrated exactly costs the Ritz property that eigenvalues come from above. The number of points therefore
@@ -38,14 +38,44 @@ def shape_loads(liquid: LiquidSpace, body: Body) -> np.ndarray:
     return _summed_over_processes(liquid, loads)
 
 
+def surface_load(liquid: LiquidSpace, names: tuple[str, ...]) -> np.ndarray:
+    """Integrate every basis function of ψ over named surfaces.
+
+    Returns:
+        ∫q, owned entries (collective).
+    """
+    index_map = liquid.space.dofmap.index_map
+    load = np.zeros((1, index_map.size_local + index_map.num_ghosts))
+    for name in names:
+        for group in facet_groups(liquid, name):
+            local, weights = basix.make_quadrature(group.facet_type, liquid.degree)
+            basis = _basis(liquid, group.reference_points(local))
+            dofs = liquid.space.dofmap.list[group.cells]
+            np.add.at(load[0], dofs, _measure_ratio(group.edges())[:, None] * (weights @ basis))
+    total: np.ndarray = _summed_over_processes(liquid, load)[0]
+    return total
+
+
+def _measure_ratio(edges: np.ndarray) -> np.ndarray:
+    """Measure of each facet over that of the reference facet."""
+    ratio: np.ndarray = np.sqrt(np.linalg.det(np.einsum("fid,fjd->fij", edges, edges)))
+    return ratio
+
+
+def _basis(liquid: LiquidSpace, reference: np.ndarray) -> np.ndarray:
+    """Basis functions of ψ at points of the reference cell, shape (points, functions)."""
+    table: np.ndarray = liquid.space.element.basix_element.tabulate(0, reference)[0, :, :, 0]
+    return table
+
+
 def _add_loads(liquid: LiquidSpace, body: Body, group: FacetGroup, loads: np.ndarray) -> None:
     edges = group.edges()
-    scale = np.sqrt(np.linalg.det(np.einsum("fid,fjd->fij", edges, edges)))
+    scale = _measure_ratio(edges)
     radians = body.wavenumber * np.linalg.norm(edges, axis=2).max(initial=0.0)
     count = ceil(0.5 * liquid.degree + 0.5 * radians) + _SPARE_POINTS
     local, weights = basix.make_quadrature(group.facet_type, 2 * count - 1)
     reference = group.reference_points(local)
-    basis = liquid.space.element.basix_element.tabulate(0, reference)[0, :, :, 0]
+    basis = _basis(liquid, reference)
     points = group.physical_points(reference).reshape(-1, edges.shape[2])
     # dolfinx hands three coordinates to functions of a point, whatever the dimension.
     padded = np.zeros((3, len(points)))

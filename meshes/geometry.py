@@ -10,6 +10,7 @@ LID = "lid"
 BOTTOM = "bottom"
 LEFT_WALL = "left_wall"
 RIGHT_WALL = "right_wall"
+SYMMETRY_PLANE = "symmetry_plane"
 
 
 def body_name(number: int) -> str:
@@ -30,6 +31,12 @@ class SurfaceSegment:
 class TankGeometry:
     """Rectangle ``0 < x < length``, ``-depth < y < 0``; its top is covered by segments from left to right.
 
+    Attributes:
+        length: of the rectangle.
+        depth: of the rectangle.
+        segments: the top.
+        mirrored: whether x = length is not a wall but the plane about which the tank goes on as its mirror image.
+
     Raises:
         ValueError: if the segments do not cover the top, one after the other, without gap or overlap.
     """
@@ -37,6 +44,7 @@ class TankGeometry:
     length: float
     depth: float
     segments: tuple[SurfaceSegment, ...]
+    mirrored: bool = False
 
     def __post_init__(self) -> None:
         """Refuse gaps and overlaps."""
@@ -46,17 +54,25 @@ class TankGeometry:
             raise ValueError("the surface segments must cover the tank's top from 0 to its length, in order")
 
     @property
+    def right_end(self) -> str:
+        """Physical name of the boundary x = length."""
+        return SYMMETRY_PLANE if self.mirrored else RIGHT_WALL
+
+    @property
     def tips(self) -> tuple[float, ...]:
         """Abscissae of the ends of bodies, where ψ is singular: every joint of two segments, and bodies at a wall."""
         joints = [segment.end for segment in self.segments[:-1]]
         if self.segments[0].name not in (FREE_SURFACE, LID):
             joints.insert(0, 0.0)
-        if self.segments[-1].name not in (FREE_SURFACE, LID):
+        # A body goes on beyond a plane of symmetry: it has no end there.
+        if not self.mirrored and self.segments[-1].name not in (FREE_SURFACE, LID):
             joints.append(self.length)
         return tuple(joints)
 
 
-def tank_geometry(*, length: float, depth: float, pieces: tuple[tuple[float, float, str], ...]) -> TankGeometry:
+def tank_geometry(
+    *, length: float, depth: float, pieces: tuple[tuple[float, float, str], ...], mirrored: bool = False
+) -> TankGeometry:
     """Geometry of a tank from ``(start, end, name)`` of the pieces of its top, from left to right."""
     segments = tuple(SurfaceSegment(name=name, start=start, end=end) for start, end, name in pieces)
-    return TankGeometry(length=length, depth=depth, segments=segments)
+    return TankGeometry(length=length, depth=depth, segments=segments, mirrored=mirrored)

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 import gmsh
 import numpy as np
 
-from hydroelastic.meshes.geometry import BOTTOM, LEFT_WALL, LIQUID, RIGHT_WALL, TankGeometry
+from hydroelastic.meshes.geometry import BOTTOM, LEFT_WALL, LIQUID, TankGeometry
 from hydroelastic.meshes.grading import Grading, SizeField, TipRings, tip_rings
 from hydroelastic.meshes.interrupts import interrupts_deferred
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
@@ -34,7 +34,7 @@ def _gmsh_model() -> Iterator[None]:
 def build_tank_mesh(geometry: TankGeometry, grading: Grading) -> TaggedMesh:
     """Triangulate a tank.
 
-    The groups are `LIQUID` for the cells; `BOTTOM`, `LEFT_WALL`, `RIGHT_WALL` and the names of the
+    The groups are `LIQUID` for the cells; `BOTTOM`, `LEFT_WALL`, `TankGeometry.right_end` and the names of the
     geometry's segments for the edges. Every joint of two segments is a node.
 
     Args:
@@ -48,7 +48,7 @@ def build_tank_mesh(geometry: TankGeometry, grading: Grading) -> TaggedMesh:
         MeshError: if gmsh fails.
     """
     rings = tip_rings(geometry, grading)
-    names = [BOTTOM, LEFT_WALL, RIGHT_WALL, *dict.fromkeys(segment.name for segment in geometry.segments)]
+    names = [BOTTOM, LEFT_WALL, geometry.right_end, *dict.fromkeys(segment.name for segment in geometry.segments)]
     facet_names = {name: tag for tag, name in enumerate(names, start=1)}
     with _gmsh_model():
         try:
@@ -106,7 +106,11 @@ def _fill(
         if last:
             end = dip[-1]
     bottom_left, bottom_right = _point(0.0, -geometry.depth), _point(geometry.length, -geometry.depth)
-    lines += [(RIGHT_WALL, end, bottom_right), (BOTTOM, bottom_right, bottom_left), (LEFT_WALL, bottom_left, top[0])]
+    lines += [
+        (geometry.right_end, end, bottom_right),
+        (BOTTOM, bottom_right, bottom_left),
+        (LEFT_WALL, bottom_left, top[0]),
+    ]
 
     named = {(a, b): name for name, a, b in lines}
     loop_points = [*top, bottom_right, bottom_left]
@@ -178,6 +182,6 @@ def _ring_edges(
 def _name_at(geometry: TankGeometry, centre: float, x: float, y: float) -> str:
     """Group of the boundary ray from a tip to the point (x, y)."""
     if y < 0.0:
-        return LEFT_WALL if centre == 0.0 else RIGHT_WALL
+        return LEFT_WALL if centre == 0.0 else geometry.right_end
     middle = 0.5 * (centre + x)
     return next(segment.name for segment in geometry.segments if segment.start < middle < segment.end)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from typing import Any
 
 from rich.console import Console
 from rich.table import Table
@@ -12,8 +11,9 @@ from rich.text import Text
 
 from hydroelastic.modal.dry_modes import free_free_roots
 from hydroelastic.scenes.estimates import expected_tones
-from hydroelastic.scenes.models import ROUND_OFF, Beam, Segment, TankScene, top_segments
+from hydroelastic.scenes.models import Beam, Segment, TankScene, top_segments
 from hydroelastic.scenes.plan import initial_resolution, scaled_tank
+from hydroelastic.scenes.symmetry import is_mirror_image
 
 SURFACE_NAMES = {"free": "free surface", "rigid": "rigid lid", "pressure_release": "pressure release"}
 SURFACE_CONDITIONS = {
@@ -143,7 +143,7 @@ def hints(scene: TankScene) -> tuple[str, ...]:
 
 
 def _symmetry(scene: TankScene) -> Iterator[str]:
-    if _is_symmetric(scene):
+    if is_mirror_image(scaled_tank(scene)):
         yield "The scene is its own mirror image: modes are either symmetric or antisymmetric about the middle."
 
 
@@ -249,18 +249,3 @@ def _bending_stiffness(beam: Beam) -> float:
 def _first_wavenumber(beam: Beam) -> float:
     """Return κ₁ l. Guided ends, cos(nπx/L): π; free ends: 4.73."""
     return math.pi if beam.ends == "guided" else float(free_free_roots(1)[0])
-
-
-def _is_symmetric(scene: TankScene) -> bool:
-    negligible = ROUND_OFF * scene.tank.length
-    ordered = sorted(scene.body, key=lambda beam: beam.start)
-    return all(
-        abs(beam.start - (scene.tank.length - mirrored.end)) <= negligible
-        and abs(beam.length - mirrored.length) <= negligible
-        and _material(beam) == _material(mirrored)
-        for beam, mirrored in zip(ordered, reversed(ordered), strict=True)
-    )
-
-
-def _material(beam: Beam) -> dict[str, Any]:
-    return beam.model_dump(exclude={"start", "length"})

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import ceil, log10, pi
+from math import ceil, e, log10, pi
 
 from hydroelastic.scenes.models import Beam, TankScene, top_segments
 from hydroelastic.scenes.scaling import scaled_beam, scales
@@ -13,6 +13,12 @@ HIGHEST_DEGREE = 10
 MOST_SHAPES = 400
 # Below this the coordinates of a ring's nodes keep fewer than three digits of their distance from the tip.
 SMALLEST_TIP = 1e-13
+# Dry modes beyond the shortest wave, in units of its half waves and of tolerance^(-1/7).
+_TAIL = 0.4
+# κ₁ l of the first elastic dry mode.
+_FIRST_ROOT = 4.73
+# Below the pressure-release tone of a beam lie at most its rigid motions, and with several beams modes of softer ones.
+_COMPANION_MODES = 6
 # More modes than this below the first elastic tone are not searched: the tone has then no individual meaning.
 MOST_MODES_TO_TONE = 200
 
@@ -89,68 +95,115 @@ class Resolution:
     reaches_tones: tuple[bool, ...]
     widened: bool = False
 
-    def coarser(self) -> Resolution:
-        """The comparison solution: one degree less and a fifth fewer dry modes, on the same mesh."""
+    def with_degree(self, more: int) -> Resolution:
+        """A higher degree on the same mesh."""
+        return replace(self, degree=min(self.degree + more, HIGHEST_DEGREE))
+
+    def with_smaller_elements(self) -> Resolution:
+        """A finer mesh."""
         return replace(
             self,
-            degree=self.degree - 1,
-            shapes=tuple(max(count - max(2, count // 5), min(count, 4)) for count in self.shapes),
+            surface_sizes=tuple(0.6 * size for size in self.surface_sizes),
+            bulk_size=0.6 * self.bulk_size,
         )
 
-    def finer(self) -> Resolution | None:
-        """The next attempt: two degrees and half as many dry modes more, then smaller elements; ``None`` at the end."""
-        shapes = tuple(min(MOST_SHAPES, ceil(1.5 * count)) for count in self.shapes)
-        if self.degree < HIGHEST_DEGREE:
-            return replace(self, degree=min(self.degree + 2, HIGHEST_DEGREE), shapes=shapes)
-        if shapes == self.shapes and min(self.surface_sizes) < 1e-3 * self.bulk_size:
-            return None
-        return replace(
-            self,
-            surface_sizes=tuple(0.5 * size for size in self.surface_sizes),
-            bulk_size=0.5 * self.bulk_size,
-            tip_size=None if self.tip_size is None else max(1e-2 * self.tip_size, SMALLEST_TIP),
-            shapes=shapes,
-        )
+    def with_tips(self, factor: float) -> Resolution:
+        """Smaller rings around the tips."""
+        if self.tip_size is None:
+            return self
+        return replace(self, tip_size=max(factor * self.tip_size, SMALLEST_TIP))
+
+    def with_shapes(self, factor: float) -> Resolution:
+        """More dry modes."""
+        return replace(self, shapes=tuple(min(MOST_SHAPES, ceil(factor * count)) for count in self.shapes))
+
+
+def rounding_error(degree: int, depth: float) -> float:
+    """What double precision leaves of a frequency, relative; measured on tanks with known modes.
+
+    It grows with the condition of the Laplace matrix: about like the fifth power of the degree, and in thin layers,
+    where long waves hold little energy in each cell, like (L/H)^{3/2}.
+    """
+    return 3e-13 * (degree / 4.0) ** 5 * max(1.0, 0.1 / depth) ** 1.5
 
 
 def initial_resolution(scene: TankScene, *, modes: int, tones: tuple[float, ...] = ()) -> Resolution:
     """Resolution for a number of modes, and for the elastic tones expected at (dimensionless) λ.
 
-    Elements hold as many radians of the shortest wave as their degree resolves to the tolerance, and the innermost
-    ring is small enough for the r^{1/2} of a pressure-release surface, whose error falls only like its radius.
+    Elements hold as many radians of the shortest wave as their degree resolves to the tolerance; rings reach as far
+    into the tips as the singularity there asks for.
     """
     tank = scaled_tank(scene)
-    tolerance = scene.accuracy.tolerance
-    # Measured on tanks with known modes: each degree gains a factor of 5 to 10 with rings of ratio 0.3.
-    degree = min(max(ceil(-log10(tolerance)) + 1, 4), 9)
+    below = [modes_below(tank.moving, tank.depth, tone) for tone in tones]
     # Enough above each tone to hold its flank: the part in each mode falls off like a resonance curve.
-    expected = [ceil(1.25 * modes_below(tank.moving, tank.depth, tone)) + 4 for tone in tones]
+    expected = [ceil(1.25 * count) + 4 for count in below]
     reaches_tones = tuple(count <= MOST_MODES_TO_TONE for count in expected)
-    modes = max([modes, *(count for count in expected if count <= MOST_MODES_TO_TONE)])
-    highest = squared_frequency_of_mode(tank.moving, tank.depth, modes)
+    # The modes above the highest one reported show where the tone is, but need not be accurate.
+    reported = max([modes, *(ceil(count) + 1 for count, reached in zip(below, reaches_tones, strict=True) if reached)])
+    modes = max([modes, *(count for count, reached in zip(expected, reaches_tones, strict=True) if reached)])
+    highest = squared_frequency_of_mode(tank.moving, tank.depth, reported)
+    resolution = _resolution_for(tank, scene.accuracy.tolerance, highest, sharp=tank.top == "pressure_release")
+    return replace(resolution, modes=modes, reaches_tones=reaches_tones)
+
+
+def companion_resolution(tank: ScaledTank, tolerance: float) -> Resolution:
+    """Resolution for the first elastic tones with ψ = 0 on the water: hardly a wave, but sharper tips."""
+    resolution = _resolution_for(tank, tolerance, None, sharp=True)
+    return replace(resolution, modes=_COMPANION_MODES * len(tank.beams))
+
+
+def _resolution_for(tank: ScaledTank, tolerance: float, squared_frequency: float | None, *, sharp: bool) -> Resolution:
+    """Elements, rings and dry modes for waves up to λ, or for the first elastic tones.
+
+    Beside water under gravity or a lid ψ ~ r ln r at a tip, and the error falls like the square of the innermost ring.
+    Beside a surface with ψ = 0 it is ``sharp``: ψ ~ r^{1/2}, and the error falls like the ring itself.
+    """
+    # Measured on tanks with known modes: the cheapest degree for each tolerance.
+    degree = ceil(1.5 - 0.75 * log10(tolerance)) + int(sharp)
+    degree = min(max(degree, 4), HIGHEST_DEGREE - 1)
+    # In thin layers rounding takes more than a high degree gives.
+    while degree > 6 and rounding_error(degree, tank.depth) > 0.3 * tolerance:
+        degree -= 1
     sizes, wavenumbers = [], {}
     for start, end, body in tank.pieces:
-        piece = TopPiece(length=end - start, beam=None if body is None else tank.beams[body])
-        wavenumber = piece.wavenumber(highest, tank.depth) if body is not None or tank.top == "free" else 0.0
-        # 0.4 radians per degree; never fewer than two elements on a piece.
-        sizes.append(min(0.4 * degree / max(wavenumber, 1e-9), 0.5 * piece.length, 0.25))
+        beam = None if body is None else tank.beams[body]
+        wavenumber = _wavenumber(TopPiece(length=end - start, beam=beam), tank, squared_frequency)
+        # Never fewer than two elements on a piece.
+        sizes.append(min(_radians(degree, tolerance) / max(wavenumber, 1e-9), 0.5 * (end - start), 0.25))
         if body is not None:
             wavenumbers[body] = wavenumber
     shapes = tuple(
         min(MOST_SHAPES, _shapes_for(beam, wavenumbers[index], tolerance)) for index, beam in enumerate(tank.beams)
     )
     shortest = min((end - start for start, end, _ in tank.pieces), default=1.0)
+    outermost = min(0.45 * shortest, 0.45 * tank.depth, *sizes)
+    tip = outermost * min(10.0 * tolerance if sharp else 15.0 * tolerance**0.5, 0.25)
     return Resolution(
         degree=degree,
         surface_sizes=tuple(sizes),
         bulk_size=0.5 * max(1.0, tank.depth),
-        tip_size=max(1e-2 * tolerance * min(shortest, tank.depth), SMALLEST_TIP),
+        tip_size=max(tip, SMALLEST_TIP),
         shapes=shapes,
-        modes=modes,
-        reaches_tones=reaches_tones,
+        modes=0,
+        reaches_tones=(),
     )
+
+
+def _radians(degree: int, tolerance: float) -> float:
+    """How much of a wave one element resolves: the error of polynomials on it is about (e kh/(4p))^{2p}."""
+    return 4.0 / e * degree * float((0.1 * tolerance) ** (0.5 / degree))
+
+
+def _wavenumber(piece: TopPiece, tank: ScaledTank, squared_frequency: float | None) -> float:
+    """The shortest wave on a piece of the top, up to λ; without λ, that of a beam's first elastic dry mode."""
+    if squared_frequency is None:
+        return 0.0 if piece.beam is None else _FIRST_ROOT / piece.length
+    if piece.beam is None and tank.top != "free":
+        return 0.0
+    return piece.wavenumber(squared_frequency, tank.depth)
 
 
 def _shapes_for(beam: Beam, wavenumber: float, tolerance: float) -> int:
     """Dry modes of one beam: those up to the shortest wave, and a tail whose error falls like N⁻⁷."""
-    return ceil(1.2 * wavenumber * beam.length / pi + 3.0 * tolerance ** (-1.0 / 7.0)) + 2
+    half_waves = wavenumber * beam.length / pi
+    return ceil(half_waves + _TAIL * (half_waves + 2.0) * tolerance ** (-1.0 / 7.0)) + 4

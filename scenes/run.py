@@ -14,9 +14,10 @@ from hydroelastic.meshes.files import load_mesh
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
 from hydroelastic.scenes.estimates import scene_estimates
+from hydroelastic.scenes.field_solution import Stopwatch
 from hydroelastic.scenes.models import TankScene
 from hydroelastic.scenes.output import SUMMARY, result_folder
-from hydroelastic.scenes.solve import Report, Stopwatch, TankSolution, solve_scene
+from hydroelastic.scenes.solve import Report, TankSolution, solve_scene
 from hydroelastic.scenes.summary import Summary, summarize
 from hydroelastic.scenes.tables import markdown, mode_csv, printed
 

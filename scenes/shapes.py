@@ -9,8 +9,9 @@ import meshio
 import numpy as np
 from numpy.typing import NDArray
 
+from hydroelastic.fem.liquid import as_functions
 from hydroelastic.fem.pictures import ModePicture, SurfaceCurve, draw_mode, draw_overview
-from hydroelastic.fem.sampling import LiquidSample, SurfaceTrace, as_functions, sample_liquid, sample_surface
+from hydroelastic.fem.sampling import LiquidSample, SurfaceTrace, sample_liquid, sample_surface
 from hydroelastic.meshes.geometry import FREE_SURFACE
 from hydroelastic.scenes.solve import TankSolution
 from hydroelastic.scenes.summary import Summary
@@ -37,13 +38,18 @@ def sample_shapes(solution: TankSolution) -> ModeShapes | None:
     Returns:
         The shapes on rank 0, ``None`` elsewhere (collective).
     """
-    modes = solution.asked
-    functions = as_functions(solution.pencil.liquid, [mode.potential for mode in modes])
-    liquid = sample_liquid(solution.pencil.liquid, functions)
-    has_waves = solution.pencil.free_surface is not None
-    water = sample_surface(solution.pencil.liquid, functions, FREE_SURFACE) if has_waves else None
+    modes, field = solution.asked, solution.field
+    # Both halves of a symmetric tank share mesh and space.
+    space = field.parts[0].pencil.liquid
+    functions = as_functions(space, [mode.potential for mode in modes])
+    liquid = sample_liquid(space, functions)
+    water = sample_surface(space, functions, FREE_SURFACE) if field.has_waves else None
     if liquid is None:
         return None
+    if field.half:
+        signs = np.array([1.0 if field.parity(index) == "symmetric" else -1.0 for index in range(len(modes))])
+        liquid = _mirrored_liquid(liquid, signs)
+        water = _mirrored_trace(water, signs) if water is not None else None
     length, root_density = solution.units.length, np.sqrt(solution.units.density)
     # Generalized mass 1 in units of the tank is ρL⁴ for a displacement of L: divide by its root.
     to_metres = 1.0 / (length * root_density)
@@ -71,10 +77,33 @@ def sample_shapes(solution: TankSolution) -> ModeShapes | None:
     return ModeShapes(liquid=liquid, curves=tuple(curves))
 
 
+def _mirrored_liquid(half: LiquidSample, signs: np.ndarray) -> LiquidSample:
+    """Both halves of a tank, at unit generalized mass of the whole, from the left half at its own."""
+    flipped = half.points * [-1.0, 1.0] + [1.0, 0.0]
+    sign = signs[:, None] * np.sqrt(0.5)
+    mirrored = half.displacement * (sign[:, :, None] * [-1.0, 1.0])
+    return LiquidSample(
+        points=np.vstack([half.points, flipped]),
+        # A mirror image turns the sense of rotation.
+        triangles=np.vstack([half.triangles, half.triangles[:, ::-1] + len(half.points)]),
+        potential=np.hstack([np.sqrt(0.5) * half.potential, sign * half.potential]),
+        displacement=np.hstack([np.sqrt(0.5) * half.displacement, mirrored]),
+    )
+
+
+def _mirrored_trace(half: SurfaceTrace, signs: np.ndarray) -> SurfaceTrace:
+    # The mirror plane itself is there already.
+    other = slice(-2 if half.x[-1] >= 0.5 else -1, None, -1)
+    return SurfaceTrace(
+        x=np.concatenate([half.x, 1.0 - half.x[other]]),
+        potential=np.sqrt(0.5) * np.hstack([half.potential, signs[:, None] * half.potential[:, other]]),
+    )
+
+
 def _body_curves(solution: TankSolution, amplitudes: np.ndarray) -> list[SurfaceCurve]:
     place = {body: (start, end) for start, end, body in solution.tank.pieces if body is not None}
     curves, first = [], 0
-    for index, body in enumerate(solution.pencil.bodies):
+    for index, body in enumerate(solution.field.bodies):
         x: NDArray[np.float64] = np.linspace(*place[index], _BEAM_POINTS, dtype=np.float64)
         points = np.vstack([x, np.zeros((2, len(x)))])
         own = amplitudes[first : first + body.size]

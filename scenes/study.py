@@ -18,10 +18,11 @@ from hydroelastic.fem.modes import solve_modes
 from hydroelastic.scenes.errors import Problem, SceneError
 from hydroelastic.scenes.estimates import exact_frequencies
 from hydroelastic.scenes.field_model import build_field_model, build_mesh
+from hydroelastic.scenes.field_solution import Stopwatch
 from hydroelastic.scenes.models import Accuracy, TankScene
 from hydroelastic.scenes.plan import HIGHEST_DEGREE, Resolution, ScaledTank, initial_resolution, scaled_tank
 from hydroelastic.scenes.scaling import scales
-from hydroelastic.scenes.solve import Report, Stopwatch, solve_scene
+from hydroelastic.scenes.solve import Report, solve_scene
 
 Family = Literal["uniform", "graded", "tolerance"]
 
@@ -219,7 +220,7 @@ def _graded(scene: TankScene, tank: ScaledTank, exact: np.ndarray) -> Iterator[S
 
 
 def _tolerances(scene: TankScene, exact: np.ndarray) -> Iterator[StudyRow]:
-    """What the solver makes of a tolerance: two solutions, the count of modes, and the tones."""
+    """What the solver makes of a tolerance: the solution with its estimate, the count of modes, and the tones."""
     for tolerance in TOLERANCES:
         asked = scene.model_copy(update={"accuracy": Accuracy(tolerance=tolerance, modes=scene.accuracy.modes)})
         solution = solve_scene(asked)
@@ -230,7 +231,7 @@ def _tolerances(scene: TankScene, exact: np.ndarray) -> Iterator[StudyRow]:
             degree=solution.resolution.degree,
             size=None,
             tolerance=tolerance,
-            dofs=solution.pencil.liquid.size + solution.pencil.size,
+            dofs=solution.field.dofs,
             error=float(errors.max()),
             lowest_error=float(errors[0]),
             estimate=float(solution.relative_errors[: len(errors)].max()),

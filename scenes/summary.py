@@ -7,6 +7,8 @@ import resource
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
+import numpy as np
+
 from hydroelastic.modal.estimate import Estimate
 from hydroelastic.scenes.estimates import exact_frequencies
 from hydroelastic.scenes.solve import TankSolution, ToneSolution
@@ -48,35 +50,37 @@ def summarize(solution: TankSolution, estimates: dict[str, Estimate], *, import_
             "pairs_converged": solution.modes.converged,
             "pairs_kept": len(solution.asked),
             "count_confirmed_by_inertia": solution.counted,
-            "largest_residual": max(mode.residual for mode in solution.modes.modes),
+            "largest_residual": max(mode.residual for mode in solution.asked),
             "restarts": solution.modes.iterations,
             "laplace_solutions": solution.modes.solves,
         },
         "size": {
-            "cells": solution.mesh.cell_count,
-            "dofs": solution.pencil.liquid.size + solution.pencil.size,
+            "cells": solution.field.mesh.cell_count,
+            "dofs": solution.field.dofs,
             "degree": solution.resolution.degree,
-            "surface_unknowns": solution.pencil.size,
+            "surface_unknowns": solution.field.surface_unknowns,
+            "halves": solution.field.half,
             "beam_shapes": list(solution.resolution.shapes),
-            "processes": solution.mesh.mesh.comm.size,
+            "processes": solution.field.mesh.mesh.comm.size,
         },
         "timing": {"import": import_seconds, **solution.seconds},
-        "memory_peak": solution.mesh.mesh.comm.allreduce(_peak_memory()),
+        "memory_peak": solution.field.mesh.mesh.comm.allreduce(_peak_memory()),
         "versions": _versions(),
     }
 
 
 def _modes(solution: TankSolution) -> list[dict[str, Any]]:
     rows = []
-    for mode, error in zip(solution.asked, solution.relative_errors, strict=False):
+    for index, mode in enumerate(solution.asked):
         omega = solution.omega(mode.eigenvalue)
         rows.append(
             {
                 "omega": omega,
                 "frequency_hz": solution.units.hertz(omega / solution.units.frequency),
-                "relative_error": float(error),
-                "kind": mode_kind(mode, solution.pencil.bodies),
-                "elastic_energy_fraction": bending_fraction(mode, solution.pencil.bodies),
+                "relative_error": float(solution.relative_errors[index]),
+                "symmetry": solution.field.parity(index),
+                "kind": mode_kind(mode, solution.field.bodies),
+                "elastic_energy_fraction": bending_fraction(mode, solution.field.bodies),
                 "residual": mode.residual,
             }
         )
@@ -99,7 +103,7 @@ def _first_elastic(solution: TankSolution) -> list[dict[str, Any]]:
 def _tone(solution: TankSolution, body: int, tone: ToneSolution) -> dict[str, Any]:
     beam = solution.scene.body[body]
     # Dry mode 1 of the body, in units of the tank: EI κ⁴ l, (EI κ⁴ + s) l and m l.
-    shapes = solution.pencil.bodies[body]
+    shapes = solution.field.bodies[body]
     first = shapes.labels.index("elastic 1")
     found = {
         "body": body + 1,
@@ -122,7 +126,7 @@ def _tone(solution: TankSolution, body: int, tone: ToneSolution) -> dict[str, An
     if tone.tone is None:
         return found
     eigenvalue = float(solution.modes.eigenvalues[tone.tone.index])
-    error = float(solution.relative_errors[min(tone.tone.index, len(solution.relative_errors) - 1)])
+    error = float(solution.relative_errors[tone.tone.index])
     added, added_error = added_mass(float(shapes.stiffness[first]), float(shapes.mass[first]), eigenvalue, error)
     scale = solution.units.mass_per_length / (beam.length / solution.units.length)
     shared = tone.tone.runner_up > SHARED * tone.tone.participation
@@ -193,7 +197,7 @@ def _bound_holds(solution: TankSolution, estimate: Estimate) -> bool | None:
         errors = [solution.tones[0].pressure_release_error or 0.0] * len(values)  # type: ignore[assignment]
     else:
         return None
-    if number >= min(len(values), len(errors)):
+    if number >= len(values) or np.isnan(errors[number]):
         return None
     # The field solution is itself an upper bound: its own error may not count against the estimate.
     return bool(estimate.omega >= solution.omega(values[number]) * (1.0 - errors[number] - 1e-9))

@@ -11,7 +11,16 @@ from rich.table import Table
 
 from hydroelastic.scenes.summary import Summary
 
-MODE_COLUMNS = ("mode", "omega", "frequency_hz", "relative_error", "kind", "elastic_energy_fraction", "residual")
+MODE_COLUMNS = (
+    "mode",
+    "omega",
+    "frequency_hz",
+    "relative_error",
+    "kind",
+    "symmetry",
+    "elastic_energy_fraction",
+    "residual",
+)
 
 
 def mode_rows(summary: Summary) -> list[tuple[str, ...]]:
@@ -24,13 +33,14 @@ def mode_rows(summary: Summary) -> list[tuple[str, ...]]:
             f"{mode['frequency_hz']:.6g}",
             f"{mode['relative_error']:.1e}",
             mode["kind"] + (", first elastic tone" if number in tones else ""),
+            mode["symmetry"] or "–",
             f"{mode['elastic_energy_fraction']:.3f}",
         )
         for number, mode in enumerate(summary["modes"], 1)
     ]
 
 
-MODE_HEADINGS = ("mode", "ω, rad/s", "f, Hz", "estimated error", "kind", "bending energy")
+MODE_HEADINGS = ("mode", "ω, rad/s", "f, Hz", "estimated error", "kind", "symmetry", "bending energy")
 
 
 def with_certain_digits(value: float, relative_error: float) -> str:
@@ -120,9 +130,10 @@ def cost_line(summary: Summary) -> str:
     """Size and cost of the solution."""
     size, timing = summary["size"], summary["timing"]
     seconds = ", ".join(f"{stage} {value:.2f}" for stage, value in timing.items() if value >= 0.005)
+    where = " in half the tank, symmetric and antisymmetric" if size["halves"] else ""
     return (
         f"{size['cells']} cells, degree {size['degree']}, {size['dofs']} unknowns "
-        f"({size['surface_unknowns']} on the surface); seconds: {seconds}; "
+        f"({size['surface_unknowns']} on the surface){where}; seconds: {seconds}; "
         f"peak memory {summary['memory_peak'] / 2**20:.0f} MiB."
     )
 
@@ -170,7 +181,7 @@ def _title(summary: Summary) -> str:
 def _table(headings: tuple[str, ...], rows: list[tuple[str, ...]]) -> Table:
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
     for number, heading in enumerate(headings):
-        leftwards = number == 0 or heading in ("kind", "bound")
+        leftwards = number == 0 or heading in ("kind", "symmetry", "bound")
         table.add_column(heading, justify="left" if leftwards else "right", no_wrap=True)
     for row in rows:
         table.add_row(*row)

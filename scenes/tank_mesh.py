@@ -13,15 +13,20 @@ from hydroelastic.scenes.plan import Resolution, ScaledTank
 _MESH_ROUNDING = 1e-6
 
 
-def geometry_of(tank: ScaledTank) -> TankGeometry:
-    """The tank's outline with the physical names of its top."""
+def geometry_of(tank: ScaledTank, *, half: bool = False) -> TankGeometry:
+    """The outline of the tank, or of its left half, with the physical names of its top."""
     rest = LID if tank.top == "rigid" else FREE_SURFACE
-    pieces = tuple((start, end, rest if body is None else body_name(body + 1)) for start, end, body in tank.pieces)
-    return tank_geometry(length=1.0, depth=tank.depth, pieces=pieces)
+    length = 0.5 if half else 1.0
+    pieces = tuple(
+        (start, min(end, length), rest if body is None else body_name(body + 1))
+        for start, end, body in tank.pieces
+        if start < length
+    )
+    return tank_geometry(length=length, depth=tank.depth, pieces=pieces, mirrored=half)
 
 
-def make_mesh(tank: ScaledTank, resolution: Resolution) -> TaggedMesh:
-    """Mesh a scene with gmsh, in units of the tank.
+def make_mesh(tank: ScaledTank, resolution: Resolution, *, half: bool = False) -> TaggedMesh:
+    """Mesh a scene, or its left half, with gmsh; in units of the tank.
 
     Raises:
         MeshError: if gmsh fails.
@@ -29,10 +34,13 @@ def make_mesh(tank: ScaledTank, resolution: Resolution) -> TaggedMesh:
     # gmsh takes a third of a second to import, and a scene that brings its mesh does not need it.
     from hydroelastic.meshes.tank import build_tank_mesh
 
+    geometry = geometry_of(tank, half=half)
     grading = Grading(
-        surface_sizes=resolution.surface_sizes, bulk_size=resolution.bulk_size, tip_size=resolution.tip_size
+        surface_sizes=resolution.surface_sizes[: len(geometry.segments)],
+        bulk_size=resolution.bulk_size,
+        tip_size=resolution.tip_size,
     )
-    return build_tank_mesh(geometry_of(tank), grading)
+    return build_tank_mesh(geometry, grading)
 
 
 def unknown_count(mesh: TaggedMesh, degree: int) -> int:

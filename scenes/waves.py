@@ -56,10 +56,10 @@ def modes_below(pieces: tuple[TopPiece, ...], depth: float, squared_frequency: f
 
 
 def squared_frequency_of_mode(pieces: tuple[TopPiece, ...], depth: float, number: int) -> float:
-    """About the λ of a mode, counted from 1; an overestimate by a mode or two."""
+    """About the λ of a mode, counted from 1; an overestimate by a mode or so."""
     low, high = 1e-12, 1.0
-    # End effects hold back up to one mode per piece.
-    wanted = number + len(pieces)
+    # End effects hold modes back.
+    wanted = number + 1
     while modes_below(pieces, depth, high) < wanted:
         high *= 4.0
     while modes_below(pieces, depth, low) > wanted:

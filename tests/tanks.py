@@ -28,7 +28,7 @@ class Tanks:
         path = Path(__file__).parent / "reference" / "aquarium.json"
         self.reference: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
         self.cases: dict[str, Any] = {case["name"]: case for case in self.reference["cases"]}
-        self._solutions: dict[TankScene, TankSolution] = {}
+        self._solutions: dict[tuple[TankScene, bool], TankSolution] = {}
 
     def beam(self, **changes: Any) -> Beam:
         """The beam of the case base_s0, but for what is changed."""
@@ -54,11 +54,11 @@ class Tanks:
         tank = {"length": given["L"], "gravity": given["g"], "depth": given["H"], "density": given["rho"]}
         return self.scene(*([Beam(**beam)] if given["l"] else []), **(tank | changes))
 
-    def solve(self, scene: TankScene) -> TankSolution:
+    def solve(self, scene: TankScene, *, halves: bool = True) -> TankSolution:
         """The scene's solution (collective)."""
-        if scene not in self._solutions:
-            self._solutions[scene] = solve_scene(scene)
-        return self._solutions[scene]
+        if (scene, halves) not in self._solutions:
+            self._solutions[scene, halves] = solve_scene(scene, halves=halves)
+        return self._solutions[scene, halves]
 
     def omega(self, scene: TankScene) -> np.ndarray:
         """ω of the modes asked for, rad/s (collective)."""

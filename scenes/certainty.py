@@ -1,0 +1,113 @@
+"""How far a frequency may lie from the exact one, by cause, and what to refine when that is too far."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from math import ceil, log
+
+import numpy as np
+from mpi4py import MPI
+
+from hydroelastic.fem.modes import Mode
+from hydroelastic.fem.spectral_error import cell_diameters, cell_errors
+from hydroelastic.fem.truncation import truncation_errors
+from hydroelastic.scenes.field_solution import FieldSolution
+from hydroelastic.scenes.plan import HIGHEST_DEGREE, Resolution, rounding_error
+
+# Lanczos leaves a few units of the last place of the spread of 1/λ.
+_ROUNDING_OF_SPREAD = 1e-15
+
+
+@dataclass(frozen=True, kw_only=True)
+class FrequencyErrors:
+    """Estimated relative errors of some frequencies ω, by cause; each has shape (modes,).
+
+    Attributes:
+        liquid: elements away from the tips.
+        tips: the innermost elements at the tips.
+        truncation: dry modes left out.
+        rounding: double precision.
+    """
+
+    liquid: np.ndarray
+    tips: np.ndarray
+    truncation: np.ndarray
+    rounding: np.ndarray
+
+    @property
+    def total(self) -> np.ndarray:
+        """All causes together."""
+        return self.liquid + self.tips + self.truncation + self.rounding
+
+    def largest(self, cause: str) -> float:
+        """The largest over the modes of one cause."""
+        return float(getattr(self, cause).max(initial=0.0))
+
+
+def frequency_errors(
+    solution: FieldSolution, modes: list[Mode], indices: list[int], resolution: Resolution, depth: float
+) -> FrequencyErrors:
+    """Estimate the errors of some modes (collective).
+
+    Args:
+        solution: the modes at one resolution.
+        modes: the modes to judge, with their ψ.
+        indices: which of the solution's modes they are.
+        resolution: that resolution.
+        depth: H/L.
+    """
+    liquid, tips = np.empty(len(modes)), np.empty(len(modes))
+    for number, part in enumerate(solution.parts):
+        own = [place for place, index in enumerate(indices) if solution.origins[index][0] == number]
+        space = part.pencil.liquid
+        cells = cell_errors(space, [modes[place].potential for place in own], part.pencil.density)
+        innermost = cell_diameters(space) <= 1.01 * (resolution.tip_size or 0.0)
+        at_tips = solution.mesh.mesh.comm.allreduce(cells[:, innermost].sum(axis=1), op=MPI.SUM)
+        tips[own] = at_tips
+        liquid[own] = solution.mesh.mesh.comm.allreduce(cells.sum(axis=1), op=MPI.SUM) - at_tips
+    values = solution.modes.eigenvalues[indices]
+    truncation = truncation_errors(solution.bodies, solution.modes.elastic_amplitudes[indices], values)
+    # An error of λ is twice that of ω.
+    return FrequencyErrors(
+        liquid=0.5 * liquid,
+        tips=0.5 * tips,
+        truncation=0.5 * truncation,
+        rounding=rounding_error(resolution.degree, depth)
+        + _ROUNDING_OF_SPREAD * values / solution.modes.eigenvalues[0],
+    )
+
+
+def refined(
+    resolution: Resolution, errors: FrequencyErrors, tolerance: float, *, sharp_tips: bool, own_mesh: bool
+) -> Resolution | None:
+    """What to solve next, so that each cause keeps its part of the tolerance.
+
+    Args:
+        resolution: the last one.
+        errors: what it gave.
+        tolerance: of the frequencies.
+        sharp_tips: whether ψ ~ r^{1/2} at the tips.
+        own_mesh: whether the mesh is ours to change.
+
+    Returns:
+        The next resolution; ``None`` where rounding alone exceeds the tolerance, or all is at its limit.
+    """
+    if errors.largest("rounding") > tolerance:
+        return None
+    share = tolerance / (len(fields(errors)) - 1)
+    finer = resolution
+    truncation, tips, liquid = (errors.largest(cause) / share for cause in ("truncation", "tips", "liquid"))
+    if truncation > 1.0:
+        # The tail falls like N⁻⁷.
+        finer = finer.with_shapes(min(max(1.1 * truncation ** (1.0 / 7.0), 1.1), 3.0))
+    if tips > 1.0 and own_mesh:
+        order = 1.0 if sharp_tips else 0.5
+        finer = finer.with_tips(max(0.3 * tips**-order, 1e-6))
+    if liquid > 1.0 or finer == resolution:
+        # Each degree gains a factor of five or more.
+        wanted = min(max(ceil(log(max(liquid, 1.0)) / log(5.0)), 1), 3)
+        if resolution.degree < HIGHEST_DEGREE:
+            finer = finer.with_degree(wanted)
+        elif own_mesh:
+            finer = finer.with_smaller_elements()
+    return None if finer == resolution else finer

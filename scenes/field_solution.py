@@ -1,0 +1,242 @@
+"""Solve a scene at one resolution: a whole tank, or the two halves of a tank that is its own mirror image.
+
+Modes of the halves are put in one ascending list and written in the beams of the whole tank, so that nothing later
+needs to know how they were found.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
+from itertools import pairwise
+
+import numpy as np
+
+from hydroelastic.fem.modes import Mode, ModeSet, count_below, solve_modes
+from hydroelastic.fem.pencil import CoupledPencil
+from hydroelastic.fem.surfaces import Body
+from hydroelastic.meshes.distribute import TankMesh
+from hydroelastic.scenes.field_model import build_field_model, build_half_models, whole_bodies
+from hydroelastic.scenes.plan import Resolution, ScaledTank
+from hydroelastic.scenes.symmetry import PARITIES, Parity, left_bodies, shape_parity, twin_of
+
+
+@dataclass
+class Stopwatch:
+    """Seconds by stage, added up."""
+
+    seconds: dict[str, float] = field(default_factory=dict)
+
+    @contextmanager
+    def stage(self, name: str) -> Iterator[None]:
+        """Time a block of code."""
+        start = time.perf_counter()
+        try:
+            yield
+        finally:
+            self.seconds[name] = self.seconds.get(name, 0.0) + time.perf_counter() - start
+
+
+@dataclass(frozen=True, kw_only=True)
+class Part:
+    """One eigenproblem of a scene.
+
+    Attributes:
+        parity: which modes it holds; ``None`` is all of them, on the whole tank.
+        pencil: its matrices.
+        modes: its modes, with energies of its part of the tank.
+    """
+
+    parity: Parity | None
+    pencil: CoupledPencil
+    modes: ModeSet
+
+
+@dataclass(frozen=True, kw_only=True)
+class FieldSolution:
+    """The modes of a scene at one resolution.
+
+    Attributes:
+        mesh: mesh of the liquid, or of its left half.
+        parts: the eigenproblems.
+        bodies: the beams of the whole tank.
+        modes: the lowest modes of all parts, ascending, in the bodies of the whole tank at unit generalized mass.
+        origins: part and index there of each of them.
+    """
+
+    mesh: TankMesh
+    parts: tuple[Part, ...]
+    bodies: tuple[Body, ...]
+    modes: ModeSet
+    origins: tuple[tuple[int, int], ...]
+
+    @property
+    def dofs(self) -> int:
+        """Unknowns of ψ and of the surfaces, over all parts."""
+        return sum(part.pencil.liquid.size + part.pencil.size for part in self.parts)
+
+    @property
+    def surface_unknowns(self) -> int:
+        """Unknowns of the surfaces, over all parts."""
+        return sum(part.pencil.size for part in self.parts)
+
+    @property
+    def half(self) -> bool:
+        """Whether the mesh is that of the left half of the tank."""
+        return len(self.parts) > 1
+
+    @property
+    def has_waves(self) -> bool:
+        """Whether there is a free surface."""
+        return self.parts[0].pencil.free_surface is not None
+
+    def parity(self, index: int) -> Parity | None:
+        """Symmetry of a mode; ``None`` where the whole tank was solved."""
+        return self.parts[self.origins[index][0]].parity
+
+
+def solve_field(
+    mesh: TankMesh,
+    tank: ScaledTank,
+    resolution: Resolution,
+    count: int,
+    watch: Stopwatch,
+    *,
+    half: bool,
+    pressure_release: bool = False,
+) -> FieldSolution:
+    """Assemble and solve for the lowest modes.
+
+    Args:
+        mesh: the mesh, of the left half if ``half``.
+        tank: the scene.
+        resolution: degree and number of dry modes.
+        count: how many modes; fewer come back if the model has fewer.
+        watch: told the time of assembly and solution.
+        half: whether the tank is its own mirror image and is solved as two halves.
+        pressure_release: put ψ = 0 on the water whatever the scene says.
+
+    Returns:
+        The modes (collective).
+
+    Raises:
+        EigenSolverError: if SLEPc stops before enough pairs have converged.
+    """
+    build = build_half_models if half else _whole_model
+    with watch.stage("assemble"):
+        pencils = build(
+            mesh, tank, degree=resolution.degree, shapes=resolution.shapes, pressure_release=pressure_release
+        )
+    parities: tuple[Parity | None, ...] = PARITIES if half else (None,)
+    with watch.stage("solve"):
+        parts = _solved_parts(pencils, parities, count)
+        return _merged(mesh, tank, resolution, parts, count)
+
+
+def _whole_model(
+    mesh: TankMesh, tank: ScaledTank, *, degree: int, shapes: tuple[int, ...], pressure_release: bool
+) -> tuple[CoupledPencil, ...]:
+    return (build_field_model(mesh, tank, degree=degree, shapes=shapes, pressure_release=pressure_release),)
+
+
+def _solved_parts(pencils: tuple[CoupledPencil, ...], parities: tuple[Parity | None, ...], count: int) -> list[Part]:
+    """Solve each part for its share of the modes, and the ones that fall short for more."""
+    # The two kinds of modes alternate but for a rigid motion or two.
+    shares = [count] if len(pencils) == 1 else [count // 2 + 2] * len(pencils)
+    parts = [
+        Part(parity=parity, pencil=pencil, modes=solve_modes(pencil, share, shapes=0))
+        for pencil, parity, share in zip(pencils, parities, shares, strict=True)
+    ]
+    while True:
+        reached = [
+            part.modes.eigenvalues[-1] if len(part.modes.eigenvalues) == share else np.inf
+            for part, share in zip(parts, shares, strict=True)
+        ]
+        complete = sum(int(np.sum(part.modes.eigenvalues <= min(reached))) for part in parts)
+        if complete >= count or np.isinf(min(reached)):
+            return parts
+        short = int(np.argmin(reached))
+        shares[short] += max(4, count - complete)
+        parts[short] = replace(parts[short], modes=solve_modes(parts[short].pencil, shares[short], shapes=0))
+
+
+def _merged(mesh: TankMesh, tank: ScaledTank, resolution: Resolution, parts: list[Part], count: int) -> FieldSolution:
+    ordered = sorted(
+        (float(value), number, index)
+        for number, part in enumerate(parts)
+        for index, value in enumerate(part.modes.eigenvalues)
+    )[:count]
+    origins = tuple((number, index) for _, number, index in ordered)
+    extensions = [_extension(tank, resolution.shapes, part.parity) for part in parts]
+    amplitudes = [extensions[number] @ parts[number].modes.elastic_amplitudes[index] for number, index in origins]
+
+    def completed(place: int) -> Mode:
+        number, index = origins[place]
+        return _extended(parts[number].modes.completed(index), extensions[number])
+
+    return FieldSolution(
+        mesh=mesh,
+        parts=tuple(parts),
+        bodies=whole_bodies(tank, resolution.shapes),
+        modes=ModeSet(
+            eigenvalues=np.array([value for value, _, _ in ordered]),
+            elastic_amplitudes=np.array(amplitudes).reshape(len(ordered), sum(resolution.shapes)),
+            modes=(),
+            completed=completed,
+            zero_modes=sum(part.modes.zero_modes for part in parts),
+            converged=sum(part.modes.converged for part in parts),
+            iterations=max(part.modes.iterations for part in parts),
+            solves=sum(part.modes.solves for part in parts),
+        ),
+        origins=origins,
+    )
+
+
+def _extended(mode: Mode, extension: np.ndarray) -> Mode:
+    """A mode in the bodies of the whole tank; its ζ and ψ stay those of its part, at unit generalized mass there."""
+    # Each unknown's share goes to the bodies of the whole tank as the squares of the amplitudes do.
+    squares = extension**2
+    shares = (squares / squares.sum(axis=0)) @ mode.energy[:-1]
+    return replace(
+        mode,
+        body_amplitudes=extension @ mode.body_amplitudes,
+        energy=np.append(shares, mode.energy[-1]),
+    )
+
+
+def _extension(tank: ScaledTank, shapes: tuple[int, ...], parity: Parity | None) -> np.ndarray:
+    """Matrix from the body unknowns of a part to those of the whole tank, both at their unit generalized mass."""
+    if parity is None:
+        return np.eye(sum(shapes))
+    offsets = np.cumsum([0, *shapes])
+    columns = []
+    for body in left_bodies(tank):
+        twin = twin_of(tank, body)
+        for number in range(shapes[body]):
+            if twin == body and shape_parity(number) != parity:
+                continue
+            column = np.zeros(sum(shapes))
+            column[offsets[body] + number] = np.sqrt(0.5)
+            if twin != body:
+                # Seen from the other side, odd shapes change their sign.
+                sign = 1.0 if shape_parity(number) == parity else -1.0
+                column[offsets[twin] + number] = sign * np.sqrt(0.5)
+            columns.append(column)
+    return np.array(columns).reshape(len(columns), sum(shapes)).T
+
+
+def count_is_confirmed(solution: FieldSolution) -> bool:
+    """Count the modes below the widest of the last gaps by inertia, in each part."""
+    values = solution.modes.eigenvalues
+    if len(values) < 2:
+        shift = 2.0 * float(values[-1])
+    else:
+        gaps = [upper / lower for lower, upper in pairwise(values)]
+        first = max(0, len(gaps) - 3)
+        widest = first + int(np.argmax(gaps[first:]))
+        shift = float(np.sqrt(values[widest] * values[widest + 1]))
+    return all(
+        count_below(part.pencil, shift) == int(np.sum(part.modes.eigenvalues < shift)) for part in solution.parts
+    )

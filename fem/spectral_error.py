@@ -13,9 +13,11 @@ of every other degree vanish, and pairs of them are compared instead.
 
 from __future__ import annotations
 
+from functools import lru_cache
 from math import comb
 
 import basix
+import basix.ufl
 import numpy as np
 from dolfinx import fem
 from petsc4py import PETSc
@@ -49,7 +51,8 @@ def cell_errors(liquid: LiquidSpace, potentials: list[PETSc.Vec], density: float
     """
     if liquid.degree < LOWEST_DEGREE:
         raise ValueError(f"errors are seen from degree {LOWEST_DEGREE} on, got {liquid.degree}")
-    gradient = _gradient_coefficients(liquid)
+    cell_type = liquid.space.element.basix_element.cell_type
+    gradient = _gradient_coefficients(cell_type, liquid.degree)
     jacobian = _jacobians(liquid)
     inverse, measure = np.linalg.inv(jacobian), np.abs(np.linalg.det(jacobian))
     dofs = liquid.space.dofmap.list[: len(jacobian)]
@@ -60,7 +63,7 @@ def cell_errors(liquid: LiquidSpace, potentials: list[PETSc.Vec], density: float
 
 
 def _missing_energy(
-    function: fem.Function, dofs: np.ndarray, gradient: list[np.ndarray], inverse: np.ndarray, measure: np.ndarray
+    function: fem.Function, dofs: np.ndarray, gradient: tuple[np.ndarray, ...], inverse: np.ndarray, measure: np.ndarray
 ) -> np.ndarray:
     values = function.x.array[dofs]
     last, second, third, fourth = (_energy(values, table, inverse, measure) for table in gradient)
@@ -87,22 +90,22 @@ def _energy(values: np.ndarray, table: np.ndarray, inverse: np.ndarray, measure:
     return energy
 
 
-def _gradient_coefficients(liquid: LiquidSpace) -> list[np.ndarray]:
+@lru_cache(maxsize=16)
+def _gradient_coefficients(cell_type: basix.CellType, degree: int) -> tuple[np.ndarray, ...]:
     """Coefficients of the reference gradient of each basis function in orthonormal polynomials of one degree.
 
     Returns:
         For the degrees p − 1 down to p − 4: shape (dim, polynomials, functions).
     """
-    element = liquid.space.element.basix_element
-    degree, dim = liquid.degree, liquid.tank.mesh.topology.dim
-    points, weights = basix.make_quadrature(element.cell_type, 2 * degree - 2)
+    element = basix.ufl.element("Lagrange", cell_type.name, degree).basix_element
+    dim = len(basix.topology(cell_type)) - 1
+    points, weights = basix.make_quadrature(cell_type, 2 * degree - 2)
     slopes = element.tabulate(1, points)[1:, :, :, 0]
     # Ordered by degree: those of degree k and less come first.
-    polynomials = basix.tabulate_polynomials(basix.PolynomialType.legendre, element.cell_type, degree - 1, points)
-    coefficients = np.einsum("jq,q,dqn->djn", polynomials, weights, slopes)
-    sizes = [comb(k + dim, dim) for k in range(degree)]
-    sizes.insert(0, 0)
-    return [coefficients[:, sizes[k] : sizes[k + 1]] for k in range(degree - 1, degree - 5, -1)]
+    polynomials = basix.tabulate_polynomials(basix.PolynomialType.legendre, cell_type, degree - 1, points)
+    coefficients = np.einsum("jq,q,dqn->djn", polynomials, weights, slopes, optimize=True)
+    sizes = [0, *(comb(k + dim, dim) for k in range(degree))]
+    return tuple(coefficients[:, sizes[k] : sizes[k + 1]] for k in range(degree - 1, degree - 5, -1))
 
 
 def _jacobians(liquid: LiquidSpace) -> np.ndarray:

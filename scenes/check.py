@@ -176,8 +176,8 @@ def hints(scene: TankScene) -> tuple[str, ...]:
 def _symmetry(scene: TankScene) -> Iterator[str]:
     if is_mirror_image(scaled_tank(scene)):
         yield (
-            "The scene is its own mirror image: modes are symmetric (∂ψ/∂x = 0 in the middle) or antisymmetric (ψ = 0), "
-            "and half the tank holds either kind."
+            "The scene is its own mirror image: modes are symmetric (∂ψ/∂x = 0 in the middle) or antisymmetric "
+            "(ψ = 0 there), and half the tank holds either kind."
         )
 
 

@@ -17,8 +17,8 @@ from hydroelastic.scenes.plan import (
     ScaledTank,
     companion_resolution,
     initial_resolution,
-    rounding_error,
     scaled_tank,
+    workable_tolerance,
 )
 from hydroelastic.scenes.symmetry import is_mirror_image
 
@@ -63,9 +63,9 @@ def _sizes(scene: TankScene) -> Iterator[str]:
         "dry modes reach past that wave until their energy has died out, and the rings end where the singularity at "
         "the tips no longer counts. The solution judges itself, and what falls short is refined."
     )
-    rounding = rounding_error(resolution.degree, tank.depth)
-    if rounding > tolerance:
-        yield f"  Double precision leaves about {rounding:.0e} in so thin a layer: {tolerance:g} will not be kept."
+    workable = workable_tolerance(tolerance, tank.depth)
+    if workable > tolerance:
+        yield f"  Double precision will not keep {tolerance:g} here: {workable:.0e} is worked towards instead."
     if tank.beams and tank.top == "free" and _has_open_top(scene):
         size = _size(
             scene, tank, companion_resolution(tank, tolerance) if scene.mesh is None else resolution, half=half

@@ -13,6 +13,8 @@ HIGHEST_DEGREE = 10
 MOST_SHAPES = 400
 # Below this the coordinates of a ring's nodes keep fewer than three digits of their distance from the tip.
 SMALLEST_TIP = 1e-13
+# Every cause of error has a part of the tolerance, rounding too.
+_ROOM_FOR_ROUNDING = 5.0
 # Dry modes beyond the shortest wave, in units of its half waves and of tolerance^(-1/7).
 _TAIL = 0.4
 # κ₁ l of the first elastic dry mode.
@@ -80,6 +82,7 @@ class Resolution:
         surface_sizes: largest element on each piece of the top, in tank lengths.
         bulk_size: largest element anywhere.
         tip_size: innermost ring around the tips; ``None`` leaves the mesh uniform, for studies.
+        ring_ratio: ratio of the radii of successive rings.
         shapes: number of dry modes of each beam.
         modes: how many modes are solved for.
         reaches_tones: whether the first elastic tone of each beam is expected among them.
@@ -93,6 +96,7 @@ class Resolution:
     shapes: tuple[int, ...]
     modes: int
     reaches_tones: tuple[bool, ...]
+    ring_ratio: float = 0.3
     widened: bool = False
 
     def with_degree(self, more: int) -> Resolution:
@@ -100,11 +104,12 @@ class Resolution:
         return replace(self, degree=min(self.degree + more, HIGHEST_DEGREE))
 
     def with_smaller_elements(self) -> Resolution:
-        """A finer mesh."""
+        """A finer mesh, and more rings around the tips."""
         return replace(
             self,
             surface_sizes=tuple(0.6 * size for size in self.surface_sizes),
             bulk_size=0.6 * self.bulk_size,
+            ring_ratio=self.ring_ratio**0.6,
         )
 
     def with_tips(self, factor: float) -> Resolution:
@@ -127,6 +132,11 @@ def rounding_error(degree: int, depth: float) -> float:
     return 3e-13 * (degree / 4.0) ** 5 * max(1.0, 0.1 / depth) ** 1.5
 
 
+def workable_tolerance(tolerance: float, depth: float) -> float:
+    """The tolerance to work towards: what is asked, or what double precision can be expected to keep."""
+    return max(tolerance, _ROOM_FOR_ROUNDING * rounding_error(HIGHEST_DEGREE - 2, depth))
+
+
 def initial_resolution(scene: TankScene, *, modes: int, tones: tuple[float, ...] = ()) -> Resolution:
     """Resolution for a number of modes, and for the elastic tones expected at (dimensionless) λ.
 
@@ -142,13 +152,14 @@ def initial_resolution(scene: TankScene, *, modes: int, tones: tuple[float, ...]
     reported = max([modes, *(ceil(count) + 1 for count, reached in zip(below, reaches_tones, strict=True) if reached)])
     modes = max([modes, *(count for count, reached in zip(expected, reaches_tones, strict=True) if reached)])
     highest = squared_frequency_of_mode(tank.moving, tank.depth, reported)
-    resolution = _resolution_for(tank, scene.accuracy.tolerance, highest, sharp=tank.top == "pressure_release")
+    tolerance = workable_tolerance(scene.accuracy.tolerance, tank.depth)
+    resolution = _resolution_for(tank, tolerance, highest, sharp=tank.top == "pressure_release")
     return replace(resolution, modes=modes, reaches_tones=reaches_tones)
 
 
 def companion_resolution(tank: ScaledTank, tolerance: float) -> Resolution:
     """Resolution for the first elastic tones with ψ = 0 on the water: hardly a wave, but sharper tips."""
-    resolution = _resolution_for(tank, tolerance, None, sharp=True)
+    resolution = _resolution_for(tank, workable_tolerance(tolerance, tank.depth), None, sharp=True)
     return replace(resolution, modes=_COMPANION_MODES * len(tank.beams))
 
 

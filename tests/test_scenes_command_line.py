@@ -161,7 +161,7 @@ def test_usage_errors_exit_with_2(arguments: list[str]) -> None:
     assert "Error" in result.stderr
 
 
-@pytest.mark.parametrize("command", [[], ["run"], ["compare"], ["check"], ["list"]])
+@pytest.mark.parametrize("command", [[], ["run"], ["compare"], ["check"], ["list"], ["bench"]])
 def test_help_has_an_example(command: list[str]) -> None:
     result = invoke(*command, "--help")
     assert result.exit_code == 0

@@ -21,6 +21,7 @@ from dolfinx.fem import petsc as fem_petsc
 from petsc4py import PETSc
 
 from hydroelastic.fem.direct import direct_solver
+from hydroelastic.fem.kernels import jit_options
 from hydroelastic.meshes.distribute import TankMesh
 
 
@@ -108,7 +109,8 @@ def laplace_matrix(liquid: LiquidSpace) -> PETSc.Mat:
     """Assemble A = ∫∇ψ·∇q, every unknown included."""
     potential, test = ufl.TrialFunction(liquid.space), ufl.TestFunction(liquid.space)
     dx = ufl.dx(metadata={"quadrature_degree": 2 * liquid.degree - 2})
-    matrix = fem_petsc.assemble_matrix(fem.form(ufl.inner(ufl.grad(potential), ufl.grad(test)) * dx))
+    form = fem.form(ufl.inner(ufl.grad(potential), ufl.grad(test)) * dx, jit_options=jit_options())
+    matrix = fem_petsc.assemble_matrix(form)
     matrix.assemble()
     return matrix
 
@@ -118,7 +120,7 @@ def surface_mass_matrix(liquid: LiquidSpace, names: tuple[str, ...]) -> PETSc.Ma
     potential, test = ufl.TrialFunction(liquid.space), ufl.TestFunction(liquid.space)
     tags = tuple(liquid.tank.facet_names[name] for name in names)
     ds = liquid.measure(2 * liquid.degree)
-    matrix = fem_petsc.assemble_matrix(fem.form(ufl.inner(potential, test) * ds(tags)))
+    matrix = fem_petsc.assemble_matrix(fem.form(ufl.inner(potential, test) * ds(tags), jit_options=jit_options()))
     matrix.assemble()
     return matrix
 

@@ -68,7 +68,10 @@ def _sizes(scene: TankScene) -> Iterator[str]:
         yield f"  Double precision will not keep {tolerance:g} here: {workable:.0e} is worked towards instead."
     if tank.beams and tank.top == "free" and _has_open_top(scene):
         size = _size(
-            scene, tank, companion_resolution(tank, tolerance) if scene.mesh is None else resolution, half=half
+            scene,
+            tank,
+            companion_resolution(tank, tolerance, expected_tones(tank)) if scene.mesh is None else resolution,
+            half=half,
         )
         yield f"Beside it the first elastic tone with ψ = 0 on the water: {size}, hardly a wave, sharper tips."
 

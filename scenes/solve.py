@@ -155,7 +155,7 @@ def solve_scene(
             own_mesh = brought or build_mesh(comm, tank, resolution, half=half)
         if companion is None and tank.beams and tank.top == "free" and FREE_SURFACE in own_mesh.facet_names:
             report("pressure-release tone")
-            first = companion_resolution(tank, tolerance) if brought is None else resolution
+            first = companion_resolution(tank, tolerance, expected_tones(tank)) if brought is None else resolution
             companion = solve_companion(comm, tank, first, tolerance, brought, watch, half=half)
         field = solve_field(own_mesh, tank, resolution, resolution.modes + 1, watch, half=half)
         solution, causes = _judged(scene, tank, units, resolution, field, companion, watch, attempt)

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 from mpi4py import MPI
 
+from hydroelastic.fem.liquid import compile_form
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.scenes.certainty import FrequencyErrors, frequency_errors, refined
 from hydroelastic.scenes.field_model import build_mesh
@@ -78,6 +79,9 @@ def solve_companion(
             break
         with watch.stage("pressure release"):
             mesh = brought or build_mesh(comm, tank, attempt, half=half)
+        with watch.stage("forms"):
+            compile_form(mesh, attempt.degree)
+        with watch.stage("pressure release"):
             companion, causes = _tones(mesh, tank, attempt, half=half)
         if best is None or companion.largest_error < best.largest_error:
             best = companion

@@ -1,8 +1,7 @@
-"""A window of VTK without a screen: it draws coloured triangles and text, page after page.
+"""A window of pyvista without a screen: it draws coloured triangles and text, page after page.
 
 Opening a window and building its shaders takes a tenth of a second, drawing a page a fortieth: one window serves for
-all pages. Only the modules that are needed are imported from VTK, inside `Canvas`, so that a run without pictures
-loads none.
+all pages. pyvista is imported inside `Canvas`, so that a run without pictures does not load it.
 """
 
 from __future__ import annotations
@@ -20,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from vtkmodules.vtkRenderingCore import vtkActor, vtkRenderWindow, vtkTextActor
+    import pyvista
 
 Horizontal = Literal["left", "center", "right"]
 Vertical = Literal["bottom", "center", "top"]
@@ -64,23 +63,19 @@ class Canvas:
 
     def __init__(self) -> None:
         """Open a window."""
-        # The first two are not named below: they tell VTK how to render and how to write.
-        import vtkmodules.vtkRenderingFreeType
-        import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
-        from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow
+        import pyvista
 
         self._font = _font_file()
         with _quiet_vtk():
-            self._window = vtkRenderWindow()
-            _require_renderer(self._window)
-        self._window.SetOffScreenRendering(True)
+            self._plotter = pyvista.Plotter(off_screen=True, lighting="none")
+            self._window = self._plotter.render_window
+            _require_renderer(self._window.GetClassName())
         # The shapes bring soft edges of their own.
         self._window.SetMultiSamples(0)
-        self._renderer = vtkRenderer()
-        self._renderer.SetBackground(1.0, 1.0, 1.0)
+        self._renderer = self._plotter.renderer
+        self._renderer.set_background("white")
         # Triangles are drawn in their order, each over those before it: nothing is to be sorted by depth.
         self._renderer.SetUseOIT(False)
-        self._window.AddRenderer(self._renderer)
 
     def __enter__(self) -> Canvas:
         """Return the canvas itself."""
@@ -90,7 +85,7 @@ class Canvas:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         """Free the window."""
-        self._window.Finalize()
+        self._plotter.close()
 
     def text_width(self, text: str, size: float) -> float:
         """Width of a line of text in pixels."""
@@ -144,50 +139,38 @@ class Canvas:
         camera.SetParallelScale(0.5 * height)
         camera.SetClippingRange(0.5, 1.5)
 
-    def _written(self, line: TextLine) -> vtkTextActor:
+    def _written(self, line: TextLine) -> pyvista.Text:
         actor = self._text_actor(line.text, line.size)
-        style = actor.GetTextProperty()
-        style.SetColor(*(value / 255.0 for value in line.colour))
-        style.SetOrientation(line.angle)
-        style.SetJustification(("left", "center", "right").index(line.horizontal))
-        style.SetVerticalJustification(("bottom", "center", "top").index(line.vertical))
-        actor.SetPosition(*line.position)
+        actor.prop.color = line.colour
+        actor.prop.orientation = line.angle
+        actor.prop.justification_horizontal = line.horizontal
+        actor.prop.justification_vertical = line.vertical
+        actor.position = line.position
         return actor
 
-    def _text_actor(self, text: str, size: float) -> vtkTextActor:
-        from vtkmodules.vtkCommonCore import VTK_FONT_FILE
-        from vtkmodules.vtkRenderingCore import vtkTextActor
+    def _text_actor(self, text: str, size: float) -> pyvista.Text:
+        import pyvista
 
-        actor = vtkTextActor()
-        actor.SetInput(text)
-        style = actor.GetTextProperty()
-        style.SetFontFamily(VTK_FONT_FILE)
-        style.SetFontFile(self._font)
-        style.SetFontSize(max(round(size), 6))
+        actor = pyvista.Text(text)
+        actor.prop.set_font_file(self._font)
+        actor.prop.font_size = max(round(size), 6)
         return actor
 
 
-def _triangle_actor(points: NDArray[np.float64], triangles: NDArray[np.int64], colours: NDArray[np.uint8]) -> vtkActor:
+def _triangle_actor(
+    points: NDArray[np.float64], triangles: NDArray[np.int64], colours: NDArray[np.uint8]
+) -> pyvista.Actor:
     """All triangles of a page as one actor: one for each shape would cost more than the drawing."""
-    from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
-    from vtkmodules.vtkCommonCore import vtkPoints
-    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
-    from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
+    import pyvista
 
-    coordinates = vtkPoints()
-    coordinates.SetData(numpy_to_vtk(np.column_stack([points, np.zeros(len(points))]).astype(np.float32), deep=True))
-    cells = vtkCellArray()
-    cells.SetData(3, numpy_to_vtkIdTypeArray(np.ascontiguousarray(triangles, dtype=np.int64).ravel(), deep=True))
-    mesh = vtkPolyData()
-    mesh.SetPoints(coordinates)
-    mesh.SetPolys(cells)
-    mesh.GetPointData().SetScalars(numpy_to_vtk(np.ascontiguousarray(colours), deep=True))
-    mapper = vtkPolyDataMapper()
-    mapper.SetInputData(mesh)
+    space = np.column_stack([points, np.zeros(len(points))]).astype(np.float32)
+    mesh = pyvista.PolyData.from_regular_faces(space, triangles)
+    mesh.point_data.set_array(colours, "colours")
+    mesh.point_data.active_scalars_name = "colours"
+    mapper = pyvista.DataSetMapper(dataset=mesh)
     mapper.SetColorModeToDirectScalars()
-    actor = vtkActor()
-    actor.SetMapper(mapper)
-    actor.GetProperty().LightingOff()
+    actor = pyvista.Actor(mapper=mapper)
+    actor.prop.lighting = False
     actor.ForceTranslucentOn()
     return actor
 
@@ -219,9 +202,9 @@ def _quiet_vtk() -> Iterator[None]:
         vtkLogger.SetStderrVerbosity(verbosity)
 
 
-def _require_renderer(window: vtkRenderWindow) -> None:
-    """Refuse before VTK renders without a library, which would end the process."""
-    if window.GetClassName() != "vtkOSOpenGLRenderWindow":
+def _require_renderer(window: str) -> None:
+    """Refuse before VTK renders without a library, which would end the process, judging by the window's class."""
+    if window != "vtkOSOpenGLRenderWindow":
         return
     for name in _MESA_LIBRARIES:
         try:

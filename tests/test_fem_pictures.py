@@ -230,13 +230,9 @@ def test_arrays_that_do_not_fit_are_named_together():
 
 
 def test_absent_renderer_is_an_error_and_not_a_crash(monkeypatch: pytest.MonkeyPatch):
-    class Window:
-        def GetClassName(self) -> str:  # noqa: N802 - the name is VTK's
-            return "vtkOSOpenGLRenderWindow"
-
     monkeypatch.setattr(picture_canvas, "_MESA_LIBRARIES", ("libabsent-of-this-computer.so",))
     with pytest.raises(NoRendererError, match="libegl1"):
-        picture_canvas._require_renderer(Window())  # type: ignore[arg-type]
+        picture_canvas._require_renderer("vtkOSOpenGLRenderWindow")
 
 
 def test_scale_is_a_share_of_the_tank():

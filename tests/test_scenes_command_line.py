@@ -231,10 +231,10 @@ def test_an_interrupt_is_one_line_and_130(monkeypatch: pytest.MonkeyPatch) -> No
         (["--help"], set()),
         (["run", "--help"], set()),
         (["run", "missing.toml"], set()),
-        # What solves draws only when asked, and needs neither matplotlib nor PyVista for it.
+        # What solves draws only when asked, and draws with pyvista.
         (["run", "aquarium", "--no-images", *COARSE], HEAVY - DRAWING),
         (["compare", "aquarium", *COARSE], HEAVY - DRAWING),
-        (["run", "aquarium", *COARSE], HEAVY - DRAWING | {"vtkmodules"}),
+        (["run", "aquarium", *COARSE], HEAVY),
     ],
 )
 def test_nothing_heavy_is_imported_that_is_not_needed(arguments: list[str], needed: set[str]) -> None:

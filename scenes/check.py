@@ -53,7 +53,8 @@ def _sizes(scene: TankScene) -> Iterator[str]:
         from hydroelastic.scenes.tank_mesh import make_mesh, unknown_count
 
         mesh = make_mesh(tank, resolution)
-        size = f", {len(mesh.cells)} triangles, {unknown_count(mesh, resolution.degree)} unknowns of ψ"
+        unknowns = unknown_count(len(mesh.points), len(mesh.cells), resolution.degree)
+        size = f", {len(mesh.cells)} triangles, {unknowns} unknowns of ψ"
     yield f"First attempt: degree {resolution.degree}{size}{shapes}{more}; refined until the tolerance is kept."
 
 

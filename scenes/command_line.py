@@ -17,7 +17,6 @@ from hydroelastic.meshes.interrupts import interrupts_deferred
 from hydroelastic.scenes.errors import SceneError, UnsolvedError
 from hydroelastic.scenes.output import check_output
 from hydroelastic.scenes.read import read_scene, scene_path, shipped_scenes
-from hydroelastic.scenes.study_options import plan_from_options
 
 BAD_INPUT = 2
 NOT_TO_TOLERANCE = 3
@@ -216,6 +215,8 @@ def study(scene: str, out: Path | None, overrides: tuple[str, ...], **options: s
     Example:
       hydroelastic study sloshing --families uniform --degrees 1-8 --set accuracy.modes=5
     """
+    from hydroelastic.scenes.study_options import plan_from_options
+
     plan = plan_from_options(options)
     checked = read_scene(scene, overrides)
     folder = out if out is not None else Path("results") / f"{scene_path(scene).stem}_study"

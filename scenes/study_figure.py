@@ -16,9 +16,10 @@ from hydroelastic.scenes.study_theory import expected_order, expected_remainders
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-# Okabe and Ito's colours, which colour-blind readers tell apart; families differ in dashes and markers besides.
+# Okabe and Ito's colours, which colour-blind readers tell apart; families differ in dashes and markers besides. Degrees
+# beyond the usual ones take a ramp of lightness.
 _DEGREES = {1: "#56B4E9", 2: "#E69F00", 3: "#CC79A7", 4: "#D55E00"}
-_HIGHER = "#8C6D31"
+_RAMP = {5: "#F5C6A5", 6: "#D9A07A", 7: "#B87B52", 8: "#8F5A36", 9: "#633B20", 10: "#3A200F"}
 _GEOMETRIC = "#0072B2"
 _TOLERANCE = "#009E73"
 _THEORY = "#555555"
@@ -89,7 +90,7 @@ def _style(family: Family, degree: int, rows: list[StudyRow]) -> dict[str, Any]:
         return {"color": _TOLERANCE, "marker": "*", "markersize": 9, "linewidth": 2.0, "label": label}
     uniform = family == "uniform"
     return {
-        "color": _DEGREES.get(degree, _HIGHER),
+        "color": (_DEGREES | _RAMP)[degree],
         "marker": _MARKERS[degree],
         "markersize": 5,
         "linewidth": 1.3,
@@ -112,7 +113,7 @@ def _draw_orders(axes: Axes, study: Study) -> None:
     (left, right), (low, high) = np.log10(axes.get_xlim()), np.log10(axes.get_ylim())
     start, top = left + 0.68 * (right - left), high - 0.03 * (high - low)
     # In two dimensions unknowns grow like the square of 1/h.
-    length = min(0.22 * (right - left), 0.4 * (high - low) / (0.5 * orders[-1]))
+    length = min(0.22 * (right - left), 0.3 * (high - low) / (0.5 * orders[-1]))
     for order in orders:
         end, bottom = start + length, top - 0.5 * order * length
         axes.plot([10**start, 10**end], [10**top, 10**bottom], color=_THEORY, linewidth=0.9)

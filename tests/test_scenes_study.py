@@ -259,6 +259,19 @@ def test_write_study_leaves_a_result_folder(beam: Study, tmp_path: Path) -> None
     assert summary["gain"]["expected"] == beam.gain.expected if beam.gain else False
 
 
+def test_the_example_of_the_documentation_prints_what_it_says(capsys: pytest.CaptureFixture[str]) -> None:
+    page = (Path(__file__).parent.parent / "docs" / "studies.md").read_text(encoding="utf-8")
+    code, printed = page.split("## From Python")[1].split("```python\n")[1].split("```\n")[0:3:2]
+    exec(compile(code, "docs/studies.md", "exec"), {})
+    for found, shown in zip(capsys.readouterr().out.splitlines(), printed.strip().splitlines(), strict=True):
+        for one, other in zip(found.split(), shown.split(), strict=True):
+            if other.replace(".", "").replace("e-", "").isdigit():
+                # gmsh of another version may place nodes otherwise: errors, and the deviations of fits, by a little.
+                assert float(one) == pytest.approx(float(other), rel=0.2, abs=0.0 if "e" in other else 0.01)
+            else:
+                assert one == other
+
+
 def test_a_scene_with_a_mesh_of_its_own_is_refused() -> None:
     scene = WATER.model_copy(update={"mesh": MeshFile(file=Path("mine.msh"))})
     with pytest.raises(SceneError, match="makes its own meshes"):

@@ -85,7 +85,7 @@ def _size(scene: TankScene, tank: ScaledTank, resolution: Resolution, *, half: b
         where = " in half the tank" if half else ""
         twice = ", for symmetric and for antisymmetric modes" if half else ""
         parts.append(f"{len(mesh.cells)} triangles{where}")
-        parts.append(f"{unknown_count(mesh, resolution.degree)} unknowns of ψ{twice}")
+        parts.append(f"{unknown_count(len(mesh.points), len(mesh.cells), resolution.degree)} unknowns of ψ{twice}")
     if resolution.shapes:
         parts.append(f"{' + '.join(map(str, resolution.shapes))} dry modes")
     return ", ".join(parts)

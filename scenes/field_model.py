@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 
@@ -23,10 +24,19 @@ from hydroelastic.scenes.tank_mesh import check_mesh, make_mesh
 
 def build_mesh(comm: MPI.Comm, tank: ScaledTank, resolution: Resolution, *, half: bool = False) -> TankMesh:
     """Mesh a scene, or its left half, with gmsh on rank 0 and distribute it (collective)."""
+    return distributed_mesh(comm, lambda: make_mesh(tank, resolution, half=half))
+
+
+def distributed_mesh(comm: MPI.Comm, make: Callable[[], TaggedMesh]) -> TankMesh:
+    """Make a mesh, in units of the tank, on rank 0 and distribute it (collective).
+
+    Raises:
+        MeshError: on all ranks, if ``make`` raises it.
+    """
     tagged, problem = None, ""
     if comm.rank == 0:
         try:
-            tagged = make_mesh(tank, resolution, half=half)
+            tagged = make()
         except MeshError as error:
             problem = str(error)
     return _distributed(comm, tagged, problem)

@@ -81,7 +81,7 @@ class Resolution:
         degree: polynomial degree of ψ.
         surface_sizes: largest element on each piece of the top, in tank lengths.
         bulk_size: largest element anywhere.
-        tip_size: innermost ring around the tips; ``None`` leaves the mesh uniform, for studies.
+        tip_size: innermost ring around the tips; ``None`` on a mesh that is not graded by rings.
         ring_ratio: ratio of the radii of successive rings.
         shapes: number of dry modes of each beam.
         modes: how many modes are solved for.

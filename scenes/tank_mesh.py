@@ -44,9 +44,11 @@ def make_mesh(tank: ScaledTank, resolution: Resolution, *, half: bool = False) -
     return build_tank_mesh(geometry, grading)
 
 
-def unknown_count(mesh: TaggedMesh, degree: int) -> int:
-    """Number of unknowns of a continuous polynomial of a degree on a simply connected mesh of triangles."""
-    triangles, points = len(mesh.cells), len(mesh.points)
+def unknown_count(points: int, triangles: int, degree: int) -> int:
+    """Number of unknowns of a continuous polynomial of a degree on a simply connected mesh of triangles.
+
+    A mesh each of whose triangles is cut into n² has, at the same degree, the unknowns of the uncut one at n times it.
+    """
     edges = points + triangles - 1
     return points + (degree - 1) * edges + (degree - 1) * (degree - 2) // 2 * triangles
 

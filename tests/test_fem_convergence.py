@@ -9,38 +9,10 @@ import numpy as np
 import pytest
 
 from hydroelastic.fem.modes import solve_modes
-from hydroelastic.meshes.tagged_mesh import TaggedMesh
+from hydroelastic.meshes.nested import halved
 from hydroelastic.modal import sloshing_frequencies
 from hydroelastic.scenes.models import TankScene
 from hydroelastic.scenes.plan import ScaledTank
-
-
-def refined(mesh: TaggedMesh) -> TaggedMesh:
-    """Every triangle cut into four alike: exactly half the size everywhere, so that rates are clean."""
-    numbers: dict[tuple[int, int], int] = {}
-    points = list(mesh.points)
-
-    def middle(a: int, b: int) -> int:
-        key = (min(a, b), max(a, b))
-        if key not in numbers:
-            numbers[key] = len(points)
-            points.append(0.5 * (mesh.points[a] + mesh.points[b]))
-        return numbers[key]
-
-    cells = []
-    for a, b, c in mesh.cells.tolist():
-        ab, bc, ca = middle(a, b), middle(b, c), middle(c, a)
-        cells += [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
-    facets = [half for a, b in mesh.facets.tolist() for half in ((a, middle(a, b)), (middle(a, b), b))]
-    return TaggedMesh(
-        points=np.array(points),
-        cells=np.array(cells),
-        cell_tags=np.repeat(mesh.cell_tags, 4),
-        facets=np.array(facets),
-        facet_tags=np.repeat(mesh.facet_tags, 2),
-        cell_names=mesh.cell_names,
-        facet_names=mesh.facet_names,
-    )
 
 
 def values_on_halved_meshes(
@@ -54,7 +26,7 @@ def values_on_halved_meshes(
             tanks.distribute(tagged), tank, degree=degree, shapes=24, pressure_release=pressure_release
         )
         rows.append(solve_modes(pencil, 3).eigenvalues)
-        tagged = refined(tagged)
+        tagged = halved(tagged)
     return np.array(rows)
 
 

@@ -1,0 +1,154 @@
+"""Observed rates of convergence, fitted, with the error of the fit and beside what theory expects."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import groupby
+from math import exp, log
+
+import numpy as np
+
+from hydroelastic.meshes.grading import Grading
+from hydroelastic.scenes.models import TankScene
+from hydroelastic.scenes.study_plan import Family
+from hydroelastic.scenes.study_rows import StudyRow
+from hydroelastic.scenes.study_theory import expected_order, expected_remainders, gain_along_a_ray
+
+DIFFERENCE = 0.1
+"""An order that differs from theory by more than this part of it is flagged: not yet asymptotic."""
+
+GAIN_FACTOR = 1.4
+"""The same for a gain per degree that is more than this many times that of theory, or less than its part."""
+
+# Frequencies that are further out than this have not seen the mesh yet.
+_COARSE = 0.05
+# How many rows a fit takes: the finest above rounding, for coarser ones lie before the asymptotic range.
+_POINTS = 3
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rate:
+    """An observed order q, error ~ hᵠ, of one degree on meshes of one kind.
+
+    Attributes:
+        family: the kind of mesh.
+        degree: of ψ.
+        grading: β; 1 on uniform meshes.
+        mode: whose frequency, counted from 1: the lowest whose error stays above rounding on the finest mesh.
+        sizes: elements of the meshes that the fit used, in tank lengths.
+        observed: q.
+        deviation: standard error of the fit.
+        expected: q of theory.
+    """
+
+    family: Family
+    degree: int
+    grading: float
+    mode: int
+    sizes: tuple[float, ...]
+    observed: float
+    deviation: float
+    expected: float
+
+    @property
+    def agrees(self) -> bool:
+        """Whether it differs by at most `DIFFERENCE` from theory."""
+        return abs(self.observed - self.expected) <= DIFFERENCE * self.expected
+
+
+@dataclass(frozen=True, kw_only=True)
+class Gain:
+    """By which factor each degree lowers the error on geometric rings.
+
+    Attributes:
+        degrees: that the fit used.
+        mode: whose frequency, counted from 1; chosen as for a rate.
+        observed: the factor.
+        deviation: standard error of its logarithm.
+        expected: what the best polynomials of these degrees gain on one ring; ``None`` where ψ is smooth, so that the
+            rings are not what limits.
+        along_a_ray: ((1 + √σ)/(1 − √σ))², what they would gain on sectors of no angle.
+    """
+
+    degrees: tuple[int, ...]
+    mode: int
+    observed: float
+    deviation: float
+    expected: float | None
+    along_a_ray: float
+
+    @property
+    def agrees(self) -> bool:
+        """Whether it differs by at most `GAIN_FACTOR` from theory, where there is one."""
+        return self.expected is None or abs(log(self.observed / self.expected)) <= log(GAIN_FACTOR)
+
+
+def fitted_rates(scene: TankScene, rows: Sequence[StudyRow]) -> tuple[Rate, ...]:
+    """Fit the order of every degree on uniform and algebraic meshes that has three meshes above rounding."""
+    series = [row for row in rows if row.family in ("uniform", "algebraic")]
+    rates = []
+    for (family, degree), group in groupby(series, key=lambda row: (row.family, row.degree)):
+        used = _asymptotic(list(group))
+        if used is None:
+            continue
+        mode, meshes = used
+        sizes = [row.element_size for row in meshes]
+        slope, deviation = _fit(np.log(sizes), np.log([abs(row.errors[mode]) for row in meshes]))
+        grading = meshes[-1].grading or 1.0
+        rates.append(
+            Rate(
+                family=family,
+                degree=degree,
+                grading=grading,
+                mode=mode + 1,
+                sizes=tuple(sizes),
+                observed=slope,
+                deviation=deviation,
+                expected=expected_order(scene, degree, grading),
+            )
+        )
+    return tuple(rates)
+
+
+def fitted_gain(scene: TankScene, rows: Sequence[StudyRow]) -> Gain | None:
+    """Fit the gain per degree on geometric rings; ``None`` with fewer than three degrees above rounding."""
+    used = _asymptotic([row for row in rows if row.family == "geometric"])
+    if used is None:
+        return None
+    mode, fitted = used
+    degrees = [row.degree for row in fitted]
+    x = np.array(degrees, dtype=float)
+    slope, deviation = _fit(x, np.log([abs(row.errors[mode]) for row in fitted]))
+    left = expected_remainders(scene, degrees)
+    return Gain(
+        degrees=tuple(degrees),
+        mode=mode + 1,
+        observed=exp(-slope),
+        deviation=deviation,
+        expected=None if left is None else exp(-_fit(x, np.log(left))[0]),
+        along_a_ray=gain_along_a_ray(Grading.ring_ratio),
+    )
+
+
+def _is_used(row: StudyRow, mode: int) -> bool:
+    return row.floor < abs(row.errors[mode]) < _COARSE
+
+
+def _asymptotic(series: list[StudyRow]) -> tuple[int, list[StudyRow]] | None:
+    """The lowest mode whose error stays above rounding as far along a series as any, and the last rows it has there."""
+    best: tuple[int, int, list[StudyRow]] | None = None
+    for mode in range(min((len(row.errors) for row in series), default=0)):
+        places = [place for place, row in enumerate(series) if _is_used(row, mode)][-_POINTS:]
+        is_unbroken = len(places) == _POINTS and places[-1] - places[0] == _POINTS - 1
+        if is_unbroken and (best is None or places[-1] > best[0]):
+            best = places[-1], mode, [series[place] for place in places]
+    return None if best is None else best[1:]
+
+
+def _fit(x: np.ndarray, y: np.ndarray) -> tuple[float, float]:
+    """Slope of the straight line of least squares through three points or more, and its standard error."""
+    slope, start = np.polyfit(x, y, 1)
+    misfit = y - start - slope * x
+    deviation = np.sqrt(misfit @ misfit / (len(x) - 2) / np.square(x - x.mean()).sum())
+    return float(slope), float(deviation)

@@ -1,0 +1,106 @@
+"""The series of a study, each an iterator of rows."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from functools import partial
+
+from mpi4py import MPI
+
+from hydroelastic.fem.modes import EigenSolverError
+from hydroelastic.meshes.nested import NestedMeshes
+from hydroelastic.scenes.field_model import build_mesh, distributed_mesh
+from hydroelastic.scenes.plan import SMALLEST_TIP
+from hydroelastic.scenes.study_plan import Family, StudyPlan
+from hydroelastic.scenes.study_rows import StudiedTank, StudyRow, mesh_row, tolerance_row
+from hydroelastic.scenes.study_theory import full_order_grading, singular_exponent
+from hydroelastic.scenes.tank_mesh import geometry_of, unknown_count
+
+# Elements of the first mesh at the top, in tank lengths: six on the half of a beam as long as half the tank.
+_COARSEST = 0.125
+
+
+def nested_meshes(studied: StudiedTank) -> NestedMeshes:
+    """The meshes of the uniform and algebraic series, in units of the tank."""
+    depth = studied.tank.depth
+    return NestedMeshes(
+        geometry=geometry_of(studied.tank, half=studied.half),
+        # Elements of a thin layer are no longer than it is deep, and far below the top nothing moves.
+        size=min(_COARSEST, depth),
+        bulk_size=_COARSEST * max(1.0, depth),
+    )
+
+
+def _uniform(studied: StudiedTank, plan: StudyPlan) -> Iterator[StudyRow]:
+    """Elements of one size, halved again and again."""
+    for degree in plan.degrees:
+        yield from _halved(studied, plan, "uniform", degree, 1.0)
+
+
+def _algebraic(studied: StudiedTank, plan: StudyPlan) -> Iterator[StudyRow]:
+    """The same meshes drawn towards the tips, so far that the full order is expected; none where ψ is smooth."""
+    if singular_exponent(studied.scene) is None:
+        return
+    for degree in plan.degrees:
+        yield from _halved(studied, plan, "algebraic", degree, full_order_grading(studied.scene, degree))
+
+
+def _halved(studied: StudiedTank, plan: StudyPlan, family: Family, degree: int, grading: float) -> Iterator[StudyRow]:
+    """One degree on one mesh after the other, while they stay within the plan's unknowns and above rounding."""
+    meshes = nested_meshes(studied)
+    first = distributed_mesh(MPI.COMM_WORLD, partial(meshes.mesh, 0))
+    points = first.mesh.topology.index_map(0).size_global
+    parts = 2 if studied.half else 1
+    solved = False
+    for halvings in range(plan.halvings + 1):
+        unknowns = parts * unknown_count(points, first.cell_count, degree * 2**halvings)
+        if unknowns > plan.most_unknowns or meshes.innermost_ring(halvings, grading) < SMALLEST_TIP:
+            return
+        try:
+            row = mesh_row(
+                studied,
+                family,
+                replace(studied.finest, degree=degree),
+                partial(distributed_mesh, MPI.COMM_WORLD, partial(meshes.mesh, halvings, grading)),
+                element_size=meshes.size / 2**halvings,
+                grading=grading,
+            )
+        except EigenSolverError:
+            # On a mesh with hardly as many nodes at the top as modes are asked for.
+            if solved:
+                raise
+            continue
+        if row is not None:
+            solved = True
+            yield row
+
+
+def _geometric(studied: StudiedTank, plan: StudyPlan) -> Iterator[StudyRow]:
+    """One mesh with geometric rings around the tips, degree by degree."""
+    for degree in plan.geometric_degrees:
+        resolution = replace(studied.finest, degree=degree)
+        row = mesh_row(
+            studied,
+            "geometric",
+            resolution,
+            partial(build_mesh, MPI.COMM_WORLD, studied.tank, resolution, half=studied.half),
+            element_size=max(resolution.surface_sizes),
+        )
+        if row is not None:
+            yield row
+
+
+def _tolerance(studied: StudiedTank, plan: StudyPlan) -> Iterator[StudyRow]:
+    """What the solver makes of a tolerance."""
+    for tolerance in plan.tolerances:
+        yield tolerance_row(studied, tolerance)
+
+
+SERIES: dict[Family, Callable[[StudiedTank, StudyPlan], Iterator[StudyRow]]] = {
+    "uniform": _uniform,
+    "algebraic": _algebraic,
+    "geometric": _geometric,
+    "tolerance": _tolerance,
+}
+"""What solves each family of a plan (collective)."""

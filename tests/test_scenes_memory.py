@@ -1,0 +1,37 @@
+"""Memory of a piece of work is its own: neither that of earlier work nor a peak that only grows."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from mpi4py import MPI
+
+from hydroelastic.scenes import memory
+from hydroelastic.scenes.memory import peak_memory
+
+pytestmark = pytest.mark.skipif(not Path("/proc/self/clear_refs").exists(), reason="only Linux resets a peak")
+
+
+def peak_of(megabytes: int) -> float:
+    with peak_memory(MPI.COMM_SELF) as use:
+        np.ones(megabytes * 125_000)  # written, so that it is resident
+    assert use.peak is not None
+    return use.peak / 1e6
+
+
+def test_a_peak_is_that_of_the_work_alone() -> None:
+    # Pages, and what Python itself takes: a megabyte.
+    assert peak_of(200) == pytest.approx(200.0, abs=2.0)
+    assert peak_of(50) == pytest.approx(50.0, abs=2.0)
+    kept = np.ones(10_000_000)
+    assert peak_of(50) == pytest.approx(50.0, abs=2.0)
+    assert kept[0] == 1.0
+
+
+def test_nothing_is_told_where_the_peak_cannot_be_reset(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr(memory, "_RESET", tmp_path / "no folder" / "clear_refs")
+    with peak_memory(MPI.COMM_SELF) as use:
+        pass
+    assert use.peak is None

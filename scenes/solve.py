@@ -277,6 +277,8 @@ def _reasons(solution: TankSolution) -> tuple[str, ...]:
             + (f"rounding alone leaves {solution.rounding:.1e}; " if solution.rounding > 0.5 * tolerance else "")
             + _kept(float(errors.max()))
         )
+    if len(solution.asked) < solution.scene.accuracy.modes:
+        reasons.append(f"only {len(solution.asked)} modes can be told from the rounding of the lowest")
     if not solution.counted:
         reasons.append("an independent count of the modes by inertia disagrees: a mode may be missing")
     for number, tone in enumerate(solution.tones, 1):

@@ -97,12 +97,19 @@ def as_functions(liquid: LiquidSpace, potentials: list[PETSc.Vec]) -> list[fem.F
     return functions
 
 
+# Kernels that this process has seen compiled: to look one up takes dolfinx a millisecond or two.
+_compiled: set[tuple[str, int]] = set()
+
+
 def compile_form(tank: TankMesh, degree: int) -> None:
     """Compile the form of a degree on rank 0, unless the cache of dolfinx has it (collective).
 
     Assembly would do it by itself; called before, it shows what of a first run goes into compiling.
     """
-    _form(liquid_space(tank, degree), cells=_NONE, facets=_NONE)
+    kernel = tank.mesh.topology.cell_name(), degree
+    if kernel not in _compiled:
+        _form(liquid_space(tank, degree), cells=_NONE, facets=_NONE)
+        _compiled.add(kernel)
 
 
 def laplace_matrix(liquid: LiquidSpace) -> PETSc.Mat:

@@ -29,7 +29,7 @@ _WIDTH = 120
 TITLES: dict[Family, str] = {
     "uniform": "Uniform meshes, every element halved from one to the next",
     "algebraic": "The same meshes drawn towards the tips, rᵢ = R (i/n)^β",
-    "geometric": "One mesh with geometric rings around the tips, degree by degree",
+    "geometric": "One mesh, with geometric rings around the tips of beams, degree by degree",
     "tolerance": "What the solver makes of an asked tolerance",
 }
 

@@ -18,9 +18,11 @@ import numpy as np
 import ufl
 from dolfinx import fem
 from dolfinx.fem import petsc as fem_petsc
+from dolfinx.mesh import Mesh, meshtags
 from petsc4py import PETSc
 
 from hydroelastic.fem.direct import direct_solver
+from hydroelastic.fem.kernels import jit_options
 from hydroelastic.meshes.distribute import TankMesh
 
 
@@ -57,15 +59,6 @@ class LiquidSpace:
         # remote=True: a process may own an unknown of a surface none of whose facets it holds.
         dofs = fem.locate_dofs_topological(self.space, dim, facets, remote=True)
         return np.sort(dofs[dofs < self.space.dofmap.index_map.size_local])
-
-    def measure(self, quadrature_degree: int) -> ufl.Measure:
-        """Surface measure whose subdomains are the mesh's facet tags."""
-        return ufl.Measure(
-            "ds",
-            domain=self.tank.mesh,
-            subdomain_data=self.tank.facet_tags,
-            metadata={"quadrature_degree": quadrature_degree},
-        )
 
 
 def liquid_space(tank: TankMesh, degree: int, grounded: tuple[str, ...] = ()) -> LiquidSpace:
@@ -104,21 +97,59 @@ def as_functions(liquid: LiquidSpace, potentials: list[PETSc.Vec]) -> list[fem.F
     return functions
 
 
+def compile_form(tank: TankMesh, degree: int) -> None:
+    """Compile the form of a degree on rank 0, unless the cache of dolfinx has it (collective).
+
+    Assembly would do it by itself; called before, it shows what of a first run goes into compiling.
+    """
+    _form(liquid_space(tank, degree), cells=_NONE, facets=_NONE)
+
+
 def laplace_matrix(liquid: LiquidSpace) -> PETSc.Mat:
     """Assemble A = ∫∇ψ·∇q, every unknown included."""
-    potential, test = ufl.TrialFunction(liquid.space), ufl.TestFunction(liquid.space)
-    dx = ufl.dx(metadata={"quadrature_degree": 2 * liquid.degree - 2})
-    matrix = fem_petsc.assemble_matrix(fem.form(ufl.inner(ufl.grad(potential), ufl.grad(test)) * dx))
-    matrix.assemble()
-    return matrix
+    topology = liquid.tank.mesh.topology
+    cells = np.arange(topology.index_map(topology.dim).size_local, dtype=np.int32)
+    return _assembled(_form(liquid, cells=cells, facets=_NONE))
 
 
 def surface_mass_matrix(liquid: LiquidSpace, names: tuple[str, ...]) -> PETSc.Mat:
     """Assemble S = ∫ψ q over named surfaces, every unknown included."""
+    facets = np.unique(np.concatenate([liquid.tank.facets(name) for name in names]))
+    return _assembled(_form(liquid, cells=_NONE, facets=facets))
+
+
+_NONE = np.empty(0, dtype=np.int32)
+
+
+def _form(liquid: LiquidSpace, *, cells: np.ndarray, facets: np.ndarray) -> fem.Form:
+    """∫∇ψ·∇q over some cells + ∫ψ q over some facets of the boundary.
+
+    A and S are this one form, each without the other's part. To compile it takes hardly longer than to compile one of
+    them, for most of the time goes into starting the C compiler, reading Python's headers and linking. Which cells and
+    facets are meant does not enter the code, so that scenes share it.
+    """
+    mesh = liquid.tank.mesh
     potential, test = ufl.TrialFunction(liquid.space), ufl.TestFunction(liquid.space)
-    tags = tuple(liquid.tank.facet_names[name] for name in names)
-    ds = liquid.measure(2 * liquid.degree)
-    matrix = fem_petsc.assemble_matrix(fem.form(ufl.inner(potential, test) * ds(tags)))
+    dx = _measure("dx", mesh, mesh.topology.dim, cells, 2 * liquid.degree - 2)
+    ds = _measure("ds", mesh, mesh.topology.dim - 1, facets, 2 * liquid.degree)
+    form = ufl.inner(ufl.grad(potential), ufl.grad(test)) * dx + ufl.inner(potential, test) * ds
+    return fem.form(form, jit_options=jit_options())
+
+
+def _measure(kind: str, mesh: Mesh, dim: int, entities: np.ndarray, quadrature_degree: int) -> ufl.Measure:
+    """Measure of chosen cells or facets."""
+    chosen = 1
+    return ufl.Measure(
+        kind,
+        domain=mesh,
+        subdomain_id=chosen,
+        subdomain_data=meshtags(mesh, dim, entities, np.full(len(entities), chosen, dtype=np.int32)),
+        metadata={"quadrature_degree": quadrature_degree},
+    )
+
+
+def _assembled(form: fem.Form) -> PETSc.Mat:
+    matrix = fem_petsc.assemble_matrix(form)
     matrix.assemble()
     return matrix
 

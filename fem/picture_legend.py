@@ -6,11 +6,16 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from hydroelastic.fem.picture_page import INK, Array, Page, arrow_triangles, dashes
+from hydroelastic.fem.picture_page import INK, Page
+from hydroelastic.fem.picture_shapes import Array, dashes
 from hydroelastic.fem.picture_tank import ARROW, BODY, BODY_EDGE, FREE_SURFACE, ISO_LINE, WALL_STROKE, Frame
 from hydroelastic.fem.picture_view import SurfaceCurve, View, round_ticks
 
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+# The diverging scheme PRGn of ColorBrewer, by Cynthia Brewer, at equal steps.
+_PURPLE_GREEN = (
+    "40004b", "762a83", "9970ab", "c2a5cf", "e7d4e8", "f7f7f7", "d9f0d3", "a6dba0", "5aae61", "1b7837", "00441b",
+)  # fmt: skip
 _POTENTIAL = "ψ (m², unit generalized mass)"
 
 
@@ -19,9 +24,9 @@ def mode_colours() -> Array:
 
     Blue and orange stay free for the surfaces. The ends are left out: they are too dark for vectors and lines.
     """
-    import matplotlib
-
-    return np.asarray(matplotlib.colormaps["PRGn"](np.linspace(0.17, 0.83, 256)))[:, :3]
+    known = np.array([[int(colour[place : place + 2], 16) / 255.0 for place in (0, 2, 4)] for colour in _PURPLE_GREEN])
+    at = np.linspace(0.0, 1.0, len(known))
+    return np.column_stack([np.interp(np.linspace(0.17, 0.83, 256), at, channel) for channel in known.T])
 
 
 def write_line(
@@ -62,9 +67,9 @@ def draw_colour_bar(page: Page, limit: float, unit: float, *, centre: float, y: 
     width, height, gap = 640 * unit, 20 * unit, 40 * unit
     left = centre - 0.5 * (width + gap + page.text_width(label, 21 * unit))
     colours = mode_colours()
-    edges = left + width * np.linspace(0.0, 1.0, len(colours) + 1)
+    edges = left + width * np.linspace(0.0, 1.0, len(colours))
     bottom, top, right = y - 0.5 * height, y + 0.5 * height, left + width
-    page.swatches(edges, bottom, top, colours)
+    page.gradient(edges, bottom, top, colours)
     outline = np.array([[left, bottom], [right, bottom], [right, top], [left, top], [left, bottom]])
     page.strokes(np.stack([outline[:-1], outline[1:]], axis=1), stroke=1.4 * unit, colour=INK)
     ticks = round_ticks(-shown, shown, 8)
@@ -134,5 +139,4 @@ def _draw_key(page: Page, name: str, ends: Array, unit: float) -> None:
     elif name == "lines of equal ψ":
         page.strokes(ends[None], stroke=1.6 * unit, colour=ISO_LINE)
     else:
-        arrow = arrow_triangles(ends.mean(axis=0)[None], 0.8 * (ends[1:] - ends[:1]), stroke=2.4 * unit)
-        page.triangles(arrow, colour=ARROW)
+        page.arrows(ends.mean(axis=0)[None], 0.8 * (ends[1:] - ends[:1]), stroke=2.4 * unit, colour=ARROW)

@@ -3,24 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hydroelastic.fem.picture_page import (
-    GREY,
-    INK,
-    Array,
-    Page,
-    arrow_triangles,
-    band_triangles,
-    dashes,
-    triangle_mesh,
-)
+from hydroelastic.fem.picture_liquid import LiquidField, above, displacement_on_grid, iso_lines, moving
+from hydroelastic.fem.picture_page import GREY, INK, WHITE, Page
+from hydroelastic.fem.picture_shapes import Array, dashes
 from hydroelastic.fem.picture_view import ModePicture, SurfaceCurve, View, colour_limit, iso_levels
-
-if TYPE_CHECKING:
-    import pyvista
 
 BODY = "#d9660a"
 BODY_EDGE = "#5c2a00"
@@ -69,12 +58,13 @@ def draw_tank(page: Page, picture: ModePicture, view: View, frame: Frame, *, col
         colours: of the potential from its negative to its positive limit, shape (colours, 3).
         spacing: pixels between displacement vectors; 0 for none.
     """
-    mesh = _liquid_mesh(picture, view, frame)
+    field = _liquid_field(picture, view, frame)
     limit = colour_limit(picture)
-    page.field(mesh, values="potential", limit=limit, colours=colours)
-    page.strokes(_iso_lines(mesh, limit, view), stroke=1.1 * frame.unit, colour=ISO_LINE)
+    page.field(field, limit=limit, colours=colours)
+    page.strokes(_iso_lines(field, limit, view), stroke=1.1 * frame.unit, colour=ISO_LINE, joined=True)
+    _cover_below(page, field, view, frame)
     if spacing > 0:
-        page.triangles(_arrows(mesh, view, frame, spacing), colour=ARROW)
+        page.arrows(*_arrows(field, view, frame, spacing), stroke=2.0 * frame.unit, colour=ARROW)
     _draw_wash(page, picture, view, frame)
     _draw_walls(page, view, frame)
     start, end = frame.page(np.array([0.0, view.length]), np.zeros(2))
@@ -83,47 +73,48 @@ def draw_tank(page: Page, picture: ModePicture, view: View, frame: Frame, *, col
     _draw_surfaces(page, picture, view, frame)
 
 
-def _liquid_mesh(picture: ModePicture, view: View, frame: Frame) -> pyvista.PolyData:
-    mesh = triangle_mesh(frame.page(picture.points[:, 0], picture.points[:, 1]), picture.triangles)
-    mesh.point_data["potential"] = picture.potential
-    mesh.point_data["displacement"] = picture.displacement
-    if view.cut:
-        floor = frame.page(np.zeros(1), np.array([-view.depth]))[0, 1]
-        mesh = mesh.clip(normal=(0.0, -1.0, 0.0), origin=(0.0, floor, 0.0))
-    return mesh
+def _liquid_field(picture: ModePicture, view: View, frame: Frame) -> LiquidField:
+    field = LiquidField(
+        points=frame.page(picture.points[:, 0], picture.points[:, 1]),
+        triangles=picture.triangles,
+        potential=picture.potential,
+        displacement=picture.displacement,
+    )
+    return above(field, _floor(view, frame)) if view.cut else field
 
 
-def _iso_lines(mesh: pyvista.PolyData, limit: float, view: View) -> Array:
+def _floor(view: View, frame: Frame) -> float:
+    """Page coordinate of the lowest drawn point of the liquid."""
+    return float(frame.page(np.zeros(1), np.array([-view.depth]))[0, 1])
+
+
+def _iso_lines(field: LiquidField, limit: float, view: View) -> Array:
     """Strokes along the lines of equal ψ, shape (strokes, 2, 2).
 
     They are left out where ψ hardly changes: rounding errors would decide on the course of ψ = 0 in still water.
     """
-    if np.ptp(mesh.point_data["potential"]) == 0.0:
-        return np.empty((0, 2, 2))
-    lines = mesh.contour(isosurfaces=iso_levels(limit).tolist(), scalars="potential")
-    if lines.n_cells == 0:
-        return np.empty((0, 2, 2))
-    ends = lines.lines.reshape(-1, 3)[:, 1:]
-    gradient = np.hypot(*np.asarray(lines.point_data["displacement"], dtype=np.float64).T)
-    certain = gradient[ends].max(axis=1) * view.length > 0.01 * limit
-    return np.asarray(lines.points, dtype=np.float64)[ends[certain]][:, :, :2]
+    return iso_lines(moving(field, 0.01 * limit / view.length), iso_levels(limit))
 
 
-def _arrows(mesh: pyvista.PolyData, view: View, frame: Frame, spacing: float) -> Array:
-    """Triangles of the displacement vectors on a regular grid, stretched like the tank."""
-    import pyvista
+def _cover_below(page: Page, field: LiquidField, view: View, frame: Frame) -> None:
+    """Wipe out what the triangles at the floor of a cut tank show below it."""
+    if view.cut:
+        floor, lowest = _floor(view, frame), float(field.points[field.triangles, 1].min())
+        (left, _), (right, _) = frame.page(np.array([0.0, view.length]), np.zeros(1))
+        low, high = (np.array([[left - 1.0, y], [right + 1.0, y]]) for y in (lowest - 1.0, floor))
+        page.band(low, high, colour=WHITE)
 
+
+def _arrows(field: LiquidField, view: View, frame: Frame, spacing: float) -> tuple[Array, Array]:
+    """Centres and vectors in pixels of the displacement on a regular grid, stretched like the tank."""
     (left, bottom), (right, top) = frame.page(np.array([0.0, view.length]), np.array([-view.depth, 0.0]))
     columns, rows = max(round((right - left) / spacing), 2), max(round((top - bottom) / spacing), 2)
     x = left + (right - left) * (np.arange(columns) + 0.5) / columns
     y = bottom + (top - bottom) * (np.arange(rows) + 0.5) / rows
-    grid = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
-    probe = pyvista.PolyData(np.column_stack([grid, np.zeros(len(grid))])).sample(mesh)
-    inside = np.asarray(probe.point_data["vtkValidPointMask"], dtype=bool)
-    vectors = np.asarray(probe.point_data["displacement"], dtype=np.float64)[inside] * [1.0, frame.stretch]
-    vectors = drawn_vectors(vectors, spacing)
+    centres, displacement = displacement_on_grid(field, x, y)
+    vectors = drawn_vectors(displacement * [1.0, frame.stretch], spacing)
     seen = np.hypot(*vectors.T) > 0.1 * spacing
-    return arrow_triangles(grid[inside][seen], vectors[seen], stroke=2.0 * frame.unit)
+    return centres[seen], vectors[seen]
 
 
 def drawn_vectors(vectors: Array, spacing: float) -> Array:
@@ -145,12 +136,12 @@ def _displaced(curve: SurfaceCurve, view: View, frame: Frame) -> Array:
 
 def _draw_wash(page: Page, picture: ModePicture, view: View, frame: Frame) -> None:
     """Tint the liquid that rose above the still level, and fade the field where the surface fell below it."""
-    for colour, sign, opacity in ((_WASH, 1.0, 0.55), ("#ffffff", -1.0, 0.5)):
+    for colour, sign, opacity in ((_WASH, 1.0, 0.55), (WHITE, -1.0, 0.5)):
         for curve in picture.surfaces:
             height = sign * np.maximum(sign * view.surface_scale * curve.displacement, 0.0)
             if height.any():
-                band = band_triangles(frame.page(curve.x, np.zeros(1)), frame.page(curve.x, height))
-                page.triangles(band, colour=colour, opacity=opacity)
+                level, surface = frame.page(curve.x, np.zeros(1)), frame.page(curve.x, height)
+                page.band(level, surface, colour=colour, opacity=opacity)
 
 
 def _draw_walls(page: Page, view: View, frame: Frame) -> None:
@@ -175,7 +166,7 @@ def _draw_surfaces(page: Page, picture: ModePicture, view: View, frame: Frame) -
     unit = frame.unit
     for curve in picture.surfaces:
         if curve.kind == "free_surface":
-            page.ribbon(_displaced(curve, view, frame), stroke=7.0 * unit, colour="#ffffff")
+            page.ribbon(_displaced(curve, view, frame), stroke=7.0 * unit, colour=WHITE)
             page.ribbon(_displaced(curve, view, frame), stroke=4.5 * unit, colour=FREE_SURFACE)
     for curve in picture.surfaces:
         if curve.kind == "body":

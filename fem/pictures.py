@@ -1,10 +1,12 @@
-"""Pictures of natural modes, rendered by pyvista without a screen: one mode, or all of them on a sheet."""
+"""Pictures of natural modes, rendered by VTK without a screen: one mode, or all of them on a sheet."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 
+from hydroelastic.fem.picture_canvas import Canvas, NoRendererError
 from hydroelastic.fem.picture_legend import (
     draw_axes,
     draw_colour_bar,
@@ -13,17 +15,17 @@ from hydroelastic.fem.picture_legend import (
     scale_notes,
     write_line,
 )
-from hydroelastic.fem.picture_page import GREY, NoRendererError, Page
+from hydroelastic.fem.picture_page import GREY, Page
 from hydroelastic.fem.picture_tank import Frame, draw_tank
 from hydroelastic.fem.picture_view import ModePicture, SurfaceCurve, View, colour_limit, view_of
 
-__all__ = ["ModePicture", "NoRendererError", "SurfaceCurve", "draw_mode", "draw_overview"]
+__all__ = ["Canvas", "ModePicture", "NoRendererError", "SurfaceCurve", "draw_mode", "draw_overview"]
 
 _REFERENCE_WIDTH = 1600.0
 """Sizes are given for this image width and scaled with it."""
 
 
-def draw_mode(picture: ModePicture, path: Path | str, *, width: int = 1600) -> None:
+def draw_mode(picture: ModePicture, path: Path | str, *, width: int = 1600, canvas: Canvas | None = None) -> None:
     """Write a mode as one PNG with axes, colour bar and legend.
 
     The height follows from the tank. Shallow tanks are stretched vertically and deep ones cut; the caption says so.
@@ -32,6 +34,7 @@ def draw_mode(picture: ModePicture, path: Path | str, *, width: int = 1600) -> N
         picture: the mode.
         path: of the PNG file in an existing folder.
         width: of the image in pixels.
+        canvas: draws it; give the same one for several pictures, it is slow to open.
 
     Raises:
         FileNotFoundError: the folder of the file does not exist.
@@ -51,7 +54,8 @@ def draw_mode(picture: ModePicture, path: Path | str, *, width: int = 1600) -> N
         stretch=view.stretch,
         unit=unit,
     )
-    with Page(width=width, height=height) as page:
+    with _opened(canvas) as opened:
+        page = Page(opened, width=width, height=height)
         draw_tank(page, picture, view, frame, colours=mode_colours(), spacing=44 * unit)
         write_line(page, picture.title, (0.5 * width, height - 42 * unit), size=30 * unit, room=width - 60 * unit)
         draw_axes(page, view, frame)
@@ -62,7 +66,12 @@ def draw_mode(picture: ModePicture, path: Path | str, *, width: int = 1600) -> N
 
 
 def draw_overview(
-    pictures: Sequence[ModePicture], path: Path | str, *, columns: int | None = None, width: int = 1600
+    pictures: Sequence[ModePicture],
+    path: Path | str,
+    *,
+    columns: int | None = None,
+    width: int = 1600,
+    canvas: Canvas | None = None,
 ) -> None:
     """Write several modes as panels of one PNG, without axes and colour bars.
 
@@ -71,6 +80,7 @@ def draw_overview(
         path: of the PNG file in an existing folder.
         columns: panels in a row; chosen from the shape of the tank by default.
         width: of the image in pixels.
+        canvas: draws it; give the same one for several pictures, it is slow to open.
 
     Raises:
         FileNotFoundError: the folder of the file does not exist.
@@ -91,7 +101,8 @@ def draw_overview(
     row = aspect * panel + heading
     rows = -(-len(pictures) // columns)
     height = round(footer + rows * row + 20 * unit)
-    with Page(width=width, height=height) as page:
+    with _opened(canvas) as opened:
+        page = Page(opened, width=width, height=height)
         for index, (picture, view) in enumerate(zip(pictures, views, strict=True)):
             left = margin + (index % columns) * (panel + margin)
             top = height - 15 * unit - (index // columns) * row
@@ -116,6 +127,11 @@ def _checked_path(path: Path | str, width: int) -> Path:
     if width < 400:
         raise ValueError(f"a picture is at least 400 pixels wide, got {width}")
     return path
+
+
+def _opened(canvas: Canvas | None) -> AbstractContextManager[Canvas]:
+    """The given canvas, which stays open, or one for this picture alone."""
+    return Canvas() if canvas is None else nullcontext(canvas)
 
 
 def _drawn_size(view: View, *, available: float, highest: float) -> tuple[float, float]:

@@ -11,13 +11,14 @@ name_folders() {
     [[ $cache == /* ]] || cache=$PWD/$cache
     cache=$(readlink -m -- "$cache")
 
-    local file base debian run development place_and_project
-    for file in "$checkout"/requirements/{debian,run,dev}.txt "$checkout/pyproject.toml"; do
+    local file base debian run development peers place_and_project
+    for file in "$checkout"/requirements/{debian,run,dev,bench}.txt "$checkout/pyproject.toml"; do
         [[ -r $file ]] || fail "the checkout lacks $file"
     done
     debian=$(read_list "$checkout/requirements/debian.txt" | sha256sum)
     run=$(read_list "$checkout/requirements/run.txt" | sha256sum)
     development=$(read_list "$checkout/requirements/dev.txt" | sha256sum)
+    peers=$(read_list "$checkout/requirements/bench.txt" | sha256sum)
     place_and_project=$(sha256sum - "$checkout/pyproject.toml" <<<"$checkout")
     local place=${place_and_project%%$'\n'*} project=${place_and_project##*$'\n'}
     project=${project#\\} # sha256sum's mark of a file name with unusual characters
@@ -34,7 +35,7 @@ name_folders() {
     if [[ $way == inside ]]; then
         venv=$HYDROELASTIC_INSIDE forms=${XDG_CACHE_HOME:-$cache/forms/inside}
     fi
-    overlay=$cache/checkouts/${place:0:12}-${project:0:8}${run:0:8}
+    overlay=$cache/checkouts/${place:0:12}-${project:0:8}${run:0:8}${peers:0:4}
 }
 
 is_prepared() {

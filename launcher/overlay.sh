@@ -8,7 +8,7 @@ make_overlay() {
     local folder version metadata requirement
     version=$(sed -n 's/^version = "\(.*\)"/\1/p' "$checkout/pyproject.toml" | head -n 1)
     mkdir -- "$building/hydroelastic" "$building/bin" "$building/hydroelastic-$version.dist-info"
-    for folder in meshes fem modal scenes; do
+    for folder in meshes fem modal scenes benchmarks; do
         ln -s -- "$checkout/$folder" "$building/hydroelastic/$folder"
     done
     metadata=$building/hydroelastic-$version.dist-info
@@ -16,6 +16,10 @@ make_overlay() {
         printf 'Metadata-Version: 2.1\nName: hydroelastic\nVersion: %s\n' "$version"
         read_list "$checkout/requirements/run.txt" | while read -r requirement; do
             printf 'Requires-Dist: %s\n' "$requirement"
+        done
+        printf 'Provides-Extra: bench\n'
+        read_list "$checkout/requirements/bench.txt" | while read -r requirement; do
+            printf 'Requires-Dist: %s; extra == "bench"\n' "$requirement"
         done
     } >"$metadata/METADATA"
     printf 'hydro\n' >"$metadata/INSTALLER"

@@ -48,7 +48,6 @@ def free_free_roots(count: int) -> FloatArray:
     return (numbers + 0.5) * np.pi + _root_offset(numbers)
 
 
-@functools.lru_cache(maxsize=2048)
 def free_free_wavenumber(index: int) -> float:
     """Return κ l of the shape ``index`` of `free_free_shape`: zero for heave and pitch.
 
@@ -64,8 +63,12 @@ def free_free_wavenumber(index: int) -> float:
     _check_index(index)
     if index < RIGID_SHAPES:
         return 0.0
-    number = np.array([index - 1.0])
-    return float(((number + 0.5) * np.pi + _root_offset(number))[0])
+    return (index - 0.5) * np.pi + _single_root_offset(index - 1)
+
+
+@functools.lru_cache(maxsize=2048)
+def _single_root_offset(number: int) -> float:
+    return float(_root_offset(np.array([float(number)]))[0])
 
 
 def free_free_shape(index: int, s: npt.ArrayLike | SupportsFloat, derivative: int = 0) -> FloatArray:
@@ -127,7 +130,7 @@ def _elastic_shape(number: int, s: FloatArray, derivative: int) -> FloatArray:
 
 def _elastic_shape_near(number: int, parity: float, s: FloatArray, derivative: int) -> FloatArray:
     """Evaluate the shape for s ≤ 1/2, where every term is bounded by one or two."""
-    offset = float(_root_offset(np.array([float(number)]))[0])
+    offset = _single_root_offset(number)
     root = (number + 0.5) * np.pi + offset
     ratio = parity * np.exp(-root)
     decaying = (parity * np.exp(-root * (1 - s)) + (-1.0) ** derivative * np.exp(-root * s)) / (1 + ratio)

@@ -14,8 +14,8 @@ from hydroelastic.fem.truncation import truncation_errors
 from hydroelastic.scenes.field_solution import FieldSolution
 from hydroelastic.scenes.plan import HIGHEST_DEGREE, Resolution, rounding_error
 
-# Lanczos leaves a few units of the last place of the spread of 1/λ.
-_ROUNDING_OF_SPREAD = 1e-15
+ROUNDING_OF_SPREAD = 1e-15
+"""Lanczos leaves a few units of the last place of the largest 1/λ in each."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,8 +72,7 @@ def frequency_errors(
         liquid=0.5 * liquid,
         tips=0.5 * tips,
         truncation=0.5 * truncation,
-        rounding=rounding_error(resolution.degree, depth)
-        + _ROUNDING_OF_SPREAD * values / solution.modes.eigenvalues[0],
+        rounding=rounding_error(resolution.degree, depth) + ROUNDING_OF_SPREAD * values / solution.modes.eigenvalues[0],
     )
 
 

@@ -12,7 +12,14 @@ from rich.text import Text
 from hydroelastic.modal.dry_modes import free_free_roots
 from hydroelastic.scenes.estimates import expected_tones
 from hydroelastic.scenes.models import Beam, Segment, TankScene, top_segments
-from hydroelastic.scenes.plan import initial_resolution, scaled_tank
+from hydroelastic.scenes.plan import (
+    Resolution,
+    ScaledTank,
+    companion_resolution,
+    initial_resolution,
+    scaled_tank,
+    workable_tolerance,
+)
 from hydroelastic.scenes.symmetry import is_mirror_image
 
 SURFACE_NAMES = {"free": "free surface", "rigid": "rigid lid", "pressure_release": "pressure release"}
@@ -43,19 +50,45 @@ def print_check(scene: TankScene, console: Console) -> None:
 
 
 def _sizes(scene: TankScene) -> Iterator[str]:
-    """How large the first attempt is; the built-in mesh is made to count it."""
+    """What the first attempt is, and why it should be enough; the built-in meshes are made to count them."""
     tank = scaled_tank(scene)
+    tolerance = scene.accuracy.tolerance
     resolution = initial_resolution(scene, modes=scene.accuracy.modes, tones=expected_tones(tank))
-    shapes = f", {' + '.join(map(str, resolution.shapes))} dry modes" if resolution.shapes else ""
-    more = "" if resolution.modes == scene.accuracy.modes else f", {resolution.modes} modes to reach the elastic tone"
-    size = ""
+    half = scene.mesh is None and is_mirror_image(tank)
+    yield f"First attempt: {_size(scene, tank, resolution, half=half)}."
+    if resolution.modes > scene.accuracy.modes:
+        yield f"  {resolution.modes} modes are looked at, to see where the energy of the first elastic tone gathers."
+    yield (
+        f"  Enough for {tolerance:g}: elements follow the shortest wave of the modes reported and the degree, "
+        "dry modes reach past that wave until their energy has died out, and the rings end where the singularity at "
+        "the tips no longer counts. The solution judges itself, and what falls short is refined."
+    )
+    workable = workable_tolerance(tolerance, tank.depth)
+    if workable > tolerance:
+        yield f"  Double precision will not keep {tolerance:g} here: {workable:.0e} is worked towards instead."
+    if tank.beams and tank.top == "free" and _has_open_top(scene):
+        size = _size(
+            scene,
+            tank,
+            companion_resolution(tank, tolerance, expected_tones(tank)) if scene.mesh is None else resolution,
+            half=half,
+        )
+        yield f"Beside it the first elastic tone with ψ = 0 on the water: {size}, hardly a wave, sharper tips."
+
+
+def _size(scene: TankScene, tank: ScaledTank, resolution: Resolution, *, half: bool) -> str:
+    parts = [f"degree {resolution.degree}"]
     if scene.mesh is None:
         from hydroelastic.scenes.tank_mesh import make_mesh, unknown_count
 
-        mesh = make_mesh(tank, resolution)
-        unknowns = unknown_count(len(mesh.points), len(mesh.cells), resolution.degree)
-        size = f", {len(mesh.cells)} triangles, {unknowns} unknowns of ψ"
-    yield f"First attempt: degree {resolution.degree}{size}{shapes}{more}; refined until the tolerance is kept."
+        mesh = make_mesh(tank, resolution, half=half)
+        where = " in half the tank" if half else ""
+        twice = ", for symmetric and for antisymmetric modes" if half else ""
+        parts.append(f"{len(mesh.cells)} triangles{where}")
+        parts.append(f"{unknown_count(len(mesh.points), len(mesh.cells), resolution.degree)} unknowns of ψ{twice}")
+    if resolution.shapes:
+        parts.append(f"{' + '.join(map(str, resolution.shapes))} dry modes")
+    return ", ".join(parts)
 
 
 def _request(scene: TankScene) -> str:
@@ -145,7 +178,10 @@ def hints(scene: TankScene) -> tuple[str, ...]:
 
 def _symmetry(scene: TankScene) -> Iterator[str]:
     if is_mirror_image(scaled_tank(scene)):
-        yield "The scene is its own mirror image: modes are either symmetric or antisymmetric about the middle."
+        yield (
+            "The scene is its own mirror image: modes are symmetric (∂ψ/∂x = 0 in the middle) or antisymmetric "
+            "(ψ = 0 there), and half the tank holds either kind."
+        )
 
 
 def _zero_modes(scene: TankScene) -> Iterator[str]:

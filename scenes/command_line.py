@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import io
 import os
+import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
@@ -21,6 +22,7 @@ from hydroelastic.scenes.read import read_scene, scene_path, shipped_scenes
 BAD_INPUT = 2
 NOT_TO_TOLERANCE = 3
 INTERRUPTED = 130
+_SECONDS_TO_END = 10
 
 RANK_VARIABLES = ("OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK")
 """Where MPI launchers say which process this is; without one there is only one process."""
@@ -265,6 +267,38 @@ def list_scenes() -> None:
     for shipped in shipped_scenes():
         table.add_row(shipped.name, shipped.title)
     Console().print(table)
+
+
+@main.command()
+@click.option("--out", type=click.Path(path_type=Path), help="Folder; default results/benchmarks.")
+@click.option("--quick", is_flag=True, help="One tank, every third case.")
+@click.option("--repeats", type=click.IntRange(min=1), help="Rounds that count; default 7, or 3 if quick.")
+@click.option("--no-install", is_flag=True, help="Leave out other codes that are not installed.")
+@click.pass_context
+def bench(context: click.Context, out: Path | None, quick: bool, repeats: int | None, no_install: bool) -> None:
+    """Measure error against seconds, beside NGSolve, scikit-fem and a bare lower bound.
+
+    The two others are installed into the cache if they are missing. Writes speed_against_error.csv, .md and .png.
+
+    \b
+    Example:
+      hydroelastic bench --quick --out results/quick
+    """
+    arguments = ["--quick"] * quick + ["--no-install"] * no_install
+    arguments += [] if out is None else ["--out", os.fspath(out)]
+    arguments += [] if repeats is None else ["--repeats", str(repeats)]
+    # A process of its own, for nothing here may depend on the benchmark.
+    process = subprocess.Popen([sys.executable, "-m", "hydroelastic.benchmarks", *arguments])
+    try:
+        code = process.wait()
+    except KeyboardInterrupt:
+        # Ctrl-C reaches both processes; the other one ends its own, and says so.
+        try:
+            process.wait(timeout=_SECONDS_TO_END)
+        except subprocess.TimeoutExpired:
+            process.terminate()
+        code = INTERRUPTED
+    context.exit(code if code >= 0 else 128 - code)
 
 
 if __name__ == "__main__":

@@ -10,16 +10,15 @@ from dataclasses import dataclass
 
 from mpi4py import MPI
 
+from hydroelastic.fem.liquid import compile_form
 from hydroelastic.meshes.distribute import TankMesh
-from hydroelastic.scenes.certainty import FrequencyErrors, frequency_errors, refined
+from hydroelastic.scenes.certainty import ROUNDING_OF_SPREAD, FrequencyErrors, frequency_errors, refined
 from hydroelastic.scenes.field_model import build_mesh
 from hydroelastic.scenes.field_solution import FieldSolution, Stopwatch, solve_field
 from hydroelastic.scenes.plan import Resolution, ScaledTank
 from hydroelastic.scenes.tones import ElasticTone, elastic_tone
 
 _MOST_ATTEMPTS = 5
-# Of λ: beyond it rounding leaves less than four digits of the higher one.
-_WIDEST_SPREAD = 1e11
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -78,7 +77,10 @@ def solve_companion(
             break
         with watch.stage("pressure release"):
             mesh = brought or build_mesh(comm, tank, attempt, half=half)
-            companion, causes = _tones(mesh, tank, attempt, half=half)
+        with watch.stage("forms"):
+            compile_form(mesh, attempt.degree)
+        with watch.stage("pressure release"):
+            companion, causes = _tones(mesh, tank, attempt, tolerance, half=half)
         if best is None or companion.largest_error < best.largest_error:
             best = companion
         if companion.largest_error <= tolerance:
@@ -89,7 +91,7 @@ def solve_companion(
 
 
 def _tones(
-    mesh: TankMesh, tank: ScaledTank, resolution: Resolution, *, half: bool
+    mesh: TankMesh, tank: ScaledTank, resolution: Resolution, tolerance: float, *, half: bool
 ) -> tuple[Companion, FrequencyErrors]:
     """Solve for more and more modes until they hold the tone of each beam."""
     beams = range(len(tank.beams))
@@ -100,7 +102,7 @@ def _tones(
         if all(tone.certain for tone in found) or len(solution.modes.eigenvalues) < count:
             break
         count *= 2
-    tones = tuple(tone if tone.certain and not _is_hidden(solution, tone) else None for tone in found)
+    tones = tuple(tone if tone.certain and not _is_hidden(solution, tone, tolerance) else None for tone in found)
     indices = sorted({tone.index for tone in tones if tone is not None})
     modes = [solution.modes.completed(index) for index in indices]
     causes = frequency_errors(solution, modes, indices, resolution, tank.depth)
@@ -109,7 +111,7 @@ def _tones(
     return Companion(solution=solution, tones=tones, errors=errors), causes
 
 
-def _is_hidden(solution: FieldSolution, tone: ElasticTone) -> bool:
-    """Whether a beam is rigid to double precision: its tone lies so high that nothing of it can be told."""
+def _is_hidden(solution: FieldSolution, tone: ElasticTone, tolerance: float) -> bool:
+    """Whether a beam is rigid to double precision: its tone lies so far above other modes that rounding hides it."""
     values = solution.modes.eigenvalues
-    return bool(values[tone.index] > _WIDEST_SPREAD * values[0])
+    return bool(ROUNDING_OF_SPREAD * values[tone.index] > tolerance * values[0])

@@ -14,6 +14,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from hydroelastic.fem.liquid import compile_form
 from hydroelastic.fem.modes import Mode, ModeSet, count_below, solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.surfaces import Body
@@ -114,7 +115,7 @@ def solve_field(
         tank: the scene.
         resolution: degree and number of dry modes.
         count: how many modes; fewer come back if the model has fewer.
-        watch: told the time of assembly and solution.
+        watch: told the time of compiling the form, of assembly and of solution.
         half: whether the tank is its own mirror image and is solved as two halves.
         pressure_release: put ψ = 0 on the water whatever the scene says.
 
@@ -124,6 +125,8 @@ def solve_field(
     Raises:
         EigenSolverError: if SLEPc stops before enough pairs have converged.
     """
+    with watch.stage("forms"):
+        compile_form(mesh, resolution.degree)
     build = build_half_models if half else _whole_model
     with watch.stage("assemble"):
         pencils = build(

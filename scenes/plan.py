@@ -13,8 +13,10 @@ HIGHEST_DEGREE = 10
 MOST_SHAPES = 400
 # Below this the coordinates of a ring's nodes keep fewer than three digits of their distance from the tip.
 SMALLEST_TIP = 1e-13
+# Every cause of error has a part of the tolerance, rounding too.
+_ROOM_FOR_ROUNDING = 5.0
 # Dry modes beyond the shortest wave, in units of its half waves and of tolerance^(-1/7).
-_TAIL = 0.4
+_TAIL = 0.45
 # κ₁ l of the first elastic dry mode.
 _FIRST_ROOT = 4.73
 # Below the pressure-release tone of a beam lie at most its rigid motions, and with several beams modes of softer ones.
@@ -80,6 +82,7 @@ class Resolution:
         surface_sizes: largest element on each piece of the top, in tank lengths.
         bulk_size: largest element anywhere.
         tip_size: innermost ring around the tips; ``None`` on a mesh that is not graded by rings.
+        ring_ratio: ratio of the radii of successive rings.
         shapes: number of dry modes of each beam.
         modes: how many modes are solved for.
         reaches_tones: whether the first elastic tone of each beam is expected among them.
@@ -93,6 +96,7 @@ class Resolution:
     shapes: tuple[int, ...]
     modes: int
     reaches_tones: tuple[bool, ...]
+    ring_ratio: float = 0.3
     widened: bool = False
 
     def with_degree(self, more: int) -> Resolution:
@@ -100,11 +104,12 @@ class Resolution:
         return replace(self, degree=min(self.degree + more, HIGHEST_DEGREE))
 
     def with_smaller_elements(self) -> Resolution:
-        """A finer mesh."""
+        """A finer mesh, and more rings around the tips."""
         return replace(
             self,
             surface_sizes=tuple(0.6 * size for size in self.surface_sizes),
             bulk_size=0.6 * self.bulk_size,
+            ring_ratio=self.ring_ratio**0.6,
         )
 
     def with_tips(self, factor: float) -> Resolution:
@@ -127,6 +132,11 @@ def rounding_error(degree: int, depth: float) -> float:
     return 3e-13 * (degree / 4.0) ** 5 * max(1.0, 0.1 / depth) ** 1.5
 
 
+def workable_tolerance(tolerance: float, depth: float) -> float:
+    """The tolerance to work towards: what is asked, or what double precision can be expected to keep."""
+    return max(tolerance, _ROOM_FOR_ROUNDING * rounding_error(HIGHEST_DEGREE - 2, depth))
+
+
 def initial_resolution(scene: TankScene, *, modes: int, tones: tuple[float, ...] = ()) -> Resolution:
     """Resolution for a number of modes, and for the elastic tones expected at (dimensionless) λ.
 
@@ -142,65 +152,76 @@ def initial_resolution(scene: TankScene, *, modes: int, tones: tuple[float, ...]
     reported = max([modes, *(ceil(count) + 1 for count, reached in zip(below, reaches_tones, strict=True) if reached)])
     modes = max([modes, *(count for count, reached in zip(expected, reaches_tones, strict=True) if reached)])
     highest = squared_frequency_of_mode(tank.moving, tank.depth, reported)
-    resolution = _resolution_for(tank, scene.accuracy.tolerance, highest, sharp=tank.top == "pressure_release")
+    tolerance = workable_tolerance(scene.accuracy.tolerance, tank.depth)
+    wavenumbers = tuple(_wavenumber(tank, piece, highest) for piece in tank.pieces)
+    resolution = _resolution_for(tank, tolerance, wavenumbers, sharp=tank.top == "pressure_release")
     return replace(resolution, modes=modes, reaches_tones=reaches_tones)
 
 
-def companion_resolution(tank: ScaledTank, tolerance: float) -> Resolution:
-    """Resolution for the first elastic tones with ψ = 0 on the water: hardly a wave, but sharper tips."""
-    resolution = _resolution_for(tank, tolerance, None, sharp=True)
+def companion_resolution(tank: ScaledTank, tolerance: float, tones: tuple[float, ...]) -> Resolution:
+    """Resolution for the first elastic tones with ψ = 0 on the water: no waves beside the beams, but sharper tips.
+
+    Args:
+        tank: the scene.
+        tolerance: asked relative error of the tones.
+        tones: about the (dimensionless) λ of each.
+    """
+    wavenumbers = tuple(
+        0.0 if piece[2] is None else max(_FIRST_ROOT / (piece[1] - piece[0]), _wavenumber(tank, piece, tones[piece[2]]))
+        for piece in tank.pieces
+    )
+    resolution = _resolution_for(tank, workable_tolerance(tolerance, tank.depth), wavenumbers, sharp=True)
     return replace(resolution, modes=_COMPANION_MODES * len(tank.beams))
 
 
-def _resolution_for(tank: ScaledTank, tolerance: float, squared_frequency: float | None, *, sharp: bool) -> Resolution:
-    """Elements, rings and dry modes for waves up to λ, or for the first elastic tones.
+def _wavenumber(tank: ScaledTank, piece: tuple[float, float, int | None], squared_frequency: float) -> float:
+    """The shortest wave on a piece of the top, up to λ."""
+    start, end, body = piece
+    if body is None and tank.top != "free":
+        return 0.0
+    beam = None if body is None else tank.beams[body]
+    return TopPiece(length=end - start, beam=beam).wavenumber(squared_frequency, tank.depth)
+
+
+def _resolution_for(tank: ScaledTank, tolerance: float, wavenumbers: tuple[float, ...], *, sharp: bool) -> Resolution:
+    """Elements, rings and dry modes for the shortest waves on the pieces of the top.
 
     Beside water under gravity or a lid ψ ~ r ln r at a tip, and the error falls like the square of the innermost ring.
     Beside a surface with ψ = 0 it is ``sharp``: ψ ~ r^{1/2}, and the error falls like the ring itself.
     """
     # Measured on tanks with known modes: the cheapest degree for each tolerance.
-    degree = ceil(1.5 - 0.75 * log10(tolerance)) + int(sharp)
+    degree = ceil(1.5 - 0.75 * log10(tolerance))
     degree = min(max(degree, 4), HIGHEST_DEGREE - 1)
     # In thin layers rounding takes more than a high degree gives.
     while degree > 6 and rounding_error(degree, tank.depth) > 0.3 * tolerance:
         degree -= 1
-    sizes, wavenumbers = [], {}
-    for start, end, body in tank.pieces:
-        beam = None if body is None else tank.beams[body]
-        wavenumber = _wavenumber(TopPiece(length=end - start, beam=beam), tank, squared_frequency)
-        # Never fewer than two elements on a piece.
-        sizes.append(min(_radians(degree, tolerance) / max(wavenumber, 1e-9), 0.5 * (end - start), 0.25))
-        if body is not None:
-            wavenumbers[body] = wavenumber
+    # Never fewer than two elements on a piece.
+    sizes = tuple(
+        min(_radians(degree, tolerance) / max(wavenumber, 1e-9), 0.5 * (end - start), 0.25)
+        for (start, end, _), wavenumber in zip(tank.pieces, wavenumbers, strict=True)
+    )
+    on_beams = {body: wavenumber for (_, _, body), wavenumber in zip(tank.pieces, wavenumbers, strict=True)}
     shapes = tuple(
-        min(MOST_SHAPES, _shapes_for(beam, wavenumbers[index], tolerance)) for index, beam in enumerate(tank.beams)
+        min(MOST_SHAPES, _shapes_for(beam, on_beams[index], tolerance)) for index, beam in enumerate(tank.beams)
     )
     shortest = min((end - start for start, end, _ in tank.pieces), default=1.0)
     outermost = min(0.45 * shortest, 0.45 * tank.depth, *sizes)
     tip = outermost * min(10.0 * tolerance if sharp else 15.0 * tolerance**0.5, 0.25)
     return Resolution(
         degree=degree,
-        surface_sizes=tuple(sizes),
+        surface_sizes=sizes,
         bulk_size=0.5 * max(1.0, tank.depth),
         tip_size=max(tip, SMALLEST_TIP),
         shapes=shapes,
         modes=0,
         reaches_tones=(),
+        ring_ratio=0.4 if sharp else 0.3,
     )
 
 
 def _radians(degree: int, tolerance: float) -> float:
     """How much of a wave one element resolves: the error of polynomials on it is about (e kh/(4p))^{2p}."""
     return 4.0 / e * degree * float((0.1 * tolerance) ** (0.5 / degree))
-
-
-def _wavenumber(piece: TopPiece, tank: ScaledTank, squared_frequency: float | None) -> float:
-    """The shortest wave on a piece of the top, up to λ; without λ, that of a beam's first elastic dry mode."""
-    if squared_frequency is None:
-        return 0.0 if piece.beam is None else _FIRST_ROOT / piece.length
-    if piece.beam is None and tank.top != "free":
-        return 0.0
-    return piece.wavenumber(squared_frequency, tank.depth)
 
 
 def _shapes_for(beam: Beam, wavenumber: float, tolerance: float) -> int:

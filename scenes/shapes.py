@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.fem.liquid import as_functions
-from hydroelastic.fem.pictures import ModePicture, SurfaceCurve, draw_mode, draw_overview
+from hydroelastic.fem.pictures import Canvas, ModePicture, SurfaceCurve, draw_mode, draw_overview
 from hydroelastic.fem.sampling import LiquidSample, SurfaceTrace, sample_liquid, sample_surface
 from hydroelastic.meshes.geometry import FREE_SURFACE
 from hydroelastic.scenes.solve import TankSolution
@@ -158,9 +158,10 @@ def draw_all(shapes: ModeShapes, summary: Summary, folder: Path) -> None:
     """Draw every mode, and all of them on one sheet."""
     folder.mkdir()
     drawn = pictures(shapes, summary)
-    for number, picture in enumerate(drawn, 1):
-        draw_mode(picture, folder / f"mode_{number:03d}.png")
-    draw_overview(drawn, folder / "overview.png")
+    with Canvas() as canvas:
+        for number, picture in enumerate(drawn, 1):
+            draw_mode(picture, folder / f"mode_{number:03d}.png", canvas=canvas)
+        draw_overview(drawn, folder / "overview.png", canvas=canvas)
 
 
 def write_fields(shapes: ModeShapes, folder: Path) -> None:

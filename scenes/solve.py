@@ -30,6 +30,7 @@ from hydroelastic.scenes.plan import (
     companion_resolution,
     initial_resolution,
     scaled_tank,
+    workable_tolerance,
 )
 from hydroelastic.scenes.scaling import Scales, scales
 from hydroelastic.scenes.symmetry import is_mirror_image
@@ -142,6 +143,7 @@ def solve_scene(
         )
     brought = _brought_mesh(comm, scene, tank, mesh, 1.0 / units.length, watch)
     half = halves and brought is None and is_mirror_image(tank)
+    tolerance = workable_tolerance(scene.accuracy.tolerance, tank.depth)
     companion: Companion | None = None
     best: TankSolution | None = None
     for attempt in range(1, _MOST_ATTEMPTS + 1):
@@ -153,8 +155,8 @@ def solve_scene(
             own_mesh = brought or build_mesh(comm, tank, resolution, half=half)
         if companion is None and tank.beams and tank.top == "free" and FREE_SURFACE in own_mesh.facet_names:
             report("pressure-release tone")
-            first = companion_resolution(tank, scene.accuracy.tolerance) if brought is None else resolution
-            companion = solve_companion(comm, tank, first, scene.accuracy.tolerance, brought, watch, half=half)
+            first = companion_resolution(tank, tolerance, expected_tones(tank)) if brought is None else resolution
+            companion = solve_companion(comm, tank, first, tolerance, brought, watch, half=half)
         field = solve_field(own_mesh, tank, resolution, resolution.modes + 1, watch, half=half)
         solution, causes = _judged(scene, tank, units, resolution, field, companion, watch, attempt)
         if best is None or _shortfall(solution) <= _shortfall(best):
@@ -196,7 +198,7 @@ def _next_resolution(solution: TankSolution, causes: FrequencyErrors, *, own_mes
             reaches_tones=resolution.reaches_tones,
             widened=True,
         )
-    tolerance = solution.scene.accuracy.tolerance
+    tolerance = workable_tolerance(solution.scene.accuracy.tolerance, solution.tank.depth)
     if solution.counted and solution.largest_error <= tolerance:
         return None
     sharp = solution.tank.top == "pressure_release"
@@ -272,27 +274,32 @@ def _reasons(solution: TankSolution) -> tuple[str, ...]:
         number = int(np.argmax(errors)) + 1
         reasons.append(
             f"mode {number} has an estimated relative error of {errors.max():.1e}, above the tolerance {tolerance:g}; "
-            f"{_reachable(solution, float(errors.max()))}"
+            + (f"rounding alone leaves {solution.rounding:.1e}; " if solution.rounding > 0.5 * tolerance else "")
+            + _kept(float(errors.max()))
         )
+    if len(solution.asked) < solution.scene.accuracy.modes:
+        reasons.append(f"only {len(solution.asked)} modes can be told from the rounding of the lowest")
     if not solution.counted:
         reasons.append("an independent count of the modes by inertia disagrees: a mode may be missing")
     for number, tone in enumerate(solution.tones, 1):
         if tone.tone is not None and not tone.tone.certain:
             reasons.append(f"the first elastic tone of body {number} may lie above the modes computed")
         elif tone.tone is not None and solution.relative_errors[tone.tone.index] > tolerance:
-            reasons.append(f"the first elastic tone of body {number} has an estimated error above the tolerance")
+            error = float(solution.relative_errors[tone.tone.index])
+            reasons.append(
+                f"the first elastic tone of body {number} has an estimated error of {error:.1e}, above the tolerance "
+                f"{tolerance:g}; {_kept(error)}"
+            )
         if tone.pressure_release_error is not None and tone.pressure_release_error > tolerance:
             reasons.append(
                 f"the pressure-release tone of body {number} has an estimated error of "
-                f"{tone.pressure_release_error:.1e}, above the tolerance {tolerance:g}"
+                f"{tone.pressure_release_error:.1e}, above the tolerance {tolerance:g}; "
+                + _kept(tone.pressure_release_error)
             )
     return tuple(reasons)
 
 
-def _reachable(solution: TankSolution, error: float) -> str:
-    """What tolerance the scene can keep, in words."""
+def _kept(error: float) -> str:
+    """What tolerance an error keeps, in words: the error rounded up."""
     digit = 10.0 ** floor(log10(error))
-    reached = f"this solution keeps a tolerance of {ceil(error / digit) * digit:.0e}"
-    if solution.rounding > 0.5 * solution.scene.accuracy.tolerance:
-        return f"rounding alone leaves {solution.rounding:.1e}, and {reached}"
-    return reached
+    return f"a tolerance of {ceil(error / digit) * digit:.0e} is kept"

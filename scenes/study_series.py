@@ -9,6 +9,7 @@ from functools import partial
 from mpi4py import MPI
 
 from hydroelastic.fem.modes import EigenSolverError
+from hydroelastic.meshes.grading import Grading
 from hydroelastic.meshes.nested import NestedMeshes
 from hydroelastic.scenes.field_model import build_mesh, distributed_mesh
 from hydroelastic.scenes.plan import SMALLEST_TIP
@@ -79,7 +80,8 @@ def _halved(studied: StudiedTank, plan: StudyPlan, family: Family, degree: int, 
 def _geometric(studied: StudiedTank, plan: StudyPlan) -> Iterator[StudyRow]:
     """One mesh with geometric rings around the tips, degree by degree."""
     for degree in plan.geometric_degrees:
-        resolution = replace(studied.finest, degree=degree)
+        # One ratio for all scenes, whatever a solution would choose, so that their gains can be compared.
+        resolution = replace(studied.finest, degree=degree, ring_ratio=Grading.ring_ratio)
         row = mesh_row(
             studied,
             "geometric",

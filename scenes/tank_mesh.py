@@ -39,6 +39,7 @@ def make_mesh(tank: ScaledTank, resolution: Resolution, *, half: bool = False) -
         surface_sizes=resolution.surface_sizes[: len(geometry.segments)],
         bulk_size=resolution.bulk_size,
         tip_size=resolution.tip_size,
+        ring_ratio=resolution.ring_ratio,
     )
     return build_tank_mesh(geometry, grading)
 

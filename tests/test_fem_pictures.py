@@ -2,33 +2,42 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-pyvista = pytest.importorskip("pyvista")
-
-from hydroelastic.fem import picture_page  # noqa: E402
-from hydroelastic.fem.picture_legend import scale_notes, short_number, tick_labels  # noqa: E402
-from hydroelastic.fem.picture_page import NoRendererError, Page, arrow_triangles, dashes  # noqa: E402
-from hydroelastic.fem.picture_tank import BODY, FREE_SURFACE, drawn_vectors  # noqa: E402
-from hydroelastic.fem.picture_view import iso_levels, round_ticks, view_of  # noqa: E402
-from hydroelastic.fem.pictures import ModePicture, SurfaceCurve, draw_mode, draw_overview  # noqa: E402
+from hydroelastic.fem import picture_canvas
+from hydroelastic.fem.picture_canvas import Canvas, NoRendererError
+from hydroelastic.fem.picture_legend import scale_notes, short_number, tick_labels
+from hydroelastic.fem.picture_liquid import LiquidField, displacement_on_grid, iso_lines
+from hydroelastic.fem.picture_page import Page
+from hydroelastic.fem.picture_png import png_bytes
+from hydroelastic.fem.picture_shapes import Shape, arrows, dashes, ribbon, strokes
+from hydroelastic.fem.picture_tank import BODY, FREE_SURFACE, drawn_vectors
+from hydroelastic.fem.picture_view import iso_levels, round_ticks, view_of
+from hydroelastic.fem.pictures import ModePicture, SurfaceCurve, draw_mode, draw_overview
 
 WIDTH = 800
 UNIT = WIDTH / 1600
 FOOTER = round(285 * UNIT)
 
 
-@pytest.fixture(scope="module", autouse=True)
-def _renderer() -> None:
+@pytest.fixture(scope="module")
+def canvas() -> Iterator[Canvas]:
     try:
-        with Page(width=10, height=10):
-            pass
+        opened = Canvas()
     except NoRendererError as error:
         pytest.skip(str(error))
+    with opened:
+        yield opened
+
+
+@pytest.fixture(autouse=True)
+def _renderer(canvas: Canvas) -> None:
+    """Where nothing can render, nothing is tested here."""
 
 
 def sloshing_picture(
@@ -221,16 +230,9 @@ def test_arrays_that_do_not_fit_are_named_together():
 
 
 def test_absent_renderer_is_an_error_and_not_a_crash(monkeypatch: pytest.MonkeyPatch):
-    class Window:
-        def GetClassName(self) -> str:  # noqa: N802 - the name is VTK's
-            return "vtkOSOpenGLRenderWindow"
-
-    class Plotter:
-        render_window = Window()
-
-    monkeypatch.setattr(picture_page, "_MESA_LIBRARIES", ("libabsent-of-this-computer.so",))
+    monkeypatch.setattr(picture_canvas, "_MESA_LIBRARIES", ("libabsent-of-this-computer.so",))
     with pytest.raises(NoRendererError, match="libegl1"):
-        picture_page._require_renderer(Plotter())
+        picture_canvas._require_renderer("vtkOSOpenGLRenderWindow")
 
 
 def test_scale_is_a_share_of_the_tank():
@@ -254,11 +256,126 @@ def test_singular_vectors_are_shortened_and_keep_their_direction():
 
 
 def test_arrow_spans_its_vector_around_its_centre():
-    corners = arrow_triangles(np.array([[10.0, 20.0]]), np.array([[0.0, 8.0]]), stroke=1.0).reshape(-1, 2)
-    assert corners[:, 1].min() == pytest.approx(16.0)
-    assert corners[:, 1].max() == pytest.approx(24.0)
+    shafts, heads = arrows(np.array([[10.0, 20.0]]), np.array([[0.0, 8.0]]), width=1.0)
+    # The fading edge goes half a pixel beyond each end; more at the tip, which is sharp.
+    assert shafts.points[:, 1].min() == pytest.approx(15.5)
+    assert opaque_part(shafts)[:, 1].min() == pytest.approx(16.5)
+    assert 24.5 < heads.points[:, 1].max() < 26.0
+    assert opaque_part(heads)[:, 1].max() < 24.0
     # The tip lies on the axis.
-    assert corners[corners[:, 1].argmax(), 0] == pytest.approx(10.0)
+    assert heads.points[heads.points[:, 1].argmax(), 0] == pytest.approx(10.0)
+
+
+def opaque_part(shape: Shape) -> np.ndarray:
+    return shape.points[shape.opacity == 1.0]
+
+
+def coverage(shape: Shape) -> float:
+    """Area in pixels, weighted by the opacity."""
+    a, b, c = np.moveaxis(shape.points[shape.triangles], 1, 0)
+    area = 0.5 * np.abs((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
+    return float(np.sum(area * shape.opacity[shape.triangles].mean(axis=1)))
+
+
+@pytest.mark.parametrize("width", [1.0, 1.6, 4.5, 15.0])
+def test_fading_edges_keep_the_width_of_a_line(width: float):
+    ends = np.array([[[3.0, 4.0], [83.0, 64.0]]])
+    # Length 100; the corners of the fading frame hold up to a quarter of a square pixel less or more each.
+    assert coverage(strokes(ends, width)) == pytest.approx(100.0 * width, abs=1.0)
+    assert coverage(ribbon(ends[0], width)) == pytest.approx(100.0 * width, abs=1.0)
+    # Joined strokes overlap by a quarter of a pixel at each end.
+    assert coverage(strokes(ends, width, joined=True)) == pytest.approx(100.5 * width, rel=1e-12)
+
+
+def test_edges_are_smooth_and_the_width_of_a_drawn_line_is_true(canvas: Canvas, tmp_path: Path):
+    page = Page(canvas, width=120, height=100)
+    page.strokes(np.array([[[10.3, 9.8], [108.9, 86.1]]]), stroke=6.0, colour="#000000")
+    page.save(tmp_path / "line.png")
+    image = pixels(tmp_path / "line.png")
+    ink = 1.0 - image[:, :, 0] / 255.0
+    # A pixel takes the shade at its middle, right on average.
+    assert ink.sum() == pytest.approx(np.hypot(98.6, 76.3) * 6.0, rel=0.01)
+    # A slanting edge meets pixels in many different parts.
+    assert len(np.unique(image[:, :, 0])) > 50
+
+
+def test_pixels_are_where_the_page_says_and_survive_the_file(canvas: Canvas, tmp_path: Path):
+    page = Page(canvas, width=60, height=40)
+    page.band(np.array([[10.0, 5.0], [20.0, 5.0]]), np.array([[10.0, 15.0], [20.0, 15.0]]), colour=BODY)
+    page.save(tmp_path / "square.png")
+    rows, columns = np.nonzero(has_colour(pixels(tmp_path / "square.png"), BODY))
+    # Rows are counted from above.
+    assert (rows.min(), rows.max(), columns.min(), columns.max()) == (25, 34, 10, 19)
+    assert len(rows) == 100
+    noise = np.random.default_rng(1).integers(0, 256, (7, 11, 3), dtype=np.uint8)
+    (tmp_path / "noise.png").write_bytes(png_bytes(noise))
+    assert (pixels(tmp_path / "noise.png") == noise).all()
+
+
+def test_a_page_shows_nothing_of_the_page_before(canvas: Canvas, tmp_path: Path):
+    picture = sloshing_picture()
+    draw_mode(picture, tmp_path / "first.png", width=WIDTH, canvas=canvas)
+    draw_overview([sloshing_picture(length=200.0, depth=1.0)], tmp_path / "between.png", width=500, canvas=canvas)
+    draw_mode(picture, tmp_path / "second.png", width=WIDTH, canvas=canvas)
+    draw_mode(picture, tmp_path / "alone.png", width=WIDTH)
+    first = (tmp_path / "first.png").read_bytes()
+    assert first == (tmp_path / "second.png").read_bytes() == (tmp_path / "alone.png").read_bytes()
+
+
+def test_the_field_has_no_holes_where_cells_are_cut_differently(canvas: Canvas, tmp_path: Path):
+    page = Page(canvas, width=1600, height=1200)
+    for turn in np.arange(0.05, 6.2, 0.2):
+        page.field(coarse_beside_fine(turn), limit=1.0, colours=np.array([[0.0, 0.0, 0.0], [0.2, 0.2, 0.2]]))
+    page.save(tmp_path / "field.png")
+    image = pixels(tmp_path / "field.png").max(axis=2)
+    y, x = np.mgrid[:1200, :1600]
+    assert (image[np.hypot(x - 800, y - 600) < 480] < 60).all()
+
+
+def coarse_beside_fine(turn: float) -> LiquidField:
+    """A large triangle and many small ones that share an edge, from the middle of the page outwards."""
+    sharp, middle = 0.19, np.array([800.3, 600.7])
+    start, left, right = (np.array([np.cos(turn + by), np.sin(turn + by)]) for by in (0.0, -sharp, sharp))
+    edge = middle + np.linspace(0.0, 1.0, 61)[:, None] * 590.0 * start
+    points = np.vstack([edge, [middle + 590.0 * left, middle + 590.0 * right]])
+    small = np.array([[62, place, place + 1] for place in range(60)])
+    return LiquidField(
+        points=points,
+        triangles=np.vstack([small, [[0, 61, 60]]]),
+        potential=np.zeros(len(points)),
+        displacement=np.zeros((len(points), 2)),
+    )
+
+
+def linear_field() -> LiquidField:
+    """ψ = x + 2 y on two triangles over [0, 4] × [0, 2]."""
+    points = np.array([[0.0, 0.0], [4.0, 0.0], [4.0, 2.0], [0.0, 2.0]])
+    return LiquidField(
+        points=points,
+        triangles=np.array([[0, 1, 2], [0, 2, 3]]),
+        potential=points @ [1.0, 2.0],
+        displacement=points * [1.0, -1.0],
+    )
+
+
+def test_lines_of_equal_potential_lie_on_their_level():
+    lines = iso_lines(linear_field(), np.array([1.5, 5.25, 9.0]))
+    # Each level crosses both triangles, the last one lies above all.
+    assert len(lines) == 4
+    values = np.sort((lines @ [1.0, 2.0]).mean(axis=1))
+    assert values == pytest.approx([1.5, 1.5, 5.25, 5.25])
+    assert np.ptp(lines @ [1.0, 2.0], axis=1) == pytest.approx(0.0, abs=1e-12)
+    # 1.5 = x + 2 y meets both axes.
+    assert np.hypot(*np.ptp(lines[:2].reshape(-1, 2), axis=0)) > 0.0
+
+
+def test_displacement_on_a_grid_is_interpolated_once_at_each_point():
+    x, y = np.linspace(-1.0, 5.0, 13), np.linspace(-0.5, 2.0, 6)
+    points, values = displacement_on_grid(linear_field(), x, y)
+    # 0, 0.5, … 4 and 0, 0.5, … 2: corners and the common diagonal included, what lies outside left out.
+    assert len(points) == 9 * 5
+    assert len(np.unique(points, axis=0)) == len(points)
+    assert values == pytest.approx(points * [1.0, -1.0])
 
 
 def test_dashes_stay_within_the_line():

@@ -22,7 +22,7 @@ def checkout(tmp_path):
     shutil.copy(CHECKOUT / "pyproject.toml", folder)
     for name in ("launcher", "requirements"):
         shutil.copytree(CHECKOUT / name, folder / name)
-    for name in ("meshes", "fem", "modal", "scenes"):
+    for name in ("meshes", "fem", "modal", "scenes", "benchmarks"):
         (folder / name).mkdir()
         (folder / name / "__init__.py").write_text(f"name = {name!r}\n")
     return folder
@@ -52,8 +52,11 @@ def python(checkout: Path, cache: Path, code: str) -> str:
 
 
 def test_folders_of_the_checkout_are_subpackages(checkout, tmp_path):
-    code = "from hydroelastic import fem, meshes, modal, scenes; print(fem.name, meshes.name, modal.name, scenes.name)"
-    assert python(checkout, tmp_path / "cache", code) == "fem meshes modal scenes"
+    code = (
+        "from hydroelastic import benchmarks, fem, meshes, modal, scenes; "
+        "print(benchmarks.name, fem.name, meshes.name, modal.name, scenes.name)"
+    )
+    assert python(checkout, tmp_path / "cache", code) == "benchmarks fem meshes modal scenes"
 
 
 def test_version_is_that_of_pyproject_and_follows_it(checkout, tmp_path):
@@ -70,7 +73,11 @@ def test_metadata_has_the_command_and_the_requirements(checkout, tmp_path):
         "from importlib.metadata import distribution as d; h = d('hydroelastic'); "
         "print([e.value for e in h.entry_points], len(h.requires))"
     )
-    lines = (checkout / "requirements" / "run.txt").read_text().splitlines()
+    lines = [
+        line
+        for name in ("run", "bench")
+        for line in (checkout / "requirements" / f"{name}.txt").read_text().splitlines()
+    ]
     required = sum(bool(line.split("#")[0].strip()) for line in lines)
     expected = f"['hydroelastic.scenes.command_line:main'] {required}"
     assert python(checkout, tmp_path / "cache", code) == expected

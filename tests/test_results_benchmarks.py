@@ -1,0 +1,42 @@
+"""The committed benchmark is of the tanks, cases and columns as they stand."""
+
+import csv
+from pathlib import Path
+
+import pytest
+
+from hydroelastic.benchmarks.measure import cases_of
+from hydroelastic.benchmarks.output import NAME
+from hydroelastic.benchmarks.report import CSV_COLUMNS
+from hydroelastic.benchmarks.tanks import TANKS
+
+FOLDER = Path(__file__).parent.parent / "results" / "benchmarks"
+
+
+@pytest.fixture(scope="module")
+def rows() -> list[dict[str, str]]:
+    with (FOLDER / f"{NAME}.csv").open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_every_case_was_measured(rows: list[dict[str, str]]) -> None:
+    assert tuple(rows[0]) == CSV_COLUMNS
+    measured = [
+        (row["code"], row["tank"], row["variant"], int(row["degree"] or 0), float(row["tolerance"] or 0.0))
+        for row in rows
+    ]
+    assert measured == [
+        (case.code, case.tank, case.variant, case.degree, case.tolerance)
+        for tank in TANKS
+        for case in cases_of(tank, quick=False)
+    ]
+
+
+def test_hydroelastic_kept_every_tolerance_asked(rows: list[dict[str, str]]) -> None:
+    own = [row for row in rows if row["code"] == "hydroelastic"]
+    assert all(float(row["error"]) <= float(row["tolerance"]) for row in own)
+
+
+def test_page_and_figure_are_there() -> None:
+    assert "Milliseconds at equal error" in (FOLDER / f"{NAME}.md").read_text(encoding="utf-8")
+    assert (FOLDER / f"{NAME}.png").stat().st_size > 10_000

@@ -20,7 +20,7 @@ from hydroelastic.scenes.study_plan import Family
 from hydroelastic.scenes.study_rates import DIFFERENCE, GAIN_FACTOR, Gain
 from hydroelastic.scenes.study_rows import StudyRow
 
-STAGES = ("plan", "mesh", "assemble", "solve", "count", "errors", "pressure release")
+STAGES = ("plan", "mesh", "forms", "assemble", "solve", "count", "errors", "pressure release")
 """Stages of a solution in their order; others that the solver may time follow them."""
 
 _SHORT = {"pressure release": "ψ=0"}

@@ -17,6 +17,7 @@ from dataclasses import dataclass, replace
 from mpi4py import MPI
 
 from hydroelastic.fem.modes import EigenSolverError
+from hydroelastic.fem.spectral_error import LOWEST_DEGREE
 from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
 from hydroelastic.scenes.field_model import distributed_mesh
 from hydroelastic.scenes.field_solution import Stopwatch, solve_field
@@ -115,9 +116,13 @@ def _study(scene: TankScene, plan: StudyPlan, report: Report) -> Study:
 
 def _compile_forms(studied: StudiedTank, plan: StudyPlan) -> None:
     """Solve once with each degree that may be needed: a study measures solving, not the compiler."""
-    degrees = {*plan.degrees, *plan.geometric_degrees}
-    if "tolerance" in plan.families:
-        degrees |= set(range(4, HIGHEST_DEGREE + 1))
+    needed = {
+        "uniform": plan.degrees,
+        "algebraic": plan.degrees,
+        "geometric": plan.geometric_degrees,
+        "tolerance": tuple(range(LOWEST_DEGREE, HIGHEST_DEGREE + 1)),
+    }
+    degrees = {degree for family in plan.families for degree in needed[family]}
     meshes = nested_meshes(studied)
     mesh = distributed_mesh(MPI.COMM_WORLD, lambda: meshes.mesh(0))
     for degree in sorted(degrees):

@@ -66,11 +66,10 @@ def _draw_floor(panels: tuple[Axes, ...], study: Study) -> None:
         axes.set_ylim(bottom=bottom)
         axes.annotate(
             "rounding, or the reference's own error",
-            (0.01, floor),
-            xycoords=("axes fraction", "data"),
-            xytext=(0, -3),
-            textcoords="offset points",
-            va="top",
+            (0.99, 0.01),
+            xycoords="axes fraction",
+            ha="right",
+            va="bottom",
             color=_THEORY,
             fontsize=8,
         )
@@ -83,7 +82,7 @@ def _series_of(row: StudyRow) -> tuple[Family, int]:
 
 def _style(family: Family, degree: int, rows: list[StudyRow]) -> dict[str, Any]:
     if family == "geometric":
-        label = f"geometric rings, degree {rows[0].degree} to {rows[-1].degree}"
+        label = f"geometric, degree {rows[0].degree} to {rows[-1].degree}"
         return {"color": _GEOMETRIC, "marker": "o", "markersize": 5, "linewidth": 2.0, "label": label}
     if family == "tolerance":
         label = f"tolerance asked, {_power(rows[0])} to {_power(rows[-1])}"
@@ -137,5 +136,10 @@ def _draw_gain(axes: Axes, study: Study) -> None:
         return
     errors = _APART * rows[-1].error * left / left[-1]
     axes.loglog(
-        [row.unknowns for row in rows], errors, ":", color=_GEOMETRIC, linewidth=1.2, label="theory of the rings"
+        [row.unknowns for row in rows],
+        errors,
+        ":",
+        color=_GEOMETRIC,
+        linewidth=1.2,
+        label="theory of the geometric rings",
     )

@@ -20,7 +20,7 @@ from hydroelastic.scenes.study_plan import Family
 from hydroelastic.scenes.study_rates import DIFFERENCE, GAIN_FACTOR, Gain
 from hydroelastic.scenes.study_rows import StudyRow
 
-STAGES = ("plan", "mesh", "assemble", "solve", "count", "errors", "pressure release")
+STAGES = ("plan", "mesh", "forms", "assemble", "solve", "count", "errors", "pressure release")
 """Stages of a solution in their order; others that the solver may time follow them."""
 
 _SHORT = {"pressure release": "ψ=0"}
@@ -29,7 +29,7 @@ _WIDTH = 120
 TITLES: dict[Family, str] = {
     "uniform": "Uniform meshes, every element halved from one to the next",
     "algebraic": "The same meshes drawn towards the tips, rᵢ = R (i/n)^β",
-    "geometric": "One mesh with geometric rings around the tips, degree by degree",
+    "geometric": "One mesh, with geometric rings around the tips of beams, degree by degree",
     "tolerance": "What the solver makes of an asked tolerance",
 }
 

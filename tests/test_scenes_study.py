@@ -117,7 +117,7 @@ def test_each_degree_gains_on_geometric_rings_what_their_triangles_allow(beam: S
         # Computed for the degrees of the fit, which gmsh of another version may shift by one.
         assert study.gain.expected == pytest.approx(expected, abs=0.6)
         assert study.gain.agrees
-    # Where the tips alone count the gain is theirs; measured 8.1 for 7.7.
+    # Where the tips alone count the gain is theirs; measured 8.0 for 7.5 to 7.7.
     assert released.gain is not None
     assert released.gain.expected is not None
     assert released.gain.observed == pytest.approx(released.gain.expected, rel=0.15)
@@ -140,8 +140,7 @@ def test_tolerances_are_kept_and_estimates_are_honest(water: Study, beam: Study)
             assert row.error <= row.tolerance
             assert row.estimate <= row.tolerance
             if row.error > row.floor:
-                # Measured 1.5 to 31: at degree 4 the decay of few degrees is judged with care.
-                assert row.error / 3.0 <= row.estimate <= 40.0 * row.error
+                assert row.error / 3.0 <= row.estimate <= 30.0 * row.error
             assert not row.reasons
             assert row.attempts >= 1
         assert study.reasons == ()
@@ -158,7 +157,7 @@ def test_the_reference_is_finer_than_what_it_judges(beam: Study) -> None:
 
 def test_meshes_stay_within_the_unknowns_of_the_plan(beam: Study) -> None:
     nested = [row for row in beam.rows if row.family in ("uniform", "algebraic")]
-    # The plan counts those of ψ in both halves; a row those of the surfaces and the beam's 57 shapes besides.
+    # The plan counts those of ψ in both halves; a row those of the surfaces and the beam's shapes besides.
     assert 0.5 * PLAN.most_unknowns < max(row.unknowns for row in nested) < 1.05 * PLAN.most_unknowns
     assert [row.element_size for row in nested[:5]] == [0.125 / 2**k for k in range(5)]
 

@@ -259,7 +259,7 @@ CASES: tuple[HardCase, ...] = (
     ),
     HardCase(
         name="full_cover",
-        hard="no water at all: heave is forbidden, λ spans ten decades",
+        hard="no free water at all: heave is forbidden, and a soft cover carries waves over the whole tank",
         protects="the volume constraint is a projection in the norm of K",
         scene=tank(beam(0.0, LENGTH, rigidity=1e-6)),
         tone_within=8,

@@ -5,13 +5,14 @@ from __future__ import annotations
 import csv
 import functools
 import json
+import re
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from answers import Answer, answer, zero_modes
-from hard_cases import CASES, TOLERANCES, HardCase, beam, tank
+from hard_cases import CASES, GRAVITY, LENGTH, TOLERANCES, HardCase, beam, tank
 from random_tanks import draw_tanks
 from surface_reference import reference_modes, reference_tank
 
@@ -265,10 +266,16 @@ def test_neither_degree_nor_smaller_tips_make_an_answer_worse(tanks: Any, name: 
     assert errors[-1, -1].max() <= 1e-9
 
 
-def test_a_tolerance_beyond_rounding_is_refused_honestly() -> None:
-    # Scenes may be written with no smaller a tolerance than double precision ever keeps; the solver itself must know.
-    accuracy = Accuracy.model_construct(tolerance=1e-13, modes=4)
-    assert answer(tank(beam()).model_copy(update={"accuracy": accuracy})).reasons != ()
+@pytest.mark.parametrize("tolerance", [1e-12, 1e-13])
+def test_a_tolerance_beyond_rounding_is_refused_honestly(tolerance: float) -> None:
+    # A scene may not ask for 1e-13: the solver itself must know what it cannot keep, and say what it can.
+    accuracy = Accuracy.model_construct(tolerance=tolerance, modes=4)
+    scene = tank(beam()).model_copy(update={"accuracy": accuracy})
+    found = answer(scene)
+    (kept,) = re.findall(r"mode \d+ .* a tolerance of (\S+) is kept", " ".join(found.reasons[:1]))
+    exact = reference_modes(reference_tank(scene), 4).eigenvalues * GRAVITY / LENGTH
+    assert tolerance < float(kept) < 1e-9
+    assert np.abs(found.errors(np.sqrt(exact).tolist())).max() <= float(kept)
 
 
 def test_the_catalogue_has_a_reference_for_each_case_as_it_stands() -> None:

@@ -139,7 +139,10 @@ def test_values_come_from_above() -> None:
     coarse = Fineness(degree=3, phase=4.0, smallest=1e-2, bending=8)
     for name in ("base_s0", "vlfs_dock_s1"):
         tank = aquarium_tank(name)
-        assert np.all(reference_modes(tank, 8, coarse).eigenvalues > reference_modes(tank, 8).eigenvalues)
+        above = reference_modes(tank, 8, coarse).eigenvalues / reference_modes(tank, 8).eigenvalues - 1.0
+        # The lowest are exact to rounding already.
+        assert above.min() > -1e-12
+        assert above.max() > 1e-9
 
 
 def test_symmetric_and_antisymmetric_modes_are_all_modes() -> None:

@@ -19,6 +19,7 @@ import ufl
 from dolfinx import fem
 from dolfinx.fem import petsc as fem_petsc
 from dolfinx.mesh import Mesh, meshtags
+from mpi4py import MPI
 from petsc4py import PETSc
 
 from hydroelastic.fem.direct import direct_solver
@@ -107,7 +108,8 @@ def compile_form(tank: TankMesh, degree: int) -> None:
     Assembly would do it by itself; called before, it shows what of a first run goes into compiling.
     """
     kernel = tank.mesh.topology.cell_name(), degree
-    if kernel not in _compiled:
+    # Together: one process may have solved on its own before.
+    if tank.mesh.comm.allreduce(kernel not in _compiled, op=MPI.LOR):
         _form(liquid_space(tank, degree), cells=_NONE, facets=_NONE)
         _compiled.add(kernel)
 

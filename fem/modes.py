@@ -14,8 +14,8 @@ from hydroelastic.fem.direct import configure_direct, configure_indefinite
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.meshes.interrupts import interrupts_deferred
 
-# Part of the largest 1/λ below which double precision cannot tell one from zero.
-_HIDDEN = 1e-14
+HIDDEN = 1e-14
+"""Part of the largest 1/λ below which double precision cannot tell one from zero."""
 
 
 class EigenSolverError(RuntimeError):
@@ -104,7 +104,7 @@ def solve_modes(pencil: CoupledPencil, count: int, *, shapes: int | None = None,
     inverses = np.array([solver.getEigenvalue(number).real for number in range(count)])
     order = np.argsort(-inverses)
     # M + M_a is positive: what is not, or hardly, is rounding of the largest.
-    count = int(np.sum(inverses > _HIDDEN * inverses.max(initial=0.0)))
+    count = int(np.sum(inverses > HIDDEN * inverses.max(initial=0.0)))
     if count == 0:
         raise EigenSolverError(f"no eigenvalue 1/ω² is positive; the largest is {inverses.max(initial=0.0):g}")
     order = order[:count]

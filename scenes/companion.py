@@ -40,6 +40,11 @@ class Companion:
         """The largest of the errors."""
         return max((error for error in self.errors if error is not None), default=0.0)
 
+    @property
+    def shortfall(self) -> tuple[int, float]:
+        """Number of beams without a tone, then the largest error."""
+        return self.tones.count(None), self.largest_error
+
     def eigenvalue(self, body: int) -> float | None:
         """λ of a beam's tone."""
         tone = self.tones[body]
@@ -81,7 +86,7 @@ def solve_companion(
             compile_form(mesh, attempt.degree)
         with watch.stage("pressure release"):
             companion, causes = _tones(mesh, tank, attempt, tolerance, half=half)
-        if best is None or companion.largest_error < best.largest_error:
+        if best is None or companion.shortfall < best.shortfall:
             best = companion
         if companion.largest_error <= tolerance:
             break

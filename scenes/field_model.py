@@ -31,14 +31,15 @@ def distributed_mesh(comm: MPI.Comm, make: Callable[[], TaggedMesh]) -> TankMesh
     """Make a mesh, in units of the tank, on rank 0 and distribute it (collective).
 
     Raises:
-        MeshError: on all ranks, if ``make`` raises it.
+        MeshError: on all ranks, if ``make`` fails.
     """
     tagged, problem = None, ""
     if comm.rank == 0:
         try:
             tagged = make()
-        except MeshError as error:
-            problem = str(error)
+        except Exception as error:
+            # Whatever it is, the other processes wait to hear of it.
+            problem = str(error) or type(error).__name__
     return _distributed(comm, tagged, problem)
 
 

@@ -15,13 +15,13 @@ from itertools import pairwise
 import numpy as np
 
 from hydroelastic.fem.liquid import compile_form
-from hydroelastic.fem.modes import Mode, ModeSet, count_below, solve_modes
+from hydroelastic.fem.modes import HIDDEN, Mode, ModeSet, count_below, solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.scenes.field_model import build_field_model, build_half_models, whole_bodies
 from hydroelastic.scenes.plan import Resolution, ScaledTank
-from hydroelastic.scenes.symmetry import PARITIES, Parity, left_bodies, shape_parity, twin_of
+from hydroelastic.scenes.symmetry import PARITIES, Parity, left_bodies, shape_parity, shapes_of_twins, twin_of
 
 
 @dataclass
@@ -127,6 +127,8 @@ def solve_field(
     """
     with watch.stage("forms"):
         compile_form(mesh, resolution.degree)
+    if half:
+        resolution = replace(resolution, shapes=shapes_of_twins(tank, resolution.shapes))
     build = build_half_models if half else _whole_model
     with watch.stage("assemble"):
         pencils = build(
@@ -153,23 +155,32 @@ def _solved_parts(pencils: tuple[CoupledPencil, ...], parities: tuple[Parity | N
         for pencil, parity, share in zip(pencils, parities, shares, strict=True)
     ]
     while True:
+        limit = _rounding_limit(parts)
+        # A part that gives fewer than asked has no more, or rounding hides them.
         reached = [
-            part.modes.eigenvalues[-1] if len(part.modes.eigenvalues) == share else np.inf
+            min(part.modes.eigenvalues[-1], limit) if len(part.modes.eigenvalues) == share else limit
             for part, share in zip(parts, shares, strict=True)
         ]
         complete = sum(int(np.sum(part.modes.eigenvalues <= min(reached))) for part in parts)
-        if complete >= count or np.isinf(min(reached)):
+        if complete >= count or min(reached) >= limit:
             return parts
         short = int(np.argmin(reached))
         shares[short] += max(4, count - complete)
         parts[short] = replace(parts[short], modes=solve_modes(parts[short].pencil, shares[short], shapes=0))
 
 
+def _rounding_limit(parts: list[Part]) -> float:
+    """The λ beyond which the lowest mode of all parts hides others: what one part still sees the other may not."""
+    return float(min(part.modes.eigenvalues[0] for part in parts)) / HIDDEN
+
+
 def _merged(mesh: TankMesh, tank: ScaledTank, resolution: Resolution, parts: list[Part], count: int) -> FieldSolution:
+    limit = _rounding_limit(parts)
     ordered = sorted(
         (float(value), number, index)
         for number, part in enumerate(parts)
         for index, value in enumerate(part.modes.eigenvalues)
+        if value <= limit
     )[:count]
     origins = tuple((number, index) for _, number, index in ordered)
     extensions = [_extension(tank, resolution.shapes, part.parity) for part in parts]

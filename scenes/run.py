@@ -118,8 +118,9 @@ def _own_mesh(scene: TankScene, comm: MPI.Comm) -> TaggedMesh | None:
     if comm.rank == 0:
         try:
             mesh = load_mesh(scene.mesh.file)
-        except MeshError as error:
-            problem = str(error)
+        except Exception as error:
+            # Whatever it is, the other processes wait to hear of it.
+            problem = str(error) or type(error).__name__
     problem = comm.bcast(problem, root=0)
     if problem is not None:
         raise SceneError(_mesh_problem(scene, MeshError(problem)))
@@ -154,7 +155,7 @@ def _write(
 
     with watch.stage("sample"):
         shapes = sample_shapes(solution)
-    problem: SceneError | None = None
+    problem: BaseException | None = None
     warnings: list[str] = []
     if shapes is not None:
         try:
@@ -176,9 +177,9 @@ def _write(
                 (folder / SUMMARY).write_text(
                     json.dumps(summary, indent=1, ensure_ascii=False, allow_nan=False) + "\n", encoding="utf-8"
                 )
-        except SceneError as error:
+        except BaseException as error:
+            # Whatever it is, the other processes wait to hear of it.
             problem = error
-    # Without this the other processes would wait for ever for the one that failed.
     failed = comm.bcast(problem is not None, root=0)
     if problem is not None:
         raise problem

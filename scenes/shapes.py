@@ -17,6 +17,7 @@ from hydroelastic.scenes.solve import TankSolution
 from hydroelastic.scenes.summary import Summary
 
 _BEAM_POINTS = 201
+_ROUNDING = 1e-12
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -93,7 +94,7 @@ def _mirrored_liquid(half: LiquidSample, signs: np.ndarray) -> LiquidSample:
 
 def _mirrored_trace(half: SurfaceTrace, signs: np.ndarray) -> SurfaceTrace:
     # The mirror plane itself is there already.
-    other = slice(-2 if half.x[-1] >= 0.5 else -1, None, -1)
+    other = slice(-2 if half.x[-1] >= 0.5 - _ROUNDING else -1, None, -1)
     return SurfaceTrace(
         x=np.concatenate([half.x, 1.0 - half.x[other]]),
         potential=np.sqrt(0.5) * np.hstack([half.potential, signs[:, None] * half.potential[:, other]]),
@@ -125,7 +126,8 @@ def _water_curves(
     curves = []
     for start, end, body in solution.tank.pieces:
         if body is None:
-            inside = (water.x >= start) & (water.x <= end)
+            # Mirrored abscissae miss the ends by rounding.
+            inside = (water.x >= start - _ROUNDING) & (water.x <= end + _ROUNDING)
             curves.append(SurfaceCurve(kind="free_surface", x=water.x[inside], displacement=elevation[inside]))
     return curves
 

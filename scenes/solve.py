@@ -278,7 +278,8 @@ def _reasons(solution: TankSolution) -> tuple[str, ...]:
             + _kept(float(errors.max()))
         )
     if len(solution.asked) < solution.scene.accuracy.modes:
-        reasons.append(f"only {len(solution.asked)} modes can be told from the rounding of the lowest")
+        asked = solution.scene.accuracy.modes
+        reasons.append(f"{len(solution.asked)} of {asked} modes can be told from the rounding of the lowest")
     if not solution.counted:
         reasons.append("an independent count of the modes by inertia disagrees: a mode may be missing")
     for number, tone in enumerate(solution.tones, 1):
@@ -301,5 +302,7 @@ def _reasons(solution: TankSolution) -> tuple[str, ...]:
 
 def _kept(error: float) -> str:
     """What tolerance an error keeps, in words: the error rounded up."""
+    if error > 0.1:
+        return "no digit is certain"
     digit = 10.0 ** floor(log10(error))
     return f"a tolerance of {ceil(error / digit) * digit:.0e} is kept"

@@ -158,7 +158,7 @@ def added_mass(stiffness: float, mass: float, eigenvalue: float, relative_error:
     """
     whole = stiffness / eigenvalue
     added = whole - mass
-    return added, 2.0 * relative_error * whole / abs(added) if added else float("inf")
+    return added, 2.0 * relative_error * whole / abs(added) if added else 1.0
 
 
 def compared(solution: TankSolution, estimates: dict[str, Estimate]) -> dict[str, Any]:

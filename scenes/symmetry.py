@@ -55,3 +55,8 @@ def left_bodies(tank: ScaledTank) -> tuple[int, ...]:
 def shape_parity(number: int) -> Parity:
     """Symmetry of a dry mode about the middle of its beam: heave is even, pitch odd, and so on in turn."""
     return PARITIES[number % 2]
+
+
+def shapes_of_twins(tank: ScaledTank, shapes: tuple[int, ...]) -> tuple[int, ...]:
+    """Numbers of dry modes, the same for both of two twins: their lengths may differ in the last place."""
+    return tuple(max(count, shapes[twin_of(tank, body)]) for body, count in enumerate(shapes))

@@ -261,6 +261,17 @@ def test_halves_give_the_modes_of_the_whole_tank(tanks: Any, kind: str) -> None:
     assert len({halves.field.parity(index) for index in range(count)}) == 2
 
 
+def test_what_rounding_hides_in_one_half_is_not_listed_from_the_other(tanks: Any) -> None:
+    """Under a lid pitch is soft and antisymmetric, and bending of an all but rigid beam hidden beside it."""
+    beam = tanks.beam(start=4.0, length=2.0, flexural_rigidity=9.81e3 * 16 * 1e13, hydrostatic=True)
+    scene = tanks.scene(beam, top="rigid", depth=2.0, modes=3)
+    for halves in (True, False):
+        solution = tanks.solve(scene, halves=halves)
+        assert solution.counted
+        assert len(solution.asked) == 1
+        assert "1 of 3 modes" in solution.reasons[0]
+
+
 def test_shapes_and_degree_refine_from_above(tanks: Any) -> None:
     """A richer space of beam shapes and of potentials on one mesh never raises a mode (min–max)."""
     tank, tagged = tanks.graded_mesh(tanks.scene(tanks.beam()))

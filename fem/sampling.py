@@ -9,9 +9,9 @@ from dolfinx import fem
 from mpi4py import MPI
 from numpy.typing import NDArray
 
+from hydroelastic.fem.cells import cell_corners, cell_jacobians
 from hydroelastic.fem.facets import facet_groups
 from hydroelastic.fem.liquid import LiquidSpace
-from hydroelastic.meshes.compat import geometry_dofmap
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,10 +51,8 @@ def sample_liquid(liquid: LiquidSpace, functions: list[fem.Function]) -> LiquidS
         The sample on rank 0, ``None`` elsewhere (collective).
     """
     mesh = liquid.tank.mesh
-    corners = mesh.geometry.x[geometry_dofmap(mesh)][:, :, :2]
-    owned = mesh.topology.index_map(mesh.topology.dim).size_local
-    corners = corners[:owned]
-    jacobian = np.stack([corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]], axis=2)
+    corners = cell_corners(liquid)
+    jacobian = cell_jacobians(corners)
     size = np.sqrt(np.abs(np.linalg.det(jacobian)))
     largest = mesh.comm.allreduce(size.max(initial=0.0), op=MPI.MAX)
     levels = np.select([size > 0.25 * largest, size > 0.05 * largest, size > 0.01 * largest], [10, 6, 4], 2)

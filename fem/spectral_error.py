@@ -22,8 +22,8 @@ import numpy as np
 from dolfinx import fem
 from petsc4py import PETSc
 
+from hydroelastic.fem.cells import cell_corners, cell_jacobians
 from hydroelastic.fem.liquid import LiquidSpace, as_functions
-from hydroelastic.meshes.compat import geometry_dofmap
 
 LOWEST_DEGREE = 4
 """Four degrees of ∇ψ must be there to see a decay."""
@@ -55,7 +55,7 @@ def cell_errors(liquid: LiquidSpace, potentials: list[PETSc.Vec], density: float
         raise ValueError(f"errors are seen from degree {LOWEST_DEGREE} on, got {liquid.degree}")
     cell_type = liquid.space.element.basix_element.cell_type
     gradient = _gradient_coefficients(cell_type, liquid.degree)
-    jacobian = _jacobians(liquid)
+    jacobian = cell_jacobians(cell_corners(liquid))
     inverse, measure = np.linalg.inv(jacobian), np.abs(np.linalg.det(jacobian))
     dofs = liquid.space.dofmap.list[: len(jacobian)]
     errors = np.empty((len(potentials), len(jacobian)))
@@ -112,16 +112,7 @@ def _gradient_coefficients(cell_type: basix.CellType, degree: int) -> tuple[np.n
     return tuple(coefficients[:, sizes[k] : sizes[k + 1]] for k in range(degree - 1, degree - 5, -1))
 
 
-def _jacobians(liquid: LiquidSpace) -> np.ndarray:
-    """Edge vectors of the owned cells as columns, shape (cells, dim, dim)."""
-    mesh = liquid.tank.mesh
-    owned = mesh.topology.index_map(mesh.topology.dim).size_local
-    corners = mesh.geometry.x[geometry_dofmap(mesh)[:owned]][:, :, : mesh.geometry.dim]
-    edges: np.ndarray = np.swapaxes(corners[:, 1:] - corners[:, :1], 1, 2)
-    return edges
-
-
 def cell_diameters(liquid: LiquidSpace) -> np.ndarray:
     """Longest edge of each owned cell that meets its first corner, shape (cells,)."""
-    longest: np.ndarray = np.linalg.norm(_jacobians(liquid), axis=1).max(axis=1, initial=0.0)
+    longest: np.ndarray = np.linalg.norm(cell_jacobians(cell_corners(liquid)), axis=1).max(axis=1, initial=0.0)
     return longest

@@ -138,9 +138,8 @@ def solve_scene(
     watch = Stopwatch()
     with watch.stage("plan"):
         tank, units = scaled_tank(scene), scales(scene)
-        resolution: Resolution | None = initial_resolution(
-            scene, modes=scene.accuracy.modes, tones=expected_tones(tank)
-        )
+        tones = expected_tones(tank)
+        resolution: Resolution | None = initial_resolution(scene, modes=scene.accuracy.modes, tones=tones)
     brought = _brought_mesh(comm, scene, tank, mesh, 1.0 / units.length, watch)
     half = halves and brought is None and is_mirror_image(tank)
     tolerance = workable_tolerance(scene.accuracy.tolerance, tank.depth)
@@ -155,7 +154,7 @@ def solve_scene(
             own_mesh = brought or build_mesh(comm, tank, resolution, half=half)
         if companion is None and tank.beams and tank.top == "free" and FREE_SURFACE in own_mesh.facet_names:
             report("pressure-release tone")
-            first = companion_resolution(tank, tolerance, expected_tones(tank)) if brought is None else resolution
+            first = companion_resolution(tank, tolerance, tones) if brought is None else resolution
             companion = solve_companion(comm, tank, first, tolerance, brought, watch, half=half)
         field = solve_field(own_mesh, tank, resolution, resolution.modes + 1, watch, half=half)
         solution, causes = _judged(scene, tank, units, resolution, field, companion, watch, attempt)

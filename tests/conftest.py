@@ -1,7 +1,5 @@
 """Fixtures of more than one test file."""
 
-import importlib.util
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -9,10 +7,7 @@ import pytest
 
 @pytest.fixture(scope="session")
 def tanks() -> Any:
-    """The tanks of `tanks.py`, each solved once; loaded here because most tests need no dolfinx."""
-    spec = importlib.util.spec_from_file_location("tanks", Path(__file__).with_name("tanks.py"))
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module.Tanks()
+    """The tanks of `tanks.py`, each solved once; imported here because most tests need no dolfinx."""
+    from tanks import Tanks
+
+    return Tanks()

@@ -5,20 +5,10 @@ import math
 import time
 
 import pytest
+from base_beam import BASE
 
 from hydroelastic.modal import Estimate, FloatingBeam, all_estimates, frequency_from_added_mass, term_tones
 
-BASE = FloatingBeam(
-    tank_length=10.0,
-    depth=5.0,
-    density=1000.0,
-    gravity=9.81,
-    start=3.0,
-    length=4.0,
-    flexural_rigidity=5e3,
-    mass_per_length=50.0,
-    hydrostatic=False,
-)
 NAMES = {
     "grammel_1",
     "grammel_best",

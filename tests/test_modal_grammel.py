@@ -6,21 +6,10 @@ import math
 
 import numpy as np
 import pytest
+from base_beam import BASE
 from scipy.linalg import eigh
 
-from hydroelastic.modal import FloatingBeam, beam_quotients, one_term_root, quotients, term_tones
-
-BASE = FloatingBeam(
-    tank_length=10.0,
-    depth=5.0,
-    density=1000.0,
-    gravity=9.81,
-    start=3.0,
-    length=4.0,
-    flexural_rigidity=5e3,
-    mass_per_length=50.0,
-    hydrostatic=False,
-)
+from hydroelastic.modal import beam_quotients, one_term_root, quotients, term_tones
 
 
 def _pencil(size: int, seed: int) -> tuple[np.ndarray, np.ndarray, np.random.Generator]:

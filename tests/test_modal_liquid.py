@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 import pytest
+from base_beam import BASE
 
 from hydroelastic.modal import (
-    FloatingBeam,
     NoEstimateError,
     deep_open_constant,
     deep_sloshing_frequencies,
@@ -26,17 +26,6 @@ from hydroelastic.modal.cosine_moments import cosine_moments
 from hydroelastic.modal.dry_modes import free_free_shape
 from hydroelastic.modal.surface_operator import surface_operator
 
-BASE = FloatingBeam(
-    tank_length=10.0,
-    depth=5.0,
-    density=1000.0,
-    gravity=9.81,
-    start=3.0,
-    length=4.0,
-    flexural_rigidity=5e3,
-    mass_per_length=50.0,
-    hydrostatic=False,
-)
 MIRROR = np.outer([1, -1, 1, -1], [1, -1, 1, -1])
 
 

@@ -4,10 +4,21 @@ import dataclasses
 import math
 
 import pytest
-from base_beam import BASE
 
-from hydroelastic.modal import ERRATA, free_free_roots, lid_added_mass, one_term_root
+from hydroelastic.modal import ERRATA, FloatingBeam, free_free_roots, lid_added_mass, one_term_root
 from hydroelastic.modal.paper_model import added_mass, free_end_determinant, one_term_lid_added_mass, one_term_stiffness
+
+BASE = FloatingBeam(
+    tank_length=10.0,
+    depth=5.0,
+    density=1000.0,
+    gravity=9.81,
+    start=0.0,
+    length=4.0,
+    flexural_rigidity=5e3,
+    mass_per_length=50.0,
+    hydrostatic=False,
+)
 
 
 def test_errata_are_numbered_as_in_the_theory() -> None:

@@ -8,13 +8,11 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Annotated, Literal, TypeAlias
 
-from pydantic import BaseModel, ConfigDict, Field, Strict, ValidationError, field_validator, model_validator
+from pydantic import Field, Strict, ValidationError, field_validator, model_validator
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from hydroelastic.meshes.formats import FORMATS
-
-SMALLEST, LARGEST = 1e-30, 1e30
-"""Range of any positive quantity in SI: no product of a few of them overflows."""
+from hydroelastic.scenes.model_bodies import LARGEST, Beam, Body, Float, Level, PositiveNumber, SceneModel
 
 ROUND_OFF = 1e-9
 """Lengths below this part of the tank's length count as zero: decimal input is not exact."""
@@ -32,15 +30,6 @@ STIFFNESS_GROUP = (1e-15, 1e15)
 MASS_GROUP = (1e-12, 1e12)
 """m/(ρ l): beyond this, the beam or the liquid is lost in the rounding of the other."""
 
-PositiveNumber: TypeAlias = Annotated[float, Strict(), Field(ge=SMALLEST, le=LARGEST)]
-
-
-class SceneModel(BaseModel):
-    """Base of all parts of a scene: immutable, no unknown keys, no NaN or infinity."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
-
-
 class Tank(SceneModel):
     """The rectangular tank and what closes it on top where no body floats."""
 
@@ -56,32 +45,10 @@ class Tank(SceneModel):
 class Liquid(SceneModel):
     """A layer of ideal incompressible liquid."""
 
-    density: PositiveNumber = Field(description="density, kg/m³")
+    density: Annotated[float, Strict(), Field(ge=0, le=LARGEST)] = Field(
+        description="density, kg/m³; 0, of the upper of two only, is air, which is not modelled"
+    )
     depth: PositiveNumber = Field(description="depth of the layer, m")
-
-
-class Beam(SceneModel):
-    """A uniform Euler–Bernoulli beam without draught that floats on the liquid."""
-
-    kind: Literal["beam"] = Field(default="beam", description="kind of the body")
-    start: Annotated[float, Strict(), Field(ge=0, le=LARGEST)] = Field(
-        description="distance of the left end from the left wall, m"
-    )
-    length: PositiveNumber = Field(description="length, m")
-    flexural_rigidity: PositiveNumber = Field(description="EI per metre of width, N·m")
-    mass_per_length: PositiveNumber = Field(description="mass per length and metre of width, kg/m²")
-    hydrostatic: Annotated[bool, Strict()] = Field(
-        default=True, description="whether the hydrostatic restoring ρ g w acts on the beam"
-    )
-    ends: Literal["free", "guided"] = Field(
-        default="free",
-        description="free (no moment, no shear force) or guided (no slope, no shear force; only wall to wall)",
-    )
-
-    @property
-    def end(self) -> float:
-        """Distance of the right end from the left wall, m."""
-        return self.start + self.length
 
 
 class Accuracy(SceneModel):
@@ -111,7 +78,7 @@ class MeshFile(SceneModel):
 
 
 class TankScene(SceneModel):
-    """A closed tank with one liquid and any number of beams, or none (sloshing).
+    """A closed tank with one liquid or two and any number of bodies, or none (sloshing).
 
     Raises:
         ValidationError: (a ValueError) if a value is not allowed or the parts do not fit together.
@@ -120,10 +87,46 @@ class TankScene(SceneModel):
     kind: Literal["tank"] = Field(default="tank", description="kind of the scene")
     title: Annotated[str, Strict()] = Field(default="", description="title of tables and images")
     tank: Tank = Field(description="the tank")
-    liquid: tuple[Liquid, ...] = Field(min_length=1, max_length=1, description="exactly one liquid")
-    body: tuple[Beam, ...] = Field(default=(), description="the beams, in any order; none for sloshing alone")
+    liquid: tuple[Liquid, ...] = Field(min_length=1, max_length=2, description="one liquid or two, from the bottom up")
+    body: tuple[Body, ...] = Field(default=(), description="the bodies, in any order; none for sloshing alone")
     accuracy: Accuracy = Field(default=Accuracy(), description="what is asked of the answer")
     mesh: MeshFile | None = Field(default=None, description="a mesh of your own")
+
+    @property
+    def layers(self) -> tuple[Liquid, ...]:
+        """The liquids that are modelled, from the bottom up: without the air, of density 0, above the lower one."""
+        return tuple(liquid for liquid in self.liquid if liquid.density > 0.0)
+
+    @property
+    def top(self) -> Literal["free", "rigid", "pressure_release"]:
+        """What lies on the uppermost modelled liquid beside the bodies: with air above it, the top is free."""
+        return self.tank.top if len(self.layers) == len(self.liquid) else "free"
+
+    @property
+    def beams(self) -> tuple[tuple[int, Beam], ...]:
+        """The beams, each with its index among the bodies."""
+        return tuple((index, body) for index, body in enumerate(self.body) if isinstance(body, Beam))
+
+    @property
+    def floats(self) -> tuple[tuple[int, Float], ...]:
+        """The floats, each with its index among the bodies."""
+        return tuple((index, body) for index, body in enumerate(self.body) if isinstance(body, Float))
+
+    def level_of(self, body: Beam | Float) -> Level:
+        """Return where a body floats; of one modelled liquid there is only the surface."""
+        if len(self.layers) == 1:
+            return "surface"
+        return body.at if body.at is not None else "interface"
+
+    def height_of(self, level: Level) -> float:
+        """Return the ordinate of a still level, m: 0 but for the surface of the upper of two liquids."""
+        return self.layers[1].depth if level == "surface" and len(self.layers) == 2 else 0.0
+
+    def densities_at(self, level: Level) -> tuple[float, float]:
+        """Return the densities below and above a level, kg/m³; 0 above the surface."""
+        densities = (*(layer.density for layer in self.layers), 0.0)
+        place = len(self.layers) - 1 if level == "surface" else 0
+        return densities[place], densities[place + 1]
 
     @model_validator(mode="after")
     def _parts_fit(self) -> TankScene:
@@ -136,40 +139,61 @@ class TankScene(SceneModel):
 
 @dataclass(frozen=True, kw_only=True)
 class Segment:
-    """A piece of the top of the liquid.
+    """A piece of a still level.
 
     Args:
-        kind: what lies there.
+        kind: what lies there; a thin float is a piece without length.
         start: distance of its left end from the left wall, m.
         end: distance of its right end from the left wall, m.
         body: index of the body in the scene, or None beside the bodies.
     """
 
-    kind: Literal["free", "rigid", "pressure_release", "beam"]
+    kind: Literal["free", "rigid", "pressure_release", "interface", "beam", "float"]
     start: float
     end: float
     body: int | None = None
 
 
 def top_segments(scene: TankScene) -> tuple[Segment, ...]:
-    """Return the top of the liquid from the left wall to the right one, without gaps.
+    """Return the top of the uppermost liquid from the left wall to the right one, without gaps."""
+    return level_segments(scene, "surface")
 
-    A beam whose end is within `ROUND_OFF` of a wall ends exactly there.
+
+def level_segments(scene: TankScene, level: Level) -> tuple[Segment, ...]:
+    """Return a still level from the left wall to the right one, without gaps.
+
+    A beam whose end is within `ROUND_OFF` of a wall ends exactly there. A float takes up its waterplane.
     """
     length = scene.tank.length
-    negligible = ROUND_OFF * length
+    beside = scene.top if level == "surface" else "interface"
     segments = []
     reached = 0.0
-    for index, beam in sorted(enumerate(scene.body), key=lambda numbered: numbered[1].start):
-        start = beam.start if beam.start > negligible else 0.0
-        end = beam.end if beam.end < length - negligible else length
+    for index, start, end in sorted(_places(scene, level), key=lambda place: place[1]):
         if start > reached:
-            segments.append(Segment(kind=scene.tank.top, start=reached, end=start))
-        segments.append(Segment(kind="beam", start=start, end=end, body=index))
+            segments.append(Segment(kind=beside, start=reached, end=start))
+        segments.append(Segment(kind=scene.body[index].kind, start=start, end=end, body=index))
         reached = end
     if reached < length:
-        segments.append(Segment(kind=scene.tank.top, start=reached, end=length))
+        segments.append(Segment(kind=beside, start=reached, end=length))
     return tuple(segments)
+
+
+def _places(scene: TankScene, level: Level) -> Iterator[tuple[int, float, float]]:
+    length = scene.tank.length
+    negligible = ROUND_OFF * length
+    for index, body in enumerate(scene.body):
+        if scene.level_of(body) != level:
+            continue
+        if isinstance(body, Beam):
+            start = body.start if body.start > negligible else 0.0
+            yield index, start, body.end if body.end < length - negligible else length
+        elif body.boundary == "thin":
+            yield index, body.position, body.position
+        else:
+            # SciPy takes a while to import, and most scenes have no float.
+            from hydroelastic.scenes.floats import placed_float
+
+            yield index, *placed_float(scene, index).hydrostatics.waterplane
 
 
 def _problem(wrong: str, *, allowed: str = "", remedy: str = "") -> PydanticCustomError:
@@ -198,7 +222,7 @@ def _depth_fits_the_length(scene: TankScene) -> Iterator[InitErrorDetails]:
 
 def _beams_lie_in_the_tank(scene: TankScene) -> Iterator[InitErrorDetails]:
     length = scene.tank.length
-    for index, beam in enumerate(scene.body):
+    for index, beam in scene.beams:
         if beam.length > length * (1 + ROUND_OFF):
             yield _misfit(("body", index, "length"), beam.length, f"the beam is longer than the tank ({length:g} m)")
         elif beam.end > length * (1 + ROUND_OFF):
@@ -211,7 +235,7 @@ def _beams_lie_in_the_tank(scene: TankScene) -> Iterator[InitErrorDetails]:
 
 
 def _beams_keep_apart(scene: TankScene) -> Iterator[InitErrorDetails]:
-    ordered = sorted(enumerate(scene.body), key=lambda numbered: numbered[1].start)
+    ordered = sorted(scene.beams, key=lambda numbered: numbered[1].start)
     for (first, left), (second, right) in pairwise(ordered):
         if right.start - left.end <= ROUND_OFF * scene.tank.length:
             yield _misfit(
@@ -224,7 +248,7 @@ def _beams_keep_apart(scene: TankScene) -> Iterator[InitErrorDetails]:
 
 def _beams_are_not_too_short(scene: TankScene) -> Iterator[InitErrorDetails]:
     shortest = SHORTEST_BEAM * scene.tank.length
-    for index, beam in enumerate(scene.body):
+    for index, beam in scene.beams:
         if beam.length < shortest:
             yield _misfit(
                 ("body", index, "length"),
@@ -236,7 +260,7 @@ def _beams_are_not_too_short(scene: TankScene) -> Iterator[InitErrorDetails]:
 
 def _groups_are_in_range(scene: TankScene) -> Iterator[InitErrorDetails]:
     density, gravity = scene.liquid[0].density, scene.tank.gravity
-    for index, beam in enumerate(scene.body):
+    for index, beam in scene.beams:
         groups = (
             ("flexural_rigidity", "EI/(ρ g l⁴)", density * gravity * beam.length**4, STIFFNESS_GROUP),
             ("mass_per_length", "m/(ρ l)", density * beam.length, MASS_GROUP),
@@ -254,7 +278,7 @@ def _groups_are_in_range(scene: TankScene) -> Iterator[InitErrorDetails]:
 
 def _guided_beams_cover_the_tank(scene: TankScene) -> Iterator[InitErrorDetails]:
     negligible = ROUND_OFF * scene.tank.length
-    for index, beam in enumerate(scene.body):
+    for index, beam in scene.beams:
         covers = beam.start <= negligible and beam.end >= scene.tank.length - negligible
         if beam.ends == "guided" and not covers:
             yield _misfit(

@@ -30,7 +30,7 @@ class Mode:
         eigenvalue: λ = ω².
         displacement: surface unknowns ζ.
         potential: ψ, its constant included.
-        residual: relative residual ‖Kζ − λ(Mζ + ρCᵀψ)‖ / ‖Kζ‖ in the norm of K⁻¹.
+        residual: relative residual ‖Kζ − λ(Mζ + (ρC)ᵀψ)‖ / ‖Kζ‖ in the norm of K⁻¹.
         body_amplitudes: the body part of ζ, on every process.
         energy: share of each block in the potential energy: body unknowns one by one, then the free surface.
     """
@@ -90,7 +90,7 @@ def solve_modes(pencil: CoupledPencil, count: int, *, shapes: int | None = None,
         EigenSolverError: if SLEPc stops before enough pairs have converged.
     """
     kinetics = CondensedKinetics(pencil)
-    available = pencil.size - len(kinetics.free_rigid) - int(pencil.liquid.keeps_volume)
+    available = pencil.size - len(pencil.constraints) - pencil.zero_mode_count
     count = min(count, available)
     before = pencil.solver.solves
     solver = _krylov_schur(pencil, kinetics, count, tolerance)
@@ -179,8 +179,8 @@ def _residual(
     force: PETSc.Vec,
 ) -> float:
     residual, image = force.copy(), force.duplicate()
-    pencil.coupling.multTranspose(potential, image)
-    residual.axpy(-eigenvalue * pencil.density, image)
+    pencil.momentum.multTranspose(potential, image)
+    residual.axpy(-eigenvalue, image)
     pencil.mass.mult(displacement, image)
     residual.axpy(-eigenvalue, image)
     solver.getST().getKSP().solve(residual, image)
@@ -209,19 +209,20 @@ def count_below(pencil: CoupledPencil, eigenvalue: float) -> int:
     """
     block = pencil.stiffness.copy()
     block.axpy(-eigenvalue, pencil.mass, structure=PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN)
-    factor = eigenvalue * pencil.density
-    rows = pencil.solver.unconstrained(pencil.laplace)
+    rows = _unconstrained(pencil)
     # The copies matter: PETSc hands out the matrix itself where all of it is asked for.
     laplace = pencil.laplace.createSubMatrix(rows, rows).copy()
-    laplace.scale(factor)
+    weights = laplace.createVecLeft()
+    weights.array[:] = eigenvalue * _densities(pencil)[rows.getIndices() - pencil.laplace.getOwnershipRange()[0]]
+    laplace.diagonalScale(L=weights)
     columns = PETSc.IS().createStride(
         pencil.stiffness.getLocalSize()[0],
         first=pencil.stiffness.getOwnershipRange()[0],
         step=1,
         comm=pencil.laplace.comm,
     )
-    coupling = pencil.coupling.createSubMatrix(rows, columns).copy()
-    coupling.scale(-factor)
+    coupling = pencil.momentum.createSubMatrix(rows, columns).copy()
+    coupling.scale(-eigenvalue)
     transpose = coupling.transpose(PETSc.Mat())
     whole = PETSc.Mat().createNest([[block, transpose], [coupling, laplace]], comm=block.comm).convert("aij")
     whole.setOption(PETSc.Mat.Option.SYMMETRIC, True)
@@ -234,4 +235,19 @@ def count_below(pencil: CoupledPencil, eigenvalue: float) -> int:
     negative, zero, _ = factored.getInertia()
     if zero:
         raise EigenSolverError(f"the shift {eigenvalue:g} is an eigenvalue to working precision")
-    return int(negative) - int(pencil.liquid.keeps_volume) - pencil.zero_mode_count
+    return int(negative) - len(pencil.constraints) - pencil.zero_mode_count
+
+
+def _unconstrained(pencil: CoupledPencil) -> PETSc.IS:
+    """Unknowns of ψ that no grounded surface fixes, but one of each layer whose constant means nothing."""
+    first, last = pencil.laplace.getOwnershipRange()
+    liquid = pencil.liquid
+    fixed = liquid.surface_dofs(liquid.grounded) if liquid.grounded else np.empty(0, dtype=np.int32)
+    free = np.setdiff1d(np.arange(last - first, dtype=np.int32), np.union1d(fixed, pencil.free_constants))
+    return PETSc.IS().createGeneral((free + first).astype(PETSc.IntType), comm=pencil.laplace.comm)
+
+
+def _densities(pencil: CoupledPencil) -> np.ndarray:
+    """ρ at each owned unknown of ψ."""
+    densities: np.ndarray = np.array([layer.density for layer in pencil.liquid.layers])[pencil.liquid.owned_layer_of]
+    return densities

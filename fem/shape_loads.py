@@ -25,7 +25,7 @@ def shape_loads(liquid: LiquidSpace, body: Body) -> np.ndarray:
     """Integrate every shape of a body against every basis function of ψ.
 
     Args:
-        liquid: space of ψ on straight simplices.
+        liquid: space of ψ on simplices.
         body: the body.
 
     Returns:
@@ -48,18 +48,13 @@ def surface_load(liquid: LiquidSpace, names: tuple[str, ...]) -> np.ndarray:
     load = np.zeros((1, index_map.size_local + index_map.num_ghosts))
     for name in names:
         for group in facet_groups(liquid, name):
-            local, weights = basix.make_quadrature(group.facet_type, liquid.degree)
-            basis = _basis(liquid, group.reference_points(local))
+            local, weights = basix.make_quadrature(group.facet_type, 2 * liquid.degree)
+            reference = group.reference_points(local)
+            _, measures = group.normals(reference)
             dofs = liquid.space.dofmap.list[group.cells]
-            np.add.at(load[0], dofs, _measure_ratio(group.edges())[:, None] * (weights @ basis))
+            np.add.at(load[0], dofs, (measures * weights) @ _basis(liquid, reference))
     total: np.ndarray = _summed_over_processes(liquid, load)[0]
     return total
-
-
-def _measure_ratio(edges: np.ndarray) -> np.ndarray:
-    """Measure of each facet over that of the reference facet."""
-    ratio: np.ndarray = np.sqrt(np.linalg.det(np.einsum("fid,fjd->fij", edges, edges)))
-    return ratio
 
 
 def _basis(liquid: LiquidSpace, reference: np.ndarray) -> np.ndarray:
@@ -69,21 +64,18 @@ def _basis(liquid: LiquidSpace, reference: np.ndarray) -> np.ndarray:
 
 
 def _add_loads(liquid: LiquidSpace, body: Body, group: FacetGroup, loads: np.ndarray) -> None:
-    edges = group.edges()
-    scale = _measure_ratio(edges)
-    radians = body.wavenumber * np.linalg.norm(edges, axis=2).max(initial=0.0)
-    count = ceil(0.5 * liquid.degree + 0.5 * radians) + _SPARE_POINTS
+    count = ceil(0.5 * liquid.degree + 0.5 * body.wavenumber * group.longest) + _SPARE_POINTS
     local, weights = basix.make_quadrature(group.facet_type, 2 * count - 1)
     reference = group.reference_points(local)
     basis = _basis(liquid, reference)
-    points = group.physical_points(reference).reshape(-1, edges.shape[2])
-    # dolfinx hands three coordinates to functions of a point, whatever the dimension.
-    padded = np.zeros((3, len(points)))
-    padded[: points.shape[1]] = points.T
+    points = group.physical_points(reference)
+    normals, measures = group.normals(reference)
+    normals = np.broadcast_to(normals, points.shape)
+    by_coordinate = points.reshape(-1, points.shape[-1]).T, normals.reshape(-1, points.shape[-1]).T
     dofs = liquid.space.dofmap.list[group.cells]
     for number in range(body.size):
-        values = body.shapes(padded, number).reshape(len(group.cells), -1)
-        np.add.at(loads[number], dofs, (scale[:, None] * values * weights) @ basis)
+        values = body.shapes(*by_coordinate, number).reshape(points.shape[:2])
+        np.add.at(loads[number], dofs, (measures * values * weights) @ basis)
 
 
 def _summed_over_processes(liquid: LiquidSpace, loads: np.ndarray) -> np.ndarray:

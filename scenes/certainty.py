@@ -9,7 +9,8 @@ import numpy as np
 from mpi4py import MPI
 
 from hydroelastic.fem.modes import Mode
-from hydroelastic.fem.spectral_error import cell_diameters, cell_errors
+from hydroelastic.fem.cells import cells_at
+from hydroelastic.fem.spectral_error import cell_errors
 from hydroelastic.fem.truncation import truncation_errors
 from hydroelastic.scenes.field_solution import FieldSolution
 from hydroelastic.scenes.plan import HIGHEST_DEGREE, Resolution, rounding_error
@@ -60,8 +61,8 @@ def frequency_errors(
     for number, part in enumerate(solution.parts):
         own = [place for place, index in enumerate(indices) if solution.origins[index][0] == number]
         space = part.pencil.liquid
-        cells = cell_errors(space, [modes[place].potential for place in own], part.pencil.density)
-        innermost = cell_diameters(space) <= 1.01 * (resolution.tip_size or 0.0)
+        cells = cell_errors(space, [modes[place].potential for place in own])
+        innermost = cells_at(space.tank.mesh, corners)
         at_tips = solution.mesh.mesh.comm.allreduce(cells[:, innermost].sum(axis=1), op=MPI.SUM)
         tips[own] = at_tips
         liquid[own] = solution.mesh.mesh.comm.allreduce(cells.sum(axis=1), op=MPI.SUM) - at_tips

@@ -11,7 +11,7 @@ from mpi4py import MPI
 
 from hydroelastic.fem.liquid import liquid_matrices, liquid_space
 from hydroelastic.fem.pencil import CoupledPencil, build_pencil
-from hydroelastic.fem.surfaces import Body, FreeSurface
+from hydroelastic.fem.surfaces import Body, LiquidSurface
 from hydroelastic.meshes.distribute import TankMesh, distribute_mesh
 from hydroelastic.meshes.geometry import FREE_SURFACE, SYMMETRY_PLANE, body_name
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
@@ -113,9 +113,9 @@ def _field_models(
 ) -> tuple[CoupledPencil, ...]:
     has_water = FREE_SURFACE in mesh.facet_names
     released = has_water and (pressure_release or tank.top == "pressure_release")
-    water = FreeSurface(surface=FREE_SURFACE, gravity=1.0) if has_water and not released else None
+    surfaces = (LiquidSurface(surface=FREE_SURFACE, gravity=1.0),) if has_water and not released else ()
     liquid = liquid_space(mesh, degree, (FREE_SURFACE,) if released else ())
-    matrices = liquid_matrices(liquid, water.surface if water is not None else None)
+    matrices = liquid_matrices(liquid, tuple(surface.surface for surface in surfaces))
     pencils = []
     for parity in parities:
         plane = (SYMMETRY_PLANE,) if parity == "antisymmetric" else ()
@@ -125,8 +125,7 @@ def _field_models(
                 replace(liquid, grounded=liquid.grounded + plane),
                 matrices,
                 bodies=bodies,
-                free_surface=water,
-                density=1.0,
+                surfaces=surfaces,
             )
         )
     return tuple(pencils)
@@ -175,8 +174,10 @@ def _label(guided: bool, number: int) -> str:
 
 
 def _shape_at(
-    guided: bool, start: float, length: float, numbers: list[int], points: np.ndarray, place: int
+    guided: bool, start: float, length: float, numbers: list[int], points: np.ndarray, normals: np.ndarray, place: int
 ) -> np.ndarray:
     # Quadrature points at the tips may miss them by rounding.
     s = np.clip((points[0] - start) / length, 0.0, 1.0)
-    return guided_shape(numbers[place], s) if guided else free_free_shape(numbers[place], s)
+    deflection = guided_shape(numbers[place], s) if guided else free_free_shape(numbers[place], s)
+    upwards: np.ndarray = deflection * normals[1]
+    return upwards

@@ -91,7 +91,7 @@ class FieldSolution:
     @property
     def has_waves(self) -> bool:
         """Whether there is a free surface."""
-        return self.parts[0].pencil.free_surface is not None
+        return bool(self.parts[0].pencil.surfaces)
 
     def parity(self, index: int) -> Parity | None:
         """Symmetry of a mode; ``None`` where the whole tank was solved."""

@@ -106,10 +106,11 @@ def _body_curves(solution: TankSolution, amplitudes: np.ndarray) -> list[Surface
     curves, first = [], 0
     for index, body in enumerate(solution.field.bodies):
         x: NDArray[np.float64] = np.linspace(*place[index], _BEAM_POINTS, dtype=np.float64)
-        points = np.vstack([x, np.zeros((2, len(x)))])
+        points, upwards = np.vstack([x, np.zeros_like(x)]), np.vstack([np.zeros_like(x), np.ones_like(x)])
         own = amplitudes[first : first + body.size]
         displacement = sum(
-            (amplitude * body.shapes(points, number) for number, amplitude in enumerate(own)), np.zeros_like(x)
+            (amplitude * body.shapes(points, upwards, number) for number, amplitude in enumerate(own)),
+            np.zeros_like(x),
         )
         curves.append(SurfaceCurve(kind="body", x=x, displacement=displacement))
         first += body.size

@@ -20,7 +20,7 @@ ROUNDING = 1e-11
 def liquid_estimates(pencil: Any, count: int) -> tuple[np.ndarray, np.ndarray]:
     """λ of the lowest modes, and (λ_h − λ)/λ as estimated from ψ (collective)."""
     found = solve_modes(pencil, count)
-    cells = cell_errors(pencil.liquid, [mode.potential for mode in found.modes], pencil.density)
+    cells = cell_errors(pencil.liquid, [mode.potential for mode in found.modes])
     return found.eigenvalues, MPI.COMM_WORLD.allreduce(cells.sum(axis=1), op=MPI.SUM)
 
 

@@ -109,7 +109,7 @@ def wave_quotient(pencil: CoupledPencil, number: int) -> float:
     """<η, N η>/<η, η> of η = cos kx, k = nπ/L, which is exactly 1/(k tanh kH)."""
     wave = as_vector(pencil, lambda x: np.cos(number * pi * x[0] / LENGTH))
     # Cᵀψ takes any potential to ∫φψ: the surface part of the wave, against itself, is <η, η>.
-    dofs = pencil.liquid.surface_dofs((pencil.free_surface.surface,))  # type: ignore[union-attr]
+    dofs = pencil.liquid.surface_dofs((pencil.surfaces[0].surface,))
     elevation = pencil.coupling.createVecRight()
     elevation.array[:] = wave.array_r[dofs]
     load, weighted = pencil.coupling.createVecLeft(), pencil.coupling.createVecRight()
@@ -138,7 +138,7 @@ def test_the_added_mass_of_a_wave_converges_exponentially_in_the_degree(tanks: A
 
 
 def volumes(pencil: CoupledPencil) -> np.ndarray:
-    return pencil.body_values(pencil.volume)
+    return pencil.body_values(pencil.constraints[0].volume)
 
 
 def test_heave_displaces_the_beams_length_and_no_other_shape_anything(beam: CoupledPencil) -> None:

@@ -20,6 +20,7 @@ from hydroelastic.modal.estimate import (
     paper_equivalent_mass,
 )
 from hydroelastic.modal.estimates import all_estimates
+from hydroelastic.modal.float_profiles import FloatShape, Profile, ProfileArc, float_profile
 from hydroelastic.modal.floating_beam import FloatingBeam
 from hydroelastic.modal.grammel import BeamQuotients, QuotientPair, beam_quotients, quotients
 from hydroelastic.modal.grammel_terms import best_term, one_term_root, term_tones
@@ -41,17 +42,34 @@ from hydroelastic.modal.sloshing import (
     sloshing_frequencies,
 )
 from hydroelastic.modal.tone_pencil import Tones
+from hydroelastic.modal.two_layer import (
+    Branch,
+    InterfacePlate,
+    LayerMode,
+    LayerTop,
+    TwoLayers,
+    interface_frequencies,
+    tank_modes,
+)
 
 __all__ = [
     "ERRATA",
     "BeamQuotients",
     "Bound",
+    "Branch",
     "Erratum",
     "Estimate",
+    "FloatShape",
     "FloatingBeam",
+    "InterfacePlate",
+    "LayerMode",
+    "LayerTop",
     "NoEstimateError",
+    "Profile",
+    "ProfileArc",
     "QuotientPair",
     "Tones",
+    "TwoLayers",
     "added_mass_from_frequency",
     "all_estimates",
     "beam_quotients",
@@ -59,6 +77,7 @@ __all__ = [
     "deep_open_added_mass",
     "deep_open_constant",
     "deep_sloshing_frequencies",
+    "float_profile",
     "free_free_roots",
     "free_free_shape",
     "free_free_wavenumber",
@@ -66,6 +85,7 @@ __all__ = [
     "gravity_added_mass",
     "gravity_tones",
     "guided_cover_frequencies",
+    "interface_frequencies",
     "lid_added_mass",
     "one_term_root",
     "paper_equivalent_mass",
@@ -84,5 +104,6 @@ __all__ = [
     "shallow_sloshing_frequencies",
     "sloshing_frequencies",
     "strip_added_mass",
+    "tank_modes",
     "term_tones",
 ]

@@ -59,6 +59,9 @@ class LiquidSpace:
         grounded: names of the surfaces on which ψ = 0: pressure release, or the mirror plane of antisymmetric modes.
         layers: the liquids, from the bottom up.
         layer_of: layer of each unknown of this process, owned ones first.
+        glued: whether the liquids move through their interface as one, as they do far above its waves. ψ then stands
+            for the pressure ρψ, which is continuous, and there is one layer of unit density for all that takes ψ; in
+            it A = ∫(1/ρ)∇ψ·∇q.
     """
 
     tank: TankMesh
@@ -67,6 +70,7 @@ class LiquidSpace:
     grounded: tuple[str, ...]
     layers: tuple[Layer, ...]
     layer_of: np.ndarray
+    glued: tuple[Layer, ...] = ()
 
     @property
     def size(self) -> int:
@@ -78,15 +82,12 @@ class LiquidSpace:
         """Layer of each unknown that this process owns."""
         return self.layer_of[: self.space.dofmap.index_map.size_local]
 
-    def density_of_cells(self) -> np.ndarray:
-        """ρ of each owned cell."""
-        densities = np.empty(self.tank.mesh.topology.index_map(self.tank.mesh.topology.dim).size_local)
-        if len(self.layers) == 1:
-            densities[:] = self.layers[0].density
-            return densities
-        for layer in self.layers:
+    def energy_densities(self) -> np.ndarray:
+        """Kinetic energy over ½ω²|∇ψ|² in each owned cell: ρ, or 1/ρ where ψ stands for the pressure."""
+        densities = np.full(len(owned_cells(self.tank.mesh)), self.layers[0].density)
+        for layer in self.glued or self.layers[1:]:
             cells = self.tank.cells(layer.name)
-            densities[cells[cells < len(densities)]] = layer.density
+            densities[cells[cells < len(densities)]] = 1.0 / layer.density if self.glued else layer.density
         return densities
 
     def surface_dofs(self, names: tuple[str, ...], layer: int | None = None) -> np.ndarray:
@@ -100,16 +101,35 @@ class LiquidSpace:
 
 
 def liquid_space(
-    tank: TankMesh, degree: int, grounded: tuple[str, ...] = (), layers: tuple[Layer, ...] = ONE_LIQUID
+    tank: TankMesh,
+    degree: int,
+    grounded: tuple[str, ...] = (),
+    layers: tuple[Layer, ...] = ONE_LIQUID,
+    *,
+    glued: bool = False,
 ) -> LiquidSpace:
-    """Space of ψ of the given degree; its degree does not depend on the mesh's (collective)."""
+    """Space of ψ of the given degree; its degree does not depend on the mesh's (collective).
+
+    Args:
+        tank: the mesh.
+        degree: polynomial degree.
+        grounded: names of the surfaces on which ψ = 0.
+        layers: the liquids, from the bottom up.
+        glued: whether they move through their interface as one; the mesh is then not cut there.
+    """
     space = fem.functionspace(tank.mesh, ("Lagrange", degree))
     index_map = space.dofmap.index_map
     layer_of = np.zeros(index_map.size_local + index_map.num_ghosts, dtype=np.int8)
-    for number, layer in enumerate(layers[1:], 1):
+    for number, layer in enumerate(() if glued else layers[1:], 1):
         layer_of[space.dofmap.list[tank.cells(layer.name)].ravel()] = number
     return LiquidSpace(
-        tank=tank, space=space, degree=degree, grounded=grounded, layers=layers, layer_of=layer_of
+        tank=tank,
+        space=space,
+        degree=degree,
+        grounded=grounded,
+        layers=ONE_LIQUID if glued else layers,
+        layer_of=layer_of,
+        glued=layers if glued else (),
     )
 
 
@@ -160,24 +180,33 @@ def as_functions(liquid: LiquidSpace, potentials: list[PETSc.Vec]) -> list[fem.F
 
 
 # Kernels that this process has seen compiled: to look one up takes dolfinx a millisecond or two.
-_compiled: set[tuple[str, int, int]] = set()
+_compiled: set[tuple[str, int, int, bool]] = set()
 
 
-def compile_form(tank: TankMesh, degree: int) -> None:
+def compile_form(tank: TankMesh, degree: int, *, glued: bool = False) -> None:
     """Compile the form of a degree on rank 0, unless the cache of dolfinx has it (collective).
 
     Assembly would do it by itself; called before, it shows what of a first run goes into compiling.
     """
-    kernel = tank.mesh.topology.cell_name(), coordinate_degree(tank.mesh), degree
+    kernel = tank.mesh.topology.cell_name(), coordinate_degree(tank.mesh), degree, glued
     # Together: one process may have solved on its own before.
     if tank.mesh.comm.allreduce(kernel not in _compiled, op=MPI.LOR):
-        _form(fem.functionspace(tank.mesh, ("Lagrange", degree)), cells=_NONE, facets=_NONE)
+        weight = fem.Function(fem.functionspace(tank.mesh, ("DG", 0))) if glued else None
+        _form(fem.functionspace(tank.mesh, ("Lagrange", degree)), cells=_NONE, facets=_NONE, weight=weight)
         _compiled.add(kernel)
 
 
 def laplace_matrix(liquid: LiquidSpace) -> PETSc.Mat:
-    """Assemble A = ∫∇ψ·∇q, every unknown included."""
-    return _assembled(_form(liquid.space, cells=owned_cells(liquid.tank.mesh), facets=_NONE))
+    """Assemble A = ∫∇ψ·∇q, or ∫(1/ρ)∇ψ·∇q in glued liquids, every unknown included."""
+    weight = _inverse_density(liquid) if liquid.glued else None
+    return _assembled(_form(liquid.space, cells=owned_cells(liquid.tank.mesh), facets=_NONE, weight=weight))
+
+
+def _inverse_density(liquid: LiquidSpace) -> fem.Function:
+    weight = fem.Function(fem.functionspace(liquid.tank.mesh, ("DG", 0)))
+    for layer in liquid.glued:
+        weight.x.array[weight.function_space.dofmap.list[liquid.tank.cells(layer.name)].ravel()] = 1.0 / layer.density
+    return weight
 
 
 def surface_mass_matrix(liquid: LiquidSpace, names: tuple[str, ...]) -> PETSc.Mat:
@@ -193,8 +222,10 @@ _NONE = np.empty(0, dtype=np.int32)
 _CURVED_QUADRATURE = 6
 
 
-def _form(space: fem.FunctionSpace, *, cells: np.ndarray, facets: np.ndarray) -> fem.Form:
-    """∫∇ψ·∇q over some cells + ∫ψ q over some facets of the boundary.
+def _form(
+    space: fem.FunctionSpace, *, cells: np.ndarray, facets: np.ndarray, weight: fem.Function | None = None
+) -> fem.Form:
+    """∫w ∇ψ·∇q over some cells + ∫ψ q over some facets of the boundary; w = 1 unless it is given.
 
     A and S are this one form, each without the other's part. To compile it takes hardly longer than to compile one of
     them, for most of the time goes into starting the C compiler, reading Python's headers and linking. Which cells and
@@ -206,7 +237,8 @@ def _form(space: fem.FunctionSpace, *, cells: np.ndarray, facets: np.ndarray) ->
     more = 0 if is_straight(mesh) else _CURVED_QUADRATURE
     dx = _measure("dx", mesh, mesh.topology.dim, cells, 2 * degree - 2 + more)
     ds = _measure("ds", mesh, mesh.topology.dim - 1, facets, 2 * degree + more)
-    form = ufl.inner(ufl.grad(potential), ufl.grad(test)) * dx + ufl.inner(potential, test) * ds
+    energy = ufl.inner(ufl.grad(potential), ufl.grad(test))
+    form = (energy if weight is None else weight * energy) * dx + ufl.inner(potential, test) * ds
     return fem.form(form, jit_options=jit_options())
 
 

@@ -60,7 +60,7 @@ def cell_errors(liquid: LiquidSpace, potentials: list[PETSc.Vec]) -> np.ndarray:
     cells = owned_cells(mesh)
     dofs = liquid.space.dofmap.list[: len(cells)]
     energies = _straight_energies(liquid) if is_straight(mesh) else _curved_energies(liquid)
-    density = liquid.density_of_cells()
+    density = liquid.energy_densities()
     errors = np.empty((len(potentials), len(cells)))
     for number, function in enumerate(as_functions(liquid, potentials)):
         errors[number] = density * _missing_energy(*energies(function.x.array[dofs]))

@@ -102,9 +102,9 @@ class Arc:
             found.extend(t[np.flatnonzero(slope == 0.0)])
         return tuple(sorted({float(t) for t in found if 0.0 < t < 1.0}))
 
-    def crossing(self, level: float, first: float, last: float) -> float:
-        """Return the t between two points on different sides of a level where y = level."""
-        return self._root(lambda t: self.curve(t)[:, 1] - level, first, last)
+    def crossing(self, level: float, first: float, last: float, *, axis: Literal[0, 1] = 1) -> float:
+        """Return the t between two points on different sides of a level where y = level, or x = level for axis 0."""
+        return self._root(lambda t: self.curve(t)[:, axis] - level, first, last)
 
     @staticmethod
     def _root(value: Callable[[Array], Array], first: float, last: float) -> float:

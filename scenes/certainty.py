@@ -14,6 +14,8 @@ from hydroelastic.fem.spectral_error import cell_errors
 from hydroelastic.fem.truncation import truncation_errors
 from hydroelastic.scenes.field_solution import FieldSolution
 from hydroelastic.scenes.plan import HIGHEST_DEGREE, Resolution, rounding_error
+from hydroelastic.scenes.scaled_tank import ScaledTank
+from hydroelastic.scenes.tank_mesh import tip_points
 
 ROUNDING_OF_SPREAD = 1e-15
 """Lanczos leaves a few units of the last place of the largest 1/λ in each."""
@@ -46,7 +48,13 @@ class FrequencyErrors:
 
 
 def frequency_errors(
-    solution: FieldSolution, modes: list[Mode], indices: list[int], resolution: Resolution, depth: float
+    solution: FieldSolution,
+    modes: list[Mode],
+    indices: list[int],
+    resolution: Resolution,
+    tank: ScaledTank,
+    *,
+    released: bool = False,
 ) -> FrequencyErrors:
     """Estimate the errors of some modes (collective).
 
@@ -55,9 +63,14 @@ def frequency_errors(
         modes: the modes to judge, with their ψ.
         indices: which of the solution's modes they are.
         resolution: that resolution.
-        depth: H/L.
+        tank: the scene.
+        released: whether it is the limit of high frequency.
     """
     liquid, tips = np.empty(len(modes)), np.empty(len(modes))
+    # Without rings no element is made for the tips.
+    corners = np.empty((0, 2))
+    if resolution.tip_size is not None:
+        corners = tip_points(tank, half=solution.half, released=released)
     for number, part in enumerate(solution.parts):
         own = [place for place, index in enumerate(indices) if solution.origins[index][0] == number]
         space = part.pencil.liquid
@@ -73,12 +86,12 @@ def frequency_errors(
         liquid=0.5 * liquid,
         tips=0.5 * tips,
         truncation=0.5 * truncation,
-        rounding=rounding_error(resolution.degree, depth) + ROUNDING_OF_SPREAD * values / solution.modes.eigenvalues[0],
+        rounding=rounding_error(resolution.degree, tank.depth) + ROUNDING_OF_SPREAD * values / solution.modes.eigenvalues[0],
     )
 
 
 def refined(
-    resolution: Resolution, errors: FrequencyErrors, tolerance: float, *, sharp_tips: bool, own_mesh: bool
+    resolution: Resolution, errors: FrequencyErrors, tolerance: float, *, exponent: float, own_mesh: bool
 ) -> Resolution | None:
     """What to solve next, so that each cause keeps its part of the tolerance.
 
@@ -86,7 +99,7 @@ def refined(
         resolution: the last one.
         errors: what it gave.
         tolerance: of the frequencies.
-        sharp_tips: whether ψ ~ r^{1/2} at the tips.
+        exponent: α of ψ ~ r^α at the sharpest tips.
         own_mesh: whether the mesh is ours to change.
 
     Returns:
@@ -101,8 +114,7 @@ def refined(
         # The tail falls like N⁻⁷.
         finer = finer.with_shapes(min(max(1.1 * truncation ** (1.0 / 7.0), 1.1), 3.0))
     if tips > 1.0 and own_mesh:
-        order = 1.0 if sharp_tips else 0.5
-        finer = finer.with_tips(max(0.3 * tips**-order, 1e-6))
+        finer = finer.with_tips(max(0.3 * tips ** (-0.5 / exponent), 1e-6))
     if liquid > 1.0 or finer == resolution:
         # Each degree gains a factor of five or more.
         wanted = min(max(ceil(log(max(liquid, 1.0)) / log(5.0)), 1), 3)

@@ -14,12 +14,11 @@ from hydroelastic.scenes.estimates import expected_tones
 from hydroelastic.scenes.models import Beam, Segment, TankScene, top_segments
 from hydroelastic.scenes.plan import (
     Resolution,
-    ScaledTank,
     companion_resolution,
     initial_resolution,
-    scaled_tank,
     workable_tolerance,
 )
+from hydroelastic.scenes.scaled_tank import ScaledTank, scaled_tank
 from hydroelastic.scenes.symmetry import is_mirror_image
 
 SURFACE_NAMES = {"free": "free surface", "rigid": "rigid lid", "pressure_release": "pressure release"}

@@ -8,7 +8,7 @@ from hydroelastic.modal.estimates import all_estimates
 from hydroelastic.modal.floating_beam import FloatingBeam
 from hydroelastic.modal.sloshing import guided_cover_frequencies, sloshing_frequencies
 from hydroelastic.scenes.models import TankScene, top_segments
-from hydroelastic.scenes.plan import ScaledTank
+from hydroelastic.scenes.scaled_tank import ScaledTank
 
 # Added mass per ρ l of dry mode 1 and of heave, and between them, on deep open water with ψ = 0 beside the beam.
 _DEEP_ELASTIC = 0.12787
@@ -64,14 +64,15 @@ def exact_frequencies(scene: TankScene) -> tuple[str, tuple[float, ...]]:
 def expected_tones(tank: ScaledTank) -> tuple[float, ...]:
     """About the (dimensionless) λ of the first elastic tone of each beam.
 
-    Dry mode 1 with the recoil in heave, on deep open water with ψ = 0 beside the beam: enough to choose a mesh.
+    Dry mode 1 with the recoil in heave, on deep open liquids that move freely beside the beam: enough to choose a mesh.
     """
     tones = []
-    for beam in tank.beams:
-        root = free_free_roots(1)[0]
-        elastic = beam.mass_per_length + _DEEP_ELASTIC * beam.length
-        heave = beam.mass_per_length + _DEEP_HEAVE * beam.length
-        inertia = elastic - (_DEEP_COUPLING * beam.length) ** 2 / heave
-        stiffness = beam.flexural_rigidity * (root / beam.length) ** 4 + float(beam.hydrostatic)
+    for index, beam in tank.beams.items():
+        root, level = free_free_roots(1)[0], tank.level_of(index)
+        liquid = beam.length * sum(tank.layers[layer].density for layer in (level.below, level.above) if layer is not None)
+        elastic = beam.mass_per_length + _DEEP_ELASTIC * liquid
+        heave = beam.mass_per_length + _DEEP_HEAVE * liquid
+        inertia = elastic - (_DEEP_COUPLING * liquid) ** 2 / heave
+        stiffness = beam.flexural_rigidity * (root / beam.length) ** 4 + float(beam.hydrostatic) * level.jump
         tones.append(stiffness / inertia)
     return tuple(tones)

@@ -20,8 +20,17 @@ from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.scenes.field_model import build_field_model, build_half_models, whole_bodies
-from hydroelastic.scenes.plan import Resolution, ScaledTank
-from hydroelastic.scenes.symmetry import PARITIES, Parity, left_bodies, shape_parity, shapes_of_twins, twin_of
+from hydroelastic.scenes.plan import Resolution
+from hydroelastic.scenes.scaled_tank import ScaledTank
+from hydroelastic.scenes.symmetry import (
+    PARITIES,
+    Parity,
+    left_bodies,
+    motion_parity,
+    shape_parity,
+    shapes_of_twins,
+    twin_of,
+)
 
 
 @dataclass
@@ -117,7 +126,7 @@ def solve_field(
         count: how many modes; fewer come back if the model has fewer.
         watch: told the time of compiling the form, of assembly and of solution.
         half: whether the tank is its own mirror image and is solved as two halves.
-        pressure_release: put ψ = 0 on the water whatever the scene says.
+        pressure_release: the limit of high frequency, on a mesh that is made for it.
 
     Returns:
         The modes (collective).
@@ -126,7 +135,7 @@ def solve_field(
         EigenSolverError: if SLEPc stops before enough pairs have converged.
     """
     with watch.stage("forms"):
-        compile_form(mesh, resolution.degree)
+        compile_form(mesh, resolution.degree, glued=pressure_release and len(tank.layers) > 1)
     if half:
         resolution = replace(resolution, shapes=shapes_of_twins(tank, resolution.shapes))
     build = build_half_models if half else _whole_model
@@ -183,7 +192,8 @@ def _merged(mesh: TankMesh, tank: ScaledTank, resolution: Resolution, parts: lis
         if value <= limit
     )[:count]
     origins = tuple((number, index) for _, number, index in ordered)
-    extensions = [_extension(tank, resolution.shapes, part.parity) for part in parts]
+    bodies = whole_bodies(tank, resolution.shapes)
+    extensions = [_extension(tank, bodies, part.parity) for part in parts]
     amplitudes = [extensions[number] @ parts[number].modes.elastic_amplitudes[index] for number, index in origins]
 
     def completed(place: int) -> Mode:
@@ -193,10 +203,10 @@ def _merged(mesh: TankMesh, tank: ScaledTank, resolution: Resolution, parts: lis
     return FieldSolution(
         mesh=mesh,
         parts=tuple(parts),
-        bodies=whole_bodies(tank, resolution.shapes),
+        bodies=bodies,
         modes=ModeSet(
             eigenvalues=np.array([value for value, _, _ in ordered]),
-            elastic_amplitudes=np.array(amplitudes).reshape(len(ordered), sum(resolution.shapes)),
+            elastic_amplitudes=np.array(amplitudes).reshape(len(ordered), sum(body.size for body in bodies)),
             modes=(),
             completed=completed,
             zero_modes=sum(part.modes.zero_modes for part in parts),
@@ -220,25 +230,32 @@ def _extended(mode: Mode, extension: np.ndarray) -> Mode:
     )
 
 
-def _extension(tank: ScaledTank, shapes: tuple[int, ...], parity: Parity | None) -> np.ndarray:
+def _extension(tank: ScaledTank, bodies: tuple[Body, ...], parity: Parity | None) -> np.ndarray:
     """Matrix from the body unknowns of a part to those of the whole tank, both at their unit generalized mass."""
+    size = sum(body.size for body in bodies)
     if parity is None:
-        return np.eye(sum(shapes))
-    offsets = np.cumsum([0, *shapes])
+        return np.eye(size)
+    offsets = np.cumsum([0, *(body.size for body in bodies)])
     columns = []
     for body in left_bodies(tank):
         twin = twin_of(tank, body)
-        for number in range(shapes[body]):
-            if twin == body and shape_parity(number) != parity:
+        for number, own in enumerate(_parities(tank, body, bodies[body])):
+            if twin == body and own != parity:
                 continue
-            column = np.zeros(sum(shapes))
+            column = np.zeros(size)
             column[offsets[body] + number] = np.sqrt(0.5)
             if twin != body:
                 # Seen from the other side, odd shapes change their sign.
-                sign = 1.0 if shape_parity(number) == parity else -1.0
-                column[offsets[twin] + number] = sign * np.sqrt(0.5)
+                column[offsets[twin] + number] = np.sqrt(0.5) if own == parity else -np.sqrt(0.5)
             columns.append(column)
-    return np.array(columns).reshape(len(columns), sum(shapes)).T
+    return np.array(columns).reshape(len(columns), size).T
+
+
+def _parities(tank: ScaledTank, index: int, body: Body) -> list[Parity]:
+    """Symmetry of each of a body's shapes about its middle."""
+    if index in tank.beams:
+        return [shape_parity(number) for number in range(body.size)]
+    return [motion_parity(motion) for motion in tank.floats[index].motions]
 
 
 def count_is_confirmed(solution: FieldSolution) -> bool:

@@ -193,5 +193,5 @@ def _scaled_body(scene: TankScene, units: Scales, index: int, piece: Piece) -> B
         # Contours need SciPy's root finders, which take a while to import.
         from hydroelastic.scenes.scaled_float import scaled_float
 
-        return scaled_float(scene, index, units)
+        return scaled_float(scene, index, units, (piece.start, piece.end))
     return scaled_beam(body, units, piece.start, piece.end)

@@ -102,7 +102,7 @@ def _mirrored_trace(half: SurfaceTrace, signs: np.ndarray) -> SurfaceTrace:
 
 
 def _body_curves(solution: TankSolution, amplitudes: np.ndarray) -> list[SurfaceCurve]:
-    place = {body: (start, end) for start, end, body in solution.tank.pieces if body is not None}
+    place = {piece.body: (piece.start, piece.end) for piece in solution.tank.pieces}
     curves, first = [], 0
     for index, body in enumerate(solution.field.bodies):
         x: NDArray[np.float64] = np.linspace(*place[index], _BEAM_POINTS, dtype=np.float64)
@@ -125,10 +125,10 @@ def _water_curves(
     # η = ω² ψ/g, in units of the tank λψ.
     elevation = eigenvalue * water.potential[number]
     curves = []
-    for start, end, body in solution.tank.pieces:
-        if body is None:
+    for piece in solution.tank.pieces:
+        if piece.body is None:
             # Mirrored abscissae miss the ends by rounding.
-            inside = (water.x >= start - _ROUNDING) & (water.x <= end + _ROUNDING)
+            inside = (water.x >= piece.start - _ROUNDING) & (water.x <= piece.end + _ROUNDING)
             curves.append(SurfaceCurve(kind="free_surface", x=water.x[inside], displacement=elevation[inside]))
     return curves
 

@@ -15,23 +15,22 @@ from mpi4py import MPI
 
 from hydroelastic.fem.modes import Mode, ModeSet
 from hydroelastic.meshes.distribute import TankMesh
-from hydroelastic.meshes.geometry import FREE_SURFACE
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 from hydroelastic.scenes.certainty import FrequencyErrors, frequency_errors, refined
 from hydroelastic.scenes.companion import Companion, solve_companion
 from hydroelastic.scenes.estimates import expected_tones
-from hydroelastic.scenes.field_model import bring_mesh, build_mesh
+from hydroelastic.scenes.field_model import bring_mesh, build_mesh, moving_surfaces
 from hydroelastic.scenes.field_solution import FieldSolution, Stopwatch, count_is_confirmed, solve_field
 from hydroelastic.scenes.models import TankScene
 from hydroelastic.scenes.plan import (
     MOST_MODES_TO_TONE,
     Resolution,
-    ScaledTank,
     companion_resolution,
     initial_resolution,
-    scaled_tank,
+    sharpest_exponent,
     workable_tolerance,
 )
+from hydroelastic.scenes.scaled_tank import ScaledTank, scaled_tank
 from hydroelastic.scenes.scaling import Scales, scales
 from hydroelastic.scenes.symmetry import is_mirror_image
 from hydroelastic.scenes.tones import ElasticTone, elastic_tone
@@ -46,6 +45,7 @@ class ToneSolution:
     """The first elastic tone of one beam.
 
     Attributes:
+        body: index of the beam among the bodies.
         tone: the mode and its participation; ``None`` where it is not one of the modes that can be told apart.
         reason: why there is no tone, or "".
         pressure_release: λ of the tone with ψ = 0 on the water; ``None`` where there is no water.
@@ -53,6 +53,7 @@ class ToneSolution:
         pressure_release_values: λ of the lowest modes with ψ = 0 on the water.
     """
 
+    body: int
     tone: ElasticTone | None
     reason: str
     pressure_release: float | None
@@ -152,7 +153,7 @@ def solve_scene(
         report(f"attempt {attempt}: degree {resolution.degree}, {resolution.modes} modes")
         with watch.stage("mesh"):
             own_mesh = brought or build_mesh(comm, tank, resolution, half=half)
-        if companion is None and tank.beams and tank.top == "free" and FREE_SURFACE in own_mesh.facet_names:
+        if companion is None and tank.beams and moving_surfaces(own_mesh, tank):
             report("pressure-release tone")
             first = companion_resolution(tank, tolerance, tones) if brought is None else resolution
             companion = solve_companion(comm, tank, first, tolerance, brought, watch, half=half)
@@ -200,8 +201,8 @@ def _next_resolution(solution: TankSolution, causes: FrequencyErrors, *, own_mes
     tolerance = workable_tolerance(solution.scene.accuracy.tolerance, solution.tank.depth)
     if solution.counted and solution.largest_error <= tolerance:
         return None
-    sharp = solution.tank.top == "pressure_release"
-    return refined(resolution, causes, tolerance, sharp_tips=sharp, own_mesh=own_mesh)
+    exponent = sharpest_exponent(solution.tank, released=False)
+    return refined(resolution, causes, tolerance, exponent=exponent, own_mesh=own_mesh)
 
 
 def _judged(
@@ -215,14 +216,14 @@ def _judged(
     attempt: int,
 ) -> tuple[TankSolution, FrequencyErrors]:
     """An attempt with all that it says about itself."""
-    tones = tuple(_tone(field, body, resolution, companion) for body in range(len(tank.beams)))
+    tones = tuple(_tone(field, beam, body, resolution, companion) for beam, body in enumerate(tank.beams))
     with watch.stage("count"):
         counted = count_is_confirmed(field)
     with watch.stage("errors"):
         asked = min(scene.accuracy.modes, len(field.modes.eigenvalues))
         indices = sorted({*range(asked), *(tone.tone.index for tone in tones if tone.tone is not None)})
         modes = [field.modes.completed(index) for index in indices]
-        causes = frequency_errors(field, modes, indices, resolution, tank.depth)
+        causes = frequency_errors(field, modes, indices, resolution, tank)
     errors = np.full(len(field.modes.eigenvalues), np.nan)
     errors[indices] = causes.total
     solution = TankSolution(
@@ -243,23 +244,26 @@ def _judged(
     return replace(solution, reasons=_reasons(solution)), causes
 
 
-def _tone(field: FieldSolution, body: int, resolution: Resolution, companion: Companion | None) -> ToneSolution:
+def _tone(
+    field: FieldSolution, beam: int, body: int, resolution: Resolution, companion: Companion | None
+) -> ToneSolution:
     """The first elastic tone of a beam, with its pressure-release companion."""
-    release = companion.eigenvalue(body) if companion is not None else None
+    release = companion.eigenvalue(beam) if companion is not None else None
     tone: ElasticTone | None = elastic_tone(field.modes, field.bodies, body, companion=release)
     reason = ""
     assert tone is not None
-    if not tone.certain and not resolution.reaches_tones[body]:
+    if not tone.certain and not resolution.reaches_tones[beam]:
         tone, reason = None, f"more than {MOST_MODES_TO_TONE} modes lie below it, and it was not searched for"
     elif not tone.certain and resolution.widened:
         tone, reason = None, f"its energy is spread over modes beyond the first {resolution.modes}"
     if tone is None and release is not None:
         reason += "; see the pressure-release tone"
     return ToneSolution(
+        body=body,
         tone=tone,
         reason=reason,
         pressure_release=release,
-        pressure_release_error=companion.errors[body] if companion is not None else None,
+        pressure_release_error=companion.errors[beam] if companion is not None else None,
         pressure_release_values=tuple(companion.solution.modes.eigenvalues) if companion is not None else (),
     )
 
@@ -281,7 +285,8 @@ def _reasons(solution: TankSolution) -> tuple[str, ...]:
         reasons.append(f"{len(solution.asked)} of {asked} modes can be told from the rounding of the lowest")
     if not solution.counted:
         reasons.append("an independent count of the modes by inertia disagrees: a mode may be missing")
-    for number, tone in enumerate(solution.tones, 1):
+    for tone in solution.tones:
+        number = tone.body + 1
         if tone.tone is not None and not tone.tone.certain:
             reasons.append(f"the first elastic tone of body {number} may lie above the modes computed")
         elif tone.tone is not None and solution.relative_errors[tone.tone.index] > tolerance:

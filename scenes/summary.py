@@ -97,11 +97,12 @@ def _exact(solution: TankSolution) -> list[dict[str, Any]]:
 
 
 def _first_elastic(solution: TankSolution) -> list[dict[str, Any]]:
-    return [_tone(solution, body, tone) for body, tone in enumerate(solution.tones)]
+    return [_tone(solution, tone) for tone in solution.tones]
 
 
-def _tone(solution: TankSolution, body: int, tone: ToneSolution) -> dict[str, Any]:
-    beam = solution.scene.body[body]
+def _tone(solution: TankSolution, tone: ToneSolution) -> dict[str, Any]:
+    body = tone.body
+    beam = solution.tank.beams[body]
     # Dry mode 1 of the body, in units of the tank: EI κ⁴ l, (EI κ⁴ + s) l and m l.
     shapes = solution.field.bodies[body]
     first = shapes.labels.index("elastic 1")
@@ -128,7 +129,7 @@ def _tone(solution: TankSolution, body: int, tone: ToneSolution) -> dict[str, An
     eigenvalue = float(solution.modes.eigenvalues[tone.tone.index])
     error = float(solution.relative_errors[tone.tone.index])
     added, added_error = added_mass(float(shapes.stiffness[first]), float(shapes.mass[first]), eigenvalue, error)
-    scale = solution.units.mass_per_length / (beam.length / solution.units.length)
+    scale = solution.units.mass_per_length / beam.length
     shared = tone.tone.runner_up > SHARED * tone.tone.participation
     found.update(
         omega=solution.omega(eigenvalue),

@@ -56,7 +56,7 @@ def make_mesh(tank: ScaledTank, resolution: Resolution, *, half: bool = False, r
             ring_ratio=resolution.ring_ratio,
         )
         return build_tank_mesh(geometry, grading)
-    from hydroelastic.meshes.outline_mesh import build_mesh
+    from hydroelastic.meshes.build import build_mesh
 
     curved = any(not body.is_thin for body in tank.floats.values())
     return build_mesh(

@@ -90,4 +90,4 @@ def test_what_dry_modes_left_out_would_add_is_seen(tanks: Any, name: str) -> Non
 def test_a_degree_too_low_to_judge_is_refused(tanks: Any) -> None:
     pencil = tanks.pencil(tanks.scene(), degree=3, tip_size=None)
     with pytest.raises(ValueError, match="degree 4"):
-        cell_errors(pencil.liquid, [], 1.0)
+        cell_errors(pencil.liquid, [])

@@ -20,6 +20,7 @@ from hydroelastic.modal.estimate import (
     paper_equivalent_mass,
 )
 from hydroelastic.modal.estimates import all_estimates
+from hydroelastic.modal.float_profiles import FloatShape, Profile, ProfileArc, float_profile
 from hydroelastic.modal.floating_beam import FloatingBeam
 from hydroelastic.modal.grammel import BeamQuotients, QuotientPair, beam_quotients, quotients
 from hydroelastic.modal.grammel_terms import best_term, one_term_root, term_tones
@@ -48,8 +49,11 @@ __all__ = [
     "Bound",
     "Erratum",
     "Estimate",
+    "FloatShape",
     "FloatingBeam",
     "NoEstimateError",
+    "Profile",
+    "ProfileArc",
     "QuotientPair",
     "Tones",
     "added_mass_from_frequency",
@@ -59,6 +63,7 @@ __all__ = [
     "deep_open_added_mass",
     "deep_open_constant",
     "deep_sloshing_frequencies",
+    "float_profile",
     "free_free_roots",
     "free_free_shape",
     "free_free_wavenumber",

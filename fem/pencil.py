@@ -217,23 +217,29 @@ def _weighed(liquid: LiquidSpace, coupling: PETSc.Mat) -> PETSc.Mat:
 
 
 def _volume_constraints(liquid: LiquidSpace, coupling: PETSc.Mat) -> tuple[tuple[VolumeConstraint, ...], np.ndarray]:
-    """The constraints of the closed layers that do not follow from those before, and an unknown of ψ for each other."""
+    """The constraints of the closed layers that do not follow from those before, and an unknown of ψ for each other.
+
+    A constraint may say nothing at all: what a beam pushes down it takes from above, where liquids move as one.
+    """
     constraints: list[VolumeConstraint] = []
     free = [np.empty(0, dtype=np.int32)]
     ones = coupling.createVecLeft()
+    largest = coupling.norm(PETSc.NormType.NORM_1)
     for layer in closed_layers(liquid):
         ones.array[:] = liquid.owned_layer_of == layer
         volume = coupling.createVecRight()
         coupling.multTranspose(ones, volume)
-        if _is_new(volume, constraints):
+        if _is_new(volume, constraints, largest):
             constraints.append(VolumeConstraint(layer=layer, density=liquid.layers[layer].density, volume=volume))
         else:
             free.append(first_dof(liquid, layer))
     return tuple(constraints), np.concatenate(free)
 
 
-def _is_new(volume: PETSc.Vec, constraints: list[VolumeConstraint]) -> bool:
-    """Whether a constraint does not follow from others."""
+def _is_new(volume: PETSc.Vec, constraints: list[VolumeConstraint], largest: float) -> bool:
+    """Whether a constraint says something that others do not; ``largest`` is what a unit moves in and out at most."""
+    if volume.norm(PETSc.NormType.NORM_INFINITY) <= _SAME_VOLUME * largest:
+        return False
     if not constraints:
         return True
     size, rest = volume.norm(), volume.copy()

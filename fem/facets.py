@@ -20,6 +20,7 @@ class FacetGroup:
     Attributes:
         mesh: the mesh.
         cells: the cells, shape (facets,).
+        place: number of the facet in each of them.
         reference_corners: the facet's corners on the reference cell, shape (corners, dim).
         reference_normal: outward normal there, as long as the facet's measure over that of the reference facet.
         facet_type: shape of the facet.
@@ -27,6 +28,7 @@ class FacetGroup:
 
     mesh: Mesh
     cells: np.ndarray
+    place: int
     reference_corners: np.ndarray
     reference_normal: np.ndarray
     facet_type: basix.CellType
@@ -88,6 +90,7 @@ def facet_groups(liquid: LiquidSpace, name: str, layer: int | None = None) -> It
         yield FacetGroup(
             mesh=mesh,
             cells=cells[places == place],
+            place=int(place),
             reference_corners=corners,
             reference_normal=basix.cell.facet_outward_normals(cell_type)[place]
             * np.sqrt(np.linalg.det(edges @ edges.T)),

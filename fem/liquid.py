@@ -90,6 +90,11 @@ class LiquidSpace:
             densities[cells[cells < len(densities)]] = 1.0 / layer.density if self.glued else layer.density
         return densities
 
+    def facet_dofs(self, place: int) -> np.ndarray:
+        """Numbers, in a cell, of the unknowns on the closure of its facet ``place``."""
+        dim = self.tank.mesh.topology.dim - 1
+        return np.array(self.space.element.basix_element.entity_closure_dofs[dim][place])
+
     def surface_dofs(self, names: tuple[str, ...], layer: int | None = None) -> np.ndarray:
         """Owned unknowns on the closure of named surfaces, of one layer or of all: sorted local indices."""
         facets = np.concatenate([self.tank.facets(name) for name in names]) if names else np.empty(0, np.int32)

@@ -35,7 +35,7 @@ def shape_loads(liquid: LiquidSpace, body: Body) -> np.ndarray:
     loads = np.zeros((body.size, index_map.size_local + index_map.num_ghosts))
     for group in facet_groups(liquid, body.surface):
         _add_loads(liquid, body, group, loads)
-    return _summed_over_processes(liquid, loads)
+    return summed_over_processes(liquid, loads)
 
 
 def surface_load(liquid: LiquidSpace, names: tuple[str, ...]) -> np.ndarray:
@@ -53,7 +53,7 @@ def surface_load(liquid: LiquidSpace, names: tuple[str, ...]) -> np.ndarray:
             _, measures = group.normals(reference)
             dofs = liquid.space.dofmap.list[group.cells]
             np.add.at(load[0], dofs, (measures * weights) @ _basis(liquid, reference))
-    total: np.ndarray = _summed_over_processes(liquid, load)[0]
+    total: np.ndarray = summed_over_processes(liquid, load)[0]
     return total
 
 
@@ -78,7 +78,9 @@ def _add_loads(liquid: LiquidSpace, body: Body, group: FacetGroup, loads: np.nda
         np.add.at(loads[number], dofs, (measures * values * weights) @ basis)
 
 
-def _summed_over_processes(liquid: LiquidSpace, loads: np.ndarray) -> np.ndarray:
+def summed_over_processes(liquid: LiquidSpace, loads: np.ndarray) -> np.ndarray:
+    """Owned entries of several vectors of which each process has a part, shape (vectors, local unknowns) (collective).
+    """
     index_map = liquid.space.dofmap.index_map
     vector = la.vector(index_map)
     owned = np.empty((len(loads), index_map.size_local))

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
+from math import atan2
 from typing import Literal, TypeAlias
 
 import numpy as np
@@ -19,7 +20,11 @@ Point: TypeAlias = tuple[float, float]
 AT_LEVEL = 1e-12
 """Points nearer to a level than this part of the contour's height lie on it."""
 
-_POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(40)
+CORNER = 1e-6
+"""A turn by a smaller angle, in radians, between two arcs is none."""
+
+# Enough for the profiles' elementary functions to the last digits, and for any polynomial up to degree 79.
+_GAUSS_POINTS, _GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(40)
 # How many steps of each smooth stretch are looked at for turning points.
 _STEPS = 64
 
@@ -46,69 +51,76 @@ class Arc:
 
     def point(self, t: Array) -> Array:
         """Return the points at t of shape (n,), as an array of shape (n, 2); the ends are exact."""
-        t = np.asarray(t, dtype=float)
-        points = self.curve(t)
+        points = np.array(self.curve(t))
         points[t <= 0.0] = self.start
         points[t >= 1.0] = self.end
         return points
 
-    def part(self, first: float, last: float, *, start: Point | None = None, end: Point | None = None) -> Arc:
+    def part(self, first: float, last: float, *, start: Point, end: Point) -> Arc:
         """Return the piece first ≤ t ≤ last as an arc of its own.
 
         Args:
             first: t where it begins.
             last: t where it ends.
-            start: its exact first point, if that is known better than by t.
+            start: its exact first point.
             end: its exact last point.
         """
+        if (first, last) == (0.0, 1.0):
+            return replace(self, start=start, end=end)
         span = last - first
-        ends = self.point(np.array([first, last]))
         return Arc(
             curve=lambda t: self.curve(first + span * t),
             velocity=lambda t: span * self.velocity(first + span * t),
-            start=start if start is not None else _point(ends[0]),
-            end=end if end is not None else _point(ends[1]),
+            start=start,
+            end=end,
             straight=self.straight,
             knots=tuple((knot - first) / span for knot in self.knots if first < knot < last),
         )
 
     def mapped(self, factor: float, shift: Point) -> Arc:
         """Return the arc at x ↦ factor x + shift, factor > 0."""
-        offset = np.array(shift)
+        (x, y), (z, w) = self.start, self.end
         return replace(
             self,
-            curve=lambda t: factor * self.curve(t) + offset,
+            curve=lambda t: factor * self.curve(t) + np.array(shift),
             velocity=lambda t: factor * self.velocity(t),
-            start=_point(factor * np.array(self.start) + offset),
-            end=_point(factor * np.array(self.end) + offset),
+            start=(factor * x + shift[0], factor * y + shift[1]),
+            end=(factor * z + shift[0], factor * w + shift[1]),
         )
 
-    @property
-    def stretches(self) -> tuple[tuple[float, float], ...]:
-        """The intervals of t without a knot inside."""
-        return tuple(pairwise((0.0, *self.knots, 1.0)))
+    @cached_property
+    def x_turns(self) -> tuple[float, ...]:
+        """The t in 0 < t < 1 where x has a maximum or minimum, in order."""
+        return self._turns(0)
 
-    def turns(self, axis: Literal[0, 1]) -> tuple[float, ...]:
-        """Return the t in 0 < t < 1 where a coordinate has a maximum or minimum, in order."""
+    @cached_property
+    def y_turns(self) -> tuple[float, ...]:
+        """The t in 0 < t < 1 where y has a maximum or minimum, in order."""
+        return self._turns(1)
+
+    def _turns(self, axis: Literal[0, 1]) -> tuple[float, ...]:
         if self.straight:
             return ()
-        found = []
-        for first, last in self.stretches:
-            t = np.linspace(first, last, _STEPS + 1)
-            slope = self.velocity(t)[:, axis]
-            for index in np.flatnonzero(slope[:-1] * slope[1:] < 0.0):
-                found.append(self._root(lambda at: self.velocity(at)[:, axis], t[index], t[index + 1]))
-            # A slope that vanishes at a sample may or may not change its sign there; to split there does no harm.
-            found.extend(t[np.flatnonzero(slope == 0.0)])
-        return tuple(sorted({float(t) for t in found if 0.0 < t < 1.0}))
+        edges = np.array([0.0, *self.knots, 1.0])
+        t = np.unique(np.linspace(edges[:-1], edges[1:], _STEPS + 1))
+        slope = self.velocity(t)[:, axis]
+        between = [
+            root(lambda at: self.velocity(np.array([at]))[0, axis], t[n], t[n + 1])
+            for n in np.flatnonzero(slope[:-1] * slope[1:] < 0.0)
+        ]
+        # Where the slope vanishes without a change of sign, to stop there does no harm.
+        at_samples = t[1:-1][slope[1:-1] == 0.0]
+        return tuple(sorted(map(float, [*between, *at_samples])))
 
-    def crossing(self, level: float, first: float, last: float, *, axis: Literal[0, 1] = 1) -> float:
-        """Return the t between two points on different sides of a level where y = level, or x = level for axis 0."""
-        return self._root(lambda t: self.curve(t)[:, axis] - level, first, last)
+    def crossing(self, level: float, first: float, last: float) -> float:
+        """Return the t where y = level, between two that lie on different sides of it."""
+        return root(lambda t: self.curve(np.array([t]))[0, 1] - level, first, last)
 
-    @staticmethod
-    def _root(value: Callable[[Array], Array], first: float, last: float) -> float:
-        return float(brentq(lambda t: value(np.array([t]))[0], first, last, xtol=1e-300, rtol=8.9e-16))
+
+def root(value: Callable[[float], float], first: float, last: float) -> float:
+    """Return where a function of one variable changes its sign, to rounding."""
+    # brentq takes no smaller relative tolerance; the absolute one must not cut in at roots near zero.
+    return float(brentq(value, first, last, xtol=1e-300, rtol=4.0 * float(np.finfo(float).eps)))
 
 
 def straight_arc(start: Point, end: Point) -> Arc:
@@ -123,8 +135,11 @@ def straight_arc(start: Point, end: Point) -> Arc:
     )
 
 
-def _point(values: Array) -> Point:
-    return float(values[0]), float(values[1])
+def turn_between(before: Arc, after: Arc) -> float:
+    """Return the angle by which the direction turns anticlockwise from one arc to the next, in −π … π."""
+    ux, uy = before.velocity(np.array([1.0]))[0]
+    vx, vy = after.velocity(np.array([0.0]))[0]
+    return atan2(ux * vy - uy * vx, ux * vx + uy * vy)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -150,7 +165,7 @@ class AreaMoments:
     def radius_of_gyration(self) -> float:
         """√(∫|x − centroid|² dA / A)."""
         x, y = self.centroid
-        return float(np.sqrt(max(sum(self.second) / self.area - x * x - y * y, 0.0)))
+        return float(np.sqrt(sum(self.second) / self.area - x * x - y * y))
 
 
 @dataclass(frozen=True)
@@ -174,19 +189,27 @@ class Contour:
     @cached_property
     def bounds(self) -> tuple[float, float, float, float]:
         """Smallest x, largest x, smallest y and largest y."""
-        points = np.concatenate(
-            [arc.point(np.array([0.0, *arc.turns(0), *arc.turns(1)])) for arc in self.arcs],
-        )
+        points = np.concatenate([arc.point(np.array([0.0, *arc.x_turns, *arc.y_turns])) for arc in self.arcs])
         (left, low), (right, high) = points.min(axis=0), points.max(axis=0)
         return float(left), float(right), float(low), float(high)
+
+    @property
+    def corners(self) -> tuple[Point, ...]:
+        """The points between arcs where the direction jumps."""
+        return tuple(
+            after.start
+            for before, after in zip((self.arcs[-1], *self.arcs), self.arcs, strict=False)
+            if abs(turn_between(before, after)) > CORNER
+        )
 
     def below(self, level: float) -> tuple[Arc, ...]:
         """Return the chain of arcs under a level, from the left contact point to the right one.
 
-        The chain follows the contour counterclockwise; where the level cuts an arc, the arc is cut.
+        The chain follows the contour counterclockwise; where the level cuts an arc, the arc is cut. Contact points
+        have exactly y = level, also corners that lie within `AT_LEVEL` of it.
 
         Raises:
-            ValueError: if the level cuts the contour in other than two points, or touches it.
+            ValueError: if the level meets the contour in other than two points.
         """
         return self._chain(level, -1)
 
@@ -199,31 +222,20 @@ class Contour:
         sides = [sign for sign, _ in pieces]
         if 0 in sides:
             raise ValueError("a side of the section lies along the still level")
-        if side not in sides or -side not in sides:
-            raise ValueError(f"the section lies wholly {'above' if side < 0 else 'below'} the still level")
+        if len(set(sides)) == 1:
+            raise ValueError(f"the section lies wholly {'above' if 1 in sides else 'below'} the still level")
         contacts = sum(1 for _, arc in pieces if arc.start[1] == level)
         if contacts != 2:
-            raise ValueError(f"the still level meets the section in {contacts} points instead of two")
-        begin = next(n for n in range(len(pieces)) if sides[n] == side and sides[n - 1] != side)
-        turned = pieces[begin:] + pieces[:begin]
-        return tuple(arc for sign, arc in turned if sign == side)
+            raise ValueError(f"the still level meets the contour of the section in {contacts} points instead of two")
+        begin = next(n for n, sign in enumerate(sides) if sign == side != sides[n - 1])
+        return tuple(arc for sign, arc in pieces[begin:] + pieces[:begin] if sign == side)
 
     def _pieces(self, level: float) -> Iterator[tuple[int, Arc]]:
-        """The contour in pieces that lie above (1), below (-1) or along (0) a level; contact points have y = level."""
+        """The contour in pieces that lie above (1), below (−1) or along (0) a level; contact points have y = level."""
         _, _, low, high = self.bounds
         near = AT_LEVEL * (high - low)
         for arc in self.arcs:
-            ends = [(0.0, _onto(arc.start, level, near)), (1.0, _onto(arc.end, level, near))]
-            turning = np.array(arc.turns(1))
-            between = zip(turning, (_onto(_point(p), level, near) for p in arc.point(turning)), strict=True)
-            stops = [ends[0], *((float(t), p) for t, p in between), ends[1]]
-            cut = [stops[0]]
-            for (first, p), (last, q) in pairwise(stops):
-                if (p[1] - level) * (q[1] - level) < 0.0:
-                    t = arc.crossing(level, first, last)
-                    cut.append((t, (float(arc.curve(np.array([t]))[0, 0]), level)))
-                cut.append((last, q))
-            yield from _by_side(arc, cut, level)
+            yield from _by_side(arc, _stops(arc, level, near), level)
 
     def moments(self, level: float | None = None, *, side: Literal["below", "above"] = "below") -> AreaMoments:
         """Return the area integrals of the section, or of its part below or above a level.
@@ -241,32 +253,50 @@ class Contour:
         return _moments((arc for sign, arc in self._pieces(level) if sign == wanted), level)
 
 
-def _onto(point: Point, level: float, near: float) -> Point:
-    return (point[0], level) if abs(point[1] - level) <= near else point
+_Stop: TypeAlias = tuple[float, Point]
 
 
-def _by_side(arc: Arc, cut: list[tuple[float, Point]], level: float) -> Iterator[tuple[int, Arc]]:
-    """Pieces of an arc between the stops where it meets the level."""
-    begin = 0
-    for stop in range(1, len(cut)):
-        if stop == len(cut) - 1 or cut[stop][1][1] == level:
-            heights = [p[1] - level for _, p in cut[begin : stop + 1]]
-            sign = int(np.sign(max(heights, key=abs)))
-            (first, start), (last, end) = cut[begin], cut[stop]
-            yield sign, arc.part(first, last, start=start, end=end)
-            begin = stop
+def _stops(arc: Arc, level: float, near: float) -> list[_Stop]:
+    """Both ends of an arc, the points where y turns and those where it crosses the level, in order."""
+
+    def onto(x: float, y: float) -> Point:
+        return (x, level) if abs(y - level) <= near else (x, y)
+
+    turning = np.array(arc.y_turns)
+    stops = [(0.0, onto(*arc.start)), (1.0, onto(*arc.end))]
+    stops[1:1] = [(float(t), onto(float(x), float(y))) for t, (x, y) in zip(turning, arc.point(turning), strict=True)]
+    found = [stops[0]]
+    for (first, p), (last, q) in pairwise(stops):
+        if (p[1] - level) * (q[1] - level) < 0.0:
+            t = arc.crossing(level, first, last)
+            found.append((t, (float(arc.curve(np.array([t]))[0, 0]), level)))
+        found.append((last, q))
+    return found
+
+
+def _by_side(arc: Arc, stops: list[_Stop], level: float) -> Iterator[tuple[int, Arc]]:
+    """The pieces of an arc between the stops on the level, each with its side."""
+    heights = [point[1] - level for _, point in stops]
+    cuts = [0, *(n for n in range(1, len(stops) - 1) if heights[n] == 0.0), len(stops) - 1]
+    for begin, end in pairwise(cuts):
+        sign = int(np.sign(max(heights[begin : end + 1], key=abs)))
+        (first, start), (last, stop) = stops[begin], stops[end]
+        yield sign, arc.part(first, last, start=start, end=stop)
 
 
 def _moments(arcs: Iterable[Arc], level: float) -> AreaMoments:
     sums = np.zeros(5)
     for arc in arcs:
-        for first, last in arc.stretches:
-            half = 0.5 * (last - first)
-            t = first + half * (1.0 + _POINTS)
-            (x, y), (dx, dy) = arc.curve(t).T, half * _WEIGHTS * arc.velocity(t).T
-            y = y - level
-            sums += -(y @ dx), 0.5 * (x * x) @ dy, -0.5 * (y * y) @ dx, (x**3) @ dy / 3.0, -(y**3) @ dx / 3.0
+        edges = np.array([0.0, *arc.knots, 1.0])
+        half = 0.5 * np.diff(edges)[:, None]
+        t = (edges[:-1, None] + half * (1.0 + _GAUSS_POINTS)).ravel()
+        x, y = arc.curve(t).T
+        dx, dy = (half * _GAUSS_WEIGHTS).ravel() * arc.velocity(t).T
+        y = y - level
+        sums += -(y @ dx), 0.5 * (x * x) @ dy, -0.5 * (y * y) @ dx, (x**3) @ dy / 3.0, -(y**3) @ dx / 3.0
     area, x1, y1, x2, y2 = map(float, sums)
     return AreaMoments(
-        area=area, first=(x1, y1 + level * area), second=(x2, y2 + 2.0 * level * y1 + level * level * area)
+        area=area,
+        first=(x1, y1 + level * area),
+        second=(x2, y2 + 2.0 * level * y1 + level * level * area),
     )

@@ -23,10 +23,12 @@ class ProfileArc:
 
     Attributes:
         point: maps t in [0, 1], shape (n,), to points (x, y) in m, shape (n, 2); smooth up to both ends.
+        velocity: its derivative by t, of the same shapes, also smooth up to both ends.
         straight: whether it is a straight segment.
     """
 
     point: Callable[[npt.ArrayLike], FloatArray]
+    velocity: Callable[[npt.ArrayLike], FloatArray]
     straight: bool
 
 
@@ -129,14 +131,15 @@ class Profile:
         self._check_bounded()
         b, h, end = self.half_width, self.half_height, self.extent
         if self.shape == "ellipse":
-            return (ProfileArc(point=lambda t: _ellipse(b, h, t), straight=False),)
-        if self.shape == "parabola":
-            return (ProfileArc(point=lambda t: self._graph(-end, end, t), straight=False),)
-        if self.shape == "exponential":
             return (
-                ProfileArc(point=lambda t: self._graph(-end, 0.0, t), straight=False),
-                ProfileArc(point=lambda t: self._graph(0.0, end, t), straight=False),
+                ProfileArc(
+                    point=lambda t: _ellipse(b, h, t), velocity=lambda t: _ellipse_velocity(b, h, t), straight=False
+                ),
             )
+        if self.shape == "parabola":
+            return (self._graph_arc(-end, end),)
+        if self.shape == "exponential":
+            return self._graph_arc(-end, 0.0), self._graph_arc(0.0, end)
         through = [(0.0, -h), (b, -h), (b, h), (0.0, h)] if self.shape == "rectangle" else [(0.0, -h), (b, 0), (0.0, h)]
         return tuple(_segment(*ends) for ends in itertools.pairwise(through))
 
@@ -189,10 +192,25 @@ class Profile:
                 return -distance / np.sqrt((1 - distance) * (1 + distance))
         return np.full_like(distance, -1.0 if self.shape == "wedge" else 0.0)
 
-    def _graph(self, start: float, end: float, t: npt.ArrayLike) -> FloatArray:
-        s = np.asarray(t, dtype=np.float64)
-        y = start * (1 - s) + end * s
-        return np.stack([self.half_width_at(y), y], axis=-1)
+    def _graph_arc(self, start: float, end: float) -> ProfileArc:
+        """Return x = ω(y) between two heights; at a corner y = 0 the slope is that from within."""
+        middle = 0.5 * (start + end)
+
+        def height(t: npt.ArrayLike) -> FloatArray:
+            s = np.asarray(t, dtype=np.float64)
+            return start * (1 - s) + end * s
+
+        def point(t: npt.ArrayLike) -> FloatArray:
+            y = height(t)
+            return np.stack([self.half_width_at(y), y], axis=-1)
+
+        def velocity(t: npt.ArrayLike) -> FloatArray:
+            y = height(t)
+            side = np.sign(np.where(y == 0, middle, y))
+            slope = side * self.half_width / self.half_height * self._relative_slope(np.abs(y) / self.half_height)
+            return (end - start) * np.stack([slope, np.ones_like(y)], axis=-1)
+
+        return ProfileArc(point=point, velocity=velocity, straight=False)
 
 
 def float_profile(shape: FloatShape, half_width: float, half_height: float, tail: float = DEFAULT_TAIL) -> Profile:
@@ -217,6 +235,11 @@ def _ellipse(half_width: float, half_height: float, t: npt.ArrayLike) -> FloatAr
     return np.stack([half_width * np.sin(angle), -half_height * np.cos(angle)], axis=-1)
 
 
+def _ellipse_velocity(half_width: float, half_height: float, t: npt.ArrayLike) -> FloatArray:
+    angle = np.pi * np.asarray(t, dtype=np.float64)
+    return np.pi * np.stack([half_width * np.cos(angle), half_height * np.sin(angle)], axis=-1)
+
+
 def _segment(start: tuple[float, float], end: tuple[float, float]) -> ProfileArc:
     first, last = np.array(start), np.array(end)
 
@@ -224,4 +247,7 @@ def _segment(start: tuple[float, float], end: tuple[float, float]) -> ProfileArc
         s = np.asarray(t, dtype=np.float64)[..., None]
         return first * (1 - s) + last * s
 
-    return ProfileArc(point=point, straight=True)
+    def velocity(t: npt.ArrayLike) -> FloatArray:
+        return np.broadcast_to(last - first, (*np.shape(t), 2))
+
+    return ProfileArc(point=point, velocity=velocity, straight=True)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import difflib
 import json
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal, TypeAlias, get_args, get_origin
+from typing import Annotated, Any, Literal, TypeAlias, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
@@ -118,8 +118,10 @@ def readable_key(location: Location, *, table: Literal["", "one", "many"] = "") 
         rest = location[2:]
     else:
         entry, rest = f"[{name}]", location[1:]
-    keys = ".".join(shown_value(str(part))[1:-1] for part in rest)
-    return f'{entry}, key "{keys}"' if keys else entry
+    names = ".".join(shown_value(part)[1:-1] for part in rest if isinstance(part, str))
+    numbers = ".".join(str(part + 1) for part in rest if isinstance(part, int))
+    keys = f'{entry}, key "{names}"' if names else entry
+    return f"{keys}, entry {numbers}" if numbers else keys
 
 
 def scene_error(error: ValidationError, model: type[BaseModel], *, file: str | Path | None = None) -> SceneError:
@@ -132,7 +134,7 @@ def scene_error(error: ValidationError, model: type[BaseModel], *, file: str | P
     """
     details = error.errors(include_url=False)
     proposed = {location for detail in details if (location := _proposed_location(detail, model)) is not None}
-    broken = {detail["loc"][:1] for detail in details if len(detail["loc"]) > 1}
+    broken = {detail["loc"][:length] for detail in details for length in range(1, len(detail["loc"]))}
     return SceneError(
         *(_problem(detail, model) for detail in details if not _follows(detail, proposed, broken)),
         file=file,
@@ -147,22 +149,24 @@ def _follows(detail: Any, proposed: set[Location], broken: set[Location]) -> boo
 
 
 def _problem(detail: Any, root: type[BaseModel]) -> Problem:
-    location: Location = detail["loc"]
+    place = _place(root, detail["loc"])
     if detail["type"] == "missing":
-        return _missing(location, root)
+        return _missing(place)
     if detail["type"] == "extra_forbidden":
-        return _unknown_key(location, detail["input"], root)
-    field, value = _field_at(root, location), detail["input"]
-    key = readable_key(location, table=_table(field))
+        return _unknown_key(place, detail, root)
+    if detail["type"] == "union_tag_invalid":
+        return _unknown_kind(place, detail["input"])
+    value = detail["input"]
+    key = readable_key(place.location, table=_table(place.field))
     if detail["type"] == "scene":
         said = {name: detail["ctx"][name] for name in ("wrong", "allowed", "remedy")}
         return Problem(key=key, value=shown_value(value), **said)
     return Problem(
         key=key,
         value=shown_value(value),
-        wrong=_wrong(detail, value),
-        allowed=_allowed(field),
-        remedy=_remedy(detail["type"], location, value, field),
+        wrong=_wrong(detail, value, place),
+        allowed=_allowed(place),
+        remedy=_remedy(detail["type"], place, value),
     )
 
 
@@ -184,31 +188,47 @@ _WRONG = {
 }
 
 
-def _wrong(detail: Any, value: object) -> str:
+def _wrong(detail: Any, value: object, place: _Place) -> str:
     if detail["type"] == "float_type" and type(value) is int:
         return "it is too large"  # a whole number beyond the range of floats
+    if detail["type"] == "tuple_type" and not _table(place.field):
+        return "it is not a list"
     return _WRONG.get(detail["type"], str(detail["msg"]))
 
 
-def _missing(location: Location, root: type[BaseModel]) -> Problem:
-    field = _field_at(root, location)
+def _missing(place: _Place) -> Problem:
     return Problem(
-        key=readable_key(location, table=_table(field)),
+        key=readable_key(place.location, table=_table(place.field)),
         wrong="it is missing",
-        allowed=_allowed(field),
+        allowed=_allowed(place),
     )
 
 
-def _unknown_key(location: Location, value: object, root: type[BaseModel]) -> Problem:
-    model = _model_at(root, location[:-1]) or root
-    known = list(model.model_fields)
-    many = isinstance(value, list) and bool(value) and all(isinstance(entry, dict) for entry in value)
+def _unknown_kind(place: _Place, entry: Any) -> Problem:
+    """An entry of a kind that none of its models has."""
+    kind = entry["kind"]
+    kinds = [str(model.model_fields["kind"].default) for model in _nested_models(place.field)]
     return Problem(
-        key=readable_key(location, table="one" if isinstance(value, dict) else "many" if many else ""),
+        key=readable_key((*place.location, "kind")),
+        value=shown_value(kind),
+        wrong="it is not one of the choices",
+        allowed=" or ".join(f'"{known}"' for known in kinds),
+        remedy=proposal(str(kind), kinds),
+    )
+
+
+def _unknown_key(place: _Place, detail: Any, root: type[BaseModel]) -> Problem:
+    name, value = str(detail["loc"][-1]), detail["input"]
+    parent = _place(root, detail["loc"][:-1])
+    known = list((parent.model or root).model_fields)
+    many = isinstance(value, list) and bool(value) and all(isinstance(entry, dict) for entry in value)
+    owners = [kind for kind, model in parent.siblings.items() if name in model.model_fields]
+    return Problem(
+        key=readable_key(place.location, table="one" if isinstance(value, dict) else "many" if many else ""),
         value=shown_value(value),
         wrong="it is not known here",
         allowed=", ".join(known),
-        remedy=proposal(str(location[-1]), known),
+        remedy=f'It belongs to kind = "{owners[0]}"' if owners else proposal(name, known),
     )
 
 
@@ -216,74 +236,120 @@ def _proposed_location(detail: Any, root: type[BaseModel]) -> Location | None:
     location: Location = detail["loc"]
     if detail["type"] != "extra_forbidden":
         return None
-    near = nearest(str(location[-1]), (_model_at(root, location[:-1]) or root).model_fields)
+    near = nearest(str(location[-1]), (_place(root, location[:-1]).model or root).model_fields)
     return (*location[:-1], near) if near is not None else None
 
 
-def _remedy(kind: str, location: Location, value: object, field: FieldInfo | None) -> str:
-    if kind == "literal_error" and field is not None:
-        return proposal(str(value), map(str, get_args(field.annotation)))
+def _remedy(kind: str, place: _Place, value: object) -> str:
+    if kind == "literal_error" and place.field is not None:
+        return proposal(str(value), map(str, get_args(_value_type(place.field)[0])))
     if kind in ("float_type", "int_type", "bool_type") and isinstance(value, str):
         return "Write it without quotes"
-    if kind in ("model_type", "tuple_type") and location:
-        return f"Write it as {readable_key(location[:1], table=_table(field))}"
+    if kind in ("model_type", "tuple_type") and _table(place.field):
+        return f"Write it as {readable_key(place.location[:1], table=_table(place.field))}"
     return ""
 
 
-def _allowed(field: FieldInfo | None) -> str:
+def _allowed(place: _Place) -> str:
     """Say what a field takes: its kind and range, then its description."""
+    field = place.field
     if field is None:
         return ""
-    range_of = next((say for matches, say in _RANGES if matches(field.annotation)), None)
-    values = range_of(field) if range_of is not None else ""
+    annotation, limits = _value_type(field)
+    range_of = next((say for matches, say in _RANGES if matches(annotation)), None)
+    values = range_of(annotation, limits) if range_of is not None else ""
+    if values and isinstance(place.location[-1], str) and _is_list(field.annotation):
+        values = f"a list of {values}" if get_origin(annotation) is Literal else "a list"
     return " – ".join(text for text in (values, (field.description or "").rstrip(".")) if text)
 
 
-def _bound(field: FieldInfo, name: str) -> float:
-    return next(float(getattr(limit, name)) for limit in field.metadata if hasattr(limit, name))
+def _is_list(annotation: Any) -> bool:
+    return get_origin(annotation) is tuple or any(get_origin(part) is tuple for part in get_args(annotation))
 
 
-def _number_range(field: FieldInfo) -> str:
-    smallest, largest = _bound(field, "ge"), _bound(field, "le")
-    kind = "whole number" if field.annotation is int else "positive number" if smallest > 0 else "number"
+def _value_type(field: FieldInfo) -> tuple[Any, list[Any]]:
+    """What a single value of a field is, and its limits: without None where it may be left out, and out of a list."""
+    annotation, limits = field.annotation, list(field.metadata)
+    while True:
+        if get_origin(annotation) is Annotated:
+            limits += [limit for part in annotation.__metadata__ for limit in getattr(part, "metadata", [part])]
+            annotation = get_args(annotation)[0]
+        elif type(None) in get_args(annotation):
+            (annotation,) = (part for part in get_args(annotation) if part is not type(None))
+        elif get_origin(annotation) is tuple:
+            annotation = get_args(annotation)[0]
+        else:
+            return annotation, limits
+
+
+def _number_range(annotation: Any, limits: list[Any]) -> str:
+    smallest = max(float(limit.ge) for limit in limits if hasattr(limit, "ge"))
+    largest = min(float(limit.le) for limit in limits if hasattr(limit, "le"))
+    kind = "whole number" if annotation is int else "positive number" if smallest > 0 else "number"
     return f"a {kind} from {smallest:g} to {largest:g}"
 
 
-def _choices(field: FieldInfo) -> str:
-    return " or ".join(f'"{choice}"' for choice in get_args(field.annotation))
+def _choices(annotation: Any, limits: list[Any]) -> str:
+    return " or ".join(f'"{choice}"' for choice in get_args(annotation))
 
 
-_RANGES: tuple[tuple[Callable[[Any], bool], Callable[[FieldInfo], str]], ...] = (
+_RANGES: tuple[tuple[Callable[[Any], bool], Callable[[Any, list[Any]], str]], ...] = (
     (lambda annotation: annotation in (int, float), _number_range),
-    (lambda annotation: annotation is bool, lambda field: "true or false"),
-    (lambda annotation: annotation is str, lambda field: "a text in quotes"),
+    (lambda annotation: annotation is bool, lambda annotation, limits: "true or false"),
+    (lambda annotation: annotation in (str, Path), lambda annotation, limits: "a text in quotes"),
     (lambda annotation: get_origin(annotation) is Literal, _choices),
 )
 
 
-def _field_at(root: type[BaseModel], location: Sequence[str | int]) -> FieldInfo | None:
-    names = [part for part in location if isinstance(part, str)]
+@dataclass(frozen=True, kw_only=True)
+class _Place:
+    """Where a location of pydantic leads.
+
+    Args:
+        location: the same as the author sees it: pydantic names the kind of an entry on the way into it.
+        field: the last field on the way, if it is known.
+        model: the model that the location is, or None.
+        siblings: by their kind, all models that the model was chosen from.
+    """
+
+    location: Location
+    field: FieldInfo | None
+    model: type[BaseModel] | None
+    siblings: dict[str, type[BaseModel]]
+
+
+def _place(root: type[BaseModel], location: Location) -> _Place:
     model: type[BaseModel] | None = root
     field = None
-    for name in names:
-        field = model.model_fields.get(name) if model is not None else None
-        model = _nested_model(field)
-    return field
+    shown: list[str | int] = []
+    choices: dict[str, type[BaseModel]] = {}
+    siblings = choices
+    for part in location:
+        if part in choices:
+            model, siblings, choices = choices[str(part)], choices, {}
+            continue
+        shown.append(part)
+        if isinstance(part, str):
+            field = model.model_fields.get(part) if model is not None else None
+            models = _nested_models(field)
+            choices = {str(nested.model_fields["kind"].default): nested for nested in models} if len(models) > 1 else {}
+            model = models[0] if len(models) == 1 else None
+    return _Place(location=tuple(shown), field=field, model=model, siblings=siblings)
 
 
-def _model_at(root: type[BaseModel], location: Sequence[str | int]) -> type[BaseModel] | None:
-    return _nested_model(_field_at(root, location)) if location else root
+def _nested_models(field: FieldInfo | None) -> list[type[BaseModel]]:
+    return list(_models_in(field.annotation)) if field is not None else []
 
 
-def _nested_model(field: FieldInfo | None) -> type[BaseModel] | None:
-    if field is None:
-        return None
-    candidates = (field.annotation, *get_args(field.annotation))
-    return next((part for part in candidates if isinstance(part, type) and issubclass(part, BaseModel)), None)
+def _models_in(annotation: Any) -> Iterator[type[BaseModel]]:
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        yield annotation
+    for part in get_args(annotation):
+        yield from _models_in(part)
 
 
 def _table(field: FieldInfo | None) -> Literal["", "one", "many"]:
-    if field is None or _nested_model(field) is None:
+    if field is None or not _nested_models(field):
         return ""
     return "many" if get_origin(field.annotation) is tuple else "one"
 

@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import BaseModel, ConfigDict, Discriminator, Field, Strict, Tag
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, Strict, Tag, ValidationError, model_validator
+from pydantic_core import InitErrorDetails
+
+from hydroelastic.scenes.model_problems import misfit
 
 SMALLEST, LARGEST = 1e-30, 1e30
 """Range of any positive quantity in SI: no product of a few of them overflows."""
+
+MOST_VERTICES = 100
+"""Corners of a polygon: the mesh is graded towards each, and what has more is rather an outline."""
 
 Level: TypeAlias = Literal["interface", "surface"]
 Shape: TypeAlias = Literal["exponential", "parabola", "ellipse", "wedge", "rectangle", "polygon", "outline"]
@@ -31,7 +38,7 @@ class Beam(SceneModel):
     kind: Literal["beam"] = Field(default="beam", description="kind of the body")
     at: Level | None = Field(
         default=None,
-        description="where it floats: the interface of two liquids, or the top of the uppermost one",
+        description="where it floats: at the interface of two liquids, which is the default with two, or at the top",
     )
     start: Place = Field(description="distance of the left end from the left wall, m")
     length: PositiveNumber = Field(description="length, m")
@@ -52,35 +59,41 @@ class Beam(SceneModel):
 
 
 class Float(SceneModel):
-    """A rigid body that floats at a still level. Its frame: x from ``position``, y up from its reference level."""
+    """A rigid body that floats at a still level. Its frame: x from ``position``, y up from its reference level.
 
-    kind: Literal["float"] = Field(description="kind of the body")
+    Raises:
+        ValidationError: (a ValueError) if the keys do not belong to the shape.
+    """
+
+    kind: Literal["float"] = Field(default="float", description="kind of the body")
     at: Level | None = Field(
         default=None,
-        description="where it floats: the interface of two liquids, or the top of the uppermost one",
+        description="where it floats: at the interface of two liquids, which is the default with two, or at the top",
     )
     shape: Shape = Field(description="shape of the section")
     position: Place = Field(description="distance of the shape's x = 0 from the left wall, m")
     half_width: PositiveNumber | None = Field(default=None, description="half the width at the reference level, m")
     half_height: PositiveNumber | None = Field(
-        default=None, description="half the height, m; of the exponential shape 1/μ"
+        default=None, description="half the height, m; of the exponential shape its length of decay 1/μ"
     )
     tail: Annotated[float, Strict(), Field(ge=1e-9, le=0.5)] | None = Field(
-        default=None,
-        description="part of the half width at which the exponential shape is cut, so that it ends in a point",
+        default=None, description="part of the half width at which the exponential shape is brought to a point"
     )
     vertices: tuple[tuple[AnyNumber, AnyNumber], ...] | None = Field(
-        default=None, description="corners [x, y] of the polygon in its own frame, m"
+        default=None,
+        min_length=3,
+        max_length=MOST_VERTICES,
+        description=f"3 to {MOST_VERTICES} corners [x, y] in the float's frame, m",
     )
     file: Path | None = Field(
         default=None,
-        description="two columns x, y in the float's frame, m; a relative path starts at the folder of the scene",
+        description="points of the outline, x and y in the float's frame, m; relative to the folder of the scene",
     )
     corner_angle: Annotated[float, Strict(), Field(ge=1, le=180)] | None = Field(
         default=None, description="degrees; where the outline turns more sharply it has a corner"
     )
     mass: PositiveNumber | None = Field(
-        default=None, description="mass per metre of width, kg/m; without it the reference level floats at the still level"
+        default=None, description="mass, kg/m; without it the reference level lies at the still level"
     )
     centre_of_mass: AnyNumber | None = Field(
         default=None, description="height of the centre of mass above the reference level, m"
@@ -88,16 +101,81 @@ class Float(SceneModel):
     radius_of_gyration: PositiveNumber | None = Field(
         default=None, description="radius of gyration about the centre of mass, m"
     )
-    motions: tuple[Motion, ...] = Field(
-        default=("heave",), min_length=1, max_length=3, description="in what ways it may move"
-    )
+    motions: tuple[Motion, ...] = Field(default=("heave",), min_length=1, max_length=3, description="how it may move")
     boundary: Literal["exact", "thin"] = Field(
-        default="exact",
-        description="conditions on the contour itself, or those of a thin body on its middle line",
+        default="exact", description="conditions on the contour itself, or those of a thin float on its middle line"
     )
-    unstable: Literal["refuse", "solve"] = Field(
-        default="refuse", description="what to do if the float is not stable"
-    )
+    unstable: Literal["refuse", "solve"] = Field(default="refuse", description="what to do if it would capsize")
+
+    @property
+    def shape_key(self) -> str:
+        """The key that says most about the section."""
+        return {"polygon": "vertices", "outline": "file"}.get(self.shape, "half_width")
+
+    @model_validator(mode="after")
+    def _keys_fit(self) -> Float:
+        problems = [*_keys_of_the_shape(self), *_motions_differ(self), *_thin_floats(self)]
+        if problems:
+            raise ValidationError.from_exception_data(type(self).__name__, problems)
+        return self
+
+
+_PROFILE = ("half_width", "half_height")
+NEEDED_KEYS: dict[Shape, tuple[str, ...]] = {
+    "exponential": _PROFILE,
+    "parabola": _PROFILE,
+    "ellipse": _PROFILE,
+    "wedge": _PROFILE,
+    "rectangle": _PROFILE,
+    "polygon": ("vertices",),
+    "outline": ("file",),
+}
+FURTHER_KEYS: dict[Shape, tuple[str, ...]] = {"exponential": ("tail",), "outline": ("corner_angle",)}
+_SHAPE_KEYS = (*_PROFILE, "vertices", "file", "tail", "corner_angle")
+
+THIN_SHAPES: tuple[Shape, ...] = ("exponential", "parabola", "ellipse", "wedge")
+"""Shapes whose half-width is a function of height that ends with zero, as the thin condition needs."""
+
+
+def _keys_of_the_shape(body: Float) -> Iterator[InitErrorDetails]:
+    needed, further = NEEDED_KEYS[body.shape], FURTHER_KEYS.get(body.shape, ())
+    for key in _SHAPE_KEYS:
+        value = getattr(body, key)
+        if key in needed and value is None:
+            description = Float.model_fields[key].description
+            yield misfit((key,), None, f'it is missing, and shape = "{body.shape}" needs it', allowed=f"{description}")
+        elif value is not None and key not in (*needed, *further):
+            owners = [shape for shape in NEEDED_KEYS if key in (*NEEDED_KEYS[shape], *FURTHER_KEYS.get(shape, ()))]
+            yield misfit(
+                (key,),
+                value,
+                f'it does not belong to shape = "{body.shape}", which takes {" and ".join((*needed, *further))}',
+                remedy=f"Leave it out; it belongs to {' or '.join(owners)}",
+            )
+
+
+def _motions_differ(body: Float) -> Iterator[InitErrorDetails]:
+    if len(set(body.motions)) < len(body.motions):
+        yield misfit(("motions",), ", ".join(body.motions), "a motion is named twice", remedy="Name each once")
+
+
+def _thin_floats(body: Float) -> Iterator[InitErrorDetails]:
+    if body.boundary == "exact":
+        return
+    if body.shape not in THIN_SHAPES:
+        yield misfit(
+            ("boundary",),
+            body.boundary,
+            f'a thin float ends in a point or a rounding above and below, shape = "{body.shape}" need not',
+            allowed=f'"exact", or shape = {" or ".join(THIN_SHAPES)}',
+        )
+    if set(body.motions) != {"heave"}:
+        yield misfit(
+            ("motions",),
+            ", ".join(body.motions),
+            "the conditions of a thin float are those of heave alone",
+            allowed='["heave"], or boundary = "exact"',
+        )
 
 
 def _kind_of(body: Any) -> str:

@@ -2,33 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import pairwise
 from pathlib import Path
-from typing import Annotated, Literal, TypeAlias
+from typing import Annotated, Literal
 
 from pydantic import Field, Strict, ValidationError, field_validator, model_validator
-from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from hydroelastic.meshes.formats import FORMATS
-from hydroelastic.scenes.model_bodies import LARGEST, Beam, Body, Float, Level, PositiveNumber, SceneModel
+from hydroelastic.scenes.model_bodies import LARGEST, SMALLEST, Beam, Body, Float, Level, PositiveNumber, SceneModel
+from hydroelastic.scenes.model_checks import ROUND_OFF, STAGES
+from hydroelastic.scenes.model_problems import problem
 
-ROUND_OFF = 1e-9
-"""Lengths below this part of the tank's length count as zero: decimal input is not exact."""
-
-DEPTH_TO_LENGTH = (1e-4, 1e3)
-"""Below it the layer is too thin for cells that follow it along the tank; above it no motion reaches
-the bottom (it decays as e^{-πy/L}), and the depth only adds cells and rounding."""
-
-SHORTEST_BEAM = 1e-4
-"""Part of the tank's length: with a shorter beam the lengths of one mesh lie too far apart."""
-
-STIFFNESS_GROUP = (1e-15, 1e15)
-"""EI/(ρ g l⁴): beyond this, bending or gravity is lost in the rounding of the other."""
-
-MASS_GROUP = (1e-12, 1e12)
-"""m/(ρ l): beyond this, the beam or the liquid is lost in the rounding of the other."""
 
 class Tank(SceneModel):
     """The rectangular tank and what closes it on top where no body floats."""
@@ -49,6 +34,15 @@ class Liquid(SceneModel):
         description="density, kg/m³; 0, of the upper of two only, is air, which is not modelled"
     )
     depth: PositiveNumber = Field(description="depth of the layer, m")
+
+    @field_validator("density")
+    @classmethod
+    def _density_or_air(cls, density: float) -> float:
+        if 0.0 < density < SMALLEST:
+            raise problem(
+                "it is too small", allowed=f"0 for air, or a positive number from {SMALLEST:g} to {LARGEST:g}"
+            )
+        return density
 
 
 class Accuracy(SceneModel):
@@ -73,7 +67,7 @@ class MeshFile(SceneModel):
     @classmethod
     def _known_format(cls, file: Path) -> Path:
         if file.suffix.lower() not in FORMATS:
-            raise _problem("it is not a known mesh format", allowed=", ".join(f"*{s}" for s in FORMATS))
+            raise problem("it is not a known mesh format", allowed=", ".join(f"*{s}" for s in FORMATS))
         return file
 
 
@@ -130,8 +124,8 @@ class TankScene(SceneModel):
 
     @model_validator(mode="after")
     def _parts_fit(self) -> TankScene:
-        for checks in (_CHECKS_OF_PLACE, _CHECKS_OF_PHYSICS):
-            problems = [problem for check in checks for problem in check(self)]
+        for checks in STAGES:
+            problems = [found for check in checks for found in check(self)]
             if problems:
                 raise ValidationError.from_exception_data(type(self).__name__, problems)
         return self
@@ -194,120 +188,3 @@ def _places(scene: TankScene, level: Level) -> Iterator[tuple[int, float, float]
             from hydroelastic.scenes.floats import placed_float
 
             yield index, *placed_float(scene, index).hydrostatics.waterplane
-
-
-def _problem(wrong: str, *, allowed: str = "", remedy: str = "") -> PydanticCustomError:
-    said = [wrong, f"allowed: {allowed}" if allowed else "", remedy]
-    context = {"wrong": wrong, "allowed": allowed, "remedy": remedy, "message": "; ".join(filter(None, said))}
-    return PydanticCustomError("scene", "{message}", context)
-
-
-def _misfit(
-    location: tuple[str | int, ...], value: object, wrong: str, *, allowed: str = "", remedy: str = ""
-) -> InitErrorDetails:
-    return InitErrorDetails(type=_problem(wrong, allowed=allowed, remedy=remedy), loc=location, input=value)
-
-
-def _depth_fits_the_length(scene: TankScene) -> Iterator[InitErrorDetails]:
-    depth, length = scene.liquid[0].depth, scene.tank.length
-    least, most = DEPTH_TO_LENGTH
-    if not least <= depth / length <= most:
-        yield _misfit(
-            ("liquid", 0, "depth"),
-            depth,
-            f"it is {depth / length:g} of the tank's length, too {'thin' if depth < length else 'deep'} to mesh",
-            allowed=f"{least * length:g} to {most * length:g} m ({least:g} to {most:g} tank lengths)",
-        )
-
-
-def _beams_lie_in_the_tank(scene: TankScene) -> Iterator[InitErrorDetails]:
-    length = scene.tank.length
-    for index, beam in scene.beams:
-        if beam.length > length * (1 + ROUND_OFF):
-            yield _misfit(("body", index, "length"), beam.length, f"the beam is longer than the tank ({length:g} m)")
-        elif beam.end > length * (1 + ROUND_OFF):
-            yield _misfit(
-                ("body", index, "start"),
-                beam.start,
-                f"the beam ends at {beam.end:g} m, outside the tank of {length:g} m",
-                allowed=f"0 to {length - beam.length:g} m for this beam",
-            )
-
-
-def _beams_keep_apart(scene: TankScene) -> Iterator[InitErrorDetails]:
-    ordered = sorted(scene.beams, key=lambda numbered: numbered[1].start)
-    for (first, left), (second, right) in pairwise(ordered):
-        if right.start - left.end <= ROUND_OFF * scene.tank.length:
-            yield _misfit(
-                ("body", second, "start"),
-                right.start,
-                f"the beam overlaps or touches [[body]] number {first + 1}, which ends at {left.end:g} m",
-                remedy="Leave a gap between them",
-            )
-
-
-def _beams_are_not_too_short(scene: TankScene) -> Iterator[InitErrorDetails]:
-    shortest = SHORTEST_BEAM * scene.tank.length
-    for index, beam in scene.beams:
-        if beam.length < shortest:
-            yield _misfit(
-                ("body", index, "length"),
-                beam.length,
-                "the beam is too short beside the tank for one mesh to show both",
-                allowed=f"at least {shortest:g} m ({SHORTEST_BEAM:g} of the tank's length)",
-            )
-
-
-def _groups_are_in_range(scene: TankScene) -> Iterator[InitErrorDetails]:
-    density, gravity = scene.liquid[0].density, scene.tank.gravity
-    for index, beam in scene.beams:
-        groups = (
-            ("flexural_rigidity", "EI/(ρ g l⁴)", density * gravity * beam.length**4, STIFFNESS_GROUP),
-            ("mass_per_length", "m/(ρ l)", density * beam.length, MASS_GROUP),
-        )
-        for key, formula, scale, (least, most) in groups:
-            value = getattr(beam, key)
-            if not least <= value / scale <= most:
-                yield _misfit(
-                    ("body", index, key),
-                    value,
-                    f"{formula} = {value / scale:g} is beyond what double precision can tell apart",
-                    allowed=f"{least * scale:.3g} to {most * scale:.3g} for this beam and liquid",
-                )
-
-
-def _guided_beams_cover_the_tank(scene: TankScene) -> Iterator[InitErrorDetails]:
-    negligible = ROUND_OFF * scene.tank.length
-    for index, beam in scene.beams:
-        covers = beam.start <= negligible and beam.end >= scene.tank.length - negligible
-        if beam.ends == "guided" and not covers:
-            yield _misfit(
-                ("body", index, "ends"),
-                beam.ends,
-                "ends are guided by the walls, but this beam does not reach from wall to wall",
-                allowed=f'"free", or start = 0 and length = {scene.tank.length:g}',
-            )
-
-
-def _something_moves(scene: TankScene) -> Iterator[InitErrorDetails]:
-    if not scene.body and scene.tank.top != "free":
-        yield _misfit(
-            ("tank", "top"),
-            scene.tank.top,
-            "without a body and without a free surface nothing oscillates",
-            remedy='Set top = "free" for sloshing, or add a [[body]]',
-        )
-
-
-_Check: TypeAlias = Callable[[TankScene], Iterator[InitErrorDetails]]
-
-_CHECKS_OF_PLACE: tuple[_Check, ...] = (
-    _depth_fits_the_length,
-    _beams_are_not_too_short,
-    _beams_lie_in_the_tank,
-    _beams_keep_apart,
-    _guided_beams_cover_the_tank,
-)
-
-_CHECKS_OF_PHYSICS: tuple[_Check, ...] = (_groups_are_in_range, _something_moves)
-"""Made when the lengths are right, so that one wrong length is one message."""

@@ -11,7 +11,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
-from hydroelastic.meshes.contours import Arc
+import numpy as np
+
+from hydroelastic.meshes.contours import Arc, root
 from hydroelastic.meshes.geometry import (
     BOTTOM,
     FREE_SURFACE,
@@ -245,10 +247,15 @@ def _left_of(arcs: tuple[Arc, ...], x: float) -> tuple[Arc, ...]:
         if max(arc.start[0], arc.end[0]) <= x:
             left.append(arc)
         elif min(arc.start[0], arc.end[0]) < x:
-            t = arc.crossing(x, 0.0, 1.0, axis=0)
+            t = _meets(arc, x)
             first, last = (0.0, t) if arc.start[0] < x else (t, 1.0)
             left.append(_onto(arc.part(first, last), x))
     return tuple(left)
+
+
+def _meets(arc: Arc, x: float) -> float:
+    """Where an arc that begins and ends on different sides of a vertical line crosses it."""
+    return root(lambda t: float(arc.curve(np.array([t]))[0, 0]) - x, 0.0, 1.0)
 
 
 # Corners of a float in the middle miss the mirror plane by rounding, in tank lengths.

@@ -35,7 +35,7 @@ modes = 10
 """
 AFTER_GOOD = f"line {len(GOOD.splitlines()) + 1}"
 SECOND_BEAM = "[[body]]\nstart = 6.0\nlength = 2.0\nflexural_rigidity = 5e3\nmass_per_length = 50.0\n"
-SECOND_LIQUID = "[[liquid]]\ndensity = 800.0\ndepth = 1.0\n"
+DENSER_LIQUID = "[[liquid]]\ndensity = 1200.0\ndepth = 1.0\n"
 
 
 @pytest.fixture(autouse=True)
@@ -79,12 +79,16 @@ BAD = {
     "single brackets": (GOOD.replace("[[body]]", "[body]"), ["[[body]]"]),
     "misspelt choice": (GOOD.replace("length = 10.0", 'length = 10.0\ntop = "fee"'), ['Did you mean "free"?']),
     "open ends": (GOOD.replace("length = 10.0", 'length = 10.0\nends = "open"'), ['Allowed: "walls"']),
-    "float body": (GOOD.replace("start = 3.0", 'kind = "float"\nstart = 3.0'), ['Allowed: "beam"']),
+    "misspelt kind": (
+        GOOD.replace("start = 3.0", 'kind = "flaot"\nstart = 3.0'),
+        ['"beam" or "float"', 'mean "float"?'],
+    ),
     "other kind": (GOOD.replace('"tank"', '"string"'), ['Allowed: "tank"']),
     "no kind": (GOOD.replace('kind = "tank"', ""), ['"kind"', "missing"]),
     "outside": (GOOD.replace("start = 3.0", "start = 7.0"), ['[[body]] number 1, key "start" = 7.0', "0 to 6 m"]),
     "overlap": (GOOD + SECOND_BEAM, ["[[body]] number 2", "[[body]] number 1", "overlaps"]),
-    "two liquids": (GOOD + SECOND_LIQUID, ["[[liquid]]", "exactly one liquid"]),
+    "upside down": (GOOD + DENSER_LIQUID, ["[[liquid]] number 2", "less than 1000"]),
+    "three liquids": (GOOD + 2 * DENSER_LIQUID, ["[[liquid]]", "one liquid or two"]),
     "no liquid": (GOOD.replace("[[liquid]]\ndensity = 1000.0\ndepth = 5.0", ""), ["[[liquid]]", "missing"]),
     "zero depth": (GOOD.replace("depth = 5.0", "depth = 0"), ['"depth" = 0', "positive"]),
     "negative depth": (GOOD.replace("depth = 5.0", "depth = -5.0"), ['"depth" = -5.0', "positive"]),

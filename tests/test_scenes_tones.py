@@ -5,7 +5,8 @@ import itertools
 import pytest
 
 from hydroelastic.scenes.estimates import floating_beam
-from hydroelastic.scenes.models import MASS_GROUP, STIFFNESS_GROUP, Accuracy, Beam, Liquid, Tank, TankScene
+from hydroelastic.scenes.model_checks import MASS_GROUP, STIFFNESS_GROUP
+from hydroelastic.scenes.models import Accuracy, Beam, Liquid, Tank, TankScene
 from hydroelastic.scenes.plan import initial_resolution
 from hydroelastic.scenes.solve import TankSolution, solve_scene
 

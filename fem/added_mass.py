@@ -67,7 +67,7 @@ class CondensedKinetics:
         """Solve for the liquid's answer to each condensed motion (collective)."""
         self.pencil = pencil
         self.free_rigid = pencil.free_rigid
-        self.definite_stiffness = _with_unit_diagonal(pencil.stiffness, self.free_rigid)
+        self.definite_stiffness = _definite(pencil)
         self._potential = pencil.coupling.createVecLeft()
         self._projected, self._momentum = pencil.stiffness.createVecs()
         self._turn, with_rigid = pencil.rigid_constraints
@@ -112,6 +112,7 @@ class CondensedKinetics:
             solver.solve(volume, correction)
             # The unit diagonal of a free rigid motion is not a stiffness.
             set_entries(correction, self.free_rigid, np.zeros(len(self.free_rigid)))
+            self.turn_unstable(correction)
             raw.append(correction)
         inverse = np.linalg.inv([[volume.dot(correction) for correction in raw] for volume in volumes])
         corrections = []
@@ -146,6 +147,12 @@ class CondensedKinetics:
         for correction, volume in zip(self._corrections, taken, strict=True):
             displacement.axpy(-volume, correction)
 
+    def turn_unstable(self, vector: PETSc.Vec) -> None:
+        """Change the sign of the unstable motions' entries: from |K| to K, or back."""
+        if len(self.pencil.unstable):
+            values = self.pencil.body_values(vector)
+            set_entries(vector, self.pencil.unstable, -values[self.pencil.unstable])
+
     def recover(self, displacement: PETSc.Vec, potential: PETSc.Vec) -> None:
         """Complete an eigenvector: fill in the condensed rigid motions, and ψ with its constants.
 
@@ -173,12 +180,14 @@ def set_entries(vector: PETSc.Vec, indices: np.ndarray, values: np.ndarray) -> N
     vector.assemble()
 
 
-def _with_unit_diagonal(matrix: PETSc.Mat, indices: np.ndarray) -> PETSc.Mat:
-    """A copy with ones on the diagonal at body unknowns whose row is zero."""
-    if not len(indices):
+def _definite(pencil: CoupledPencil) -> PETSc.Mat:
+    """K with ones on the diagonal at body unknowns whose row is zero, and without the signs of the unstable ones."""
+    matrix, free, unstable = pencil.stiffness, pencil.free_rigid, pencil.unstable
+    if not len(free) and not len(unstable):
         return matrix
     diagonal = matrix.getDiagonal()
-    set_entries(diagonal, indices, np.ones(len(indices)))
+    set_entries(diagonal, free, np.ones(len(free)))
+    set_entries(diagonal, unstable, -pencil.body_stiffness[unstable])
     copy = matrix.copy()
     copy.setOption(PETSc.Mat.Option.NEW_NONZERO_LOCATION_ERR, False)
     copy.setDiagonal(diagonal)

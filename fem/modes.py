@@ -55,6 +55,7 @@ class ModeSet:
         completed: gives any other mode with its shape, by index, at the cost of one solution of Laplace's equation
             (collective).
         zero_modes: how many motions without stiffness exist (not reported as modes).
+        growing: the motions of an unstable float, λ < 0, that grow like e^{√(−λ) t}.
         converged: eigenpairs that the solver delivered.
         iterations: restarts of the Krylov–Schur method.
         solves: solutions of Laplace's equation.
@@ -68,6 +69,7 @@ class ModeSet:
     converged: int
     iterations: int
     solves: int
+    growing: tuple[Mode, ...] = ()
 
 
 def solve_modes(pencil: CoupledPencil, count: int, *, shapes: int | None = None, tolerance: float = 1e-12) -> ModeSet:
@@ -93,15 +95,8 @@ def solve_modes(pencil: CoupledPencil, count: int, *, shapes: int | None = None,
     available = pencil.size - len(pencil.constraints) - pencil.zero_mode_count
     count = min(count, available)
     before = pencil.solver.solves
-    solver = _krylov_schur(pencil, kinetics, count, tolerance)
-    with interrupts_deferred():
-        solver.solve()
-    converged = solver.getConverged()
-    if converged < count:
-        raise EigenSolverError(
-            f"{converged} of {count} eigenpairs converged to {tolerance:g} in {solver.getIterationNumber()} restarts"
-        )
-    inverses = np.array([solver.getEigenvalue(number).real for number in range(count)])
+    solver = _krylov_schur(pencil, kinetics, count, tolerance, SLEPc.EPS.Which.LARGEST_REAL)
+    converged, inverses = _inverses(solver, count, tolerance)
     order = np.argsort(-inverses)
     # M + M_a is positive: what is not, or hardly, is rounding of the largest.
     count = int(np.sum(inverses > HIDDEN * inverses.max(initial=0.0)))
@@ -132,16 +127,51 @@ def solve_modes(pencil: CoupledPencil, count: int, *, shapes: int | None = None,
         converged=converged,
         iterations=solver.getIterationNumber(),
         solves=pencil.solver.solves - before,
+        growing=_growing(pencil, kinetics, tolerance),
     )
 
 
-def _krylov_schur(pencil: CoupledPencil, kinetics: CondensedKinetics, count: int, tolerance: float) -> SLEPc.EPS:
-    operator = PETSc.Mat().createPython(pencil.stiffness.getSizes(), kinetics, comm=pencil.stiffness.comm)
+def _growing(pencil: CoupledPencil, kinetics: CondensedKinetics, tolerance: float) -> tuple[Mode, ...]:
+    """The modes with λ < 0: as many as K has negative directions, for M + M_a is positive."""
+    count = len(pencil.unstable)
+    if count == 0:
+        return ()
+    solver = _krylov_schur(pencil, kinetics, count, tolerance, SLEPc.EPS.Which.SMALLEST_REAL)
+    _, inverses = _inverses(solver, count, tolerance)
+    displacement, force = pencil.stiffness.createVecs()
+    modes = []
+    for number in np.argsort(-inverses):
+        solver.getEigenvector(int(number), displacement)
+        pencil.stiffness.mult(displacement, force)
+        eigenvalue = float(1.0 / inverses[number])
+        displacement.scale(np.sqrt(eigenvalue / displacement.dot(force)))
+        modes.append(_complete(pencil, kinetics, solver, eigenvalue, displacement))
+    return tuple(modes)
+
+
+def _inverses(solver: SLEPc.EPS, count: int, tolerance: float) -> tuple[int, np.ndarray]:
+    """Solve; return how many eigenpairs converged, and 1/λ of the first ones."""
+    with interrupts_deferred():
+        solver.solve()
+    converged = solver.getConverged()
+    if converged < count:
+        raise EigenSolverError(
+            f"{converged} of {count} eigenpairs converged to {tolerance:g} in {solver.getIterationNumber()} restarts"
+        )
+    return converged, np.array([solver.getEigenvalue(number).real for number in range(count)])
+
+
+def _krylov_schur(
+    pencil: CoupledPencil, kinetics: CondensedKinetics, count: int, tolerance: float, which: SLEPc.EPS.Which
+) -> SLEPc.EPS:
+    stable = len(pencil.unstable) == 0
+    context = kinetics if stable else _Turned(kinetics)
+    operator = PETSc.Mat().createPython(pencil.stiffness.getSizes(), context, comm=pencil.stiffness.comm)
     operator.setUp()
     solver = SLEPc.EPS().create(pencil.stiffness.comm)
     solver.setOperators(operator, kinetics.definite_stiffness)
-    solver.setProblemType(SLEPc.EPS.ProblemType.GHEP)
-    solver.setWhichEigenpairs(SLEPc.EPS.Which.LARGEST_REAL)
+    solver.setProblemType(SLEPc.EPS.ProblemType.GHEP if stable else SLEPc.EPS.ProblemType.PGNHEP)
+    solver.setWhichEigenpairs(which)
     solver.setTolerances(tolerance, 200)
     # Measured from 5 to 200 modes: with twice the pairs asked, and some, the fewest solutions of Laplace's equation.
     solver.setDimensions(count, min(2 * count + 12, pencil.size))
@@ -150,6 +180,21 @@ def _krylov_schur(pencil: CoupledPencil, kinetics: CondensedKinetics, count: int
     configure_direct(solver.getST().getKSP())
     kinetics.definite_stiffness.setOption(PETSc.Mat.Option.SPD, True)
     return solver
+
+
+class _Turned:
+    """J(M + M_a) with J = ±1, so that K = J|K|: (M + M_a) ζ = μ K ζ becomes J(M + M_a) ζ = μ |K| ζ.
+
+    It is not symmetric, but its eigenvalues are real, for M + M_a is positive.
+    """
+
+    def __init__(self, kinetics: CondensedKinetics) -> None:
+        self._kinetics = kinetics
+
+    def mult(self, matrix: PETSc.Mat | None, displacement: PETSc.Vec, result: PETSc.Vec) -> None:
+        """``result`` ← J(M + M_a) ``displacement``."""
+        self._kinetics.mult(matrix, displacement, result)
+        self._kinetics.turn_unstable(result)
 
 
 def _complete(
@@ -184,7 +229,7 @@ def _residual(
     pencil.mass.mult(displacement, image)
     residual.axpy(-eigenvalue, image)
     solver.getST().getKSP().solve(residual, image)
-    return float(np.sqrt(abs(residual.dot(image)) / force.dot(displacement)))
+    return float(np.sqrt(abs(residual.dot(image) / force.dot(displacement))))
 
 
 def _energy_shares(pencil: CoupledPencil, displacement: PETSc.Vec, force: PETSc.Vec) -> np.ndarray:
@@ -194,7 +239,7 @@ def _energy_shares(pencil: CoupledPencil, displacement: PETSc.Vec, force: PETSc.
 
 
 def count_below(pencil: CoupledPencil, eigenvalue: float) -> int:
-    """Number of modes with 0 < λ < ``eigenvalue``, from the inertia of one factorization.
+    """Number of modes with λ < ``eigenvalue``, from the inertia of one factorization.
 
     The matrix [[K − σM, −σρCᵀ], [−σρC, σρA]] has as many negative pivots as there are modes below σ, zero modes
     included, and one more where the constant of ψ multiplies the volume constraint. It shares no step with the
@@ -205,7 +250,7 @@ def count_below(pencil: CoupledPencil, eigenvalue: float) -> int:
         eigenvalue: σ > 0, not itself an eigenvalue.
 
     Returns:
-        The count, without zero modes (collective).
+        The count, without zero modes; modes that grow have λ < 0 and count (collective).
     """
     block = pencil.stiffness.copy()
     block.axpy(-eigenvalue, pencil.mass, structure=PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN)

@@ -54,7 +54,7 @@ class CoupledPencil:
         liquid: the space of ψ.
         bodies: the bodies, in the order of their unknowns.
         surfaces: the surfaces of the liquids that move under gravity, in the order of their unknowns.
-        stiffness: K, n × n, symmetric; zero on rigid motions without restoring force.
+        stiffness: K, n × n, symmetric; zero on rigid motions without restoring force, negative on unstable ones.
         mass: M, n × n; zero on the surfaces of the liquids.
         coupling: C, N × n: load on ψ by a unit of each surface unknown.
         momentum: ρC, each row times the density of its layer.
@@ -91,6 +91,11 @@ class CoupledPencil:
     def body_stiffness(self) -> np.ndarray:
         """Stiffness of the body unknowns, shape (body unknowns,)."""
         return np.concatenate([body.stiffness for body in self.bodies] or [np.empty(0)])
+
+    @property
+    def unstable(self) -> np.ndarray:
+        """Indices of the body unknowns of negative stiffness: a float that would rather turn over."""
+        return np.flatnonzero(self.body_stiffness < 0.0)
 
     @property
     def free_rigid(self) -> np.ndarray:

@@ -213,6 +213,11 @@ def _merged(mesh: TankMesh, tank: ScaledTank, resolution: Resolution, parts: lis
             converged=sum(part.modes.converged for part in parts),
             iterations=max(part.modes.iterations for part in parts),
             solves=sum(part.modes.solves for part in parts),
+            growing=tuple(
+                _extended(mode, extension)
+                for part, extension in zip(parts, extensions, strict=True)
+                for mode in part.modes.growing
+            ),
         ),
         origins=origins,
     )
@@ -269,5 +274,6 @@ def count_is_confirmed(solution: FieldSolution) -> bool:
         widest = first + int(np.argmax(gaps[first:]))
         shift = float(np.sqrt(values[widest] * values[widest + 1]))
     return all(
-        count_below(part.pencil, shift) == int(np.sum(part.modes.eigenvalues < shift)) for part in solution.parts
+        count_below(part.pencil, shift) == int(np.sum(part.modes.eigenvalues < shift)) + len(part.modes.growing)
+        for part in solution.parts
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -126,8 +126,8 @@ def scaled_float(scene: TankScene, index: int, units: Scales, waterplane: tuple[
 def _between(chain: tuple[Arc, ...], factor: float, ends: tuple[float, float], height: float) -> tuple[Arc, ...]:
     """A chain of arcs scaled, with its ends exactly where the pieces of the still level end."""
     arcs = [arc.mapped(factor, (0.0, 0.0)) for arc in chain]
-    arcs[0] = arcs[0].part(0.0, 1.0, start=(ends[0], height))
-    arcs[-1] = arcs[-1].part(0.0, 1.0, end=(ends[1], height))
+    arcs[0] = replace(arcs[0], start=(ends[0], height))
+    arcs[-1] = replace(arcs[-1], end=(ends[1], height))
     return tuple(arcs)
 
 

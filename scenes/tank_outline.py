@@ -248,8 +248,11 @@ def _left_of(arcs: tuple[Arc, ...], x: float) -> tuple[Arc, ...]:
             left.append(arc)
         elif min(arc.start[0], arc.end[0]) < x:
             t = _meets(arc, x)
-            first, last = (0.0, t) if arc.start[0] < x else (t, 1.0)
-            left.append(_onto(arc.part(first, last), x))
+            on_plane = x, float(arc.curve(np.array([t]))[0, 1])
+            if arc.start[0] < x:
+                left.append(arc.part(0.0, t, start=arc.start, end=on_plane))
+            else:
+                left.append(arc.part(t, 1.0, start=on_plane, end=arc.end))
     return tuple(left)
 
 

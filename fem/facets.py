@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import basix
 import numpy as np
@@ -59,6 +59,10 @@ class FacetGroup:
         )
         measures = np.linalg.norm(areas, axis=-1)
         return areas / measures[..., None], measures
+
+    def subset(self, chosen: np.ndarray) -> FacetGroup:
+        """Some of the facets, by a mask."""
+        return replace(self, cells=self.cells[chosen])
 
     @property
     def longest(self) -> float:

@@ -27,8 +27,11 @@ from hydroelastic.fem.shape_loads import shape_loads, surface_load
 from hydroelastic.fem.surfaces import Body, LiquidSurface
 from hydroelastic.fem.traces import surface_blocks
 
-# Volumes that differ by less than this part of the largest differ by rounding of the loads only.
-_SAME_VOLUME = 1e-10
+# A rigid motion displaces no volume if it displaces less than this part of what others do.
+_NO_VOLUME = 1e-10
+# Constraints that differ by less than this part differ by rounding of the loads, which is 4e-9 at the ends of a thin
+# ellipse; a gap of the top of 1e-4 of the tank's length is one more by 1e-3.
+_SAME_VOLUME = 1e-6
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -111,7 +114,7 @@ class CoupledPencil:
         volumes = [self.body_values(constraint.volume) for constraint in self.constraints]
         largest = max((np.abs(volume).max(initial=0.0) for volume in volumes), default=0.0)
         table = np.array(volumes).reshape(len(volumes), self.body_size).T[self.free_rigid]
-        return np.where(np.abs(table) > _SAME_VOLUME * largest, table, 0.0)
+        return np.where(np.abs(table) > _NO_VOLUME * largest, table, 0.0)
 
     @cached_property
     def rigid_constraints(self) -> tuple[np.ndarray, int]:
@@ -120,7 +123,7 @@ class CoupledPencil:
         if not self.rigid_volumes.size:
             return np.eye(len(self.constraints)), 0
         _, sizes, turn = np.linalg.svd(self.rigid_volumes)
-        return turn.T, int(np.sum(sizes > _SAME_VOLUME * sizes[0]))
+        return turn.T, int(np.sum(sizes > _NO_VOLUME * sizes[0]))
 
     @property
     def zero_mode_count(self) -> int:

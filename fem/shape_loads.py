@@ -34,7 +34,9 @@ def shape_loads(liquid: LiquidSpace, body: Body) -> np.ndarray:
     index_map = liquid.space.dofmap.index_map
     loads = np.zeros((body.size, index_map.size_local + index_map.num_ghosts))
     for group in facet_groups(liquid, body.surface):
-        _add_loads(liquid, body, group, loads)
+        at_corner = _singular_corner(body, group)
+        for corner in np.unique(at_corner):
+            _add_loads(liquid, body, group.subset(at_corner == corner), int(corner), loads)
     return summed_over_processes(liquid, loads)
 
 
@@ -63,9 +65,32 @@ def _basis(liquid: LiquidSpace, reference: np.ndarray) -> np.ndarray:
     return table
 
 
-def _add_loads(liquid: LiquidSpace, body: Body, group: FacetGroup, loads: np.ndarray) -> None:
+def _singular_corner(body: Body, group: FacetGroup) -> np.ndarray:
+    """Number of the corner of each facet at which the shapes have no bounded slope, or −1."""
+    found = np.full(len(group.cells), -1)
+    if body.singular_points is not None:
+        corners = group.physical_points(group.reference_corners)
+        for number in range(corners.shape[1]):
+            there = (corners[:, number, None] == body.singular_points).all(axis=2).any(axis=1)
+            found[there] = number
+    return found
+
+
+def _clustered(local: np.ndarray, weights: np.ndarray, corner: int) -> tuple[np.ndarray, np.ndarray]:
+    """Quadrature on a line by t = s² from one of its ends: what behaves like t^{-1/2} there becomes smooth."""
+    s = local[:, 0] if corner == 0 else 1.0 - local[:, 0]
+    t = s**2 if corner == 0 else 1.0 - s**2
+    return t[:, None], 2.0 * s * weights
+
+
+def _add_loads(liquid: LiquidSpace, body: Body, group: FacetGroup, singular_corner: int, loads: np.ndarray) -> None:
     count = ceil(0.5 * liquid.degree + 0.5 * body.wavenumber * group.longest) + _SPARE_POINTS
+    if singular_corner >= 0:
+        # In s the basis has twice the degree.
+        count += liquid.degree
     local, weights = basix.make_quadrature(group.facet_type, 2 * count - 1)
+    if singular_corner >= 0:
+        local, weights = _clustered(local, weights, singular_corner)
     reference = group.reference_points(local)
     basis = _basis(liquid, reference)
     points = group.physical_points(reference)

@@ -114,7 +114,7 @@ def curve_cells(
     Returns:
         The curved cells, ``None`` if there are none.
     """
-    reference = _element(degree).points
+    reference = geometry_element(degree).points
     barycentric = np.column_stack([1.0 - reference.sum(axis=1), reference])
     chosen, moves = [], []
     for edges, sides in pieces:
@@ -139,7 +139,7 @@ def curve_cells(
 def smallest_jacobian(curved: CurvedCells) -> float:
     """Smallest determinant of the Jacobian in units of the straight cell's, over a fine set of points of all cells."""
     points = basix.create_lattice(basix.CellType.triangle, 2 * curved.degree + 3, basix.LatticeType.equispaced, True)
-    _, by_x, by_y = _element(curved.degree).tabulate(1, points)[..., 0]
+    _, by_x, by_y = geometry_element(curved.degree).tabulate(1, points)[..., 0]
     along, across = by_x @ curved.nodes, by_y @ curved.nodes
     determinants = _cross(along, across)
     first, second = curved.nodes[:, 1] - curved.nodes[:, 0], curved.nodes[:, 2] - curved.nodes[:, 0]
@@ -181,12 +181,13 @@ def _cross(one: NDArray[np.float64], other: NDArray[np.float64]) -> NDArray[np.f
 
 def _inner_nodes(degree: int) -> NDArray[np.float64]:
     """Parts of an edge at which its inner nodes lie: Gauss-Lobatto points, shape (degree - 1,)."""
-    element = _element(degree)
+    element = geometry_element(degree)
     # Edge 2 leads from corner 0 to corner 1.
     return np.asarray(element.points[np.array(element.entity_dofs[1][2], dtype=np.int64), 0])
 
 
-def _element(degree: int) -> basix.finite_element.FiniteElement:
+def geometry_element(degree: int) -> basix.finite_element.FiniteElement:
+    """The element of curved cells' geometry, whose inner nodes on edges are Gauss-Lobatto points."""
     return basix.create_element(
         basix.ElementFamily.P, basix.CellType.triangle, degree, basix.LagrangeVariant.gll_warped
     )

@@ -187,6 +187,7 @@ def _inner_nodes(degree: int) -> NDArray[np.float64]:
 
 
 def geometry_element(degree: int) -> basix.finite_element.FiniteElement:
+    """The element of curved cells' geometry, whose inner nodes on edges are Gauss-Lobatto points."""
     return basix.create_element(
         basix.ElementFamily.P, basix.CellType.triangle, degree, basix.LagrangeVariant.gll_warped
     )

@@ -37,7 +37,7 @@ def geometry_nodes(mesh: TaggedMesh) -> tuple[NDArray[np.float64], NDArray[np.in
         numbers[:, element.entity_dofs[1][place]] = count + (degree - 1) * edges.places[:, [place]] + order
     count += (degree - 1) * len(edges.nodes)
     inner = element.entity_dofs[2][0]
-    numbers[:, inner] = count + np.arange(len(inner) * len(mesh.cells)).reshape(-1, len(inner))
+    numbers[:, inner] = count + np.arange(len(mesh.cells) * len(inner)).reshape(len(mesh.cells), len(inner))
     points = np.empty((count + len(inner) * len(mesh.cells), 2))
     points[numbers] = positions
     # What a straight neighbour says of a curved edge does not count.

@@ -56,15 +56,17 @@ class Arc:
         points[t >= 1.0] = self.end
         return points
 
-    def part(self, first: float, last: float, *, start: Point, end: Point) -> Arc:
+    def part(self, first: float, last: float, *, start: Point | None = None, end: Point | None = None) -> Arc:
         """Return the piece first ≤ t ≤ last as an arc of its own.
 
         Args:
             first: t where it begins.
             last: t where it ends.
-            start: its exact first point.
-            end: its exact last point.
+            start: its exact first point; else that at ``first``.
+            end: its exact last point; else that at ``last``.
         """
+        one, other = ((float(x), float(y)) for x, y in self.point(np.array([first, last])))
+        start, end = one if start is None else start, other if end is None else end
         if (first, last) == (0.0, 1.0):
             return replace(self, start=start, end=end)
         span = last - first
@@ -112,9 +114,9 @@ class Arc:
         at_samples = t[1:-1][slope[1:-1] == 0.0]
         return tuple(sorted(map(float, [*between, *at_samples])))
 
-    def crossing(self, level: float, first: float, last: float) -> float:
-        """Return the t where y = level, between two that lie on different sides of it."""
-        return root(lambda t: self.curve(np.array([t]))[0, 1] - level, first, last)
+    def crossing(self, level: float, first: float, last: float, *, axis: Literal[0, 1] = 1) -> float:
+        """Return the t where y = level (x = level on axis 0), between two that lie on different sides of it."""
+        return root(lambda t: self.curve(np.array([t]))[0, axis] - level, first, last)
 
 
 def root(value: Callable[[float], float], first: float, last: float) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from itertools import pairwise
 from math import radians
+from typing import Any
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -16,6 +17,10 @@ STRAIGHT = 1e-4
 MOST_BULGE = 0.12
 """How far a spline may leave the straight line between two points, as a part of their distance. A circle does so
 with a turn of 54 degrees from point to point."""
+
+MOST_UNEVEN = 4.0
+"""Ratio of neighbouring steps from point to point that a spline may join: a much longer one is rather a straight side,
+which the spline would bend."""
 
 # Parts of a smooth piece between two points that are looked at as straight, to see whether a contour crosses itself.
 _PARTS = 4
@@ -52,7 +57,7 @@ def outline_contour(points: Array, corner_angle: float) -> Contour:
         corner_angle: degrees.
 
     Raises:
-        ValueError: if a spline bulges far from the line from point to point: the points lie too far apart there.
+        ValueError: if the points lie too far apart or too unevenly for a spline.
     """
     points = points if _doubled_area(points) > 0.0 else points[::-1]
     # Edge n runs from point n to the next one; the turn at point n is that from the edge before to edge n.
@@ -89,22 +94,26 @@ def _doubled_area(points: Array) -> float:
 
 
 def _turns(points: Array) -> Array:
-    """The angle at each point by which the line through the points turns anticlockwise."""
-    x, y = (np.roll(points, -1, axis=0) - points).T
-    before_x, before_y = np.roll(x, 1), np.roll(y, 1)
-    return np.arctan2(before_x * y - before_y * x, before_x * x + before_y * y)
+    """The angle at each point by which the closed line through the points turns anticlockwise."""
+    edges = np.roll(points, -1, axis=0) - points
+    return _angles(np.roll(edges, 1, axis=0), edges)
+
+
+def _angles(before: Array, after: Array) -> Array:
+    (x, y), (z, w) = before.T, after.T
+    return np.arctan2(x * w - y * z, x * z + y * w)
 
 
 def _point(values: Array) -> Point:
     return float(values[0]), float(values[1])
 
 
-def _spline(points: Array, ends: object) -> Arc:
+def _spline(points: Array, ends: Any) -> Arc:
     lengths = np.hypot(*np.diff(points, axis=0).T)
     reached = np.concatenate([[0.0], np.cumsum(lengths)])
     spline = CubicSpline(reached, points, bc_type=ends)
     slope = spline.derivative()
-    _refuse_bulges(points, spline, reached)
+    _refuse_bad_points(points, lengths, spline)
     return Arc(
         curve=lambda t: spline(reached[-1] * t),
         velocity=lambda t: reached[-1] * slope(reached[-1] * t),
@@ -114,19 +123,21 @@ def _spline(points: Array, ends: object) -> Arc:
     )
 
 
-def _refuse_bulges(points: Array, spline: CubicSpline, reached: Array) -> None:
+def _refuse_bad_points(points: Array, lengths: Array, spline: CubicSpline) -> None:
+    between = "between the points ({:g}, {:g}) and ({:g}, {:g})"
+    longer = lengths / np.minimum(np.append(lengths[1:], np.inf), np.insert(lengths[:-1], 0, np.inf))
+    worst = int(np.argmax(longer))
+    if longer[worst] > MOST_UNEVEN:
+        where = between.format(*points[worst], *points[worst + 1])
+        raise ValueError(f"the smooth curve has a step {longer[worst]:.3g} times as long as the next, {where}")
     along = np.diff(points, axis=0)
-    lengths = np.diff(reached)
     for part in (0.25, 0.5, 0.75):
-        x, y = (spline(reached[:-1] + part * lengths) - points[:-1]).T
-        bulges = np.abs(along[:, 0] * y - along[:, 1] * x) / lengths
-        worst = int(np.argmax(bulges / lengths))
-        if bulges[worst] > MOST_BULGE * lengths[worst]:
-            (x1, y1), (x2, y2) = points[worst], points[worst + 1]
-            raise ValueError(
-                f"the smooth curve bulges by {bulges[worst]:.3g} m between the points "
-                f"({x1:g}, {y1:g}) and ({x2:g}, {y2:g})"
-            )
+        x, y = (spline(spline.x[:-1] + part * lengths) - points[:-1]).T
+        bulges = np.abs(along[:, 0] * y - along[:, 1] * x) / lengths**2
+        worst = int(np.argmax(bulges))
+        if bulges[worst] > MOST_BULGE:
+            where = between.format(*points[worst], *points[worst + 1])
+            raise ValueError(f"the smooth curve bulges by {bulges[worst] * lengths[worst]:.3g} m {where}")
 
 
 def self_crossing(contour: Contour) -> Point | None:

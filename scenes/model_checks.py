@@ -69,7 +69,7 @@ def _densities_are_in_order(scene: TankScene) -> Iterator[InitErrorDetails]:
             yield misfit(
                 ("liquid", 1, "density"),
                 upper,
-                f"(ρ₂ − ρ₁)/ρ₂ = {(lower - upper) / lower:.3g}: the difference that carries the waves is lost in rounding",
+                f"(ρ₂ − ρ₁)/ρ₂ = {(lower - upper) / lower:.3g}: what carries the waves is lost in rounding",
                 allowed=f"{SMALLEST_DIFFERENCE * lower:g} kg/m³ less than the lower liquid, at least",
             )
 

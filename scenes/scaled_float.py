@@ -69,6 +69,14 @@ class ScaledFloat:
         """Smallest and largest x, smallest and largest y."""
         return self.contour.bounds
 
+    @property
+    def smallest_extent(self) -> float:
+        """The smaller of its width and of what it reaches into a liquid."""
+        left, right, low, high = self.bounds
+        level = self.below[0].start[1] if self.below else self.reference_level
+        reaches = [level - low, *([high - level] if self.above else [])]
+        return min(right - left, *reaches)
+
     def displacement(self, motion: Motion, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Displacement by a unit of a motion: upwards, to the right, anticlockwise about the centre of mass.
 

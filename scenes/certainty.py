@@ -53,7 +53,7 @@ class FrequencyErrors:
 def frequency_errors(
     solution: FieldSolution,
     modes: list[Mode],
-    indices: list[int],
+    parts: list[int],
     resolution: Resolution,
     tank: ScaledTank,
     *,
@@ -64,26 +64,28 @@ def frequency_errors(
     Args:
         solution: the modes at one resolution.
         modes: the modes to judge, with their ψ.
-        indices: which of the solution's modes they are.
+        parts: which of the solution's parts each belongs to.
         resolution: that resolution.
         tank: the scene.
         released: whether it is the limit of high frequency.
     """
     liquid, tips = np.empty(len(modes)), np.empty(len(modes))
     for number, part in enumerate(solution.parts):
-        own = [place for place, index in enumerate(indices) if solution.origins[index][0] == number]
+        own = [place for place, owner in enumerate(parts) if owner == number]
         potentials = [modes[place].potential for place in own]
         liquid[own], tips[own] = energies_missed(
             part.pencil.liquid, potentials, tank, resolution, half=solution.half, released=released
         )
-    values = solution.modes.eigenvalues[indices]
-    truncation = truncation_errors(solution.bodies, solution.modes.elastic_amplitudes[indices], values)
+    values = np.array([mode.eigenvalue for mode in modes])
+    amplitudes = np.array([mode.body_amplitudes for mode in modes]).reshape(len(modes), -1)
+    truncation = truncation_errors(solution.bodies, amplitudes, values)
     # An error of λ is twice that of ω.
     return FrequencyErrors(
         liquid=0.5 * liquid + boundary_error(solution.mesh, tank),
         tips=0.5 * tips,
         truncation=0.5 * truncation,
-        rounding=rounding_error(resolution.degree, tank.depth) + ROUNDING_OF_SPREAD * values / solution.modes.eigenvalues[0],
+        rounding=rounding_error(resolution.degree, tank.depth)
+        + ROUNDING_OF_SPREAD * np.abs(values) / solution.modes.eigenvalues[0],
     )
 
 

@@ -73,6 +73,7 @@ class FieldSolution:
         bodies: the beams of the whole tank.
         modes: the lowest modes of all parts, ascending, in the bodies of the whole tank at unit generalized mass.
         origins: part and index there of each of them.
+        growing_parts: part of each of the growing modes.
     """
 
     mesh: TankMesh
@@ -80,6 +81,11 @@ class FieldSolution:
     bodies: tuple[Body, ...]
     modes: ModeSet
     origins: tuple[tuple[int, int], ...]
+    growing_parts: tuple[int, ...] = ()
+
+    def parts_of(self, indices: list[int]) -> list[int]:
+        """The part of each of some modes."""
+        return [self.origins[index][0] for index in indices]
 
     @property
     def dofs(self) -> int:
@@ -232,6 +238,7 @@ def _merged(mesh: TankMesh, tank: ScaledTank, resolution: Resolution, parts: lis
             ),
         ),
         origins=origins,
+        growing_parts=tuple(number for number, part in enumerate(parts) for _ in part.modes.growing),
     )
 
 

@@ -75,6 +75,7 @@ class TankSolution:
         field: its mesh, matrices and modes; one mode more than were planned.
         asked: the modes asked for, with their shapes.
         relative_errors: estimated relative error of the frequency of each mode of the field; NaN where none was asked.
+        growing_errors: estimated relative error of the growth rate of each growing mode.
         rounding: the part of the largest that no refinement takes away.
         counted: whether the inertia of an independent factorization confirms that no mode is missing.
         tones: one for each beam.
@@ -92,6 +93,7 @@ class TankSolution:
     field: FieldSolution
     asked: tuple[Mode, ...]
     relative_errors: np.ndarray
+    growing_errors: np.ndarray
     rounding: float
     counted: bool
     tones: tuple[ToneSolution, ...]
@@ -108,8 +110,8 @@ class TankSolution:
 
     @property
     def largest_error(self) -> float:
-        """The largest error of the modes asked for and of the first elastic tones."""
-        return float(np.nanmax(self.relative_errors))
+        """The largest error of the modes asked for, of the tones, and of growth rates."""
+        return max(float(np.nanmax(self.relative_errors)), float(self.growing_errors.max(initial=0.0)))
 
     def omega(self, eigenvalue: float) -> float:
         """ω in rad/s of a dimensionless λ."""
@@ -241,9 +243,10 @@ def _judged(
         floats = (mode.index for mode in moved if mode.index is not None)
         indices = sorted({*range(asked), *beams, *floats})
         modes = [field.modes.completed(index) for index in indices]
-        causes = frequency_errors(field, modes, indices, resolution, tank)
+        parts = [*field.parts_of(indices), *field.growing_parts]
+        causes = frequency_errors(field, [*modes, *field.modes.growing], parts, resolution, tank)
     errors = np.full(len(field.modes.eigenvalues), np.nan)
-    errors[indices] = causes.total
+    errors[indices] = causes.total[: len(indices)]
     solution = TankSolution(
         scene=scene,
         units=units,
@@ -252,6 +255,7 @@ def _judged(
         field=field,
         asked=tuple(modes[:asked]),
         relative_errors=errors,
+        growing_errors=causes.total[len(indices) :],
         rounding=causes.largest("rounding"),
         counted=counted,
         tones=tones,
@@ -299,6 +303,12 @@ def _reasons(solution: TankSolution) -> tuple[str, ...]:
             f"mode {number} has an estimated relative error of {errors.max():.1e}, above the tolerance {tolerance:g}; "
             + (f"rounding alone leaves {solution.rounding:.1e}; " if solution.rounding > 0.5 * tolerance else "")
             + _kept(float(errors.max()))
+        )
+    if solution.growing_errors.max(initial=0.0) > tolerance:
+        error = float(solution.growing_errors.max())
+        reasons.append(
+            f"a growth rate has an estimated relative error of {error:.1e}, above the tolerance {tolerance:g}; "
+            + _kept(error)
         )
     if len(solution.asked) < solution.scene.accuracy.modes:
         asked = solution.scene.accuracy.modes

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import pi
+
 from hydroelastic.modal.dry_modes import free_free_roots
 from hydroelastic.modal.estimate import Estimate
 from hydroelastic.modal.estimates import all_estimates
@@ -14,6 +16,8 @@ from hydroelastic.scenes.scaled_tank import ScaledTank
 _DEEP_ELASTIC = 0.12787
 _DEEP_HEAVE = 0.39270
 _DEEP_COUPLING = 0.114
+# Added mass of a float's heave in ρ times the square of its waterplane's width: that of any half-immersed ellipse.
+_FLOAT_HEAVE = pi / 8.0
 
 
 def floating_beam(scene: TankScene, body: int = 0) -> FloatingBeam:
@@ -75,4 +79,18 @@ def expected_tones(tank: ScaledTank) -> tuple[float, ...]:
         inertia = elastic - (_DEEP_COUPLING * liquid) ** 2 / heave
         stiffness = beam.flexural_rigidity * (root / beam.length) ** 4 + float(beam.hydrostatic) * level.jump
         tones.append(stiffness / inertia)
+    return tuple(tones)
+
+
+def expected_float_tones(tank: ScaledTank) -> tuple[float, ...]:
+    """About the (dimensionless) λ of each motion of a float that gravity restores: enough to choose a mesh."""
+    tones = []
+    for index, body in tank.floats.items():
+        level = tank.level_of(index)
+        density = sum(tank.layers[layer].density for layer in (level.below, level.above) if layer is not None)
+        width = body.stiffness[0, 0] / level.jump
+        for place, motion in enumerate(("heave", "sway", "roll")):
+            if motion in body.motions and body.stiffness[place, place] > 0.0:
+                added = _FLOAT_HEAVE * density * width**2 if motion == "heave" else 0.0
+                tones.append(float(body.stiffness[place, place] / (body.inertia[place] + added)))
     return tuple(tones)

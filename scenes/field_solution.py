@@ -17,7 +17,7 @@ import numpy as np
 from hydroelastic.fem.liquid import compile_form
 from hydroelastic.fem.modes import HIDDEN, Mode, ModeSet, count_below, solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
-from hydroelastic.fem.surfaces import Body
+from hydroelastic.fem.surfaces import Body, LiquidSurface
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.scenes.field_model import build_field_model, build_half_models, moving_parities, whole_bodies
 from hydroelastic.scenes.plan import Resolution
@@ -103,9 +103,9 @@ class FieldSolution:
         return self.parts[0].parity is not None
 
     @property
-    def has_waves(self) -> bool:
-        """Whether there is a free surface."""
-        return bool(self.parts[0].pencil.surfaces)
+    def surfaces(self) -> tuple[LiquidSurface, ...]:
+        """The surfaces of the liquids that move under gravity."""
+        return self.parts[0].pencil.surfaces
 
     def parity(self, index: int) -> Parity | None:
         """Symmetry of a mode; ``None`` where the whole tank was solved."""
@@ -246,11 +246,12 @@ def _extended(mode: Mode, extension: np.ndarray) -> Mode:
     """A mode in the bodies of the whole tank; its ζ and ψ stay those of its part, at unit generalized mass there."""
     # Each unknown's share goes to the bodies of the whole tank as the squares of the amplitudes do.
     squares = extension**2
-    shares = (squares / squares.sum(axis=0)) @ mode.energy[:-1]
+    own = extension.shape[1]
+    shares = (squares / squares.sum(axis=0)) @ mode.energy[:own]
     return replace(
         mode,
         body_amplitudes=extension @ mode.body_amplitudes,
-        energy=np.append(shares, mode.energy[-1]),
+        energy=np.concatenate([shares, mode.energy[own:]]),
     )
 
 

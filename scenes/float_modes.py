@@ -19,8 +19,6 @@ from hydroelastic.scenes.scaled_tank import ScaledTank
 
 # Modes up to this many times the λ that the motion has far above the waves hold its mode.
 _FAR_ENOUGH = 1.3
-# Added mass of heave, in ρ times the square of the waterplane's width in each liquid: that of any half-immersed ellipse.
-_HEAVE = np.pi / 8.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,20 +72,6 @@ def _restored(tank: ScaledTank, bodies: tuple[Body, ...]) -> list[_Motion]:
         )
         if stiffness > 0.0
     ]
-
-
-def expected_float_tones(tank: ScaledTank) -> tuple[float, ...]:
-    """About the (dimensionless) λ of each motion of a float that gravity restores: enough to choose a mesh."""
-    tones = []
-    for index, body in tank.floats.items():
-        level = tank.level_of(index)
-        density = sum(tank.layers[layer].density for layer in (level.below, level.above) if layer is not None)
-        width = body.stiffness[0, 0] / level.jump
-        for place, motion in enumerate(("heave", "sway", "roll")):
-            if motion in body.motions and body.stiffness[place, place] > 0.0:
-                added = _HEAVE * density * width**2 if motion == "heave" else 0.0
-                tones.append(float(body.stiffness[place, place] / (body.inertia[place] + added)))
-    return tuple(tones)
 
 
 def float_modes(

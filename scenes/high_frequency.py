@@ -53,11 +53,6 @@ class HighFrequencyAddedMass:
         return added
 
 
-def has_limit(tank: ScaledTank) -> bool:
-    """Whether there is something that moves freely far above the waves: open water, or an interface."""
-    return len(tank.layers) > 1 or (tank.top != "rigid" and tank.levels[-1].is_open)
-
-
 def high_frequency_added_mass(
     comm: MPI.Comm, tank: ScaledTank, tolerance: float, watch: Stopwatch, *, half: bool
 ) -> HighFrequencyAddedMass:

@@ -44,7 +44,7 @@ def sample_shapes(solution: TankSolution) -> ModeShapes | None:
     space = field.parts[0].pencil.liquid
     functions = as_functions(space, [mode.potential for mode in modes])
     liquid = sample_liquid(space, functions)
-    water = sample_surface(space, functions, FREE_SURFACE) if field.has_waves else None
+    water = sample_surface(space, functions, FREE_SURFACE) if field.surfaces else None
     if liquid is None:
         return None
     if field.half:

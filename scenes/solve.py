@@ -18,11 +18,11 @@ from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 from hydroelastic.scenes.certainty import FrequencyErrors, frequency_errors, refined
 from hydroelastic.scenes.companion import Companion, solve_companion
-from hydroelastic.scenes.estimates import expected_tones
+from hydroelastic.scenes.estimates import expected_float_tones, expected_tones
 from hydroelastic.scenes.field_model import bring_mesh, build_mesh, moving_surfaces
 from hydroelastic.scenes.field_solution import FieldSolution, Stopwatch, count_is_confirmed, solve_field
-from hydroelastic.scenes.float_modes import FloatMode, expected_float_tones, float_modes
-from hydroelastic.scenes.high_frequency import HighFrequencyAddedMass, has_limit, high_frequency_added_mass
+from hydroelastic.scenes.float_modes import FloatMode, float_modes
+from hydroelastic.scenes.high_frequency import HighFrequencyAddedMass, high_frequency_added_mass
 from hydroelastic.scenes.models import TankScene
 from hydroelastic.scenes.plan import (
     MOST_MODES_TO_TONE,
@@ -167,7 +167,7 @@ def solve_scene(
             report("pressure-release tone")
             first = companion_resolution(tank, tolerance, tones) if brought is None else resolution
             companion = solve_companion(comm, tank, first, tolerance, brought, watch, half=half)
-        if added is None and tank.floats and has_limit(tank):
+        if added is None and tank.floats and tank.has_high_frequency_limit:
             report("added mass far above the waves")
             added = high_frequency_added_mass(comm, tank, tolerance, watch, half=half)
         field = solve_field(own_mesh, tank, resolution, resolution.modes + 1, watch, half=half)

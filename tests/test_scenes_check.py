@@ -6,9 +6,11 @@ from typing import Any
 import pytest
 from rich.console import Console
 
-from hydroelastic.scenes.check import hints, print_check, zero_mode_count
+from hydroelastic.scenes.check import print_check
+from hydroelastic.scenes.check_hints import hints
 from hydroelastic.scenes.models import Beam, Liquid, Tank, TankScene
 from hydroelastic.scenes.read import read_scene, shipped_scenes
+from hydroelastic.scenes.rigid_motions import zero_mode_count
 
 
 def beam(**changes: Any) -> Beam:

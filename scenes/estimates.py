@@ -9,6 +9,7 @@ from hydroelastic.modal.estimate import Estimate
 from hydroelastic.modal.estimates import all_estimates
 from hydroelastic.modal.floating_beam import FloatingBeam
 from hydroelastic.modal.sloshing import guided_cover_frequencies, sloshing_frequencies
+from hydroelastic.modal.two_layer import InterfacePlate, TwoLayers, tank_modes
 from hydroelastic.scenes.models import TankScene, top_segments
 from hydroelastic.scenes.scaled_tank import ScaledTank
 
@@ -44,7 +45,8 @@ def scene_estimates(scene: TankScene) -> dict[str, Estimate]:
     Returns:
         Estimates by name; none where the theories, which know one beam in a tank with an open top, do not apply.
     """
-    if len(scene.body) != 1 or scene.tank.top != "free" or scene.body[0].ends != "free":
+    plain = len(scene.layers) == 1 and not scene.floats
+    if not plain or len(scene.body) != 1 or scene.top != "free" or scene.beams[0][1].ends != "free":
         return {}
     return all_estimates(floating_beam(scene))
 
@@ -56,13 +58,41 @@ def exact_frequencies(scene: TankScene) -> tuple[str, tuple[float, ...]]:
         What the formula is and ω in rad/s, ascending, as many as modes are asked for; an empty tuple elsewhere.
     """
     count = scene.accuracy.modes
-    if not scene.body and scene.tank.top == "free":
+    if scene.floats:
+        return "", ()
+    if len(scene.layers) == 2:
+        return _exact_of_two_layers(scene)
+    if not scene.body and scene.top == "free":
         frequencies = sloshing_frequencies(scene.tank.length, scene.liquid[0].depth, scene.tank.gravity, count)
         return "ω² = g k tanh kH, k = nπ/L", tuple(map(float, frequencies))
-    if len(scene.body) == 1 and scene.body[0].ends == "guided":
+    if len(scene.beams) == 1 and scene.beams[0][1].ends == "guided":
         frequencies = guided_cover_frequencies(floating_beam(scene), count)
         return "ω² = (EI k⁴ + s ρ g)/(m + ρ/(k tanh kH)), k = nπ/L", tuple(map(float, frequencies))
     return "", ()
+
+
+def _exact_of_two_layers(scene: TankScene) -> tuple[str, tuple[float, ...]]:
+    """Waves of two layers, without a body or under a guided plate that covers the interface."""
+    plates = [beam for _, beam in scene.beams if beam.ends == "guided" and scene.level_of(beam) == "interface"]
+    if len(scene.body) != len(plates):
+        return "", ()
+    layers = TwoLayers(
+        density_below=scene.layers[0].density,
+        density_above=scene.layers[1].density,
+        depth_below=scene.layers[0].depth,
+        depth_above=scene.layers[1].depth,
+        gravity=scene.tank.gravity,
+        top=scene.top,
+    )
+    plate = None
+    if plates:
+        plate = InterfacePlate(
+            flexural_rigidity=plates[0].flexural_rigidity,
+            mass_per_length=plates[0].mass_per_length,
+            hydrostatic=plates[0].hydrostatic,
+        )
+    modes = tank_modes(layers, scene.tank.length, scene.accuracy.modes, plate)
+    return "waves of two layers, k = nπ/L", tuple(mode.omega for mode in modes)
 
 
 def expected_tones(tank: ScaledTank) -> tuple[float, ...]:

@@ -90,7 +90,7 @@ def _vertices_make_a_polygon(index: int, vertices: tuple[tuple[float, float], ..
 
     location = ("body", index, "vertices")
     length, size, number = shortest_side(vertices)
-    if length < SHORTEST_SIDE * size:
+    if length <= SHORTEST_SIDE * size:
         yield misfit(
             location,
             None,

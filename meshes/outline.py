@@ -6,12 +6,13 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from math import inf
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 Point = tuple[float, float]
-Path = Callable[[NDArray[np.float64]], NDArray[np.float64]]
+Path = Callable[[NDArray[np.floating[Any]]], NDArray[np.floating[Any]]]
 
 # A path may miss the ends that it is said to have by this part of its extent; its nodes there are the ends.
 _PATH_ROUNDING = 1e-9

@@ -9,9 +9,9 @@ import numpy as np
 from mpi4py import MPI
 from petsc4py import PETSc
 
+from hydroelastic.fem.cells import cells_at
 from hydroelastic.fem.liquid import LiquidSpace
 from hydroelastic.fem.modes import Mode
-from hydroelastic.fem.cells import cells_at
 from hydroelastic.fem.spectral_error import cell_errors
 from hydroelastic.fem.truncation import truncation_errors
 from hydroelastic.meshes.distribute import TankMesh

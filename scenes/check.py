@@ -52,7 +52,9 @@ def _sizes(scene: TankScene) -> Iterator[str]:
     half = scene.mesh is None and is_mirror_image(tank)
     yield f"First attempt: {_size(scene, tank, resolution, half=half)}."
     if resolution.modes > scene.accuracy.modes:
-        what = "where the energy of the first elastic tone gathers" if tank.beams else "in which mode a float moves most"
+        what = (
+            "where the energy of the first elastic tone gathers" if tank.beams else "in which mode a float moves most"
+        )
         yield f"  {resolution.modes} modes are looked at, to see {what}."
     yield (
         f"  Enough for {tolerance:g}: elements follow the shortest wave of the modes reported and the degree, "
@@ -63,7 +65,11 @@ def _sizes(scene: TankScene) -> Iterator[str]:
     if workable > tolerance:
         yield f"  Double precision will not keep {tolerance:g} here: {workable:.0e} is worked towards instead."
     limits = [
-        *(["the first elastic tone"] if tank.beams and any(level.moves and level.is_open for level in tank.levels) else []),
+        *(
+            ["the first elastic tone"]
+            if tank.beams and any(level.moves and level.is_open for level in tank.levels)
+            else []
+        ),
         *(["the added mass of the floats"] if tank.floats and tank.has_high_frequency_limit else []),
     ]
     if limits:
@@ -73,9 +79,7 @@ def _sizes(scene: TankScene) -> Iterator[str]:
         yield f"Beside it {' and '.join(limits)} {where}: {size}, hardly a wave, sharper tips."
 
 
-def _size(
-    scene: TankScene, tank: ScaledTank, resolution: Resolution, *, half: bool, released: bool = False
-) -> str:
+def _size(scene: TankScene, tank: ScaledTank, resolution: Resolution, *, half: bool, released: bool = False) -> str:
     parts = [f"degree {resolution.degree}"]
     if scene.mesh is None:
         from hydroelastic.scenes.tank_mesh import make_mesh, unknown_count

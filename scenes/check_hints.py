@@ -9,7 +9,6 @@ from hydroelastic.modal.dry_modes import free_free_roots
 from hydroelastic.scenes.estimates import expected_tones
 from hydroelastic.scenes.floats import placed_float
 from hydroelastic.scenes.models import Beam, TankScene, level_segments
-from hydroelastic.scenes.scaled_tank import scaled_tank
 from hydroelastic.scenes.rigid_motions import (
     has_open,
     levels_of,
@@ -18,6 +17,7 @@ from hydroelastic.scenes.rigid_motions import (
     roll_stiffness,
     zero_mode_count,
 )
+from hydroelastic.scenes.scaled_tank import scaled_tank
 from hydroelastic.scenes.symmetry import is_mirror_image
 
 # Half width over half height from which the conditions of a thin float are off by more than some per cent.

@@ -23,7 +23,7 @@ _FLOAT_HEAVE = pi / 8.0
 
 def floating_beam(scene: TankScene, body: int = 0) -> FloatingBeam:
     """One beam of a scene, alone in its tank, as the estimates take it."""
-    beam = scene.body[body]
+    beam = dict(scene.beams)[body]
     # Ends within rounding of a wall lie on it, here as in the field model.
     start, end = next((piece.start, piece.end) for piece in top_segments(scene) if piece.body == body)
     return FloatingBeam(
@@ -103,7 +103,9 @@ def expected_tones(tank: ScaledTank) -> tuple[float, ...]:
     tones = []
     for index, beam in tank.beams.items():
         root, level = free_free_roots(1)[0], tank.level_of(index)
-        liquid = beam.length * sum(tank.layers[layer].density for layer in (level.below, level.above) if layer is not None)
+        liquid = beam.length * sum(
+            tank.layers[layer].density for layer in (level.below, level.above) if layer is not None
+        )
         elastic = beam.mass_per_length + _DEEP_ELASTIC * liquid
         heave = beam.mass_per_length + _DEEP_HEAVE * liquid
         inertia = elastic - (_DEEP_COUPLING * liquid) ** 2 / heave

@@ -69,7 +69,7 @@ def _mode(solution: TankSolution, mode: FloatMode) -> dict[str, Any]:
         return row
     body = solution.tank.floats[mode.body]
     _, stiffness, inertia = principal_motions(body, body.motions)
-    number = body.motions.index(mode.motion)  # type: ignore[arg-type]
+    number = body.motions.index(mode.motion)
     unit = solution.units.density * solution.units.length ** (4.0 if mode.motion == "roll" else 2.0)
     eigenvalue = float(solution.modes.eigenvalues[mode.index])
     error = float(solution.relative_errors[mode.index])

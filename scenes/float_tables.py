@@ -26,7 +26,9 @@ def float_lines(summary: Summary) -> list[str]:
 def _lines(row: dict[str, Any]) -> list[str]:
     left, right = row["waterplane"]
     width = "no waterplane in its model" if row["boundary"] == "thin" else f"waterplane {left:.6g} to {right:.6g} m"
-    lines = [f"Float {row['body']}: mass {row['mass']:.7g} kg/m, {width}, heave stiffness {row['heave_stiffness']:.7g} N/m²."]
+    lines = [
+        f"Float {row['body']}: mass {row['mass']:.7g} kg/m, {width}, heave stiffness {row['heave_stiffness']:.7g} N/m²."
+    ]
     lines += [_mode_line(mode) for mode in row["modes"]]
     if row["high_frequency"] is not None:
         matrix, error = row["high_frequency"]["added_mass"], row["high_frequency"]["relative_error"]

@@ -168,7 +168,9 @@ def _wavenumber(tank: ScaledTank, level: StillLevel, piece: Piece, squared_frequ
     return 0.0 if moving is None else moving.wavenumber(squared_frequency)
 
 
-def _resolution_for(tank: ScaledTank, tolerance: float, wavenumbers: tuple[float, ...], *, exponent: float) -> Resolution:
+def _resolution_for(
+    tank: ScaledTank, tolerance: float, wavenumbers: tuple[float, ...], *, exponent: float
+) -> Resolution:
     """Elements, rings and dry modes for the shortest waves on the pieces of the still levels.
 
     Where ψ ~ r^α at a tip, the error falls like the power 2α of the innermost ring: like its square beside water under

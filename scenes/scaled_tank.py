@@ -170,9 +170,7 @@ def scaled_tank(scene: TankScene) -> ScaledTank:
     )
 
 
-def _level(
-    scene: TankScene, units: Scales, layers: tuple[ScaledLayer, ...], number: int, name: Level
-) -> StillLevel:
+def _level(scene: TankScene, units: Scales, layers: tuple[ScaledLayer, ...], number: int, name: Level) -> StillLevel:
     above = number + 1 if number + 1 < len(layers) else None
     pieces = tuple(
         Piece(

@@ -67,7 +67,9 @@ def tone_lines(summary: Summary) -> list[str]:
         if tone["pressure_release_omega"] is not None:
             release = with_certain_digits(tone["pressure_release_omega"], tone["pressure_release_relative_error"])
             one = len(summary["scene"]["liquid"]) == 1
-            limit = "with ψ = 0 on the water, the limit far above the waves" if one else "in the limit far above the waves"
+            limit = (
+                "with ψ = 0 on the water, the limit far above the waves" if one else "in the limit far above the waves"
+            )
             limits += f"; {limit}: {release} rad/s"
         lines.append(f"  {limits}.")
     return lines

@@ -170,9 +170,7 @@ class _Builder:
         # Contours turn counterclockwise: over the float they run from right to left.
         return _reversed(path) if upper_side else path
 
-    def _side(
-        self, number: int, x: float, bottom: Point, top: Point, splits: dict[float, list[int]]
-    ) -> list[Directed]:
+    def _side(self, number: int, x: float, bottom: Point, top: Point, splits: dict[float, list[int]]) -> list[Directed]:
         """The vertical line at x from the floor to the ceiling: a wall, the mirror plane, or a line through slits."""
         inside = x in splits
         name = "" if 0.0 < x < self.right else LEFT_WALL if x == 0.0 else SYMMETRY_PLANE if self.half else RIGHT_WALL

@@ -52,10 +52,10 @@ class BarePencil:
         return BarePencil(
             stiffness=_csr(pencil.stiffness),
             mass=_csr(pencil.mass),
-            coupling=np.sqrt(pencil.density) * coupling[free],
+            coupling=coupling[free],
             laplace=laplace[free][:, free].tocsr(),
             free_rigid=pencil.free_rigid,
-            volume=pencil.volume.array_r.copy() if pencil.liquid.keeps_volume else None,
+            volume=pencil.constraints[0].volume.array_r.copy() if pencil.constraints else None,
         )
 
     def lowest_modes(self, solve: Solve, count: int, tolerance: float) -> SurfaceModes:

@@ -1,4 +1,4 @@
-"""The added-mass operator M_a = ρ Cᵀ A⁺ C, and the kinetic operator M + M_a condensed for the eigenproblem."""
+"""The added-mass operator M_a = (ρC)ᵀ A⁺ C, and the kinetic operator M + M_a condensed for the eigenproblem."""
 
 from __future__ import annotations
 
@@ -10,18 +10,17 @@ from hydroelastic.fem.pencil import CoupledPencil
 
 
 def kinetic(pencil: CoupledPencil, displacement: PETSc.Vec, momentum: PETSc.Vec, potential: PETSc.Vec) -> None:
-    """``momentum`` ← (M + ρ Cᵀ A⁺ C) ``displacement``; ``potential`` ← A⁺ C ``displacement``."""
+    """``momentum`` ← (M + (ρC)ᵀ A⁺ C) ``displacement``; ``potential`` ← A⁺ C ``displacement``."""
     _liquid_momentum(pencil, displacement, momentum, potential)
     pencil.mass.multAdd(displacement, momentum, momentum)
 
 
 def _liquid_momentum(pencil: CoupledPencil, displacement: PETSc.Vec, momentum: PETSc.Vec, potential: PETSc.Vec) -> None:
-    """``momentum`` ← ρ Cᵀ A⁺ C ``displacement``; ``potential`` ← A⁺ C ``displacement``."""
+    """``momentum`` ← (ρC)ᵀ A⁺ C ``displacement``; ``potential`` ← A⁺ C ``displacement``."""
     load = pencil.coupling.createVecLeft()
     pencil.coupling.mult(displacement, load)
     pencil.solver.solve(load, potential)
-    pencil.coupling.multTranspose(potential, momentum)
-    momentum.scale(pencil.density)
+    pencil.momentum.multTranspose(potential, momentum)
 
 
 def body_added_mass(pencil: CoupledPencil) -> np.ndarray:
@@ -34,15 +33,21 @@ def body_added_mass(pencil: CoupledPencil) -> np.ndarray:
     Returns:
         ρ∫φᵢψⱼ, shape (functions, functions), in the pencil's units.
     """
+    return body_responses(pencil)[0]
+
+
+def body_responses(pencil: CoupledPencil) -> tuple[np.ndarray, list[PETSc.Vec]]:
+    """As `body_added_mass`, with the ψ that answers a unit of each shape (collective)."""
     size = pencil.body_size
     unit, momentum = pencil.stiffness.createVecs()
-    potential = pencil.coupling.createVecLeft()
-    rows = []
+    rows, potentials = [], []
     for column in range(size):
         _set_unit(unit, column)
+        potential = pencil.coupling.createVecLeft()
         _liquid_momentum(pencil, unit, momentum, potential)
         rows.append(pencil.body_values(momentum))
-    return np.array(rows).reshape(size, size)
+        potentials.append(potential)
+    return np.array(rows).reshape(size, size), potentials
 
 
 def _set_unit(vector: PETSc.Vec, index: int) -> None:
@@ -54,44 +59,44 @@ def _set_unit(vector: PETSc.Vec, index: int) -> None:
 class CondensedKinetics:
     """The operator whose eigenvalues, with K, are 1/λ: kinetic energy with all that has no stiffness condensed.
 
-    Rigid motions without restoring force (K r = 0) and the constant α of ψ carry no potential energy. They follow the
-    other unknowns e at once, from Rᵀ(M + M_a)ζ + α Vᵣ = 0 and Vᵀζ = 0:
+    Rigid motions without restoring force (K R = 0) and the constants α of ψ carry no potential energy. They follow the
+    other unknowns e at once, from Rᵀ(M + M_a)ζ + Vᵣᵀα = 0 and Vᵀζ = 0, where V holds the volumes of the constraints
+    and Vᵣ the rigid motions' part of it:
 
         D (r, α) = −Wᵀ e,     M_c = M + M_a − W D⁻¹ Wᵀ,     W = [(M + M_a) R, V],  D = [[Rᵀ(M + M_a)R, Vᵣ], [Vᵣᵀ, 0]]
 
-    When no such rigid motion displaces volume, the constraint Vᵀζ = 0 stays with e, and is kept by the K-orthogonal
-    projection. M_c is symmetric and semi-definite; what it condenses has eigenvalue zero, at the far end.
+    Constraints, or combinations of them, in which no such motion takes part stay with e, and are kept by the
+    K-orthogonal projection. M_c is symmetric and semi-definite; what it condenses has eigenvalue zero, at the far end.
     """
 
     def __init__(self, pencil: CoupledPencil) -> None:
         """Solve for the liquid's answer to each condensed motion (collective)."""
         self.pencil = pencil
         self.free_rigid = pencil.free_rigid
-        self.definite_stiffness = _with_unit_diagonal(pencil.stiffness, self.free_rigid)
-        self._closed = pencil.liquid.keeps_volume
+        self.definite_stiffness = _definite(pencil)
         self._potential = pencil.coupling.createVecLeft()
         self._projected, self._momentum = pencil.stiffness.createVecs()
-        self.rigid_displaces = pencil.rigid_displaces
-        self._columns = self._condensed_columns()
+        self._turn, with_rigid = pencil.rigid_constraints
+        volumes = [self._combined(column) for column in self._turn.T]
+        self._columns = [*self._rigid_columns(), *volumes[:with_rigid]]
         self._dense = self._dense_block()
-        self._correction: PETSc.Vec | None = None
-        if self._closed and not self.rigid_displaces:
-            self._correction = pencil.stiffness.createVecRight()
-            solver = direct_solver(self.definite_stiffness)
-            solver.solve(pencil.volume, self._correction)
-            self._correction.scale(1.0 / pencil.volume.dot(self._correction))
-            # The unit diagonal of a free rigid motion is not a stiffness.
-            set_entries(self._correction, self.free_rigid, np.zeros(len(self.free_rigid)))
+        self._kept = volumes[with_rigid:]
+        self._corrections = self._projection(self._kept)
 
-    def _condensed_columns(self) -> list[PETSc.Vec]:
+    def _combined(self, weights: np.ndarray) -> PETSc.Vec:
+        volume = self._momentum.duplicate()
+        volume.set(0.0)
+        for weight, constraint in zip(weights, self.pencil.constraints, strict=True):
+            volume.axpy(float(weight), constraint.volume)
+        return volume
+
+    def _rigid_columns(self) -> list[PETSc.Vec]:
         columns = []
         for index in self.free_rigid:
             _set_unit(self._projected, int(index))
             column = self._momentum.duplicate()
             kinetic(self.pencil, self._projected, column, self._potential)
             columns.append(column)
-        if self._closed and self.rigid_displaces:
-            columns.append(self.pencil.volume.copy())
         return columns
 
     def _dense_block(self) -> np.ndarray:
@@ -99,9 +104,30 @@ class CondensedKinetics:
         block = np.zeros((size, size))
         for number, column in enumerate(self._columns):
             block[:rigid, number] = self.pencil.body_values(column)[self.free_rigid]
-        if size > rigid:
-            block[rigid, :rigid] = block[:rigid, rigid]
+        block[rigid:, :rigid] = block[:rigid, rigid:].T
         return 0.5 * (block + block.T)
+
+    def _projection(self, volumes: list[PETSc.Vec]) -> list[PETSc.Vec]:
+        """K⁻¹V (VᵀK⁻¹V)⁻¹: displacements that take back a unit of one volume and nothing of the others."""
+        if not volumes:
+            return []
+        solver = direct_solver(self.definite_stiffness)
+        raw = []
+        for volume in volumes:
+            correction = volume.duplicate()
+            solver.solve(volume, correction)
+            # The unit diagonal of a free rigid motion is not a stiffness.
+            set_entries(correction, self.free_rigid, np.zeros(len(self.free_rigid)))
+            self.turn_unstable(correction)
+            raw.append(correction)
+        inverse = np.linalg.inv([[volume.dot(correction) for correction in raw] for volume in volumes])
+        corrections = []
+        for column in inverse.T:
+            correction = raw[0].duplicate()
+            correction.set(0.0)
+            correction.maxpy(list(map(float, column)), raw)
+            corrections.append(correction)
+        return corrections
 
     def _follow(self, displacement: PETSc.Vec) -> np.ndarray:
         """D⁻¹ Wᵀ e."""
@@ -117,17 +143,24 @@ class CondensedKinetics:
         for column, factor in zip(self._columns, self._follow(self._projected), strict=True):
             result.axpy(-factor, column)
         set_entries(result, self.free_rigid, np.zeros(len(self.free_rigid)))
-        if self._correction is not None:
-            result.axpy(-self._correction.dot(result), self.pencil.volume)
+        for volume, pressure in zip(self._kept, [c.dot(result) for c in self._corrections], strict=True):
+            result.axpy(-pressure, volume)
 
     def _project(self, displacement: PETSc.Vec) -> None:
-        """Remove what has no part in e: free rigid motions, and volume where the constraint is on e."""
+        """Remove what has no part in e: free rigid motions, and volume where a constraint is on e."""
         set_entries(displacement, self.free_rigid, np.zeros(len(self.free_rigid)))
-        if self._correction is not None:
-            displacement.axpy(-self.pencil.volume.dot(displacement), self._correction)
+        taken = [volume.dot(displacement) for volume in self._kept]
+        for correction, volume in zip(self._corrections, taken, strict=True):
+            displacement.axpy(-volume, correction)
+
+    def turn_unstable(self, vector: PETSc.Vec) -> None:
+        """Change the sign of the unstable motions' entries: from |K| to K, or back."""
+        if len(self.pencil.unstable):
+            values = self.pencil.body_values(vector)
+            set_entries(vector, self.pencil.unstable, -values[self.pencil.unstable])
 
     def recover(self, displacement: PETSc.Vec, potential: PETSc.Vec) -> None:
-        """Complete an eigenvector: fill in the condensed rigid motions, and ψ with its constant.
+        """Complete an eigenvector: fill in the condensed rigid motions, and ψ with its constants.
 
         Args:
             displacement: e on entry, ζ on return.
@@ -135,12 +168,15 @@ class CondensedKinetics:
         """
         self._project(displacement)
         follow = -self._follow(displacement)
-        set_entries(displacement, self.free_rigid, follow[: len(self.free_rigid)])
+        rigid = len(self.free_rigid)
+        set_entries(displacement, self.free_rigid, follow[:rigid])
         kinetic(self.pencil, displacement, self._momentum, potential)
-        if not self._closed:
-            return
-        constant = follow[-1] if self.rigid_displaces else -self._correction.dot(self._momentum)  # type: ignore[union-attr]
-        potential.shift(constant / self.pencil.density)
+        held = [-correction.dot(self._momentum) for correction in self._corrections]
+        pressures = self._turn @ np.array([*follow[rigid:], *held])
+        layer_of = self.pencil.liquid.owned_layer_of
+        values = potential.array
+        for constraint, pressure in zip(self.pencil.constraints, pressures, strict=True):
+            values[layer_of == constraint.layer] += pressure / constraint.density
 
 
 def set_entries(vector: PETSc.Vec, indices: np.ndarray, values: np.ndarray) -> None:
@@ -150,12 +186,14 @@ def set_entries(vector: PETSc.Vec, indices: np.ndarray, values: np.ndarray) -> N
     vector.assemble()
 
 
-def _with_unit_diagonal(matrix: PETSc.Mat, indices: np.ndarray) -> PETSc.Mat:
-    """A copy with ones on the diagonal at body unknowns whose row is zero."""
-    if not len(indices):
+def _definite(pencil: CoupledPencil) -> PETSc.Mat:
+    """K with ones on the diagonal at body unknowns whose row is zero, and without the signs of the unstable ones."""
+    matrix, free, unstable = pencil.stiffness, pencil.free_rigid, pencil.unstable
+    if not len(free) and not len(unstable):
         return matrix
     diagonal = matrix.getDiagonal()
-    set_entries(diagonal, indices, np.ones(len(indices)))
+    set_entries(diagonal, free, np.ones(len(free)))
+    set_entries(diagonal, unstable, -pencil.body_stiffness[unstable])
     copy = matrix.copy()
     copy.setOption(PETSc.Mat.Option.NEW_NONZERO_LOCATION_ERR, False)
     copy.setDiagonal(diagonal)

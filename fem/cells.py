@@ -1,22 +1,88 @@
-"""Where the cells of this process lie: straight simplices by their corners and edge vectors."""
+"""Where the cells of this process lie: positions and Jacobians of straight or curved simplices at reference points."""
 
 from __future__ import annotations
 
+from functools import lru_cache
+
+import basix
+import basix.ufl
 import numpy as np
+from dolfinx.mesh import Mesh
 
-from hydroelastic.fem.liquid import LiquidSpace
-from hydroelastic.meshes.compat import geometry_dofmap
-
-
-def cell_corners(liquid: LiquidSpace) -> np.ndarray:
-    """Corners of the owned cells, shape (cells, corners, gdim)."""
-    mesh = liquid.tank.mesh
-    owned = mesh.topology.index_map(mesh.topology.dim).size_local
-    corners: np.ndarray = mesh.geometry.x[geometry_dofmap(mesh)[:owned]][:, :, : mesh.geometry.dim]
-    return corners
+from hydroelastic.meshes.compat import coordinate_degree, geometry_dofmap
 
 
-def cell_jacobians(corners: np.ndarray) -> np.ndarray:
-    """Edge vectors from each cell's first corner to the others as columns, shape (cells, gdim, dim)."""
-    edges: np.ndarray = np.swapaxes(corners[:, 1:] - corners[:, :1], 1, 2)
-    return edges
+def cell_positions(mesh: Mesh, cells: np.ndarray, reference: np.ndarray) -> np.ndarray:
+    """Coordinates of points of the reference cell in some cells.
+
+    Args:
+        mesh: the mesh.
+        cells: local cells, shape (cells,).
+        reference: shape (points, dim).
+
+    Returns:
+        Shape (cells, points, gdim).
+    """
+    basis = _coordinate_basis(mesh, reference, 0)[0]
+    points: np.ndarray = np.einsum("qn,cnd->cqd", basis, cell_nodes(mesh, cells), optimize=True)
+    return points
+
+
+def cell_jacobians(mesh: Mesh, cells: np.ndarray, reference: np.ndarray) -> np.ndarray:
+    """Derivatives of the coordinates with respect to those of the reference cell (columns).
+
+    Args:
+        mesh: the mesh.
+        cells: local cells, shape (cells,).
+        reference: shape (points, dim).
+
+    Returns:
+        Shape (cells, points, gdim, dim); (cells, 1, gdim, dim) where all cells are straight.
+    """
+    if is_straight(mesh):
+        reference = reference[:1]
+    slopes = _coordinate_basis(mesh, reference, 1)[1:]
+    jacobians: np.ndarray = np.einsum("dqn,cng->cqgd", slopes, cell_nodes(mesh, cells), optimize=True)
+    return jacobians
+
+
+def is_straight(mesh: Mesh) -> bool:
+    """Whether the cells are straight: one Jacobian holds for all of a cell."""
+    return coordinate_degree(mesh) == 1
+
+
+def cell_nodes(mesh: Mesh, cells: np.ndarray) -> np.ndarray:
+    """Nodes that span the coordinates of some cells, corners first, shape (cells, nodes, gdim)."""
+    nodes: np.ndarray = mesh.geometry.x[geometry_dofmap(mesh)[cells]][:, :, : mesh.geometry.dim]
+    return nodes
+
+
+def cell_corners(mesh: Mesh, cells: np.ndarray) -> np.ndarray:
+    """Corners of some cells, shape (cells, dim + 1, gdim)."""
+    return cell_nodes(mesh, cells)[:, : mesh.topology.dim + 1]
+
+
+def owned_cells(mesh: Mesh) -> np.ndarray:
+    """The cells that this process owns."""
+    return np.arange(mesh.topology.index_map(mesh.topology.dim).size_local, dtype=np.int32)
+
+
+def _coordinate_basis(mesh: Mesh, reference: np.ndarray, derivatives: int) -> np.ndarray:
+    table: np.ndarray = _coordinate_element(mesh.topology.cell_name(), coordinate_degree(mesh)).tabulate(
+        derivatives, reference
+    )[..., 0]
+    return table
+
+
+@lru_cache(maxsize=16)
+def _coordinate_element(cell_name: str, degree: int) -> basix.finite_element.FiniteElement:
+    return basix.ufl.element("Lagrange", cell_name, degree).basix_element
+
+
+def cells_at(mesh: Mesh, points: np.ndarray) -> np.ndarray:
+    """Which owned cells have a corner exactly at one of some points (points, gdim): shape (cells,)."""
+    corners = cell_corners(mesh, owned_cells(mesh))
+    there = np.zeros(len(corners), dtype=bool)
+    for point in points:
+        there |= np.all(corners == point, axis=2).any(axis=1)
+    return there

@@ -3,29 +3,34 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import basix
 import numpy as np
+from dolfinx.mesh import Mesh
 
+from hydroelastic.fem.cells import cell_jacobians, cell_positions
 from hydroelastic.fem.liquid import LiquidSpace
-from hydroelastic.meshes.compat import geometry_dofmap
 
 
 @dataclass(frozen=True, kw_only=True)
 class FacetGroup:
-    """Facets of this process that have the same place in their cells (straight simplices).
+    """Facets of this process that have the same place in their cells.
 
     Attributes:
+        mesh: the mesh.
         cells: the cells, shape (facets,).
-        cell_nodes: coordinates of the cells' nodes, shape (facets, nodes, gdim).
+        place: number of the facet in each of them.
         reference_corners: the facet's corners on the reference cell, shape (corners, dim).
+        reference_normal: outward normal there, as long as the facet's measure over that of the reference facet.
         facet_type: shape of the facet.
     """
 
+    mesh: Mesh
     cells: np.ndarray
-    cell_nodes: np.ndarray
+    place: int
     reference_corners: np.ndarray
+    reference_normal: np.ndarray
     facet_type: basix.CellType
 
     def reference_points(self, local: np.ndarray) -> np.ndarray:
@@ -36,20 +41,38 @@ class FacetGroup:
 
     def physical_points(self, reference: np.ndarray) -> np.ndarray:
         """Coordinates of points of the reference cell in every cell, shape (facets, points, gdim)."""
-        # Barycentric coordinates are the same in every straight simplex.
-        barycentric = np.column_stack([1.0 - reference.sum(axis=1), reference])
-        points: np.ndarray = np.einsum("qn,fnd->fqd", barycentric, self.cell_nodes)
-        return points
+        return cell_positions(self.mesh, self.cells, reference)
 
-    def edges(self) -> np.ndarray:
-        """Edge vectors from each facet's first corner to the others, shape (facets, corners - 1, gdim)."""
+    def normals(self, reference: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Outward unit normals of the cells, and the measure of the facets over that of the reference facet.
+
+        Args:
+            reference: points of the facet on the reference cell, shape (points, dim).
+
+        Returns:
+            Shapes (facets, points, gdim) and (facets, points); on straight cells one point stands for all.
+        """
+        jacobians = cell_jacobians(self.mesh, self.cells, reference)
+        # Nanson's formula: n ds = det J J⁻ᵀ n₀ ds₀.
+        areas = np.abs(np.linalg.det(jacobians))[..., None] * np.einsum(
+            "fqdg,d->fqg", np.linalg.inv(jacobians), self.reference_normal
+        )
+        measures = np.linalg.norm(areas, axis=-1)
+        return areas / measures[..., None], measures
+
+    def subset(self, chosen: np.ndarray) -> FacetGroup:
+        """Some of the facets, by a mask."""
+        return replace(self, cells=self.cells[chosen])
+
+    @property
+    def longest(self) -> float:
+        """Length of the longest edge between corners of these facets; 0 without facets."""
         corners = self.physical_points(self.reference_corners)
-        vectors: np.ndarray = corners[:, 1:] - corners[:, :1]
-        return vectors
+        return float(np.linalg.norm(corners[:, 1:] - corners[:, :1], axis=2).max(initial=0.0))
 
 
-def facet_groups(liquid: LiquidSpace, name: str) -> Iterator[FacetGroup]:
-    """Facets of a named surface on this process, group by group."""
+def facet_groups(liquid: LiquidSpace, name: str, layer: int | None = None) -> Iterator[FacetGroup]:
+    """Facets of a named surface on this process, group by group; those of one layer's cells, or all."""
     mesh = liquid.tank.mesh
     dim = mesh.topology.dim
     mesh.topology.create_connectivity(dim, dim - 1)
@@ -61,13 +84,19 @@ def facet_groups(liquid: LiquidSpace, name: str) -> Iterator[FacetGroup]:
         [np.flatnonzero(cell_to_facet.links(cell) == facet)[0] for cell, facet in zip(cells, facets, strict=True)],
         dtype=np.int64,
     )
+    if layer is not None:
+        inside = liquid.layer_of[liquid.space.dofmap.list[cells, 0]] == layer
+        cells, places = cells[inside], places[inside]
     cell_type = basix.CellType[mesh.topology.cell_type.name]
-    nodes = mesh.geometry.x[geometry_dofmap(mesh)][:, :, : mesh.geometry.dim]
     for place in np.unique(places):
-        chosen = cells[places == place]
+        corners = basix.geometry(cell_type)[basix.topology(cell_type)[dim - 1][place]]
+        edges = corners[1:] - corners[0]
         yield FacetGroup(
-            cells=chosen,
-            cell_nodes=nodes[chosen],
-            reference_corners=basix.geometry(cell_type)[basix.topology(cell_type)[dim - 1][place]],
+            mesh=mesh,
+            cells=cells[places == place],
+            place=int(place),
+            reference_corners=corners,
+            reference_normal=basix.cell.facet_outward_normals(cell_type)[place]
+            * np.sqrt(np.linalg.det(edges @ edges.T)),
             facet_type=basix.cell.subentity_types(cell_type)[dim - 1][place],
         )

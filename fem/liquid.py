@@ -1,11 +1,12 @@
-"""The liquid: Laplace's equation for the displacement potential, factorized once and solved for many loads.
+"""The liquids: Laplace's equation for the displacement potential, factorized once and solved for many loads.
 
     ∫∇ψ·∇q = ∫ζ q        walls are natural boundaries
 
-A liquid on whose boundary ψ = 0 nowhere fixes ψ up to a constant and keeps its volume. One unknown is then
-grounded, which is exact for loads of zero total flux; loads and solutions are projected so that the solution operator
+Each layer of liquid has its own ψ: on the interface of two layers their meshes touch, and share no node. A layer on
+whose boundary ψ = 0 nowhere fixes ψ up to a constant and keeps its volume. One unknown of it is then grounded, which is
+exact for loads of zero total flux; loads and solutions are projected so that the solution operator
 
-    A⁺ = Πᵀ A⁻¹ Π       is symmetric, with ∫ψ = 0 over the surface
+    A⁺ = Πᵀ A⁻¹ Π       is symmetric, with ∫ψ = 0 over the surfaces of each closed layer
 
 whatever is grounded.
 """
@@ -22,26 +23,54 @@ from dolfinx.mesh import Mesh, meshtags
 from mpi4py import MPI
 from petsc4py import PETSc
 
+from hydroelastic.fem.cells import is_straight, owned_cells
 from hydroelastic.fem.direct import direct_solver
 from hydroelastic.fem.kernels import jit_options
+from hydroelastic.meshes.compat import coordinate_degree
 from hydroelastic.meshes.distribute import TankMesh
+from hydroelastic.meshes.geometry import LIQUID
+
+
+@dataclass(frozen=True, kw_only=True)
+class Layer:
+    """A layer of liquid.
+
+    Attributes:
+        name: physical name of its cells.
+        density: ρ.
+    """
+
+    name: str
+    density: float
+
+
+ONE_LIQUID = (Layer(name=LIQUID, density=1.0),)
+"""The only layer of a tank with one liquid, whose density is the unit."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class LiquidSpace:
-    """Continuous piecewise polynomials of one degree on a tank mesh.
+    """Polynomials of one degree on a tank mesh, continuous in each layer.
 
     Attributes:
         tank: the mesh.
         space: the function space of ψ.
         degree: polynomial degree.
         grounded: names of the surfaces on which ψ = 0: pressure release, or the mirror plane of antisymmetric modes.
+        layers: the liquids, from the bottom up.
+        layer_of: layer of each unknown of this process, owned ones first.
+        glued: whether the liquids move through their interface as one, as they do far above its waves. ψ then stands
+            for the pressure ρψ, which is continuous, and there is one layer of unit density for all that takes ψ; in
+            it A = ∫(1/ρ)∇ψ·∇q.
     """
 
     tank: TankMesh
     space: fem.FunctionSpace
     degree: int
     grounded: tuple[str, ...]
+    layers: tuple[Layer, ...]
+    layer_of: np.ndarray
+    glued: tuple[Layer, ...] = ()
 
     @property
     def size(self) -> int:
@@ -49,23 +78,75 @@ class LiquidSpace:
         return int(self.space.dofmap.index_map.size_global)
 
     @property
-    def keeps_volume(self) -> bool:
-        """Whether ψ is fixed only up to a constant, so that ∫ζ = 0 over the liquid's surfaces."""
-        return not self.grounded
+    def owned_layer_of(self) -> np.ndarray:
+        """Layer of each unknown that this process owns."""
+        return self.layer_of[: self.space.dofmap.index_map.size_local]
 
-    def surface_dofs(self, names: tuple[str, ...]) -> np.ndarray:
-        """Owned unknowns on the closure of named surfaces: sorted local indices."""
+    def energy_densities(self) -> np.ndarray:
+        """Kinetic energy over ½ω²|∇ψ|² in each owned cell: ρ, or 1/ρ where ψ stands for the pressure."""
+        densities = np.full(len(owned_cells(self.tank.mesh)), self.layers[0].density)
+        for layer in self.glued or self.layers[1:]:
+            cells = self.tank.cells(layer.name)
+            densities[cells[cells < len(densities)]] = 1.0 / layer.density if self.glued else layer.density
+        return densities
+
+    def facet_dofs(self, place: int) -> np.ndarray:
+        """Numbers, in a cell, of the unknowns on the closure of its facet ``place``."""
+        dim = self.tank.mesh.topology.dim - 1
+        return np.array(self.space.element.basix_element.entity_closure_dofs[dim][place])
+
+    def surface_dofs(self, names: tuple[str, ...], layer: int | None = None) -> np.ndarray:
+        """Owned unknowns on the closure of named surfaces, of one layer or of all: sorted local indices."""
         facets = np.concatenate([self.tank.facets(name) for name in names]) if names else np.empty(0, np.int32)
         dim = self.tank.mesh.topology.dim - 1
         # remote=True: a process may own an unknown of a surface none of whose facets it holds.
         dofs = fem.locate_dofs_topological(self.space, dim, facets, remote=True)
-        return np.sort(dofs[dofs < self.space.dofmap.index_map.size_local])
+        dofs = np.sort(dofs[dofs < self.space.dofmap.index_map.size_local])
+        return dofs if layer is None else dofs[self.layer_of[dofs] == layer]
 
 
-def liquid_space(tank: TankMesh, degree: int, grounded: tuple[str, ...] = ()) -> LiquidSpace:
-    """Space of ψ of the given degree; its degree does not depend on the mesh's."""
+def liquid_space(
+    tank: TankMesh,
+    degree: int,
+    grounded: tuple[str, ...] = (),
+    layers: tuple[Layer, ...] = ONE_LIQUID,
+    *,
+    glued: bool = False,
+) -> LiquidSpace:
+    """Space of ψ of the given degree; its degree does not depend on the mesh's (collective).
+
+    Args:
+        tank: the mesh.
+        degree: polynomial degree.
+        grounded: names of the surfaces on which ψ = 0.
+        layers: the liquids, from the bottom up.
+        glued: whether they move through their interface as one; the mesh is then not cut there.
+    """
     space = fem.functionspace(tank.mesh, ("Lagrange", degree))
-    return LiquidSpace(tank=tank, space=space, degree=degree, grounded=grounded)
+    index_map = space.dofmap.index_map
+    layer_of = np.zeros(index_map.size_local + index_map.num_ghosts, dtype=np.int8)
+    for number, layer in enumerate(() if glued else layers[1:], 1):
+        layer_of[space.dofmap.list[tank.cells(layer.name)].ravel()] = number
+    return LiquidSpace(
+        tank=tank,
+        space=space,
+        degree=degree,
+        grounded=grounded,
+        layers=ONE_LIQUID if glued else layers,
+        layer_of=layer_of,
+        glued=layers if glued else (),
+    )
+
+
+def closed_layers(liquid: LiquidSpace) -> tuple[int, ...]:
+    """The layers on whose boundary ψ = 0 nowhere, so that ∫ζ = 0 over their surfaces (collective)."""
+    layers = range(len(liquid.layers))
+    if not liquid.grounded:
+        return tuple(layers)
+    grounded = liquid.owned_layer_of[liquid.surface_dofs(liquid.grounded)]
+    counts = np.array([np.count_nonzero(grounded == layer) for layer in layers])
+    liquid.tank.mesh.comm.Allreduce(MPI.IN_PLACE, counts)
+    return tuple(layer for layer in layers if counts[layer] == 0)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,16 +155,21 @@ class LiquidMatrices:
 
     Attributes:
         laplace: A = ∫∇ψ·∇q.
-        surface_mass: S = ∫ψ q over the free surface, or ``None`` without one.
+        surface_mass: S = ∫ψ q over the moving surfaces of the liquids, or ``None`` without one.
     """
 
     laplace: PETSc.Mat
     surface_mass: PETSc.Mat | None
 
 
-def liquid_matrices(liquid: LiquidSpace, free_surface: str | None) -> LiquidMatrices:
-    """Assemble what the problems on one space share (collective)."""
-    surface_mass = surface_mass_matrix(liquid, (free_surface,)) if free_surface is not None else None
+def liquid_matrices(liquid: LiquidSpace, surfaces: tuple[str, ...]) -> LiquidMatrices:
+    """Assemble what the problems on one space share (collective).
+
+    Args:
+        liquid: the space.
+        surfaces: names of the moving surfaces of the liquids.
+    """
+    surface_mass = surface_mass_matrix(liquid, surfaces) if surfaces else None
     return LiquidMatrices(laplace=laplace_matrix(liquid), surface_mass=surface_mass)
 
 
@@ -99,49 +185,65 @@ def as_functions(liquid: LiquidSpace, potentials: list[PETSc.Vec]) -> list[fem.F
 
 
 # Kernels that this process has seen compiled: to look one up takes dolfinx a millisecond or two.
-_compiled: set[tuple[str, int]] = set()
+_compiled: set[tuple[str, int, int, bool]] = set()
 
 
-def compile_form(tank: TankMesh, degree: int) -> None:
+def compile_form(tank: TankMesh, degree: int, *, glued: bool = False) -> None:
     """Compile the form of a degree on rank 0, unless the cache of dolfinx has it (collective).
 
     Assembly would do it by itself; called before, it shows what of a first run goes into compiling.
     """
-    kernel = tank.mesh.topology.cell_name(), degree
+    kernel = tank.mesh.topology.cell_name(), coordinate_degree(tank.mesh), degree, glued
     # Together: one process may have solved on its own before.
     if tank.mesh.comm.allreduce(kernel not in _compiled, op=MPI.LOR):
-        _form(liquid_space(tank, degree), cells=_NONE, facets=_NONE)
+        weight = fem.Function(fem.functionspace(tank.mesh, ("DG", 0))) if glued else None
+        _form(fem.functionspace(tank.mesh, ("Lagrange", degree)), cells=_NONE, facets=_NONE, weight=weight)
         _compiled.add(kernel)
 
 
 def laplace_matrix(liquid: LiquidSpace) -> PETSc.Mat:
-    """Assemble A = ∫∇ψ·∇q, every unknown included."""
-    topology = liquid.tank.mesh.topology
-    cells = np.arange(topology.index_map(topology.dim).size_local, dtype=np.int32)
-    return _assembled(_form(liquid, cells=cells, facets=_NONE))
+    """Assemble A = ∫∇ψ·∇q, or ∫(1/ρ)∇ψ·∇q in glued liquids, every unknown included."""
+    weight = _inverse_density(liquid) if liquid.glued else None
+    return _assembled(_form(liquid.space, cells=owned_cells(liquid.tank.mesh), facets=_NONE, weight=weight))
+
+
+def _inverse_density(liquid: LiquidSpace) -> fem.Function:
+    weight = fem.Function(fem.functionspace(liquid.tank.mesh, ("DG", 0)))
+    for layer in liquid.glued:
+        weight.x.array[weight.function_space.dofmap.list[liquid.tank.cells(layer.name)].ravel()] = 1.0 / layer.density
+    return weight
 
 
 def surface_mass_matrix(liquid: LiquidSpace, names: tuple[str, ...]) -> PETSc.Mat:
     """Assemble S = ∫ψ q over named surfaces, every unknown included."""
     facets = np.unique(np.concatenate([liquid.tank.facets(name) for name in names]))
-    return _assembled(_form(liquid, cells=_NONE, facets=facets))
+    return _assembled(_form(liquid.space, cells=_NONE, facets=facets))
 
 
 _NONE = np.empty(0, dtype=np.int32)
 
 
-def _form(liquid: LiquidSpace, *, cells: np.ndarray, facets: np.ndarray) -> fem.Form:
-    """∫∇ψ·∇q over some cells + ∫ψ q over some facets of the boundary.
+# On curved cells the integrands are no polynomials: so many degrees more leave less than the geometry does.
+_CURVED_QUADRATURE = 6
+
+
+def _form(
+    space: fem.FunctionSpace, *, cells: np.ndarray, facets: np.ndarray, weight: fem.Function | None = None
+) -> fem.Form:
+    """∫w ∇ψ·∇q over some cells + ∫ψ q over some facets of the boundary; w = 1 unless it is given.
 
     A and S are this one form, each without the other's part. To compile it takes hardly longer than to compile one of
     them, for most of the time goes into starting the C compiler, reading Python's headers and linking. Which cells and
     facets are meant does not enter the code, so that scenes share it.
     """
-    mesh = liquid.tank.mesh
-    potential, test = ufl.TrialFunction(liquid.space), ufl.TestFunction(liquid.space)
-    dx = _measure("dx", mesh, mesh.topology.dim, cells, 2 * liquid.degree - 2)
-    ds = _measure("ds", mesh, mesh.topology.dim - 1, facets, 2 * liquid.degree)
-    form = ufl.inner(ufl.grad(potential), ufl.grad(test)) * dx + ufl.inner(potential, test) * ds
+    mesh = space.mesh
+    potential, test = ufl.TrialFunction(space), ufl.TestFunction(space)
+    degree = space.element.basix_element.degree
+    more = 0 if is_straight(mesh) else _CURVED_QUADRATURE
+    dx = _measure("dx", mesh, mesh.topology.dim, cells, 2 * degree - 2 + more)
+    ds = _measure("ds", mesh, mesh.topology.dim - 1, facets, 2 * degree + more)
+    energy = ufl.inner(ufl.grad(potential), ufl.grad(test))
+    form = (energy if weight is None else weight * energy) * dx + ufl.inner(potential, test) * ds
     return fem.form(form, jit_options=jit_options())
 
 
@@ -164,52 +266,89 @@ def _assembled(form: fem.Form) -> PETSc.Mat:
 
 
 def grounded_dofs(liquid: LiquidSpace) -> np.ndarray:
-    """Owned unknowns whose value is zero: those of the grounded surfaces, or one unknown of a closed liquid."""
-    if liquid.grounded:
-        return liquid.surface_dofs(liquid.grounded)
-    return np.array([0] if liquid.tank.mesh.comm.rank == 0 else [], dtype=np.int32)
+    """Owned unknowns whose value is zero: those of the grounded surfaces, and one of each closed layer (collective)."""
+    surfaces = liquid.surface_dofs(liquid.grounded) if liquid.grounded else np.empty(0, dtype=np.int32)
+    return np.union1d(surfaces, [dof for layer in closed_layers(liquid) for dof in first_dof(liquid, layer)]).astype(
+        np.int32
+    )
+
+
+def first_dof(liquid: LiquidSpace, layer: int) -> np.ndarray:
+    """The first of all unknowns of a layer, as a local index, on the process that owns it; empty elsewhere
+    (collective)."""
+    own = np.flatnonzero(liquid.owned_layer_of == layer)[:1]
+    first, last = liquid.space.dofmap.index_map.local_range
+    lowest = liquid.tank.mesh.comm.allreduce(int(own[0]) + first if len(own) else np.iinfo(np.int64).max, op=MPI.MIN)
+    return np.array([lowest - first] if first <= lowest < last else [], dtype=np.int32)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ClosedLayer:
+    """What keeps the volume of a closed layer.
+
+    Attributes:
+        dofs: its owned unknowns; a slice where they are all.
+        load: ∫q over its moving surfaces at those unknowns.
+        measure: of those surfaces.
+    """
+
+    dofs: np.ndarray | slice
+    load: np.ndarray
+    measure: float
+
+
+def closed_layer(liquid: LiquidSpace, layer: int, load: np.ndarray) -> ClosedLayer:
+    """Take from ∫q over all moving surfaces (owned entries) what belongs to one layer (collective)."""
+    dofs = slice(None) if len(liquid.layers) == 1 else np.flatnonzero(liquid.owned_layer_of == layer)
+    own = load[dofs]
+    measure = liquid.tank.mesh.comm.allreduce(float(own.sum()), op=MPI.SUM)
+    return ClosedLayer(dofs=dofs, load=own, measure=measure)
 
 
 class LiquidSolver:
-    """Factorized Laplace operator A⁺ on the free unknowns of a liquid.
+    """Factorized Laplace operator A⁺ on the free unknowns of the liquids.
 
     Args:
         matrix: A on all unknowns.
         grounded: owned local unknowns that are zero.
-        surface_load: ∫q over the moving surfaces if the liquid keeps its volume, else ``None``.
+        closed: the layers that keep their volume.
     """
 
-    def __init__(self, matrix: PETSc.Mat, grounded: np.ndarray, surface_load: PETSc.Vec | None) -> None:
+    def __init__(self, matrix: PETSc.Mat, grounded: np.ndarray, closed: tuple[ClosedLayer, ...]) -> None:
         """Factorize (collective)."""
         first, last = matrix.getOwnershipRange()
         free = np.setdiff1d(np.arange(last - first, dtype=np.int32), grounded)
-        self.free = PETSc.IS().createGeneral((free + first).astype(PETSc.IntType), comm=matrix.comm)
         self._local_free = free
-        block = matrix.createSubMatrix(self.free, self.free)
+        rows = PETSc.IS().createGeneral((free + first).astype(PETSc.IntType), comm=matrix.comm)
+        block = matrix.createSubMatrix(rows, rows)
         self._solver = direct_solver(block)
         self._solver.setUp()
         self._rhs, self._solution = block.createVecs()
-        self._surface_load = surface_load
-        self._surface_measure = surface_load.sum() if surface_load is not None else 0.0
+        self._closed = closed
+        self._comm = matrix.comm.tompi4py()
         self.solves = 0
-
-    def unconstrained(self, matrix: PETSc.Mat) -> PETSc.IS:
-        """Unknowns that no grounded surface fixes: all of them in a liquid that keeps its volume."""
-        if self._surface_load is None:
-            return self.free
-        first, last = matrix.getOwnershipRange()
-        return PETSc.IS().createStride(last - first, first=first, step=1, comm=matrix.comm)
 
     def solve(self, load: PETSc.Vec, potential: PETSc.Vec) -> None:
         """``potential`` ← A⁺ ``load`` (both on all unknowns; ``load`` is not changed)."""
-        if self._surface_load is not None:
-            flux = load.sum() / self._surface_measure
-            self._rhs.array[:] = (load.array_r - flux * self._surface_load.array_r)[self._local_free]
-        else:
-            self._rhs.array[:] = load.array_r[self._local_free]
+        values = load.array_r
+        if self._closed:
+            values = values.copy()
+            fluxes = self._sums([values[layer.dofs].sum() for layer in self._closed])
+            for layer, flux in zip(self._closed, fluxes, strict=True):
+                values[layer.dofs] -= flux / layer.measure * layer.load
+        self._rhs.array[:] = values[self._local_free]
         self._solver.solve(self._rhs, self._solution)
         potential.set(0.0)
-        potential.array[self._local_free] = self._solution.array_r
-        if self._surface_load is not None:
-            potential.shift(-self._surface_load.dot(potential) / self._surface_measure)
+        solution = potential.array
+        solution[self._local_free] = self._solution.array_r
+        if self._closed:
+            means = self._sums([layer.load @ solution[layer.dofs] for layer in self._closed])
+            for layer, mean in zip(self._closed, means, strict=True):
+                solution[layer.dofs] -= mean / layer.measure
         self.solves += 1
+
+    def _sums(self, values: list[float]) -> np.ndarray:
+        """Sums over all processes."""
+        total = np.array(values)
+        self._comm.Allreduce(MPI.IN_PLACE, total)
+        return total

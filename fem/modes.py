@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from petsc4py import PETSc
@@ -30,9 +31,9 @@ class Mode:
         eigenvalue: λ = ω².
         displacement: surface unknowns ζ.
         potential: ψ, its constant included.
-        residual: relative residual ‖Kζ − λ(Mζ + ρCᵀψ)‖ / ‖Kζ‖ in the norm of K⁻¹.
+        residual: relative residual ‖Kζ − λ(Mζ + (ρC)ᵀψ)‖ / ‖Kζ‖ in the norm of K⁻¹.
         body_amplitudes: the body part of ζ, on every process.
-        energy: share of each block in the potential energy: body unknowns one by one, then the free surface.
+        energy: share in the potential energy: body unknowns one by one, then each surface of the liquids.
     """
 
     eigenvalue: float
@@ -55,6 +56,7 @@ class ModeSet:
         completed: gives any other mode with its shape, by index, at the cost of one solution of Laplace's equation
             (collective).
         zero_modes: how many motions without stiffness exist (not reported as modes).
+        growing: the motions of an unstable float, λ < 0, that grow like e^{√(−λ) t}.
         converged: eigenpairs that the solver delivered.
         iterations: restarts of the Krylov–Schur method.
         solves: solutions of Laplace's equation.
@@ -68,6 +70,7 @@ class ModeSet:
     converged: int
     iterations: int
     solves: int
+    growing: tuple[Mode, ...] = ()
 
 
 def solve_modes(pencil: CoupledPencil, count: int, *, shapes: int | None = None, tolerance: float = 1e-12) -> ModeSet:
@@ -90,18 +93,11 @@ def solve_modes(pencil: CoupledPencil, count: int, *, shapes: int | None = None,
         EigenSolverError: if SLEPc stops before enough pairs have converged.
     """
     kinetics = CondensedKinetics(pencil)
-    available = pencil.size - len(kinetics.free_rigid) - int(pencil.liquid.keeps_volume)
+    available = pencil.size - len(pencil.constraints) - pencil.zero_mode_count
     count = min(count, available)
     before = pencil.solver.solves
-    solver = _krylov_schur(pencil, kinetics, count, tolerance)
-    with interrupts_deferred():
-        solver.solve()
-    converged = solver.getConverged()
-    if converged < count:
-        raise EigenSolverError(
-            f"{converged} of {count} eigenpairs converged to {tolerance:g} in {solver.getIterationNumber()} restarts"
-        )
-    inverses = np.array([solver.getEigenvalue(number).real for number in range(count)])
+    solver = _krylov_schur(pencil, kinetics, count, tolerance, SLEPc.EPS.Which.LARGEST_REAL)
+    converged, inverses = _inverses(solver, count, tolerance)
     order = np.argsort(-inverses)
     # M + M_a is positive: what is not, or hardly, is rounding of the largest.
     count = int(np.sum(inverses > HIDDEN * inverses.max(initial=0.0)))
@@ -132,16 +128,51 @@ def solve_modes(pencil: CoupledPencil, count: int, *, shapes: int | None = None,
         converged=converged,
         iterations=solver.getIterationNumber(),
         solves=pencil.solver.solves - before,
+        growing=_growing(pencil, kinetics, tolerance),
     )
 
 
-def _krylov_schur(pencil: CoupledPencil, kinetics: CondensedKinetics, count: int, tolerance: float) -> SLEPc.EPS:
-    operator = PETSc.Mat().createPython(pencil.stiffness.getSizes(), kinetics, comm=pencil.stiffness.comm)
+def _growing(pencil: CoupledPencil, kinetics: CondensedKinetics, tolerance: float) -> tuple[Mode, ...]:
+    """The modes with λ < 0: as many as K has negative directions, for M + M_a is positive."""
+    count = len(pencil.unstable)
+    if count == 0:
+        return ()
+    solver = _krylov_schur(pencil, kinetics, count, tolerance, SLEPc.EPS.Which.SMALLEST_REAL)
+    _, inverses = _inverses(solver, count, tolerance)
+    displacement, force = pencil.stiffness.createVecs()
+    modes = []
+    for number in np.argsort(-inverses):
+        solver.getEigenvector(int(number), displacement)
+        pencil.stiffness.mult(displacement, force)
+        eigenvalue = float(1.0 / inverses[number])
+        displacement.scale(np.sqrt(eigenvalue / displacement.dot(force)))
+        modes.append(_complete(pencil, kinetics, solver, eigenvalue, displacement))
+    return tuple(modes)
+
+
+def _inverses(solver: SLEPc.EPS, count: int, tolerance: float) -> tuple[int, np.ndarray]:
+    """Solve; return how many eigenpairs converged, and 1/λ of the first ones."""
+    with interrupts_deferred():
+        solver.solve()
+    converged = solver.getConverged()
+    if converged < count:
+        raise EigenSolverError(
+            f"{converged} of {count} eigenpairs converged to {tolerance:g} in {solver.getIterationNumber()} restarts"
+        )
+    return converged, np.array([solver.getEigenvalue(number).real for number in range(count)])
+
+
+def _krylov_schur(
+    pencil: CoupledPencil, kinetics: CondensedKinetics, count: int, tolerance: float, which: SLEPc.EPS.Which
+) -> SLEPc.EPS:
+    stable = len(pencil.unstable) == 0
+    context = kinetics if stable else _Turned(kinetics)
+    operator = PETSc.Mat().createPython(pencil.stiffness.getSizes(), context, comm=pencil.stiffness.comm)
     operator.setUp()
     solver = SLEPc.EPS().create(pencil.stiffness.comm)
     solver.setOperators(operator, kinetics.definite_stiffness)
-    solver.setProblemType(SLEPc.EPS.ProblemType.GHEP)
-    solver.setWhichEigenpairs(SLEPc.EPS.Which.LARGEST_REAL)
+    solver.setProblemType(SLEPc.EPS.ProblemType.GHEP if stable else SLEPc.EPS.ProblemType.PGNHEP)
+    solver.setWhichEigenpairs(which)
     solver.setTolerances(tolerance, 200)
     # Measured from 5 to 200 modes: with twice the pairs asked, and some, the fewest solutions of Laplace's equation.
     solver.setDimensions(count, min(2 * count + 12, pencil.size))
@@ -150,6 +181,21 @@ def _krylov_schur(pencil: CoupledPencil, kinetics: CondensedKinetics, count: int
     configure_direct(solver.getST().getKSP())
     kinetics.definite_stiffness.setOption(PETSc.Mat.Option.SPD, True)
     return solver
+
+
+class _Turned:
+    """J(M + M_a) with J = ±1, so that K = J|K|: (M + M_a) ζ = μ K ζ becomes J(M + M_a) ζ = μ |K| ζ.
+
+    It is not symmetric, but its eigenvalues are real, for M + M_a is positive.
+    """
+
+    def __init__(self, kinetics: CondensedKinetics) -> None:
+        self._kinetics = kinetics
+
+    def mult(self, matrix: PETSc.Mat | None, displacement: PETSc.Vec, result: PETSc.Vec) -> None:
+        """``result`` ← J(M + M_a) ``displacement``."""
+        self._kinetics.mult(matrix, displacement, result)
+        self._kinetics.turn_unstable(result)
 
 
 def _complete(
@@ -179,22 +225,26 @@ def _residual(
     force: PETSc.Vec,
 ) -> float:
     residual, image = force.copy(), force.duplicate()
-    pencil.coupling.multTranspose(potential, image)
-    residual.axpy(-eigenvalue * pencil.density, image)
+    pencil.momentum.multTranspose(potential, image)
+    residual.axpy(-eigenvalue, image)
     pencil.mass.mult(displacement, image)
     residual.axpy(-eigenvalue, image)
     solver.getST().getKSP().solve(residual, image)
-    return float(np.sqrt(abs(residual.dot(image)) / force.dot(displacement)))
+    return float(np.sqrt(abs(residual.dot(image) / force.dot(displacement))))
 
 
 def _energy_shares(pencil: CoupledPencil, displacement: PETSc.Vec, force: PETSc.Vec) -> np.ndarray:
     total = displacement.dot(force)
-    bodies = pencil.body_values(displacement) * pencil.body_values(force) / total
-    return np.append(bodies, 1.0 - bodies.sum())
+    bodies = pencil.body_values(displacement) * pencil.body_values(force)
+    comm = displacement.comm.tompi4py()
+    local = displacement.array_r * force.array_r
+    stops = np.cumsum([len(local) - sum(pencil.surface_sizes), *pencil.surface_sizes])
+    surfaces = [comm.allreduce(float(local[start:stop].sum())) for start, stop in pairwise(stops)]
+    return np.array([*bodies, *surfaces]) / total
 
 
 def count_below(pencil: CoupledPencil, eigenvalue: float) -> int:
-    """Number of modes with 0 < λ < ``eigenvalue``, from the inertia of one factorization.
+    """Number of modes with λ < ``eigenvalue``, from the inertia of one factorization.
 
     The matrix [[K − σM, −σρCᵀ], [−σρC, σρA]] has as many negative pivots as there are modes below σ, zero modes
     included, and one more where the constant of ψ multiplies the volume constraint. It shares no step with the
@@ -205,23 +255,24 @@ def count_below(pencil: CoupledPencil, eigenvalue: float) -> int:
         eigenvalue: σ > 0, not itself an eigenvalue.
 
     Returns:
-        The count, without zero modes (collective).
+        The count, without zero modes; modes that grow have λ < 0 and count (collective).
     """
     block = pencil.stiffness.copy()
     block.axpy(-eigenvalue, pencil.mass, structure=PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN)
-    factor = eigenvalue * pencil.density
-    rows = pencil.solver.unconstrained(pencil.laplace)
+    rows = _unconstrained(pencil)
     # The copies matter: PETSc hands out the matrix itself where all of it is asked for.
     laplace = pencil.laplace.createSubMatrix(rows, rows).copy()
-    laplace.scale(factor)
+    weights = laplace.createVecLeft()
+    weights.array[:] = eigenvalue * _densities(pencil)[rows.getIndices() - pencil.laplace.getOwnershipRange()[0]]
+    laplace.diagonalScale(L=weights)
     columns = PETSc.IS().createStride(
         pencil.stiffness.getLocalSize()[0],
         first=pencil.stiffness.getOwnershipRange()[0],
         step=1,
         comm=pencil.laplace.comm,
     )
-    coupling = pencil.coupling.createSubMatrix(rows, columns).copy()
-    coupling.scale(-factor)
+    coupling = pencil.momentum.createSubMatrix(rows, columns).copy()
+    coupling.scale(-eigenvalue)
     transpose = coupling.transpose(PETSc.Mat())
     whole = PETSc.Mat().createNest([[block, transpose], [coupling, laplace]], comm=block.comm).convert("aij")
     whole.setOption(PETSc.Mat.Option.SYMMETRIC, True)
@@ -234,4 +285,19 @@ def count_below(pencil: CoupledPencil, eigenvalue: float) -> int:
     negative, zero, _ = factored.getInertia()
     if zero:
         raise EigenSolverError(f"the shift {eigenvalue:g} is an eigenvalue to working precision")
-    return int(negative) - int(pencil.liquid.keeps_volume) - pencil.zero_mode_count
+    return int(negative) - len(pencil.constraints) - pencil.zero_mode_count
+
+
+def _unconstrained(pencil: CoupledPencil) -> PETSc.IS:
+    """Unknowns of ψ that no grounded surface fixes, but one of each layer whose constant means nothing."""
+    first, last = pencil.laplace.getOwnershipRange()
+    liquid = pencil.liquid
+    fixed = liquid.surface_dofs(liquid.grounded) if liquid.grounded else np.empty(0, dtype=np.int32)
+    free = np.setdiff1d(np.arange(last - first, dtype=np.int32), np.union1d(fixed, pencil.free_constants))
+    return PETSc.IS().createGeneral((free + first).astype(PETSc.IntType), comm=pencil.laplace.comm)
+
+
+def _densities(pencil: CoupledPencil) -> np.ndarray:
+    """ρ at each owned unknown of ψ."""
+    densities: np.ndarray = np.array([layer.density for layer in pencil.liquid.layers])[pencil.liquid.owned_layer_of]
+    return densities

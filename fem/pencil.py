@@ -1,21 +1,52 @@
 """The coupled problem as a plain value: K, M, C, A and what each block of unknowns means.
 
-    K ζ = ω² (M ζ + ρ Cᵀ ψ),    A ψ = C ζ        ζ = (a, η): body shapes, then the free surface
+    K ζ = ω² (M ζ + (ρC)ᵀ ψ),    A ψ = C ζ        ζ = (a, η …): body shapes, then the surfaces of the liquids
 
-Every analysis takes this value. Unknowns are distributed: the bodies' few on rank 0, those of the free surface beside
+Every analysis takes this value. Unknowns are distributed: the bodies' few on rank 0, those of a liquid's surface beside
 the potential's unknowns on the same surface.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from petsc4py import PETSc
 
-from hydroelastic.fem.liquid import LiquidMatrices, LiquidSolver, LiquidSpace, grounded_dofs
+from hydroelastic.fem.liquid import (
+    LiquidMatrices,
+    LiquidSolver,
+    LiquidSpace,
+    closed_layer,
+    closed_layers,
+    first_dof,
+    grounded_dofs,
+)
 from hydroelastic.fem.shape_loads import shape_loads, surface_load
-from hydroelastic.fem.surfaces import Body, FreeSurface
+from hydroelastic.fem.surfaces import Body, LiquidSurface
+from hydroelastic.fem.traces import surface_blocks
+
+# A rigid motion displaces no volume if it displaces less than this part of what others do.
+_NO_VOLUME = 1e-10
+# Constraints that differ by less than this part differ by rounding of the loads, which is 4e-9 at the ends of a thin
+# ellipse; a gap of the top of 1e-4 of the tank's length is one more by 1e-3.
+_SAME_VOLUME = 1e-6
+
+
+@dataclass(frozen=True, kw_only=True)
+class VolumeConstraint:
+    """∫ζ = 0 over the surfaces of a closed layer: what the constant of its ψ multiplies.
+
+    Attributes:
+        layer: index of the layer.
+        density: ρ of it.
+        volume: what a unit of each surface unknown takes from the layer, length n.
+    """
+
+    layer: int
+    density: float
+    volume: PETSc.Vec
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -25,26 +56,31 @@ class CoupledPencil:
     Attributes:
         liquid: the space of ψ.
         bodies: the bodies, in the order of their unknowns.
-        free_surface: the free surface, or ``None``.
-        density: ρ of the liquid.
-        stiffness: K, n × n, symmetric and semi-definite; zero on rigid motions without restoring force.
-        mass: M, n × n; zero on the free surface.
+        surfaces: the surfaces of the liquids that move under gravity, in the order of their unknowns.
+        stiffness: K, n × n, symmetric; zero on rigid motions without restoring force, negative on unstable ones.
+        mass: M, n × n; zero on the surfaces of the liquids.
         coupling: C, N × n: load on ψ by a unit of each surface unknown.
+        momentum: ρC, each row times the density of its layer.
         laplace: A, N × N.
         solver: A⁺.
-        volume: Cᵀ1, the volume that a unit of each surface unknown displaces, length n.
+        constraints: of the closed layers. Where one follows from the others, as in two liquids that fill a rigid tank,
+            it is left out: the constant of its ψ then means nothing.
+        free_constants: owned unknowns of ψ, one for each layer whose constraint was left out.
+        surface_sizes: number of own unknowns of each surface on this process; they follow those of the bodies.
     """
 
     liquid: LiquidSpace
     bodies: tuple[Body, ...]
-    free_surface: FreeSurface | None
-    density: float
+    surfaces: tuple[LiquidSurface, ...]
     stiffness: PETSc.Mat
     mass: PETSc.Mat
     coupling: PETSc.Mat
+    momentum: PETSc.Mat
     laplace: PETSc.Mat
     solver: LiquidSolver
-    volume: PETSc.Vec
+    constraints: tuple[VolumeConstraint, ...]
+    free_constants: np.ndarray
+    surface_sizes: tuple[int, ...]
 
     @property
     def body_size(self) -> int:
@@ -56,24 +92,45 @@ class CoupledPencil:
         """Number of surface unknowns n."""
         return int(self.stiffness.getSize()[0])
 
+    @cached_property
+    def body_stiffness(self) -> np.ndarray:
+        """Stiffness of the body unknowns, shape (body unknowns,)."""
+        return np.concatenate([body.stiffness for body in self.bodies] or [np.empty(0)])
+
+    @property
+    def unstable(self) -> np.ndarray:
+        """Indices of the body unknowns of negative stiffness: a float that would rather turn over."""
+        return np.flatnonzero(self.body_stiffness < 0.0)
+
     @property
     def free_rigid(self) -> np.ndarray:
         """Indices of the body unknowns without stiffness: rigid motions that nothing restores."""
-        stiffness = np.concatenate([body.stiffness for body in self.bodies] or [np.empty(0)])
-        return np.flatnonzero(stiffness == 0.0)
+        return np.flatnonzero(self.body_stiffness == 0.0)
 
-    @property
-    def rigid_displaces(self) -> bool:
-        """Whether one of them displaces volume (collective)."""
-        volume = np.abs(self.body_values(self.volume))
-        # Pitch displaces none but for round-off: compare with the largest.
-        return bool(np.any(volume[self.free_rigid] > 1e-10 * volume.max(initial=0.0)))
+    @cached_property
+    def rigid_volumes(self) -> np.ndarray:
+        """What each of them takes from each constrained layer, shape (motions, constraints) (collective).
+
+        Pitch displaces none but for round-off: what is below it is zero.
+        """
+        volumes = [self.body_values(constraint.volume) for constraint in self.constraints]
+        largest = max((np.abs(volume).max(initial=0.0) for volume in volumes), default=0.0)
+        table = np.array(volumes).reshape(len(volumes), self.body_size).T[self.free_rigid]
+        return np.where(np.abs(table) > _NO_VOLUME * largest, table, 0.0)
+
+    @cached_property
+    def rigid_constraints(self) -> tuple[np.ndarray, int]:
+        """Orthogonal combinations of the constraints as columns, and in how many, the first, they take part
+        (collective)."""
+        if not self.rigid_volumes.size:
+            return np.eye(len(self.constraints)), 0
+        _, sizes, turn = np.linalg.svd(self.rigid_volumes)
+        return turn.T, int(np.sum(sizes > _NO_VOLUME * sizes[0]))
 
     @property
     def zero_mode_count(self) -> int:
-        """Motions of zero stiffness that the liquid's volume allows (collective)."""
-        constrained = self.liquid.keeps_volume and self.rigid_displaces
-        return len(self.free_rigid) - int(constrained)
+        """Motions of zero stiffness that the liquids' volumes allow (collective)."""
+        return len(self.free_rigid) - self.rigid_constraints[1]
 
     def body_values(self, vector: PETSc.Vec) -> np.ndarray:
         """The body unknowns of a surface vector, on every process."""
@@ -87,8 +144,7 @@ def build_pencil(
     matrices: LiquidMatrices,
     *,
     bodies: tuple[Body, ...],
-    free_surface: FreeSurface | None,
-    density: float,
+    surfaces: tuple[LiquidSurface, ...],
 ) -> CoupledPencil:
     """Assemble the coupled problem.
 
@@ -96,47 +152,45 @@ def build_pencil(
         liquid: space of the potential.
         matrices: A and S on that space.
         bodies: what floats.
-        free_surface: the gravity surface, or ``None`` when a lid, bodies or ψ = 0 take all of the top.
-        density: ρ of the liquid.
+        surfaces: those of the liquids that move under gravity: free surface and interface.
 
     Returns:
         The matrices, with the liquid factorized (collective).
     """
     laplace = matrices.laplace
-    blocks = [_body_coupling(liquid, bodies, laplace)] if bodies else []
-    body_stiffness = np.concatenate([body.stiffness for body in bodies] or [np.empty(0)])
-    body_mass = np.concatenate([body.mass for body in bodies] or [np.empty(0)])
-    stiffness_blocks = [_diagonal(body_stiffness, laplace.comm)] if bodies else []
-    mass_blocks = [_diagonal(body_mass, laplace.comm)] if bodies else []
-    if free_surface is not None:
-        first = laplace.getOwnershipRange()[0]
-        dofs = liquid.surface_dofs((free_surface.surface,)) + first
-        on_surface = PETSc.IS().createGeneral(dofs.astype(PETSc.IntType), comm=laplace.comm)
-        everything = PETSc.IS().createStride(laplace.getLocalSize()[0], first=first, step=1, comm=laplace.comm)
-        surface_mass = matrices.surface_mass
-        assert surface_mass is not None
-        blocks.append(surface_mass.createSubMatrix(everything, on_surface))
-        gravity_stiffness = surface_mass.createSubMatrix(on_surface, on_surface)
-        gravity_stiffness.scale(density * free_surface.gravity)
-        stiffness_blocks.append(gravity_stiffness)
-        mass_blocks.append(_zero_like(gravity_stiffness))
+    blocks, stiffness_blocks, mass_blocks = [], [], []
+    sizes = []
+    if bodies:
+        blocks.append(_body_coupling(liquid, bodies, laplace))
+        stiffness_blocks.append(_diagonal(np.concatenate([body.stiffness for body in bodies]), laplace.comm))
+        mass_blocks.append(_diagonal(np.concatenate([body.mass for body in bodies]), laplace.comm))
+    for surface in surfaces:
+        assert matrices.surface_mass is not None
+        coupling_block, stiffness_block = surface_blocks(liquid, surface, matrices.surface_mass)
+        blocks.append(coupling_block)
+        stiffness_blocks.append(stiffness_block)
+        mass_blocks.append(_zero_like(stiffness_block))
+        sizes.append(stiffness_block.getLocalSize()[0])
     coupling = _joined([blocks])
-    ones = coupling.createVecLeft()
-    ones.set(1.0)
-    volume = coupling.createVecRight()
-    coupling.multTranspose(ones, volume)
-    moving = _moving_surface_load(liquid, bodies, free_surface, laplace) if liquid.keeps_volume else None
+    constraints, free_constants = _volume_constraints(liquid, coupling)
+    names = tuple(dict.fromkeys([*(body.surface for body in bodies), *(surface.surface for surface in surfaces)]))
+    closed = closed_layers(liquid)
+    load = surface_load(liquid, names) if closed else np.empty(0)
     return CoupledPencil(
         liquid=liquid,
         bodies=bodies,
-        free_surface=free_surface,
-        density=density,
+        surfaces=surfaces,
         stiffness=_joined(_block_diagonal(stiffness_blocks)),
         mass=_joined(_block_diagonal(mass_blocks)),
         coupling=coupling,
+        momentum=_weighed(liquid, coupling),
         laplace=laplace,
-        solver=LiquidSolver(laplace, grounded_dofs(liquid), moving),
-        volume=volume,
+        solver=LiquidSolver(
+            laplace, grounded_dofs(liquid), tuple(closed_layer(liquid, layer, load) for layer in closed)
+        ),
+        constraints=constraints,
+        free_constants=free_constants,
+        surface_sizes=tuple(sizes),
     )
 
 
@@ -163,14 +217,51 @@ def _body_coupling(liquid: LiquidSpace, bodies: tuple[Body, ...], laplace: PETSc
     return matrix
 
 
-def _moving_surface_load(
-    liquid: LiquidSpace, bodies: tuple[Body, ...], free_surface: FreeSurface | None, laplace: PETSc.Mat
-) -> PETSc.Vec:
-    """∫q over all moving surfaces."""
-    names = [body.surface for body in bodies] + ([free_surface.surface] if free_surface else [])
-    load = laplace.createVecRight()
-    load.array[:] = surface_load(liquid, tuple(names))
-    return load
+def _weighed(liquid: LiquidSpace, coupling: PETSc.Mat) -> PETSc.Mat:
+    """ρC; C itself where ρ = 1 everywhere."""
+    densities = np.array([layer.density for layer in liquid.layers])
+    if np.all(densities == 1.0):
+        return coupling
+    weights = coupling.createVecLeft()
+    weights.array[:] = densities[liquid.owned_layer_of]
+    weighed = coupling.copy()
+    weighed.diagonalScale(L=weights)
+    return weighed
+
+
+def _volume_constraints(liquid: LiquidSpace, coupling: PETSc.Mat) -> tuple[tuple[VolumeConstraint, ...], np.ndarray]:
+    """The constraints of the closed layers that do not follow from those before, and an unknown of ψ for each other.
+
+    A constraint may say nothing at all: what a beam pushes down it takes from above, where liquids move as one.
+    """
+    constraints: list[VolumeConstraint] = []
+    free = [np.empty(0, dtype=np.int32)]
+    ones = coupling.createVecLeft()
+    largest = coupling.norm(PETSc.NormType.NORM_1)
+    for layer in closed_layers(liquid):
+        ones.array[:] = liquid.owned_layer_of == layer
+        volume = coupling.createVecRight()
+        coupling.multTranspose(ones, volume)
+        if _is_new(volume, constraints, largest):
+            constraints.append(VolumeConstraint(layer=layer, density=liquid.layers[layer].density, volume=volume))
+        else:
+            free.append(first_dof(liquid, layer))
+    return tuple(constraints), np.concatenate(free)
+
+
+def _is_new(volume: PETSc.Vec, constraints: list[VolumeConstraint], largest: float) -> bool:
+    """Whether a constraint says something that others do not; ``largest`` is what a unit moves in and out at most."""
+    if volume.norm(PETSc.NormType.NORM_INFINITY) <= _SAME_VOLUME * largest:
+        return False
+    if not constraints:
+        return True
+    size, rest = volume.norm(), volume.copy()
+    # Least squares on the few others; they are independent.
+    gram = np.array([[one.volume.dot(other.volume) for other in constraints] for one in constraints])
+    parts = np.linalg.solve(gram, [one.volume.dot(volume) for one in constraints])
+    for part, one in zip(parts, constraints, strict=True):
+        rest.axpy(-part, one.volume)
+    return bool(rest.norm() > _SAME_VOLUME * size)
 
 
 def _diagonal(values: np.ndarray, comm: PETSc.Comm) -> PETSc.Mat:

@@ -9,7 +9,7 @@ from dolfinx import fem
 from mpi4py import MPI
 from numpy.typing import NDArray
 
-from hydroelastic.fem.cells import cell_corners, cell_jacobians
+from hydroelastic.fem.cells import cell_corners, cell_jacobians, cell_positions, owned_cells
 from hydroelastic.fem.facets import facet_groups
 from hydroelastic.fem.liquid import LiquidSpace
 
@@ -51,15 +51,14 @@ def sample_liquid(liquid: LiquidSpace, functions: list[fem.Function]) -> LiquidS
         The sample on rank 0, ``None`` elsewhere (collective).
     """
     mesh = liquid.tank.mesh
-    corners = cell_corners(liquid)
-    jacobian = cell_jacobians(corners)
-    size = np.sqrt(np.abs(np.linalg.det(jacobian)))
+    corners = cell_corners(mesh, owned_cells(mesh))
+    size = np.sqrt(np.abs(np.linalg.det(corners[:, 1:] - corners[:, :1])))
     largest = mesh.comm.allreduce(size.max(initial=0.0), op=MPI.MAX)
     levels = np.select([size > 0.25 * largest, size > 0.05 * largest, size > 0.01 * largest], [10, 6, 4], 2)
     pieces = []
     for level in np.unique(levels):
         cells = np.flatnonzero(levels == level)
-        pieces.append(_sample_cells(liquid, functions, cells, corners[cells], jacobian[cells], int(level)))
+        pieces.append(_sample_cells(liquid, functions, cells, int(level)))
     gathered = mesh.comm.gather(pieces, root=0)
     if gathered is None:
         return None
@@ -67,23 +66,19 @@ def sample_liquid(liquid: LiquidSpace, functions: list[fem.Function]) -> LiquidS
 
 
 def _sample_cells(
-    liquid: LiquidSpace,
-    functions: list[fem.Function],
-    cells: np.ndarray,
-    corners: np.ndarray,
-    jacobian: np.ndarray,
-    level: int,
+    liquid: LiquidSpace, functions: list[fem.Function], cells: np.ndarray, level: int
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     reference, triangles = _subdivided_triangle(level)
     table = liquid.space.element.basix_element.tabulate(1, reference)[:, :, :, 0]
     dofs = liquid.space.dofmap.list[cells]
-    points = corners[:, :1] + np.einsum("cij,pj->cpi", jacobian, reference)
-    inverse = np.linalg.inv(jacobian)
+    points = cell_positions(liquid.tank.mesh, cells, reference)
+    inverse = np.linalg.inv(cell_jacobians(liquid.tank.mesh, cells, reference))
+    inverse = np.broadcast_to(inverse, (*points.shape[:2], *inverse.shape[2:]))
     potential = np.array([function.x.array[dofs] @ table[0].T for function in functions])
     reference_gradient = np.array(
         [np.stack([function.x.array[dofs] @ table[k].T for k in (1, 2)], axis=-1) for function in functions]
     )
-    gradient = np.einsum("mcpj,cji->mcpi", reference_gradient, inverse)
+    gradient = np.einsum("mcpj,cpji->mcpi", reference_gradient, inverse)
     connectivity = (np.arange(len(cells)) * len(reference))[:, None, None] + triangles[None]
     modes = len(functions)
     return (
@@ -121,15 +116,23 @@ def _subdivided_triangle(level: int) -> tuple[np.ndarray, np.ndarray]:
     return np.array(points), np.array(triangles)
 
 
-def sample_surface(liquid: LiquidSpace, functions: list[fem.Function], name: str) -> SurfaceTrace | None:
+def sample_surface(
+    liquid: LiquidSpace, functions: list[fem.Function], name: str, layer: int = 0
+) -> SurfaceTrace | None:
     """ψ along a named line, at equal steps in each facet.
+
+    Args:
+        liquid: the space of ψ.
+        functions: ψ of each mode.
+        name: of the line.
+        layer: the liquid on whose side of it ψ is meant.
 
     Returns:
         The trace on rank 0, ``None`` elsewhere (collective).
     """
     local = np.linspace(0.0, 1.0, 2 * liquid.degree + 1)[:, None]
     x, values = [np.empty(0)], [np.empty((len(functions), 0))]
-    for group in facet_groups(liquid, name):
+    for group in facet_groups(liquid, name, layer):
         reference = group.reference_points(local)
         basis = liquid.space.element.basix_element.tabulate(0, reference)[0, :, :, 0]
         dofs = liquid.space.dofmap.list[group.cells]

@@ -25,7 +25,7 @@ def shape_loads(liquid: LiquidSpace, body: Body) -> np.ndarray:
     """Integrate every shape of a body against every basis function of ψ.
 
     Args:
-        liquid: space of ψ on straight simplices.
+        liquid: space of ψ on simplices.
         body: the body.
 
     Returns:
@@ -34,8 +34,10 @@ def shape_loads(liquid: LiquidSpace, body: Body) -> np.ndarray:
     index_map = liquid.space.dofmap.index_map
     loads = np.zeros((body.size, index_map.size_local + index_map.num_ghosts))
     for group in facet_groups(liquid, body.surface):
-        _add_loads(liquid, body, group, loads)
-    return _summed_over_processes(liquid, loads)
+        at_corner = _singular_corner(body, group)
+        for corner in np.unique(at_corner):
+            _add_loads(liquid, body, group.subset(at_corner == corner), int(corner), loads)
+    return summed_over_processes(liquid, loads)
 
 
 def surface_load(liquid: LiquidSpace, names: tuple[str, ...]) -> np.ndarray:
@@ -48,18 +50,13 @@ def surface_load(liquid: LiquidSpace, names: tuple[str, ...]) -> np.ndarray:
     load = np.zeros((1, index_map.size_local + index_map.num_ghosts))
     for name in names:
         for group in facet_groups(liquid, name):
-            local, weights = basix.make_quadrature(group.facet_type, liquid.degree)
-            basis = _basis(liquid, group.reference_points(local))
+            local, weights = basix.make_quadrature(group.facet_type, 2 * liquid.degree)
+            reference = group.reference_points(local)
+            _, measures = group.normals(reference)
             dofs = liquid.space.dofmap.list[group.cells]
-            np.add.at(load[0], dofs, _measure_ratio(group.edges())[:, None] * (weights @ basis))
-    total: np.ndarray = _summed_over_processes(liquid, load)[0]
+            np.add.at(load[0], dofs, (measures * weights) @ _basis(liquid, reference))
+    total: np.ndarray = summed_over_processes(liquid, load)[0]
     return total
-
-
-def _measure_ratio(edges: np.ndarray) -> np.ndarray:
-    """Measure of each facet over that of the reference facet."""
-    ratio: np.ndarray = np.sqrt(np.linalg.det(np.einsum("fid,fjd->fij", edges, edges)))
-    return ratio
 
 
 def _basis(liquid: LiquidSpace, reference: np.ndarray) -> np.ndarray:
@@ -68,25 +65,46 @@ def _basis(liquid: LiquidSpace, reference: np.ndarray) -> np.ndarray:
     return table
 
 
-def _add_loads(liquid: LiquidSpace, body: Body, group: FacetGroup, loads: np.ndarray) -> None:
-    edges = group.edges()
-    scale = _measure_ratio(edges)
-    radians = body.wavenumber * np.linalg.norm(edges, axis=2).max(initial=0.0)
-    count = ceil(0.5 * liquid.degree + 0.5 * radians) + _SPARE_POINTS
+def _singular_corner(body: Body, group: FacetGroup) -> np.ndarray:
+    """Number of the corner of each facet at which the shapes have no bounded slope, or −1."""
+    found = np.full(len(group.cells), -1)
+    if body.singular_points is not None:
+        corners = group.physical_points(group.reference_corners)
+        for number in range(corners.shape[1]):
+            there = (corners[:, number, None] == body.singular_points).all(axis=2).any(axis=1)
+            found[there] = number
+    return found
+
+
+def _clustered(local: np.ndarray, weights: np.ndarray, corner: int) -> tuple[np.ndarray, np.ndarray]:
+    """Quadrature on a line by t = s² from one of its ends: what behaves like t^{-1/2} there becomes smooth."""
+    s = local[:, 0] if corner == 0 else 1.0 - local[:, 0]
+    t = s**2 if corner == 0 else 1.0 - s**2
+    return t[:, None], 2.0 * s * weights
+
+
+def _add_loads(liquid: LiquidSpace, body: Body, group: FacetGroup, singular_corner: int, loads: np.ndarray) -> None:
+    count = ceil(0.5 * liquid.degree + 0.5 * body.wavenumber * group.longest) + _SPARE_POINTS
+    if singular_corner >= 0:
+        # In s the basis has twice the degree.
+        count += liquid.degree
     local, weights = basix.make_quadrature(group.facet_type, 2 * count - 1)
+    if singular_corner >= 0:
+        local, weights = _clustered(local, weights, singular_corner)
     reference = group.reference_points(local)
     basis = _basis(liquid, reference)
-    points = group.physical_points(reference).reshape(-1, edges.shape[2])
-    # dolfinx hands three coordinates to functions of a point, whatever the dimension.
-    padded = np.zeros((3, len(points)))
-    padded[: points.shape[1]] = points.T
+    points = group.physical_points(reference)
+    normals, measures = group.normals(reference)
+    normals = np.broadcast_to(normals, points.shape)
+    by_coordinate = points.reshape(-1, points.shape[-1]).T, normals.reshape(-1, points.shape[-1]).T
     dofs = liquid.space.dofmap.list[group.cells]
     for number in range(body.size):
-        values = body.shapes(padded, number).reshape(len(group.cells), -1)
-        np.add.at(loads[number], dofs, (scale[:, None] * values * weights) @ basis)
+        values = body.shapes(*by_coordinate, number).reshape(points.shape[:2])
+        np.add.at(loads[number], dofs, (measures * values * weights) @ basis)
 
 
-def _summed_over_processes(liquid: LiquidSpace, loads: np.ndarray) -> np.ndarray:
+def summed_over_processes(liquid: LiquidSpace, loads: np.ndarray) -> np.ndarray:
+    """Owned entries of several vectors of which each process has a part, (vectors, local unknowns) (collective)."""
     index_map = liquid.space.dofmap.index_map
     vector = la.vector(index_map)
     owned = np.empty((len(loads), index_map.size_local))

@@ -13,16 +13,16 @@ the s_k of every other degree are small, and pairs of them are compared instead.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import lru_cache
 from math import comb
 
 import basix
 import basix.ufl
 import numpy as np
-from dolfinx import fem
 from petsc4py import PETSc
 
-from hydroelastic.fem.cells import cell_corners, cell_jacobians
+from hydroelastic.fem.cells import cell_jacobians, is_straight, owned_cells
 from hydroelastic.fem.liquid import LiquidSpace, as_functions
 
 LOWEST_DEGREE = 4
@@ -33,17 +33,20 @@ LOWEST_DEGREE = 4
 _CONTINUITY = 2.0
 # A step this much steeper than the one before is that of a ψ that is nearly even or odd in the cell.
 _UNEVEN = 5.0
+# On curved cells the integrands are no polynomials.
+_CURVED_QUADRATURE = 6
+# Straight cells have the same Jacobian everywhere.
+_ANYWHERE = {dim: np.zeros((1, dim)) for dim in (1, 2, 3)}
 # Slowest decay that a few degrees can tell from none: that of r^{1/2} in the cells at its tip at degree 10.
 _SLOWEST_DECAY = 0.75
 
 
-def cell_errors(liquid: LiquidSpace, potentials: list[PETSc.Vec], density: float) -> np.ndarray:
+def cell_errors(liquid: LiquidSpace, potentials: list[PETSc.Vec]) -> np.ndarray:
     """Estimate (λ_h − λ)/λ of modes at unit generalized mass, cell by cell.
 
     Args:
-        liquid: space of ψ, of degree `LOWEST_DEGREE` or more, on straight simplices.
+        liquid: space of ψ, of degree `LOWEST_DEGREE` or more, on simplices.
         potentials: ψ of each mode.
-        density: ρ.
 
     Returns:
         The part of each owned cell, shape (modes, cells); their sum over all cells and processes is the estimate.
@@ -53,22 +56,19 @@ def cell_errors(liquid: LiquidSpace, potentials: list[PETSc.Vec], density: float
     """
     if liquid.degree < LOWEST_DEGREE:
         raise ValueError(f"errors are seen from degree {LOWEST_DEGREE} on, got {liquid.degree}")
-    cell_type = liquid.space.element.basix_element.cell_type
-    gradient = _gradient_coefficients(cell_type, liquid.degree)
-    jacobian = cell_jacobians(cell_corners(liquid))
-    inverse, measure = np.linalg.inv(jacobian), np.abs(np.linalg.det(jacobian))
-    dofs = liquid.space.dofmap.list[: len(jacobian)]
-    errors = np.empty((len(potentials), len(jacobian)))
+    mesh = liquid.tank.mesh
+    cells = owned_cells(mesh)
+    dofs = liquid.space.dofmap.list[: len(cells)]
+    energies = _straight_energies(liquid) if is_straight(mesh) else _curved_energies(liquid)
+    density = liquid.energy_densities()
+    errors = np.empty((len(potentials), len(cells)))
     for number, function in enumerate(as_functions(liquid, potentials)):
-        errors[number] = density * _missing_energy(function, dofs, gradient, inverse, measure)
+        errors[number] = density * _missing_energy(*energies(function.x.array[dofs]))
     return errors
 
 
-def _missing_energy(
-    function: fem.Function, dofs: np.ndarray, gradient: tuple[np.ndarray, ...], inverse: np.ndarray, measure: np.ndarray
-) -> np.ndarray:
-    values = function.x.array[dofs]
-    last, second, third, fourth = (_energy(values, table, inverse, measure) for table in gradient)
+def _missing_energy(last: np.ndarray, second: np.ndarray, third: np.ndarray, fourth: np.ndarray) -> np.ndarray:
+    """Energy of ∇ψ in the degrees from p on, from that in p − 1 … p − 4."""
     # Cells at rest have no energy in any degree.
     floor = np.finfo(float).tiny
     step, step_before = last / (second + floor), second / (third + floor)
@@ -76,13 +76,31 @@ def _missing_energy(
     decay = np.where(step > 1.0, two_steps, np.maximum(step, two_steps))
     single = _series(last, np.minimum(decay, _SLOWEST_DECAY))
     pair = _series(last + second, np.minimum((last + second) / (third + fourth + floor), _SLOWEST_DECAY**2))
-    return _CONTINUITY * np.where(step_before > _UNEVEN * step, np.maximum(single, pair), single)
+    missing: np.ndarray = _CONTINUITY * np.where(step_before > _UNEVEN * step, np.maximum(single, pair), single)
+    return missing
 
 
 def _series(last: np.ndarray, ratio: np.ndarray) -> np.ndarray:
     """What follows the last term of a geometric series."""
     rest: np.ndarray = last * ratio / (1.0 - ratio)
     return rest
+
+
+Energies = Callable[[np.ndarray], list[np.ndarray]]
+"""From the values of ψ in each cell (cells, functions) to ∫|∇ψ|² (cells,) in the degrees p − 1 … p − 4."""
+
+
+def _straight_energies(liquid: LiquidSpace) -> Energies:
+    """On straight cells ∇ψ is a polynomial, and one table turns unknowns into its coefficients."""
+    mesh = liquid.tank.mesh
+    jacobian = cell_jacobians(mesh, owned_cells(mesh), _ANYWHERE[mesh.topology.dim])[:, 0]
+    inverse, measure = np.linalg.inv(jacobian), np.abs(np.linalg.det(jacobian))
+    tables = _gradient_coefficients(liquid.space.element.basix_element.cell_type, liquid.degree)
+
+    def energies(values: np.ndarray) -> list[np.ndarray]:
+        return [_energy(values, table, inverse, measure) for table in tables]
+
+    return energies
 
 
 def _energy(values: np.ndarray, table: np.ndarray, inverse: np.ndarray, measure: np.ndarray) -> np.ndarray:
@@ -94,6 +112,37 @@ def _energy(values: np.ndarray, table: np.ndarray, inverse: np.ndarray, measure:
     return energy
 
 
+def _curved_energies(liquid: LiquidSpace) -> Energies:
+    """On curved cells √(det J) ∇ψ is nearly one, and its coefficients come from quadrature; ∫|∇ψ|² stays exact."""
+    mesh = liquid.tank.mesh
+    element = liquid.space.element.basix_element
+    points, weights = basix.make_quadrature(element.cell_type, 2 * liquid.degree + _CURVED_QUADRATURE)
+    slopes = element.tabulate(1, points)[1:, :, :, 0]
+    jacobian = cell_jacobians(mesh, owned_cells(mesh), points)
+    # Points of the cell first: one product of matrices for each of them.
+    scaled = np.sqrt(np.abs(np.linalg.det(jacobian)))[..., None, None] * np.linalg.inv(jacobian)
+    polynomials, sizes = _polynomials(element.cell_type, liquid.degree - 1, points)
+    weighted = polynomials * weights
+
+    def energies(values: np.ndarray) -> list[np.ndarray]:
+        reference = np.einsum("dqn,cn->cqd", slopes, values, optimize=True)
+        field = np.einsum("cqde,cqd->cqe", scaled, reference, optimize=True)
+        squares = np.square(np.einsum("jq,cqe->cje", weighted, field, optimize=True)).sum(axis=2)
+        return [
+            squares[:, sizes[k] : sizes[k + 1]].sum(axis=1) for k in range(liquid.degree - 1, liquid.degree - 5, -1)
+        ]
+
+    return energies
+
+
+def _polynomials(cell_type: basix.CellType, degree: int, points: np.ndarray) -> tuple[np.ndarray, list[int]]:
+    """Orthonormal polynomials at points, shape (polynomials, points), and where those of each degree begin."""
+    dim = len(basix.topology(cell_type)) - 1
+    # Ordered by degree: those of degree k and less come first.
+    table = basix.tabulate_polynomials(basix.PolynomialType.legendre, cell_type, degree, points)
+    return table, [0, *(comb(k + dim, dim) for k in range(degree + 1))]
+
+
 @lru_cache(maxsize=16)
 def _gradient_coefficients(cell_type: basix.CellType, degree: int) -> tuple[np.ndarray, ...]:
     """Coefficients of the reference gradient of each basis function in orthonormal polynomials of one degree.
@@ -102,17 +151,8 @@ def _gradient_coefficients(cell_type: basix.CellType, degree: int) -> tuple[np.n
         For the degrees p − 1 down to p − 4: shape (dim, polynomials, functions).
     """
     element = basix.ufl.element("Lagrange", cell_type.name, degree).basix_element
-    dim = len(basix.topology(cell_type)) - 1
     points, weights = basix.make_quadrature(cell_type, 2 * degree - 2)
     slopes = element.tabulate(1, points)[1:, :, :, 0]
-    # Ordered by degree: those of degree k and less come first.
-    polynomials = basix.tabulate_polynomials(basix.PolynomialType.legendre, cell_type, degree - 1, points)
+    polynomials, sizes = _polynomials(cell_type, degree - 1, points)
     coefficients = np.einsum("jq,q,dqn->djn", polynomials, weights, slopes, optimize=True)
-    sizes = [0, *(comb(k + dim, dim) for k in range(degree))]
     return tuple(coefficients[:, sizes[k] : sizes[k + 1]] for k in range(degree - 1, degree - 5, -1))
-
-
-def cell_diameters(liquid: LiquidSpace) -> np.ndarray:
-    """Longest edge of each owned cell that meets its first corner, shape (cells,)."""
-    longest: np.ndarray = np.linalg.norm(cell_jacobians(cell_corners(liquid)), axis=1).max(axis=1, initial=0.0)
-    return longest

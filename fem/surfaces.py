@@ -1,4 +1,4 @@
-"""What floats on the liquid: surface unknowns ζ with a stiffness, a mass and a trace on the liquid's boundary."""
+"""What moves on the boundary of the liquids: surface unknowns ζ with a stiffness, a mass and a trace there."""
 
 from __future__ import annotations
 
@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-# A surface's basis functions: points (gdim, n) and the number of the function → values (n,).
-Shapes = Callable[[NDArray[np.float64], int], NDArray[np.float64]]
+Shapes = Callable[[NDArray[np.float64], NDArray[np.float64], int], NDArray[np.float64]]
+"""Basis functions of a surface: points (gdim, n), the liquid's outward unit normals there (gdim, n) and the number of
+the function → normal displacement (n,). A surface between two liquids has a side, and a normal, in each."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -19,13 +20,15 @@ class Body:
     The shapes are orthogonal in both the stiffness and the mass, as dry modes are.
 
     Attributes:
-        surface: physical name of its wetted surface.
+        surface: physical name of its wetted surface, in whatever liquid.
         shapes: the functions φᵢ.
         wavenumber: the largest wavenumber among them; it chooses the quadrature.
         labels: what each function is: "heave", "pitch", "elastic 1", …
         stiffness: generalized stiffness of each function, hydrostatic restoring included, shape (functions,).
         bending_stiffness: the part of it that is strain energy, shape (functions,).
         mass: generalized mass of each function, shape (functions,).
+        singular_points: where the shapes have slopes without bound, like the root of the distance; shape (points,
+            gdim).
     """
 
     surface: str
@@ -35,6 +38,7 @@ class Body:
     stiffness: NDArray[np.float64]
     bending_stiffness: NDArray[np.float64]
     mass: NDArray[np.float64]
+    singular_points: NDArray[np.float64] | None = None
 
     @property
     def size(self) -> int:
@@ -43,13 +47,17 @@ class Body:
 
 
 @dataclass(frozen=True, kw_only=True)
-class FreeSurface:
-    """A liquid surface under gravity: K = ρg∫ηη.
+class LiquidSurface:
+    """A surface of a liquid under gravity, or between two: K = (ρ_below − ρ_above) g ∫ηη.
 
     Attributes:
-        surface: its physical name.
+        surface: its physical name; between two liquids, that of its facets on either side.
         gravity: acceleration, in the units of the model.
+        below: index of the layer under it.
+        above: index of the layer over it; ``None`` is air.
     """
 
     surface: str
     gravity: float
+    below: int = 0
+    above: int | None = None

@@ -9,10 +9,17 @@ try:  # dolfinx >= 0.10
 except ImportError:
     from dolfinx.io.utils import distribute_entity_data
 
-__all__ = ["distribute_entity_data", "geometry_dofmap"]
+__all__ = ["coordinate_degree", "distribute_entity_data", "geometry_dofmap"]
 
 
 def geometry_dofmap(mesh: Any) -> Any:
     """Node numbers of each cell's geometry; from 0.11 on a mesh may have several kinds of cells, ours has one."""
     dofmaps = getattr(mesh.geometry, "dofmaps", None)
     return mesh.geometry.dofmap if dofmaps is None or callable(dofmaps) else dofmaps[0]
+
+
+def coordinate_degree(mesh: Any) -> int:
+    """Polynomial degree of the coordinates of a mesh's cells."""
+    cmaps = getattr(mesh.geometry, "cmaps", None)
+    cmap = mesh.geometry.cmap if cmaps is None or callable(cmaps) else cmaps[0]
+    return int(cmap.degree)

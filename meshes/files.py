@@ -21,9 +21,14 @@ def save_mesh(mesh: TaggedMesh, path: Path) -> None:
     ``<file>.names.json`` is written.
 
     Raises:
-        MeshError: if the suffix is none of `FORMATS`.
+        MeshError: if the suffix is none of `FORMATS`, or if cells are curved.
     """
     _check_suffix(path)
+    if mesh.curved is not None:
+        raise MeshError(
+            f"mesh file {path} cannot be written: files hold straight triangles only, and this mesh has curved cells; "
+            "make it with geometry degree 1"
+        )
     points = np.column_stack([mesh.points, np.zeros(len(mesh.points))])
     content = meshio.Mesh(
         points,

@@ -5,7 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 LIQUID = "liquid"
+LOWER_LIQUID = "lower_liquid"
+UPPER_LIQUID = "upper_liquid"
 FREE_SURFACE = "free_surface"
+INTERFACE = "interface"
 LID = "lid"
 BOTTOM = "bottom"
 LEFT_WALL = "left_wall"

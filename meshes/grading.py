@@ -7,12 +7,13 @@ ratio towards the tip, with a high polynomial degree, give exponential convergen
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import ceil, hypot, log, pi
+from math import pi
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.meshes.geometry import TankGeometry
+from hydroelastic.meshes.rings import ring_radii, ring_triangles
 
 # A half disc is cut into three sectors of 60 degrees: the innermost triangles are equilateral.
 _SECTORS = 3
@@ -61,15 +62,7 @@ class TipRings:
 
     def triangles(self) -> NDArray[np.int64]:
         """Indices into `nodes`, shape (triangles, 3)."""
-        count = len(self.angles)
-        ring = np.arange(count - 1)
-        fan = np.column_stack([np.zeros_like(ring), 1 + ring, 2 + ring])
-        blocks = [fan]
-        for inner in range(1, 1 + count * (len(self.radii) - 1), count):
-            outer = inner + count
-            blocks.append(np.column_stack([inner + ring, outer + ring, outer + ring + 1]))
-            blocks.append(np.column_stack([inner + ring, outer + ring + 1, inner + ring + 1]))
-        return np.vstack(blocks)
+        return ring_triangles(len(self.radii), len(self.angles))
 
 
 def tip_rings(geometry: TankGeometry, grading: Grading) -> tuple[TipRings, ...]:
@@ -85,8 +78,7 @@ def tip_rings(geometry: TankGeometry, grading: Grading) -> tuple[TipRings, ...]:
             if tip in (segment.start, segment.end)
         ]
         outer = min(0.45 * min(*others, geometry.depth), *beside)
-        count = max(1, 1 + ceil(log(max(outer / grading.tip_size, 1.0)) / -log(grading.ring_ratio)))
-        radii = outer * grading.ring_ratio ** np.arange(count - 1, -1, -1.0)
+        radii = ring_radii(grading.tip_size, outer, grading.ring_ratio)
         if tip == 0.0:
             first, last, sectors = 0.0, pi / 2, 2
         elif tip == geometry.length:
@@ -96,26 +88,3 @@ def tip_rings(geometry: TankGeometry, grading: Grading) -> tuple[TipRings, ...]:
         angles: NDArray[np.float64] = np.linspace(first, last, sectors + 1, dtype=np.float64)
         rings.append(TipRings(centre=tip, radii=radii, angles=angles))
     return tuple(rings)
-
-
-class SizeField:
-    """Element size wanted at a point of the liquid outside the rings."""
-
-    def __init__(self, geometry: TankGeometry, rings: tuple[TipRings, ...], grading: Grading) -> None:
-        """Collect the pieces of the top and the rings that want small elements."""
-        self._bulk_size = grading.bulk_size
-        self._growth = grading.growth
-        # Sources of fineness: pieces of the top, a tip's rings being a piece of length zero that ends at their radius.
-        self._sources = [
-            (segment.start, segment.end, 0.0, size)
-            for segment, size in zip(geometry.segments, grading.surface_sizes, strict=True)
-        ]
-        self._sources += [(ring.centre, ring.centre, float(ring.radii[-1]), float(ring.radii[-1])) for ring in rings]
-
-    def __call__(self, x: float, y: float) -> float:
-        """Smallest of the bulk size and the sizes that grow with the distance from each piece of the top."""
-        size = self._bulk_size
-        for start, end, radius, size_there in self._sources:
-            distance = hypot(max(start - x, 0.0, x - end), y)
-            size = min(size, size_there + self._growth * max(distance - radius, 0.0))
-        return size

@@ -17,9 +17,10 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
+from hydroelastic.meshes.edges import edges_of
 from hydroelastic.meshes.geometry import TankGeometry
 from hydroelastic.meshes.grading import Grading, TipRings, tip_rings
-from hydroelastic.meshes.tagged_mesh import TaggedMesh
+from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 from hydroelastic.meshes.tank import build_tank_mesh
 
 
@@ -72,31 +73,29 @@ class NestedMeshes:
 
 
 def halved(mesh: TaggedMesh) -> TaggedMesh:
-    """Cut every triangle into four of half its size."""
+    """Cut every straight triangle into four of half its size.
+
+    Raises:
+        MeshError: if cells are curved.
+    """
+    if mesh.curved is not None:
+        raise MeshError("a mesh with curved cells is not halved: make a finer one")
     corners = mesh.cells
-    sides = np.sort(np.stack([corners[:, [1, 2]], corners[:, [2, 0]], corners[:, [0, 1]]], axis=1), axis=2)
-    edges, place = np.unique(sides.reshape(-1, 2), axis=0, return_inverse=True)
-    middles = len(mesh.points) + place.reshape(-1, 3)
+    edges = edges_of(corners)
+    middles = len(mesh.points) + edges.places
     (a, b, c), (bc, ca, ab) = corners.T, middles.T
     cells = np.stack([[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]).transpose(2, 0, 1).reshape(-1, 3)
     start, end = mesh.facets.T
-    middle = len(mesh.points) + _rows_of(edges, np.sort(mesh.facets, axis=1))
+    middle = len(mesh.points) + edges.find(mesh.facets)
     facets = np.stack([[start, middle], [middle, end]]).transpose(2, 0, 1).reshape(-1, 2)
     return replace(
         mesh,
-        points=np.vstack([mesh.points, mesh.points[edges].mean(axis=1)]),
+        points=np.vstack([mesh.points, mesh.points[edges.nodes].mean(axis=1)]),
         cells=cells,
         cell_tags=np.repeat(mesh.cell_tags, 4),
         facets=facets,
         facet_tags=np.repeat(mesh.facet_tags, 2),
     )
-
-
-def _rows_of(edges: NDArray[np.int64], wanted: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Where each wanted edge stands in an ascending list of edges."""
-    width = int(edges.max()) + 1
-    rows: NDArray[np.int64] = np.searchsorted(edges @ [width, 1], wanted @ [width, 1])
-    return rows
 
 
 def _drawn(points: NDArray[np.float64], fan: TipRings, exponent: float) -> NDArray[np.float64]:

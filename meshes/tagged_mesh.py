@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +11,35 @@ from numpy.typing import NDArray
 
 class MeshError(ValueError):
     """A mesh that cannot be read, or that lacks what its user promised."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class CurvedCells:
+    """Cells whose geometry is polynomial; all the others are straight.
+
+    Attributes:
+        degree: of the geometry, at least 2.
+        cells: indices of the curved cells, shape (curved,).
+        nodes: their nodes in the order of ``basix.ufl.element("Lagrange", "triangle", degree, shape=(2,))``, the
+            corners first as in `TaggedMesh.cells`, shape (curved, nodes per cell, 2).
+    """
+
+    degree: int
+    cells: NDArray[np.int64]
+    nodes: NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Deviation:
+    """How far the edges of a mesh are at most from the curves that they stand for, measured between their nodes.
+
+    Attributes:
+        distance: in units of length.
+        angle: between the normals, radians.
+    """
+
+    distance: float = 0.0
+    angle: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -25,6 +54,8 @@ class TaggedMesh:
         facet_tags: physical group of each tagged edge, shape (facets,).
         cell_names: physical name → tag, for cells.
         facet_names: physical name → tag, for edges.
+        curved: the cells that are curved, ``None`` if all are straight.
+        deviation: of the edges from the curves meshed; zero where that is not known.
     """
 
     points: NDArray[np.float64]
@@ -34,6 +65,8 @@ class TaggedMesh:
     facet_tags: NDArray[np.int32]
     cell_names: dict[str, int]
     facet_names: dict[str, int]
+    curved: CurvedCells | None = None
+    deviation: Deviation = field(default_factory=Deviation)
 
     def require(self, *, cells: Iterable[str], facets: Iterable[str]) -> None:
         """Check that named groups exist and are not empty.
@@ -65,12 +98,9 @@ class TaggedMesh:
 
     def scaled(self, factor: float) -> TaggedMesh:
         """The same mesh with all coordinates multiplied by ``factor``."""
-        return TaggedMesh(
+        return replace(
+            self,
             points=self.points * factor,
-            cells=self.cells,
-            cell_tags=self.cell_tags,
-            facets=self.facets,
-            facet_tags=self.facet_tags,
-            cell_names=self.cell_names,
-            facet_names=self.facet_names,
+            curved=self.curved and replace(self.curved, nodes=self.curved.nodes * factor),
+            deviation=replace(self.deviation, distance=self.deviation.distance * factor),
         )

@@ -42,20 +42,34 @@ from hydroelastic.modal.sloshing import (
     sloshing_frequencies,
 )
 from hydroelastic.modal.tone_pencil import Tones
+from hydroelastic.modal.two_layer import (
+    Branch,
+    InterfacePlate,
+    LayerMode,
+    LayerTop,
+    TwoLayers,
+    interface_frequencies,
+    tank_modes,
+)
 
 __all__ = [
     "ERRATA",
     "BeamQuotients",
     "Bound",
+    "Branch",
     "Erratum",
     "Estimate",
     "FloatShape",
     "FloatingBeam",
+    "InterfacePlate",
+    "LayerMode",
+    "LayerTop",
     "NoEstimateError",
     "Profile",
     "ProfileArc",
     "QuotientPair",
     "Tones",
+    "TwoLayers",
     "added_mass_from_frequency",
     "all_estimates",
     "beam_quotients",
@@ -71,6 +85,7 @@ __all__ = [
     "gravity_added_mass",
     "gravity_tones",
     "guided_cover_frequencies",
+    "interface_frequencies",
     "lid_added_mass",
     "one_term_root",
     "paper_equivalent_mass",
@@ -89,5 +104,6 @@ __all__ = [
     "shallow_sloshing_frequencies",
     "sloshing_frequencies",
     "strip_added_mass",
+    "tank_modes",
     "term_tones",
 ]

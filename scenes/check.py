@@ -7,19 +7,17 @@ from collections.abc import Iterator
 from rich.console import Console
 from rich.text import Text
 
-from hydroelastic.scenes.check_hints import hints, is_planned
+from hydroelastic.scenes.check_hints import hints
 from hydroelastic.scenes.check_tables import boundary_table, group_table, hydrostatics_table, unknown_table
-from hydroelastic.scenes.estimates import expected_tones
+from hydroelastic.scenes.estimates import expected_float_tones, expected_tones
 from hydroelastic.scenes.models import TankScene
 from hydroelastic.scenes.plan import (
     Resolution,
-    ScaledTank,
     companion_resolution,
     initial_resolution,
-    scaled_tank,
     workable_tolerance,
 )
-from hydroelastic.scenes.rigid_motions import has_open
+from hydroelastic.scenes.scaled_tank import ScaledTank, scaled_tank
 from hydroelastic.scenes.symmetry import is_mirror_image
 
 
@@ -38,9 +36,8 @@ def print_check(scene: TankScene, console: Console) -> None:
         tables.append(hydrostatics_table(scene))
     for table in tables:
         console.print(table)
-    if is_planned(scene):
-        for line in _sizes(scene):
-            console.print(Text(line))
+    for line in _sizes(scene):
+        console.print(Text(line))
     for hint in hints(scene):
         console.print(Text(f"• {hint}"))
 
@@ -49,11 +46,16 @@ def _sizes(scene: TankScene) -> Iterator[str]:
     """What the first attempt is, and why it should be enough; the built-in meshes are made to count them."""
     tank = scaled_tank(scene)
     tolerance = scene.accuracy.tolerance
-    resolution = initial_resolution(scene, modes=scene.accuracy.modes, tones=expected_tones(tank))
+    tones = expected_tones(tank)
+    all_tones = (*tones, *expected_float_tones(tank))
+    resolution = initial_resolution(scene, modes=scene.accuracy.modes, tones=all_tones)
     half = scene.mesh is None and is_mirror_image(tank)
     yield f"First attempt: {_size(scene, tank, resolution, half=half)}."
     if resolution.modes > scene.accuracy.modes:
-        yield f"  {resolution.modes} modes are looked at, to see where the energy of the first elastic tone gathers."
+        what = (
+            "where the energy of the first elastic tone gathers" if tank.beams else "in which mode a float moves most"
+        )
+        yield f"  {resolution.modes} modes are looked at, to see {what}."
     yield (
         f"  Enough for {tolerance:g}: elements follow the shortest wave of the modes reported and the degree, "
         "dry modes reach past that wave until their energy has died out, and the rings end where the singularity at "
@@ -62,28 +64,33 @@ def _sizes(scene: TankScene) -> Iterator[str]:
     workable = workable_tolerance(tolerance, tank.depth)
     if workable > tolerance:
         yield f"  Double precision will not keep {tolerance:g} here: {workable:.0e} is worked towards instead."
-    if tank.beams and tank.top == "free" and has_open(scene, "surface"):
-        size = _size(
-            scene,
-            tank,
-            companion_resolution(tank, tolerance, expected_tones(tank)) if scene.mesh is None else resolution,
-            half=half,
-        )
-        yield f"Beside it the first elastic tone with ψ = 0 on the water: {size}, hardly a wave, sharper tips."
+    limits = [
+        *(
+            ["the first elastic tone"]
+            if tank.beams and any(level.moves and level.is_open for level in tank.levels)
+            else []
+        ),
+        *(["the added mass of the floats"] if tank.floats and tank.has_high_frequency_limit else []),
+    ]
+    if limits:
+        limit = companion_resolution(tank, tolerance, tones) if scene.mesh is None else resolution
+        size = _size(scene, tank, limit, half=half, released=scene.mesh is None)
+        where = "with ψ = 0 on the water" if len(tank.layers) == 1 else "far above the waves, the liquids moving as one"
+        yield f"Beside it {' and '.join(limits)} {where}: {size}, hardly a wave, sharper tips."
 
 
-def _size(scene: TankScene, tank: ScaledTank, resolution: Resolution, *, half: bool) -> str:
+def _size(scene: TankScene, tank: ScaledTank, resolution: Resolution, *, half: bool, released: bool = False) -> str:
     parts = [f"degree {resolution.degree}"]
     if scene.mesh is None:
         from hydroelastic.scenes.tank_mesh import make_mesh, unknown_count
 
-        mesh = make_mesh(tank, resolution, half=half)
+        mesh = make_mesh(tank, resolution, half=half, released=released)
         where = " in half the tank" if half else ""
         twice = ", for symmetric and for antisymmetric modes" if half else ""
         parts.append(f"{len(mesh.cells)} triangles{where}")
         parts.append(f"{unknown_count(len(mesh.points), len(mesh.cells), resolution.degree)} unknowns of ψ{twice}")
-    if resolution.shapes:
-        parts.append(f"{' + '.join(map(str, resolution.shapes))} dry modes")
+    if tank.beams:
+        parts.append(f"{' + '.join(str(resolution.shapes[index]) for index in tank.beams)} dry modes")
     return ", ".join(parts)
 
 

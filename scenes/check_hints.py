@@ -9,7 +9,6 @@ from hydroelastic.modal.dry_modes import free_free_roots
 from hydroelastic.scenes.estimates import expected_tones
 from hydroelastic.scenes.floats import placed_float
 from hydroelastic.scenes.models import Beam, TankScene, level_segments
-from hydroelastic.scenes.plan import scaled_tank
 from hydroelastic.scenes.rigid_motions import (
     has_open,
     levels_of,
@@ -18,6 +17,7 @@ from hydroelastic.scenes.rigid_motions import (
     roll_stiffness,
     zero_mode_count,
 )
+from hydroelastic.scenes.scaled_tank import scaled_tank
 from hydroelastic.scenes.symmetry import is_mirror_image
 
 # Half width over half height from which the conditions of a thin float are off by more than some per cent.
@@ -29,11 +29,6 @@ def hints(scene: TankScene) -> tuple[str, ...]:
     return tuple(hint for find in _HINTS for hint in find(scene))
 
 
-def is_planned(scene: TankScene) -> bool:
-    """Whether the resolution of a scene can be told before it is solved: one liquid with beams."""
-    return len(scene.layers) == 1 and not scene.floats
-
-
 def _air(scene: TankScene) -> Iterator[str]:
     if len(scene.layers) < len(scene.liquid):
         yield (
@@ -43,7 +38,7 @@ def _air(scene: TankScene) -> Iterator[str]:
 
 
 def _symmetry(scene: TankScene) -> Iterator[str]:
-    if is_planned(scene) and is_mirror_image(scaled_tank(scene)):
+    if is_mirror_image(scaled_tank(scene)):
         yield (
             "The scene is its own mirror image: modes are symmetric (∂ψ/∂x = 0 in the middle) or antisymmetric "
             "(ψ = 0 there), and half the tank holds either kind."
@@ -107,7 +102,7 @@ def _walls(scene: TankScene) -> Iterator[str]:
 
 def _shared_tone(scene: TankScene) -> Iterator[str]:
     """The elastic tone radiates into the sloshing modes unless it is slow or its beam heavy (docs, aquarium, § 4)."""
-    if not is_planned(scene) or scene.top != "free" or not has_open(scene, "surface"):
+    if len(scene.layers) > 1 or scene.top != "free" or not has_open(scene, "surface"):
         return
     # In units of the tank λ = ω² L/g.
     for (index, beam), tone in zip(scene.beams, expected_tones(scaled_tank(scene)), strict=True):

@@ -15,7 +15,8 @@ from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.scenes.certainty import ROUNDING_OF_SPREAD, FrequencyErrors, frequency_errors, refined
 from hydroelastic.scenes.field_model import build_mesh
 from hydroelastic.scenes.field_solution import FieldSolution, Stopwatch, solve_field
-from hydroelastic.scenes.plan import Resolution, ScaledTank
+from hydroelastic.scenes.plan import Resolution, sharpest_exponent
+from hydroelastic.scenes.scaled_tank import ScaledTank
 from hydroelastic.scenes.tones import ElasticTone, elastic_tone
 
 _MOST_ATTEMPTS = 5
@@ -45,9 +46,9 @@ class Companion:
         """Number of beams without a tone, then the largest error."""
         return self.tones.count(None), self.largest_error
 
-    def eigenvalue(self, body: int) -> float | None:
-        """λ of a beam's tone."""
-        tone = self.tones[body]
+    def eigenvalue(self, beam: int) -> float | None:
+        """λ of a beam's tone; beams are counted by themselves."""
+        tone = self.tones[beam]
         return None if tone is None else float(self.solution.modes.eigenvalues[tone.index])
 
 
@@ -76,21 +77,22 @@ def solve_companion(
         The tones (collective).
     """
     best: Companion | None = None
+    exponent = sharpest_exponent(tank, released=True)
     attempt: Resolution | None = resolution
     for _ in range(_MOST_ATTEMPTS):
         if attempt is None:
             break
         with watch.stage("pressure release"):
-            mesh = brought or build_mesh(comm, tank, attempt, half=half)
+            mesh = brought or build_mesh(comm, tank, attempt, half=half, released=True)
         with watch.stage("forms"):
-            compile_form(mesh, attempt.degree)
+            compile_form(mesh, attempt.degree, glued=len(tank.layers) > 1)
         with watch.stage("pressure release"):
             companion, causes = _tones(mesh, tank, attempt, tolerance, half=half)
         if best is None or companion.shortfall < best.shortfall:
             best = companion
         if companion.largest_error <= tolerance:
             break
-        attempt = refined(attempt, causes, tolerance, sharp_tips=True, own_mesh=brought is None)
+        attempt = refined(attempt, causes, tolerance, exponent=exponent, own_mesh=brought is None)
     assert best is not None
     return best
 
@@ -99,7 +101,7 @@ def _tones(
     mesh: TankMesh, tank: ScaledTank, resolution: Resolution, tolerance: float, *, half: bool
 ) -> tuple[Companion, FrequencyErrors]:
     """Solve for more and more modes until they hold the tone of each beam."""
-    beams = range(len(tank.beams))
+    beams = tuple(tank.beams)
     count = resolution.modes
     while True:
         solution = solve_field(mesh, tank, resolution, count, Stopwatch(), half=half, pressure_release=True)
@@ -110,7 +112,7 @@ def _tones(
     tones = tuple(tone if tone.certain and not _is_hidden(solution, tone, tolerance) else None for tone in found)
     indices = sorted({tone.index for tone in tones if tone is not None})
     modes = [solution.modes.completed(index) for index in indices]
-    causes = frequency_errors(solution, modes, indices, resolution, tank.depth)
+    causes = frequency_errors(solution, modes, solution.parts_of(indices), resolution, tank, released=True)
     totals = dict(zip(indices, map(float, causes.total), strict=True))
     errors = tuple(None if tone is None else totals[tone.index] for tone in tones)
     return Companion(solution=solution, tones=tones, errors=errors), causes

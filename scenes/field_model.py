@@ -1,4 +1,4 @@
-"""From a scaled scene to the field model: mesh, bodies in their dry modes, coupled pencil."""
+"""From a scaled scene to the field model: mesh, beams in their dry modes, floats in their motions, coupled pencil."""
 
 from __future__ import annotations
 
@@ -9,22 +9,34 @@ from functools import partial
 import numpy as np
 from mpi4py import MPI
 
-from hydroelastic.fem.liquid import liquid_matrices, liquid_space
+from hydroelastic.fem.liquid import Layer, liquid_matrices, liquid_space
 from hydroelastic.fem.pencil import CoupledPencil, build_pencil
-from hydroelastic.fem.surfaces import Body, FreeSurface
+from hydroelastic.fem.surfaces import Body, LiquidSurface
 from hydroelastic.meshes.distribute import TankMesh, distribute_mesh
-from hydroelastic.meshes.geometry import FREE_SURFACE, SYMMETRY_PLANE, body_name
+from hydroelastic.meshes.geometry import FREE_SURFACE, INTERFACE, SYMMETRY_PLANE, body_name
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 from hydroelastic.modal.dry_modes import free_free_shape, free_free_wavenumber
 from hydroelastic.modal.guided_modes import guided_shape, guided_wavenumber
-from hydroelastic.scenes.plan import Resolution, ScaledTank
+from hydroelastic.scenes.plan import Resolution
+from hydroelastic.scenes.scaled_tank import ScaledTank
 from hydroelastic.scenes.symmetry import PARITIES, Parity, left_bodies, shape_parity, twin_of
 from hydroelastic.scenes.tank_mesh import check_mesh, make_mesh
+from hydroelastic.scenes.tank_outline import grounded_names, layer_names
 
 
-def build_mesh(comm: MPI.Comm, tank: ScaledTank, resolution: Resolution, *, half: bool = False) -> TankMesh:
-    """Mesh a scene, or its left half, with gmsh on rank 0 and distribute it (collective)."""
-    return distributed_mesh(comm, lambda: make_mesh(tank, resolution, half=half))
+def build_mesh(
+    comm: MPI.Comm, tank: ScaledTank, resolution: Resolution, *, half: bool = False, released: bool = False
+) -> TankMesh:
+    """Mesh a scene, or its left half, with gmsh on rank 0 and distribute it (collective).
+
+    Args:
+        comm: MPI communicator.
+        tank: the scene.
+        resolution: sizes of elements.
+        half: whether the scene is its own mirror image, and the left half is meant.
+        released: whether the mesh is for the limit of high frequency.
+    """
+    return distributed_mesh(comm, lambda: make_mesh(tank, resolution, half=half, released=released))
 
 
 def distributed_mesh(comm: MPI.Comm, make: Callable[[], TaggedMesh]) -> TankMesh:
@@ -73,8 +85,9 @@ def build_field_model(
         mesh: the liquid's mesh.
         tank: the scene.
         degree: polynomial degree of ψ.
-        shapes: number of dry modes of each beam.
-        pressure_release: put ψ = 0 on the water whatever the scene says; the limit of high frequency.
+        shapes: number of dry modes of each beam, 0 for floats.
+        pressure_release: the limit of high frequency whatever the scene says: ψ = 0 on an open top, and two liquids
+            move as one, on a mesh that is made for it.
 
     Returns:
         The dimensionless pencil (collective).
@@ -84,23 +97,36 @@ def build_field_model(
 
 
 def build_half_models(
-    mesh: TankMesh, tank: ScaledTank, *, degree: int, shapes: tuple[int, ...], pressure_release: bool = False
-) -> tuple[CoupledPencil, CoupledPencil]:
+    mesh: TankMesh,
+    tank: ScaledTank,
+    *,
+    degree: int,
+    shapes: tuple[int, ...],
+    pressure_release: bool = False,
+    parities: tuple[Parity, ...] = PARITIES,
+) -> tuple[CoupledPencil, ...]:
     """Assemble the symmetric and the antisymmetric problem on the left half of a tank that is its own mirror image.
 
     Args:
         mesh: the mesh of the half.
         tank: the whole scene.
         degree: polynomial degree of ψ.
-        shapes: number of dry modes of each beam of the whole tank.
-        pressure_release: put ψ = 0 on the water whatever the scene says.
+        shapes: number of dry modes of each beam of the whole tank, 0 for floats.
+        pressure_release: the limit of high frequency.
+        parities: which problems.
 
     Returns:
-        A pencil for each of `PARITIES`, with energies of half the tank (collective). A beam that the mirror plane
+        A pencil for each of the parities, with energies of half the tank (collective). A beam that the mirror plane
         cuts keeps its dry modes of that parity; of two beams that are mirror images the left one is there.
     """
-    one, other = _field_models(mesh, tank, degree, shapes, pressure_release, PARITIES)
-    return one, other
+    return _field_models(mesh, tank, degree, shapes, pressure_release, parities)
+
+
+def moving_parities(tank: ScaledTank, shapes: tuple[int, ...], *, pressure_release: bool) -> tuple[Parity, ...]:
+    """The symmetries in which something moves: none of a lid's, and none above the waves that no body has."""
+    if not pressure_release and any(level.moves and level.is_open for level in tank.levels):
+        return PARITIES
+    return tuple(parity for parity in PARITIES if any(body.size for body in _half_bodies(tank, shapes, parity)))
 
 
 def _field_models(
@@ -111,37 +137,60 @@ def _field_models(
     pressure_release: bool,
     parities: tuple[Parity | None, ...],
 ) -> tuple[CoupledPencil, ...]:
-    has_water = FREE_SURFACE in mesh.facet_names
-    released = has_water and (pressure_release or tank.top == "pressure_release")
-    water = FreeSurface(surface=FREE_SURFACE, gravity=1.0) if has_water and not released else None
-    liquid = liquid_space(mesh, degree, (FREE_SURFACE,) if released else ())
-    matrices = liquid_matrices(liquid, water.surface if water is not None else None)
+    surfaces = () if pressure_release else moving_surfaces(mesh, tank)
+    grounded = grounded_names(tank, released=pressure_release) if FREE_SURFACE in mesh.facet_names else ()
+    layers = tuple(
+        Layer(name=name, density=layer.density) for name, layer in zip(layer_names(tank), tank.layers, strict=True)
+    )
+    liquid = liquid_space(mesh, degree, grounded, layers, glued=pressure_release and len(layers) > 1)
+    matrices = liquid_matrices(liquid, tuple(surface.surface for surface in surfaces))
     pencils = []
     for parity in parities:
         plane = (SYMMETRY_PLANE,) if parity == "antisymmetric" else ()
         bodies = whole_bodies(tank, shapes) if parity is None else _half_bodies(tank, shapes, parity)
-        pencils.append(
-            build_pencil(
-                replace(liquid, grounded=liquid.grounded + plane),
-                matrices,
-                bodies=bodies,
-                free_surface=water,
-                density=1.0,
-            )
-        )
+        part = replace(liquid, grounded=liquid.grounded + plane)
+        # A float in the middle may have no motion of this parity, and a beam may be held still.
+        moving = tuple(body for body in bodies if body.size)
+        pencils.append(build_pencil(part, matrices, bodies=moving, surfaces=surfaces))
     return tuple(pencils)
 
 
+def moving_surfaces(mesh: TankMesh, tank: ScaledTank) -> tuple[LiquidSurface, ...]:
+    """The surfaces of the liquids on which gravity waves travel."""
+    surfaces = (
+        LiquidSurface(
+            surface=FREE_SURFACE if level.above is None else INTERFACE,
+            gravity=1.0,
+            below=level.below,
+            above=level.above,
+        )
+        for level in tank.levels
+        if level.moves
+    )
+    return tuple(surface for surface in surfaces if surface.surface in mesh.facet_names)
+
+
 def whole_bodies(tank: ScaledTank, shapes: tuple[int, ...]) -> tuple[Body, ...]:
-    """Every beam of a tank in its first dry modes."""
-    return tuple(_beam_body(tank, index, count, None) for index, count in enumerate(shapes))
+    """Every beam of a tank in its first dry modes, every float in its motions, in the scene's order.
+
+    A beam without dry modes is held still.
+    """
+    return tuple(_body(tank, index, count, None) for index, count in enumerate(shapes))
 
 
 def _half_bodies(tank: ScaledTank, shapes: tuple[int, ...], parity: Parity) -> tuple[Body, ...]:
     return tuple(
-        _beam_body(tank, index, shapes[index], parity if twin_of(tank, index) == index else None)
+        _body(tank, index, shapes[index], parity if twin_of(tank, index) == index else None)
         for index in left_bodies(tank)
     )
+
+
+def _body(tank: ScaledTank, index: int, count: int, parity: Parity | None) -> Body:
+    if index in tank.beams:
+        return _beam_body(tank, index, count, parity)
+    from hydroelastic.scenes.float_body import float_body
+
+    return float_body(tank.floats[index], index, parity)
 
 
 def _beam_body(tank: ScaledTank, index: int, count: int, parity: Parity | None) -> Body:
@@ -149,9 +198,8 @@ def _beam_body(tank: ScaledTank, index: int, count: int, parity: Parity | None) 
 
     With a parity, only the shapes of that parity about its middle, and the energies of half the beam.
     """
-    beam = tank.beams[index]
-    start, end = next((start, end) for start, end, body in tank.pieces if body == index)
-    length = end - start
+    beam, piece, jump = tank.beams[index], tank.piece_of(index), tank.level_of(index).jump
+    length = piece.length
     part = 1.0 if parity is None else 0.5
     guided = beam.ends == "guided"
     numbers = [number for number in range(count) if parity in (None, shape_parity(number))]
@@ -160,10 +208,10 @@ def _beam_body(tank: ScaledTank, index: int, count: int, parity: Parity | None) 
     bending = part * beam.flexural_rigidity * (roots / length) ** 4 * length
     return Body(
         surface=body_name(index + 1),
-        shapes=partial(_shape_at, guided, start, length, numbers),
-        wavenumber=float(roots[-1]) / length,
+        shapes=partial(_shape_at, guided, piece.start, length, numbers),
+        wavenumber=float(roots.max(initial=0.0)) / length,
         labels=tuple(_label(guided, number) for number in numbers),
-        stiffness=bending + part * float(beam.hydrostatic) * length,
+        stiffness=bending + part * float(beam.hydrostatic) * jump * length,
         bending_stiffness=bending,
         mass=np.full(len(numbers), part * beam.mass_per_length * length),
     )
@@ -175,8 +223,10 @@ def _label(guided: bool, number: int) -> str:
 
 
 def _shape_at(
-    guided: bool, start: float, length: float, numbers: list[int], points: np.ndarray, place: int
+    guided: bool, start: float, length: float, numbers: list[int], points: np.ndarray, normals: np.ndarray, place: int
 ) -> np.ndarray:
     # Quadrature points at the tips may miss them by rounding.
     s = np.clip((points[0] - start) / length, 0.0, 1.0)
-    return guided_shape(numbers[place], s) if guided else free_free_shape(numbers[place], s)
+    deflection = guided_shape(numbers[place], s) if guided else free_free_shape(numbers[place], s)
+    upwards: np.ndarray = deflection * normals[1]
+    return upwards

@@ -17,11 +17,19 @@ import numpy as np
 from hydroelastic.fem.liquid import compile_form
 from hydroelastic.fem.modes import HIDDEN, Mode, ModeSet, count_below, solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
-from hydroelastic.fem.surfaces import Body
+from hydroelastic.fem.surfaces import Body, LiquidSurface
 from hydroelastic.meshes.distribute import TankMesh
-from hydroelastic.scenes.field_model import build_field_model, build_half_models, whole_bodies
-from hydroelastic.scenes.plan import Resolution, ScaledTank
-from hydroelastic.scenes.symmetry import PARITIES, Parity, left_bodies, shape_parity, shapes_of_twins, twin_of
+from hydroelastic.scenes.field_model import build_field_model, build_half_models, moving_parities, whole_bodies
+from hydroelastic.scenes.plan import Resolution
+from hydroelastic.scenes.scaled_tank import ScaledTank
+from hydroelastic.scenes.symmetry import (
+    Parity,
+    left_bodies,
+    motion_parity,
+    shape_parity,
+    shapes_of_twins,
+    twin_of,
+)
 
 
 @dataclass
@@ -65,6 +73,7 @@ class FieldSolution:
         bodies: the beams of the whole tank.
         modes: the lowest modes of all parts, ascending, in the bodies of the whole tank at unit generalized mass.
         origins: part and index there of each of them.
+        growing_parts: part of each of the growing modes.
     """
 
     mesh: TankMesh
@@ -72,6 +81,11 @@ class FieldSolution:
     bodies: tuple[Body, ...]
     modes: ModeSet
     origins: tuple[tuple[int, int], ...]
+    growing_parts: tuple[int, ...] = ()
+
+    def parts_of(self, indices: list[int]) -> list[int]:
+        """The part of each of some modes."""
+        return [self.origins[index][0] for index in indices]
 
     @property
     def dofs(self) -> int:
@@ -86,12 +100,12 @@ class FieldSolution:
     @property
     def half(self) -> bool:
         """Whether the mesh is that of the left half of the tank."""
-        return len(self.parts) > 1
+        return self.parts[0].parity is not None
 
     @property
-    def has_waves(self) -> bool:
-        """Whether there is a free surface."""
-        return self.parts[0].pencil.free_surface is not None
+    def surfaces(self) -> tuple[LiquidSurface, ...]:
+        """The surfaces of the liquids that move under gravity."""
+        return self.parts[0].pencil.surfaces
 
     def parity(self, index: int) -> Parity | None:
         """Symmetry of a mode; ``None`` where the whole tank was solved."""
@@ -117,7 +131,7 @@ def solve_field(
         count: how many modes; fewer come back if the model has fewer.
         watch: told the time of compiling the form, of assembly and of solution.
         half: whether the tank is its own mirror image and is solved as two halves.
-        pressure_release: put ψ = 0 on the water whatever the scene says.
+        pressure_release: the limit of high frequency, on a mesh that is made for it.
 
     Returns:
         The modes (collective).
@@ -126,24 +140,37 @@ def solve_field(
         EigenSolverError: if SLEPc stops before enough pairs have converged.
     """
     with watch.stage("forms"):
-        compile_form(mesh, resolution.degree)
+        compile_form(mesh, resolution.degree, glued=pressure_release and len(tank.layers) > 1)
     if half:
         resolution = replace(resolution, shapes=shapes_of_twins(tank, resolution.shapes))
-    build = build_half_models if half else _whole_model
     with watch.stage("assemble"):
-        pencils = build(
-            mesh, tank, degree=resolution.degree, shapes=resolution.shapes, pressure_release=pressure_release
+        parities, pencils = part_models(
+            mesh, tank, resolution.degree, resolution.shapes, half=half, pressure_release=pressure_release
         )
-    parities: tuple[Parity | None, ...] = PARITIES if half else (None,)
     with watch.stage("solve"):
         parts = _solved_parts(pencils, parities, count)
         return _merged(mesh, tank, resolution, parts, count)
 
 
-def _whole_model(
-    mesh: TankMesh, tank: ScaledTank, *, degree: int, shapes: tuple[int, ...], pressure_release: bool
-) -> tuple[CoupledPencil, ...]:
-    return (build_field_model(mesh, tank, degree=degree, shapes=shapes, pressure_release=pressure_release),)
+def part_models(
+    mesh: TankMesh,
+    tank: ScaledTank,
+    degree: int,
+    shapes: tuple[int, ...],
+    *,
+    half: bool,
+    pressure_release: bool,
+) -> tuple[tuple[Parity | None, ...], tuple[CoupledPencil, ...]]:
+    """The problems of a scene with their symmetries: one of the whole tank, or those of its halves in which something
+    moves (collective)."""
+    if not half:
+        pencil = build_field_model(mesh, tank, degree=degree, shapes=shapes, pressure_release=pressure_release)
+        return (None,), (pencil,)
+    parities = moving_parities(tank, shapes, pressure_release=pressure_release)
+    pencils = build_half_models(
+        mesh, tank, degree=degree, shapes=shapes, pressure_release=pressure_release, parities=parities
+    )
+    return parities, pencils
 
 
 def _solved_parts(pencils: tuple[CoupledPencil, ...], parities: tuple[Parity | None, ...], count: int) -> list[Part]:
@@ -183,7 +210,8 @@ def _merged(mesh: TankMesh, tank: ScaledTank, resolution: Resolution, parts: lis
         if value <= limit
     )[:count]
     origins = tuple((number, index) for _, number, index in ordered)
-    extensions = [_extension(tank, resolution.shapes, part.parity) for part in parts]
+    bodies = whole_bodies(tank, resolution.shapes)
+    extensions = [extension(tank, bodies, part.parity) for part in parts]
     amplitudes = [extensions[number] @ parts[number].modes.elastic_amplitudes[index] for number, index in origins]
 
     def completed(place: int) -> Mode:
@@ -193,18 +221,24 @@ def _merged(mesh: TankMesh, tank: ScaledTank, resolution: Resolution, parts: lis
     return FieldSolution(
         mesh=mesh,
         parts=tuple(parts),
-        bodies=whole_bodies(tank, resolution.shapes),
+        bodies=bodies,
         modes=ModeSet(
             eigenvalues=np.array([value for value, _, _ in ordered]),
-            elastic_amplitudes=np.array(amplitudes).reshape(len(ordered), sum(resolution.shapes)),
+            elastic_amplitudes=np.array(amplitudes).reshape(len(ordered), sum(body.size for body in bodies)),
             modes=(),
             completed=completed,
             zero_modes=sum(part.modes.zero_modes for part in parts),
             converged=sum(part.modes.converged for part in parts),
             iterations=max(part.modes.iterations for part in parts),
             solves=sum(part.modes.solves for part in parts),
+            growing=tuple(
+                _extended(mode, matrix)
+                for part, matrix in zip(parts, extensions, strict=True)
+                for mode in part.modes.growing
+            ),
         ),
         origins=origins,
+        growing_parts=tuple(number for number, part in enumerate(parts) for _ in part.modes.growing),
     )
 
 
@@ -212,33 +246,41 @@ def _extended(mode: Mode, extension: np.ndarray) -> Mode:
     """A mode in the bodies of the whole tank; its ζ and ψ stay those of its part, at unit generalized mass there."""
     # Each unknown's share goes to the bodies of the whole tank as the squares of the amplitudes do.
     squares = extension**2
-    shares = (squares / squares.sum(axis=0)) @ mode.energy[:-1]
+    own = extension.shape[1]
+    shares = (squares / squares.sum(axis=0)) @ mode.energy[:own]
     return replace(
         mode,
         body_amplitudes=extension @ mode.body_amplitudes,
-        energy=np.append(shares, mode.energy[-1]),
+        energy=np.concatenate([shares, mode.energy[own:]]),
     )
 
 
-def _extension(tank: ScaledTank, shapes: tuple[int, ...], parity: Parity | None) -> np.ndarray:
+def extension(tank: ScaledTank, bodies: tuple[Body, ...], parity: Parity | None) -> np.ndarray:
     """Matrix from the body unknowns of a part to those of the whole tank, both at their unit generalized mass."""
+    size = sum(body.size for body in bodies)
     if parity is None:
-        return np.eye(sum(shapes))
-    offsets = np.cumsum([0, *shapes])
+        return np.eye(size)
+    offsets = np.cumsum([0, *(body.size for body in bodies)])
     columns = []
     for body in left_bodies(tank):
         twin = twin_of(tank, body)
-        for number in range(shapes[body]):
-            if twin == body and shape_parity(number) != parity:
+        for number, own in enumerate(_parities(tank, body, bodies[body])):
+            if twin == body and own != parity:
                 continue
-            column = np.zeros(sum(shapes))
+            column = np.zeros(size)
             column[offsets[body] + number] = np.sqrt(0.5)
             if twin != body:
                 # Seen from the other side, odd shapes change their sign.
-                sign = 1.0 if shape_parity(number) == parity else -1.0
-                column[offsets[twin] + number] = sign * np.sqrt(0.5)
+                column[offsets[twin] + number] = np.sqrt(0.5) if own == parity else -np.sqrt(0.5)
             columns.append(column)
-    return np.array(columns).reshape(len(columns), sum(shapes)).T
+    return np.array(columns).reshape(len(columns), size).T
+
+
+def _parities(tank: ScaledTank, index: int, body: Body) -> list[Parity]:
+    """Symmetry of each of a body's shapes about its middle."""
+    if index in tank.beams:
+        return [shape_parity(number) for number in range(body.size)]
+    return [motion_parity(motion) for motion in tank.floats[index].motions]
 
 
 def count_is_confirmed(solution: FieldSolution) -> bool:
@@ -252,5 +294,6 @@ def count_is_confirmed(solution: FieldSolution) -> bool:
         widest = first + int(np.argmax(gaps[first:]))
         shift = float(np.sqrt(values[widest] * values[widest + 1]))
     return all(
-        count_below(part.pencil, shift) == int(np.sum(part.modes.eigenvalues < shift)) for part in solution.parts
+        count_below(part.pencil, shift) == int(np.sum(part.modes.eigenvalues < shift)) + len(part.modes.growing)
+        for part in solution.parts
     )

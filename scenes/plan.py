@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import ceil, e, log10, pi
+from math import ceil, e, inf, log10, pi
+from typing import TYPE_CHECKING
 
-from hydroelastic.scenes.models import Beam, TankScene, top_segments
-from hydroelastic.scenes.scaling import scaled_beam, scales
-from hydroelastic.scenes.waves import TopPiece, modes_below, squared_frequency_of_mode
+from hydroelastic.scenes.models import Beam, TankScene
+from hydroelastic.scenes.scaled_tank import Piece, ScaledTank, StillLevel, scaled_tank
+from hydroelastic.scenes.waves import modes_below, squared_frequency_of_mode
+
+if TYPE_CHECKING:
+    from hydroelastic.scenes.scaled_float import ScaledFloat
 
 HIGHEST_DEGREE = 10
 MOST_SHAPES = 400
@@ -23,54 +27,12 @@ _FIRST_ROOT = 4.73
 _COMPANION_MODES = 6
 # More modes than this below the first elastic tone are not searched: the tone has then no individual meaning.
 MOST_MODES_TO_TONE = 200
-
-
-@dataclass(frozen=True, kw_only=True)
-class ScaledTank:
-    """A scene in units of the tank.
-
-    Attributes:
-        depth: H/L.
-        top: what the top is beside the bodies.
-        beams: dimensionless beams in the scene's order.
-        pieces: segments of the top from left to right: start, end and the beam's index in the scene, or ``None``.
-    """
-
-    depth: float
-    top: str
-    beams: tuple[Beam, ...]
-    pieces: tuple[tuple[float, float, int | None], ...]
-
-    @property
-    def moving(self) -> tuple[TopPiece, ...]:
-        """The pieces on which waves travel."""
-        pieces = []
-        for start, end, body in self.pieces:
-            if body is not None:
-                pieces.append(TopPiece(length=end - start, beam=self.beams[body]))
-            elif self.top == "free":
-                pieces.append(TopPiece(length=end - start, beam=None))
-        return tuple(pieces)
-
-
-def scaled_tank(scene: TankScene) -> ScaledTank:
-    """The scene in units of the tank."""
-    units = scales(scene)
-    pieces = tuple(
-        (
-            segment.start / units.length,
-            1.0 if segment.end == scene.tank.length else segment.end / units.length,
-            segment.body,
-        )
-        for segment in top_segments(scene)
-    )
-    place = {body: (start, end) for start, end, body in pieces if body is not None}
-    return ScaledTank(
-        depth=scene.liquid[0].depth / units.length,
-        top=scene.tank.top,
-        beams=tuple(scaled_beam(beam, units, *place[index]) for index, beam in enumerate(scene.body)),
-        pieces=pieces,
-    )
+# Tips with a smaller α get rings that shrink more slowly.
+_SHARP = 0.75
+# α of a scene without singular points: nothing depends on it.
+_SMOOTH = 2.0
+# Elements along a contour, in parts of a float's larger extent.
+_OF_CONTOUR = 0.35
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -79,11 +41,13 @@ class Resolution:
 
     Attributes:
         degree: polynomial degree of ψ.
-        surface_sizes: largest element on each piece of the top, in tank lengths.
+        surface_sizes: largest element on each piece of the still levels, on that of a float along its contour; in tank
+            lengths.
         bulk_size: largest element anywhere.
-        tip_size: innermost ring around the tips; ``None`` on a mesh that is not graded by rings.
+        tip_size: innermost ring around the sharpest tips; ``None`` on a mesh that is not graded by rings.
+        ring_size: outermost ring that goes with it.
         ring_ratio: ratio of the radii of successive rings.
-        shapes: number of dry modes of each beam.
+        shapes: number of dry modes of each beam, 0 for a float.
         modes: how many modes are solved for.
         reaches_tones: whether the first elastic tone of each beam is expected among them.
         widened: whether modes were added because the tone was not found among those first planned.
@@ -97,6 +61,7 @@ class Resolution:
     modes: int
     reaches_tones: tuple[bool, ...]
     ring_ratio: float = 0.3
+    ring_size: float = 1.0
     widened: bool = False
 
     def with_degree(self, more: int) -> Resolution:
@@ -144,50 +109,72 @@ def initial_resolution(scene: TankScene, *, modes: int, tones: tuple[float, ...]
     into the tips as the singularity there asks for.
     """
     tank = scaled_tank(scene)
-    below = [modes_below(tank.moving, tank.depth, tone) for tone in tones]
+    below = [modes_below(tank.moving, tone) for tone in tones]
     # Enough above each tone to hold its flank: the part in each mode falls off like a resonance curve.
     expected = [ceil(1.25 * count) + 4 for count in below]
     reaches_tones = tuple(count <= MOST_MODES_TO_TONE for count in expected)
     # The modes above the highest one reported show where the tone is, but need not be accurate.
     reported = max([modes, *(ceil(count) + 1 for count, reached in zip(below, reaches_tones, strict=True) if reached)])
     modes = max([modes, *(count for count, reached in zip(expected, reaches_tones, strict=True) if reached)])
-    highest = squared_frequency_of_mode(tank.moving, tank.depth, reported)
+    highest = squared_frequency_of_mode(tank.moving, reported) if tank.moving else 0.0
     tolerance = workable_tolerance(scene.accuracy.tolerance, tank.depth)
-    wavenumbers = tuple(_wavenumber(tank, piece, highest) for piece in tank.pieces)
-    resolution = _resolution_for(tank, tolerance, wavenumbers, sharp=tank.top == "pressure_release")
+    wavenumbers = tuple(_wavenumber(tank, level, piece, highest) for level in tank.levels for piece in level.pieces)
+    resolution = _resolution_for(tank, tolerance, wavenumbers, exponent=sharpest_exponent(tank, released=False))
     return replace(resolution, modes=modes, reaches_tones=reaches_tones)
 
 
 def companion_resolution(tank: ScaledTank, tolerance: float, tones: tuple[float, ...]) -> Resolution:
-    """Resolution for the first elastic tones with ψ = 0 on the water: no waves beside the beams, but sharper tips.
+    """Resolution for the limit of high frequency: no waves beside the bodies, but sharper tips.
 
     Args:
         tank: the scene.
-        tolerance: asked relative error of the tones.
-        tones: about the (dimensionless) λ of each.
+        tolerance: asked relative error.
+        tones: about the (dimensionless) λ of the first elastic tone of each beam.
     """
+    expected = dict(zip(tank.beams, tones, strict=True))
     wavenumbers = tuple(
-        0.0 if piece[2] is None else max(_FIRST_ROOT / (piece[1] - piece[0]), _wavenumber(tank, piece, tones[piece[2]]))
-        for piece in tank.pieces
+        max(_FIRST_ROOT / piece.length, _wavenumber(tank, level, piece, expected[piece.body]))
+        if piece.body in tank.beams
+        else 0.0
+        for level in tank.levels
+        for piece in level.pieces
     )
-    resolution = _resolution_for(tank, workable_tolerance(tolerance, tank.depth), wavenumbers, sharp=True)
+    exponent = sharpest_exponent(tank, released=True)
+    resolution = _resolution_for(tank, workable_tolerance(tolerance, tank.depth), wavenumbers, exponent=exponent)
     return replace(resolution, modes=_COMPANION_MODES * len(tank.beams))
 
 
-def _wavenumber(tank: ScaledTank, piece: tuple[float, float, int | None], squared_frequency: float) -> float:
-    """The shortest wave on a piece of the top, up to λ."""
-    start, end, body = piece
-    if body is None and tank.top != "free":
-        return 0.0
-    beam = None if body is None else tank.beams[body]
-    return TopPiece(length=end - start, beam=beam).wavenumber(squared_frequency, tank.depth)
+def sharpest_exponent(tank: ScaledTank, *, released: bool) -> float:
+    """The smallest α with which ψ ~ r^α at a tip, a corner or a contact point.
+
+    Args:
+        tank: the scene.
+        released: whether gravity is left out: ψ = 0 on the top, and liquids move as one.
+    """
+    if not tank.floats:
+        return 0.5 if released or tank.top == "pressure_release" else 1.0
+    from hydroelastic.scenes.tank_corners import singular_points
+    from hydroelastic.scenes.tank_outline import Sizes, grounded_names, tank_outline
+
+    sizes = Sizes(pieces=(inf,) * len(tank.pieces), contours=dict.fromkeys(tank.floats, inf))
+    outline = tank_outline(tank, sizes, released=released)
+    points = singular_points(outline, grounded=grounded_names(tank, released=released), glued=released)
+    return min((point.exponent for point in points), default=_SMOOTH)
 
 
-def _resolution_for(tank: ScaledTank, tolerance: float, wavenumbers: tuple[float, ...], *, sharp: bool) -> Resolution:
-    """Elements, rings and dry modes for the shortest waves on the pieces of the top.
+def _wavenumber(tank: ScaledTank, level: StillLevel, piece: Piece, squared_frequency: float) -> float:
+    """The shortest wave on a piece of a still level, up to λ."""
+    moving = tank.moving_piece(level, piece)
+    return 0.0 if moving is None else moving.wavenumber(squared_frequency)
 
-    Beside water under gravity or a lid ψ ~ r ln r at a tip, and the error falls like the square of the innermost ring.
-    Beside a surface with ψ = 0 it is ``sharp``: ψ ~ r^{1/2}, and the error falls like the ring itself.
+
+def _resolution_for(
+    tank: ScaledTank, tolerance: float, wavenumbers: tuple[float, ...], *, exponent: float
+) -> Resolution:
+    """Elements, rings and dry modes for the shortest waves on the pieces of the still levels.
+
+    Where ψ ~ r^α at a tip, the error falls like the power 2α of the innermost ring: like its square beside water under
+    gravity or a lid, ψ ~ r ln r, like the ring itself beside a surface with ψ = 0, ψ ~ r^{1/2}.
     """
     # Measured on tanks with known modes: the cheapest degree for each tolerance.
     degree = ceil(1.5 - 0.75 * log10(tolerance))
@@ -195,28 +182,42 @@ def _resolution_for(tank: ScaledTank, tolerance: float, wavenumbers: tuple[float
     # In thin layers rounding takes more than a high degree gives.
     while degree > 6 and rounding_error(degree, tank.depth) > 0.3 * tolerance:
         degree -= 1
-    # Never fewer than two elements on a piece.
     sizes = tuple(
-        min(_radians(degree, tolerance) / max(wavenumber, 1e-9), 0.5 * (end - start), 0.25)
-        for (start, end, _), wavenumber in zip(tank.pieces, wavenumbers, strict=True)
+        _contour_size(tank.floats[piece.body])
+        if piece.body in tank.floats
+        # Never fewer than two elements on a piece.
+        else min(_radians(degree, tolerance) / max(wavenumber, 1e-9), 0.5 * piece.length, 0.25)
+        for piece, wavenumber in zip(tank.pieces, wavenumbers, strict=True)
     )
-    on_beams = {body: wavenumber for (_, _, body), wavenumber in zip(tank.pieces, wavenumbers, strict=True)}
+    on_bodies = {piece.body: wavenumber for piece, wavenumber in zip(tank.pieces, wavenumbers, strict=True)}
     shapes = tuple(
-        min(MOST_SHAPES, _shapes_for(beam, on_beams[index], tolerance)) for index, beam in enumerate(tank.beams)
+        min(MOST_SHAPES, _shapes_for(body, on_bodies[index], tolerance)) if isinstance(body, Beam) else 0
+        for index, body in enumerate(tank.bodies)
     )
-    shortest = min((end - start for start, end, _ in tank.pieces), default=1.0)
+    shortest = min((piece.length for piece in tank.pieces if piece.body not in tank.floats), default=1.0)
     outermost = min(0.45 * shortest, 0.45 * tank.depth, *sizes)
-    tip = outermost * min(10.0 * tolerance if sharp else 15.0 * tolerance**0.5, 0.25)
     return Resolution(
         degree=degree,
         surface_sizes=sizes,
-        bulk_size=0.5 * max(1.0, tank.depth),
-        tip_size=max(tip, SMALLEST_TIP),
+        bulk_size=0.5 * max(1.0, *(layer.depth for layer in tank.layers)),
+        tip_size=max(outermost * _innermost(exponent, tolerance), SMALLEST_TIP),
+        ring_size=outermost,
         shapes=shapes,
         modes=0,
         reaches_tones=(),
-        ring_ratio=0.4 if sharp else 0.3,
+        ring_ratio=0.4 if exponent < _SHARP else 0.3,
     )
+
+
+def _innermost(exponent: float, tolerance: float) -> float:
+    """The innermost ring in parts of the outermost one; measured at beams' tips, with α = 1 and 1/2."""
+    return min((5.0 + 10.0 * exponent) * float(tolerance ** (0.5 / exponent)), 0.25)
+
+
+def _contour_size(body: ScaledFloat) -> float:
+    """Largest element along a contour; where it bends, the mesh takes smaller ones."""
+    left, right, low, high = body.bounds
+    return min(_OF_CONTOUR * max(right - left, high - low), 0.25)
 
 
 def _radians(degree: int, tolerance: float) -> float:

@@ -44,7 +44,7 @@ def sample_shapes(solution: TankSolution) -> ModeShapes | None:
     space = field.parts[0].pencil.liquid
     functions = as_functions(space, [mode.potential for mode in modes])
     liquid = sample_liquid(space, functions)
-    water = sample_surface(space, functions, FREE_SURFACE) if field.has_waves else None
+    water = sample_surface(space, functions, FREE_SURFACE) if field.surfaces else None
     if liquid is None:
         return None
     if field.half:
@@ -102,14 +102,15 @@ def _mirrored_trace(half: SurfaceTrace, signs: np.ndarray) -> SurfaceTrace:
 
 
 def _body_curves(solution: TankSolution, amplitudes: np.ndarray) -> list[SurfaceCurve]:
-    place = {body: (start, end) for start, end, body in solution.tank.pieces if body is not None}
+    place = {piece.body: (piece.start, piece.end) for piece in solution.tank.pieces}
     curves, first = [], 0
     for index, body in enumerate(solution.field.bodies):
         x: NDArray[np.float64] = np.linspace(*place[index], _BEAM_POINTS, dtype=np.float64)
-        points = np.vstack([x, np.zeros((2, len(x)))])
+        points, upwards = np.vstack([x, np.zeros_like(x)]), np.vstack([np.zeros_like(x), np.ones_like(x)])
         own = amplitudes[first : first + body.size]
         displacement = sum(
-            (amplitude * body.shapes(points, number) for number, amplitude in enumerate(own)), np.zeros_like(x)
+            (amplitude * body.shapes(points, upwards, number) for number, amplitude in enumerate(own)),
+            np.zeros_like(x),
         )
         curves.append(SurfaceCurve(kind="body", x=x, displacement=displacement))
         first += body.size
@@ -124,10 +125,10 @@ def _water_curves(
     # η = ω² ψ/g, in units of the tank λψ.
     elevation = eigenvalue * water.potential[number]
     curves = []
-    for start, end, body in solution.tank.pieces:
-        if body is None:
+    for piece in solution.tank.pieces:
+        if piece.body is None:
             # Mirrored abscissae miss the ends by rounding.
-            inside = (water.x >= start - _ROUNDING) & (water.x <= end + _ROUNDING)
+            inside = (water.x >= piece.start - _ROUNDING) & (water.x <= piece.end + _ROUNDING)
             curves.append(SurfaceCurve(kind="free_surface", x=water.x[inside], displacement=elevation[inside]))
     return curves
 

@@ -22,7 +22,8 @@ from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
 from hydroelastic.scenes.field_model import distributed_mesh
 from hydroelastic.scenes.field_solution import Stopwatch, solve_field
 from hydroelastic.scenes.models import TankScene
-from hydroelastic.scenes.plan import HIGHEST_DEGREE, scaled_tank
+from hydroelastic.scenes.plan import HIGHEST_DEGREE
+from hydroelastic.scenes.scaled_tank import scaled_tank
 from hydroelastic.scenes.solve import Report
 from hydroelastic.scenes.study_plan import StudyPlan
 from hydroelastic.scenes.study_rates import Gain, Rate, fitted_gain, fitted_rates

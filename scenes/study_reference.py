@@ -12,7 +12,8 @@ from hydroelastic.scenes.estimates import exact_frequencies
 from hydroelastic.scenes.field_model import build_mesh
 from hydroelastic.scenes.field_solution import Stopwatch, solve_field
 from hydroelastic.scenes.models import Accuracy, TankScene
-from hydroelastic.scenes.plan import Resolution, ScaledTank, initial_resolution
+from hydroelastic.scenes.plan import Resolution, initial_resolution
+from hydroelastic.scenes.scaled_tank import ScaledTank
 from hydroelastic.scenes.scaling import scales
 
 # No row of a study asks for this; dry modes, rings and elements of all of them come from it.
@@ -64,7 +65,7 @@ def _solved(scene: TankScene, tank: ScaledTank, resolution: Resolution, *, half:
     field = solve_field(mesh, tank, resolution, scene.accuracy.modes, Stopwatch(), half=half)
     indices = list(range(len(field.modes.eigenvalues)))
     modes = [field.modes.completed(index) for index in indices]
-    errors = frequency_errors(field, modes, indices, resolution, tank.depth).total
+    errors = frequency_errors(field, modes, field.parts_of(indices), resolution, tank).total
     dry_modes = f", {sum(resolution.shapes)} dry modes" if resolution.shapes else ""
     return Reference(
         name=f"degree {resolution.degree} on geometric rings, {field.dofs} unknowns{dry_modes}",

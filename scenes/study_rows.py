@@ -14,7 +14,8 @@ from hydroelastic.scenes.certainty import frequency_errors
 from hydroelastic.scenes.field_solution import Stopwatch, solve_field
 from hydroelastic.scenes.memory import peak_memory
 from hydroelastic.scenes.models import Accuracy, TankScene
-from hydroelastic.scenes.plan import Resolution, ScaledTank, rounding_error
+from hydroelastic.scenes.plan import Resolution, rounding_error
+from hydroelastic.scenes.scaled_tank import ScaledTank
 from hydroelastic.scenes.scaling import scales
 from hydroelastic.scenes.solve import solve_scene
 from hydroelastic.scenes.study_plan import Family
@@ -137,7 +138,7 @@ def mesh_row(
             with watch.stage("errors"):
                 indices = list(range(len(field.modes.eigenvalues)))
                 modes = [field.modes.completed(index) for index in indices]
-                causes = frequency_errors(field, modes, indices, resolution, studied.tank.depth)
+                causes = frequency_errors(field, modes, field.parts_of(indices), resolution, studied.tank)
                 estimate = float(causes.total.max())
     omega = np.sqrt(field.modes.eigenvalues) * scales(studied.scene).frequency
     if len(omega) < min(count, len(studied.reference.omega)):

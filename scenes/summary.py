@@ -11,6 +11,7 @@ import numpy as np
 
 from hydroelastic.modal.estimate import Estimate
 from hydroelastic.scenes.estimates import exact_frequencies
+from hydroelastic.scenes.float_summary import float_rows, growing_rows
 from hydroelastic.scenes.solve import TankSolution, ToneSolution
 from hydroelastic.scenes.tones import bending_fraction, mode_kind
 
@@ -42,6 +43,8 @@ def summarize(solution: TankSolution, estimates: dict[str, Estimate], *, import_
         "zero_modes": solution.modes.zero_modes,
         "first_elastic": first[0] if first else None,
         "first_elastic_by_body": first,
+        "floats": float_rows(solution),
+        "growing": growing_rows(solution),
         "estimates": compared(solution, estimates, first[0] if first else {}),
         "exact": _exact(solution),
         "solver": {
@@ -60,7 +63,7 @@ def summarize(solution: TankSolution, estimates: dict[str, Estimate], *, import_
             "degree": solution.resolution.degree,
             "surface_unknowns": solution.field.surface_unknowns,
             "halves": solution.field.half,
-            "beam_shapes": list(solution.resolution.shapes),
+            "beam_shapes": [solution.resolution.shapes[index] for index in solution.tank.beams],
             "processes": solution.field.mesh.mesh.comm.size,
         },
         "timing": {"import": import_seconds, **solution.seconds},
@@ -79,7 +82,7 @@ def _modes(solution: TankSolution) -> list[dict[str, Any]]:
                 "frequency_hz": solution.units.hertz(omega / solution.units.frequency),
                 "relative_error": float(solution.relative_errors[index]),
                 "symmetry": solution.field.parity(index),
-                "kind": mode_kind(mode, solution.field.bodies),
+                "kind": mode_kind(mode, solution.field.bodies, solution.field.surfaces),
                 "elastic_energy_fraction": bending_fraction(mode, solution.field.bodies),
                 "residual": mode.residual,
             }
@@ -97,11 +100,12 @@ def _exact(solution: TankSolution) -> list[dict[str, Any]]:
 
 
 def _first_elastic(solution: TankSolution) -> list[dict[str, Any]]:
-    return [_tone(solution, body, tone) for body, tone in enumerate(solution.tones)]
+    return [_tone(solution, tone) for tone in solution.tones]
 
 
-def _tone(solution: TankSolution, body: int, tone: ToneSolution) -> dict[str, Any]:
-    beam = solution.scene.body[body]
+def _tone(solution: TankSolution, tone: ToneSolution) -> dict[str, Any]:
+    body = tone.body
+    beam = solution.tank.beams[body]
     # Dry mode 1 of the body, in units of the tank: EI κ⁴ l, (EI κ⁴ + s) l and m l.
     shapes = solution.field.bodies[body]
     first = shapes.labels.index("elastic 1")
@@ -128,7 +132,7 @@ def _tone(solution: TankSolution, body: int, tone: ToneSolution) -> dict[str, An
     eigenvalue = float(solution.modes.eigenvalues[tone.tone.index])
     error = float(solution.relative_errors[tone.tone.index])
     added, added_error = added_mass(float(shapes.stiffness[first]), float(shapes.mass[first]), eigenvalue, error)
-    scale = solution.units.mass_per_length / (beam.length / solution.units.length)
+    scale = solution.units.mass_per_length / beam.length
     shared = tone.tone.runner_up > SHARED * tone.tone.participation
     found.update(
         omega=solution.omega(eigenvalue),

@@ -9,6 +9,8 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
+from hydroelastic.scenes.digits import with_certain_digits
+from hydroelastic.scenes.float_tables import float_lines
 from hydroelastic.scenes.summary import Summary
 
 MODE_COLUMNS = (
@@ -43,14 +45,6 @@ def mode_rows(summary: Summary) -> list[tuple[str, ...]]:
 MODE_HEADINGS = ("mode", "ω, rad/s", "f, Hz", "estimated error", "kind", "symmetry", "bending energy")
 
 
-def with_certain_digits(value: float, relative_error: float) -> str:
-    """A number with the digits that its error leaves certain, between 4 and 13."""
-    digits = 4
-    while digits < 13 and 10.0 ** (-digits) > relative_error:
-        digits += 1
-    return f"{value:#.{digits}g}"
-
-
 def tone_lines(summary: Summary) -> list[str]:
     """What is said of each beam's first elastic tone."""
     lines = []
@@ -72,7 +66,11 @@ def tone_lines(summary: Summary) -> list[str]:
         limits = f"In vacuo: {tone['dry_omega']:.8g} rad/s"
         if tone["pressure_release_omega"] is not None:
             release = with_certain_digits(tone["pressure_release_omega"], tone["pressure_release_relative_error"])
-            limits += f"; with ψ = 0 on the water, the limit far above the waves: {release} rad/s"
+            one = len(summary["scene"]["liquid"]) == 1
+            limit = (
+                "with ψ = 0 on the water, the limit far above the waves" if one else "in the limit far above the waves"
+            )
+            limits += f"; {limit}: {release} rad/s"
         lines.append(f"  {limits}.")
     return lines
 
@@ -161,7 +159,7 @@ def printed(summary: Summary, *, notes: bool = False, width: int = 120) -> str:
     console.print(_table(MODE_HEADINGS, mode_rows(summary)))
     for line in mode_lines(summary):
         console.print(line, markup=False)
-    for line in tone_lines(summary):
+    for line in (*tone_lines(summary), *float_lines(summary)):
         console.print(line, markup=False)
     if notes and not summary["estimates"] and summary["scene"]["body"]:
         console.print("No estimates: the older theories know one beam with free ends beside free water.")
@@ -194,7 +192,7 @@ def markdown(summary: Summary) -> str:
     complaint = [f"**{line}**" if number == 0 else line for number, line in enumerate(status_lines(summary))]
     parts += [*complaint, ""] if complaint else []
     parts += [_markdown_table(MODE_HEADINGS, mode_rows(summary)), ""]
-    parts += [line + "\n" for line in (*mode_lines(summary), *tone_lines(summary))]
+    parts += [line + "\n" for line in (*mode_lines(summary), *tone_lines(summary), *float_lines(summary))]
     if summary["estimates"]:
         parts += [_markdown_table(ESTIMATE_HEADINGS, estimate_rows(summary)), ""]
         parts += [f"- `{name}`: {estimate['note']}" for name, estimate in summary["estimates"].items()]

@@ -2,46 +2,109 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from math import inf
+
 import numpy as np
 
 from hydroelastic.meshes.geometry import FREE_SURFACE, LID, LIQUID, TankGeometry, body_name, tank_geometry
 from hydroelastic.meshes.grading import Grading
+from hydroelastic.meshes.outline import Corner, Outline
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
-from hydroelastic.scenes.plan import Resolution, ScaledTank
+from hydroelastic.scenes.plan import Resolution, sharpest_exponent
+from hydroelastic.scenes.scaled_tank import ScaledTank
+from hydroelastic.scenes.tank_corners import singular_points
+from hydroelastic.scenes.tank_outline import Sizes, grounded_names, tank_outline
 
 # A mesh that the user brings may miss the scene's abscissae by this part of the tank's length: files round.
 _MESH_ROUNDING = 1e-6
 
 
 def geometry_of(tank: ScaledTank, *, half: bool = False) -> TankGeometry:
-    """The outline of the tank, or of its left half, with the physical names of its top."""
+    """The outline of a tank with one liquid and no floats, or of its left half, with the names of its top."""
     rest = LID if tank.top == "rigid" else FREE_SURFACE
     length = 0.5 if half else 1.0
     pieces = tuple(
-        (start, min(end, length), rest if body is None else body_name(body + 1))
-        for start, end, body in tank.pieces
-        if start < length
+        (piece.start, min(piece.end, length), rest if piece.body is None else body_name(piece.body + 1))
+        for piece in tank.pieces
+        if piece.start < length
     )
     return tank_geometry(length=length, depth=tank.depth, pieces=pieces, mirrored=half)
 
 
-def make_mesh(tank: ScaledTank, resolution: Resolution, *, half: bool = False) -> TaggedMesh:
+def make_mesh(tank: ScaledTank, resolution: Resolution, *, half: bool = False, released: bool = False) -> TaggedMesh:
     """Mesh a scene, or its left half, with gmsh; in units of the tank.
+
+    Args:
+        tank: the scene.
+        resolution: sizes of elements, and the degree, which curved cells have too.
+        half: whether the scene is its own mirror image, and the left half is meant.
+        released: whether the mesh is for the limit of high frequency, in which liquids move as one.
 
     Raises:
         MeshError: if gmsh fails.
     """
     # gmsh takes a third of a second to import, and a scene that brings its mesh does not need it.
-    from hydroelastic.meshes.tank import build_tank_mesh
+    if is_plain(tank):
+        from hydroelastic.meshes.tank import build_tank_mesh
 
-    geometry = geometry_of(tank, half=half)
-    grading = Grading(
-        surface_sizes=resolution.surface_sizes[: len(geometry.segments)],
+        geometry = geometry_of(tank, half=half)
+        grading = Grading(
+            surface_sizes=resolution.surface_sizes[: len(geometry.segments)],
+            bulk_size=resolution.bulk_size,
+            tip_size=resolution.tip_size,
+            ring_ratio=resolution.ring_ratio,
+        )
+        return build_tank_mesh(geometry, grading)
+    from hydroelastic.meshes.build import build_mesh
+
+    curved = any(not body.is_thin for body in tank.floats.values())
+    return build_mesh(
+        graded_outline(tank, resolution, half=half, released=released),
         bulk_size=resolution.bulk_size,
-        tip_size=resolution.tip_size,
         ring_ratio=resolution.ring_ratio,
+        geometry_degree=resolution.degree if curved else 1,
     )
-    return build_tank_mesh(geometry, grading)
+
+
+def graded_outline(tank: ScaledTank, resolution: Resolution, *, half: bool, released: bool) -> Outline:
+    """The outline of a scene with rings at its singular points, each as deep as its singularity asks for."""
+    contours = {
+        piece.body: size
+        for piece, size in zip(tank.pieces, resolution.surface_sizes, strict=True)
+        if piece.body in tank.floats
+    }
+    sizes = Sizes(pieces=resolution.surface_sizes, contours=contours)
+    outline = tank_outline(tank, sizes, half=half, released=released)
+    if resolution.tip_size is None:
+        return outline
+    exponent = sharpest_exponent(tank, released=released)
+    depth = resolution.tip_size / resolution.ring_size
+    points = singular_points(outline, grounded=grounded_names(tank, released=released), glued=released)
+    corners = tuple(
+        Corner(
+            point=point.point,
+            inner=min(resolution.ring_size, point.reach) * depth ** (exponent / point.exponent),
+            outer=min(point.reach, 0.45 * tank.depth),
+        )
+        for point in points
+    )
+    return replace(outline, corners=corners)
+
+
+def tip_points(tank: ScaledTank, *, half: bool, released: bool = False) -> np.ndarray:
+    """Where meshes of a scene are graded to, shape (points, 2)."""
+    if is_plain(tank):
+        return np.array([[tip, 0.0] for tip in geometry_of(tank, half=half).tips]).reshape(-1, 2)
+    sizes = Sizes(pieces=(inf,) * len(tank.pieces), contours=dict.fromkeys(tank.floats, inf))
+    outline = tank_outline(tank, sizes, half=half, released=released)
+    points = singular_points(outline, grounded=grounded_names(tank, released=released), glued=released)
+    return np.array([point.point for point in points]).reshape(-1, 2)
+
+
+def is_plain(tank: ScaledTank) -> bool:
+    """Whether the liquid is a rectangle whose top is cut into pieces."""
+    return len(tank.layers) == 1 and not tank.floats
 
 
 def unknown_count(points: int, triangles: int, degree: int) -> int:

@@ -16,7 +16,7 @@ from hydroelastic.meshes.tagged_mesh import TaggedMesh
 from hydroelastic.meshes.tank import build_tank_mesh
 from hydroelastic.scenes.field_model import build_field_model
 from hydroelastic.scenes.models import Accuracy, Beam, Liquid, Tank, TankScene
-from hydroelastic.scenes.plan import ScaledTank, scaled_tank
+from hydroelastic.scenes.scaled_tank import ScaledTank, scaled_tank
 from hydroelastic.scenes.solve import TankSolution, solve_scene
 from hydroelastic.scenes.tank_mesh import geometry_of
 

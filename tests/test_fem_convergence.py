@@ -12,7 +12,7 @@ from hydroelastic.fem.modes import solve_modes
 from hydroelastic.meshes.nested import halved
 from hydroelastic.modal import sloshing_frequencies
 from hydroelastic.scenes.models import TankScene
-from hydroelastic.scenes.plan import ScaledTank
+from hydroelastic.scenes.scaled_tank import ScaledTank
 
 
 def values_on_halved_meshes(

@@ -20,7 +20,7 @@ ROUNDING = 1e-11
 def liquid_estimates(pencil: Any, count: int) -> tuple[np.ndarray, np.ndarray]:
     """λ of the lowest modes, and (λ_h − λ)/λ as estimated from ψ (collective)."""
     found = solve_modes(pencil, count)
-    cells = cell_errors(pencil.liquid, [mode.potential for mode in found.modes], pencil.density)
+    cells = cell_errors(pencil.liquid, [mode.potential for mode in found.modes])
     return found.eigenvalues, MPI.COMM_WORLD.allreduce(cells.sum(axis=1), op=MPI.SUM)
 
 
@@ -90,4 +90,4 @@ def test_what_dry_modes_left_out_would_add_is_seen(tanks: Any, name: str) -> Non
 def test_a_degree_too_low_to_judge_is_refused(tanks: Any) -> None:
     pencil = tanks.pencil(tanks.scene(), degree=3, tip_size=None)
     with pytest.raises(ValueError, match="degree 4"):
-        cell_errors(pencil.liquid, [], 1.0)
+        cell_errors(pencil.liquid, [])

@@ -28,7 +28,7 @@ def errors(**causes: float) -> FrequencyErrors:
 
 
 def next_after(causes: FrequencyErrors, last: Resolution = LAST, **changes: bool) -> Resolution | None:
-    return refined(last, causes, TOLERANCE, **({"sharp_tips": False, "own_mesh": True} | changes))
+    return refined(last, causes, TOLERANCE, **({"exponent": 1.0, "own_mesh": True} | changes))
 
 
 def changed(finer: Resolution | None, last: Resolution = LAST) -> set[str]:
@@ -52,7 +52,7 @@ def test_the_remedy_is_as_strong_as_the_error_asks() -> None:
     assert many is not None
     # The tail falls like N⁻⁷: 30 times too much needs 30^(1/7) = 1.63 times the shapes, and some.
     assert 1.63 * 20 < many.shapes[0] < 2.2 * 20
-    ring, sharp = next_after(errors(tips=1e-5)), next_after(errors(tips=1e-5), sharp_tips=True)
+    ring, sharp = next_after(errors(tips=1e-5)), next_after(errors(tips=1e-5), exponent=0.5)
     assert ring is not None
     assert sharp is not None
     # r ln r counts like the square of the ring, r^{1/2} like the ring.

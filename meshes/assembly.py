@@ -1,0 +1,175 @@
+"""One mesh from gmsh's cells and the rings: nodes and cells joined, tagged, cut open where the outline says so."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydroelastic.meshes.curved_cells import Sides
+from hydroelastic.meshes.cutting import cut_open
+from hydroelastic.meshes.edges import EDGE_CORNERS, Edges, edges_of
+from hydroelastic.meshes.filling import Filling
+from hydroelastic.meshes.layout import Layout
+from hydroelastic.meshes.outline import Outline, Point, as_points, enclosed_area
+from hydroelastic.meshes.rings import ring_triangles
+from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
+
+# Sums of areas agree to a few digits less than these.
+_AREA_ROUNDING = 1e-9
+
+
+def assemble(layout: Layout, filling: Filling) -> tuple[TaggedMesh, list[Sides]]:
+    """Join what was laid and what was filled.
+
+    Returns:
+        The mesh of straight triangles, and the cells at each curve of the outline.
+
+    Raises:
+        MeshError: if curves cross or a slit is too short to be opened.
+    """
+    joined = _joined(layout, filling)
+    outline = layout.outline
+    _check_areas(outline, joined)
+    edges = edges_of(joined.cells)
+    on_curves = [edges.find(np.column_stack([chain[:-1], chain[1:]])) for chain in joined.chains]
+    sides = [_sides(joined, edges, some, chain) for some, chain in zip(on_curves, joined.chains, strict=True)]
+    points, cells = joined.points, joined.cells
+    to_cut = [some for some, curve in zip(on_curves, outline.curves, strict=True) if curve.cut]
+    if to_cut:
+        cells, copied = cut_open(cells, edges, np.concatenate(to_cut))
+        points = points[copied]
+    facet_names = _tags([curve.name for curve in outline.curves if curve.name])
+    facets, facet_tags = _facets(outline, cells, sides, facet_names)
+    cell_names = _tags([region.name for region in outline.regions])
+    tag_of_region = np.array([cell_names[region.name] for region in outline.regions], dtype=np.int32)
+    mesh = TaggedMesh(
+        points=points,
+        cells=cells,
+        cell_tags=tag_of_region[joined.regions],
+        facets=facets,
+        facet_tags=facet_tags,
+        cell_names=cell_names,
+        facet_names=facet_names,
+    )
+    return mesh, sides
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Joined:
+    """All nodes and cells before the mesh is cut open.
+
+    Attributes:
+        points: shape (nodes, 2).
+        cells: clockwise, shape (cells, 3).
+        regions: index of each cell's region.
+        chains: nodes of each curve from its start to its end.
+    """
+
+    points: NDArray[np.float64]
+    cells: NDArray[np.int64]
+    regions: NDArray[np.int64]
+    chains: list[NDArray[np.int64]]
+
+
+def _joined(layout: Layout, filling: Filling) -> _Joined:
+    """gmsh's cells, then ring after ring, corner after corner; each node once."""
+    numbers = dict(filling.ends)
+    added: list[Point] = []
+
+    def nodes_at(points: NDArray[np.float64]) -> NDArray[np.int64]:
+        for point in as_points(points):
+            if point not in numbers:
+                numbers[point] = len(filling.points) + len(added)
+                added.append(point)
+        return np.array([numbers[point] for point in as_points(points)], dtype=np.int64)
+
+    cells = list(filling.cells)
+    regions = [np.full(len(some), region) for region, some in enumerate(cells)]
+    for corner in layout.outline.corners:
+        for (region, _), wedge in layout.wedges.items():
+            if wedge.corner == corner.point:
+                index = nodes_at(np.vstack([[corner.point], wedge.nodes.reshape(-1, 2)]))
+                cells.append(index[ring_triangles(*wedge.nodes.shape[:2])])
+                regions.append(np.full(len(cells[-1]), region))
+    chains = []
+    for number in range(len(layout.outline.curves)):
+        before, after = (nodes_at(layout.within_rings(number, at_start)[1]) for at_start in (True, False))
+        chains.append(np.concatenate([before, filling.chains[number], after]))
+    return _Joined(
+        points=np.vstack([filling.points, np.array(added).reshape(-1, 2)]),
+        cells=np.vstack(cells),
+        regions=np.concatenate(regions),
+        chains=chains,
+    )
+
+
+def _check_areas(outline: Outline, joined: _Joined) -> None:
+    """Refuse a mesh that is not the domain: gmsh says nothing where lines cross.
+
+    Raises:
+        MeshError: naming the region.
+    """
+    corners = joined.points[joined.cells]
+    areas = 0.5 * _cross(corners[:, 2] - corners[:, 0], corners[:, 1] - corners[:, 0])
+    for index, region in enumerate(outline.regions):
+        chains = [joined.chains[number][:: 1 if forward else -1][:-1] for number, forward in region.loop]
+        area = enclosed_area(joined.points[np.concatenate(chains)])
+        here = areas[joined.regions == index]
+        if not (here.min() > 0.0 and abs(here.sum() - area) <= _AREA_ROUNDING * area):
+            raise MeshError(f"the triangles of region {region.name!r} overlap or leave gaps: do curves cross?")
+
+
+def _sides(joined: _Joined, edges: Edges, wanted: NDArray[np.int64], chain: NDArray[np.int64]) -> Sides:
+    """The cells at the edges of a curve, those at each edge one after the other.
+
+    Args:
+        joined: all cells.
+        edges: their edges.
+        wanted: the curve's edges in order.
+        chain: the curve's nodes in order.
+    """
+    # An edge has the places 3 · cell + opposite corner.
+    flat = edges.places.ravel()
+    element_of = np.full(len(edges.nodes), -1)
+    element_of[wanted] = np.arange(len(wanted))
+    places = np.flatnonzero(element_of[flat] >= 0)
+    elements = element_of[flat[places]]
+    order = np.argsort(elements, kind="stable")
+    places, elements = places[order], elements[order]
+    cells, opposite = np.divmod(places, 3)
+    first, second = EDGE_CORNERS[opposite].T
+    forward = joined.cells[cells, first] == chain[elements]
+    return Sides(
+        cells=cells,
+        elements=elements,
+        starts=np.where(forward, first, second),
+        ends=np.where(forward, second, first),
+    )
+
+
+def _facets(
+    outline: Outline, cells: NDArray[np.int64], sides: list[Sides], names: dict[str, int]
+) -> tuple[NDArray[np.int64], NDArray[np.int32]]:
+    """Facets and their tags: one on each side of a curve that is cut, else one."""
+    facets, tags = [], []
+    for curve, side in zip(outline.curves, sides, strict=True):
+        if curve.name:
+            chosen = slice(None) if curve.cut else np.unique(side.elements, return_index=True)[1]
+            ends = np.column_stack([side.starts, side.ends])[chosen]
+            facets.append(cells[side.cells[chosen][:, None], ends])
+            tags.append(np.full(len(ends), names[curve.name], dtype=np.int32))
+    found = np.vstack(facets)
+    if len(np.unique(np.sort(found, axis=1), axis=0)) < len(found):
+        raise MeshError("a slit of a single element cannot be opened: ask for smaller elements on it")
+    return found, np.concatenate(tags)
+
+
+def _tags(names: list[str]) -> dict[str, int]:
+    return {name: tag for tag, name in enumerate(dict.fromkeys(names), start=1)}
+
+
+def _cross(one: NDArray[np.float64], other: NDArray[np.float64]) -> NDArray[np.float64]:
+    result: NDArray[np.float64] = one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]
+    return result

@@ -1,0 +1,80 @@
+"""From an outline to its mesh: rings at the corners, gmsh between them, then cut open and curved."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import pi
+
+from hydroelastic.meshes.assembly import assemble
+from hydroelastic.meshes.curved_cells import Sides, curve_cells, largest_deviation, smallest_jacobian
+from hydroelastic.meshes.filling import fill
+from hydroelastic.meshes.layout import Layout, lay_out
+from hydroelastic.meshes.outline import Outline
+from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
+
+# So often are the elements of curved pieces halved where they are too long for the cells at them.
+_REFINEMENTS = 4
+# A curved cell is accepted if its map is nowhere compressed more than this beside the straight cell's.
+_SMALLEST_JACOBIAN = 0.1
+
+
+def build_mesh(
+    outline: Outline,
+    *,
+    bulk_size: float,
+    growth: float = 0.7,
+    ring_ratio: float = 0.3,
+    geometry_degree: int = 1,
+    largest_turn: float = pi / 6.0,
+) -> TaggedMesh:
+    """Triangulate a domain.
+
+    The groups are the names of regions for the cells and those of curves for the edges. All ends of curves are nodes.
+    Along curves that are `cut` both sides have nodes of their own, of the same coordinates, and each edge has a facet
+    for either side. Where a curved piece is too coarse for its cells its elements are halved.
+
+    Args:
+        outline: the domain.
+        bulk_size: largest element anywhere, in the outline's unit of length.
+        growth: increase of the element size per unit of distance from curves with a size, curved ones and rings.
+        ring_ratio: ratio of the radii of successive rings around the corners.
+        geometry_degree: polynomial degree of the cells at curved pieces; 1 leaves all cells straight.
+        largest_turn: of a curve's direction within an element, radians.
+
+    Returns:
+        The mesh, on the calling process only.
+
+    Raises:
+        MeshError: if gmsh fails, if two curves leave no room at a corner, if a slit is too short to be opened, or if no
+            mesh fine enough for the curved pieces is found.
+    """
+    # Elements on straight lines are gmsh's: only curved ones can be made smaller here.
+    refinements = _REFINEMENTS if any(curve.path is not None for curve in outline.curves) else 0
+    for halvings in range(refinements + 1):
+        turn = largest_turn * 0.5**halvings
+        try:
+            layout, size = lay_out(
+                outline, bulk_size=bulk_size, growth=growth, ring_ratio=ring_ratio, largest_turn=turn
+            )
+            filling = fill(layout.points(), layout.loops(), size)
+            mesh, sides = assemble(layout, filling)
+            return _curved(mesh, layout, sides, geometry_degree)
+        except MeshError:
+            if halvings == refinements:
+                raise
+    raise AssertionError
+
+
+def _curved(mesh: TaggedMesh, layout: Layout, sides: list[Sides], degree: int) -> TaggedMesh:
+    """Curve the cells at curved pieces and measure how far their edges are from these.
+
+    Raises:
+        MeshError: if a cell is turned over, or nearly so.
+    """
+    pieces = [(edges, side) for number, side in enumerate(sides) if (edges := layout.curved_edges(number)) is not None]
+    if not pieces:
+        return mesh
+    curved = curve_cells(mesh.points[mesh.cells], pieces, degree) if degree > 1 else None
+    if curved is not None and smallest_jacobian(curved) < _SMALLEST_JACOBIAN:
+        raise MeshError("a cell at a curved piece is too narrow to follow it: ask for smaller elements there")
+    return replace(mesh, curved=curved, deviation=largest_deviation([edges for edges, _ in pieces], degree))

@@ -1,0 +1,170 @@
+"""Nodes on curves: where rings meet them, and how curved ones are cut into elements."""
+
+from __future__ import annotations
+
+from math import ceil, inf
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydroelastic.meshes.outline import Corner, Curve, Outline
+from hydroelastic.meshes.rings import RingEnds
+from hydroelastic.meshes.size_field import Segments, SizeField
+
+# Rings reach at most this part of the way to the next curve or corner.
+_ROOM = 0.45
+# Samples of a curved piece turn by at most this part of what an element may, and are this part of its size at most.
+_FINE = 0.125
+_FIRST_SAMPLES = 65
+# Where a ring first meets a curve is looked for on so many points, then by bisection.
+_GRID = 1025
+# Directions of shorter samples, as parts of the extent, are rounding.
+_SHORTEST = 1e-6
+# Halvings of an interval down to the last bit, also where a small parameter is sought.
+_BISECTIONS = 100
+
+
+def outermost_ring(outline: Outline, corner: Corner, largest_turn: float) -> float:
+    """Radius of the outermost ring that fits at a corner: `Corner.outer`, or less where curves bend or are near.
+
+    Curves that meet at the corner turn within the ring by less than ``largest_turn`` (radians).
+    """
+    place = np.array(corner.point)
+    room = inf
+    limits = [corner.outer]
+    for curve in outline.curves:
+        if corner.point in (curve.start, curve.end):
+            other = curve.end if corner.point == curve.start else curve.start
+            room = min(room, float(np.hypot(*(np.array(other) - place))))
+            if curve.path is not None:
+                limits.append(_bent_radius(curve, corner, largest_turn))
+        else:
+            points = curve.polyline()
+            room = min(room, float(distances(place[None, :], points[:-1], points[1:]).min()))
+    return min(_ROOM * room, *limits)
+
+
+def distances(
+    points: NDArray[np.float64], starts: NDArray[np.float64], ends: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Distance of each point from each segment, shape (points, segments)."""
+    edges = ends - starts
+    away = points[:, None, :] - starts
+    part = np.clip((away * edges).sum(axis=2) / (edges**2).sum(axis=1), 0.0, 1.0)
+    away = away - part[:, :, None] * edges
+    result: NDArray[np.float64] = np.hypot(away[:, :, 0], away[:, :, 1])
+    return result
+
+
+def _bent_radius(curve: Curve, corner: Corner, largest_turn: float) -> float:
+    """Distance from the corner within which a curve turns by less than ``largest_turn`` and does not come back."""
+    parameters = curve_samples(curve, 0.0, 1.0, largest_turn)
+    if corner.point == curve.end:
+        parameters = parameters[::-1]
+    points = curve.at(parameters)
+    turned = np.append(0.0, np.cumsum(_turns(points)))
+    away = np.hypot(*(points[:-1] - corner.point).T)
+    beyond = away[turned > largest_turn]
+    return float(beyond.min()) if len(beyond) else inf
+
+
+def _turns(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Change of direction at each inner point of a polyline, radians."""
+    edges = np.diff(points, axis=0)
+    before, after = edges[:-1], edges[1:]
+    cross = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
+    turns: NDArray[np.float64] = np.abs(np.arctan2(cross, (before * after).sum(axis=1)))
+    return turns
+
+
+def curve_samples(curve: Curve, first: float, last: float, largest_turn: float) -> NDArray[np.float64]:
+    """Parameters from first to last, so close that a curve turns little from one sample to the next."""
+    parameters = np.linspace(first, last, _FIRST_SAMPLES, dtype=np.float64)
+    shortest = _SHORTEST * float(np.ptp(curve.polyline(), axis=0).max())
+    while True:
+        points = curve.at(parameters)
+        turns = np.concatenate([[0.0], _turns(points), [0.0]])
+        turning = np.maximum(turns[:-1], turns[1:]) > _FINE * largest_turn
+        lengths = np.hypot(*np.diff(points, axis=0).T)
+        split = np.flatnonzero(turning & (lengths > shortest))
+        if not len(split):
+            return parameters
+        parameters = np.insert(parameters, split + 1, 0.5 * (parameters[split] + parameters[split + 1]))
+
+
+def ring_ends(curve: Curve, at_start: bool, radii: NDArray[np.float64]) -> RingEnds:
+    """Nodes of a curve at given distances from a corner at its start, or its end."""
+    place = np.array(curve.start if at_start else curve.end)
+    if curve.path is None:
+        away = np.array(curve.end if at_start else curve.start) - place
+        length = float(np.hypot(*away))
+        away /= length
+        points = place + radii[:, None] * away
+        fractions: NDArray[np.float64] = radii / length
+        angles = np.full(len(radii), np.arctan2(away[1], away[0]))
+    else:
+        fractions = _fractions_at(curve, at_start, radii)
+        points = curve.at(fractions if at_start else 1.0 - fractions)
+        angles = np.arctan2(*(points - place).T[::-1])
+    return RingEnds(parameters=fractions if at_start else 1.0 - fractions, points=points, angles=angles)
+
+
+def _fractions_at(curve: Curve, at_start: bool, radii: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Parameters, counted from the corner, where a curve first reaches the distances ``radii`` from it."""
+
+    def distances_at(fractions: NDArray[np.float64]) -> NDArray[np.float64]:
+        points = curve.at(fractions if at_start else 1.0 - fractions)
+        away: NDArray[np.float64] = np.hypot(*(points - (curve.start if at_start else curve.end)).T)
+        return away
+
+    grid = np.linspace(0.0, 1.0, _GRID, dtype=np.float64)
+    beyond = np.argmax(distances_at(grid) >= radii[:, None], axis=1)
+    below, above = grid[beyond - 1], grid[beyond]
+    for _ in range(_BISECTIONS):
+        middle = 0.5 * (below + above)
+        reached = distances_at(middle) >= radii
+        below, above = np.where(reached, below, middle), np.where(reached, middle, above)
+    return above
+
+
+def bend_sources(curve: Curve, first: float, last: float, largest_turn: float) -> Segments:
+    """A curved piece as sources of fineness: its size, or less where that would turn by more than ``largest_turn``."""
+    points = curve.at(curve_samples(curve, first, last, largest_turn))
+    lengths = np.hypot(*np.diff(points, axis=0).T)
+    # Curvature at each sample, from the turn there and half the lengths on both sides.
+    curvature = np.concatenate([[0.0], 2.0 * _turns(points) / (lengths[:-1] + lengths[1:]), [0.0]])
+    sharpest = np.maximum(curvature[:-1], curvature[1:])
+    with np.errstate(divide="ignore"):
+        sizes = np.minimum(curve.size, largest_turn / sharpest)
+    finite = np.isfinite(sizes)
+    return Segments(starts=points[:-1][finite], ends=points[1:][finite], sizes=sizes[finite])
+
+
+def element_parameters(
+    curve: Curve, first: float, last: float, size: SizeField, largest_turn: float
+) -> NDArray[np.float64]:
+    """Parameters of the ends of a curved piece's elements, both ends of the piece included.
+
+    Elements take equal parts of ∫ds/h, rounded up to a whole number.
+    """
+    parameters = curve_samples(curve, first, last, largest_turn)
+    while True:
+        points = curve.at(parameters)
+        lengths = np.hypot(*np.diff(points, axis=0).T)
+        middles = 0.5 * (parameters[:-1] + parameters[1:])
+        parts = lengths / size.along(curve.at(middles))
+        split = np.flatnonzero(parts > _FINE)
+        if not len(split):
+            break
+        parameters = np.insert(parameters, split + 1, middles[split])
+    reached = np.concatenate([[0.0], np.cumsum(parts)])
+    count = max(1, ceil(reached[-1] - 1e-9))
+    nodes: NDArray[np.float64] = np.interp(np.linspace(0.0, reached[-1], count + 1), reached, parameters)
+    nodes[0], nodes[-1] = first, last
+    return nodes
+
+
+def element_sources(points: NDArray[np.float64]) -> Segments:
+    """Elements of a curved piece as sources of their own size."""
+    starts, ends = points[:-1], points[1:]
+    return Segments(starts=starts, ends=ends, sizes=np.hypot(*(ends - starts).T))

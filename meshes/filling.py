@@ -1,0 +1,149 @@
+"""gmsh fills the regions of a domain outside the rings, between straight lines."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from itertools import pairwise
+
+import gmsh
+import numpy as np
+from numpy.typing import NDArray
+
+from hydroelastic.meshes.interrupts import interrupts_deferred
+from hydroelastic.meshes.outline import Point, as_points
+from hydroelastic.meshes.size_field import SizeField
+from hydroelastic.meshes.tagged_mesh import MeshError
+
+Key = int | tuple[int, int]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Line:
+    """A polyline between two regions, or on the boundary.
+
+    Attributes:
+        key: lines of the same key are the same, perhaps passed the other way.
+        points: shape (n, 2).
+        forward: whether the region's boundary passes the points in their order.
+        divided: whether gmsh may put nodes between two points; else each edge is one element.
+    """
+
+    key: Key
+    points: NDArray[np.float64]
+    forward: bool
+    divided: bool
+
+
+@dataclass(frozen=True, kw_only=True)
+class Filling:
+    """What gmsh made.
+
+    Attributes:
+        points: nodes, shape (nodes, 2).
+        cells: triangles of each region, shape (triangles, 3), clockwise.
+        chains: nodes of each line by its key, in the order of its points.
+        ends: nodes at the points of the lines.
+    """
+
+    points: NDArray[np.float64]
+    cells: list[NDArray[np.int64]]
+    chains: dict[Key, NDArray[np.int64]]
+    ends: dict[Point, int]
+
+
+def fill(points: Iterable[NDArray[np.float64]], loops: Iterable[list[Line]], size: SizeField) -> Filling:
+    """Triangulate regions.
+
+    Args:
+        points: those of all lines, in the order in which they are to be numbered, arrays of shape (n, 2).
+        loops: clockwise boundary of each region.
+        size: element size wanted.
+
+    Raises:
+        MeshError: if gmsh fails.
+    """
+    with _gmsh_model():
+        try:
+            drawing = _Drawing(points)
+            surfaces = [drawing.surface(loop) for loop in loops]
+            gmsh.model.geo.synchronize()
+            for option in ("MeshSizeFromPoints", "MeshSizeExtendFromBoundary", "MeshSizeFromCurvature"):
+                gmsh.option.setNumber(f"Mesh.{option}", 0)
+            gmsh.option.setNumber("Mesh.Algorithm", 6)  # frontal-Delaunay: the best-shaped triangles
+            gmsh.model.mesh.setSizeCallback(lambda dim, tag, x, y, z, lc: size(x, y))
+            with interrupts_deferred():
+                gmsh.model.mesh.generate(2)
+            return drawing.filling(surfaces)
+        except Exception as error:  # gmsh raises bare Exception
+            raise MeshError(f"gmsh could not mesh the tank: {error}") from error
+
+
+@contextmanager
+def _gmsh_model() -> Iterator[None]:
+    """A fresh, silent gmsh model; gmsh is started only once in a process and left as it was found."""
+    if not gmsh.isInitialized():
+        # gmsh would otherwise take over Ctrl-C, and a long run could no longer be interrupted.
+        gmsh.initialize(readConfigFiles=False, interruptible=False)
+        gmsh.option.setNumber("General.Verbosity", 0)
+    gmsh.model.add("tank")
+    try:
+        yield
+    finally:
+        gmsh.model.mesh.removeSizeCallback()
+        gmsh.model.remove()
+
+
+class _Drawing:
+    """Points and lines as gmsh knows them, each made once."""
+
+    def __init__(self, points: Iterable[NDArray[np.float64]]) -> None:
+        self._points: dict[Point, int] = {}
+        for x, y in as_points(np.vstack(list(points))):
+            if (x, y) not in self._points:
+                self._points[x, y] = int(gmsh.model.geo.addPoint(x, y, 0.0))
+        # Of each line from its first to its last point; negative tags for what gmsh was given the other way.
+        self._lines: dict[Key, list[int]] = {}
+
+    def surface(self, loop: list[Line]) -> int:
+        """A region within a clockwise loop."""
+        curves: list[int] = []
+        for line in loop:
+            lines = self._line(line)
+            curves += lines if line.forward else [-one for one in reversed(lines)]
+        return int(gmsh.model.geo.addPlaneSurface([gmsh.model.geo.addCurveLoop(curves)]))
+
+    def _line(self, line: Line) -> list[int]:
+        if line.key not in self._lines:
+            # gmsh is given them as the first loop passes them.
+            way = 1 if line.forward else -1
+            ends = [self._points[point] for point in as_points(line.points)][::way]
+            lines = [int(gmsh.model.geo.addLine(a, b)) for a, b in pairwise(ends)]
+            if not line.divided:
+                for one in lines:
+                    gmsh.model.geo.mesh.setTransfiniteCurve(one, 2)
+            self._lines[line.key] = [way * one for one in lines[::way]]
+        return self._lines[line.key]
+
+    def filling(self, surfaces: list[int]) -> Filling:
+        """Read gmsh's mesh into arrays with nodes numbered from 0."""
+        tags, coordinates, _ = gmsh.model.mesh.getNodes()
+        order = np.zeros(int(tags.max()) + 1, dtype=np.int64)
+        order[tags.astype(np.int64)] = np.arange(len(tags))
+        points = coordinates.reshape(-1, 3)[:, :2].copy()
+        cells = []
+        for surface in surfaces:
+            _, nodes = gmsh.model.mesh.getElementsByType(2, surface)
+            cells.append(order[nodes.astype(np.int64)].reshape(-1, 3))
+        chains = {}
+        for key, lines in self._lines.items():
+            nodes = []
+            for line in lines:
+                _, ends = gmsh.model.mesh.getElementsByType(1, abs(line))
+                edges = order[ends.astype(np.int64)].reshape(-1, 2)
+                nodes.append(edges if line > 0 else edges[::-1, ::-1])
+            edges = np.vstack(nodes)
+            chains[key] = np.append(edges[:, 0], edges[-1, 1])
+        ends = {place: int(order[int(gmsh.model.mesh.getNodes(0, tag)[0][0])]) for place, tag in self._points.items()}
+        return Filling(points=points, cells=cells, chains=chains, ends=ends)

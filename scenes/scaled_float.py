@@ -1,0 +1,172 @@
+"""A rigid float in units of the tank: its wetted contour, its inertia and what restores it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydroelastic.meshes.contours import Arc, Contour
+from hydroelastic.modal.float_profiles import Profile, float_profile
+from hydroelastic.scenes.floats import placed_float
+from hydroelastic.scenes.model_bodies import Float, Motion
+from hydroelastic.scenes.models import TankScene
+from hydroelastic.scenes.scaling import Scales
+
+MOTIONS: tuple[Motion, ...] = ("heave", "sway", "roll")
+
+# Contours that decimal input means to be mirror images differ by a few units of the last place.
+_ROUNDING = 1e-12
+
+
+@dataclass(frozen=True, kw_only=True)
+class ScaledFloat:
+    """A float at rest, in units of the tank.
+
+    Attributes:
+        given: what the scene says of it.
+        contour: its section.
+        waterplane: x of its two contact points with the still level, the same for a thin float.
+        below: the contour under the still level, from the left contact point to the right one.
+        above: the contour over it, from the right contact point to the left one; empty where it is dry.
+        profile: its half width about the reference level, for a thin float; else ``None``.
+        reference_level: ordinate of the shape's reference level.
+        centre_of_mass: x and y.
+        inertia: mass for heave and sway, moment of inertia for roll, shape (3,).
+        stiffness: hydrostatic, of heave, sway and roll, shape (3, 3).
+    """
+
+    given: Float
+    contour: Contour
+    waterplane: tuple[float, float]
+    below: tuple[Arc, ...]
+    above: tuple[Arc, ...]
+    profile: Profile | None
+    reference_level: float
+    centre_of_mass: tuple[float, float]
+    inertia: NDArray[np.float64]
+    stiffness: NDArray[np.float64]
+
+    @property
+    def motions(self) -> tuple[Motion, ...]:
+        """In what ways it may move, in the order of `MOTIONS`."""
+        return tuple(motion for motion in MOTIONS if motion in self.given.motions)
+
+    @property
+    def is_thin(self) -> bool:
+        """Whether its conditions are put on its middle line."""
+        return self.profile is not None
+
+    @property
+    def slit(self) -> tuple[float, float]:
+        """Lowest and highest point of the middle line of a thin float."""
+        assert self.profile is not None
+        return self.reference_level - self.profile.extent, self.reference_level + self.profile.extent
+
+    @property
+    def bounds(self) -> tuple[float, float, float, float]:
+        """Smallest and largest x, smallest and largest y."""
+        return self.contour.bounds
+
+    @property
+    def smallest_extent(self) -> float:
+        """The smaller of its width and of what it reaches into a liquid."""
+        left, right, low, high = self.bounds
+        level = self.below[0].start[1] if self.below else self.reference_level
+        reaches = [level - low, *([high - level] if self.above else [])]
+        return min(right - left, *reaches)
+
+    def displacement(self, motion: Motion, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Displacement by a unit of a motion: upwards, to the right, anticlockwise about the centre of mass.
+
+        Args:
+            motion: which.
+            points: shape (2, n).
+
+        Returns:
+            Shape (2, n).
+        """
+        zero, one = np.zeros(points.shape[1]), np.ones(points.shape[1])
+        if motion == "heave":
+            return np.array([zero, one])
+        if motion == "sway":
+            return np.array([one, zero])
+        x, y = self.centre_of_mass
+        return np.array([y - points[1], points[0] - x])
+
+
+def scaled_float(scene: TankScene, index: int, units: Scales, waterplane: tuple[float, float]) -> ScaledFloat:
+    """Bring a float of a scene into units of the tank.
+
+    Args:
+        scene: the scene.
+        index: of the float among the bodies.
+        units: of the tank.
+        waterplane: x of its two contact points, in units of the tank.
+    """
+    body = scene.body[index]
+    assert isinstance(body, Float)
+    placed = placed_float(scene, index)
+    rest = placed.hydrostatics
+    length = units.length
+    contour = placed.contour.scaled(1.0 / length)
+    level = scene.level_of(body)
+    height = scene.height_of(level) / length
+    thin = body.boundary == "thin"
+    wet_above = level == "interface"
+    return ScaledFloat(
+        given=body,
+        contour=contour,
+        waterplane=waterplane,
+        below=() if thin else _between(placed.contour.below(rest.level), 1.0 / length, waterplane, height),
+        above=()
+        if thin or not wet_above
+        else _between(placed.contour.above(rest.level), 1.0 / length, waterplane[::-1], height),
+        profile=_profile(body, length) if thin else None,
+        reference_level=rest.reference_level / length,
+        centre_of_mass=(rest.centre_of_mass[0] / length, rest.centre_of_mass[1] / length),
+        inertia=rest.mass / (units.density * length**2) * np.array([1.0, 1.0, (rest.radius_of_gyration / length) ** 2]),
+        stiffness=_stiffness(rest.heave_stiffness, rest.coupling_stiffness, rest.roll_stiffness, units),
+    )
+
+
+def _between(chain: tuple[Arc, ...], factor: float, ends: tuple[float, float], height: float) -> tuple[Arc, ...]:
+    """A chain of arcs scaled, with its ends exactly where the pieces of the still level end."""
+    arcs = [arc.mapped(factor, (0.0, 0.0)) for arc in chain]
+    arcs[0] = replace(arcs[0], start=(ends[0], height))
+    arcs[-1] = replace(arcs[-1], end=(ends[1], height))
+    return tuple(arcs)
+
+
+def _profile(body: Float, length: float) -> Profile:
+    assert body.shape in ("exponential", "parabola", "ellipse", "wedge")
+    assert body.half_width is not None
+    assert body.half_height is not None
+    more = {"tail": body.tail} if body.shape == "exponential" and body.tail is not None else {}
+    return float_profile(body.shape, body.half_width / length, body.half_height / length, **more)
+
+
+def _stiffness(heave: float, coupling: float, roll: float, units: Scales) -> NDArray[np.float64]:
+    pressure = units.density * units.gravity
+    stiffness = np.zeros((3, 3))
+    stiffness[0, 0] = heave / (pressure * units.length)
+    stiffness[0, 2] = stiffness[2, 0] = coupling / (pressure * units.length**2)
+    stiffness[2, 2] = roll / (pressure * units.length**3)
+    return stiffness
+
+
+def is_symmetric(body: ScaledFloat) -> bool:
+    """Whether a float is its own mirror image about the vertical through its contact points' middle."""
+    left, right = body.waterplane
+    middle = 0.5 * (left + right)
+    low_x, high_x, low_y, high_y = body.bounds
+    size = max(high_x - low_x, high_y - low_y)
+    corners = np.array([arc.start for arc in body.contour.arcs])
+    image = np.column_stack([2.0 * middle - corners[:, 0], corners[:, 1]])
+    nearest = np.abs(corners[:, None] - image[None]).max(axis=2).min(axis=0)
+    centred = abs(body.contour.moments().centroid[0] - middle) + abs(body.centre_of_mass[0] - middle)
+    straight = all(arc.straight for arc in body.contour.arcs)
+    # Profiles are symmetric by their definition; splines are taken as they are, without a plane of symmetry.
+    regular = straight or body.given.shape not in ("polygon", "outline")
+    return bool(regular and max(float(nearest.max()), centred) <= _ROUNDING * size)

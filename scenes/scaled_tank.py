@@ -1,0 +1,200 @@
+"""A scene in units of the tank: its layers, its still levels cut into pieces, and what floats there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from hydroelastic.scenes.models import Beam, Float, Level, TankScene, level_segments
+from hydroelastic.scenes.scaling import Scales, scaled_beam, scales
+from hydroelastic.scenes.waves import LevelPiece
+
+if TYPE_CHECKING:
+    from hydroelastic.scenes.scaled_float import ScaledFloat
+
+
+@dataclass(frozen=True, kw_only=True)
+class ScaledLayer:
+    """A layer of liquid: density in that of the lowest layer, bed and depth in tank lengths."""
+
+    density: float
+    floor: float
+    depth: float
+
+    @property
+    def ceiling(self) -> float:
+        """Ordinate of its upper side."""
+        return self.floor + self.depth
+
+
+@dataclass(frozen=True, kw_only=True)
+class Piece:
+    """A piece of a still level from left to right: a body's, or what lies beside the bodies.
+
+    Attributes:
+        start: its left end, in tank lengths.
+        end: its right end; that of a thin float is its start.
+        body: index of the body in the scene, or ``None``.
+    """
+
+    start: float
+    end: float
+    body: int | None
+
+    @property
+    def length(self) -> float:
+        """Its length."""
+        return self.end - self.start
+
+
+@dataclass(frozen=True, kw_only=True)
+class StillLevel:
+    """The upper side of a layer at rest.
+
+    Attributes:
+        height: its ordinate.
+        below: index of the layer below.
+        above: index of the layer above, ``None`` at the top.
+        kind: what it is beside the bodies: "interface", or the condition of the top.
+        jump: ρ below less ρ above.
+        pieces: from left to right.
+    """
+
+    height: float
+    below: int
+    above: int | None
+    kind: str
+    jump: float
+    pieces: tuple[Piece, ...]
+
+    @property
+    def moves(self) -> bool:
+        """Whether waves travel on it beside the bodies."""
+        return self.kind in ("free", "interface")
+
+    @property
+    def is_open(self) -> bool:
+        """Whether there is something beside the bodies."""
+        return any(piece.body is None for piece in self.pieces)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ScaledTank:
+    """A scene in units of the tank: L = g = 1, and the density of the lowest layer.
+
+    Attributes:
+        layers: from the bottom up.
+        levels: the upper sides of the layers, from the bottom up.
+        bodies: in the scene's order.
+    """
+
+    layers: tuple[ScaledLayer, ...]
+    levels: tuple[StillLevel, ...]
+    bodies: tuple[Beam | ScaledFloat, ...]
+
+    @property
+    def depth(self) -> float:
+        """Depth of the thinnest layer: rounding grows in it, and cells follow it."""
+        return min(layer.depth for layer in self.layers)
+
+    @property
+    def top(self) -> str:
+        """What lies on the uppermost layer beside the bodies."""
+        return self.levels[-1].kind
+
+    @cached_property
+    def beams(self) -> dict[int, Beam]:
+        """The beams by their index among the bodies."""
+        return {index: body for index, body in enumerate(self.bodies) if isinstance(body, Beam)}
+
+    @cached_property
+    def floats(self) -> dict[int, ScaledFloat]:
+        """The floats by their index among the bodies."""
+        return {index: body for index, body in enumerate(self.bodies) if not isinstance(body, Beam)}
+
+    @property
+    def has_high_frequency_limit(self) -> bool:
+        """Whether there is something that moves freely far above the waves: open water, or an interface."""
+        return len(self.layers) > 1 or (self.top != "rigid" and self.levels[-1].is_open)
+
+    @property
+    def pieces(self) -> tuple[Piece, ...]:
+        """The pieces of all levels, from the bottom up and from left to right."""
+        return tuple(piece for level in self.levels for piece in level.pieces)
+
+    def level_of(self, body: int) -> StillLevel:
+        """The level at which a body floats."""
+        return next(level for level in self.levels if any(piece.body == body for piece in level.pieces))
+
+    def piece_of(self, body: int) -> Piece:
+        """The part of its level that a body takes."""
+        return next(piece for piece in self.level_of(body).pieces if piece.body == body)
+
+    def moving_piece(self, level: StillLevel, piece: Piece) -> LevelPiece | None:
+        """How waves travel on a piece; ``None`` where none do."""
+        beam = self.beams.get(piece.body) if piece.body is not None else None
+        if beam is None and (piece.body is not None or not level.moves):
+            return None
+        return LevelPiece(length=piece.length, beam=beam, jump=level.jump, layers=self._layers_at(level))
+
+    @cached_property
+    def moving(self) -> tuple[LevelPiece, ...]:
+        """The pieces on which waves travel."""
+        pieces = (self.moving_piece(level, piece) for level in self.levels for piece in level.pieces)
+        return tuple(piece for piece in pieces if piece is not None)
+
+    def _layers_at(self, level: StillLevel) -> tuple[tuple[float, float], ...]:
+        """Density and depth of the layers that move with a level; at a top over two of them, as if they were one."""
+        if level.above is None:
+            return ((self.layers[-1].density, sum(layer.depth for layer in self.layers)),)
+        return tuple((self.layers[number].density, self.layers[number].depth) for number in (level.below, level.above))
+
+
+def scaled_tank(scene: TankScene) -> ScaledTank:
+    """The scene in units of the tank."""
+    units = scales(scene)
+    depths = [layer.depth / units.length for layer in scene.layers]
+    floors = [-depths[0], 0.0]
+    layers = tuple(
+        ScaledLayer(density=layer.density / units.density, floor=floor, depth=depth)
+        for layer, floor, depth in zip(scene.layers, floors, depths, strict=False)
+    )
+    names: tuple[Level, ...] = ("surface",) if len(layers) == 1 else ("interface", "surface")
+    levels = tuple(_level(scene, units, layers, number, name) for number, name in enumerate(names))
+    place = {piece.body: piece for level in levels for piece in level.pieces if piece.body is not None}
+    return ScaledTank(
+        layers=layers,
+        levels=levels,
+        bodies=tuple(_scaled_body(scene, units, index, place[index]) for index in range(len(scene.body))),
+    )
+
+
+def _level(scene: TankScene, units: Scales, layers: tuple[ScaledLayer, ...], number: int, name: Level) -> StillLevel:
+    above = number + 1 if number + 1 < len(layers) else None
+    pieces = tuple(
+        Piece(
+            start=segment.start / units.length,
+            end=1.0 if segment.end == scene.tank.length else segment.end / units.length,
+            body=segment.body,
+        )
+        for segment in level_segments(scene, name)
+    )
+    return StillLevel(
+        height=0.0 if number == 0 else layers[number].ceiling,
+        below=number,
+        above=above,
+        kind=scene.top if above is None else "interface",
+        jump=layers[number].density - (layers[above].density if above is not None else 0.0),
+        pieces=pieces,
+    )
+
+
+def _scaled_body(scene: TankScene, units: Scales, index: int, piece: Piece) -> Beam | ScaledFloat:
+    body = scene.body[index]
+    if isinstance(body, Float):
+        # Contours need SciPy's root finders, which take a while to import.
+        from hydroelastic.scenes.scaled_float import scaled_float
+
+        return scaled_float(scene, index, units, (piece.start, piece.end))
+    return scaled_beam(body, units, piece.start, piece.end)

@@ -25,7 +25,8 @@ def float_lines(summary: Summary) -> list[str]:
 
 def _lines(row: dict[str, Any]) -> list[str]:
     left, right = row["waterplane"]
-    width = "no waterplane in its model" if row["boundary"] == "thin" else f"waterplane {left:.6g} to {right:.6g} m"
+    thin = row["boundary"] == "thin"
+    width = "thin, its flux on the middle line" if thin else f"waterplane {left:.6g} to {right:.6g} m"
     lines = [
         f"Float {row['body']}: mass {row['mass']:.7g} kg/m, {width}, heave stiffness {row['heave_stiffness']:.7g} N/m²."
     ]

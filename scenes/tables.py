@@ -9,8 +9,14 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
-from hydroelastic.scenes.digits import with_certain_digits
-from hydroelastic.scenes.float_tables import float_lines
+from hydroelastic.scenes.digits import number, per_cent, with_certain_digits
+from hydroelastic.scenes.float_tables import (
+    FLOAT_ESTIMATE_HEADINGS,
+    PRINTED_HEADINGS,
+    float_estimate_rows,
+    float_lines,
+    printed_rows,
+)
 from hydroelastic.scenes.summary import Summary
 
 MODE_COLUMNS = (
@@ -85,22 +91,14 @@ def estimate_rows(summary: Summary) -> list[tuple[str, ...]]:
         rows.append(
             (
                 name,
-                _number(estimate["omega"]),
-                _per_cent(estimate["difference"]),
-                _number(estimate["added_mass_per_length"]),
-                _per_cent(estimate["added_mass_difference"]),
+                number(estimate["omega"]),
+                per_cent(estimate["difference"]),
+                number(estimate["added_mass_per_length"]),
+                per_cent(estimate["added_mass_difference"]),
                 _bound(estimate),
             )
         )
     return rows
-
-
-def _number(value: float | None) -> str:
-    return "–" if value is None else f"{value:.7g}"
-
-
-def _per_cent(value: float | None) -> str:
-    return "–" if value is None else f"{100.0 * value:+.3g} %"
 
 
 def _bound(estimate: Summary) -> str:
@@ -161,8 +159,16 @@ def printed(summary: Summary, *, notes: bool = False, width: int = 120) -> str:
         console.print(line, markup=False)
     for line in (*tone_lines(summary), *float_lines(summary)):
         console.print(line, markup=False)
-    if notes and not summary["estimates"] and summary["scene"]["body"]:
-        console.print("No estimates: the older theories know one beam with free ends beside free water.")
+    for row in summary["floats"]:
+        if row["estimates"]:
+            console.print(_table(FLOAT_ESTIMATE_HEADINGS, float_estimate_rows(row)))
+        if row["printed_constants"] and notes:
+            console.print(_table(PRINTED_HEADINGS, printed_rows(row)))
+        if notes:
+            for name, estimate in row["estimates"].items():
+                console.print(f"{name}: {estimate['note']}", markup=False)
+    if notes and not summary["estimates"] and summary["first_elastic_by_body"]:
+        console.print("No estimates of beams: the older theories know one with free ends beside free water.")
     if summary["estimates"]:
         console.print(_table(ESTIMATE_HEADINGS, estimate_rows(summary)))
         if notes:
@@ -197,6 +203,14 @@ def markdown(summary: Summary) -> str:
         parts += [_markdown_table(ESTIMATE_HEADINGS, estimate_rows(summary)), ""]
         parts += [f"- `{name}`: {estimate['note']}" for name, estimate in summary["estimates"].items()]
         parts.append("")
+    for row in summary["floats"]:
+        if row["estimates"]:
+            parts += [_markdown_table(FLOAT_ESTIMATE_HEADINGS, float_estimate_rows(row)), ""]
+        if row["printed_constants"]:
+            parts += [_markdown_table(PRINTED_HEADINGS, printed_rows(row)), ""]
+        if row["estimates"]:
+            parts += [f"- `{name}`: {estimate['note']}" for name, estimate in row["estimates"].items()]
+            parts.append("")
     parts.append(cost_line(summary))
     return "\n".join(parts) + "\n"
 

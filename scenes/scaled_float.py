@@ -75,7 +75,7 @@ class ScaledFloat:
             return ()
         low, high = self.slit
         above = self.reference_level > self.level
-        inside = above and self.wet_above or self.reference_level < self.level
+        inside = (above and self.wet_above) or self.reference_level < self.level
         near = _ROUNDING * (high - low)
         if not inside or abs(self.reference_level - self.level) <= near:
             return ()

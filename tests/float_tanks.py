@@ -6,9 +6,12 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+import pytest
 from mpi4py import MPI
 from petsc4py import PETSc
 from scipy.linalg import eigh, null_space
+from scipy.sparse import csr_matrix
+from scipy.sparse.linalg import splu
 
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.scenes.field_model import build_mesh
@@ -17,6 +20,7 @@ from hydroelastic.scenes.model_bodies import Beam, Float
 from hydroelastic.scenes.models import Accuracy, Liquid, Tank, TankScene
 from hydroelastic.scenes.plan import initial_resolution
 from hydroelastic.scenes.scaled_tank import scaled_tank
+from hydroelastic.scenes.solve import TankSolution, solve_scene
 
 GRAVITY = 9.81
 
@@ -55,22 +59,22 @@ def pencils(
     if coarse:
         resolution = replace(resolution, degree=4, shapes=tuple(min(count, 6) for count in resolution.shapes))
     mesh = build_mesh(MPI.COMM_WORLD, tank, resolution, half=half, released=released)
-    _, parts = part_models(
-        mesh, tank, resolution.degree, resolution.shapes, half=half, pressure_release=released
-    )
+    _, parts = part_models(mesh, tank, resolution.degree, resolution.shapes, half=half, pressure_release=released)
     return parts
 
 
-def dense(matrix: PETSc.Mat) -> np.ndarray:
-    """A matrix of one process as an array."""
-    return np.array(matrix.convert("dense").getDenseArray())
+def sparse(matrix: PETSc.Mat) -> csr_matrix:
+    """A matrix of one process for SciPy."""
+    rows, columns, values = matrix.getValuesCSR()
+    return csr_matrix((values, columns, rows), shape=matrix.getSize())
 
 
-class DenseProblem:
-    """K ζ = λ (M ζ + (ρC)ᵀψ), A ψ = C ζ as full matrices of one process, and what keeps the volumes.
+class PlainProblem:
+    """K ζ = λ (M ζ + (ρC)ᵀψ), A ψ = C ζ from the plain matrices of one process, and what keeps the volumes.
 
     Attributes:
-        stiffness, mass, coupling, laplace: K, M, C, A.
+        stiffness, mass: K and M as full arrays.
+        coupling, laplace: C and A, sparse.
         densities: ρ at each unknown of ψ.
         fixed: unknowns of ψ that a grounded surface fixes.
         volumes: what each unknown takes from each closed layer, shape (closed layers, n).
@@ -78,10 +82,10 @@ class DenseProblem:
     """
 
     def __init__(self, pencil: CoupledPencil) -> None:
-        """Take the plain matrices, and nothing that the package made of them."""
+        """Take nothing that the package made of the matrices."""
         liquid = pencil.liquid
-        matrices = (pencil.stiffness, pencil.mass, pencil.coupling, pencil.laplace)
-        self.stiffness, self.mass, self.coupling, self.laplace = (dense(matrix) for matrix in matrices)
+        self.stiffness, self.mass = (sparse(matrix).toarray() for matrix in (pencil.stiffness, pencil.mass))
+        self.coupling, self.laplace = sparse(pencil.coupling), sparse(pencil.laplace)
         self.densities = np.array([layer.density for layer in liquid.layers])[liquid.owned_layer_of]
         self.fixed = liquid.surface_dofs(liquid.grounded) if liquid.grounded else np.empty(0, dtype=int)
         layers = [np.flatnonzero(liquid.owned_layer_of == layer) for layer in range(len(liquid.layers))]
@@ -91,11 +95,10 @@ class DenseProblem:
 
     def added_mass(self, basis: np.ndarray | None = None, pins: np.ndarray | None = None) -> np.ndarray:
         """(ρC)ᵀA⁻¹C on some combinations of the unknowns, with ψ = 0 at the pins."""
-        coupling = self.coupling if basis is None else self.coupling @ basis
-        free = np.setdiff1d(np.arange(len(self.laplace)), [*self.fixed, *(self.pins if pins is None else pins)])
-        potential = np.zeros_like(coupling)
-        potential[free] = np.linalg.solve(self.laplace[np.ix_(free, free)], coupling[free])
-        added = (self.densities[:, None] * coupling).T @ potential
+        coupling = self.coupling.toarray() if basis is None else self.coupling @ basis
+        free = np.setdiff1d(np.arange(len(self.densities)), [*self.fixed, *(self.pins if pins is None else pins)])
+        potential = splu(self.laplace[free][:, free].tocsc()).solve(coupling[free])
+        added = (self.densities[free, None] * coupling[free]).T @ potential
         return 0.5 * (added + added.T)
 
     def eigenvalues(self, count: int, *, shift: float = 1.0, stiffness: np.ndarray | None = None) -> np.ndarray:
@@ -115,3 +118,27 @@ class DenseProblem:
 def frequencies(eigenvalues: np.ndarray, scene: TankScene) -> np.ndarray:
     """ω in rad/s of dimensionless λ > 0."""
     return np.sqrt(eigenvalues * scene.tank.gravity / scene.tank.length)
+
+
+def check_processes(scene: TankScene, *, halves: bool = True) -> None:
+    """All processes together find what each finds on its own, to rounding; nothing is checked on a single one."""
+    if MPI.COMM_WORLD.size == 1:
+        pytest.skip("there is one process")
+    together, alone = (solve_scene(scene, comm=comm, halves=halves) for comm in (MPI.COMM_WORLD, MPI.COMM_SELF))
+    assert together.reasons == alone.reasons == ()
+    assert together.modes.zero_modes == alone.modes.zero_modes
+
+    def values(solution: TankSolution) -> list[float]:
+        return [mode.eigenvalue for mode in (*solution.asked, *solution.modes.growing)]
+
+    # Sums over unknowns in another order; measured below 1e-12 of λ, twice that of ω.
+    assert values(together) == pytest.approx(values(alone), rel=2e-11)
+    for one, other in zip(together.asked, alone.asked, strict=True):
+        sizes = np.abs(other.body_amplitudes).max(initial=1e-300)
+        assert np.abs(one.body_amplitudes) == pytest.approx(np.abs(other.body_amplitudes), abs=1e-7 * sizes)
+    assert [tone.pressure_release for tone in together.tones] == pytest.approx(
+        [tone.pressure_release for tone in alone.tones], rel=2e-11
+    )
+    if alone.added_mass is not None:
+        matrices = [solution.added_mass.matrix for solution in (together, alone)]
+        assert matrices[0] == pytest.approx(matrices[1], rel=1e-10, abs=1e-12 * np.abs(matrices[1]).max())

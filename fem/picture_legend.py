@@ -11,7 +11,7 @@ from hydroelastic.fem.picture_frame import Frame
 from hydroelastic.fem.picture_mode import ModePicture
 from hydroelastic.fem.picture_page import INK, Page
 from hydroelastic.fem.picture_shapes import Array, dashes
-from hydroelastic.fem.picture_tank import ARROW, FREE_SURFACE, INTERFACE, ISO_LINE, WALL_STROKE
+from hydroelastic.fem.picture_tank import ARROW, FREE_SURFACE, INTERFACE, ISO_LINE, LOWER_WASH, UPPER_WASH, WALL_STROKE
 from hydroelastic.fem.picture_view import View, colour_limit, round_ticks
 
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -51,14 +51,14 @@ def draw_axes(page: Page, view: View, frame: Frame) -> None:
     wall = WALL_STROKE * unit
     ends = frame.page(np.array([0.0, view.length, 0.0]), np.array([-view.depth, 0.0, view.upper_depth]))
     (left, bottom), (right, _), (_, top) = ends
-    x_ticks, y_ticks = round_ticks(0.0, view.length, 8), _ordinates(view, frame)
+    x_ticks = round_ticks(0.0, view.length, 8)
+    y_ticks, labels = _ordinates(view, frame)
     x_page, y_page = frame.page(x_ticks, np.zeros(1))[:, 0], frame.page(np.zeros(len(y_ticks)), y_ticks)[:, 1]
     feet = [[[x, bottom - wall], [x, bottom - wall - 8 * unit]] for x in x_page]
     feet += [[[left - wall, y], [left - wall - 8 * unit, y]] for y in y_page]
     page.strokes(np.array(feet), stroke=1.6 * unit, colour=INK)
     for x, label in zip(x_page, tick_labels(x_ticks), strict=True):
         page.text((x, bottom - wall - 12 * unit), label, size=21 * unit, vertical="top")
-    labels = tick_labels(y_ticks)
     for y, label in zip(y_page, labels, strict=True):
         page.text((left - wall - 14 * unit, y), label, size=21 * unit, horizontal="right")
     widest = max(page.text_width(label, 21 * unit) for label in labels)
@@ -66,13 +66,15 @@ def draw_axes(page: Page, view: View, frame: Frame) -> None:
     page.text((left - wall - widest - 42 * unit, 0.5 * (bottom + top)), "y (m)", size=23 * unit, angle=90.0)
 
 
-def _ordinates(view: View, frame: Frame) -> Array:
-    """Ticks of y; each of two liquids with a vertical scale of its own has its own step."""
+def _ordinates(view: View, frame: Frame) -> tuple[Array, list[str]]:
+    """Ticks of y and their labels; each of two liquids with a vertical scale of its own has its own step."""
     if view.stretch == view.upper_stretch:
-        return _ticks(-view.depth, view.upper_depth, view.stretch, frame)
+        ticks = _ticks(-view.depth, view.upper_depth, view.stretch, frame)
+        return ticks, tick_labels(ticks)
     below = _ticks(-view.depth, 0.0, view.stretch, frame)
     above = _ticks(0.0, view.upper_depth, view.upper_stretch, frame)
-    return np.concatenate([below, above[above > 0.0]])
+    above = above[above > 0.0]
+    return np.concatenate([below, above]), tick_labels(below) + tick_labels(above)
 
 
 def _ticks(low: float, high: float, stretch: float, frame: Frame) -> Array:
@@ -81,13 +83,19 @@ def _ticks(low: float, high: float, stretch: float, frame: Frame) -> Array:
 
 
 def label_liquids(page: Page, picture: ModePicture, view: View, frame: Frame) -> None:
-    """Write the densities of two liquids on their right."""
+    """Write the densities of two liquids on their right, beside the colours they have beyond their still levels."""
     unit = frame.unit
-    for name, density, depth in zip("₂₁", picture.densities, (-view.depth, view.upper_depth), strict=False):
+    depths, colours = (-view.depth, view.upper_depth), (LOWER_WASH, UPPER_WASH)
+    for name, density, depth, colour in zip("₂₁", picture.densities, depths, colours, strict=False):
         ((x, y),) = frame.page(np.array([view.length]), np.array([0.5 * depth]))
-        place = x + (WALL_STROKE + 14) * unit
+        left, right = x + (WALL_STROKE + 14) * unit, x + (WALL_STROKE + 34) * unit
+        page.band(
+            np.array([[left, y - 24 * unit], [right, y - 24 * unit]]),
+            np.array([[left, y + 24 * unit], [right, y + 24 * unit]]),
+            colour=colour,
+        )
         for line, height in ((f"ρ{name} = {density:.5g}", 13 * unit), ("kg/m³", -13 * unit)):
-            page.text((place, y + height), line, size=20 * unit, horizontal="left")
+            page.text((right + 10 * unit, y + height), line, size=20 * unit, horizontal="left")
 
 
 def draw_colour_bar(page: Page, picture: ModePicture, unit: float, *, centre: float, y: float) -> None:
@@ -144,11 +152,13 @@ def scale_notes(view: View) -> str:
     notes = []
     if stretch := stretch_note(view):
         notes.append(f"{stretch}, also of the vectors")
-    if view.cut:
-        lower = "the lower" if view.whole_upper_depth else "liquid"
-        notes.append(f"only the upper {view.depth:.3g} m of {view.whole_depth:.3g} m of {lower} shown")
-    if view.upper_cut:
-        notes.append(f"only the lower {view.upper_depth:.3g} m of {view.whole_upper_depth:.3g} m of the upper shown")
+    if view.whole_upper_depth and (view.cut or view.upper_cut):
+        notes.append(
+            f"only {-view.depth:.3g} m < y < {view.upper_depth:.3g} m of {-view.whole_depth:.3g} m < y < "
+            f"{view.whole_upper_depth:.3g} m shown".replace("-", "−")
+        )
+    elif view.cut:
+        notes.append(f"only the upper {view.depth:.3g} m of {view.whole_depth:.3g} m of liquid shown")
     if view.surface_scale > 0:
         notes.append(f"surface displacement drawn ×{short_number(view.surface_scale)} (arbitrary amplitude)")
     else:

@@ -46,12 +46,14 @@ class FloatSection:
     Attributes:
         contour: corners of a closed polygon at rest in m, the first not repeated, shape (points, 2).
         displacement: of them in the mode's arbitrary scale, shape (points, 2).
+        waterplane: abscissae in m at which surfaces of liquids meet it from the left and from the right.
         slit: lower and upper end of the line on which a thin float acts, shape (2, 2); ``None`` where the float
             displaces liquid.
     """
 
     contour: Array
     displacement: Array
+    waterplane: tuple[float, float]
     slit: Array | None = None
 
     def __post_init__(self) -> None:

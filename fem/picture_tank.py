@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydroelastic.fem.picture_float import BODY, BODY_EDGE, draw_displaced, draw_resting
+from hydroelastic.fem.picture_float import BODY, BODY_EDGE, draw_displaced, draw_resting, up_to_floats
 from hydroelastic.fem.picture_frame import Frame
 from hydroelastic.fem.picture_liquid import LiquidField, between, displacement_on_grid, iso_lines, steep
 from hydroelastic.fem.picture_mode import ModePicture, SurfaceCurve
@@ -41,12 +41,13 @@ def draw_tank(page: Page, picture: ModePicture, view: View, frame: Frame, *, col
     _cover_outside(page, field, view, frame)
     if spacing > 0:
         page.arrows(*_arrows(field, view, frame, spacing), stroke=2.0 * frame.unit, colour=ARROW)
-    _draw_wash(page, picture, view, frame)
+    surfaces = tuple(up_to_floats(curve, picture.floats, view.surface_scale, frame) for curve in picture.surfaces)
+    _draw_wash(page, picture, surfaces, view, frame)
     for section in picture.floats:
         draw_resting(page, section, frame)
     _draw_walls(page, picture, view, frame)
     _draw_still_levels(page, picture, view, frame)
-    _draw_surfaces(page, picture, view, frame)
+    _draw_surfaces(page, surfaces, view, frame)
     for section in picture.floats:
         draw_displaced(page, section, view.surface_scale, frame)
 
@@ -124,10 +125,10 @@ def _displaced(curve: SurfaceCurve, height: Array, view: View, frame: Frame) -> 
     return frame.displaced(curve.x, np.full(len(curve.x), curve.level), np.zeros(1), view.surface_scale * height)
 
 
-def _draw_wash(page: Page, picture: ModePicture, view: View, frame: Frame) -> None:
+def _draw_wash(page: Page, picture: ModePicture, surfaces: tuple[SurfaceCurve, ...], view: View, frame: Frame) -> None:
     """Tint the liquid that passed a still level; where air came in, fade the field."""
     for sign in (1.0, -1.0):
-        for curve in picture.surfaces:
+        for curve in surfaces:
             height = sign * np.maximum(sign * curve.displacement, 0.0)
             if height.any() and view.surface_scale > 0:
                 colour, opacity = _wash(picture, curve, sign)
@@ -151,24 +152,28 @@ def _draw_walls(page: Page, picture: ModePicture, view: View, frame: Frame) -> N
         np.array([0.0, view.length]), np.array([-view.depth, view.upper_depth + view.headroom])
     )
     _, ceiling = _extent(view, frame)
-    cut = lambda y: dashes((left, y), (right, y), dash=3 * unit, gap=6 * unit)  # noqa: E731
+    top = ceiling + wall if picture.lid else top
     sides = [[[x, bottom], [x, top]] for x in (left - edge, right + edge)]
     page.strokes(np.array(sides), stroke=wall, colour=_WALL)
     if view.cut:
-        page.strokes(cut(bottom), stroke=1.5 * unit, colour=GREY)
+        page.strokes(_cut_edge(left, right, bottom, unit), stroke=1.5 * unit, colour=GREY)
     else:
         page.strokes(
             np.array([[[left - wall, bottom - edge], [right + wall, bottom - edge]]]), stroke=wall, colour=_WALL
         )
     if view.upper_cut:
-        page.strokes(cut(ceiling), stroke=1.5 * unit, colour=GREY)
+        page.strokes(_cut_edge(left, right, ceiling, unit), stroke=1.5 * unit, colour=GREY)
         return
     for start, end in picture.lid:
-        # A piece of the lid meets the wall, and joins it.
-        ends = [x + side * wall * at_wall for x, side, at_wall in
-                zip((left + frame.per_metre * start, left + frame.per_metre * end), (-1.0, 1.0),
-                    (start <= 0.0, end >= view.length), strict=True)]  # fmt: skip
-        page.strokes(np.array([[[x, ceiling + edge] for x in ends]]), stroke=wall, colour=_WALL)
+        # Where a piece of the lid meets a wall, it joins it.
+        first = left - wall if start <= 0.0 else left + frame.per_metre * start
+        last = right + wall if end >= view.length else left + frame.per_metre * end
+        page.strokes(np.array([[[first, ceiling + edge], [last, ceiling + edge]]]), stroke=wall, colour=_WALL)
+
+
+def _cut_edge(left: float, right: float, y: float, unit: float) -> Array:
+    """Strokes where the liquid goes on beyond what is drawn."""
+    return dashes((left, y), (right, y), dash=3 * unit, gap=6 * unit)
 
 
 def _draw_still_levels(page: Page, picture: ModePicture, view: View, frame: Frame) -> None:
@@ -181,15 +186,15 @@ def _draw_still_levels(page: Page, picture: ModePicture, view: View, frame: Fram
         page.strokes(level, stroke=1.4 * frame.unit, colour=INK)
 
 
-def _draw_surfaces(page: Page, picture: ModePicture, view: View, frame: Frame) -> None:
+def _draw_surfaces(page: Page, surfaces: tuple[SurfaceCurve, ...], view: View, frame: Frame) -> None:
     """Surfaces of liquids first: a body's ends cover theirs."""
     unit = frame.unit
-    for curve in picture.surfaces:
+    for curve in surfaces:
         if curve.kind != "body":
             line = _displaced(curve, curve.displacement, view, frame)
             page.ribbon(line, stroke=7.0 * unit, colour=WHITE)
             page.ribbon(line, stroke=4.5 * unit, colour=INTERFACE if curve.kind == "interface" else FREE_SURFACE)
-    for curve in picture.surfaces:
+    for curve in surfaces:
         if curve.kind == "body":
             line = _displaced(curve, curve.displacement, view, frame)
             page.ribbon(line, stroke=15.0 * unit, colour=BODY_EDGE)

@@ -15,11 +15,15 @@ FLATTEST = 0.15
 FLAT_TARGET = 0.2
 """Drawn depth/length of a stretched tank, at least."""
 DEEPEST = 1.5
-"""A liquid whose depth/length is larger than this is cut, unless its far side moves."""
+"""A liquid whose depth/length is larger than this is cut."""
 DEEP_CUT = 1.25
 """Drawn depth/length of a cut liquid; the slowest part of a mode, exp(πy/length), has fallen to 2 % there."""
+DEEPEST_OF_TWO = 1.0
+"""Of two liquids, one whose depth/length is larger than this is cut, unless its far side moves."""
+DEEP_CUT_OF_TWO = 0.8
+"""Drawn depth/length of such a one, at which the slowest part of a mode has fallen to 8 %."""
 TALLEST = 2.0
-"""Two liquids whose drawn height/length is larger than this are compressed."""
+"""Two liquids whose drawn height/length is larger than this are compressed to less."""
 THINNEST = 0.05
 """Of two liquids, one whose drawn depth/length is smaller than this gets a vertical scale of its own."""
 THIN_TARGET = 0.1
@@ -123,16 +127,19 @@ def view_of(picture: ModePicture) -> View:
 def _drawn_depths(picture: ModePicture) -> tuple[float, float]:
     """Drawn depths of the lower and the upper liquid; above, only still liquid can be left out."""
     ordinates = np.concatenate([np.zeros(1), *(section.contour[:, 1] for section in picture.floats)])
-    depth = _cut(picture.depth, picture.length, -float(ordinates.min()))
+    depth = _drawn_depth(picture, picture.depth, -float(ordinates.min()))
     if _top_moves(picture):
         return depth, picture.upper_depth
-    return depth, _cut(picture.upper_depth, picture.length, float(ordinates.max()))
+    return depth, _drawn_depth(picture, picture.upper_depth, float(ordinates.max()))
 
 
-def _cut(depth: float, length: float, reach: float) -> float:
-    if depth <= DEEPEST * length:
+def _drawn_depth(picture: ModePicture, depth: float, reach: float) -> float:
+    """What is drawn of a liquid into which floats reach so far."""
+    two = picture.has_two_liquids
+    deepest, cut = (DEEPEST_OF_TWO, DEEP_CUT_OF_TWO) if two else (DEEPEST, DEEP_CUT)
+    if depth <= deepest * picture.length:
         return depth
-    return min(depth, max(DEEP_CUT * length, BESIDE_FLOAT * reach))
+    return min(depth, max(cut * picture.length, BESIDE_FLOAT * reach))
 
 
 def _top_moves(picture: ModePicture) -> bool:
@@ -157,7 +164,7 @@ def _stretches(lower: float, upper: float) -> tuple[float, float]:
     if upper == 0.0:
         return stretch, stretch
     if whole > TALLEST:
-        stretch = 1.0 / _round_up(whole / TALLEST)
+        stretch = _round_down(TALLEST / whole)
     lower_stretch, upper_stretch = (
         stretch if stretch * depth >= THINNEST else _round_up(THIN_TARGET / depth) for depth in (lower, upper)
     )
@@ -191,3 +198,8 @@ def round_ticks(low: float, high: float, count: int) -> Array:
 def _round_up(value: float) -> float:
     power = 10.0 ** np.floor(np.log10(value))
     return float(power * _ROUND_NUMBERS[value / power * (1 - 1e-9) <= _ROUND_NUMBERS][0])
+
+
+def _round_down(value: float) -> float:
+    power = 10.0 ** np.floor(np.log10(value))
+    return float(power * _ROUND_NUMBERS[value / power * (1 + 1e-9) >= _ROUND_NUMBERS][-1])

@@ -49,7 +49,7 @@ def draw_mode(picture: ModePicture, path: Path | str, *, width: int = 1600, canv
     path = _checked_path(path, width)
     view = view_of(picture)
     unit = width / _REFERENCE_WIDTH
-    beside = 90 * unit if picture.has_two_liquids else 0.0
+    beside = 120 * unit if picture.has_two_liquids else 0.0
     drawn_width, drawn_height = _drawn_size(view, available=width - 230 * unit - beside, highest=0.75 * width)
     footer = 285 * unit
     height = round(footer + drawn_height + 85 * unit)

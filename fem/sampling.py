@@ -153,7 +153,8 @@ def sample_surface(
     """
     count = 2 * liquid.degree + 1
     local = np.linspace(0.0, 1.0, count)[:, None]
-    x, values = [np.empty((0, count))], [np.empty((len(functions), 0, count))]
+    x: list[np.ndarray] = [np.empty((0, count))]
+    values: list[np.ndarray] = [np.empty((len(functions), 0, count))]
     for group in facet_groups(liquid, name, layer):
         reference = group.reference_points(local)
         basis = liquid.space.element.basix_element.tabulate(0, reference)[0, :, :, 0]

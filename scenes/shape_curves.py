@@ -45,10 +45,10 @@ def sample_level(
     above = sample_surface(liquid, functions, name, level.above) if level.above is not None else None
     if below is None:
         return None
-    pressure = tank.layers[level.below].density * below.potential
+    pressure: Array = tank.layers[level.below].density * below.potential
     if level.above is not None and above is not None:
         # Facets of both sides are the same.
-        pressure -= tank.layers[level.above].density * above.potential
+        pressure = pressure - tank.layers[level.above].density * above.potential
     return SurfaceTrace(x=below.x, potential=pressure / level.jump)
 
 
@@ -142,7 +142,8 @@ def _displaced_float(body: ScaledFloat, amplitudes: Array) -> tuple[FloatSection
     sizes = np.array([np.hypot(*part).max() for part in moved]) * np.sign(turn @ amplitudes)
     slit = None if not body.is_thin else np.array([[body.waterplane[0], y] for y in body.slit])
     displacement = np.sum(moved, axis=0).T
-    return FloatSection(contour=contour, displacement=displacement, slit=slit), largest_of(sizes)
+    section = FloatSection(contour=contour, displacement=displacement, waterplane=body.waterplane, slit=slit)
+    return section, largest_of(sizes)
 
 
 def contour_points(contour: Contour) -> Array:

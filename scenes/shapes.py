@@ -141,6 +141,7 @@ def _scaled_float(section: FloatSection, length: float, factor: float) -> FloatS
     return FloatSection(
         contour=section.contour * length,
         displacement=factor * section.displacement,
+        waterplane=(section.waterplane[0] * length, section.waterplane[1] * length),
         slit=None if section.slit is None else section.slit * length,
     )
 
@@ -154,7 +155,7 @@ def mode_title(number: int, mode: Summary) -> str:
 
 def growing_title(number: int, rate: float) -> str:
     """Title of a growing mode's picture."""
-    return f"Growing mode {number}: σ = {rate:.6g} 1/s, {np.e:.3g}-fold in {1.0 / rate:.4g} s"
+    return f"Growing mode {number}: σ = {rate:.6g} 1/s, doubles in {np.log(2.0) / rate:.4g} s"
 
 
 def pictures(shapes: ModeShapes, summary: Summary) -> list[ModePicture]:

@@ -91,12 +91,7 @@ def view_of(picture: ModePicture) -> View:
     depth, upper_depth = _drawn_depths(picture)
     stretch, upper_stretch = _stretches(depth / picture.length, upper_depth / picture.length)
     rise = min(stretch, upper_stretch)
-    if picture.has_two_liquids:
-        # Surfaces must not meet across a thin liquid.
-        thinnest = min(stretch * depth, upper_stretch * upper_depth)
-        amplitude = min(0.1 * picture.length, 0.3 * thinnest) / rise
-    else:
-        amplitude = 0.1 * min(picture.length, 1.6 * depth)
+    amplitude = _amplitude(picture, stretch * depth, upper_stretch * upper_depth, rise)
     largest = max(
         (
             *(float(np.abs(curve.displacement).max()) for curve in picture.surfaces),
@@ -104,12 +99,6 @@ def view_of(picture: ModePicture) -> View:
         ),
         default=0.0,
     )
-    scale = amplitude / largest if largest > 0 else 0.0
-    for section in picture.floats:
-        # A small float is not to be drawn far from where it is.
-        most = max(0.5 * section.height, 0.25 * amplitude)
-        if scale * section.largest > most:
-            scale = most / section.largest
     return View(
         length=picture.length,
         depth=depth,
@@ -118,10 +107,22 @@ def view_of(picture: ModePicture) -> View:
         whole_upper_depth=picture.upper_depth,
         stretch=stretch,
         upper_stretch=upper_stretch,
-        surface_scale=scale,
+        surface_scale=amplitude / largest if largest > 0 else 0.0,
         amplitude=amplitude,
         headroom=_headroom(picture, amplitude),
     )
+
+
+def _amplitude(picture: ModePicture, lower: float, upper: float, rise: float) -> float:
+    """Largest drawn displacement, for drawn heights of the liquids and the vertical scale of displacements."""
+    if picture.has_two_liquids:
+        # Surfaces must not meet across a thin liquid.
+        amplitude = min(0.1 * picture.length, 0.3 * lower, 0.3 * upper) / rise
+    else:
+        amplitude = 0.1 * min(picture.length, 1.6 * lower) / rise
+    # A float is not to leave its place, nor the liquid it; but what moves much less is not seen.
+    least = 0.25 * amplitude
+    return min((amplitude, *(max(0.25 * section.height, least) for section in picture.floats)))
 
 
 def _drawn_depths(picture: ModePicture) -> tuple[float, float]:

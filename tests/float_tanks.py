@@ -55,9 +55,7 @@ def pencils(
     if coarse:
         resolution = replace(resolution, degree=4, shapes=tuple(min(count, 6) for count in resolution.shapes))
     mesh = build_mesh(MPI.COMM_WORLD, tank, resolution, half=half, released=released)
-    _, parts = part_models(
-        mesh, tank, resolution.degree, resolution.shapes, half=half, pressure_release=released
-    )
+    _, parts = part_models(mesh, tank, resolution.degree, resolution.shapes, half=half, pressure_release=released)
     return parts
 
 

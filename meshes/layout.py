@@ -98,7 +98,7 @@ class Layout:
             names += [curve or "an inner line"] * (len(line.points) - 1)
         found = crossing_pair(np.vstack([chain[:-1] for chain in chains]), np.vstack([chain[1:] for chain in chains]))
         if found is not None:
-            first, second = (names[place] for place in found)
+            first, second = sorted(names[place] for place in found)
             raise MeshError(f"curves of the outline cross or touch one another: {first} and {second}")
 
     def points(self) -> Iterator[NDArray[np.float64]]:

@@ -33,15 +33,21 @@ def body_added_mass(pencil: CoupledPencil) -> np.ndarray:
     Returns:
         ρ∫φᵢψⱼ, shape (functions, functions), in the pencil's units.
     """
+    return body_responses(pencil)[0]
+
+
+def body_responses(pencil: CoupledPencil) -> tuple[np.ndarray, list[PETSc.Vec]]:
+    """As `body_added_mass`, with the ψ that answers a unit of each shape (collective)."""
     size = pencil.body_size
     unit, momentum = pencil.stiffness.createVecs()
-    potential = pencil.coupling.createVecLeft()
-    rows = []
+    rows, potentials = [], []
     for column in range(size):
         _set_unit(unit, column)
+        potential = pencil.coupling.createVecLeft()
         _liquid_momentum(pencil, unit, momentum, potential)
         rows.append(pencil.body_values(momentum))
-    return np.array(rows).reshape(size, size)
+        potentials.append(potential)
+    return np.array(rows).reshape(size, size), potentials
 
 
 def _set_unit(vector: PETSc.Vec, index: int) -> None:

@@ -100,5 +100,3 @@ def facet_groups(liquid: LiquidSpace, name: str, layer: int | None = None) -> It
             * np.sqrt(np.linalg.det(edges @ edges.T)),
             facet_type=basix.cell.subentity_types(cell_type)[dim - 1][place],
         )
-
-

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from petsc4py import PETSc
@@ -32,7 +33,7 @@ class Mode:
         potential: ψ, its constant included.
         residual: relative residual ‖Kζ − λ(Mζ + (ρC)ᵀψ)‖ / ‖Kζ‖ in the norm of K⁻¹.
         body_amplitudes: the body part of ζ, on every process.
-        energy: share of each block in the potential energy: body unknowns one by one, then the free surface.
+        energy: share in the potential energy: body unknowns one by one, then each surface of the liquids.
     """
 
     eigenvalue: float
@@ -234,8 +235,12 @@ def _residual(
 
 def _energy_shares(pencil: CoupledPencil, displacement: PETSc.Vec, force: PETSc.Vec) -> np.ndarray:
     total = displacement.dot(force)
-    bodies = pencil.body_values(displacement) * pencil.body_values(force) / total
-    return np.append(bodies, 1.0 - bodies.sum())
+    bodies = pencil.body_values(displacement) * pencil.body_values(force)
+    comm = displacement.comm.tompi4py()
+    local = displacement.array_r * force.array_r
+    stops = np.cumsum([len(local) - sum(pencil.surface_sizes), *pencil.surface_sizes])
+    surfaces = [comm.allreduce(float(local[start:stop].sum())) for start, stop in pairwise(stops)]
+    return np.array([*bodies, *surfaces]) / total
 
 
 def count_below(pencil: CoupledPencil, eigenvalue: float) -> int:

@@ -66,6 +66,7 @@ class CoupledPencil:
         constraints: of the closed layers. Where one follows from the others, as in two liquids that fill a rigid tank,
             it is left out: the constant of its ψ then means nothing.
         free_constants: owned unknowns of ψ, one for each layer whose constraint was left out.
+        surface_sizes: number of own unknowns of each surface on this process; they follow those of the bodies.
     """
 
     liquid: LiquidSpace
@@ -79,6 +80,7 @@ class CoupledPencil:
     solver: LiquidSolver
     constraints: tuple[VolumeConstraint, ...]
     free_constants: np.ndarray
+    surface_sizes: tuple[int, ...]
 
     @property
     def body_size(self) -> int:
@@ -157,6 +159,7 @@ def build_pencil(
     """
     laplace = matrices.laplace
     blocks, stiffness_blocks, mass_blocks = [], [], []
+    sizes = []
     if bodies:
         blocks.append(_body_coupling(liquid, bodies, laplace))
         stiffness_blocks.append(_diagonal(np.concatenate([body.stiffness for body in bodies]), laplace.comm))
@@ -167,6 +170,7 @@ def build_pencil(
         blocks.append(coupling_block)
         stiffness_blocks.append(stiffness_block)
         mass_blocks.append(_zero_like(stiffness_block))
+        sizes.append(stiffness_block.getLocalSize()[0])
     coupling = _joined([blocks])
     constraints, free_constants = _volume_constraints(liquid, coupling)
     names = tuple(dict.fromkeys([*(body.surface for body in bodies), *(surface.surface for surface in surfaces)]))
@@ -186,6 +190,7 @@ def build_pencil(
         ),
         constraints=constraints,
         free_constants=free_constants,
+        surface_sizes=tuple(sizes),
     )
 
 

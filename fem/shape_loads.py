@@ -104,8 +104,7 @@ def _add_loads(liquid: LiquidSpace, body: Body, group: FacetGroup, singular_corn
 
 
 def summed_over_processes(liquid: LiquidSpace, loads: np.ndarray) -> np.ndarray:
-    """Owned entries of several vectors of which each process has a part, shape (vectors, local unknowns) (collective).
-    """
+    """Owned entries of several vectors of which each process has a part, (vectors, local unknowns) (collective)."""
     index_map = liquid.space.dofmap.index_map
     vector = la.vector(index_map)
     owned = np.empty((len(loads), index_map.size_local))

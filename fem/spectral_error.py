@@ -128,7 +128,9 @@ def _curved_energies(liquid: LiquidSpace) -> Energies:
         reference = np.einsum("dqn,cn->cqd", slopes, values, optimize=True)
         field = np.einsum("cqde,cqd->cqe", scaled, reference, optimize=True)
         squares = np.square(np.einsum("jq,cqe->cje", weighted, field, optimize=True)).sum(axis=2)
-        return [squares[:, sizes[k] : sizes[k + 1]].sum(axis=1) for k in range(liquid.degree - 1, liquid.degree - 5, -1)]
+        return [
+            squares[:, sizes[k] : sizes[k + 1]].sum(axis=1) for k in range(liquid.degree - 1, liquid.degree - 5, -1)
+        ]
 
     return energies
 

@@ -1,4 +1,4 @@
-"""What moves on the boundary of the liquids: surface unknowns ζ with a stiffness, a mass and a trace on the boundary."""
+"""What moves on the boundary of the liquids: surface unknowns ζ with a stiffness, a mass and a trace there."""
 
 from __future__ import annotations
 

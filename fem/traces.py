@@ -23,9 +23,7 @@ from hydroelastic.meshes.tagged_mesh import MeshError
 _DRAWN = 0.25
 
 
-def surface_blocks(
-    liquid: LiquidSpace, surface: LiquidSurface, surface_mass: PETSc.Mat
-) -> tuple[PETSc.Mat, PETSc.Mat]:
+def surface_blocks(liquid: LiquidSpace, surface: LiquidSurface, surface_mass: PETSc.Mat) -> tuple[PETSc.Mat, PETSc.Mat]:
     """Coupling and stiffness of one surface.
 
     Args:

@@ -12,7 +12,7 @@ from hydroelastic.meshes.cutting import cut_open
 from hydroelastic.meshes.edges import EDGE_CORNERS, Edges, edges_of
 from hydroelastic.meshes.filling import Filling
 from hydroelastic.meshes.layout import Layout
-from hydroelastic.meshes.outline import Outline, Point, enclosed_area
+from hydroelastic.meshes.outline import Outline, Point, as_points, enclosed_area
 from hydroelastic.meshes.rings import ring_triangles
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 
@@ -79,11 +79,11 @@ def _joined(layout: Layout, filling: Filling) -> _Joined:
     added: list[Point] = []
 
     def nodes_at(points: NDArray[np.float64]) -> NDArray[np.int64]:
-        for x, y in points.tolist():
-            if (x, y) not in numbers:
-                numbers[x, y] = len(filling.points) + len(added)
-                added.append((x, y))
-        return np.array([numbers[x, y] for x, y in points.tolist()], dtype=np.int64)
+        for point in as_points(points):
+            if point not in numbers:
+                numbers[point] = len(filling.points) + len(added)
+                added.append(point)
+        return np.array([numbers[point] for point in as_points(points)], dtype=np.int64)
 
     cells = list(filling.cells)
     regions = [np.full(len(some), region) for region, some in enumerate(cells)]

@@ -15,6 +15,9 @@ from hydroelastic.meshes.size_field import Segments, SizeField
 _ROOM = 0.45
 # Samples of a curved piece turn by at most this part of what an element may, and are this part of its size at most.
 _FINE = 0.125
+_FIRST_SAMPLES = 65
+# Where a ring first meets a curve is looked for on so many points, then by bisection.
+_GRID = 1025
 # Directions of shorter samples, as parts of the extent, are rounding.
 _SHORTEST = 1e-6
 # Halvings of an interval down to the last bit, also where a small parameter is sought.
@@ -76,7 +79,7 @@ def _turns(points: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def curve_samples(curve: Curve, first: float, last: float, largest_turn: float) -> NDArray[np.float64]:
     """Parameters from first to last, so close that a curve turns little from one sample to the next."""
-    parameters = np.linspace(first, last, 65)
+    parameters = np.linspace(first, last, _FIRST_SAMPLES, dtype=np.float64)
     shortest = _SHORTEST * float(np.ptp(curve.polyline(), axis=0).max())
     while True:
         points = curve.at(parameters)
@@ -97,7 +100,7 @@ def ring_ends(curve: Curve, at_start: bool, radii: NDArray[np.float64]) -> RingE
         length = float(np.hypot(*away))
         away /= length
         points = place + radii[:, None] * away
-        fractions = radii / length
+        fractions: NDArray[np.float64] = radii / length
         angles = np.full(len(radii), np.arctan2(away[1], away[0]))
     else:
         fractions = _fractions_at(curve, at_start, radii)
@@ -114,7 +117,7 @@ def _fractions_at(curve: Curve, at_start: bool, radii: NDArray[np.float64]) -> N
         away: NDArray[np.float64] = np.hypot(*(points - (curve.start if at_start else curve.end)).T)
         return away
 
-    grid = np.linspace(0.0, 1.0, 1025)
+    grid = np.linspace(0.0, 1.0, _GRID, dtype=np.float64)
     beyond = np.argmax(distances_at(grid) >= radii[:, None], axis=1)
     below, above = grid[beyond - 1], grid[beyond]
     for _ in range(_BISECTIONS):

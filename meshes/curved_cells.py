@@ -53,7 +53,8 @@ class CurvedEdges:
     def normals(self) -> NDArray[np.float64]:
         """Unit normals to the left of the chords, shape (elements, 2)."""
         chords = self.chords
-        return np.column_stack([-chords[:, 1], chords[:, 0]]) / np.hypot(*chords.T)[:, None]
+        normals: NDArray[np.float64] = np.column_stack([-chords[:, 1], chords[:, 0]]) / np.hypot(*chords.T)[:, None]
+        return normals
 
     def blend(self, fractions: NDArray[np.float64]) -> NDArray[np.float64]:
         """e·n in Chebyshev polynomials of 2s - 1, by interpolation of δ at the inner nodes s of each chord.
@@ -65,7 +66,8 @@ class CurvedEdges:
         heights = self._heights(fractions)
         heights[np.abs(heights).max(axis=1) < _ROUNDING * np.abs(self.points).max()] = 0.0
         values = heights / (fractions * (1.0 - fractions))
-        return np.linalg.solve(chebvander(2.0 * fractions - 1.0, len(fractions) - 1), values.T).T
+        blend: NDArray[np.float64] = np.linalg.solve(chebvander(2.0 * fractions - 1.0, len(fractions) - 1), values.T).T
+        return blend
 
     def _heights(self, fractions: NDArray[np.float64]) -> NDArray[np.float64]:
         """δ·n at parts s of each chord, shape (elements, len(fractions))."""
@@ -151,7 +153,7 @@ def largest_deviation(pieces: list[CurvedEdges], degree: int) -> Deviation:
 
     Between the elements' nodes the exact curve is taken to be a polynomial of some degrees more.
     """
-    between = np.linspace(-1.0, 1.0, 4 * degree + 9)
+    between = np.linspace(-1.0, 1.0, 4 * degree + 9, dtype=np.float64)
     distance = angle = 0.0
     for edges in pieces:
         lengths = np.hypot(*edges.chords.T)[:, None]

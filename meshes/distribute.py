@@ -25,6 +25,7 @@ class TankMesh:
         facet_names: physical name → tag, of facets.
         cell_tags: tags of this process's own cells.
         cell_names: physical name → tag, of cells.
+        deviation: of the edges from the curves meshed, in units of length; zero where that is not known.
     """
 
     mesh: Mesh
@@ -32,6 +33,7 @@ class TankMesh:
     facet_names: dict[str, int]
     cell_tags: MeshTags
     cell_names: dict[str, int]
+    deviation: float = 0.0
 
     def facets(self, name: str) -> np.ndarray:
         """This process's facets of one group."""
@@ -61,10 +63,11 @@ def distribute_mesh(comm: MPI.Comm, tagged: TaggedMesh | None) -> TankMesh:
         assert tagged is not None
         points, cells, degree = geometry_nodes(tagged)
         facets, facet_values = tagged.facets, tagged.facet_tags.astype(np.int32)
-        shared = degree, tagged.facet_names, tagged.cell_names, tagged.cell_tags.astype(np.int32)
+        deviation = tagged.deviation.distance
+        shared = degree, tagged.facet_names, tagged.cell_names, tagged.cell_tags.astype(np.int32), deviation
     else:
         shared = None
-    degree, facet_names, cell_names, cell_values = comm.bcast(shared, root=0)
+    degree, facet_names, cell_names, cell_values, deviation = comm.bcast(shared, root=0)
     element = basix.ufl.element("Lagrange", "triangle", degree, shape=(2,))
     if comm.rank > 0:
         points, cells = np.empty((0, 2)), np.empty((0, element.dim // 2), dtype=np.int64)
@@ -83,4 +86,5 @@ def distribute_mesh(comm: MPI.Comm, tagged: TaggedMesh | None) -> TankMesh:
         facet_names=facet_names,
         cell_tags=meshtags(mesh, dim, own, cell_values[mesh.topology.original_cell_index[: len(own)]]),
         cell_names=cell_names,
+        deviation=deviation,
     )

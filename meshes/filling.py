@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.meshes.interrupts import interrupts_deferred
-from hydroelastic.meshes.outline import Point
+from hydroelastic.meshes.outline import Point, as_points
 from hydroelastic.meshes.size_field import SizeField
 from hydroelastic.meshes.tagged_mesh import MeshError
 
@@ -100,7 +100,7 @@ class _Drawing:
 
     def __init__(self, points: Iterable[NDArray[np.float64]]) -> None:
         self._points: dict[Point, int] = {}
-        for x, y in np.vstack(list(points)).tolist():
+        for x, y in as_points(np.vstack(list(points))):
             if (x, y) not in self._points:
                 self._points[x, y] = int(gmsh.model.geo.addPoint(x, y, 0.0))
         # Of each line from its first to its last point; negative tags for what gmsh was given the other way.
@@ -118,7 +118,7 @@ class _Drawing:
         if line.key not in self._lines:
             # gmsh is given them as the first loop passes them.
             way = 1 if line.forward else -1
-            ends = [self._points[x, y] for x, y in line.points.tolist()][::way]
+            ends = [self._points[point] for point in as_points(line.points)][::way]
             lines = [int(gmsh.model.geo.addLine(a, b)) for a, b in pairwise(ends)]
             if not line.divided:
                 for one in lines:

@@ -6,12 +6,13 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from math import inf
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 Point = tuple[float, float]
-Path = Callable[[NDArray[np.float64]], NDArray[np.float64]]
+Path = Callable[[NDArray[np.floating[Any]]], NDArray[np.floating[Any]]]
 
 # A path may miss the ends that it is said to have by this part of its extent; its nodes there are the ends.
 _PATH_ROUNDING = 1e-9
@@ -52,7 +53,7 @@ class Curve:
 
     def polyline(self) -> NDArray[np.float64]:
         """A few points on the curve, shape (n, 2): the two ends of a straight one."""
-        return self.at(np.linspace(0.0, 1.0, 2 if self.path is None else _COARSE))
+        return self.at(np.linspace(0.0, 1.0, 2 if self.path is None else _COARSE, dtype=np.float64))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -146,6 +147,11 @@ class Outline:
             raise ValueError(f"the loop of region {region.name!r} must turn counterclockwise")
 
 
+def as_points(points: NDArray[np.float64]) -> list[Point]:
+    """The rows of an array of shape (n, 2)."""
+    return [(float(x), float(y)) for x, y in points]
+
+
 def enclosed_area(points: NDArray[np.float64]) -> float:
     """Area within a closed polygon, positive if it turns counterclockwise."""
     # Relative to one of its points, lest far-away polygons lose digits.
@@ -159,7 +165,7 @@ def _check_curve(number: int, curve: Curve) -> None:
     if not curve.size > 0.0:
         raise ValueError(f"curve {number} ({curve.name!r}) needs elements of positive size")
     if curve.path is not None:
-        points = np.array(curve.path(np.linspace(0.0, 1.0, _COARSE)), dtype=np.float64)
+        points = np.array(curve.path(np.linspace(0.0, 1.0, _COARSE, dtype=np.float64)), dtype=np.float64)
         missed = np.abs(points[[0, -1]] - [curve.start, curve.end]).max()
         if points.shape != (_COARSE, 2) or not missed <= _PATH_ROUNDING * np.ptp(points, axis=0).max():
             raise ValueError(f"the path of curve {number} ({curve.name!r}) does not lead from its start to its end")

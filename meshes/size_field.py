@@ -8,6 +8,8 @@ from math import hypot
 import numpy as np
 from numpy.typing import NDArray
 
+from hydroelastic.meshes.outline import Point, as_points
+
 
 @dataclass(frozen=True, kw_only=True)
 class Segments:
@@ -61,9 +63,9 @@ class SizeField:
         self._growth = growth
         self._rings = rings
         self._straight = [
-            _frame(start, end, size)
+            _frame(start, end, float(size))
             for start, end, size in zip(
-                straight.starts.tolist(), straight.ends.tolist(), straight.sizes.tolist(), strict=True
+                as_points(straight.starts), as_points(straight.ends), straight.sizes, strict=True
             )
         ]
         self._starts = curved.starts
@@ -86,7 +88,7 @@ class SizeField:
 
     def along(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Element size at points of shape (n, 2)."""
-        return np.array([self(x, y) for x, y in points.tolist()])
+        return np.array([self(x, y) for x, y in as_points(points)])
 
     def _distances(self, x: float, y: float) -> NDArray[np.float64]:
         away = np.array([x, y]) - self._starts
@@ -96,7 +98,7 @@ class SizeField:
         return distances
 
 
-def _frame(start: list[float], end: list[float], size: float) -> tuple[float, float, float, float, float, float]:
+def _frame(start: Point, end: Point, size: float) -> tuple[float, float, float, float, float, float]:
     """A segment in its own directions: unit vector along it, its ends along it, its offset across, its size."""
     length = hypot(end[0] - start[0], end[1] - start[1])
     along_x, along_y = (end[0] - start[0]) / length, (end[1] - start[1]) / length

@@ -112,7 +112,7 @@ def _tones(
     tones = tuple(tone if tone.certain and not _is_hidden(solution, tone, tolerance) else None for tone in found)
     indices = sorted({tone.index for tone in tones if tone is not None})
     modes = [solution.modes.completed(index) for index in indices]
-    causes = frequency_errors(solution, modes, indices, resolution, tank, released=True)
+    causes = frequency_errors(solution, modes, solution.parts_of(indices), resolution, tank, released=True)
     totals = dict(zip(indices, map(float, causes.total), strict=True))
     errors = tuple(None if tone is None else totals[tone.index] for tone in tones)
     return Companion(solution=solution, tones=tones, errors=errors), causes

@@ -272,7 +272,9 @@ def _value_type(field: FieldInfo) -> tuple[Any, list[Any]]:
     annotation, limits = field.annotation, list(field.metadata)
     while True:
         if get_origin(annotation) is Annotated:
-            limits += [limit for part in annotation.__metadata__ for limit in getattr(part, "metadata", [part])]
+            limits += [
+                limit for part in getattr(annotation, "__metadata__", ()) for limit in getattr(part, "metadata", [part])
+            ]
             annotation = get_args(annotation)[0]
         elif type(None) in get_args(annotation):
             (annotation,) = (part for part in get_args(annotation) if part is not type(None))

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from math import pi
+
 from hydroelastic.modal.dry_modes import free_free_roots
 from hydroelastic.modal.estimate import Estimate
 from hydroelastic.modal.estimates import all_estimates
 from hydroelastic.modal.floating_beam import FloatingBeam
 from hydroelastic.modal.sloshing import guided_cover_frequencies, sloshing_frequencies
+from hydroelastic.modal.two_layer import InterfacePlate, TwoLayers, tank_modes
 from hydroelastic.scenes.models import TankScene, top_segments
 from hydroelastic.scenes.scaled_tank import ScaledTank
 
@@ -14,11 +17,13 @@ from hydroelastic.scenes.scaled_tank import ScaledTank
 _DEEP_ELASTIC = 0.12787
 _DEEP_HEAVE = 0.39270
 _DEEP_COUPLING = 0.114
+# Added mass of a float's heave in ρ times the square of its waterplane's width: that of any half-immersed ellipse.
+_FLOAT_HEAVE = pi / 8.0
 
 
 def floating_beam(scene: TankScene, body: int = 0) -> FloatingBeam:
     """One beam of a scene, alone in its tank, as the estimates take it."""
-    beam = scene.body[body]
+    beam = dict(scene.beams)[body]
     # Ends within rounding of a wall lie on it, here as in the field model.
     start, end = next((piece.start, piece.end) for piece in top_segments(scene) if piece.body == body)
     return FloatingBeam(
@@ -40,7 +45,8 @@ def scene_estimates(scene: TankScene) -> dict[str, Estimate]:
     Returns:
         Estimates by name; none where the theories, which know one beam in a tank with an open top, do not apply.
     """
-    if len(scene.body) != 1 or scene.tank.top != "free" or scene.body[0].ends != "free":
+    plain = len(scene.layers) == 1 and not scene.floats
+    if not plain or len(scene.body) != 1 or scene.top != "free" or scene.beams[0][1].ends != "free":
         return {}
     return all_estimates(floating_beam(scene))
 
@@ -52,13 +58,46 @@ def exact_frequencies(scene: TankScene) -> tuple[str, tuple[float, ...]]:
         What the formula is and ω in rad/s, ascending, as many as modes are asked for; an empty tuple elsewhere.
     """
     count = scene.accuracy.modes
-    if not scene.body and scene.tank.top == "free":
+    if scene.floats:
+        return "", ()
+    if len(scene.layers) == 2:
+        return _exact_of_two_layers(scene)
+    if not scene.body and scene.top == "free":
         frequencies = sloshing_frequencies(scene.tank.length, scene.liquid[0].depth, scene.tank.gravity, count)
         return "ω² = g k tanh kH, k = nπ/L", tuple(map(float, frequencies))
-    if len(scene.body) == 1 and scene.body[0].ends == "guided":
+    if len(scene.beams) == 1 and scene.beams[0][1].ends == "guided":
         frequencies = guided_cover_frequencies(floating_beam(scene), count)
         return "ω² = (EI k⁴ + s ρ g)/(m + ρ/(k tanh kH)), k = nπ/L", tuple(map(float, frequencies))
     return "", ()
+
+
+def two_layers(scene: TankScene) -> TwoLayers:
+    """The liquids of a scene as the theories take them; without an upper one its density is 0."""
+    lower, upper = scene.layers[0], scene.layers[-1]
+    return TwoLayers(
+        density_below=lower.density,
+        density_above=upper.density if len(scene.layers) == 2 else 0.0,
+        depth_below=lower.depth,
+        depth_above=upper.depth,
+        gravity=scene.tank.gravity,
+        top=scene.top,
+    )
+
+
+def _exact_of_two_layers(scene: TankScene) -> tuple[str, tuple[float, ...]]:
+    """Waves of two layers, without a body or under a guided plate that covers the interface."""
+    plates = [beam for _, beam in scene.beams if beam.ends == "guided" and scene.level_of(beam) == "interface"]
+    if len(scene.body) != len(plates):
+        return "", ()
+    plate = None
+    if plates:
+        plate = InterfacePlate(
+            flexural_rigidity=plates[0].flexural_rigidity,
+            mass_per_length=plates[0].mass_per_length,
+            hydrostatic=plates[0].hydrostatic,
+        )
+    modes = tank_modes(two_layers(scene), scene.tank.length, scene.accuracy.modes, plate)
+    return "waves of two layers, k = nπ/L", tuple(mode.omega for mode in modes)
 
 
 def expected_tones(tank: ScaledTank) -> tuple[float, ...]:
@@ -69,10 +108,26 @@ def expected_tones(tank: ScaledTank) -> tuple[float, ...]:
     tones = []
     for index, beam in tank.beams.items():
         root, level = free_free_roots(1)[0], tank.level_of(index)
-        liquid = beam.length * sum(tank.layers[layer].density for layer in (level.below, level.above) if layer is not None)
+        liquid = beam.length * sum(
+            tank.layers[layer].density for layer in (level.below, level.above) if layer is not None
+        )
         elastic = beam.mass_per_length + _DEEP_ELASTIC * liquid
         heave = beam.mass_per_length + _DEEP_HEAVE * liquid
         inertia = elastic - (_DEEP_COUPLING * liquid) ** 2 / heave
         stiffness = beam.flexural_rigidity * (root / beam.length) ** 4 + float(beam.hydrostatic) * level.jump
         tones.append(stiffness / inertia)
+    return tuple(tones)
+
+
+def expected_float_tones(tank: ScaledTank) -> tuple[float, ...]:
+    """About the (dimensionless) λ of each motion of a float that gravity restores: enough to choose a mesh."""
+    tones = []
+    for index, body in tank.floats.items():
+        level = tank.level_of(index)
+        density = sum(tank.layers[layer].density for layer in (level.below, level.above) if layer is not None)
+        width = body.stiffness[0, 0] / level.jump
+        for place, motion in enumerate(("heave", "sway", "roll")):
+            if motion in body.motions and body.stiffness[place, place] > 0.0:
+                added = _FLOAT_HEAVE * density * width**2 if motion == "heave" else 0.0
+                tones.append(float(body.stiffness[place, place] / (body.inertia[place] + added)))
     return tuple(tones)

@@ -97,8 +97,14 @@ def build_field_model(
 
 
 def build_half_models(
-    mesh: TankMesh, tank: ScaledTank, *, degree: int, shapes: tuple[int, ...], pressure_release: bool = False
-) -> tuple[CoupledPencil, CoupledPencil]:
+    mesh: TankMesh,
+    tank: ScaledTank,
+    *,
+    degree: int,
+    shapes: tuple[int, ...],
+    pressure_release: bool = False,
+    parities: tuple[Parity, ...] = PARITIES,
+) -> tuple[CoupledPencil, ...]:
     """Assemble the symmetric and the antisymmetric problem on the left half of a tank that is its own mirror image.
 
     Args:
@@ -107,13 +113,20 @@ def build_half_models(
         degree: polynomial degree of ψ.
         shapes: number of dry modes of each beam of the whole tank, 0 for floats.
         pressure_release: the limit of high frequency.
+        parities: which problems.
 
     Returns:
-        A pencil for each of `PARITIES`, with energies of half the tank (collective). A beam that the mirror plane
+        A pencil for each of the parities, with energies of half the tank (collective). A beam that the mirror plane
         cuts keeps its dry modes of that parity; of two beams that are mirror images the left one is there.
     """
-    one, other = _field_models(mesh, tank, degree, shapes, pressure_release, PARITIES)
-    return one, other
+    return _field_models(mesh, tank, degree, shapes, pressure_release, parities)
+
+
+def moving_parities(tank: ScaledTank, shapes: tuple[int, ...], *, pressure_release: bool) -> tuple[Parity, ...]:
+    """The symmetries in which something moves: none of a lid's, and none above the waves that no body has."""
+    if not pressure_release and any(level.moves and level.is_open for level in tank.levels):
+        return PARITIES
+    return tuple(parity for parity in PARITIES if any(body.size for body in _half_bodies(tank, shapes, parity)))
 
 
 def _field_models(
@@ -136,7 +149,9 @@ def _field_models(
         plane = (SYMMETRY_PLANE,) if parity == "antisymmetric" else ()
         bodies = whole_bodies(tank, shapes) if parity is None else _half_bodies(tank, shapes, parity)
         part = replace(liquid, grounded=liquid.grounded + plane)
-        pencils.append(build_pencil(part, matrices, bodies=bodies, surfaces=surfaces))
+        # A float in the middle may have no motion of this parity, and a beam may be held still.
+        moving = tuple(body for body in bodies if body.size)
+        pencils.append(build_pencil(part, matrices, bodies=moving, surfaces=surfaces))
     return tuple(pencils)
 
 
@@ -156,17 +171,18 @@ def moving_surfaces(mesh: TankMesh, tank: ScaledTank) -> tuple[LiquidSurface, ..
 
 
 def whole_bodies(tank: ScaledTank, shapes: tuple[int, ...]) -> tuple[Body, ...]:
-    """Every beam of a tank in its first dry modes, every float in its motions."""
+    """Every beam of a tank in its first dry modes, every float in its motions, in the scene's order.
+
+    A beam without dry modes is held still.
+    """
     return tuple(_body(tank, index, count, None) for index, count in enumerate(shapes))
 
 
 def _half_bodies(tank: ScaledTank, shapes: tuple[int, ...], parity: Parity) -> tuple[Body, ...]:
-    bodies = (
+    return tuple(
         _body(tank, index, shapes[index], parity if twin_of(tank, index) == index else None)
         for index in left_bodies(tank)
     )
-    # A float in the middle may have no motion of this parity.
-    return tuple(body for body in bodies if body.size)
 
 
 def _body(tank: ScaledTank, index: int, count: int, parity: Parity | None) -> Body:
@@ -193,7 +209,7 @@ def _beam_body(tank: ScaledTank, index: int, count: int, parity: Parity | None) 
     return Body(
         surface=body_name(index + 1),
         shapes=partial(_shape_at, guided, piece.start, length, numbers),
-        wavenumber=float(roots[-1]) / length,
+        wavenumber=float(roots.max(initial=0.0)) / length,
         labels=tuple(_label(guided, number) for number in numbers),
         stiffness=bending + part * float(beam.hydrostatic) * jump * length,
         bending_stiffness=bending,

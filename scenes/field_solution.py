@@ -17,13 +17,12 @@ import numpy as np
 from hydroelastic.fem.liquid import compile_form
 from hydroelastic.fem.modes import HIDDEN, Mode, ModeSet, count_below, solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
-from hydroelastic.fem.surfaces import Body
+from hydroelastic.fem.surfaces import Body, LiquidSurface
 from hydroelastic.meshes.distribute import TankMesh
-from hydroelastic.scenes.field_model import build_field_model, build_half_models, whole_bodies
+from hydroelastic.scenes.field_model import build_field_model, build_half_models, moving_parities, whole_bodies
 from hydroelastic.scenes.plan import Resolution
 from hydroelastic.scenes.scaled_tank import ScaledTank
 from hydroelastic.scenes.symmetry import (
-    PARITIES,
     Parity,
     left_bodies,
     motion_parity,
@@ -74,6 +73,7 @@ class FieldSolution:
         bodies: the beams of the whole tank.
         modes: the lowest modes of all parts, ascending, in the bodies of the whole tank at unit generalized mass.
         origins: part and index there of each of them.
+        growing_parts: part of each of the growing modes.
     """
 
     mesh: TankMesh
@@ -81,6 +81,11 @@ class FieldSolution:
     bodies: tuple[Body, ...]
     modes: ModeSet
     origins: tuple[tuple[int, int], ...]
+    growing_parts: tuple[int, ...] = ()
+
+    def parts_of(self, indices: list[int]) -> list[int]:
+        """The part of each of some modes."""
+        return [self.origins[index][0] for index in indices]
 
     @property
     def dofs(self) -> int:
@@ -95,12 +100,12 @@ class FieldSolution:
     @property
     def half(self) -> bool:
         """Whether the mesh is that of the left half of the tank."""
-        return len(self.parts) > 1
+        return self.parts[0].parity is not None
 
     @property
-    def has_waves(self) -> bool:
-        """Whether there is a free surface."""
-        return bool(self.parts[0].pencil.surfaces)
+    def surfaces(self) -> tuple[LiquidSurface, ...]:
+        """The surfaces of the liquids that move under gravity."""
+        return self.parts[0].pencil.surfaces
 
     def parity(self, index: int) -> Parity | None:
         """Symmetry of a mode; ``None`` where the whole tank was solved."""
@@ -138,21 +143,34 @@ def solve_field(
         compile_form(mesh, resolution.degree, glued=pressure_release and len(tank.layers) > 1)
     if half:
         resolution = replace(resolution, shapes=shapes_of_twins(tank, resolution.shapes))
-    build = build_half_models if half else _whole_model
     with watch.stage("assemble"):
-        pencils = build(
-            mesh, tank, degree=resolution.degree, shapes=resolution.shapes, pressure_release=pressure_release
+        parities, pencils = part_models(
+            mesh, tank, resolution.degree, resolution.shapes, half=half, pressure_release=pressure_release
         )
-    parities: tuple[Parity | None, ...] = PARITIES if half else (None,)
     with watch.stage("solve"):
         parts = _solved_parts(pencils, parities, count)
         return _merged(mesh, tank, resolution, parts, count)
 
 
-def _whole_model(
-    mesh: TankMesh, tank: ScaledTank, *, degree: int, shapes: tuple[int, ...], pressure_release: bool
-) -> tuple[CoupledPencil, ...]:
-    return (build_field_model(mesh, tank, degree=degree, shapes=shapes, pressure_release=pressure_release),)
+def part_models(
+    mesh: TankMesh,
+    tank: ScaledTank,
+    degree: int,
+    shapes: tuple[int, ...],
+    *,
+    half: bool,
+    pressure_release: bool,
+) -> tuple[tuple[Parity | None, ...], tuple[CoupledPencil, ...]]:
+    """The problems of a scene with their symmetries: one of the whole tank, or those of its halves in which something
+    moves (collective)."""
+    if not half:
+        pencil = build_field_model(mesh, tank, degree=degree, shapes=shapes, pressure_release=pressure_release)
+        return (None,), (pencil,)
+    parities = moving_parities(tank, shapes, pressure_release=pressure_release)
+    pencils = build_half_models(
+        mesh, tank, degree=degree, shapes=shapes, pressure_release=pressure_release, parities=parities
+    )
+    return parities, pencils
 
 
 def _solved_parts(pencils: tuple[CoupledPencil, ...], parities: tuple[Parity | None, ...], count: int) -> list[Part]:
@@ -193,7 +211,7 @@ def _merged(mesh: TankMesh, tank: ScaledTank, resolution: Resolution, parts: lis
     )[:count]
     origins = tuple((number, index) for _, number, index in ordered)
     bodies = whole_bodies(tank, resolution.shapes)
-    extensions = [_extension(tank, bodies, part.parity) for part in parts]
+    extensions = [extension(tank, bodies, part.parity) for part in parts]
     amplitudes = [extensions[number] @ parts[number].modes.elastic_amplitudes[index] for number, index in origins]
 
     def completed(place: int) -> Mode:
@@ -214,12 +232,13 @@ def _merged(mesh: TankMesh, tank: ScaledTank, resolution: Resolution, parts: lis
             iterations=max(part.modes.iterations for part in parts),
             solves=sum(part.modes.solves for part in parts),
             growing=tuple(
-                _extended(mode, extension)
-                for part, extension in zip(parts, extensions, strict=True)
+                _extended(mode, matrix)
+                for part, matrix in zip(parts, extensions, strict=True)
                 for mode in part.modes.growing
             ),
         ),
         origins=origins,
+        growing_parts=tuple(number for number, part in enumerate(parts) for _ in part.modes.growing),
     )
 
 
@@ -227,15 +246,16 @@ def _extended(mode: Mode, extension: np.ndarray) -> Mode:
     """A mode in the bodies of the whole tank; its ζ and ψ stay those of its part, at unit generalized mass there."""
     # Each unknown's share goes to the bodies of the whole tank as the squares of the amplitudes do.
     squares = extension**2
-    shares = (squares / squares.sum(axis=0)) @ mode.energy[:-1]
+    own = extension.shape[1]
+    shares = (squares / squares.sum(axis=0)) @ mode.energy[:own]
     return replace(
         mode,
         body_amplitudes=extension @ mode.body_amplitudes,
-        energy=np.append(shares, mode.energy[-1]),
+        energy=np.concatenate([shares, mode.energy[own:]]),
     )
 
 
-def _extension(tank: ScaledTank, bodies: tuple[Body, ...], parity: Parity | None) -> np.ndarray:
+def extension(tank: ScaledTank, bodies: tuple[Body, ...], parity: Parity | None) -> np.ndarray:
     """Matrix from the body unknowns of a part to those of the whole tank, both at their unit generalized mass."""
     size = sum(body.size for body in bodies)
     if parity is None:

@@ -14,7 +14,6 @@ from hydroelastic.scenes.model_problems import misfit
 # Contours need NumPy and SciPy, which take a while to import: functions that are called for floats import them.
 if TYPE_CHECKING:
     from hydroelastic.meshes.contours import Contour
-    from hydroelastic.scenes.floats import Hydrostatics
     from hydroelastic.scenes.models import TankScene
 
 SLENDERNESS = {"exact": (1e-3, 1e3), "thin": (1e-9, 1e3)}
@@ -53,7 +52,7 @@ def _problems_of(scene: TankScene, index: int, body: Float) -> Iterator[InitErro
         yield from _vertices_make_a_polygon(index, body.vertices)
     shape = ("body", index, body.shape_key)
     try:
-        contour = float_contour(body)
+        contour = float_contour(body, scene.folder)
     except ValueError as error:
         yield misfit(
             shape,
@@ -91,7 +90,7 @@ def _vertices_make_a_polygon(index: int, vertices: tuple[tuple[float, float], ..
 
     location = ("body", index, "vertices")
     length, size, number = shortest_side(vertices)
-    if length < SHORTEST_SIDE * size:
+    if length <= SHORTEST_SIDE * size:
         yield misfit(
             location,
             None,
@@ -269,12 +268,16 @@ def _extents(bounds: _Box) -> tuple[float, float]:
 
 def _floats_are_stable(scene: TankScene) -> Iterator[InitErrorDetails]:
     from hydroelastic.scenes.floats import placed_float
+    from hydroelastic.scenes.rigid_motions import roll_stiffness
 
     for index, body in scene.floats:
         at_rest = placed_float(scene, index).hydrostatics
-        if "roll" not in body.motions or body.unstable == "solve" or _roll(body, at_rest) >= 0.0:
+        stiffness = roll_stiffness(body, at_rest)
+        if "roll" not in body.motions or body.unstable == "solve" or stiffness >= 0.0:
             continue
-        metacentre = _metacentre(scene, body, at_rest)
+        # Where the centre of mass would make the float neutral.
+        arm = stiffness / (at_rest.mass * scene.tank.gravity)
+        metacentre = at_rest.centre_of_mass[1] - at_rest.reference_level + arm
         height = at_rest.centre_of_mass[1] - at_rest.reference_level
         given = body.centre_of_mass is not None
         yield misfit(
@@ -285,17 +288,6 @@ def _floats_are_stable(scene: TankScene) -> Iterator[InitErrorDetails]:
             allowed=f"a centre_of_mass of at most {metacentre:g} m",
             remedy='Leave roll out of the motions, or set unstable = "solve"',
         )
-
-
-def _roll(body: Float, at_rest: Hydrostatics) -> float:
-    """The stiffness of roll, N: heave, where it may, follows so that no force acts on it."""
-    return at_rest.free_roll_stiffness if "heave" in body.motions else at_rest.roll_stiffness
-
-
-def _metacentre(scene: TankScene, body: Float, at_rest: Hydrostatics) -> float:
-    """Height above the reference level at which the centre of mass makes the float neutral, m."""
-    arm = _roll(body, at_rest) / (at_rest.mass * scene.tank.gravity)
-    return at_rest.centre_of_mass[1] - at_rest.reference_level + arm
 
 
 CHECKS_OF_FLOATS_AT_REST = (_bodies_keep_apart, _floats_are_stable)

@@ -153,12 +153,11 @@ def sharpest_exponent(tank: ScaledTank, *, released: bool) -> float:
     """
     if not tank.floats:
         return 0.5 if released or tank.top == "pressure_release" else 1.0
-    from hydroelastic.scenes.tank_corners import singular_points
-    from hydroelastic.scenes.tank_outline import Sizes, grounded_names, tank_outline
+    from hydroelastic.scenes.tank_corners import tank_singular_points
+    from hydroelastic.scenes.tank_outline import Sizes
 
     sizes = Sizes(pieces=(inf,) * len(tank.pieces), contours=dict.fromkeys(tank.floats, inf))
-    outline = tank_outline(tank, sizes, released=released)
-    points = singular_points(outline, grounded=grounded_names(tank, released=released), glued=released)
+    points = tank_singular_points(tank, sizes, half=False, released=released)
     return min((point.exponent for point in points), default=_SMOOTH)
 
 
@@ -168,7 +167,9 @@ def _wavenumber(tank: ScaledTank, level: StillLevel, piece: Piece, squared_frequ
     return 0.0 if moving is None else moving.wavenumber(squared_frequency)
 
 
-def _resolution_for(tank: ScaledTank, tolerance: float, wavenumbers: tuple[float, ...], *, exponent: float) -> Resolution:
+def _resolution_for(
+    tank: ScaledTank, tolerance: float, wavenumbers: tuple[float, ...], *, exponent: float
+) -> Resolution:
     """Elements, rings and dry modes for the shortest waves on the pieces of the still levels.
 
     Where ψ ~ r^α at a tip, the error falls like the power 2α of the innermost ring: like its square beside water under

@@ -4,8 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from hydroelastic.scenes.models import Float, Level, TankScene, level_segments
+from hydroelastic.scenes.model_bodies import Float, Level
+from hydroelastic.scenes.models import TankScene, level_segments
+
+if TYPE_CHECKING:
+    from hydroelastic.scenes.floats import Hydrostatics
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,10 +58,14 @@ def _loose_floats(scene: TankScene) -> Iterator[LooseMotion]:
             from hydroelastic.scenes.floats import placed_float
 
             at_rest = placed_float(scene, index).hydrostatics
-            follows = "heave" in body.motions
-            if (at_rest.free_roll_stiffness if follows else at_rest.roll_stiffness) == 0.0:
-                displaces = not follows and at_rest.coupling_stiffness != 0.0
+            if roll_stiffness(body, at_rest) == 0.0:
+                displaces = "heave" not in body.motions and at_rest.coupling_stiffness != 0.0
                 yield LooseMotion(body=index, name="roll", level=level, displaces=displaces)
+
+
+def roll_stiffness(body: Float, at_rest: Hydrostatics) -> float:
+    """Return the stiffness of the roll of a float, N: heave, where it may, follows so that no force acts on it."""
+    return at_rest.free_roll_stiffness if "heave" in body.motions else at_rest.roll_stiffness
 
 
 def zero_mode_count(scene: TankScene) -> int:
@@ -97,6 +106,19 @@ def _volume_is_free(scene: TankScene) -> bool:
     return scene.top == "pressure_release" and has_open(scene, "surface")
 
 
+def levels_of(scene: TankScene) -> tuple[Level, ...]:
+    """Return the still levels of a scene, from the top down."""
+    return ("surface",) if len(scene.layers) == 1 else ("surface", "interface")
+
+
 def has_open(scene: TankScene, level: Level) -> bool:
     """Return whether there is anything at a level beside the bodies."""
     return any(segment.body is None for segment in level_segments(scene, level))
+
+
+def heave_is_held(scene: TankScene, index: int) -> bool:
+    """Return whether a body can displace no liquid: nothing else at its level could give way."""
+    level = scene.level_of(scene.body[index])
+    alone = sum(1 for body in scene.body if scene.level_of(body) == level) == 1
+    gives_way = (level == "interface" or scene.top != "rigid") and has_open(scene, level)
+    return alone and not gives_way

@@ -114,6 +114,11 @@ class ScaledTank:
         return {index: body for index, body in enumerate(self.bodies) if not isinstance(body, Beam)}
 
     @property
+    def has_high_frequency_limit(self) -> bool:
+        """Whether there is something that moves freely far above the waves: open water, or an interface."""
+        return len(self.layers) > 1 or (self.top != "rigid" and self.levels[-1].is_open)
+
+    @property
     def pieces(self) -> tuple[Piece, ...]:
         """The pieces of all levels, from the bottom up and from left to right."""
         return tuple(piece for level in self.levels for piece in level.pieces)
@@ -165,9 +170,7 @@ def scaled_tank(scene: TankScene) -> ScaledTank:
     )
 
 
-def _level(
-    scene: TankScene, units: Scales, layers: tuple[ScaledLayer, ...], number: int, name: Level
-) -> StillLevel:
+def _level(scene: TankScene, units: Scales, layers: tuple[ScaledLayer, ...], number: int, name: Level) -> StillLevel:
     above = number + 1 if number + 1 < len(layers) else None
     pieces = tuple(
         Piece(

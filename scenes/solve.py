@@ -18,9 +18,11 @@ from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 from hydroelastic.scenes.certainty import FrequencyErrors, frequency_errors, refined
 from hydroelastic.scenes.companion import Companion, solve_companion
-from hydroelastic.scenes.estimates import expected_tones
+from hydroelastic.scenes.estimates import expected_float_tones, expected_tones
 from hydroelastic.scenes.field_model import bring_mesh, build_mesh, moving_surfaces
 from hydroelastic.scenes.field_solution import FieldSolution, Stopwatch, count_is_confirmed, solve_field
+from hydroelastic.scenes.float_modes import FloatMode, float_modes
+from hydroelastic.scenes.high_frequency import HighFrequencyAddedMass, high_frequency_added_mass
 from hydroelastic.scenes.models import TankScene
 from hydroelastic.scenes.plan import (
     MOST_MODES_TO_TONE,
@@ -73,9 +75,12 @@ class TankSolution:
         field: its mesh, matrices and modes; one mode more than were planned.
         asked: the modes asked for, with their shapes.
         relative_errors: estimated relative error of the frequency of each mode of the field; NaN where none was asked.
+        growing_errors: estimated relative error of the growth rate of each growing mode.
         rounding: the part of the largest that no refinement takes away.
         counted: whether the inertia of an independent factorization confirms that no mode is missing.
         tones: one for each beam.
+        float_modes: one for each motion of a float that gravity restores.
+        added_mass: of the floats, far above the waves; ``None`` without floats, or where a lid leaves no such limit.
         attempts: how many resolutions were tried.
         reasons: why the solution does not keep what was asked; empty if it does.
         seconds: time by stage.
@@ -88,9 +93,12 @@ class TankSolution:
     field: FieldSolution
     asked: tuple[Mode, ...]
     relative_errors: np.ndarray
+    growing_errors: np.ndarray
     rounding: float
     counted: bool
     tones: tuple[ToneSolution, ...]
+    float_modes: tuple[FloatMode, ...]
+    added_mass: HighFrequencyAddedMass | None
     attempts: int
     reasons: tuple[str, ...]
     seconds: dict[str, float]
@@ -102,8 +110,8 @@ class TankSolution:
 
     @property
     def largest_error(self) -> float:
-        """The largest error of the modes asked for and of the first elastic tones."""
-        return float(np.nanmax(self.relative_errors))
+        """The largest error of the modes asked for, of the tones, and of growth rates."""
+        return max(float(np.nanmax(self.relative_errors)), float(self.growing_errors.max(initial=0.0)))
 
     def omega(self, eigenvalue: float) -> float:
         """ω in rad/s of a dimensionless λ."""
@@ -140,11 +148,13 @@ def solve_scene(
     with watch.stage("plan"):
         tank, units = scaled_tank(scene), scales(scene)
         tones = expected_tones(tank)
-        resolution: Resolution | None = initial_resolution(scene, modes=scene.accuracy.modes, tones=tones)
+        all_tones = (*tones, *expected_float_tones(tank))
+        resolution: Resolution | None = initial_resolution(scene, modes=scene.accuracy.modes, tones=all_tones)
     brought = _brought_mesh(comm, scene, tank, mesh, 1.0 / units.length, watch)
     half = halves and brought is None and is_mirror_image(tank)
     tolerance = workable_tolerance(scene.accuracy.tolerance, tank.depth)
     companion: Companion | None = None
+    added: HighFrequencyAddedMass | None = None
     best: TankSolution | None = None
     for attempt in range(1, _MOST_ATTEMPTS + 1):
         assert resolution is not None
@@ -157,8 +167,11 @@ def solve_scene(
             report("pressure-release tone")
             first = companion_resolution(tank, tolerance, tones) if brought is None else resolution
             companion = solve_companion(comm, tank, first, tolerance, brought, watch, half=half)
+        if added is None and tank.floats and tank.has_high_frequency_limit:
+            report("added mass far above the waves")
+            added = high_frequency_added_mass(comm, tank, tolerance, watch, half=half)
         field = solve_field(own_mesh, tank, resolution, resolution.modes + 1, watch, half=half)
-        solution, causes = _judged(scene, tank, units, resolution, field, companion, watch, attempt)
+        solution, causes = _judged(scene, tank, units, resolution, field, (companion, added), watch, attempt)
         if best is None or _shortfall(solution) <= _shortfall(best):
             best = solution
         if not solution.reasons:
@@ -190,7 +203,9 @@ def _shortfall(solution: TankSolution) -> tuple[int, float]:
 def _next_resolution(solution: TankSolution, causes: FrequencyErrors, *, own_mesh: bool) -> Resolution | None:
     """More modes if a tone was not among them, else a finer model; ``None`` where neither would help."""
     resolution = solution.resolution
-    if any(tone.tone is not None and not tone.tone.certain for tone in solution.tones):
+    uncertain = [tone.tone is not None and not tone.tone.certain for tone in solution.tones]
+    uncertain += [mode.index is not None and not mode.certain for mode in solution.float_modes]
+    if any(uncertain):
         wider = initial_resolution(solution.scene, modes=min(ceil(1.6 * resolution.modes), MOST_MODES_TO_TONE))
         return replace(
             wider,
@@ -211,21 +226,27 @@ def _judged(
     units: Scales,
     resolution: Resolution,
     field: FieldSolution,
-    companion: Companion | None,
+    limits: tuple[Companion | None, HighFrequencyAddedMass | None],
     watch: Stopwatch,
     attempt: int,
 ) -> tuple[TankSolution, FrequencyErrors]:
-    """An attempt with all that it says about itself."""
+    """An attempt with all that it says about itself; beside it the limits of high frequency."""
+    companion, added = limits
     tones = tuple(_tone(field, beam, body, resolution, companion) for beam, body in enumerate(tank.beams))
+    searched = resolution.reaches_tones[len(tank.beams) :]
+    moved = float_modes(tank, field.bodies, field.modes, added, searched=searched)
     with watch.stage("count"):
         counted = count_is_confirmed(field)
     with watch.stage("errors"):
         asked = min(scene.accuracy.modes, len(field.modes.eigenvalues))
-        indices = sorted({*range(asked), *(tone.tone.index for tone in tones if tone.tone is not None)})
+        beams = (tone.tone.index for tone in tones if tone.tone is not None)
+        floats = (mode.index for mode in moved if mode.index is not None)
+        indices = sorted({*range(asked), *beams, *floats})
         modes = [field.modes.completed(index) for index in indices]
-        causes = frequency_errors(field, modes, indices, resolution, tank)
+        parts = [*field.parts_of(indices), *field.growing_parts]
+        causes = frequency_errors(field, [*modes, *field.modes.growing], parts, resolution, tank)
     errors = np.full(len(field.modes.eigenvalues), np.nan)
-    errors[indices] = causes.total
+    errors[indices] = causes.total[: len(indices)]
     solution = TankSolution(
         scene=scene,
         units=units,
@@ -234,9 +255,12 @@ def _judged(
         field=field,
         asked=tuple(modes[:asked]),
         relative_errors=errors,
+        growing_errors=causes.total[len(indices) :],
         rounding=causes.largest("rounding"),
         counted=counted,
         tones=tones,
+        float_modes=moved,
+        added_mass=added,
         attempts=attempt,
         reasons=(),
         seconds={},
@@ -280,6 +304,12 @@ def _reasons(solution: TankSolution) -> tuple[str, ...]:
             + (f"rounding alone leaves {solution.rounding:.1e}; " if solution.rounding > 0.5 * tolerance else "")
             + _kept(float(errors.max()))
         )
+    if solution.growing_errors.max(initial=0.0) > tolerance:
+        error = float(solution.growing_errors.max())
+        reasons.append(
+            f"a growth rate has an estimated relative error of {error:.1e}, above the tolerance {tolerance:g}; "
+            + _kept(error)
+        )
     if len(solution.asked) < solution.scene.accuracy.modes:
         asked = solution.scene.accuracy.modes
         reasons.append(f"{len(solution.asked)} of {asked} modes can be told from the rounding of the lowest")
@@ -301,6 +331,23 @@ def _reasons(solution: TankSolution) -> tuple[str, ...]:
                 f"{tone.pressure_release_error:.1e}, above the tolerance {tolerance:g}; "
                 + _kept(tone.pressure_release_error)
             )
+    for mode in solution.float_modes:
+        if mode.index is None:
+            continue
+        if not mode.certain:
+            reasons.append(f"the {mode.motion} mode of body {mode.body + 1} may lie above the modes computed")
+        elif solution.relative_errors[mode.index] > tolerance:
+            error = float(solution.relative_errors[mode.index])
+            reasons.append(
+                f"the {mode.motion} mode of body {mode.body + 1} has an estimated error of {error:.1e}, above the "
+                f"tolerance {tolerance:g}; {_kept(error)}"
+            )
+    if solution.added_mass is not None and solution.added_mass.error > tolerance:
+        error = solution.added_mass.error
+        reasons.append(
+            f"the added mass far above the waves has an estimated error of {error:.1e}, above the tolerance "
+            f"{tolerance:g}; {_kept(error)}"
+        )
     return tuple(reasons)
 
 

@@ -65,7 +65,7 @@ def _solved(scene: TankScene, tank: ScaledTank, resolution: Resolution, *, half:
     field = solve_field(mesh, tank, resolution, scene.accuracy.modes, Stopwatch(), half=half)
     indices = list(range(len(field.modes.eigenvalues)))
     modes = [field.modes.completed(index) for index in indices]
-    errors = frequency_errors(field, modes, indices, resolution, tank).total
+    errors = frequency_errors(field, modes, field.parts_of(indices), resolution, tank).total
     dry_modes = f", {sum(resolution.shapes)} dry modes" if resolution.shapes else ""
     return Reference(
         name=f"degree {resolution.degree} on geometric rings, {field.dofs} unknowns{dry_modes}",

@@ -138,7 +138,7 @@ def mesh_row(
             with watch.stage("errors"):
                 indices = list(range(len(field.modes.eigenvalues)))
                 modes = [field.modes.completed(index) for index in indices]
-                causes = frequency_errors(field, modes, indices, resolution, studied.tank)
+                causes = frequency_errors(field, modes, field.parts_of(indices), resolution, studied.tank)
                 estimate = float(causes.total.max())
     omega = np.sqrt(field.modes.eigenvalues) * scales(studied.scene).frequency
     if len(omega) < min(count, len(studied.reference.omega)):

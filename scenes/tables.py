@@ -9,6 +9,14 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
+from hydroelastic.scenes.digits import number, per_cent, with_certain_digits
+from hydroelastic.scenes.float_tables import (
+    FLOAT_ESTIMATE_HEADINGS,
+    PRINTED_HEADINGS,
+    float_estimate_rows,
+    float_lines,
+    printed_rows,
+)
 from hydroelastic.scenes.summary import Summary
 
 MODE_COLUMNS = (
@@ -43,14 +51,6 @@ def mode_rows(summary: Summary) -> list[tuple[str, ...]]:
 MODE_HEADINGS = ("mode", "ω, rad/s", "f, Hz", "estimated error", "kind", "symmetry", "bending energy")
 
 
-def with_certain_digits(value: float, relative_error: float) -> str:
-    """A number with the digits that its error leaves certain, between 4 and 13."""
-    digits = 4
-    while digits < 13 and 10.0 ** (-digits) > relative_error:
-        digits += 1
-    return f"{value:#.{digits}g}"
-
-
 def tone_lines(summary: Summary) -> list[str]:
     """What is said of each beam's first elastic tone."""
     lines = []
@@ -72,7 +72,11 @@ def tone_lines(summary: Summary) -> list[str]:
         limits = f"In vacuo: {tone['dry_omega']:.8g} rad/s"
         if tone["pressure_release_omega"] is not None:
             release = with_certain_digits(tone["pressure_release_omega"], tone["pressure_release_relative_error"])
-            limits += f"; with ψ = 0 on the water, the limit far above the waves: {release} rad/s"
+            one = len(summary["scene"]["liquid"]) == 1
+            limit = (
+                "with ψ = 0 on the water, the limit far above the waves" if one else "in the limit far above the waves"
+            )
+            limits += f"; {limit}: {release} rad/s"
         lines.append(f"  {limits}.")
     return lines
 
@@ -87,22 +91,14 @@ def estimate_rows(summary: Summary) -> list[tuple[str, ...]]:
         rows.append(
             (
                 name,
-                _number(estimate["omega"]),
-                _per_cent(estimate["difference"]),
-                _number(estimate["added_mass_per_length"]),
-                _per_cent(estimate["added_mass_difference"]),
+                number(estimate["omega"]),
+                per_cent(estimate["difference"]),
+                number(estimate["added_mass_per_length"]),
+                per_cent(estimate["added_mass_difference"]),
                 _bound(estimate),
             )
         )
     return rows
-
-
-def _number(value: float | None) -> str:
-    return "–" if value is None else f"{value:.7g}"
-
-
-def _per_cent(value: float | None) -> str:
-    return "–" if value is None else f"{100.0 * value:+.3g} %"
 
 
 def _bound(estimate: Summary) -> str:
@@ -161,10 +157,18 @@ def printed(summary: Summary, *, notes: bool = False, width: int = 120) -> str:
     console.print(_table(MODE_HEADINGS, mode_rows(summary)))
     for line in mode_lines(summary):
         console.print(line, markup=False)
-    for line in tone_lines(summary):
+    for line in (*tone_lines(summary), *float_lines(summary)):
         console.print(line, markup=False)
-    if notes and not summary["estimates"] and summary["scene"]["body"]:
-        console.print("No estimates: the older theories know one beam with free ends beside free water.")
+    for row in summary["floats"]:
+        if row["estimates"]:
+            console.print(_table(FLOAT_ESTIMATE_HEADINGS, float_estimate_rows(row)))
+        if row["printed_constants"] and notes:
+            console.print(_table(PRINTED_HEADINGS, printed_rows(row)))
+        if notes:
+            for name, estimate in row["estimates"].items():
+                console.print(f"{name}: {estimate['note']}", markup=False)
+    if notes and not summary["estimates"] and summary["first_elastic_by_body"]:
+        console.print("No estimates of beams: the older theories know one with free ends beside free water.")
     if summary["estimates"]:
         console.print(_table(ESTIMATE_HEADINGS, estimate_rows(summary)))
         if notes:
@@ -194,11 +198,19 @@ def markdown(summary: Summary) -> str:
     complaint = [f"**{line}**" if number == 0 else line for number, line in enumerate(status_lines(summary))]
     parts += [*complaint, ""] if complaint else []
     parts += [_markdown_table(MODE_HEADINGS, mode_rows(summary)), ""]
-    parts += [line + "\n" for line in (*mode_lines(summary), *tone_lines(summary))]
+    parts += [line + "\n" for line in (*mode_lines(summary), *tone_lines(summary), *float_lines(summary))]
     if summary["estimates"]:
         parts += [_markdown_table(ESTIMATE_HEADINGS, estimate_rows(summary)), ""]
         parts += [f"- `{name}`: {estimate['note']}" for name, estimate in summary["estimates"].items()]
         parts.append("")
+    for row in summary["floats"]:
+        if row["estimates"]:
+            parts += [_markdown_table(FLOAT_ESTIMATE_HEADINGS, float_estimate_rows(row)), ""]
+        if row["printed_constants"]:
+            parts += [_markdown_table(PRINTED_HEADINGS, printed_rows(row)), ""]
+        if row["estimates"]:
+            parts += [f"- `{name}`: {estimate['note']}" for name, estimate in row["estimates"].items()]
+            parts.append("")
     parts.append(cost_line(summary))
     return "\n".join(parts) + "\n"
 

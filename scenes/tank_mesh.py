@@ -13,8 +13,8 @@ from hydroelastic.meshes.outline import Corner, Outline
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 from hydroelastic.scenes.plan import Resolution, sharpest_exponent
 from hydroelastic.scenes.scaled_tank import ScaledTank
-from hydroelastic.scenes.tank_corners import singular_points
-from hydroelastic.scenes.tank_outline import Sizes, grounded_names, tank_outline
+from hydroelastic.scenes.tank_corners import tank_singular_points
+from hydroelastic.scenes.tank_outline import Sizes, tank_outline
 
 # A mesh that the user brings may miss the scene's abscissae by this part of the tank's length: files round.
 _MESH_ROUNDING = 1e-6
@@ -80,7 +80,7 @@ def graded_outline(tank: ScaledTank, resolution: Resolution, *, half: bool, rele
         return outline
     exponent = sharpest_exponent(tank, released=released)
     depth = resolution.tip_size / resolution.ring_size
-    points = singular_points(outline, grounded=grounded_names(tank, released=released), glued=released)
+    points = tank_singular_points(tank, sizes, half=half, released=released)
     corners = tuple(
         Corner(
             point=point.point,
@@ -97,8 +97,7 @@ def tip_points(tank: ScaledTank, *, half: bool, released: bool = False) -> np.nd
     if is_plain(tank):
         return np.array([[tip, 0.0] for tip in geometry_of(tank, half=half).tips]).reshape(-1, 2)
     sizes = Sizes(pieces=(inf,) * len(tank.pieces), contours=dict.fromkeys(tank.floats, inf))
-    outline = tank_outline(tank, sizes, half=half, released=released)
-    points = singular_points(outline, grounded=grounded_names(tank, released=released), glued=released)
+    points = tank_singular_points(tank, sizes, half=half, released=released)
     return np.array([point.point for point in points]).reshape(-1, 2)
 
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hydroelastic.fem.modes import Mode, ModeSet
-from hydroelastic.fem.surfaces import Body
+from hydroelastic.fem.surfaces import Body, LiquidSurface
 
 FIRST_ELASTIC = "elastic 1"
 
@@ -79,9 +79,13 @@ def _reaches_past(modes: ModeSet, parts: np.ndarray, companion: float | None) ->
     return bool(past and parts.sum() > 0.5)
 
 
-def mode_kind(mode: Mode, bodies: tuple[Body, ...]) -> str:
-    """What holds most of the potential energy: "sloshing", "heave", "pitch" or "elastic"."""
-    shares = {"sloshing": float(mode.energy[-1])}
+def mode_kind(mode: Mode, bodies: tuple[Body, ...], surfaces: tuple[LiquidSurface, ...]) -> str:
+    """What holds most of the potential energy: a motion of the bodies ("heave", "pitch", "sway", "roll", "elastic"),
+    or the liquids: "sloshing" of one surface, "interface wave" or "surface wave" where there are two.
+    """
+    names = ["sloshing"] if len(surfaces) == 1 else ["interface wave", "surface wave"]
+    first = sum(body.size for body in bodies)
+    shares = dict(zip(names, map(float, mode.energy[first:]), strict=False))
     position = 0
     for body in bodies:
         for label in body.labels:

@@ -70,7 +70,7 @@ def test_modes_are_orthogonal_with_unit_generalized_mass(tanks: Any, kind: str) 
         for (i, one), (j, other) in combinations_with_replacement(enumerate(modes), 2):
             pencil.stiffness.mult(other.displacement, force)
             pencil.momentum.multTranspose(other.potential, momentum)
-            
+
             pencil.mass.multAdd(other.displacement, momentum, momentum)
             size = np.sqrt(one.eigenvalue * other.eigenvalue)
             # The eigen-solver stops at residuals of 1e-12; neighbours a hundredth apart mix by 1e-10.

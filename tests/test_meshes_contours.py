@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from itertools import pairwise
 from math import asin, cos, hypot, pi, sin, sqrt
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -20,7 +21,7 @@ EXACT = 2e-14
 
 
 def profile(shape: FloatShape, half_width: float = 0.3, half_height: float = 2.0) -> Contour:
-    return float_contour(Float(shape=shape, position=0, half_width=half_width, half_height=half_height))
+    return float_contour(Float(shape=shape, position=0, half_width=half_width, half_height=half_height), Path())
 
 
 def random_polygon(random: np.random.Generator) -> np.ndarray:

@@ -6,9 +6,11 @@ from typing import Any
 import pytest
 from rich.console import Console
 
-from hydroelastic.scenes.check import hints, print_check, zero_mode_count
-from hydroelastic.scenes.models import Beam, Liquid, Tank, TankScene
+from hydroelastic.scenes.check import print_check
+from hydroelastic.scenes.check_hints import hints
+from hydroelastic.scenes.models import Beam, Float, Liquid, Tank, TankScene
 from hydroelastic.scenes.read import read_scene, shipped_scenes
+from hydroelastic.scenes.rigid_motions import zero_mode_count
 
 
 def beam(**changes: Any) -> Beam:
@@ -16,11 +18,12 @@ def beam(**changes: Any) -> Beam:
     return Beam(**(values | changes))
 
 
-def scene(*bodies: Beam, top: str = "free", title: str = "") -> TankScene:
+def scene(*bodies: Beam | Float, top: str = "free", title: str = "", upper: float | None = None) -> TankScene:
+    above = () if upper is None else (Liquid(density=upper, depth=3),)
     return TankScene(
         title=title,
         tank=Tank(length=10, top=top),  # type: ignore[arg-type]
-        liquid=(Liquid(density=1000, depth=5),),
+        liquid=(Liquid(density=1000, depth=5), *above),
         body=bodies,
     )
 
@@ -131,3 +134,77 @@ def test_titles_are_printed_as_they_are() -> None:
 @pytest.mark.parametrize("name", [shipped.name for shipped in shipped_scenes()])
 def test_every_shipped_scene_can_be_described(name: str) -> None:
     assert read_scene(name).title in printed(read_scene(name))
+
+
+def floating(*motions: str, **changes: Any) -> Float:
+    values: dict[str, Any] = {"shape": "wedge", "position": 5.0, "half_width": 1.0, "half_height": 0.8}
+    return Float(**(values | {"motions": motions or ("heave",)} | changes))
+
+
+CIRCLE: dict[str, Any] = {"shape": "ellipse", "half_width": 1.0, "half_height": 1.0}
+ALL = ("heave", "sway", "roll")
+
+
+def test_levels_are_printed_from_the_top_down() -> None:
+    text = printed(scene(floating(*ALL), beam(start=0.5, at="surface"), upper=800.0))
+    places = [
+        text.index(words) for words in ("free surface, y = 3 m", "beam 2", "interface, y = 0 m", "float 1", "walls")
+    ]
+    assert places == sorted(places)
+    for words in (
+        "∂ψ₁/∂y = ∂ψ₂/∂y = η, (ρ₂ − ρ₁) g η = ω² (ρ₂ ψ₂ − ρ₁ ψ₁)",
+        "∂ψ₁/∂y = η₁, g η₁ = ω² ψ₁",
+        "∂ψ₁/∂y = w, EI w⁗ + ρ₁ g w − ω² m w = ω² ρ₁ ψ₁",
+        "∂ψ₁/∂n = ∂ψ₂/∂n = n · s on its contour; s: heave, sway, roll",
+        "upper liquid, 0 < y < 3 m",
+        "lower liquid, -5 m < y < 0",
+        "rigid motions: heave, sway, roll about its centre of mass",
+    ):
+        assert words in text
+
+
+def test_groups_of_two_liquids_and_a_float() -> None:
+    text = printed(scene(floating(), beam(start=0.5, length=3.0), upper=800.0))
+    # ρ₁/ρ₂; h₁/h₂; h₂/L; b/h; B/L; m/(ρ₂ A) = 0.9; EI/((ρ₂ - ρ₁) g l⁴) = 5e3/(200·9.81·81).
+    for group, value in (
+        ("ρ₁/ρ₂", "0.8"),
+        ("h₁/h₂", "0.6"),
+        ("h₂/L", "0.5"),
+        ("b/h", "1.25"),
+        ("B/L", "0.2"),
+        ("m/(ρ₂ A)", "0.9"),
+        ("EI/((ρ₂ − ρ₁) g l⁴)", "0.03146"),
+    ):
+        row = next(line for line in text.splitlines() if f"│ {group} " in line)
+        assert f" {value} " in row, row
+
+
+def test_floats_at_rest_are_tabulated() -> None:
+    text = printed(scene(floating("heave", "roll"), floating(position=8.5, **CIRCLE)))
+    # The wedge: m = 1000·0.8, c33 = ρ g·2, c55 = ρ g (2/3 - 0.8·0.8/3); the circle: c55 = 0.
+    for quantity, one, other in (
+        ("mass, kg/m", "800", "1570.8"),
+        ("waterplane, m", "4 to 6", "7.5 to 9.5"),
+        ("c33 heave, N/m²", "19620", "19620"),
+        ("c55 roll, N", f"{9810 * (2 - 0.64) / 3:g}", "0"),
+        ("at rest", "stable", "stable; neutral if it could roll"),
+    ):
+        row = next(line for line in text.splitlines() if f"│ {quantity} " in line)
+        assert [cell.strip() for cell in row.split("│")[2:4]] == [one, other]
+
+
+def test_what_to_expect_of_floats_is_said() -> None:
+    def told(*bodies: Float, **changes: Any) -> str:
+        return " ".join(hints(scene(*bodies, **changes)))
+
+    assert "Float 1 is unstable" in told(floating("roll", half_width=0.1, unstable="solve"))
+    assert "is unstable" not in told(floating("heave", half_width=0.1))
+    assert "0.5, which is much" in told(floating(half_width=0.4, boundary="thin"))
+    assert "which is much" not in told(floating(half_width=0.04, boundary="thin"))
+    assert "it is air" in told(floating(), upper=0.0)
+    assert "there are 2 modes, not 10" in told(floating(), floating(position=8.0), top="pressure_release")
+    assert "there is 1 mode, not 10" in told(floating(), floating(position=8.0), top="rigid")
+    assert "(ρ₁ coth kh₁ + ρ₂ coth kh₂)" in told(upper=800.0, top="rigid")
+    assert "(ρ₁ tanh kh₁ + ρ₂ coth kh₂)" in told(upper=800.0, top="pressure_release")
+    assert "two exact answers" in told(upper=800.0)
+    assert "sway of float 1, roll of float 1. That leaves 2 modes" in told(floating(*ALL, **CIRCLE))

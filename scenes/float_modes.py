@@ -1,0 +1,121 @@
+"""The mode of each motion of a float: that in which it moves most.
+
+At unit generalized mass a motion of amplitude a has the modal mass 1/a²; the mode of the motion is the one with the
+smallest. In a tank the resonance of a float is shared with the waves near it: where the runner-up is close, there is no
+such thing as its one natural frequency.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hydroelastic.fem.modes import ModeSet
+from hydroelastic.fem.surfaces import Body
+from hydroelastic.scenes.high_frequency import HighFrequencyAddedMass
+from hydroelastic.scenes.plan import MOST_MODES_TO_TONE
+from hydroelastic.scenes.scaled_tank import ScaledTank
+
+# Modes up to this many times the λ that the motion has far above the waves hold its mode.
+_FAR_ENOUGH = 1.3
+
+
+@dataclass(frozen=True, kw_only=True)
+class FloatMode:
+    """The mode of a motion that gravity restores.
+
+    Attributes:
+        body: index of the float among the bodies.
+        motion: which.
+        index: of the mode, from 0; ``None`` where it is not one of the modes computed.
+        reason: why there is none, or "".
+        modal_mass: smallest 1/a², in units of the tank.
+        runner_up: the next smallest.
+        certain: whether the modes reach far enough above the motion.
+    """
+
+    body: int
+    motion: str
+    index: int | None
+    reason: str
+    modal_mass: float
+    runner_up: float
+    certain: bool
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Motion:
+    body: int
+    label: str
+    number: int
+    place: int
+    stiffness: float
+    mass: float
+
+
+def _restored(tank: ScaledTank, bodies: tuple[Body, ...]) -> list[_Motion]:
+    """The motions of floats that have a stiffness, with their places among the unknowns of all bodies."""
+    offsets = np.cumsum([0, *(body.size for body in bodies)])
+    return [
+        _Motion(
+            body=index,
+            label=label,
+            number=number,
+            place=int(offsets[index]) + number,
+            stiffness=stiffness,
+            mass=mass,
+        )
+        for index in tank.floats
+        for number, (label, stiffness, mass) in enumerate(
+            zip(bodies[index].labels, bodies[index].stiffness, bodies[index].mass, strict=True)
+        )
+        if stiffness > 0.0
+    ]
+
+
+def float_modes(
+    tank: ScaledTank,
+    bodies: tuple[Body, ...],
+    modes: ModeSet,
+    added: HighFrequencyAddedMass | None,
+    *,
+    searched: tuple[bool, ...],
+) -> tuple[FloatMode, ...]:
+    """Find the mode of each motion.
+
+    Args:
+        tank: the scene.
+        bodies: its bodies in the field model.
+        modes: the modes computed.
+        added: the floats' added mass far above the waves.
+        searched: whether each motion was expected among them.
+    """
+    found = []
+    motions = _restored(tank, bodies)
+    for number, motion in enumerate(motions):
+        moved = modes.elastic_amplitudes[:, motion.place] ** 2
+        order = np.argsort(-moved)
+        more = added.principal(tank, motion.body)[motion.number] if added is not None else 0.0
+        limit = motion.stiffness / (motion.mass + more)
+        certain = bool(modes.eigenvalues[-1] >= _FAR_ENOUGH * limit)
+        expected = number >= len(searched) or searched[number]
+        missing = not certain and not expected
+        found.append(
+            FloatMode(
+                body=motion.body,
+                motion=motion.label,
+                index=None if missing else int(order[0]),
+                reason=f"more than {MOST_MODES_TO_TONE} modes lie below it, and it was not searched for"
+                if missing
+                else "",
+                modal_mass=_inverse(moved[order[0]]),
+                runner_up=_inverse(moved[order[1]]) if len(moved) > 1 else np.inf,
+                certain=certain,
+            )
+        )
+    return tuple(found)
+
+
+def _inverse(squared: float) -> float:
+    return float(1.0 / squared) if squared > 0.0 else np.inf

@@ -1,0 +1,203 @@
+"""Harmonic functions that resolve corners, and their energies, for a liquid in a rectangular tank with bodies.
+
+A potential is a sum of waves cos(nπx/L) e^{±nπy/L} and of poles outside the liquid, which cluster exponentially at its
+corners (Gopal & Trefethen 2019, SIAM J. Numer. Anal. 57, "Solving Laplace problems with corner singularities via
+rational functions") and fill the bodies. Poles are mirrored in both side walls,
+
+    f(z) = a cot(π(z − p)/2L) − ā cot(π(z + p̄)/2L),
+
+so that nothing is left to do there. Energies are integrals over the rest of the boundary, ∫∇u·∇v = ∮u ∂v/∂n, on
+panels that are no longer than their distance from the next pole.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from float_sections import Arc
+
+NODES = 16
+SMALLEST = 26
+"""Panels at a corner are 0.3 to this power of its room."""
+
+RULE = np.polynomial.legendre.leggauss(NODES)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Boundary:
+    """Gauss nodes on a piece of boundary.
+
+    Attributes:
+        points: z, extended precision, shape (n,).
+        normal: the unit normal nx + i ny out of the liquid, shape (n,).
+        weights: with ds, shape (n,).
+    """
+
+    points: np.ndarray
+    normal: np.ndarray
+    weights: np.ndarray
+
+
+def nodes_on(arcs: list[Arc], poles: np.ndarray, longest: float, *, reach: float = 0.7) -> Boundary:
+    """Gauss nodes on arcs with the liquid to their right."""
+    points, slopes, weights = [], [], []
+    nodes, rule = (RULE[0].astype(np.longdouble) + 1) / 2, RULE[1] / 2
+    for arc in arcs:
+        pending = [(np.longdouble(0), np.longdouble(1))]
+        while pending:
+            start, length = pending.pop()
+            places = start + length * nodes
+            z, s = arc.point(places), arc.slope(places)
+            size = float(length * np.abs(s).max())
+            apart = float(np.abs(z[:, None] - poles[None, :]).min()) if len(poles) else np.inf
+            if size > min(reach * apart, longest):
+                pending += [(start, length / 2), (start + length / 2, length / 2)]
+                continue
+            points.append(z)
+            slopes.append(s)
+            weights.append(rule * np.abs(length * s).astype(float))
+    slope = np.concatenate(slopes)
+    return Boundary(
+        points=np.concatenate(points),
+        normal=(1j * slope / np.abs(slope)).astype(complex),
+        weights=np.concatenate(weights),
+    )
+
+
+def clustered(corner: complex, outward: complex, scale: float, count: int, *, steepness: float = 4.0) -> np.ndarray:
+    """Poles corner + scale·e^{−σ(√n − √k)}·outward, k = 1 … n."""
+    distances = scale * np.exp(-steepness * (np.sqrt(count) - np.sqrt(np.arange(1, count + 1, dtype=np.longdouble))))
+    return np.clongdouble(corner) + distances * np.clongdouble(outward)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Corner:
+    """A corner of a liquid: its place, where outside is, how far one may go there, and π over the liquid's angle."""
+
+    place: complex
+    outward: complex
+    room: float
+    exponent: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Trial:
+    """Trial potentials of one liquid.
+
+    Attributes:
+        length: of the tank, m.
+        low, high: y of the bottom and of the top of the liquid, m.
+        corners: of the liquid but those of the tank.
+        inner: poles inside of sections, shape (n,).
+        clustered: how many poles at each corner.
+        steepness: of their clusters.
+        waves: how many cosines, each at the bottom and at the top.
+        powers: how many integers are added to the exponents of a corner.
+    """
+
+    length: float
+    low: float
+    high: float
+    corners: tuple[Corner, ...]
+    inner: np.ndarray
+    clustered: int
+    steepness: float
+    waves: int
+    powers: int
+
+    @property
+    def poles(self) -> np.ndarray:
+        """All poles."""
+        clusters = [
+            clustered(corner.place, corner.outward, corner.room, self.clustered, steepness=self.steepness)
+            for corner in self.corners
+        ]
+        return np.concatenate([self.inner.astype(np.clongdouble), *clusters])
+
+    @property
+    def attractors(self) -> np.ndarray:
+        """Places to which panels shrink: the poles, and more of them towards corners."""
+        steps = [
+            corner.place + corner.room * corner.outward * np.longdouble(0.3) ** np.arange(SMALLEST)
+            for corner in self.corners
+        ]
+        return np.concatenate([self.poles, *steps])
+
+    def values(self, boundary: Boundary) -> tuple[np.ndarray, np.ndarray]:
+        """The trial functions and their normal derivatives, shape (nodes, functions)."""
+        pairs = [self._waves(boundary), self._poles(boundary), *(self._powers(boundary, c) for c in self.corners)]
+        functions = np.hstack([pair[0] for pair in pairs])
+        slopes = np.hstack([pair[1] for pair in pairs])
+        return functions.real, (slopes * boundary.normal[:, None]).real
+
+    def _waves(self, boundary: Boundary) -> tuple[np.ndarray, np.ndarray]:
+        z = boundary.points.astype(complex)[:, None]
+        k = np.pi * np.arange(1, self.waves + 1)[None, :] / self.length
+        # Re e^{−ik(z − iy₀)} = cos kx e^{k(y − y₀)}.
+        at_top = np.exp(-1j * k * (z - 1j * self.high))
+        at_bottom = np.exp(1j * k * (z - 1j * self.low))
+        uniform = (z - 1j * (self.low + self.high) / 2) / (1j * self.length)
+        return (
+            np.hstack([uniform, at_top, at_bottom]),
+            np.hstack([0 * uniform - 1j / self.length, -1j * k * at_top, 1j * k * at_bottom]),
+        )
+
+    def _poles(self, boundary: Boundary) -> tuple[np.ndarray, np.ndarray]:
+        scale = np.pi / (2 * self.length)
+        z, p = boundary.points[:, None], self.poles[None, :]
+        near, image = (scale * (z - p)).astype(complex), (scale * (z + p.conj())).astype(complex)
+        distance = np.abs(near).min(axis=0)
+        cot, cot_image = _cotangent(near), _cotangent(image)
+        values, slopes = [], []
+        for a in (1.0, 1.0j):
+            strength = a * distance
+            values.append(strength * cot - np.conj(strength) * cot_image)
+            slopes.append(scale * (-strength * (1 + cot**2) + np.conj(strength) * (1 + cot_image**2)))
+        return np.hstack(values), np.hstack(slopes)
+
+    def _powers(self, boundary: Boundary, corner: Corner) -> tuple[np.ndarray, np.ndarray]:
+        """(sin(π(z − c)/2L)/sin(π(z − c')/2L))^ν, cut from the corner c to c' outside, and mirrored."""
+        exponents = np.array(
+            [k * corner.exponent + m for k in (1, 2) for m in range(self.powers) if k * corner.exponent % 1 > 1e-6]
+        )
+        scale = np.pi / (2 * self.length)
+        values, slopes = [], []
+        for mirrored in (False, True):
+            z = -boundary.points.conj() if mirrored else boundary.points
+            near = (scale * (z - corner.place)).astype(complex)
+            far = (scale * (z - corner.place - corner.room * corner.outward)).astype(complex)
+            logarithm = np.log(np.sin(near) / np.sin(far))
+            value = np.exp(exponents[None, :] * logarithm[:, None])
+            slope = exponents * value * scale * (_cotangent(near) - _cotangent(far))[:, None]
+            values.append(np.hstack([value, 1j * value]))
+            slopes.append(np.hstack([slope, 1j * slope]))
+        return values[0] + values[1].conj(), slopes[0] - slopes[1].conj()
+
+
+def _cotangent(z: np.ndarray) -> np.ndarray:
+    """cot z without overflow far from the real axis."""
+    sign = np.where(z.imag > 0, 1.0, -1.0)
+    small = np.exp(2j * sign * z)
+    # i(e^{iz} + e^{−iz})/(e^{iz} − e^{−iz}); small arguments by expm1 keep their digits.
+    return -1j * sign * (1 + small) / (-np.expm1(2j * sign * z))
+
+
+def energy_basis(functions: np.ndarray, slopes: np.ndarray, weights: np.ndarray, tolerance: float) -> np.ndarray:
+    """Coefficients of functions with ∫|∇v|² = 1, orthogonal to each other, without what rounding hides.
+
+    Args:
+        functions: on the whole boundary but the walls, shape (nodes, n), made free of their means.
+        slopes: normal derivatives there, shape (nodes, n).
+        weights: of the nodes, shape (nodes,).
+        tolerance: part of the largest eigenvalue of the scaled energies below which they are dropped.
+
+    Returns:
+        The coefficients, shape (n, kept).
+    """
+    energy = functions.T @ (weights[:, None] * slopes)
+    energy = (energy + energy.T) / 2
+    scale = 1 / np.sqrt(np.maximum(np.diag(energy), 1e-300))
+    values, vectors = np.linalg.eigh(energy * scale * scale[:, None])
+    kept = values > tolerance * values[-1]
+    return scale[:, None] * vectors[:, kept] / np.sqrt(values[kept])

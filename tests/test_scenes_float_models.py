@@ -1,0 +1,412 @@
+"""Scenes with two liquids and floats: what is accepted, what is refused, and in which words."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+
+from hydroelastic.scenes.errors import SceneError, scene_error
+from hydroelastic.scenes.models import Float, Liquid, TankScene
+from hydroelastic.scenes.read import read_scene
+
+WEDGE: dict[str, Any] = {"kind": "float", "shape": "wedge", "position": 5.0, "half_width": 0.5, "half_height": 0.4}
+BEAM: dict[str, Any] = {"start": 7.0, "length": 2.0, "flexural_rigidity": 5e3, "mass_per_length": 50.0}
+WATER, OIL, AIR = ({"density": density, "depth": depth} for density, depth in ((1000.0, 2.0), (800.0, 1.0), (0.0, 1.0)))
+
+
+def scene(*bodies: dict[str, Any], liquids: tuple[dict[str, Any], ...] = (WATER, OIL), **more: Any) -> TankScene:
+    tank = {"length": 10.0} | {key: more.pop(key) for key in ("top", "length") if key in more}
+    return TankScene.model_validate({"tank": tank, "liquid": list(liquids), "body": list(bodies)} | more)
+
+
+def said(*bodies: dict[str, Any], **changes: Any) -> str:
+    """What is said of a scene that is refused for one reason."""
+    with pytest.raises(ValidationError) as caught:
+        scene(*bodies, **changes)
+    text = str(scene_error(caught.value, TankScene))
+    assert "\n" not in text
+    return text
+
+
+def polygon(*vertices: tuple[float, float], **more: Any) -> dict[str, Any]:
+    return {"kind": "float", "shape": "polygon", "position": 5.0, "vertices": [list(v) for v in vertices]} | more
+
+
+SQUARE = ((-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5))
+
+
+def test_defaults_are_those_of_the_contract() -> None:
+    body = scene(WEDGE).body[0]
+    assert isinstance(body, Float)
+    assert (body.motions, body.boundary, body.unstable) == (("heave",), "exact", "refuse")
+    assert (body.at, body.mass, body.centre_of_mass, body.radius_of_gyration) == (None, None, None, None)
+    assert scene(BEAM).body[0].kind == "beam"
+
+
+def test_bodies_float_at_the_interface_unless_it_is_said() -> None:
+    given = scene(WEDGE, BEAM | {"at": "surface"})
+    assert [given.level_of(body) for body in given.body] == ["interface", "surface"]
+    assert [given.height_of(given.level_of(body)) for body in given.body] == [0.0, 1.0]
+    assert [given.densities_at(given.level_of(body)) for body in given.body] == [(1000.0, 800.0), (800.0, 0.0)]
+    alone = scene(WEDGE, liquids=(WATER,))
+    assert alone.level_of(alone.body[0]) == "surface"
+    assert alone.densities_at("surface") == (1000.0, 0.0)
+
+
+def test_air_is_not_modelled() -> None:
+    given = scene(WEDGE, liquids=(WATER, AIR), top="rigid")
+    assert given.layers == (Liquid(density=1000.0, depth=2.0),)
+    assert (given.top, given.tank.top) == ("free", "rigid")
+    assert given.level_of(given.body[0]) == "surface"
+    assert given.height_of("surface") == 0.0
+    assert scene(WEDGE | {"at": "interface"}, liquids=(WATER, AIR)).level_of(given.body[0]) == "surface"
+    assert "nothing floats on top of it" in said(WEDGE | {"at": "surface"}, liquids=(WATER, AIR))
+
+
+def test_scenes_are_hashable_and_go_through_json() -> None:
+    given = scene(WEDGE, polygon(*SQUARE, position=2.0), BEAM)
+    assert hash(given) == hash(scene(WEDGE, polygon(*SQUARE, position=2.0), BEAM))
+    assert TankScene.model_validate(json.loads(json.dumps(given.model_dump(mode="json")))) == given
+    assert TankScene.model_validate(given.model_dump()) == given
+
+
+@pytest.mark.parametrize(
+    ("upper", "words"),
+    [
+        (1000.0, "overturns"),
+        (1200.0, "less than 1000"),
+        (1000.0 * (1 - 1e-10), "lost in rounding"),
+        (1e-4, "0, for air, or at least 0.001"),
+        (1e-40, "too small"),
+        (-1.0, "too small"),
+    ],
+)
+def test_the_upper_liquid_is_lighter(upper: float, words: str) -> None:
+    text = said(liquids=(WATER, {"density": upper, "depth": 1.0}))
+    assert text.startswith('[[liquid]] number 2, key "density" = ')
+    assert words in text
+
+
+def test_there_is_a_liquid() -> None:
+    assert "may be air" in said(liquids=(AIR,))
+    assert "may be air" in said(liquids=({"density": 0.0, "depth": 1.0}, WATER))
+    assert "one liquid or two" in said(liquids=(WATER, OIL, OIL))
+
+
+@pytest.mark.parametrize("place", [0, 1])
+@pytest.mark.parametrize("depth", [0.9e-3, 1.1e4])
+def test_each_depth_fits_the_length(place: int, depth: float) -> None:
+    liquids = [WATER, OIL]
+    liquids[place] = liquids[place] | {"depth": depth}
+    assert f'[[liquid]] number {place + 1}, key "depth"' in said(liquids=tuple(liquids))
+    # Air may be as deep as it likes.
+    assert scene(liquids=(WATER, {"density": 0.0, "depth": depth})).layers
+
+
+@pytest.mark.parametrize(
+    ("shape", "keys", "words"),
+    [
+        ("wedge", {"half_width": 1.0}, 'key "half_height": it is missing, and shape = "wedge" needs it'),
+        ("wedge", {"half_width": 1.0, "half_height": 1.0, "tail": 0.1}, "belongs to exponential"),
+        ("wedge", {"half_width": 1.0, "half_height": 1.0, "vertices": [[0, 0], [1, 0], [0, 1]]}, "belongs to polygon"),
+        ("polygon", {}, '"vertices": it is missing'),
+        ("polygon", {"vertices": SQUARE, "half_width": 1.0}, "does not belong"),
+        ("polygon", {"vertices": [[0, 0], [1, 0]]}, "too few"),
+        ("polygon", {"vertices": [[0, 0], [1, 0], [1]]}, 'key "vertices", entry 3.2: it is missing'),
+        ("polygon", {"vertices": [[0, 0], [1, 0], [1, "a"]]}, 'key "vertices", entry 3.2 = "a": it is not a number'),
+        ("polygon", {"vertices": [[0, 0], [1, 0], [1, 2, 3]]}, 'key "vertices", entry 3: there are too many'),
+        ("polygon", {"vertices": "square"}, "it is not a list"),
+        ("outline", {}, '"file": it is missing'),
+        ("outline", {"file": "a.csv", "tail": 0.1}, "does not belong"),
+        ("outline", {"file": 3}, "not a text"),
+        ("elipse", {}, 'Did you mean "ellipse"?'),
+        (3, {}, "not one of the choices"),
+    ],
+)
+def test_keys_belong_to_their_shape(shape: str, keys: dict[str, Any], words: str) -> None:
+    text = said({"kind": "float", "shape": shape, "position": 5.0} | keys)
+    assert text.startswith("[[body]] number 1, key ")
+    assert words in text
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"motions": []}, "too few"),
+        ({"motions": ["heave", "heave"]}, "named twice"),
+        ({"motions": ["have"]}, 'key "motions", entry 1 = "have"'),
+        ({"motions": "heave"}, 'a list of "heave" or "sway" or "roll"'),
+        ({"boundary": "thin", "motions": ["heave", "roll"]}, "heave alone"),
+        ({"shape": "rectangle", "boundary": "thin"}, '"exact", or shape = exponential'),
+        ({"boundary": "thick"}, '"exact" or "thin"'),
+        ({"at": "surfce"}, 'Did you mean "surface"?'),
+        ({"start": 3.0}, 'It belongs to kind = "beam"'),
+        ({"kind": "flaot"}, 'key "kind" = "flaot": it is not one of the choices. Allowed: "beam" or "float"'),
+        ({"kind": 3}, "not one of the choices"),
+        ({"half_width": "1"}, "Write it without quotes"),
+        ({"half_width": 0}, "a positive number from 1e-30"),
+        ({"mass": -1.0}, "a positive number"),
+        ({"tail": float("nan")}, "not a finite number"),
+    ],
+)
+def test_values_of_a_float(change: dict[str, Any], words: str) -> None:
+    assert words in said(WEDGE | change)
+
+
+def test_an_interface_needs_two_liquids() -> None:
+    assert "there is only one liquid" in said(WEDGE | {"at": "interface"}, liquids=(WATER,))
+    assert "there is only one liquid" in said(BEAM | {"at": "interface"}, liquids=(WATER,))
+
+
+@pytest.mark.parametrize(
+    ("mass", "words"),
+    [
+        (1.0, "rises to the top of the upper liquid. Allowed: between 320 and 400 kg/m"),
+        (320.0, "rises"),
+        (400.0, "sinks"),
+        (1e9, "sinks"),
+    ],
+)
+def test_masses_between_those_of_the_liquids_float(mass: float, words: str) -> None:
+    text = said(WEDGE | {"mass": mass})
+    assert 'key "mass"' in text
+    assert words in text
+    assert scene(WEDGE | {"mass": 360.0})
+
+
+def test_what_floats_almost_out_of_a_liquid_is_refused() -> None:
+    # The wedge's tip has an area of (b/h) d² for the depth d: 8e-10 kg/m for a millionth of the height of 0.8 m.
+    assert "below the still level" in said(WEDGE | {"mass": 7.9e-10}, liquids=(WATER,))
+    assert "above the still level" in said(WEDGE | {"mass": 400 * (1 - 1e-13)}, liquids=(WATER,))
+    assert scene(WEDGE | {"mass": 8.1e-10}, liquids=(WATER,))
+
+
+@pytest.mark.parametrize(
+    ("vertices", "words"),
+    [
+        (((-0.5, -0.5), (0.5, 0.5), (0.5, -0.5), (-0.5, 0.5)), "crosses"),
+        ((*SQUARE, SQUARE[0]), "not repeated"),
+        (((0.0, 0.0), (0.0, 0.0), (0.0, 0.0)), "too short"),
+        (((-0.5, -0.5), (0.5, -0.5), (0.0, -0.5)), "folds back"),
+        (((-0.5, -0.5), (0.5, -0.5), (0.5, 0.0), (-0.5, 0.0)), "along the still level"),
+        (((-0.5, 0.1), (0.5, 0.1), (0.0, 0.5)), "wholly above the still level"),
+        (((-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (0.0, -0.4), (-0.5, 0.5)), "in 4 points instead of two"),
+        (((-0.5, -1e-4), (0.5, -1e-4), (0.5, 1e-4), (-0.5, 1e-4)), "too flat"),
+    ],
+)
+def test_sections_that_are_no_hull(vertices: tuple[tuple[float, float], ...], words: str) -> None:
+    text = said(polygon(*vertices))
+    assert '[[body]] number 1, key "vertices"' in text
+    assert words in text
+
+
+def test_a_clockwise_polygon_is_turned_round() -> None:
+    from hydroelastic.scenes.floats import placed_float
+
+    one, other = (placed_float(scene(polygon(*corners)), 0) for corners in (SQUARE, SQUARE[::-1]))
+    assert one.hydrostatics == other.hydrostatics
+
+
+def test_another_cut_is_a_matter_of_the_mass() -> None:
+    catamaran = ((-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (0.3, 0.5), (0.3, -0.3), (-0.3, -0.3), (-0.3, 0.5), (-0.5, 0.5))
+    area = 1 - 0.6 * 0.8
+    for mass, refused in ((0.15 * 1000 + (area - 0.15) * 800, False), (0.3 * 1000 + (area - 0.3) * 800, True)):
+        if refused:
+            assert '"mass"' in said(polygon(*catamaran, mass=mass))
+        else:
+            assert scene(polygon(*catamaran, mass=mass))
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"position": 0.5}, 'key "position" = 0.5: the float reaches from 0 to 1 m'),
+        ({"position": 0.2}, "touches or leaves a wall"),
+        ({"position": 9.5005}, "0.501 to 9.499 m"),
+        ({"half_width": 5.0}, "10 m wide, and the tank 10 m long"),
+        ({"half_height": 2.0, "half_width": 1.0}, "reaches down to y = -2 m"),
+        ({"half_height": 1.0, "half_width": 1.0}, "reaches up to y = 1 m"),
+        ({"half_width": 3e-4, "half_height": 3e-4}, "too small beside the tank"),
+        (
+            {"half_width": 3e-4},
+            "too slender for one mesh to show both. Allowed: a width of 0.001 to 1000 heights. bound",
+        ),
+        ({"half_height": 3e-4}, "too flat"),
+        ({"at": "surface", "half_height": 1.0}, "reaches down to y = 0 m"),
+        ({"centre_of_mass": 1e6}, "-1000 to 1000 m"),
+        ({"radius_of_gyration": 1e-20}, "double precision"),
+    ],
+)
+def test_floats_have_room_and_size(change: dict[str, Any], words: str) -> None:
+    if change.get("half_height") == 3e-4 and "half_width" not in change:
+        change = change | {"half_width": 0.5}
+    assert words in said(WEDGE | change)
+
+
+def test_the_air_has_no_end_unless_it_is_a_layer() -> None:
+    tall = WEDGE | {"half_height": 1.5, "half_width": 1.5}
+    assert scene(tall, liquids=(WATER,))
+    assert "reaches up to y = 1.5 m" in said(tall, liquids=(WATER, AIR))
+    assert scene(
+        tall | {"at": "surface"}, liquids=({"density": 1000.0, "depth": 1.0}, {"density": 800.0, "depth": 2.0})
+    )
+
+
+def test_thin_floats_may_be_as_slender_as_one_likes() -> None:
+    assert scene(WEDGE | {"half_width": 1e-8, "boundary": "thin"})
+    assert "slender" in said(WEDGE | {"half_width": 1e-10, "boundary": "thin"})
+
+
+def test_bodies_keep_apart() -> None:
+    assert 'key "position"' in said(WEDGE, WEDGE | {"position": 5.9})
+    assert 'key "start"' in said(WEDGE, BEAM | {"start": 5.4})
+    assert "reaches from 4.5 to 5.5 m. Leave a gap of at least 0.001 m" in said(WEDGE, BEAM | {"start": 5.5005})
+    assert scene(WEDGE, WEDGE | {"position": 6.002})
+    assert scene(WEDGE, BEAM | {"start": 5.502})
+    # One above the other.
+    assert scene(WEDGE, BEAM | {"start": 4.0, "at": "surface"})
+    assert scene(WEDGE, WEDGE | {"at": "surface", "half_height": 0.5})
+    assert "overlaps" in said(WEDGE, WEDGE | {"at": "surface", "half_height": 0.6})
+    # Beams of one level only.
+    assert scene(BEAM, BEAM | {"at": "surface"})
+    assert "the beam overlaps or touches" in said(BEAM, BEAM | {"start": 8.0, "length": 1.0})
+
+
+def test_guided_beams_cover_either_level() -> None:
+    cover = BEAM | {"start": 0.0, "length": 10.0, "ends": "guided"}
+    assert scene(cover, cover | {"at": "surface"})
+    assert "wall to wall" in said(BEAM | {"ends": "guided"})
+
+
+def test_groups_of_an_interface_beam_count_the_difference_of_densities() -> None:
+    # 1e15 (ρ₂ - ρ₁) g l⁴ = 1e15·200·9.81·16
+    assert "EI/((ρ₂ − ρ₁) g l⁴)" in said(BEAM | {"flexural_rigidity": 4e19})
+    assert "EI/(ρ g l⁴)" in said(BEAM | {"flexural_rigidity": 2e20}, liquids=(WATER,))
+    assert scene(BEAM | {"flexural_rigidity": 4e19}, liquids=(WATER,))
+
+
+SLENDER = WEDGE | {"half_width": 0.1}
+
+
+def test_what_capsizes_is_refused_unless_it_is_to_be_solved() -> None:
+    assert "the float capsizes" in said(SLENDER | {"motions": ["roll"]})
+    assert scene(SLENDER | {"motions": ["roll"], "unstable": "solve"})
+    assert scene(SLENDER | {"motions": ["heave", "sway"]})
+    # c55 = Δρ g (2b³/3 - b h²/3) - g m y_G with m = 1800 b h: neutral at y_G = (Δρ/1800)(2b²/(3h) - h/3).
+    neutral = 200 / 1800 * (2 * 0.01 / 1.2 - 0.4 / 3)
+    text = said(SLENDER | {"motions": ["heave", "roll"], "centre_of_mass": neutral + 1e-5})
+    assert f"Allowed: a centre_of_mass of at most {neutral:g} m" in text
+    assert scene(SLENDER | {"motions": ["heave", "roll"], "centre_of_mass": neutral - 1e-5})
+
+
+def test_something_must_oscillate() -> None:
+    lid: dict[str, Any] = {"liquids": (WATER,), "top": "rigid"}
+    assert "nothing oscillates" in said(WEDGE, **lid)
+    assert "nothing oscillates" in said(WEDGE | {"motions": ["sway"]}, **lid)
+    circle = WEDGE | {"shape": "ellipse", "half_height": 0.5}
+    assert "nothing oscillates" in said(circle | {"motions": ["heave", "roll", "sway"]}, **lid)
+    assert "nothing oscillates" in said(circle | {"motions": ["roll"]}, liquids=(WATER,), top="pressure_release")
+    assert scene(WEDGE, liquids=(WATER,), top="pressure_release")
+    assert scene(WEDGE | {"motions": ["roll"]}, **lid)
+    assert scene(WEDGE, WEDGE | {"position": 8.0}, **lid)
+    assert scene(WEDGE, BEAM, **lid)
+    assert scene(WEDGE, top="rigid")
+    assert scene(WEDGE | {"motions": ["sway"]}, liquids=(WATER,))
+    # A roll that displaces volume is held by the lid, one about the middle of the waterplane is not.
+    keel = polygon((-1, -1), (0, -1), (0, -0.2), (1, -0.2), (1, 0.2), (-1, 0.2), motions=["roll"], unstable="solve")
+    assert "nothing oscillates" in said(keel, **lid)
+    assert scene(keel | {"motions": ["heave", "roll"]}, **lid)
+
+
+def test_meshes_of_ones_own_are_for_one_liquid_with_beams() -> None:
+    mesh = {"mesh": {"file": "tank.msh"}}
+    assert "this scene has two liquids" in said(**mesh)
+    assert "this scene has a float" in said(WEDGE, liquids=(WATER,), **mesh)
+    assert scene(BEAM, liquids=(WATER,), **mesh)
+    assert scene(BEAM, liquids=(WATER, AIR), **mesh)
+
+
+OUTLINE = """kind = "tank"
+[tank]
+length = 10.0
+[[liquid]]
+density = 1000.0
+depth = 2.0
+[[body]]
+kind = "float"
+shape = "outline"
+position = 5.0
+file = "points.csv"
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (None, "there is no such file"),
+        ("", "holds no points"),
+        ("1\n2\n3\n", 'line 1, "1", does not have two columns'),
+        ("0,0\n1,nan\n", "not two finite numbers"),
+        ("-1,-1\n1,1\n1,-1\n-1,1\n", "crosses"),
+        ("-1,-1\n1,-1\n1.3,-0.9\n1.5,-0.6\n1.5,0\n1.5,1\n-1.5,1\n-1.5,0\n-1.5,-0.6\n-1.3,-0.9\n", "times as long as"),
+    ],
+)
+def test_outlines_that_cannot_be_used(tmp_path: Path, text: str | None, words: str) -> None:
+    path = tmp_path / "scene.toml"
+    path.write_text(OUTLINE, encoding="utf-8")
+    if text is not None:
+        (tmp_path / "points.csv").write_text(text, encoding="utf-8")
+    with pytest.raises(SceneError) as caught:
+        read_scene(path)
+    assert '[[body]] number 1, key "file"' in str(caught.value)
+    assert words in str(caught.value)
+
+
+def test_an_outline_lies_beside_its_scene(tmp_path: Path) -> None:
+    path = tmp_path / "scene.toml"
+    path.write_text(OUTLINE, encoding="utf-8")
+    (tmp_path / "points.csv").write_text("-1 -1\n1 -1\n1 1\n-1 1\n", encoding="utf-8")
+    given = read_scene(path, ["body.0.mass=1000.0"])
+    assert given.folder == tmp_path
+    # What is stored of the scene holds on any machine.
+    assert given.model_dump(mode="json")["body"][0]["file"] == "points.csv"
+    assert given.model_copy(update={"title": "Square"}).folder == tmp_path
+
+
+@pytest.mark.parametrize("unit", [1e-9, 1.0, 1e9])
+@pytest.mark.parametrize("seed", range(15))
+def test_random_scenes_are_accepted_or_refused_in_words(seed: int, unit: float) -> None:
+    """What validates also floats; sizes, places and polygons at random, in any unit of length."""
+    from hydroelastic.scenes.floats import placed_float
+
+    random = np.random.default_rng(seed)
+
+    def length() -> float:
+        return float(unit * 10 ** random.uniform(-2, 0.7))
+
+    for _ in range(10):
+        liquids = [
+            {"density": 1000.0, "depth": length()},
+            {"density": float(random.choice([0, 800])), "depth": length()},
+        ]
+        angles = np.sort(random.uniform(0, 2 * np.pi, random.integers(3, 9)))
+        vertices = (np.column_stack([np.cos(angles), np.sin(angles)]) * random.uniform(0.1, 1, 2) * length()).tolist()
+        motions = [str(name) for name in random.permutation(["heave", "sway", "roll"])[: random.integers(1, 4)]]
+        bodies = [polygon(*map(tuple, vertices), position=float(unit * random.uniform(0, 10)), motions=motions)]
+        refusal = ""
+        try:
+            given = scene(*bodies, liquids=tuple(liquids[: random.integers(1, 3)]), length=10 * unit)
+        except ValidationError as error:
+            refusal = str(scene_error(error, TankScene))
+        if refusal:
+            assert "[[body]] number 1" in refusal
+            continue
+        rest = placed_float(given, 0).hydrostatics
+        displaced = np.dot(given.densities_at(given.level_of(given.body[0])), rest.areas)
+        assert displaced == pytest.approx(rest.mass, rel=1e-12)
+        assert rest.roll_stiffness >= 0 or "roll" not in motions

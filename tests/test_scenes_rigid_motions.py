@@ -1,0 +1,133 @@
+"""Motions without stiffness, and those that the volume of the liquids forbids, against statics of the whole tank."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.linalg import block_diag, null_space
+
+from hydroelastic.scenes.check_hints import hints
+from hydroelastic.scenes.floats import placed_float
+from hydroelastic.scenes.models import Beam, Float, Level, Liquid, Tank, TankScene, level_segments
+from hydroelastic.scenes.rigid_motions import mode_count, zero_mode_count
+
+
+def beam(**changes: Any) -> Beam:
+    values: dict[str, Any] = {"start": 0.5, "length": 3.0, "flexural_rigidity": 5e3, "mass_per_length": 50.0}
+    return Beam(**(values | {"hydrostatic": False} | changes))
+
+
+def floating(*motions: str, **changes: Any) -> Float:
+    values: dict[str, Any] = {"shape": "wedge", "position": 5.0, "half_width": 1.0, "half_height": 0.8}
+    return Float(**(values | {"motions": motions or ("heave",)} | changes))
+
+
+def scene(*bodies: Beam | Float, top: str, upper: float | None) -> TankScene:
+    above = () if upper is None else (Liquid(density=upper, depth=3),)
+    return TankScene(
+        tank=Tank(length=10, top=top),  # type: ignore[arg-type]
+        liquid=(Liquid(density=1000, depth=5), *above),
+        body=bodies,
+    )
+
+
+LOOSE, COVER = beam(), beam(start=0.0, length=10.0)
+CIRCLE: dict[str, Any] = {"shape": "ellipse", "half_width": 1.0, "half_height": 1.0}
+KEEL: dict[str, Any] = {
+    "shape": "polygon",
+    "half_width": None,
+    "half_height": None,
+    "vertices": ((-1, -1), (0, -1), (0, -0.2), (1, -0.2), (1, 0.2), (-1, 0.2)),
+    "unstable": "solve",
+}
+ALL = ("heave", "sway", "roll")
+
+
+def statics(given: TankScene) -> tuple[np.ndarray, np.ndarray]:
+    """Stiffness and volumes of all rigid motions and of the mean elevation of each level, in units of the tank.
+
+    Rows of the second matrix are the volumes that must be kept: of the lower liquid, and of the upper one unless it may
+    leave at a top without pressure.
+    """
+    levels: list[Level] = ["surface"] if len(given.layers) == 1 else ["interface", "surface"]
+    blocks: list[np.ndarray] = []
+    columns: list[list[float]] = []
+
+    def add(level: Level, stiffness: np.ndarray, volumes: list[float]) -> None:
+        blocks.append(stiffness)
+        for volume in volumes:
+            # What rises at a level leaves the layer below it and enters the one above.
+            columns.append(
+                [
+                    volume if place == level else -volume if place == "surface" and level == "interface" else 0.0
+                    for place in levels
+                ]
+            )
+
+    for index, body in enumerate(given.body):
+        level = given.level_of(body)
+        if isinstance(body, Beam):
+            assert not body.hydrostatic
+            add(level, np.zeros((2, 2)), [body.length, 0.0])
+            continue
+        rest = placed_float(given, index).hydrostatics
+        places = [ALL.index(motion) for motion in body.motions]
+        left, right = rest.waterplane
+        width, middle = right - left, (left + right) / 2 - rest.centre_of_mass[0]
+        volumes = [width, 0.0, width * middle]
+        add(level, rest.stiffness[np.ix_(places, places)] / 9810.0, [volumes[place] for place in places])
+    for level in levels:
+        moves = level == "interface" or given.top == "free"
+        open_length = sum(piece.end - piece.start for piece in level_segments(given, level) if piece.body is None)
+        if moves and open_length:
+            below, above = given.densities_at(level)
+            add(level, np.array([[(below - above) / 1000.0 * open_length]]), [open_length])
+    released = given.top == "pressure_release" and any(piece.body is None for piece in level_segments(given, "surface"))
+    kept = np.array(columns).T
+    return block_diag(*blocks), kept[:-1] if released else kept
+
+
+@pytest.mark.parametrize("top", ["free", "rigid", "pressure_release"])
+@pytest.mark.parametrize("upper", [None, 0.0, 800.0])
+@pytest.mark.parametrize(
+    "bodies",
+    [
+        (floating(),),
+        (floating("sway"), floating(position=8.0)),
+        (floating(*ALL),),
+        (floating(*ALL, **CIRCLE),),
+        (floating("roll", **CIRCLE), floating(position=8.0)),
+        (floating("heave", "roll", **KEEL),),
+        (floating(*ALL, **CIRCLE), LOOSE),
+        (floating(*ALL, at="surface", **CIRCLE), LOOSE),
+        (floating(*ALL, at="surface"), beam(start=6.5, at="surface"), LOOSE),
+        (COVER.model_copy(update={"at": "surface"}), LOOSE),
+        (COVER, LOOSE.model_copy(update={"at": "surface"})),
+    ],
+)
+def test_zero_modes_are_those_of_statics(bodies: tuple[Beam | Float, ...], upper: float | None, top: str) -> None:
+    if upper != 800.0:
+        bodies = tuple(body.model_copy(update={"at": None}) for body in bodies)
+        if COVER in bodies:
+            bodies = (COVER,)
+    given, refusal = None, ""
+    try:
+        given = scene(*bodies, top=top, upper=upper)
+    except ValueError as error:
+        refusal = str(error)
+    if given is None:
+        assert "nothing oscillates" in refusal
+        return
+    stiffness, kept = statics(given)
+    # Motions that keep the volumes, and those of them that cost nothing.
+    free = null_space(kept, rcond=1e-10) if len(kept) else np.eye(len(stiffness))
+    energies = np.abs(np.linalg.eigvalsh(free.T @ stiffness @ free))
+    expected = int((energies < 1e-10).sum())
+    assert zero_mode_count(given) == expected
+    assert any("zero" in hint for hint in hints(given)) == bool(expected)
+    if given.top != "free" and upper is None and not given.beams:
+        assert mode_count(given) == len(energies) - expected
+    else:
+        assert mode_count(given) is None

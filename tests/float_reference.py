@@ -14,9 +14,9 @@ from itertools import pairwise
 from typing import Any, Literal
 
 import numpy as np
-from float_sections import Section, line, section
-from harmonic_trial import Boundary, Corner, Trial, energy_basis, nodes_on
-from scipy.linalg import cholesky, solve_triangular, svd
+from float_sections import Section, line, section, thin_section
+from harmonic_trial import Boundary, Corner, Slit, Trial, energy_basis, nodes_on
+from scipy.linalg import cho_factor, cho_solve, cholesky, solve_triangular, svd
 
 MOTIONS = ("heave", "sway", "roll")
 
@@ -83,7 +83,9 @@ def float_tank(scene: dict[str, Any]) -> FloatTank:
     bodies = scene.get("body", [])
     floats = [
         (
-            section(body, (densities[0], densities[1] if len(densities) > 1 else 0.0), gravity),
+            (thin_section if body.get("boundary") == "thin" else section)(
+                body, (densities[0], densities[1] if len(densities) > 1 else 0.0), gravity
+            ),
             tuple(body.get("motions", ["heave"])),
         )
         for body in bodies
@@ -133,6 +135,8 @@ def _corners(tank: FloatTank, layer: int) -> list[Corner]:
     # Along the boundary the liquid lies to the right: the interface is followed eastwards below it.
     along = 1.0 if layer == 0 else -1.0
     for part, _ in tank.sections:
+        if part.thin:
+            continue
         chain = part.below if layer == 0 else part.above
         directions = [(along, chain[0].direction(0.0))]
         directions += [(a.direction(1.0), b.direction(0.0)) for a, b in pairwise(chain)]
@@ -243,6 +247,10 @@ class _Problem:
                 low=lows[j],
                 high=highs[j],
                 corners=tuple(_corners(tank, j)),
+                slits=tuple(
+                    Slit(tip=chain[0].at(1.0), end=chain[0].at(0.0))
+                    for chain in ((part.below, part.above)[j] for part, _ in tank.sections if part.thin)
+                ),
                 inner=np.concatenate([np.zeros(0), *(part.inner(fineness.inner) for part, _ in tank.sections)]),
                 clustered=fineness.corner,
                 steepness=fineness.steepness,
@@ -336,7 +344,9 @@ class _Problem:
                 )
                 load = np.zeros((len(boundary.points), total))
                 columns = starts[number] + np.arange(len(free_nodes[number]))
-                load[free_nodes[number], columns] = sign / np.sqrt(level.weight * boundary.weights[free_nodes[number]])
+                load[free_nodes[number], columns] = sign / np.sqrt(
+                    level.weight * boundary.weights[free_nodes[number]]
+                )
                 for beam_number, columns_of in enumerate(self.beam_columns):
                     beam = tank.beams[beam_number]
                     on = np.flatnonzero(level.piece == beam_number)
@@ -364,6 +374,9 @@ class _Problem:
     def _hull_loads(self, number: int, hull: Boundary, total: int, first: int) -> np.ndarray:
         load = np.zeros((len(hull.points), total))
         part = self.tank.sections[number][0]
+        if part.thin:
+            load[:, first + [body for body, _ in self.motions].index(number)] = part.flux(hull.points)
+            return load
         offset = (hull.points - np.clongdouble(part.centre)).astype(complex)
         displacements = {"heave": 1j + 0 * offset, "sway": 1.0 + 0 * offset, "roll": 1j * offset}
         for column, (body, motion) in enumerate(self.motions):
@@ -400,9 +413,7 @@ class _Problem:
         amplitudes = np.zeros((self.count, count))
         amplitudes[stuck] = solve_triangular(root, shapes[nodes:]) if stuck.any() else 0.0
         if loose.shape[1]:
-            amplitudes[~stuck] = -np.linalg.lstsq(
-                loose, np.hstack([gain[:, :nodes], _right_divided(bodies[:, stuck], root)]) @ shapes
-            )[0]
+            amplitudes[~stuck] = -np.linalg.lstsq(loose, np.hstack([gain[:, :nodes], _right_divided(bodies[:, stuck], root)]) @ shapes)[0]
         rigid = amplitudes[: len(self.motions)]
         with np.errstate(divide="ignore"):
             masses = 1 / (omega**2 * rigid**2)

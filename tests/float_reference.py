@@ -16,7 +16,7 @@ from typing import Any, Literal
 import numpy as np
 from float_sections import Section, line, section, thin_section
 from harmonic_trial import Boundary, Corner, Slit, Trial, energy_basis, nodes_on
-from scipy.linalg import cho_factor, cho_solve, cholesky, solve_triangular, svd
+from scipy.linalg import cholesky, solve_triangular, svd
 
 MOTIONS = ("heave", "sway", "roll")
 
@@ -344,9 +344,7 @@ class _Problem:
                 )
                 load = np.zeros((len(boundary.points), total))
                 columns = starts[number] + np.arange(len(free_nodes[number]))
-                load[free_nodes[number], columns] = sign / np.sqrt(
-                    level.weight * boundary.weights[free_nodes[number]]
-                )
+                load[free_nodes[number], columns] = sign / np.sqrt(level.weight * boundary.weights[free_nodes[number]])
                 for beam_number, columns_of in enumerate(self.beam_columns):
                     beam = tank.beams[beam_number]
                     on = np.flatnonzero(level.piece == beam_number)
@@ -413,7 +411,9 @@ class _Problem:
         amplitudes = np.zeros((self.count, count))
         amplitudes[stuck] = solve_triangular(root, shapes[nodes:]) if stuck.any() else 0.0
         if loose.shape[1]:
-            amplitudes[~stuck] = -np.linalg.lstsq(loose, np.hstack([gain[:, :nodes], _right_divided(bodies[:, stuck], root)]) @ shapes)[0]
+            amplitudes[~stuck] = -np.linalg.lstsq(
+                loose, np.hstack([gain[:, :nodes], _right_divided(bodies[:, stuck], root)]) @ shapes
+            )[0]
         rigid = amplitudes[: len(self.motions)]
         with np.errstate(divide="ignore"):
             masses = 1 / (omega**2 * rigid**2)

@@ -265,9 +265,7 @@ def layer_wavenumber(squared_frequency: float, layers: tuple[tuple[float, float]
     return float(brentq(lambda k: 1.0 / layer_inertia(k, layers) - squared_frequency, 1e-6 * high, 1.01 * high))
 
 
-def beam_wavenumber(
-    beam: ReferenceBeam, squared_frequency: float, layers: tuple[tuple[float, float], ...]
-) -> float:
+def beam_wavenumber(beam: ReferenceBeam, squared_frequency: float, layers: tuple[tuple[float, float], ...]) -> float:
     """k of EI k⁴ + s = λ (m + Σ ρ/(k tanh kh)); 0 if no wave is as slow."""
 
     def surplus(k: float) -> float:

@@ -157,6 +157,16 @@ def test_corners_on_the_level_are_contact_points_exactly() -> None:
     assert [arc.start for arc in house.above(0.0)] == [(1, 0), (0, 1)]
 
 
+@pytest.mark.parametrize("shape", SHAPES)
+def test_levels_beside_a_corner_are_cut_too(shape: FloatShape) -> None:
+    contour, section = profile(shape, 0.0444, 0.1603), float_profile(shape, 0.0444, 0.1603)
+    for distance in np.geomspace(1e-16, 1e-2, 200):
+        for level in (float(distance), -float(distance)):
+            contact = contour.below(level)[-1].end
+            # Levels within AT_LEVEL of a corner meet it; half-widths have slopes of 1 at most here.
+            assert contact == pytest.approx((float(section.half_width_at(level)), level), abs=5e-12)
+
+
 @pytest.mark.parametrize(
     ("corners", "reason"),
     [
@@ -336,5 +346,5 @@ def test_a_level_is_crossed_to_rounding_also_next_to_the_start_of_an_arc() -> No
         start=(0.0, 0.0),
         end=(1.0, 1.0),
     )
-    assert curve.crossing(1e-30, 0.0, 1.0) == pytest.approx(1e-10, rel=1e-14)
+    assert curve.crossing(1e-30, 0.0, 1.0) == pytest.approx(1e-10, abs=2e-17)
     assert curve.crossing(0.5, 0.0, 1.0, axis=0) == 0.5

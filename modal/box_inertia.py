@@ -107,7 +107,8 @@ def _wall_inertia(profile: Profile, depth: float, tank_length: float) -> float:
     count = math.ceil(LARGE_ARGUMENT * depth / (math.pi * tank_length)) + 1
     rate = (np.arange(count) + 0.5) * math.pi / depth
     moment = profile.half_width * sine_moment(profile, rate * profile.half_height)
-    return float(4 / depth * np.sum(moment**2 / (rate * np.expm1(rate * tank_length))))
+    decay = np.exp(-rate * tank_length)
+    return float(4 / depth * np.sum(moment**2 / rate * decay / (1 - decay)))
 
 
 def _liquids(layers: TwoLayers) -> list[tuple[float, float]]:

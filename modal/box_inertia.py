@@ -79,8 +79,8 @@ def liquid_inertia(profile: Profile, layers: TwoLayers, tank_length: float, wave
 def layer_inertia(profile: Profile, depth: float) -> float:
     """Return J_j = ∬ ω'ω' ln|tan(π(y + y')/4h_j)/tan(π(y − y')/4h_j)| dy dy' over one half of the section, m².
 
-    It is J and the effect of a bottom (or lid) at h_j, of a tank without walls; it grows without limit, like a
-    logarithm, where the end comes near the bottom.
+    It is J and the effect of a bottom (or lid) at h_j, of a tank without walls. Where the end comes near the bottom the
+    integrand is nearly singular, the integral finite.
 
     Args:
         profile: the section, extent < h_j.

@@ -262,7 +262,7 @@ def test_units_do_not_matter() -> None:
 
 
 def test_a_float_close_to_the_bottom() -> None:
-    # The inertia grows like ln(1/gap) for the wedge's finite flux at its end, and not for the others; all stay finite.
+    # The inertia grows as the end comes near, and stays finite: its logarithm can be integrated.
     gaps = (1e-3, 1e-6, 1e-9, 1e-12)
     wedge, parabola = (
         np.array([box_modes(box(shape, depths=(1 + gap, 3.0)), 4).omega for gap in gaps])

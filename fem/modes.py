@@ -93,7 +93,7 @@ def solve_modes(pencil: CoupledPencil, count: int, *, shapes: int | None = None,
         EigenSolverError: if SLEPc stops before enough pairs have converged.
     """
     kinetics = CondensedKinetics(pencil)
-    available = pencil.size - len(pencil.constraints) - pencil.zero_mode_count
+    available = pencil.size - len(pencil.constraints) - pencil.zero_mode_count - len(pencil.unstable)
     count = min(count, available)
     before = pencil.solver.solves
     solver = _krylov_schur(pencil, kinetics, count, tolerance, SLEPc.EPS.Which.LARGEST_REAL)

@@ -66,8 +66,8 @@ class CurvedEdges:
         heights = self._heights(fractions)
         heights[np.abs(heights).max(axis=1) < _ROUNDING * np.abs(self.points).max()] = 0.0
         values = heights / (fractions * (1.0 - fractions))
-        blend: NDArray[np.float64] = np.linalg.solve(chebvander(2.0 * fractions - 1.0, len(fractions) - 1), values.T).T
-        return blend
+        polynomials = chebvander(2.0 * fractions - 1.0, len(fractions) - 1)
+        return np.asarray(np.linalg.solve(polynomials, values.T).T, dtype=np.float64)
 
     def _heights(self, fractions: NDArray[np.float64]) -> NDArray[np.float64]:
         """δ·n at parts s of each chord, shape (elements, len(fractions))."""

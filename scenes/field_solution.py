@@ -140,7 +140,7 @@ def solve_field(
         EigenSolverError: if SLEPc stops before enough pairs have converged.
     """
     with watch.stage("forms"):
-        compile_form(mesh, resolution.degree, glued=pressure_release and len(tank.layers) > 1)
+        compile_form(mesh, resolution.degree, glued=pressure_release and tank.moves_as_one)
     if half:
         resolution = replace(resolution, shapes=shapes_of_twins(tank, resolution.shapes))
     with watch.stage("assemble"):

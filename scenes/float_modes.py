@@ -81,6 +81,7 @@ def float_modes(
     added: HighFrequencyAddedMass | None,
     *,
     searched: tuple[bool, ...],
+    complete: bool,
 ) -> tuple[FloatMode, ...]:
     """Find the mode of each motion.
 
@@ -90,6 +91,7 @@ def float_modes(
         modes: the modes computed.
         added: the floats' added mass far above the waves.
         searched: whether each motion was expected among them.
+        complete: whether they are all that there are.
     """
     found = []
     motions = _restored(tank, bodies)
@@ -98,7 +100,7 @@ def float_modes(
         order = np.argsort(-moved)
         more = added.principal(tank, motion.body)[motion.number] if added is not None else 0.0
         limit = motion.stiffness / (motion.mass + more)
-        certain = bool(modes.eigenvalues[-1] >= _FAR_ENOUGH * limit)
+        certain = complete or bool(modes.eigenvalues[-1] >= _FAR_ENOUGH * limit)
         expected = number >= len(searched) or searched[number]
         missing = not certain and not expected
         found.append(

@@ -67,9 +67,7 @@ def _compared(estimates: EstimatesOfFloat, modes: list[dict[str, Any]]) -> dict[
 
 
 def _printed(estimates: EstimatesOfFloat) -> dict[str, Any]:
-    return {
-        name: {"printed": value.printed, "corrected": value.corrected} for name, value in estimates.printed.items()
-    }
+    return {name: {"printed": value.printed, "corrected": value.corrected} for name, value in estimates.printed.items()}
 
 
 def _high_frequency(solution: TankSolution, index: int) -> dict[str, Any] | None:

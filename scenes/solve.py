@@ -234,7 +234,8 @@ def _judged(
     companion, added = limits
     tones = tuple(_tone(field, beam, body, resolution, companion) for beam, body in enumerate(tank.beams))
     searched = resolution.reaches_tones[len(tank.beams) :]
-    moved = float_modes(tank, field.bodies, field.modes, added, searched=searched)
+    complete = len(field.modes.eigenvalues) <= resolution.modes
+    moved = float_modes(tank, field.bodies, field.modes, added, searched=searched, complete=complete)
     with watch.stage("count"):
         counted = count_is_confirmed(field)
     with watch.stage("errors"):

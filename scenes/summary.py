@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from hydroelastic.modal.estimate import Estimate
-from hydroelastic.scenes.estimates import exact_frequencies
 from hydroelastic.scenes.differences import difference
+from hydroelastic.scenes.estimates import exact_frequencies
 from hydroelastic.scenes.solve import TankSolution, ToneSolution
 from hydroelastic.scenes.tones import bending_fraction, mode_kind
 

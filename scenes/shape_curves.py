@@ -49,7 +49,7 @@ def sample_level(
     if level.above is not None and above is not None:
         # Facets of both sides are the same.
         pressure = pressure - tank.layers[level.above].density * above.potential
-    return SurfaceTrace(x=below.x, potential=pressure / level.jump)
+    return SurfaceTrace(x=below.x, potential=(1.0 / level.jump) * pressure)
 
 
 def wave_curves(level: StillLevel, trace: SurfaceTrace, number: int, eigenvalue: float) -> Iterator[SurfaceCurve]:
@@ -154,4 +154,5 @@ def contour_points(contour: Contour) -> Array:
 def _arc_points(arc: Arc) -> Array:
     edges = np.array([0.0, *arc.knots, 1.0])
     steps = max(_ARC_POINTS // (len(edges) - 1), 4)
-    return arc.point(np.unique(np.linspace(edges[:-1], edges[1:], steps + 1)))
+    at: Array = np.unique(np.linspace(edges[:-1], edges[1:], steps + 1))
+    return arc.point(at)

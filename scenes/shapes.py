@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -10,8 +9,10 @@ import meshio
 import numpy as np
 
 from hydroelastic.fem.liquid import as_functions
+from hydroelastic.fem.modes import Mode
 from hydroelastic.fem.pictures import Canvas, FloatSection, ModePicture, SurfaceCurve, draw_mode, draw_overview
 from hydroelastic.fem.sampling import LiquidSample, SurfaceTrace, sample_liquid
+from hydroelastic.scenes.scaled_tank import StillLevel
 from hydroelastic.scenes.shape_curves import body_shapes, sample_level, sign_of, wave_curves, wave_levels
 from hydroelastic.scenes.solve import TankSolution
 from hydroelastic.scenes.summary import Summary
@@ -26,7 +27,7 @@ class ModeShapes:
         liquid: ψ and ∇ψ.
         curves: for each mode, the displaced surfaces and beams.
         floats: for each mode, the displaced floats.
-        growth_rates: √(−λ) in 1/s of the growing modes, which are the last.
+        growing: how many modes, the last ones, grow; the fastest first.
         length: of the tank, m.
         depths: of the liquids from the bottom up, m.
         densities: of the liquids, kg/m³.
@@ -36,7 +37,7 @@ class ModeShapes:
     liquid: LiquidSample
     curves: tuple[tuple[SurfaceCurve, ...], ...]
     floats: tuple[tuple[FloatSection, ...], ...]
-    growth_rates: tuple[float, ...]
+    growing: int
     length: float
     depths: tuple[float, ...]
     densities: tuple[float, ...]
@@ -52,20 +53,17 @@ def sample_shapes(solution: TankSolution) -> ModeShapes | None:
     Returns:
         The shapes on rank 0, ``None`` elsewhere (collective).
     """
-    tank, field, growing = solution.tank, solution.field, solution.modes.growing
-    modes = (*solution.asked, *growing)
-    # Both halves of a symmetric tank share mesh and space.
-    space = field.parts[0].pencil.liquid
-    functions = as_functions(space, [mode.potential for mode in modes])
-    liquid = sample_liquid(space, functions)
-    traces = [(level, sample_level(tank, level, space, functions)) for level in wave_levels(tank)]
-    if liquid is None:
+    tank, field = solution.tank, solution.field
+    growing = sorted(
+        zip(solution.modes.growing, field.growing_parts, strict=True), key=lambda found: found[0].eigenvalue
+    )
+    modes = [*solution.asked, *(mode for mode, _ in growing)]
+    parities = [field.parity(index) for index in range(len(solution.asked))]
+    parities += [field.parts[part].parity for _, part in growing]
+    sampled = _sampled(solution, modes, parities)
+    if sampled is None:
         return None
-    levels = [(level, trace) for level, trace in traces if trace is not None]
-    if field.half:
-        signs = np.array([1.0 if parity == "symmetric" else -1.0 for parity in _parities(solution)])
-        liquid = _mirrored_liquid(liquid, signs)
-        levels = [(level, _mirrored_trace(trace, signs)) for level, trace in levels]
+    liquid, levels = sampled
     units = solution.units
     length, root_density = units.length, np.sqrt(units.density)
     # Generalized mass 1 in units of the tank is ρL⁴ for a displacement of L: divide by its root.
@@ -90,7 +88,7 @@ def sample_shapes(solution: TankSolution) -> ModeShapes | None:
         liquid=liquid,
         curves=tuple(curves),
         floats=tuple(floats),
-        growth_rates=tuple(solution.omega(-mode.eigenvalue) for mode in growing),
+        growing=len(growing),
         length=length,
         depths=tuple(layer.depth for layer in solution.scene.layers),
         densities=tuple(layer.density for layer in solution.scene.layers),
@@ -102,11 +100,22 @@ def sample_shapes(solution: TankSolution) -> ModeShapes | None:
     )
 
 
-def _parities(solution: TankSolution) -> Iterator[Parity | None]:
-    """Symmetry of the modes asked for, then of those that grow."""
-    field = solution.field
-    yield from (field.parity(index) for index in range(len(solution.asked)))
-    yield from (part.parity for part in field.parts for _ in part.modes.growing)
+def _sampled(
+    solution: TankSolution, modes: list[Mode], parities: list[Parity | None]
+) -> tuple[LiquidSample, list[tuple[StillLevel, SurfaceTrace]]] | None:
+    """Modes in the whole liquids and along the levels that move, in units of the tank (collective)."""
+    # Both halves of a symmetric tank share mesh and space.
+    space = solution.field.parts[0].pencil.liquid
+    functions = as_functions(space, [mode.potential for mode in modes])
+    liquid = sample_liquid(space, functions)
+    traces = [(level, sample_level(solution.tank, level, space, functions)) for level in wave_levels(solution.tank)]
+    if liquid is None:
+        return None
+    levels = [(level, trace) for level, trace in traces if trace is not None]
+    if not solution.field.half:
+        return liquid, levels
+    signs = np.array([1.0 if parity == "symmetric" else -1.0 for parity in parities])
+    return _mirrored_liquid(liquid, signs), [(level, _mirrored_trace(trace, signs)) for level, trace in levels]
 
 
 def _mirrored_liquid(half: LiquidSample, signs: np.ndarray) -> LiquidSample:
@@ -153,15 +162,16 @@ def mode_title(number: int, mode: Summary) -> str:
     return f"Mode {number}: ω = {mode['omega']:.6g} rad/s, {mode['frequency_hz']:.4g} Hz, {mode['kind']}{share}"
 
 
-def growing_title(number: int, rate: float) -> str:
+def growing_title(number: int, mode: Summary) -> str:
     """Title of a growing mode's picture."""
-    return f"Growing mode {number}: σ = {rate:.6g} 1/s, doubles in {np.log(2.0) / rate:.4g} s"
+    rate = mode["growth_rate"]
+    return f"Growing mode {number}: σ = {rate:.6g} 1/s, doubles in {np.log(2.0) / rate:.4g} s, {mode['kind']}"
 
 
 def pictures(shapes: ModeShapes, summary: Summary) -> list[ModePicture]:
     """One picture for each mode, those that grow last."""
     titles = [mode_title(number, mode) for number, mode in enumerate(summary["modes"], 1)]
-    titles += [growing_title(number, rate) for number, rate in enumerate(shapes.growth_rates, 1)]
+    titles += [growing_title(number, mode) for number, mode in enumerate(summary["growing"], 1)]
     two = len(shapes.depths) > 1
     return [
         ModePicture(
@@ -184,9 +194,8 @@ def pictures(shapes: ModeShapes, summary: Summary) -> list[ModePicture]:
 
 def mode_names(shapes: ModeShapes) -> list[str]:
     """Names of the modes in files: numbers from 1, and growing_ before those that grow."""
-    oscillating = len(shapes.curves) - len(shapes.growth_rates)
-    names = [f"{number + 1:03d}" for number in range(oscillating)]
-    return names + [f"growing_{number + 1:03d}" for number in range(len(shapes.growth_rates))]
+    names = [f"{number + 1:03d}" for number in range(len(shapes.curves) - shapes.growing)]
+    return names + [f"growing_{number + 1:03d}" for number in range(shapes.growing)]
 
 
 def draw_all(shapes: ModeShapes, summary: Summary, folder: Path) -> None:

@@ -16,20 +16,21 @@ from dataclasses import dataclass, replace
 
 from mpi4py import MPI
 
+from hydroelastic.fem.liquid import compile_form
 from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.spectral_error import LOWEST_DEGREE
 from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
-from hydroelastic.scenes.field_model import distributed_mesh
+from hydroelastic.scenes.field_model import build_mesh
 from hydroelastic.scenes.field_solution import Stopwatch, solve_field
 from hydroelastic.scenes.models import TankScene
-from hydroelastic.scenes.plan import HIGHEST_DEGREE
+from hydroelastic.scenes.plan import HIGHEST_DEGREE, initial_resolution
 from hydroelastic.scenes.scaled_tank import scaled_tank
 from hydroelastic.scenes.solve import Report
 from hydroelastic.scenes.study_plan import StudyPlan
 from hydroelastic.scenes.study_rates import Gain, Rate, fitted_gain, fitted_rates
 from hydroelastic.scenes.study_reference import Reference, finest_resolution, reference_of
 from hydroelastic.scenes.study_rows import StudiedTank, StudyRow
-from hydroelastic.scenes.study_series import SERIES, nested_meshes
+from hydroelastic.scenes.study_series import SERIES
 from hydroelastic.scenes.symmetry import is_mirror_image
 
 
@@ -110,8 +111,8 @@ def _study(scene: TankScene, plan: StudyPlan, report: Report) -> Study:
         reference=studied.reference,
         halves=half,
         rows=tuple(rows),
-        rates=fitted_rates(scene, rows),
-        gain=fitted_gain(scene, rows),
+        rates=fitted_rates(scene, rows, studied.reference.parities),
+        gain=fitted_gain(scene, rows, studied.reference.parities),
     )
 
 
@@ -124,8 +125,11 @@ def _compile_forms(studied: StudiedTank, plan: StudyPlan) -> None:
         "tolerance": tuple(range(LOWEST_DEGREE, HIGHEST_DEGREE + 1)),
     }
     degrees = {degree for family in plan.families for degree in needed[family]}
-    meshes = nested_meshes(studied)
-    mesh = distributed_mesh(MPI.COMM_WORLD, lambda: meshes.mesh(0))
+    coarse = initial_resolution(studied.scene, modes=1)
     for degree in sorted(degrees):
-        resolution = replace(studied.finest, degree=degree)
+        resolution = replace(coarse, degree=degree)
+        # Cells at curved contours are of the same degree, and have a form of their own.
+        mesh = build_mesh(MPI.COMM_WORLD, studied.tank, resolution, half=studied.half)
         solve_field(mesh, studied.tank, resolution, 1, Stopwatch(), half=studied.half)
+        if len(studied.tank.layers) > 1:
+            compile_form(mesh, degree, glued=True)

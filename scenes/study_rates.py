@@ -117,7 +117,7 @@ def _rate(
     scene: TankScene, family: Family, degree: int, symmetry: Parity | None, mode: int, meshes: list[StudyRow]
 ) -> Rate:
     sizes = [row.element_size for row in meshes]
-    slope, deviation = _fit(np.log(sizes), np.log([abs(row.errors[mode]) for row in meshes]))
+    slope, deviation = fitted_slope(np.log(sizes), np.log([abs(row.errors[mode]) for row in meshes]))
     grading = meshes[-1].grading or 1.0
     return Rate(
         family=family,
@@ -143,7 +143,7 @@ def fitted_gain(scene: TankScene, rows: Sequence[StudyRow], parities: Sequence[P
     mode, fitted = used
     degrees = [row.degree for row in fitted]
     x = np.array(degrees, dtype=float)
-    slope, deviation = _fit(x, np.log([abs(row.errors[mode]) for row in fitted]))
+    slope, deviation = fitted_slope(x, np.log([abs(row.errors[mode]) for row in fitted]))
     left = expected_remainders(scene, degrees, symmetry)
     return Gain(
         degrees=tuple(degrees),
@@ -151,7 +151,7 @@ def fitted_gain(scene: TankScene, rows: Sequence[StudyRow], parities: Sequence[P
         mode=mode + 1,
         observed=exp(-slope),
         deviation=deviation,
-        expected=None if left is None else exp(-_fit(x, np.log(left))[0]),
+        expected=None if left is None else exp(-fitted_slope(x, np.log(left))[0]),
         along_a_ray=gain_along_a_ray(Grading.ring_ratio),
     )
 
@@ -177,7 +177,7 @@ def _asymptotic(series: list[StudyRow], modes: list[int]) -> tuple[int, list[Stu
     return None if best is None else best[1:]
 
 
-def _fit(x: np.ndarray, y: np.ndarray) -> tuple[float, float]:
+def fitted_slope(x: np.ndarray, y: np.ndarray) -> tuple[float, float]:
     """Slope of the straight line of least squares through three points or more, and its standard error."""
     slope, start = np.polyfit(x, y, 1)
     misfit = y - start - slope * x

@@ -130,7 +130,7 @@ def slit_in_two_liquids() -> Outline:
             Region(name="upper", loop=((8, True), (12, True), (13, True), (5, True), (6, True))),
             Region(name="upper", loop=((9, True), (3, True), (4, True), (13, False), (12, False))),
         ),
-        corners=tuple(Corner(point=point, inner=np.inf, outer=0.1) for point in (low, middle, high)),
+        corners=tuple(Corner(point=point, inner=np.inf, outer=0.09) for point in (low, middle, high)),
     )
 
 

@@ -155,4 +155,5 @@ def _arc_points(arc: Arc) -> Array:
     edges = np.array([0.0, *arc.knots, 1.0])
     steps = max(_ARC_POINTS // (len(edges) - 1), 4)
     at: Array = np.unique(np.linspace(edges[:-1], edges[1:], steps + 1))
-    return arc.point(at)
+    points: Array = np.asarray(arc.point(at), dtype=np.float64)
+    return points

@@ -2,8 +2,8 @@
 
     ./hydro python results/regenerate.py [SCENE ...]
 
-Each scene keeps its tables, the sheet of all its modes and the pictures of its first elastic tone and of heave; fields stay out, they
-are large and one command away. Studies of error against cost are made of the scenes in `STUDIED`.
+Each scene keeps its tables, the sheet of all its modes and the pictures of its first elastic tone and of heave; fields
+stay out, they are large and one command away. Studies of error against cost are made of the scenes in `STUDIED`.
 """
 
 from __future__ import annotations

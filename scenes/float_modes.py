@@ -102,15 +102,17 @@ def float_modes(
         limit = motion.stiffness / (motion.mass + more)
         certain = complete or bool(modes.eigenvalues[-1] >= _FAR_ENOUGH * limit)
         expected = number >= len(searched) or searched[number]
-        missing = not certain and not expected
+        reason = ""
+        if not np.any(moved):
+            reason = "the volume of the liquid holds it"
+        elif not certain and not expected:
+            reason = f"more than {MOST_MODES_TO_TONE} modes lie below it, and it was not searched for"
         found.append(
             FloatMode(
                 body=motion.body,
                 motion=motion.label,
-                index=None if missing else int(order[0]),
-                reason=f"more than {MOST_MODES_TO_TONE} modes lie below it, and it was not searched for"
-                if missing
-                else "",
+                index=None if reason else int(order[0]),
+                reason=reason,
                 modal_mass=_inverse(moved[order[0]]),
                 runner_up=_inverse(moved[order[1]]) if len(moved) > 1 else np.inf,
                 certain=certain,

@@ -117,6 +117,8 @@ def mode_lines(summary: Summary) -> list[str]:
         largest = max(abs(row["difference"]) for row in summary["exact"])
         formula = summary["exact"][0]["formula"]
         lines.append(f"{formula}: the largest relative difference to this exact solution is {largest:.1e}.")
+    if summary["status"] == "ok" and len(summary["modes"]) < summary["scene"]["accuracy"]["modes"]:
+        lines.append("There are no more modes than these.")
     if summary["zero_modes"]:
         lines.append(f"{summary['zero_modes']} rigid motion(s) without stiffness (ω = 0) not listed.")
     return lines

@@ -105,7 +105,8 @@ def draw_colour_bar(page: Page, picture: ModePicture, unit: float, *, centre: fl
     exponent = 0 if -3 <= exponent <= 3 else exponent
     shown = limit / 10.0**exponent
     power = "" if exponent == 0 else f"10{str(exponent).translate(_SUPERSCRIPT)} "
-    label = f"{name} ({power}{_UNITS[name]}, unit generalized mass)"
+    meaning = f"{name} ∝ dynamic pressure" if picture.has_two_liquids else name
+    label = f"{meaning} ({power}{_UNITS[name]}, unit generalized mass)"
     width, height, gap = 640 * unit, 20 * unit, 40 * unit
     left = centre - 0.5 * (width + gap + page.text_width(label, 21 * unit))
     colours = mode_colours()

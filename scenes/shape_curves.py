@@ -151,9 +151,8 @@ def contour_points(contour: Contour) -> Array:
     return np.concatenate([_arc_points(arc)[:-1] for arc in contour.arcs])
 
 
-def _arc_points(arc: Arc) -> Array:
+def _arc_points(arc: Arc) -> np.ndarray:
     edges = np.array([0.0, *arc.knots, 1.0])
     steps = max(_ARC_POINTS // (len(edges) - 1), 4)
-    at: Array = np.unique(np.linspace(edges[:-1], edges[1:], steps + 1))
-    points: Array = np.asarray(arc.point(at), dtype=np.float64)
-    return points
+    at = np.unique(np.linspace(edges[:-1], edges[1:], steps + 1))
+    return arc.point(at)

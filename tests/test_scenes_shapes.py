@@ -86,15 +86,15 @@ def test_the_interface_makes_room_for_the_float(tanks: Any, boundary: Any, halve
 
 
 def test_halves_give_the_floats_and_surfaces_of_the_whole_tank(tanks: Any) -> None:
-    asked = scene(Float(**BOX, **ALL, position=5.0), modes=5, tolerance=1e-10)
+    asked = scene(Float(**BOX, **ALL, position=5.0), tolerance=1e-9)
     one, other = tanks.solve(asked), tanks.solve(asked, halves=False)
     assert (one.field.half, other.field.half) == (True, False)
     mine, theirs = sample(one), sample(other)
-    for number in range(5):
+    for number in range(4):
         (section,), (expected,) = mine.floats[number], theirs.floats[number]
         size = np.abs(expected.displacement).max()
         assert section.contour == pytest.approx(expected.contour, abs=1e-12)
-        # Amplitudes err like the frequencies, 1e-10; measured 1e-11.
+        # Amplitudes err like the frequencies, 1e-9; measured 1e-10.
         assert section.displacement == pytest.approx(expected.displacement, abs=1e-8 * size)
         for curve, same in zip(mine.curves[number], theirs.curves[number], strict=True):
             assert (curve.kind, curve.level) == (same.kind, same.level)

@@ -1,9 +1,9 @@
-"""Series of meshes that differ in element size alone: every triangle cut into four, and nodes drawn towards the tips.
+"""Series of meshes that differ in element size alone: every triangle cut into four, and nodes drawn towards corners.
 
-A series starts from elements of one size, with one fan of triangles around each tip. After k halvings a fan of radius
-R holds n = 2ᵏ rings of equal width; drawing its nodes to the tip,
+A series starts from elements of one size, with one fan of triangles around each corner. After k halvings a fan of
+radius R holds n = 2ᵏ rings of equal width; drawing its nodes to the corner,
 
-    x − x_tip  →  t^{β−1} (x − x_tip),        t = 0 at the tip, 1 on the fan's outer edges,
+    x − x_corner  →  t^{β−1} (x − x_corner),        t = 0 at the corner, 1 on the fan's outer edges,
 
 gives the algebraically graded rings r_i = R (i/n)^β: elements of size ~ β (r/R)^{1−1/β} R/n. Source: Babuška, Kellogg
 and Pitkäranta, Numer. Math. 33 (1979) 447; theory of the aquarium, docs, § 5.
@@ -11,69 +11,100 @@ and Pitkäranta, Numer. Math. 33 (1979) 447; theory of the aquarium, docs, § 5.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
 
+from hydroelastic.meshes.build import build_mesh
 from hydroelastic.meshes.edges import edges_of
 from hydroelastic.meshes.geometry import TankGeometry
-from hydroelastic.meshes.grading import Grading, TipRings, tip_rings
+from hydroelastic.meshes.grading import Grading, tip_rings
+from hydroelastic.meshes.outline import Corner, Outline, Point
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 from hydroelastic.meshes.tank import build_tank_mesh
+
+# Nodes on the outer edges of a fan are at t = 1 but for rounding.
+_AT_EDGE = 1e-9
 
 
 @dataclass(frozen=True, kw_only=True)
 class NestedMeshes:
-    """The meshes of one tank.
+    """The meshes of one domain with straight boundaries.
 
     Attributes:
-        geometry: the tank.
-        size: largest element at the top in the first mesh, in the geometry's unit of length.
-        bulk_size: largest element anywhere in the first mesh.
+        make: makes the first mesh, of straight triangles: those at a corner are its fan.
+        corners: the corners, each with the radius of its fan, or a larger one, as the outer one; no two fans touch.
     """
 
-    geometry: TankGeometry
-    size: float
-    bulk_size: float
+    make: Callable[[], TaggedMesh]
+    corners: tuple[Corner, ...]
 
-    @property
-    def fans(self) -> tuple[TipRings, ...]:
-        """The fan of triangles around each tip in the first mesh."""
-        return tip_rings(self.geometry, self._grading)
-
-    def mesh(self, halvings: int, exponent: float = 1.0) -> TaggedMesh:
+    def mesh(self, halvings: int, exponents: tuple[float, ...] | None = None) -> TaggedMesh:
         """One mesh of the series, on the calling process only.
 
         Args:
             halvings: how often all elements of the first mesh are halved.
-            exponent: β ≥ 1; 1 leaves the mesh uniform. Whatever it is, the mesh has the same triangles.
+            exponents: β ≥ 1 of each corner; ``None`` leaves the mesh uniform. Whatever they are, the mesh has the same
+                triangles.
 
         Raises:
-            MeshError: if gmsh fails.
+            MeshError: if gmsh fails, or if cells are curved.
         """
-        mesh = build_tank_mesh(self.geometry, self._grading)
+        first = self.make()
+        mesh = first
         for _ in range(halvings):
             mesh = halved(mesh)
-        for fan in self.fans:
-            mesh = replace(mesh, points=_drawn(mesh.points, fan, exponent))
+        for corner, exponent in zip(self.corners, exponents or (), strict=exponents is not None):
+            mesh = replace(mesh, points=_drawn(mesh, first, corner.point, exponent))
         return mesh
 
-    def innermost_ring(self, halvings: int, exponent: float) -> float:
-        """Radius of the smallest ring of a mesh; infinite without tips."""
-        radius = min((float(fan.radii[0]) for fan in self.fans), default=inf)
-        return radius * 2.0 ** (-halvings * exponent)
+    def innermost_ring(self, halvings: int, exponents: tuple[float, ...] | None = None) -> float:
+        """Radius of the smallest ring of a mesh, or a little more; infinite without corners."""
+        powers = exponents or (1.0,) * len(self.corners)
+        return min(
+            (
+                corner.outer * 2.0 ** (-halvings * exponent)
+                for corner, exponent in zip(self.corners, powers, strict=True)
+            ),
+            default=inf,
+        )
 
-    @property
-    def _grading(self) -> Grading:
-        # No ring is to be smaller than this: there is one.
-        sizes = (self.size,) * len(self.geometry.segments)
-        return Grading(surface_sizes=sizes, bulk_size=self.bulk_size, tip_size=inf)
+
+def rectangle_meshes(geometry: TankGeometry, *, size: float, bulk_size: float) -> NestedMeshes:
+    """The meshes of a tank of one liquid without floats.
+
+    Args:
+        geometry: the tank.
+        size: largest element at the top in the first mesh, in the geometry's unit of length.
+        bulk_size: largest element anywhere in the first mesh.
+    """
+    # No ring is to be smaller than this: there is one.
+    grading = Grading(surface_sizes=(size,) * len(geometry.segments), bulk_size=bulk_size, tip_size=inf)
+    corners = tuple(
+        Corner(point=(ring.centre, 0.0), inner=inf, outer=float(ring.radii[-1]))
+        for ring in tip_rings(geometry, grading)
+    )
+    return NestedMeshes(make=partial(build_tank_mesh, geometry, grading), corners=corners)
+
+
+def outline_meshes(outline: Outline, *, bulk_size: float) -> NestedMeshes:
+    """The meshes of an outline of straight curves with their sizes, cut open where it says so.
+
+    Args:
+        outline: the domain; its corners have one ring each.
+        bulk_size: largest element anywhere in the first mesh.
+    """
+    return NestedMeshes(make=partial(build_mesh, outline, bulk_size=bulk_size), corners=outline.corners)
 
 
 def halved(mesh: TaggedMesh) -> TaggedMesh:
-    """Cut every straight triangle into four of half its size.
+    """Cut every straight triangle into four of half its size, one after the other in place of their parent.
+
+    A mesh that is cut open stays so: edges on both sides of a cut have nodes of their own.
 
     Raises:
         MeshError: if cells are curved.
@@ -98,18 +129,25 @@ def halved(mesh: TaggedMesh) -> TaggedMesh:
     )
 
 
-def _drawn(points: NDArray[np.float64], fan: TipRings, exponent: float) -> NDArray[np.float64]:
-    """Draw the nodes of a tip's fan of one ring towards the tip; all others stay."""
-    tip = np.array([fan.centre, 0.0])
-    away = points - tip
-    radius = np.linalg.norm(away, axis=1)
-    angle = np.arctan2(np.abs(away[:, 1]), away[:, 0])
-    # The outer edge of a sector is a chord: t is the distance along the sector's middle over that of the chord.
-    half = 0.5 * (fan.angles[1] - fan.angles[0])
-    sector = np.clip(((angle - fan.angles[0]) / (2.0 * half)).astype(int), 0, len(fan.angles) - 2)
-    middle = fan.angles[0] + half * (2 * sector + 1)
-    t = radius * np.cos(angle - middle) / (fan.radii[-1] * np.cos(half))
-    # The tip itself has no direction, and nodes of the outer edge are at 1 but for rounding.
-    factor = np.where((t > 0.0) & (t < 1.0 - 1e-9), np.abs(t), 1.0) ** (exponent - 1.0)
-    drawn: NDArray[np.float64] = tip + factor[:, None] * away
-    return drawn
+def _drawn(mesh: TaggedMesh, first: TaggedMesh, corner: Point, exponent: float) -> NDArray[np.float64]:
+    """Draw the nodes of a corner's fan towards the corner; all others stay.
+
+    t is the sum of a node's barycentric coordinates at the outer edge of the fan's triangle of the first mesh in which
+    it lies.
+    """
+    place = np.array(corner)
+    at_corner = np.all(first.points[first.cells] == place, axis=2)
+    fan = np.flatnonzero(at_corner.any(axis=1))
+    if not len(fan):
+        raise MeshError(f"no triangle of the first mesh is at the corner ({corner[0]:g}, {corner[1]:g})")
+    tip = np.argmax(at_corner[fan], axis=1)
+    others = (tip[:, None] + [1, 2]) % 3
+    outer = first.points[np.take_along_axis(first.cells[fan], others, axis=1)] - place
+    # Children follow each other in place of their parent.
+    within = mesh.cells.reshape(len(first.cells), -1)[fan]
+    away = mesh.points[within] - place
+    t = np.einsum("fnx,fxk->fn", away, np.linalg.inv(outer))
+    points = mesh.points.copy()
+    inside = (t > 0.0) & (t < 1.0 - _AT_EDGE)
+    points[within[inside]] = place + t[inside, None] ** (exponent - 1.0) * away[inside]
+    return points

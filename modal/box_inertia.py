@@ -79,8 +79,8 @@ def liquid_inertia(profile: Profile, layers: TwoLayers, tank_length: float, wave
 def layer_inertia(profile: Profile, depth: float) -> float:
     """Return J_j = ∬ ω'ω' ln|tan(π(y + y')/4h_j)/tan(π(y − y')/4h_j)| dy dy' over one half of the section, m².
 
-    It is J and the effect of a bottom (or lid) at h_j, of a tank without walls; it grows without limit, like a
-    logarithm, where the end comes near the bottom.
+    It is J and the effect of a bottom (or lid) at h_j, of a tank without walls. Where the end comes near the bottom the
+    integrand is nearly singular, the integral finite.
 
     Args:
         profile: the section, extent < h_j.
@@ -107,7 +107,8 @@ def _wall_inertia(profile: Profile, depth: float, tank_length: float) -> float:
     count = math.ceil(LARGE_ARGUMENT * depth / (math.pi * tank_length)) + 1
     rate = (np.arange(count) + 0.5) * math.pi / depth
     moment = profile.half_width * sine_moment(profile, rate * profile.half_height)
-    return float(4 / depth * np.sum(moment**2 / (rate * np.expm1(rate * tank_length))))
+    decay = np.exp(-rate * tank_length)
+    return float(4 / depth * np.sum(moment**2 / rate * decay / (1 - decay)))
 
 
 def _liquids(layers: TwoLayers) -> list[tuple[float, float]]:

@@ -14,12 +14,14 @@ from hydroelastic.modal.dry_modes import FloatArray
 from hydroelastic.modal.estimate import NoEstimateError
 from hydroelastic.modal.float_in_tank import FloatInTank
 from hydroelastic.modal.float_profiles import Profile
+from hydroelastic.modal.thin_float import thin_float_added_mass
 from hydroelastic.modal.thin_shapes import LARGE_ARGUMENT, check_pointed, wave_moment_series
 from hydroelastic.modal.two_layer import interface_frequencies
 
 _TAIL_RATIO = 8
 _TAIL_TERMS = 18
 _LEAST_WAVES = 64
+_FEWEST_MODES = 16
 _MOST_WAVES = 1_000_000
 _MOST_MODES = 4096
 _MARGIN = 1e-6
@@ -94,15 +96,15 @@ def float_mode(body: FloatInTank, *, volume_term: bool = True) -> FloatMode:
 
     Arguments and errors as in `box_modes`.
     """
-    count = 16
+    count = _FEWEST_MODES + _waves_below_resonance(body)
     while True:
         modes = box_modes(body, count, volume_term=volume_term)
         index = int(np.argmax(modes.participation))
         if modes.participation[index] >= 1 - modes.participation.sum():
             break
-        count *= 2
-        if count > _MOST_MODES:
+        if count >= _MOST_MODES:
             raise NoEstimateError(f"heave is spread over more than {_MOST_MODES} modes")
+        count *= 2
     return FloatMode(
         omega=float(modes.omega[index]),
         index=index + 1,
@@ -159,8 +161,7 @@ def _secular(body: FloatInTank, count: int, volume_term: bool) -> _Secular:
     (sigma,) = interface_frequencies(layers, k).values()
     scale = 8 / length * restoring
     rise = scale / 2 * profile.half_width**2 if volume_term else 0.0
-    # Of short waves σ² = g* k.
-    spacing = 2 * math.pi / length * restoring / (layers.density_below + layers.density_above)
+    spacing = _spacing(body)
     tail = _tail_series(profile, waves, k[-1] * profile.half_height)
     return _Secular(
         stiffness=body.stiffness + rise,
@@ -170,6 +171,21 @@ def _secular(body: FloatInTank, count: int, volume_term: bool) -> _Secular:
         tail=scale * profile.half_width**2 / spacing * tail,
         spacing=spacing,
     )
+
+
+def _spacing(body: FloatInTank) -> float:
+    """Return the distance of σ² of neighbouring short waves, for which σ² = g* k."""
+    layers = body.layers
+    density_ratio = (layers.density_below - layers.density_above) / (layers.density_below + layers.density_above)
+    return 2 * math.pi / body.tank_length * layers.gravity * density_ratio
+
+
+def _waves_below_resonance(body: FloatInTank) -> int:
+    """Return about how many waves are slower than the float without walls and waves, at most `_MOST_MODES`."""
+    layers = body.layers
+    added_mass = thin_float_added_mass(_thin_section(body), layers.density_below, layers.density_above)
+    number = body.stiffness / (body.mass + added_mass) / _spacing(body)
+    return min(math.ceil(number), _MOST_MODES)
 
 
 def _thin_section(body: FloatInTank) -> Profile:

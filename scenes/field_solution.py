@@ -198,7 +198,8 @@ def _solved_parts(pencils: tuple[CoupledPencil, ...], parities: tuple[Parity | N
 
 def _rounding_limit(parts: list[Part]) -> float:
     """The λ beyond which the lowest mode of all parts hides others: what one part still sees the other may not."""
-    return float(min(part.modes.eigenvalues[0] for part in parts)) / HIDDEN
+    lowest = (float(part.modes.eigenvalues[0]) for part in parts if len(part.modes.eigenvalues))
+    return min(lowest, default=np.inf) / HIDDEN
 
 
 def _merged(mesh: TankMesh, tank: ScaledTank, resolution: Resolution, parts: list[Part], count: int) -> FieldSolution:

@@ -70,14 +70,12 @@ class ScaledFloat:
 
     @property
     def kinks(self) -> tuple[tuple[float, float], ...]:
-        """Points of a slit, beside its ends and the still level, where the flux jumps: the widest of a pointed shape."""
+        """Points of a slit, beside its ends and the still level, where the flux jumps: the widest of pointed shapes."""
         if self.profile is None or self.profile.shape not in ("wedge", "exponential"):
             return ()
         low, high = self.slit
-        above = self.reference_level > self.level
-        inside = (above and self.wet_above) or self.reference_level < self.level
-        near = _ROUNDING * (high - low)
-        if not inside or abs(self.reference_level - self.level) <= near:
+        height = self.reference_level - self.level
+        if abs(height) <= _ROUNDING * (high - low) or (height > 0.0 and not self.wet_above):
             return ()
         return ((self.waterplane[0], self.reference_level),)
 

@@ -12,24 +12,27 @@ See docs, studies.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from mpi4py import MPI
 
+from hydroelastic.fem.liquid import compile_form
 from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.spectral_error import LOWEST_DEGREE
 from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
-from hydroelastic.scenes.field_model import distributed_mesh
+from hydroelastic.scenes.field_model import build_mesh
 from hydroelastic.scenes.field_solution import Stopwatch, solve_field
 from hydroelastic.scenes.models import TankScene
-from hydroelastic.scenes.plan import HIGHEST_DEGREE
+from hydroelastic.scenes.plan import HIGHEST_DEGREE, initial_resolution
 from hydroelastic.scenes.scaled_tank import scaled_tank
 from hydroelastic.scenes.solve import Report
-from hydroelastic.scenes.study_plan import StudyPlan
+from hydroelastic.scenes.study_plan import Family, StudyPlan
 from hydroelastic.scenes.study_rates import Gain, Rate, fitted_gain, fitted_rates
 from hydroelastic.scenes.study_reference import Reference, finest_resolution, reference_of
 from hydroelastic.scenes.study_rows import StudiedTank, StudyRow
-from hydroelastic.scenes.study_series import SERIES, nested_meshes
+from hydroelastic.scenes.study_series import SERIES
+from hydroelastic.scenes.study_thinness import ThinnessRow, check_thinness, thinness_rows
 from hydroelastic.scenes.symmetry import is_mirror_image
 
 
@@ -40,20 +43,22 @@ class Study:
     Attributes:
         scene: the scene.
         plan: what was asked.
-        reference: what the errors are measured against.
+        reference: what the errors are measured against; ``None`` if the plan asks for none.
         halves: whether every row solved the tank as two halves.
         rows: all solutions, in the plan's order.
         rates: one for each degree on uniform and algebraic meshes that has enough meshes above rounding.
         gain: what a degree brings on geometric rings; ``None`` if too few degrees show it.
+        thinness: both boundaries of a float, from its own width on; empty unless asked for.
     """
 
     scene: TankScene
     plan: StudyPlan
-    reference: Reference
+    reference: Reference | None = None
     halves: bool
-    rows: tuple[StudyRow, ...]
-    rates: tuple[Rate, ...]
-    gain: Gain | None
+    rows: tuple[StudyRow, ...] = ()
+    rates: tuple[Rate, ...] = ()
+    gain: Gain | None = None
+    thinness: tuple[ThinnessRow, ...] = ()
 
     @property
     def reasons(self) -> tuple[str, ...]:
@@ -73,7 +78,7 @@ def study_scene(scene: TankScene, plan: StudyPlan | None = None, *, report: Repo
         The rows and the rates they show.
 
     Raises:
-        SceneError: if the scene brings a mesh of its own.
+        SceneError: if the scene brings a mesh of its own, or has no float for the thinness that is asked for.
         UnsolvedError: if the eigen-solver fails.
     """
     if scene.mesh is not None:
@@ -89,6 +94,9 @@ def study_scene(scene: TankScene, plan: StudyPlan | None = None, *, report: Repo
 def _study(scene: TankScene, plan: StudyPlan, report: Report) -> Study:
     tank = scaled_tank(scene)
     half = is_mirror_image(tank)
+    thinness = tuple(_thinness(scene, plan, report))
+    if not any(family in SERIES for family in plan.families):
+        return Study(scene=scene, plan=plan, halves=half, thinness=thinness)
     report("reference solution")
     studied = StudiedTank(
         scene=scene,
@@ -100,8 +108,8 @@ def _study(scene: TankScene, plan: StudyPlan, report: Report) -> Study:
     report("forms")
     _compile_forms(studied, plan)
     rows = []
-    for family in plan.families:
-        for row in SERIES[family](studied, plan):
+    for family, series in SERIES.items():
+        for row in series(studied, plan) if family in plan.families else ():
             report(f"{family}, degree {row.degree}: {row.unknowns} unknowns, error {row.error:.1e}")
             rows.append(row)
     return Study(
@@ -110,22 +118,35 @@ def _study(scene: TankScene, plan: StudyPlan, report: Report) -> Study:
         reference=studied.reference,
         halves=half,
         rows=tuple(rows),
-        rates=fitted_rates(scene, rows),
-        gain=fitted_gain(scene, rows),
+        rates=fitted_rates(scene, rows, studied.reference.parities),
+        gain=fitted_gain(scene, rows, studied.reference.parities),
+        thinness=thinness,
     )
+
+
+def _thinness(scene: TankScene, plan: StudyPlan, report: Report) -> Iterator[ThinnessRow]:
+    if "thinness" not in plan.families:
+        return
+    check_thinness(scene)
+    for row in thinness_rows(scene, plan.width_halvings):
+        report(f"thinness, half width {row.half_width:.3g} m")
+        yield row
 
 
 def _compile_forms(studied: StudiedTank, plan: StudyPlan) -> None:
     """Solve once with each degree that may be needed: a study measures solving, not the compiler."""
-    needed = {
+    needed: dict[Family, tuple[int, ...]] = {
         "uniform": plan.degrees,
         "algebraic": plan.degrees,
         "geometric": plan.geometric_degrees,
         "tolerance": tuple(range(LOWEST_DEGREE, HIGHEST_DEGREE + 1)),
     }
-    degrees = {degree for family in plan.families for degree in needed[family]}
-    meshes = nested_meshes(studied)
-    mesh = distributed_mesh(MPI.COMM_WORLD, lambda: meshes.mesh(0))
+    degrees = {degree for family in plan.families if family in needed for degree in needed[family]}
+    coarse = initial_resolution(studied.scene, modes=1)
     for degree in sorted(degrees):
-        resolution = replace(studied.finest, degree=degree)
+        resolution = replace(coarse, degree=degree)
+        # Cells at curved contours are of the same degree, and have a form of their own.
+        mesh = build_mesh(MPI.COMM_WORLD, studied.tank, resolution, half=studied.half)
         solve_field(mesh, studied.tank, resolution, 1, Stopwatch(), half=studied.half)
+        if len(studied.tank.layers) > 1:
+            compile_form(mesh, degree, glued=True)

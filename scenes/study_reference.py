@@ -15,6 +15,7 @@ from hydroelastic.scenes.models import Accuracy, TankScene
 from hydroelastic.scenes.plan import Resolution, initial_resolution
 from hydroelastic.scenes.scaled_tank import ScaledTank
 from hydroelastic.scenes.scaling import scales
+from hydroelastic.scenes.symmetry import Parity
 
 # No row of a study asks for this; dry modes, rings and elements of all of them come from it.
 _STRICTEST = 1e-11
@@ -35,11 +36,13 @@ class Reference:
         name: formula, or what was solved.
         omega: the frequencies, rad/s, ascending.
         uncertainty: their estimated relative error; 0 for a formula.
+        parities: symmetry of each mode where the tank was solved as two halves; empty for a formula.
     """
 
     name: str
     omega: np.ndarray
     uncertainty: float
+    parities: tuple[Parity | None, ...] = ()
 
 
 def finest_resolution(scene: TankScene) -> Resolution:
@@ -71,4 +74,5 @@ def _solved(scene: TankScene, tank: ScaledTank, resolution: Resolution, *, half:
         name=f"degree {resolution.degree} on geometric rings, {field.dofs} unknowns{dry_modes}",
         omega=np.sqrt(field.modes.eigenvalues) * scales(scene).frequency,
         uncertainty=float(errors.max()),
+        parities=tuple(field.parity(index) for index in indices),
     )

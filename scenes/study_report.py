@@ -5,20 +5,27 @@ from __future__ import annotations
 import csv
 import io
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import asdict
+from math import inf
 from pathlib import Path
 
 from rich import box
 from rich.console import Console
 from rich.table import Table
 
+from hydroelastic.scenes.models import TankScene
 from hydroelastic.scenes.output import SUMMARY, result_folder
+from hydroelastic.scenes.scaled_tank import scaled_tank
 from hydroelastic.scenes.study import Study
+from hydroelastic.scenes.study_corners import has_curved_contours, sharpest_of, symmetries_apart
 from hydroelastic.scenes.study_figure import draw_study
-from hydroelastic.scenes.study_plan import Family
+from hydroelastic.scenes.study_plan import ERROR_FAMILIES, Family
 from hydroelastic.scenes.study_rates import DIFFERENCE, GAIN_FACTOR, Gain
+from hydroelastic.scenes.study_reference import Reference
 from hydroelastic.scenes.study_rows import StudyRow
+from hydroelastic.scenes.study_thinness import fitted_thinness
+from hydroelastic.scenes.study_thinness_report import draw_thinness, print_thinness, thinness_csv
 
 STAGES = ("plan", "mesh", "forms", "assemble", "solve", "count", "errors", "pressure release")
 """Stages of a solution in their order; others that the solver may time follow them."""
@@ -31,6 +38,7 @@ TITLES: dict[Family, str] = {
     "algebraic": "The same meshes drawn towards the tips, rᵢ = R (i/n)^β",
     "geometric": "One mesh, with geometric rings around the tips of beams, degree by degree",
     "tolerance": "What the solver makes of an asked tolerance",
+    "thinness": "Thin against exact boundary, the float's width halved from one to the next",
 }
 
 Cell = Callable[[StudyRow], str]
@@ -59,9 +67,18 @@ _SHOWN: dict[Family, tuple[str, ...]] = {
 def study_table(study: Study) -> str:
     """All rows, family by family, and the observed rates beside those of theory, as text."""
     console = Console(file=io.StringIO(), width=_WIDTH, color_system=None, highlight=False)
+    if study.reference is not None:
+        _print_errors(console, study, study.reference)
+    if "thinness" in study.plan.families:
+        console.print(TITLES["thinness"], markup=False)
+        print_thinness(console, study.thinness)
+    text: str = console.file.getvalue()  # type: ignore[attr-defined]
+    return "\n".join(line.rstrip() for line in text.splitlines())
+
+
+def _print_errors(console: Console, study: Study, reference: Reference) -> None:
     modes = study.scene.accuracy.modes
-    uncertain = study.reference.uncertainty
-    certain = f", estimated error {uncertain:.1e}" if uncertain else ", exact"
+    certain = f", estimated error {reference.uncertainty:.1e}" if reference.uncertainty else ", exact"
     halves = (
         "The tank is its own mirror image: every row solves it as two halves, and counts the unknowns of both."
         if study.halves
@@ -69,21 +86,24 @@ def study_table(study: Study) -> str:
     )
     for line in (
         f"{study.scene.title or 'Untitled scene'}: error against cost",
-        f"Reference: {study.reference.name}{certain}.",
+        f"Reference: {reference.name}{certain}.",
         halves,
+        *_symmetry_lines(study.scene),
         f"error: largest relative error of {modes} frequencies; lowest: of the lowest; ratio: estimate over error.",
         "Seconds by stage, without compiling (ψ=0: the pressure-release tone); MB: highest resident memory, above what",
         "was held before.",
         "",
     ):
         console.print(line, markup=False)
-    for family in study.plan.families:
+    for family in ERROR_FAMILIES:
+        if family not in study.plan.families:
+            continue
         rows = [row for row in study.rows if row.family == family]
         console.print(TITLES[family], markup=False)
         if rows:
             console.print(_rows_table(family, rows))
         else:
-            console.print("  None: ψ is smooth, or no mesh has so few unknowns.\n", markup=False)
+            console.print(f"  None: {_why_none(study.scene, family)}.\n", markup=False)
     if study.rates:
         console.print("Orders q, error ~ (element size)^q, fitted to the finest three meshes above rounding")
         console.print(_rates_table(study))
@@ -91,8 +111,20 @@ def study_table(study: Study) -> str:
         console.print(_gain_line(study.gain), markup=False)
     if "tolerance" in study.plan.families:
         console.print(_tolerance_line(study), markup=False)
-    text: str = console.file.getvalue()  # type: ignore[attr-defined]
-    return "\n".join(line.rstrip() for line in text.splitlines())
+
+
+def _symmetry_lines(scene: TankScene) -> Iterator[str]:
+    """What the error over all modes follows where their orders differ."""
+    tank = scaled_tank(scene)
+    found = [f"{(sharpest_of(tank, parity) or inf):.3g} for {parity} modes" for parity in symmetries_apart(tank)]
+    if found:
+        yield f"At the worst corner ψ ~ r^α, α = {' and '.join(found)}: the error of all modes follows the smaller one."
+
+
+def _why_none(scene: TankScene, family: Family) -> str:
+    if family in ("uniform", "algebraic") and has_curved_contours(scaled_tank(scene)):
+        return "the contour of a float is curved, and these meshes are halved along straight boundaries only"
+    return "ψ is smooth, or no mesh has so few unknowns"
 
 
 def _rows_table(family: Family, rows: list[StudyRow]) -> Table:
@@ -122,16 +154,20 @@ def _ratio(row: StudyRow) -> str:
 
 def _rates_table(study: Study) -> Table:
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0))
-    for heading in ("meshes", "degree", "β", "observed", "expected", "mode", "elements/L", ""):
-        table.add_column(heading, justify="left" if heading in ("meshes", "elements/L", "") else "right", no_wrap=True)
+    # Where all modes have one order nothing is said of their symmetry.
+    apart = any(rate.symmetry for rate in study.rates)
+    for heading in ("meshes", "degree", "β", "observed", "expected", "mode", *["symmetry"] * apart, "elements/L", ""):
+        is_text = heading in ("meshes", "symmetry", "elements/L", "")
+        table.add_column(heading, justify="left" if is_text else "right", no_wrap=True)
     for rate in study.rates:
         table.add_row(
             rate.family,
             str(rate.degree),
             f"{rate.grading:g}",
             f"{rate.observed:.3f} ± {rate.deviation:.3f}",
-            f"{rate.expected:g}",
+            f"{rate.expected:.4g}",
             str(rate.mode),
+            *[rate.symmetry or ""] * apart,
             ", ".join(f"{size:.3g}" for size in rate.sizes),
             "" if rate.agrees else f"> {100 * DIFFERENCE:.0f} % off: not yet asymptotic",
         )
@@ -196,22 +232,35 @@ def write_study(study: Study, folder: Path) -> None:
         SceneError: if the folder cannot be written.
     """
     with result_folder(folder) as inside:
-        (inside / "study.csv").write_text(study_csv(study), encoding="utf-8")
         (inside / "study.txt").write_text(study_table(study) + "\n", encoding="utf-8")
-        draw_study(study, inside / "study.png")
+        if study.reference is not None:
+            (inside / "study.csv").write_text(study_csv(study), encoding="utf-8")
+            draw_study(study, inside / "study.png")
+        if study.thinness:
+            (inside / "thinness.csv").write_text(thinness_csv(study.thinness), encoding="utf-8")
+            draw_thinness(study.scene.title, study.thinness, inside / "thinness.png")
         summary = {
             "scene": study.scene.model_dump(mode="json"),
             "status": "unconverged" if study.reasons else "ok",
             "reasons": study.reasons,
             "plan": asdict(study.plan),
-            "reference": {
-                "name": study.reference.name,
-                "omega": study.reference.omega.tolist(),
-                "relative_error": study.reference.uncertainty,
-            },
+            "reference": _reference_row(study.reference),
             "halves": study.halves,
             "rates": [asdict(rate) | {"agrees": rate.agrees} for rate in study.rates],
             "gain": None if study.gain is None else asdict(study.gain) | {"agrees": study.gain.agrees},
             "rows": [asdict(row) for row in study.rows],
+            "thinness": [asdict(row) for row in study.thinness],
+            "thinness_rates": [asdict(rate) | {"agrees": rate.agrees} for rate in fitted_thinness(study.thinness)],
         }
         (inside / SUMMARY).write_text(json.dumps(summary, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+
+
+def _reference_row(reference: Reference | None) -> dict[str, object] | None:
+    if reference is None:
+        return None
+    return {
+        "name": reference.name,
+        "omega": reference.omega.tolist(),
+        "relative_error": reference.uncertainty,
+        "symmetry": list(reference.parities),
+    }

@@ -13,59 +13,59 @@ from hydroelastic.meshes.grading import Grading
 from hydroelastic.meshes.nested import NestedMeshes
 from hydroelastic.scenes.field_model import build_mesh, distributed_mesh
 from hydroelastic.scenes.plan import SMALLEST_TIP
+from hydroelastic.scenes.study_corners import has_curved_contours
+from hydroelastic.scenes.study_meshes import coarsest_size, full_order_gradings, nested_meshes
 from hydroelastic.scenes.study_plan import Family, StudyPlan
 from hydroelastic.scenes.study_rows import StudiedTank, StudyRow, mesh_row, tolerance_row
-from hydroelastic.scenes.study_theory import full_order_grading, singular_exponent
-from hydroelastic.scenes.tank_mesh import geometry_of, unknown_count
-
-# Elements of the first mesh at the top, in tank lengths: six on the half of a beam as long as half the tank.
-_COARSEST = 0.125
-
-
-def nested_meshes(studied: StudiedTank) -> NestedMeshes:
-    """The meshes of the uniform and algebraic series, in units of the tank."""
-    depth = studied.tank.depth
-    return NestedMeshes(
-        geometry=geometry_of(studied.tank, half=studied.half),
-        # Elements of a thin layer are no longer than it is deep, and far below the top nothing moves.
-        size=min(_COARSEST, depth),
-        bulk_size=_COARSEST * max(1.0, depth),
-    )
+from hydroelastic.scenes.study_theory import singular_exponent
+from hydroelastic.scenes.tank_mesh import unknown_count
 
 
 def _uniform(studied: StudiedTank, plan: StudyPlan) -> Iterator[StudyRow]:
-    """Elements of one size, halved again and again."""
+    """Elements of one size, halved again and again; none along curved contours."""
+    if has_curved_contours(studied.tank):
+        return
+    meshes = nested_meshes(studied.tank, half=studied.half)
     for degree in plan.degrees:
-        yield from _halved(studied, plan, "uniform", degree, 1.0)
+        yield from _halved(studied, plan, "uniform", degree, meshes, (1.0,) * len(meshes.corners))
 
 
 def _algebraic(studied: StudiedTank, plan: StudyPlan) -> Iterator[StudyRow]:
-    """The same meshes drawn towards the tips, so far that the full order is expected; none where ψ is smooth."""
-    if singular_exponent(studied.scene) is None:
+    """The same meshes drawn towards the corners, so far that the full order is expected; none where ψ is smooth."""
+    if has_curved_contours(studied.tank) or singular_exponent(studied.scene) is None:
         return
+    meshes = nested_meshes(studied.tank, half=studied.half)
     for degree in plan.degrees:
-        yield from _halved(studied, plan, "algebraic", degree, full_order_grading(studied.scene, degree))
+        gradings = full_order_gradings(studied.tank, meshes, degree)
+        yield from _halved(studied, plan, "algebraic", degree, meshes, gradings)
 
 
-def _halved(studied: StudiedTank, plan: StudyPlan, family: Family, degree: int, grading: float) -> Iterator[StudyRow]:
+def _halved(
+    studied: StudiedTank,
+    plan: StudyPlan,
+    family: Family,
+    degree: int,
+    meshes: NestedMeshes,
+    gradings: tuple[float, ...],
+) -> Iterator[StudyRow]:
     """One degree on one mesh after the other, while they stay within the plan's unknowns and above rounding."""
-    meshes = nested_meshes(studied)
     first = distributed_mesh(MPI.COMM_WORLD, partial(meshes.mesh, 0))
     points = first.mesh.topology.index_map(0).size_global
     parts = 2 if studied.half else 1
     solved = False
     for halvings in range(plan.halvings + 1):
         unknowns = parts * unknown_count(points, first.cell_count, degree * 2**halvings)
-        if unknowns > plan.most_unknowns or meshes.innermost_ring(halvings, grading) < SMALLEST_TIP:
+        if unknowns > plan.most_unknowns or meshes.innermost_ring(halvings, gradings) < SMALLEST_TIP:
             return
         try:
             row = mesh_row(
                 studied,
                 family,
                 replace(studied.finest, degree=degree),
-                partial(distributed_mesh, MPI.COMM_WORLD, partial(meshes.mesh, halvings, grading)),
-                element_size=meshes.size / 2**halvings,
-                grading=grading,
+                partial(distributed_mesh, MPI.COMM_WORLD, partial(meshes.mesh, halvings, gradings)),
+                element_size=coarsest_size(studied.tank) / 2**halvings,
+                # At the sharpest corner.
+                grading=max(gradings, default=1.0),
             )
         except EigenSolverError:
             # On a mesh with hardly as many nodes at the top as modes are asked for.

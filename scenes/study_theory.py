@@ -1,4 +1,4 @@
-"""What theory expects of the error of a frequency, from the singularity of ψ at the ends of a beam.
+"""What theory expects of the error of a frequency, from the singularity of ψ at ends of beams and corners.
 
 With ψ ~ r^α, or r^α ln r, at the worst point, polynomials of degree p on n elements along each length give a relative
 error of order (1/n)^q with
@@ -15,38 +15,41 @@ polynomials leave on one ring says how much. See docs, theory of the aquarium, �
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import pi, sqrt
+from math import ceil, pi, sqrt
 
 import numpy as np
 
 from hydroelastic.fem.ring_approximation import remaining_energy
 from hydroelastic.meshes.grading import Grading
 from hydroelastic.scenes.models import TankScene
-from hydroelastic.scenes.plan import sharpest_exponent
 from hydroelastic.scenes.scaled_tank import scaled_tank
+from hydroelastic.scenes.study_corners import sharpest_of
+from hydroelastic.scenes.study_meshes import full_order
+from hydroelastic.scenes.symmetry import Parity
 
-# How far β exceeds the p/α of theory: what is left of the first rings in the error then falls like (1/n)^{2α}.
-# Measured: with 0.3 instead the order 4 of degree 2 still is 3.7 on the meshes where it is 3.9.
-_MARGIN = 1.0
+# Rings are cut into sectors of at most this.
+_WIDEST_SECTOR = pi / 3.0
 
 
-def singular_exponent(scene: TankScene) -> float | None:
+def singular_exponent(scene: TankScene, parity: Parity | None = None) -> float | None:
     """α of the worst point of a scene; ``None`` where ψ is smooth.
 
-    1 at a tip beside water with waves or a lid, 1/2 where ψ = 0 on the water, 2 where a free end meets a wall.
+    1 at a tip beside water with waves or a lid, 1/2 where ψ = 0 on the water, 2 where a free end meets a wall; π/θ at
+    the corner of a float with the liquid's angle θ.
+
+    Args:
+        scene: the scene.
+        parity: symmetry of the modes in a tank that is its own mirror image; ``None`` is the sharper of both.
     """
-    if not scene.body or any(beam.ends == "guided" for _, beam in scene.beams):
-        return None
-    if scene.floats:
-        return sharpest_exponent(scaled_tank(scene), released=False)
-    if sum(beam.length for _, beam in scene.beams) >= scene.tank.length * (1.0 - 1e-9):
-        return 2.0
-    return 0.5 if scene.top == "pressure_release" else 1.0
+    return sharpest_of(scaled_tank(scene), parity)
 
 
-def expected_order(scene: TankScene, degree: int, grading: float = 1.0) -> float:
-    """Order q of the frequencies with degree p on meshes graded with β; 1 is a uniform mesh."""
-    alpha = singular_exponent(scene)
+def expected_order(scene: TankScene, degree: int, grading: float = 1.0, parity: Parity | None = None) -> float:
+    """Order q of the frequencies with degree p on meshes graded with β; 1 is a uniform mesh.
+
+    Where corners differ β is that of the sharpest, and the others are graded for the same order.
+    """
+    alpha = singular_exponent(scene, parity if grading == 1.0 else None)
     return 2.0 * degree if alpha is None else min(2.0 * degree, 2.0 * alpha * grading)
 
 
@@ -59,7 +62,7 @@ def full_order_grading(scene: TankScene, degree: int) -> float:
     alpha = singular_exponent(scene)
     if alpha is None:
         raise ValueError("ψ is smooth: uniform meshes have the full order")
-    return max(1.0, degree / alpha) + _MARGIN
+    return full_order(degree, alpha)
 
 
 def gain_along_a_ray(ring_ratio: float) -> float:
@@ -68,16 +71,17 @@ def gain_along_a_ray(ring_ratio: float) -> float:
     return ((1.0 + root) / (1.0 - root)) ** 2
 
 
-def expected_remainders(scene: TankScene, degrees: Sequence[int]) -> np.ndarray | None:
+def expected_remainders(scene: TankScene, degrees: Sequence[int], parity: Parity | None = None) -> np.ndarray | None:
     """Relative errors of a frequency, up to a factor, that the geometric rings of our meshes leave with some degrees.
 
     Returns:
         One for each degree; ``None`` where ψ is smooth and rings are not what limits.
     """
-    alpha = singular_exponent(scene)
+    alpha = singular_exponent(scene, parity)
     if alpha is None:
         return None
-    # A tip at a wall has two sectors for a quarter of a disc, one elsewhere three for half of it.
-    sector = pi / 4.0 if alpha == 2.0 else pi / 3.0
+    # Of the liquid's angle π/α; where ψ = 0 on one side it is half of that, and the sectors are nearly as wide.
+    angle = pi / alpha
+    sector = angle / ceil(angle / _WIDEST_SECTOR - 1e-6)
     left: np.ndarray = remaining_energy(Grading.ring_ratio, sector, alpha, max(degrees))[list(degrees)]
     return left

@@ -117,6 +117,8 @@ def mode_lines(summary: Summary) -> list[str]:
         largest = max(abs(row["difference"]) for row in summary["exact"])
         formula = summary["exact"][0]["formula"]
         lines.append(f"{formula}: the largest relative difference to this exact solution is {largest:.1e}.")
+    if summary["status"] == "ok" and len(summary["modes"]) < summary["scene"]["accuracy"]["modes"]:
+        lines.append("There are no more modes than these.")
     if summary["zero_modes"]:
         lines.append(f"{summary['zero_modes']} rigid motion(s) without stiffness (ω = 0) not listed.")
     return lines
@@ -184,8 +186,8 @@ def _title(summary: Summary) -> str:
 
 def _table(headings: tuple[str, ...], rows: list[tuple[str, ...]]) -> Table:
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-    for number, heading in enumerate(headings):
-        leftwards = number == 0 or heading in ("kind", "symmetry", "bound")
+    for column, heading in enumerate(headings):
+        leftwards = column == 0 or heading in ("kind", "symmetry", "bound")
         table.add_column(heading, justify="left" if leftwards else "right", no_wrap=True)
     for row in rows:
         table.add_row(*row)
@@ -225,6 +227,6 @@ def mode_csv(summary: Summary) -> str:
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(MODE_COLUMNS)
-    for number, mode in enumerate(summary["modes"], 1):
-        writer.writerow([number, *(mode[column] for column in MODE_COLUMNS[1:])])
+    for place, mode in enumerate(summary["modes"], 1):
+        writer.writerow([place, *(mode[column] for column in MODE_COLUMNS[1:])])
     return text.getvalue()

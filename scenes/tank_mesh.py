@@ -106,12 +106,18 @@ def is_plain(tank: ScaledTank) -> bool:
     return len(tank.layers) == 1 and not tank.floats
 
 
-def unknown_count(points: int, triangles: int, degree: int) -> int:
-    """Number of unknowns of a continuous polynomial of a degree on a simply connected mesh of triangles.
+def unknown_count(points: int, triangles: int, degree: int, *, parts: int = 1) -> int:
+    """Number of unknowns of a continuous polynomial of a degree on simply connected meshes of triangles.
 
     A mesh each of whose triangles is cut into n² has, at the same degree, the unknowns of the uncut one at n times it.
+
+    Args:
+        points: number of nodes.
+        triangles: number of triangles.
+        degree: of the polynomial.
+        parts: number of meshes that do not hang together, like those of two liquids.
     """
-    edges = points + triangles - 1
+    edges = points + triangles - parts
     return points + (degree - 1) * edges + (degree - 1) * (degree - 2) // 2 * triangles
 
 

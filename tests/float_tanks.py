@@ -38,7 +38,7 @@ def layered(
     return TankScene(
         tank=Tank(length=length, gravity=GRAVITY, top=top),
         liquid=tuple(
-            Liquid(density=density, depth=depth) for density, depth in zip(densities, depths[: len(densities)])
+            Liquid(density=density, depth=depth) for density, depth in zip(densities, depths, strict=False)
         ),
         body=bodies,
         accuracy=Accuracy(tolerance=tolerance, modes=modes),

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from hydroelastic.meshes.geometry import tank_geometry
-from hydroelastic.meshes.nested import NestedMeshes, halved
-from hydroelastic.meshes.tagged_mesh import TaggedMesh
+from hydroelastic.meshes.nested import NestedMeshes, halved, outline_meshes, rectangle_meshes
+from hydroelastic.meshes.outline import Corner, Curve, Outline, Region
+from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 
 WATER = "free_surface"
 PIECES = {
@@ -21,7 +24,11 @@ PIECES = {
 
 def series_of(name: str, depth: float = 0.5) -> NestedMeshes:
     geometry = tank_geometry(length=1.0, depth=depth, pieces=PIECES[name])
-    return NestedMeshes(geometry=geometry, size=0.125, bulk_size=0.125)
+    return rectangle_meshes(geometry, size=0.125, bulk_size=0.125)
+
+
+def betas(series: NestedMeshes, exponent: float) -> tuple[float, ...]:
+    return (exponent,) * len(series.corners)
 
 
 def areas(mesh: TaggedMesh) -> np.ndarray:
@@ -45,7 +52,8 @@ def test_halving_cuts_every_triangle_into_four_of_equal_area(name: str) -> None:
 @pytest.mark.parametrize("name", PIECES)
 @pytest.mark.parametrize("exponent", [1.0, 5.0])
 def test_every_group_keeps_its_length(name: str, exponent: float) -> None:
-    mesh = series_of(name).mesh(3, exponent)
+    series = series_of(name)
+    mesh = series.mesh(3, betas(series, exponent))
     expected = {"bottom": 1.0, "left_wall": 0.5, "right_wall": 0.5}
     for start, end, piece in PIECES[name]:
         expected[piece] = expected.get(piece, 0.0) + end - start
@@ -56,38 +64,112 @@ def test_every_group_keeps_its_length(name: str, exponent: float) -> None:
 @pytest.mark.parametrize("exponent", [1.0, 2.5, 9.0])
 def test_rings_have_algebraic_radii(name: str, exponent: float) -> None:
     series = series_of(name)
-    mesh = series.mesh(3, exponent)
+    mesh = series.mesh(3, betas(series, exponent))
     top = np.unique(mesh.points[mesh.points[:, 1] == 0.0, 0])
-    for fan in series.fans:
-        radius = fan.radii[0]
+    for corner in series.corners:
+        radius = corner.outer
         expected = radius * (np.arange(1, 9) / 8.0) ** exponent
         for side in (1.0, -1.0):
-            distance = side * (top - fan.centre)
+            distance = side * (top - corner.point[0])
             rings = np.sort(distance[(distance > 0.0) & (distance < radius * (1.0 + 1e-9))])
             if len(rings):  # else the wall
                 # A distance from an abscissa of order one keeps its last 1e-16.
                 assert rings == pytest.approx(expected, rel=1e-9, abs=2e-16)
-    innermost = min(float(fan.radii[0]) for fan in series.fans) / 8.0**exponent
-    assert series.innermost_ring(3, exponent) == pytest.approx(innermost, rel=1e-12)
+    innermost = min(corner.outer for corner in series.corners) / 8.0**exponent
+    assert series.innermost_ring(3, betas(series, exponent)) == pytest.approx(innermost, rel=1e-12)
 
 
 @pytest.mark.parametrize("name", ["beam", "at the wall", "short beam", "full cover"])
 @pytest.mark.parametrize("exponent", [2.0, 5.0, 9.0])
 def test_drawing_turns_no_triangle_and_moves_nothing_else(name: str, exponent: float) -> None:
     series = series_of(name)
-    uniform, drawn = series.mesh(3), series.mesh(3, exponent)
+    uniform, drawn = series.mesh(3), series.mesh(3, betas(series, exponent))
     assert np.array_equal(uniform.cells, drawn.cells)
     assert np.array_equal(uniform.facets, drawn.facets)
     assert np.all(areas(drawn) * areas(uniform) > 0.0)
     assert np.abs(areas(drawn)).sum() == pytest.approx(0.5, rel=1e-12)
     moved = np.any(uniform.points != drawn.points, axis=1)
-    near = [np.hypot(*(uniform.points[moved] - [fan.centre, 0.0]).T) < fan.radii[0] for fan in series.fans]
+    near = [np.hypot(*(uniform.points[moved] - corner.point).T) < corner.outer for corner in series.corners]
     assert np.any(near, axis=0).all()
+
+    def sectors(corner: Corner) -> int:
+        return 2 if corner.point[0] in (0.0, 1.0) else 3
+
     # The tip and the fan's outer edge stay: a fan of three sectors has 1 + Σ 3i + 1 nodes, those of i = 8 stay.
-    assert moved.sum() == sum(sum((len(fan.angles) - 1) * i + 1 for i in range(1, 8)) for fan in series.fans)
+    assert moved.sum() == sum(sum(sectors(corner) * i + 1 for i in range(1, 8)) for corner in series.corners)
 
 
 def test_a_tank_without_tips_has_nothing_to_draw() -> None:
     series = series_of("no beam")
-    assert np.array_equal(series.mesh(2).points, series.mesh(2, 3.0).points)
-    assert series.innermost_ring(8, 9.0) == np.inf
+    assert np.array_equal(series.mesh(2).points, series.mesh(2, ()).points)
+    assert series.innermost_ring(8, ()) == np.inf
+
+
+def slit_in_two_liquids() -> Outline:
+    """A slit through the middle of an interface at y = 0, which is cut open as well, in a unit square."""
+    corners = ((0.0, -0.5), (0.5, -0.5), (1.0, -0.5), (1.0, 0.0), (1.0, 0.5), (0.5, 0.5), (0.0, 0.5), (0.0, 0.0))
+    names = ("bottom", "bottom", "right_wall", "right_wall", "lid", "lid", "left_wall", "left_wall")
+    rim = [
+        Curve(name=name, start=start, end=end)
+        for name, start, end in zip(names, corners, (*corners[1:], corners[0]), strict=True)
+    ]
+    middle, low, high = (0.5, 0.0), (0.5, -0.25), (0.5, 0.3)
+    inner = [
+        Curve(name="interface", start=(0.0, 0.0), end=middle, size=0.125, cut=True),
+        Curve(name="interface", start=middle, end=(1.0, 0.0), size=0.125, cut=True),
+        Curve(name="", start=(0.5, -0.5), end=low),
+        Curve(name="body_1", start=low, end=middle, size=0.125, cut=True),
+        Curve(name="body_1", start=middle, end=high, size=0.125, cut=True),
+        Curve(name="", start=high, end=(0.5, 0.5)),
+    ]
+    return Outline(
+        curves=(*rim, *inner),
+        regions=(
+            Region(name="lower", loop=((0, True), (10, True), (11, True), (8, False), (7, True))),
+            Region(name="lower", loop=((1, True), (2, True), (9, False), (11, False), (10, False))),
+            Region(name="upper", loop=((8, True), (12, True), (13, True), (5, True), (6, True))),
+            Region(name="upper", loop=((9, True), (3, True), (4, True), (13, False), (12, False))),
+        ),
+        corners=tuple(Corner(point=point, inner=np.inf, outer=0.09) for point in (low, middle, high)),
+    )
+
+
+@pytest.mark.parametrize("exponents", [None, (5.0, 2.0, 3.0)])
+def test_what_is_cut_open_stays_open_with_all_its_tags(exponents: tuple[float, ...] | None) -> None:
+    mesh = outline_meshes(slit_in_two_liquids(), bulk_size=0.125).mesh(3, exponents)
+    # Both sides of the slit and of the interface are there, every other piece once.
+    expected = {"bottom": 1.0, "right_wall": 1.0, "lid": 1.0, "left_wall": 1.0, "interface": 2.0, "body_1": 1.1}
+    assert {name: mesh.facet_measure(name) for name in mesh.facet_names} == pytest.approx(expected, rel=1e-12)
+    for name, sign in (("lower", -1.0), ("upper", 1.0)):
+        cells = mesh.cells[mesh.cell_tags == mesh.cell_names[name]]
+        assert np.all(sign * mesh.points[cells].mean(axis=1)[:, 1] > 0.0)
+        # No node is on both sides of the interface, nor of the slit but for its end.
+        other = mesh.cells[mesh.cell_tags != mesh.cell_names[name]]
+        assert not np.intersect1d(cells, other).size
+        left = mesh.points[cells].mean(axis=1)[:, 0] < 0.5
+        shared = mesh.points[np.intersect1d(cells[left], cells[~left])]
+        end = 0.25 if name == "lower" else 0.3
+        assert np.all(shared[:, 0] == 0.5)
+        assert np.abs(shared[:, 1]).min() == end
+    assert np.abs(areas(mesh)).sum() == pytest.approx(1.0, rel=1e-12)
+    assert np.all(areas(mesh) < 0.0) or np.all(areas(mesh) > 0.0)
+
+
+def test_every_corner_has_its_own_exponent_on_all_its_sides() -> None:
+    series = outline_meshes(slit_in_two_liquids(), bulk_size=0.125)
+    exponents = (5.0, 2.0, 3.0)
+    mesh = series.mesh(2, exponents)
+    for corner, exponent in zip(series.corners, exponents, strict=True):
+        for name in ("body_1", "interface"):
+            nodes = mesh.facet_nodes(name) - corner.point
+            distance = np.hypot(*nodes[np.any(nodes == 0.0, axis=1)].T)
+            rings = np.unique(np.round(distance[(distance > 0.0) & (distance < corner.outer * (1.0 + 1e-9))], 12))
+            if name == "body_1" or corner.point[1] == 0.0:
+                assert rings == pytest.approx(corner.outer * (np.arange(1, 5) / 4.0) ** exponent, rel=1e-8)
+
+
+def test_a_corner_that_is_no_node_is_refused() -> None:
+    series = outline_meshes(slit_in_two_liquids(), bulk_size=0.125)
+    elsewhere = Corner(point=(0.2, 0.2), inner=np.inf, outer=0.1)
+    with pytest.raises(MeshError, match=r"no triangle .* \(0.2, 0.2\)"):
+        replace(series, corners=(elsewhere,)).mesh(1, (2.0,))

@@ -141,7 +141,6 @@ def test_keys_belong_to_their_shape(shape: str, keys: dict[str, Any], words: str
         ({"motions": ["heave", "heave"]}, "named twice"),
         ({"motions": ["have"]}, 'key "motions", entry 1 = "have"'),
         ({"motions": "heave"}, 'a list of "heave" or "sway" or "roll"'),
-        ({"boundary": "thin", "motions": ["heave", "roll"]}, "heave alone"),
         ({"shape": "rectangle", "boundary": "thin"}, '"exact", or shape = exponential'),
         ({"boundary": "thick"}, '"exact" or "thin"'),
         ({"at": "surfce"}, 'Did you mean "surface"?'),

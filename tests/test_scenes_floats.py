@@ -160,6 +160,13 @@ def test_closed_forms() -> None:
     assert block.centre_of_mass == pytest.approx((10.0, 0.25), rel=EXACT)
 
 
+def test_the_centre_of_mass_counts_from_the_reference_level() -> None:
+    for mass in (None, 1180.0, 1250.0):
+        found = at_rest(**SECTIONS["wedge"], centre_of_mass=-0.4, mass=mass)
+        assert found.centre_of_mass[1] - found.reference_level == pytest.approx(-0.4, rel=EXACT)
+        assert (found.reference_level == 0.0) == (mass is None)
+
+
 def test_the_upper_level_is_that_of_the_upper_liquid() -> None:
     low, high = at_rest(**SECTIONS["hull"]), at_rest(**SECTIONS["hull"], at="surface")
     assert (low.level, high.level) == (0.0, 4.0)

@@ -1,0 +1,141 @@
+"""What a study of thinness leaves: a table with fitted rates, a CSV file and a figure."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rich import box
+from rich.console import Console
+from rich.table import Table
+
+from hydroelastic.scenes.study_rates import DIFFERENCE
+from hydroelastic.scenes.study_thinness import ASKED, QUANTITIES, ThinnessRow, fitted_thinness
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+# Okabe and Ito's colours; markers tell the curves apart as well.
+_STYLES = {
+    "heave": ("#0072B2", "o"),
+    "modal mass": ("#CC79A7", "D"),
+    "added mass": ("#D55E00", "s"),
+    "wave 1": ("#009E73", "^"),
+    "wave 2": ("#E69F00", "v"),
+}
+_THEORY = "#555555"
+# Slopes of theory are drawn over so many times the smallest width.
+_REACH = 6.0
+
+
+def print_thinness(console: Console, rows: Sequence[ThinnessRow]) -> None:
+    """Print the differences thin/exact − 1 of all rows, and the rates at which they fall."""
+    if not rows:
+        console.print("  None: one of the models does not keep what is asked.\n", markup=False)
+        return
+    for line in (
+        f"Differences thin/exact − 1 of floats of half width l and half height h; both models to {ASKED:g}.",
+        "heave: ω; modal mass: of heave, * shared with waves; added mass: far above the waves; waves: ω of the lowest",
+        "two modes but that of heave.",
+    ):
+        console.print(line, markup=False)
+    names = [name for name in QUANTITIES if any(name in row.compared for row in rows)]
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0))
+    for heading in ("l in m", "l/h", "l/L", "ω thin", "ω exact", *names):
+        table.add_column(heading, justify="right", no_wrap=True)
+    for row in rows:
+        heave = row.compared.get("heave")
+        table.add_row(
+            *(f"{value:.4g}" for value in (row.half_width, row.thinness, row.breadth)),
+            *(["", ""] if heave is None else [f"{heave.thin:.8f}", f"{heave.exact:.8f}"]),
+            *(_difference(row, name) for name in names),
+        )
+    console.print(table)
+    console.print(_rates(rows))
+
+
+def _difference(row: ThinnessRow, name: str) -> str:
+    if name not in row.compared:
+        return ""
+    shared = "*" if name == "modal mass" and row.shared else ""
+    return f"{row.compared[name].difference:+.2e}{shared}"
+
+
+def _rates(rows: Sequence[ThinnessRow]) -> Table:
+    table = Table(
+        box=box.SIMPLE_HEAD,
+        pad_edge=False,
+        padding=(0, 1, 0, 0),
+        title="Rates q, difference ~ l^q, fitted to the thinnest three floats",
+        title_justify="left",
+        title_style="",
+    )
+    for heading in ("", "observed", "expected", " "):
+        table.add_column(heading, justify="right" if heading in ("observed", "expected") else "left", no_wrap=True)
+    for rate in fitted_thinness(rows):
+        table.add_row(
+            QUANTITIES[rate.quantity][0],
+            f"{rate.observed:.3f} ± {rate.deviation:.3f}",
+            f"{rate.expected:g}",
+            "" if rate.agrees else f"> {100 * DIFFERENCE:.0f} % off: not yet asymptotic",
+        )
+    return table
+
+
+def thinness_csv(rows: Sequence[ThinnessRow]) -> str:
+    """Both models of every row at full precision; what a model does not have is empty."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    names = {name: name.replace(" ", "_") for name in QUANTITIES}
+    parts = ("thin", "exact", "difference", "uncertainty")
+    columns = [f"{name}_{part}" for name in names.values() for part in parts]
+    writer.writerow(["half_width", "thinness", "breadth", "shared", *columns])
+    for row in rows:
+        values: list[float | str] = []
+        for name in names:
+            found = row.compared.get(name)
+            values += [""] * len(parts) if found is None else [getattr(found, part) for part in parts]
+        writer.writerow([row.half_width, row.thinness, row.breadth, int(row.shared), *values])
+    return text.getvalue()
+
+
+def draw_thinness(title: str, rows: Sequence[ThinnessRow], path: Path) -> None:
+    """Write the differences over the thinness, and those of waves over half width/tank length, as PNG."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(12.0, 5.5), layout="constrained")
+    FigureCanvasAgg(figure)
+    left, right = figure.subplots(1, 2, sharey=True)
+    waves = [name for name in QUANTITIES if name.startswith("wave")]
+    for axes, names, label in (
+        (left, [name for name in QUANTITIES if name not in waves], "half width / half height"),
+        (right, waves, "half width / tank length"),
+    ):
+        for name in names:
+            _draw_quantity(axes, rows, name)
+        axes.set_xlabel(label)
+        axes.grid(which="major", color="#dddddd", linewidth=0.6)
+        axes.spines[["top", "right"]].set_visible(False)
+        axes.legend(frameon=False, fontsize=9)
+    left.set_ylabel("relative difference of thin and exact boundary")
+    figure.suptitle(title)
+    figure.savefig(path, dpi=130)
+
+
+def _draw_quantity(axes: Axes, rows: Sequence[ThinnessRow], name: str) -> None:
+    """Differences, and the slope of theory through the thinnest one."""
+    has_it = [row for row in rows if name in row.compared]
+    if not has_it:
+        return
+    x = [row.breadth if name.startswith("wave") else row.thinness for row in has_it]
+    y = [abs(row.compared[name].difference) for row in has_it]
+    color, marker = _STYLES[name]
+    words, power = QUANTITIES[name]
+    axes.loglog(x, y, color=color, marker=marker, linewidth=1.6, label=words.split(",")[0])
+    end = (x[-1] * _REACH, y[-1] * _REACH**power)
+    axes.loglog((x[-1], end[0]), (y[-1], end[1]), ":", color=_THEORY, linewidth=1.0)
+    axes.annotate(f"$l^{{{power:g}}}$", end, xytext=(2, 5), textcoords="offset points", color=_THEORY)

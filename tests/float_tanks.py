@@ -37,9 +37,7 @@ def layered(
     """A tank with liquids from the bottom up."""
     return TankScene(
         tank=Tank(length=length, gravity=GRAVITY, top=top),
-        liquid=tuple(
-            Liquid(density=density, depth=depth) for density, depth in zip(densities, depths, strict=False)
-        ),
+        liquid=tuple(Liquid(density=density, depth=depth) for density, depth in zip(densities, depths, strict=False)),
         body=bodies,
         accuracy=Accuracy(tolerance=tolerance, modes=modes),
     )

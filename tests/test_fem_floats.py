@@ -17,7 +17,7 @@ from hydroelastic.fem.modes import count_below, solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.shape_loads import shape_loads
 from hydroelastic.fem.surfaces import Body
-from hydroelastic.modal.float_box import BoxModes, box_modes, float_mode
+from hydroelastic.modal.float_box import BoxModes, box_modes
 from hydroelastic.modal.float_in_tank import FloatInTank
 from hydroelastic.modal.two_layer import TwoLayers
 from hydroelastic.scenes.float_body import float_body

@@ -24,7 +24,10 @@ def cell_positions(mesh: Mesh, cells: np.ndarray, reference: np.ndarray) -> np.n
         Shape (cells, points, gdim).
     """
     basis = _coordinate_basis(mesh, reference, 0)[0]
-    points: np.ndarray = np.einsum("qn,cnd->cqd", basis, cell_nodes(mesh, cells), optimize=True)
+    nodes = cell_nodes(mesh, cells)
+    # From a corner, so that points of a small cell round like its distance from the origin and no more.
+    corner = nodes[:, :1]
+    points: np.ndarray = corner + np.einsum("qn,cnd->cqd", basis, nodes - corner, optimize=True)
     return points
 
 

@@ -17,6 +17,8 @@ import numpy as np
 from float_sections import Section, line, section, thin_section
 from harmonic_trial import Boundary, Corner, Slit, Trial, energy_basis, nodes_on
 from scipy.linalg import cholesky, solve_triangular, svd
+from scipy.sparse import lil_matrix
+from scipy.sparse import vstack as sparse_vstack
 
 MOTIONS = ("heave", "sway", "roll")
 
@@ -342,7 +344,7 @@ class _Problem:
                         weights=boundary.weights,
                     )
                 )
-                load = np.zeros((len(boundary.points), total))
+                load = lil_matrix((len(boundary.points), total))
                 columns = starts[number] + np.arange(len(free_nodes[number]))
                 load[free_nodes[number], columns] = sign / np.sqrt(level.weight * boundary.weights[free_nodes[number]])
                 for beam_number, columns_of in enumerate(self.beam_columns):
@@ -358,19 +360,19 @@ class _Problem:
                 if j == 0:
                     floor = Boundary(points=floor.points, normal=-floor.normal, weights=floor.weights)
                 parts.append(floor)
-                loads.append(np.zeros((len(floor.points), total)))
-            boundary, load = _joined(parts), np.vstack(loads)
+                loads.append(lil_matrix((len(floor.points), total)))
+            boundary, load = _joined(parts), sparse_vstack(loads).tocsr()
             functions, slopes = trial.values(boundary)
             weights = boundary.weights
             functions = functions - (weights @ functions) / weights.sum()
             basis = energy_basis(functions, slopes, weights, self.fineness.tolerance)
-            rows.append(np.sqrt(tank.densities[j]) * (basis.T @ (functions.T @ (weights[:, None] * load))))
-            volumes.append(weights @ load)
+            rows.append(np.sqrt(tank.densities[j]) * (load.T @ ((weights[:, None] * functions) @ basis)).T)
+            volumes.append(load.T @ weights)
         self.nodes = int(starts[-1])
         self.inertia, self.volumes = np.vstack(rows), np.array(volumes)
 
-    def _hull_loads(self, number: int, hull: Boundary, total: int, first: int) -> np.ndarray:
-        load = np.zeros((len(hull.points), total))
+    def _hull_loads(self, number: int, hull: Boundary, total: int, first: int) -> lil_matrix:
+        load = lil_matrix((len(hull.points), total))
         part = self.tank.sections[number][0]
         if part.thin:
             load[:, first + [body for body, _ in self.motions].index(number)] = part.flux(hull.points)
@@ -379,7 +381,7 @@ class _Problem:
         displacements = {"heave": 1j + 0 * offset, "sway": 1.0 + 0 * offset, "roll": 1j * offset}
         for column, (body, motion) in enumerate(self.motions):
             if body == number:
-                load[:, first + column] = (displacements[motion] * hull.normal.conj()).real
+                load[:, first + column] = (displacements[motion] * hull.normal.conj()).real[:, None]
         return load
 
     def modes(self, count: int) -> FloatModes:

@@ -26,17 +26,20 @@ from hydroelastic.scenes.study_reference import Reference
 from hydroelastic.scenes.study_rows import StudyRow
 from hydroelastic.scenes.study_thinness import fitted_thinness
 from hydroelastic.scenes.study_thinness_report import draw_thinness, print_thinness, thinness_csv
+from hydroelastic.scenes.symmetry import Parity
 
 STAGES = ("plan", "mesh", "forms", "assemble", "solve", "count", "errors", "pressure release")
 """Stages of a solution in their order; others that the solver may time follow them."""
 
-_SHORT = {"pressure release": "ψ=0"}
+_SHORT = {"pressure release": "ψ=0", "added mass": "m_a"}
+# Where all modes have one order nothing is said of their symmetry.
+_SYMMETRIES: dict[Parity | None, str] = {None: "", "symmetric": " sym.", "antisymmetric": " antisym."}
 _WIDTH = 120
 
 TITLES: dict[Family, str] = {
     "uniform": "Uniform meshes, every element halved from one to the next",
-    "algebraic": "The same meshes drawn towards the tips, rᵢ = R (i/n)^β",
-    "geometric": "One mesh, with geometric rings around the tips of beams, degree by degree",
+    "algebraic": "The same meshes drawn towards tips and corners, rᵢ = R (i/n)^β at the sharpest",
+    "geometric": "One mesh, with geometric rings around tips and corners, degree by degree",
     "tolerance": "What the solver makes of an asked tolerance",
     "thinness": "Thin against exact boundary, the float's width halved from one to the next",
 }
@@ -90,8 +93,8 @@ def _print_errors(console: Console, study: Study, reference: Reference) -> None:
         halves,
         *_symmetry_lines(study.scene),
         f"error: largest relative error of {modes} frequencies; lowest: of the lowest; ratio: estimate over error.",
-        "Seconds by stage, without compiling (ψ=0: the pressure-release tone); MB: highest resident memory, above what",
-        "was held before.",
+        "Seconds by stage, without compiling (ψ=0: pressure-release tone; m_a: added mass); MB: highest resident",
+        "memory, above what was held before.",
         "",
     ):
         console.print(line, markup=False)
@@ -154,11 +157,8 @@ def _ratio(row: StudyRow) -> str:
 
 def _rates_table(study: Study) -> Table:
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0))
-    # Where all modes have one order nothing is said of their symmetry.
-    apart = any(rate.symmetry for rate in study.rates)
-    for heading in ("meshes", "degree", "β", "observed", "expected", "mode", *["symmetry"] * apart, "elements/L", ""):
-        is_text = heading in ("meshes", "symmetry", "elements/L", "")
-        table.add_column(heading, justify="left" if is_text else "right", no_wrap=True)
+    for heading in ("meshes", "degree", "β", "observed", "expected", "mode", "elements/L", ""):
+        table.add_column(heading, justify="left" if heading in ("meshes", "elements/L", "") else "right", no_wrap=True)
     for rate in study.rates:
         table.add_row(
             rate.family,
@@ -166,8 +166,7 @@ def _rates_table(study: Study) -> Table:
             f"{rate.grading:g}",
             f"{rate.observed:.3f} ± {rate.deviation:.3f}",
             f"{rate.expected:.4g}",
-            str(rate.mode),
-            *[rate.symmetry or ""] * apart,
+            f"{rate.mode}{_SYMMETRIES[rate.symmetry]}",
             ", ".join(f"{size:.3g}" for size in rate.sizes),
             "" if rate.agrees else f"> {100 * DIFFERENCE:.0f} % off: not yet asymptotic",
         )

@@ -119,9 +119,9 @@ def _print_errors(console: Console, study: Study, reference: Reference) -> None:
 def _symmetry_lines(scene: TankScene) -> Iterator[str]:
     """What the error over all modes follows where their orders differ."""
     tank = scaled_tank(scene)
-    found = [f"{(sharpest_of(tank, parity) or inf):.3g} for {parity} modes" for parity in symmetries_apart(tank)]
+    found = [f"{(sharpest_of(tank, parity) or inf):.3g} ({parity} modes)" for parity in symmetries_apart(tank)]
     if found:
-        yield f"At the worst corner ψ ~ r^α, α = {' and '.join(found)}: the error of all modes follows the smaller one."
+        yield f"At the worst corner ψ ~ r^α, α = {' or '.join(found)}: the error of all follows the smaller."
 
 
 def _why_none(scene: TankScene, family: Family) -> str:

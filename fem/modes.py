@@ -93,9 +93,11 @@ def solve_modes(pencil: CoupledPencil, count: int, *, shapes: int | None = None,
         EigenSolverError: if SLEPc stops before enough pairs have converged.
     """
     kinetics = CondensedKinetics(pencil)
-    available = pencil.size - len(pencil.constraints) - pencil.zero_mode_count
+    available = pencil.size - len(pencil.constraints) - pencil.zero_mode_count - len(pencil.unstable)
     count = min(count, available)
     before = pencil.solver.solves
+    if count == 0:
+        return _no_modes(pencil, kinetics, tolerance)
     solver = _krylov_schur(pencil, kinetics, count, tolerance, SLEPc.EPS.Which.LARGEST_REAL)
     converged, inverses = _inverses(solver, count, tolerance)
     order = np.argsort(-inverses)
@@ -128,6 +130,25 @@ def solve_modes(pencil: CoupledPencil, count: int, *, shapes: int | None = None,
         converged=converged,
         iterations=solver.getIterationNumber(),
         solves=pencil.solver.solves - before,
+        growing=_growing(pencil, kinetics, tolerance),
+    )
+
+
+def _no_modes(pencil: CoupledPencil, kinetics: CondensedKinetics, tolerance: float) -> ModeSet:
+    """What is left where nothing oscillates: motions without stiffness, and those that grow."""
+
+    def completed(place: int) -> Mode:
+        raise IndexError(f"there is no mode {place}")
+
+    return ModeSet(
+        eigenvalues=np.empty(0),
+        elastic_amplitudes=np.empty((0, pencil.body_size)),
+        modes=(),
+        completed=completed,
+        zero_modes=pencil.zero_mode_count,
+        converged=0,
+        iterations=0,
+        solves=0,
         growing=_growing(pencil, kinetics, tolerance),
     )
 

@@ -14,12 +14,12 @@ _ROUNDING = 1e-9
 
 @dataclass(frozen=True, kw_only=True)
 class LiquidField:
-    """ψ and ∇ψ, linear on triangles in page coordinates.
+    """ψ, or ρψ of two liquids, and ∇ψ, linear on triangles in page coordinates.
 
     Attributes:
         points: pixels, shape (points, 2).
         triangles: shape (triangles, 3).
-        potential: ψ, shape (points,).
+        potential: ψ, or ρψ, shape (points,).
         displacement: ∇ψ, shape (points, 2).
     """
 
@@ -29,16 +29,19 @@ class LiquidField:
     displacement: Array
 
 
-def above(field: LiquidField, floor: float) -> LiquidField:
-    """The triangles that lie above a page coordinate at least in part."""
-    reaches = field.points[field.triangles, 1].max(axis=1) > floor
-    return replace(field, triangles=field.triangles[reaches])
+def between(field: LiquidField, low: float, high: float) -> LiquidField:
+    """The triangles that lie between two page coordinates at least in part."""
+    ordinates = field.points[field.triangles, 1]
+    return _chosen(field, (ordinates.max(axis=1) > low) & (ordinates.min(axis=1) < high))
 
 
-def moving(field: LiquidField, least: float) -> LiquidField:
-    """The triangles on which |∇ψ| exceeds a value somewhere."""
-    moves = np.hypot(*field.displacement.T)[field.triangles].max(axis=1) > least
-    return replace(field, triangles=field.triangles[moves])
+def steep(field: LiquidField, steepness: Array, least: float) -> LiquidField:
+    """The triangles on which the steepness, shape (points,), exceeds a value somewhere."""
+    return _chosen(field, steepness[field.triangles].max(axis=1) > least)
+
+
+def _chosen(field: LiquidField, chosen: NDArray[np.bool_]) -> LiquidField:
+    return replace(field, triangles=field.triangles[chosen])
 
 
 def iso_lines(field: LiquidField, levels: Array) -> Array:

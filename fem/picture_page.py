@@ -55,10 +55,10 @@ class Page:
         path.write_bytes(png_bytes(pixels))
 
     def field(self, field: LiquidField, *, limit: float, colours: Array) -> None:
-        """Fill triangles with the colours of ψ.
+        """Fill triangles with the colours of a field.
 
         Args:
-            field: ψ in page coordinates.
+            field: ψ, or ρψ, in page coordinates.
             limit: the colours span −limit to limit.
             colours: at equal steps, red, green, blue in 0…1, shape (colours, 3).
         """
@@ -81,6 +81,10 @@ class Page:
     def band(self, lower: Array, upper: Array, *, colour: str, opacity: float = 1.0) -> None:
         """Fill the area between two curves with the same number of points (points, 2)."""
         self._fill(picture_shapes.band(lower, upper), colour, opacity)
+
+    def area(self, corners: Array, *, colour: str, opacity: float = 1.0) -> None:
+        """Fill a closed polygon of shape (corners, 2)."""
+        self._fill(picture_shapes.area(corners), colour, opacity)
 
     def strokes(self, ends: Array, *, stroke: float, colour: str, joined: bool = False) -> None:
         """Draw straight strokes of a width in pixels; ends of shape (strokes, 2, 2), see `picture_shapes.strokes`."""

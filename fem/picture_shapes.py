@@ -73,6 +73,29 @@ def band(lower: Array, upper: Array) -> Shape:
     return polygons(np.stack([lower[:-1], lower[1:], upper[1:], upper[:-1]], axis=1))
 
 
+def area(corners: Array) -> Shape:
+    """The inside of a closed polygon, convex or not, of shape (corners, 2), with hard edges.
+
+    It is cut into trapezoids at the height of each corner: between two such heights the edges do not end, and inside
+    and outside take turns from edge to edge.
+    """
+    ends = np.roll(corners, -1, axis=0)
+    heights = np.unique(corners[:, 1])
+    lowest, highest = np.minimum(corners[:, 1], ends[:, 1]), np.maximum(corners[:, 1], ends[:, 1])
+    strip, edge = np.nonzero((lowest <= heights[:-1, None]) & (highest >= heights[1:, None]))
+    start, step = corners[edge], (ends - corners)[edge]
+    sides = np.stack([heights[strip], heights[strip + 1]], axis=1)
+    x = start[:, :1] + step[:, :1] * (sides - start[:, 1:]) / step[:, 1:]
+    order = np.lexsort((x.mean(axis=1), strip))
+    points = np.stack([x, sides], axis=2)[order].reshape(-1, 2, 2, 2)
+    return polygons(np.stack([points[:, 0, 0], points[:, 1, 0], points[:, 1, 1], points[:, 0, 1]], axis=1))
+
+
+def closed(corners: Array) -> Array:
+    """The curve around a closed polygon; it goes on to the second corner, so that the first is one like the others."""
+    return np.concatenate([corners, corners[:2]])
+
+
 def arrows(centres: Array, vectors: Array, *, width: float) -> tuple[Shape, Shape]:
     """Shafts and heads of flat arrows with vectors in pixels centred at points (arrows, 2)."""
     length = np.hypot(*vectors.T)
@@ -94,6 +117,17 @@ def dashes(start: tuple[float, float], end: tuple[float, float], *, dash: float,
     finish = np.minimum(begin + dash, length)
     along = np.stack([begin, finish], axis=1) / max(length, 1e-12)
     return a + along[:, :, None] * (b - a)
+
+
+def dashed(curve: Array, *, dash: float, gap: float) -> list[Array]:
+    """Pieces of a curve of shape (points, 2), each of shape (points, 2)."""
+    along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(curve, axis=0).T))])
+    begin = np.arange(0.0, along[-1], dash + gap)
+    pieces = []
+    for start, end in zip(begin, np.minimum(begin + dash, along[-1]), strict=True):
+        at = np.concatenate([[start], along[(along > start) & (along < end)], [end]])
+        pieces.append(np.column_stack([np.interp(at, along, channel) for channel in curve.T]))
+    return pieces
 
 
 def _ribbons(curves: Array, normals: Array, width: float, *, fading_ends: bool) -> Shape:

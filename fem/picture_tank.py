@@ -2,49 +2,25 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
-from hydroelastic.fem.picture_liquid import LiquidField, above, displacement_on_grid, iso_lines, moving
+from hydroelastic.fem.picture_float import BODY, BODY_EDGE, draw_displaced, draw_resting, up_to_floats
+from hydroelastic.fem.picture_frame import Frame
+from hydroelastic.fem.picture_liquid import LiquidField, between, displacement_on_grid, iso_lines, steep
+from hydroelastic.fem.picture_mode import ModePicture, SurfaceCurve
 from hydroelastic.fem.picture_page import GREY, INK, WHITE, Page
 from hydroelastic.fem.picture_shapes import Array, dashes
-from hydroelastic.fem.picture_view import ModePicture, SurfaceCurve, View, colour_limit, iso_levels
+from hydroelastic.fem.picture_view import View, colour_limit, iso_levels
 
-BODY = "#d9660a"
-BODY_EDGE = "#5c2a00"
 FREE_SURFACE = "#0a58a8"
+INTERFACE = "#00747c"
 ISO_LINE = "#6e6a72"
 ARROW = "#26262b"
 WALL_STROKE = 5.0
 
 _WALL = "#3c3c3c"
-_WASH = "#bcd7ef"
-
-
-@dataclass(frozen=True, kw_only=True)
-class Frame:
-    """Where the tank stands on the page.
-
-    Attributes:
-        left: page coordinate of x = 0.
-        level: page coordinate of y = 0.
-        per_metre: pixels per metre of x.
-        stretch: vertical scale over horizontal scale.
-        unit: pixels of the page's unit of line widths.
-    """
-
-    left: float
-    level: float
-    per_metre: float
-    stretch: float
-    unit: float
-
-    def page(self, x: Array, y: Array) -> Array:
-        """Page coordinates of points in m, shape (points, 2)."""
-        return np.column_stack(
-            [self.left + self.per_metre * x, self.level + self.stretch * self.per_metre * np.broadcast_to(y, x.shape)]
-        )
+LOWER_WASH = "#bcd7ef"
+UPPER_WASH = "#f0dca4"
 
 
 def draw_tank(page: Page, picture: ModePicture, view: View, frame: Frame, *, colours: Array, spacing: float) -> None:
@@ -55,64 +31,78 @@ def draw_tank(page: Page, picture: ModePicture, view: View, frame: Frame, *, col
         picture: the mode.
         view: what is drawn.
         frame: where it is drawn.
-        colours: of the potential from its negative to its positive limit, shape (colours, 3).
+        colours: of the field from its negative to its positive limit, shape (colours, 3).
         spacing: pixels between displacement vectors; 0 for none.
     """
     field = _liquid_field(picture, view, frame)
     limit = colour_limit(picture)
     page.field(field, limit=limit, colours=colours)
-    page.strokes(_iso_lines(field, limit, view), stroke=1.1 * frame.unit, colour=ISO_LINE, joined=True)
-    _cover_below(page, field, view, frame)
+    page.strokes(_iso_lines(field, picture, limit, view), stroke=1.1 * frame.unit, colour=ISO_LINE, joined=True)
+    _cover_outside(page, field, view, frame)
     if spacing > 0:
         page.arrows(*_arrows(field, view, frame, spacing), stroke=2.0 * frame.unit, colour=ARROW)
-    _draw_wash(page, picture, view, frame)
-    _draw_walls(page, view, frame)
-    start, end = frame.page(np.array([0.0, view.length]), np.zeros(2))
-    level = dashes(tuple(start), tuple(end), dash=9 * frame.unit, gap=6 * frame.unit)
-    page.strokes(level, stroke=1.4 * frame.unit, colour=INK)
-    _draw_surfaces(page, picture, view, frame)
+    surfaces = tuple(up_to_floats(curve, picture.floats, view.surface_scale, frame) for curve in picture.surfaces)
+    _draw_wash(page, picture, surfaces, view, frame)
+    for section in picture.floats:
+        draw_resting(page, section, frame)
+    _draw_walls(page, picture, view, frame)
+    _draw_still_levels(page, picture, view, frame)
+    _draw_surfaces(page, surfaces, view, frame)
+    for section in picture.floats:
+        draw_displaced(page, section, view.surface_scale, frame)
 
 
 def _liquid_field(picture: ModePicture, view: View, frame: Frame) -> LiquidField:
     field = LiquidField(
         points=frame.page(picture.points[:, 0], picture.points[:, 1]),
         triangles=picture.triangles,
-        potential=picture.potential,
+        potential=picture.drawn_field,
         displacement=picture.displacement,
     )
-    return above(field, _floor(view, frame)) if view.cut else field
+    if not (view.cut or view.upper_cut):
+        return field
+    low, high = _extent(view, frame)
+    return between(field, low if view.cut else -np.inf, high if view.upper_cut else np.inf)
 
 
-def _floor(view: View, frame: Frame) -> float:
-    """Page coordinate of the lowest drawn point of the liquid."""
-    return float(frame.page(np.zeros(1), np.array([-view.depth]))[0, 1])
+def _extent(view: View, frame: Frame) -> tuple[float, float]:
+    """Page coordinates of the lowest and the highest drawn point of the liquids."""
+    low, high = frame.page(np.zeros(2), np.array([-view.depth, view.upper_depth]))[:, 1]
+    return float(low), float(high)
 
 
-def _iso_lines(field: LiquidField, limit: float, view: View) -> Array:
-    """Strokes along the lines of equal ψ, shape (strokes, 2, 2).
+def _iso_lines(field: LiquidField, picture: ModePicture, limit: float, view: View) -> Array:
+    """Strokes along the lines of equal ψ, or ρψ, shape (strokes, 2, 2).
 
-    They are left out where ψ hardly changes: rounding errors would decide on the course of ψ = 0 in still water.
+    They are left out where it hardly changes: rounding errors would decide on the course of ψ = 0 in still water.
     """
-    return iso_lines(moving(field, 0.01 * limit / view.length), iso_levels(limit))
+    steepness = picture.weight * np.hypot(*picture.displacement.T)
+    return iso_lines(steep(field, steepness, 0.01 * limit / view.length), iso_levels(limit))
 
 
-def _cover_below(page: Page, field: LiquidField, view: View, frame: Frame) -> None:
-    """Wipe out what the triangles at the floor of a cut tank show below it."""
-    if view.cut:
-        floor, lowest = _floor(view, frame), float(field.points[field.triangles, 1].min())
-        (left, _), (right, _) = frame.page(np.array([0.0, view.length]), np.zeros(1))
-        low, high = (np.array([[left - 1.0, y], [right + 1.0, y]]) for y in (lowest - 1.0, floor))
-        page.band(low, high, colour=WHITE)
+def _cover_outside(page: Page, field: LiquidField, view: View, frame: Frame) -> None:
+    """Wipe out what the triangles at the ends of a cut tank show beyond them."""
+    if not (view.cut or view.upper_cut):
+        return
+    floor, ceiling = _extent(view, frame)
+    ordinates = field.points[field.triangles, 1]
+    (left, _), (right, _) = frame.page(np.array([0.0, view.length]), np.zeros(1))
+    for cut, ends in ((view.cut, (ordinates.min() - 1.0, floor)), (view.upper_cut, (ceiling, ordinates.max() + 1.0))):
+        if cut:
+            low, high = (np.array([[left - 1.0, y], [right + 1.0, y]]) for y in ends)
+            page.band(low, high, colour=WHITE)
 
 
 def _arrows(field: LiquidField, view: View, frame: Frame, spacing: float) -> tuple[Array, Array]:
     """Centres and vectors in pixels of the displacement on a regular grid, stretched like the tank."""
-    (left, bottom), (right, top) = frame.page(np.array([0.0, view.length]), np.array([-view.depth, 0.0]))
+    (left, _), (right, _) = frame.page(np.array([0.0, view.length]), np.zeros(1))
+    bottom, top = _extent(view, frame)
     columns, rows = max(round((right - left) / spacing), 2), max(round((top - bottom) / spacing), 2)
     x = left + (right - left) * (np.arange(columns) + 0.5) / columns
     y = bottom + (top - bottom) * (np.arange(rows) + 0.5) / rows
     centres, displacement = displacement_on_grid(field, x, y)
-    vectors = drawn_vectors(displacement * [1.0, frame.stretch], spacing)
+    stretch = np.where(centres[:, 1] > frame.level, frame.upper_stretch, frame.stretch)
+    vectors = drawn_vectors(displacement * np.column_stack([np.ones(len(stretch)), stretch]), spacing)
     seen = np.hypot(*vectors.T) > 0.1 * spacing
     return centres[seen], vectors[seen]
 
@@ -130,45 +120,82 @@ def drawn_vectors(vectors: Array, spacing: float) -> Array:
     return 0.95 * spacing * vectors / np.maximum(length, reference)[:, None]
 
 
-def _displaced(curve: SurfaceCurve, view: View, frame: Frame) -> Array:
-    return frame.page(curve.x, view.surface_scale * curve.displacement)
+def _displaced(curve: SurfaceCurve, height: Array, view: View, frame: Frame) -> Array:
+    """Page coordinates of a curve displaced by a height in the mode's arbitrary scale."""
+    return frame.displaced(curve.x, np.full(len(curve.x), curve.level), np.zeros(1), view.surface_scale * height)
 
 
-def _draw_wash(page: Page, picture: ModePicture, view: View, frame: Frame) -> None:
-    """Tint the liquid that rose above the still level, and fade the field where the surface fell below it."""
-    for colour, sign, opacity in ((_WASH, 1.0, 0.55), (WHITE, -1.0, 0.5)):
-        for curve in picture.surfaces:
-            height = sign * np.maximum(sign * view.surface_scale * curve.displacement, 0.0)
-            if height.any():
-                level, surface = frame.page(curve.x, np.zeros(1)), frame.page(curve.x, height)
+def _draw_wash(page: Page, picture: ModePicture, surfaces: tuple[SurfaceCurve, ...], view: View, frame: Frame) -> None:
+    """Tint the liquid that passed a still level; where air came in, fade the field."""
+    for sign in (1.0, -1.0):
+        for curve in surfaces:
+            height = sign * np.maximum(sign * curve.displacement, 0.0)
+            if height.any() and view.surface_scale > 0:
+                colour, opacity = _wash(picture, curve, sign)
+                level, surface = (_displaced(curve, y, view, frame) for y in (np.zeros(len(height)), height))
                 page.band(level, surface, colour=colour, opacity=opacity)
 
 
-def _draw_walls(page: Page, view: View, frame: Frame) -> None:
+def _wash(picture: ModePicture, curve: SurfaceCurve, sign: float) -> tuple[str, float]:
+    """Colour and opacity of what comes to the other side of a still level by rising or falling."""
+    inner = not picture.is_at_top(curve)
+    if sign > 0:
+        return (LOWER_WASH if inner or not picture.has_two_liquids else UPPER_WASH), 0.55
+    return (UPPER_WASH, 0.55) if inner else (WHITE, 0.5)
+
+
+def _draw_walls(page: Page, picture: ModePicture, view: View, frame: Frame) -> None:
     unit = frame.unit
     wall = WALL_STROKE * unit
-    (left, bottom), (right, top) = frame.page(np.array([0.0, view.length]), np.array([-view.depth, view.headroom]))
     edge = 0.5 * wall
+    (left, bottom), (right, top) = frame.page(
+        np.array([0.0, view.length]), np.array([-view.depth, view.upper_depth + view.headroom])
+    )
+    _, ceiling = _extent(view, frame)
+    top = ceiling + wall if picture.lid else top
     sides = [[[x, bottom], [x, top]] for x in (left - edge, right + edge)]
     page.strokes(np.array(sides), stroke=wall, colour=_WALL)
     if view.cut:
-        page.strokes(
-            dashes((left, bottom), (right, bottom), dash=3 * unit, gap=6 * unit), stroke=1.5 * unit, colour=GREY
-        )
+        page.strokes(_cut_edge(left, right, bottom, unit), stroke=1.5 * unit, colour=GREY)
     else:
         page.strokes(
             np.array([[[left - wall, bottom - edge], [right + wall, bottom - edge]]]), stroke=wall, colour=_WALL
         )
+    if view.upper_cut:
+        page.strokes(_cut_edge(left, right, ceiling, unit), stroke=1.5 * unit, colour=GREY)
+        return
+    for start, end in picture.lid:
+        # Where a piece of the lid meets a wall, it joins it.
+        first = left - wall if start <= 0.0 else left + frame.per_metre * start
+        last = right + wall if end >= view.length else left + frame.per_metre * end
+        page.strokes(np.array([[[first, ceiling + edge], [last, ceiling + edge]]]), stroke=wall, colour=_WALL)
 
 
-def _draw_surfaces(page: Page, picture: ModePicture, view: View, frame: Frame) -> None:
-    """Free surfaces first: a body's ends cover theirs."""
+def _cut_edge(left: float, right: float, y: float, unit: float) -> Array:
+    """Strokes where the liquid goes on beyond what is drawn."""
+    return dashes((left, y), (right, y), dash=3 * unit, gap=6 * unit)
+
+
+def _draw_still_levels(page: Page, picture: ModePicture, view: View, frame: Frame) -> None:
+    ordinates = [0.0]
+    if picture.has_two_liquids and not view.upper_cut and view.headroom > 0:
+        ordinates.append(view.upper_depth)
+    for y in ordinates:
+        start, end = frame.page(np.array([0.0, view.length]), np.full(2, y))
+        level = dashes(tuple(start), tuple(end), dash=9 * frame.unit, gap=6 * frame.unit)
+        page.strokes(level, stroke=1.4 * frame.unit, colour=INK)
+
+
+def _draw_surfaces(page: Page, surfaces: tuple[SurfaceCurve, ...], view: View, frame: Frame) -> None:
+    """Surfaces of liquids first: a body's ends cover theirs."""
     unit = frame.unit
-    for curve in picture.surfaces:
-        if curve.kind == "free_surface":
-            page.ribbon(_displaced(curve, view, frame), stroke=7.0 * unit, colour=WHITE)
-            page.ribbon(_displaced(curve, view, frame), stroke=4.5 * unit, colour=FREE_SURFACE)
-    for curve in picture.surfaces:
+    for curve in surfaces:
+        if curve.kind != "body":
+            line = _displaced(curve, curve.displacement, view, frame)
+            page.ribbon(line, stroke=7.0 * unit, colour=WHITE)
+            page.ribbon(line, stroke=4.5 * unit, colour=INTERFACE if curve.kind == "interface" else FREE_SURFACE)
+    for curve in surfaces:
         if curve.kind == "body":
-            page.ribbon(_displaced(curve, view, frame), stroke=15.0 * unit, colour=BODY_EDGE)
-            page.ribbon(_displaced(curve, view, frame), stroke=11.0 * unit, colour=BODY)
+            line = _displaced(curve, curve.displacement, view, frame)
+            page.ribbon(line, stroke=15.0 * unit, colour=BODY_EDGE)
+            page.ribbon(line, stroke=11.0 * unit, colour=BODY)

@@ -7,19 +7,24 @@ from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 
 from hydroelastic.fem.picture_canvas import Canvas, NoRendererError
+from hydroelastic.fem.picture_frame import frame_of
 from hydroelastic.fem.picture_legend import (
     draw_axes,
     draw_colour_bar,
     draw_legend,
+    field_name,
+    label_liquids,
     mode_colours,
     scale_notes,
+    stretch_note,
     write_line,
 )
+from hydroelastic.fem.picture_mode import FloatSection, ModePicture, SurfaceCurve
 from hydroelastic.fem.picture_page import GREY, Page
-from hydroelastic.fem.picture_tank import Frame, draw_tank
-from hydroelastic.fem.picture_view import ModePicture, SurfaceCurve, View, colour_limit, view_of
+from hydroelastic.fem.picture_tank import draw_tank
+from hydroelastic.fem.picture_view import View, view_of
 
-__all__ = ["Canvas", "ModePicture", "NoRendererError", "SurfaceCurve", "draw_mode", "draw_overview"]
+__all__ = ["Canvas", "FloatSection", "ModePicture", "NoRendererError", "SurfaceCurve", "draw_mode", "draw_overview"]
 
 _REFERENCE_WIDTH = 1600.0
 """Sizes are given for this image width and scaled with it."""
@@ -44,23 +49,20 @@ def draw_mode(picture: ModePicture, path: Path | str, *, width: int = 1600, canv
     path = _checked_path(path, width)
     view = view_of(picture)
     unit = width / _REFERENCE_WIDTH
-    drawn_width, drawn_height = _drawn_size(view, available=width - 230 * unit, highest=0.75 * width)
+    beside = 120 * unit if picture.has_two_liquids else 0.0
+    drawn_width, drawn_height = _drawn_size(view, available=width - 230 * unit - beside, highest=0.75 * width)
     footer = 285 * unit
     height = round(footer + drawn_height + 85 * unit)
-    frame = Frame(
-        left=0.5 * (width - drawn_width) + 45 * unit,
-        level=footer + view.stretch * view.depth * drawn_width / view.length,
-        per_metre=drawn_width / view.length,
-        stretch=view.stretch,
-        unit=unit,
-    )
+    left = 0.5 * (width - drawn_width - beside) + 45 * unit
+    frame = frame_of(view, left=left, bottom=footer, per_metre=drawn_width / view.length, unit=unit)
     with _opened(canvas) as opened:
         page = Page(opened, width=width, height=height)
         draw_tank(page, picture, view, frame, colours=mode_colours(), spacing=44 * unit)
         write_line(page, picture.title, (0.5 * width, height - 42 * unit), size=30 * unit, room=width - 60 * unit)
         draw_axes(page, view, frame)
-        draw_colour_bar(page, colour_limit(picture), unit, centre=0.5 * width, y=112 * unit)
-        draw_legend(page, picture.surfaces, unit, centre=0.5 * width, y=172 * unit, vectors=True)
+        label_liquids(page, picture, view, frame)
+        draw_colour_bar(page, picture, unit, centre=0.5 * width, y=112 * unit)
+        draw_legend(page, [picture], unit, centre=0.5 * width, y=172 * unit, vectors=True)
         _write_caption(page, scale_notes(view), unit)
         page.save(path)
 
@@ -109,12 +111,11 @@ def draw_overview(
             title = (left + 0.5 * panel, top - 32 * unit)
             write_line(page, picture.title, title, size=19 * unit, room=panel)
             scale = panel / view.length
-            level = top - heading - view.headroom * view.stretch * scale + 8 * unit
-            frame = Frame(left=left, level=level, per_metre=scale, stretch=view.stretch, unit=0.62 * unit)
+            bottom = top - heading - view.drawn_height * scale + 8 * unit
+            frame = frame_of(view, left=left, bottom=bottom, per_metre=scale, unit=0.62 * unit)
             draw_tank(page, picture, view, frame, colours=mode_colours(), spacing=0.0)
-        surfaces = [curve for picture in pictures for curve in picture.surfaces]
-        draw_legend(page, surfaces, unit, centre=0.5 * width, y=66 * unit, vectors=False)
-        _write_caption(page, _overview_note(views), unit)
+        draw_legend(page, pictures, unit, centre=0.5 * width, y=66 * unit, vectors=False)
+        _write_caption(page, _overview_note(pictures, views), unit)
         page.save(path)
 
 
@@ -152,11 +153,12 @@ def _write_caption(page: Page, text: str, unit: float) -> None:
     write_line(page, text, (0.5 * page.width, 30 * unit), size=19 * unit, room=room, colour=GREY)
 
 
-def _overview_note(views: Sequence[View]) -> str:
-    notes = ["each panel has its own scale of ψ (green positive, purple negative) and of the displacement"]
-    stretches = {view.stretch for view in views}
-    if stretches != {1.0}:
-        notes.append("vertical scale " + ", ".join(f"×{stretch:g}" for stretch in sorted(stretches)))
-    if any(view.cut for view in views):
-        notes.append("only the upper part of the liquid shown")
+def _overview_note(pictures: Sequence[ModePicture], views: Sequence[View]) -> str:
+    name = field_name(pictures[0])
+    notes = [f"each panel has its own scale of {name} (green positive, purple negative) and of the displacement"]
+    stretches = [*dict.fromkeys(filter(None, map(stretch_note, views)))]
+    notes += stretches
+    if any(view.cut or view.upper_cut for view in views):
+        part = "part around the interface" if pictures[0].has_two_liquids else "upper part of the liquid"
+        notes.append(f"only the {part} shown")
     return "; ".join(notes)

@@ -1,4 +1,4 @@
-"""Fields as plain arrays on one process, to draw and to write: ψ and ∇ψ on small triangles, displaced surfaces."""
+"""Fields as plain arrays on one process, to draw and to write: ψ and ∇ψ on small triangles, ψ along surfaces."""
 
 from __future__ import annotations
 
@@ -21,27 +21,46 @@ class LiquidSample:
     Attributes:
         points: coordinates, shape (points, 2); points on a cell's edge stand once per cell.
         triangles: shape (triangles, 3).
+        liquid: of each triangle: 1 is the lowest, shape (triangles,).
         potential: ψ of each mode, shape (modes, points).
         displacement: ∇ψ of each mode, shape (modes, points, 2).
     """
 
     points: NDArray[np.float64]
     triangles: NDArray[np.int64]
+    liquid: NDArray[np.int64]
     potential: NDArray[np.float64]
     displacement: NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)
 class SurfaceTrace:
-    """ψ of several modes along a named surface, ordered by x.
+    """ψ of several modes along a named surface, facet by facet from left to right.
+
+    At a slit that crosses the surface ψ has two values, each of which belongs to the facet on its side.
 
     Attributes:
-        x: abscissae, shape (points,).
-        potential: shape (modes, points).
+        x: abscissae, increasing in each facet, shape (facets, points).
+        potential: shape (modes, facets, points).
     """
 
     x: NDArray[np.float64]
     potential: NDArray[np.float64]
+
+    def between(self, start: float, end: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """The part of the surface from x = start to x = end, both of which are ends of facets.
+
+        Returns:
+            Abscissae, shape (points,), and ψ there, shape (modes, points).
+        """
+        middle = 0.5 * (self.x[:, 0] + self.x[:, -1])
+        inside = (middle > start) & (middle < end)
+        x, potential = self.x[inside], self.potential[:, inside]
+        # Facets that meet share their end point.
+        return (
+            np.concatenate([x[:1, 0], x[:, 1:].ravel()]),
+            np.hstack([potential[:, :1, 0], potential[:, :, 1:].reshape(len(potential), -1)]),
+        )
 
 
 def sample_liquid(liquid: LiquidSpace, functions: list[fem.Function]) -> LiquidSample | None:
@@ -62,12 +81,10 @@ def sample_liquid(liquid: LiquidSpace, functions: list[fem.Function]) -> LiquidS
     gathered = mesh.comm.gather(pieces, root=0)
     if gathered is None:
         return None
-    return _merge([piece for process in gathered for piece in process], len(functions))
+    return _merge([piece for process in gathered for piece in process])
 
 
-def _sample_cells(
-    liquid: LiquidSpace, functions: list[fem.Function], cells: np.ndarray, level: int
-) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+def _sample_cells(liquid: LiquidSpace, functions: list[fem.Function], cells: np.ndarray, level: int) -> LiquidSample:
     reference, triangles = _subdivided_triangle(level)
     table = liquid.space.element.basix_element.tabulate(1, reference)[:, :, :, 0]
     dofs = liquid.space.dofmap.list[cells]
@@ -81,21 +98,25 @@ def _sample_cells(
     gradient = np.einsum("mcpj,cpji->mcpi", reference_gradient, inverse)
     connectivity = (np.arange(len(cells)) * len(reference))[:, None, None] + triangles[None]
     modes = len(functions)
-    return (
-        points.reshape(-1, 2),
-        connectivity.reshape(-1, 3),
-        potential.reshape(modes, -1),
-        gradient.reshape(modes, -1, 2),
+    # No unknown is shared by two liquids: the first of a cell tells its liquid.
+    layers = liquid.layer_of[dofs[:, 0]].astype(np.int64)
+    return LiquidSample(
+        points=points.reshape(-1, 2),
+        triangles=connectivity.reshape(-1, 3),
+        liquid=np.repeat(1 + layers, len(triangles)),
+        potential=potential.reshape(modes, -1),
+        displacement=gradient.reshape(modes, -1, 2),
     )
 
 
-def _merge(pieces: list[tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]], modes: int) -> LiquidSample:
-    offsets = np.cumsum([0, *(len(piece[0]) for piece in pieces)])
+def _merge(pieces: list[LiquidSample]) -> LiquidSample:
+    offsets = np.cumsum([0, *(len(piece.points) for piece in pieces)])
     return LiquidSample(
-        points=np.vstack([piece[0] for piece in pieces]),
-        triangles=np.vstack([piece[1] + offset for piece, offset in zip(pieces, offsets[:-1], strict=True)]),
-        potential=np.hstack([piece[2].reshape(modes, -1) for piece in pieces]),
-        displacement=np.hstack([piece[3].reshape(modes, -1, 2) for piece in pieces]),
+        points=np.vstack([piece.points for piece in pieces]),
+        triangles=np.vstack([piece.triangles + offset for piece, offset in zip(pieces, offsets[:-1], strict=True)]),
+        liquid=np.concatenate([piece.liquid for piece in pieces]),
+        potential=np.hstack([piece.potential for piece in pieces]),
+        displacement=np.hstack([piece.displacement for piece in pieces]),
     )
 
 
@@ -130,17 +151,27 @@ def sample_surface(
     Returns:
         The trace on rank 0, ``None`` elsewhere (collective).
     """
-    local = np.linspace(0.0, 1.0, 2 * liquid.degree + 1)[:, None]
-    x, values = [np.empty(0)], [np.empty((len(functions), 0))]
+    count = 2 * liquid.degree + 1
+    local = np.linspace(0.0, 1.0, count)[:, None]
+    x: list[np.ndarray] = [np.empty((0, count))]
+    values: list[np.ndarray] = [np.empty((len(functions), 0, count))]
     for group in facet_groups(liquid, name, layer):
         reference = group.reference_points(local)
         basis = liquid.space.element.basix_element.tabulate(0, reference)[0, :, :, 0]
         dofs = liquid.space.dofmap.list[group.cells]
-        x.append(group.physical_points(reference)[:, :, 0].ravel())
-        values.append(np.array([(function.x.array[dofs] @ basis.T).ravel() for function in functions]))
-    gathered = liquid.tank.mesh.comm.gather((np.concatenate(x), np.hstack(values)), root=0)
+        x.append(group.physical_points(reference)[:, :, 0])
+        values.append(np.array([function.x.array[dofs] @ basis.T for function in functions]))
+    gathered = liquid.tank.mesh.comm.gather((np.concatenate(x), np.concatenate(values, axis=1)), root=0)
     if gathered is None:
         return None
-    # Facets that meet share their end point.
-    positions, first = np.unique(np.concatenate([part[0] for part in gathered]), return_index=True)
-    return SurfaceTrace(x=positions, potential=np.hstack([part[1] for part in gathered])[:, first])
+    return _from_left_to_right(
+        np.concatenate([part[0] for part in gathered]), np.concatenate([part[1] for part in gathered], axis=1)
+    )
+
+
+def _from_left_to_right(x: np.ndarray, potential: np.ndarray) -> SurfaceTrace:
+    within = np.argsort(x, axis=1)
+    x = np.take_along_axis(x, within, axis=1)
+    potential = np.take_along_axis(potential, within[None], axis=2)
+    order = np.argsort(x.mean(axis=1))
+    return SurfaceTrace(x=x[order], potential=potential[:, order])

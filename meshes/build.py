@@ -56,6 +56,7 @@ def build_mesh(
             layout, size = lay_out(
                 outline, bulk_size=bulk_size, growth=growth, ring_ratio=ring_ratio, largest_turn=turn
             )
+            layout.check_crossings()
             filling = fill(layout.points(), layout.loops(), size)
             mesh, sides = assemble(layout, filling)
             return _curved(mesh, layout, sides, geometry_degree)

@@ -120,9 +120,10 @@ class Arc:
 
 
 def root(value: Callable[[float], float], first: float, last: float) -> float:
-    """Return where a function of one variable changes its sign, to rounding."""
-    # brentq takes no smaller relative tolerance; the absolute one must not cut in at roots near zero.
-    return float(brentq(value, first, last, xtol=1e-300, rtol=4.0 * float(np.finfo(float).eps)))
+    """Return where a function of one variable changes its sign, to rounding of the interval."""
+    # Next to a root at 0 the function's own rounding would keep a merely relative tolerance from being met.
+    tolerance = 1e-17 * (last - first)
+    return float(brentq(value, first, last, xtol=tolerance, rtol=4.0 * float(np.finfo(float).eps), maxiter=1000))
 
 
 def straight_arc(start: Point, end: Point) -> Arc:

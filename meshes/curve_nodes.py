@@ -9,10 +9,12 @@ from numpy.typing import NDArray
 
 from hydroelastic.meshes.outline import Corner, Curve, Outline
 from hydroelastic.meshes.rings import RingEnds
-from hydroelastic.meshes.size_field import Segments, SizeField
+from hydroelastic.meshes.size_field import Discs, SizeField
 
 # Rings reach at most this part of the way to the next curve or corner.
 _ROOM = 0.45
+# Triangles of the rings have angles of 17 degrees at a curve: within the rings it turns by this part of an element's.
+_TURN_OF_RINGS = 0.5
 # Samples of a curved piece turn by at most this part of what an element may, and are this part of its size at most.
 _FINE = 0.125
 _FIRST_SAMPLES = 65
@@ -25,9 +27,10 @@ _BISECTIONS = 100
 
 
 def outermost_ring(outline: Outline, corner: Corner, largest_turn: float) -> float:
-    """Radius of the outermost ring that fits at a corner: `Corner.outer`, or less where curves bend or are near.
+    """Radius of the outermost ring that fits at a corner.
 
-    Curves that meet at the corner turn within the ring by less than ``largest_turn`` (radians).
+    It is `Corner.outer`, or less: the size of the curves that meet there, almost half the way to what is next to the
+    corner, and so small that the curves there turn within the ring by less than half of ``largest_turn`` (radians).
     """
     place = np.array(corner.point)
     room = inf
@@ -36,8 +39,9 @@ def outermost_ring(outline: Outline, corner: Corner, largest_turn: float) -> flo
         if corner.point in (curve.start, curve.end):
             other = curve.end if corner.point == curve.start else curve.start
             room = min(room, float(np.hypot(*(np.array(other) - place))))
+            limits.append(curve.size)
             if curve.path is not None:
-                limits.append(_bent_radius(curve, corner, largest_turn))
+                limits.append(_bent_radius(curve, corner, _TURN_OF_RINGS * largest_turn))
         else:
             points = curve.polyline()
             room = min(room, float(distances(place[None, :], points[:-1], points[1:]).min()))
@@ -100,7 +104,7 @@ def ring_ends(curve: Curve, at_start: bool, radii: NDArray[np.float64]) -> RingE
         length = float(np.hypot(*away))
         away /= length
         points = place + radii[:, None] * away
-        fractions: NDArray[np.float64] = radii / length
+        fractions = np.asarray(radii / length, dtype=np.float64)
         angles = np.full(len(radii), np.arctan2(away[1], away[0]))
     else:
         fractions = _fractions_at(curve, at_start, radii)
@@ -127,27 +131,51 @@ def _fractions_at(curve: Curve, at_start: bool, radii: NDArray[np.float64]) -> N
     return above
 
 
-def bend_sources(curve: Curve, first: float, last: float, largest_turn: float) -> Segments:
-    """A curved piece as sources of fineness: its size, or less where that would turn by more than ``largest_turn``."""
-    points = curve.at(curve_samples(curve, first, last, largest_turn))
+def bend_sources(outline: Outline, number: int, span: tuple[float, float], largest_turn: float) -> Discs:
+    """A curved piece as sources of fineness.
+
+    Elements are as large as the curve allows, or smaller: they turn by at most ``largest_turn``, and their chord is off
+    the curve by at most an eighth of the way to other curves.
+
+    Args:
+        outline: the domain.
+        number: index of the curve.
+        span: parameters between which it is cut into elements.
+        largest_turn: radians.
+    """
+    curve = outline.curves[number]
+    points = curve.at(curve_samples(curve, *span, largest_turn))
     lengths = np.hypot(*np.diff(points, axis=0).T)
+    centres = 0.5 * (points[:-1] + points[1:])
     # Curvature at each sample, from the turn there and half the lengths on both sides.
     curvature = np.concatenate([[0.0], 2.0 * _turns(points) / (lengths[:-1] + lengths[1:]), [0.0]])
-    sharpest = np.maximum(curvature[:-1], curvature[1:])
     with np.errstate(divide="ignore"):
-        sizes = np.minimum(curve.size, largest_turn / sharpest)
+        radius = 1.0 / np.maximum(curvature[:-1], curvature[1:])
+    # A chord of length h is off by h²/8R.
+    sizes = np.minimum(largest_turn * radius, np.sqrt(radius * _gaps(outline, curve, centres)))
+    sizes = np.minimum(sizes, curve.size)
     finite = np.isfinite(sizes)
-    return Segments(starts=points[:-1][finite], ends=points[1:][finite], sizes=sizes[finite])
+    return Discs(centres=centres[finite], radii=0.5 * lengths[finite], sizes=sizes[finite])
+
+
+def _gaps(outline: Outline, curve: Curve, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Distance of points on a curve from all curves that do not meet it."""
+    gaps = np.full(len(points), inf)
+    for other in outline.curves:
+        if {other.start, other.end}.isdisjoint({curve.start, curve.end}):
+            polyline = other.polyline()
+            gaps = np.minimum(gaps, distances(points, polyline[:-1], polyline[1:]).min(axis=1))
+    return gaps
 
 
 def element_parameters(
-    curve: Curve, first: float, last: float, size: SizeField, largest_turn: float
+    curve: Curve, span: tuple[float, float], size: SizeField, largest_turn: float
 ) -> NDArray[np.float64]:
     """Parameters of the ends of a curved piece's elements, both ends of the piece included.
 
     Elements take equal parts of ∫ds/h, rounded up to a whole number.
     """
-    parameters = curve_samples(curve, first, last, largest_turn)
+    parameters = curve_samples(curve, *span, largest_turn)
     while True:
         points = curve.at(parameters)
         lengths = np.hypot(*np.diff(points, axis=0).T)
@@ -160,11 +188,11 @@ def element_parameters(
     reached = np.concatenate([[0.0], np.cumsum(parts)])
     count = max(1, ceil(reached[-1] - 1e-9))
     nodes: NDArray[np.float64] = np.interp(np.linspace(0.0, reached[-1], count + 1), reached, parameters)
-    nodes[0], nodes[-1] = first, last
+    nodes[0], nodes[-1] = span
     return nodes
 
 
-def element_sources(points: NDArray[np.float64]) -> Segments:
+def element_sources(points: NDArray[np.float64]) -> Discs:
     """Elements of a curved piece as sources of their own size."""
-    starts, ends = points[:-1], points[1:]
-    return Segments(starts=starts, ends=ends, sizes=np.hypot(*(ends - starts).T))
+    lengths = np.hypot(*np.diff(points, axis=0).T)
+    return Discs(centres=0.5 * (points[:-1] + points[1:]), radii=0.5 * lengths, sizes=lengths)

@@ -13,14 +13,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import permutations
+from typing import TYPE_CHECKING
 
-import basix
 import numpy as np
 from numpy.polynomial.chebyshev import chebder, chebval, chebvander
 from numpy.typing import NDArray
 
 from hydroelastic.meshes.outline import Curve
 from hydroelastic.meshes.tagged_mesh import CurvedCells, Deviation
+
+# basix belongs to dolfinx, and meshes are made without it where all cells are straight.
+if TYPE_CHECKING:
+    import basix
 
 # Where the chord's normal meets the curve is found to the last bit.
 _BISECTIONS = 60
@@ -66,8 +70,8 @@ class CurvedEdges:
         heights = self._heights(fractions)
         heights[np.abs(heights).max(axis=1) < _ROUNDING * np.abs(self.points).max()] = 0.0
         values = heights / (fractions * (1.0 - fractions))
-        blend: NDArray[np.float64] = np.linalg.solve(chebvander(2.0 * fractions - 1.0, len(fractions) - 1), values.T).T
-        return blend
+        polynomials = chebvander(2.0 * fractions - 1.0, len(fractions) - 1)
+        return np.asarray(np.linalg.solve(polynomials, values.T).T, dtype=np.float64)
 
     def _heights(self, fractions: NDArray[np.float64]) -> NDArray[np.float64]:
         """δ·n at parts s of each chord, shape (elements, len(fractions))."""
@@ -140,6 +144,8 @@ def curve_cells(
 
 def smallest_jacobian(curved: CurvedCells) -> float:
     """Smallest determinant of the Jacobian in units of the straight cell's, over a fine set of points of all cells."""
+    import basix
+
     points = basix.create_lattice(basix.CellType.triangle, 2 * curved.degree + 3, basix.LatticeType.equispaced, True)
     _, by_x, by_y = geometry_element(curved.degree).tabulate(1, points)[..., 0]
     along, across = by_x @ curved.nodes, by_y @ curved.nodes
@@ -190,6 +196,8 @@ def _inner_nodes(degree: int) -> NDArray[np.float64]:
 
 def geometry_element(degree: int) -> basix.finite_element.FiniteElement:
     """The element of curved cells' geometry, whose inner nodes on edges are Gauss-Lobatto points."""
+    import basix
+
     return basix.create_element(
         basix.ElementFamily.P, basix.CellType.triangle, degree, basix.LagrangeVariant.gll_warped
     )

@@ -65,19 +65,16 @@ def fill(points: Iterable[NDArray[np.float64]], loops: Iterable[list[Line]], siz
         MeshError: if gmsh fails.
     """
     with _gmsh_model():
-        try:
-            drawing = _Drawing(points)
-            surfaces = [drawing.surface(loop) for loop in loops]
-            gmsh.model.geo.synchronize()
-            for option in ("MeshSizeFromPoints", "MeshSizeExtendFromBoundary", "MeshSizeFromCurvature"):
-                gmsh.option.setNumber(f"Mesh.{option}", 0)
-            gmsh.option.setNumber("Mesh.Algorithm", 6)  # frontal-Delaunay: the best-shaped triangles
-            gmsh.model.mesh.setSizeCallback(lambda dim, tag, x, y, z, lc: size(x, y))
-            with interrupts_deferred():
-                gmsh.model.mesh.generate(2)
-            return drawing.filling(surfaces)
-        except Exception as error:  # gmsh raises bare Exception
-            raise MeshError(f"gmsh could not mesh the tank: {error}") from error
+        drawing = _Drawing(points)
+        surfaces = [drawing.surface(loop) for loop in loops]
+        gmsh.model.geo.synchronize()
+        for option in ("MeshSizeFromPoints", "MeshSizeExtendFromBoundary", "MeshSizeFromCurvature"):
+            gmsh.option.setNumber(f"Mesh.{option}", 0)
+        gmsh.option.setNumber("Mesh.Algorithm", 6)  # frontal-Delaunay: the best-shaped triangles
+        gmsh.model.mesh.setSizeCallback(lambda dim, tag, x, y, z, lc: size(x, y))
+        with interrupts_deferred():
+            gmsh.model.mesh.generate(2)
+        return drawing.filling(surfaces)
 
 
 @contextmanager
@@ -90,9 +87,14 @@ def _gmsh_model() -> Iterator[None]:
     gmsh.model.add("tank")
     try:
         yield
+    except Exception as error:  # gmsh raises bare Exception
+        # After a failure its mesh generator stays locked until gmsh is started anew.
+        gmsh.finalize()
+        raise MeshError(f"gmsh could not mesh the tank: {error}") from error
     finally:
-        gmsh.model.mesh.removeSizeCallback()
-        gmsh.model.remove()
+        if gmsh.isInitialized():
+            gmsh.model.mesh.removeSizeCallback()
+            gmsh.model.remove()
 
 
 class _Drawing:

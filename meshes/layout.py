@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from math import isfinite
 
 import numpy as np
 from numpy.typing import NDArray
 
+from hydroelastic.meshes.crossings import crossing_pair
 from hydroelastic.meshes.curve_nodes import (
     bend_sources,
     element_parameters,
@@ -19,7 +21,8 @@ from hydroelastic.meshes.curved_cells import CurvedEdges
 from hydroelastic.meshes.filling import Line
 from hydroelastic.meshes.outline import Outline, Point
 from hydroelastic.meshes.rings import RingEnds, ring_radii, wedge_nodes
-from hydroelastic.meshes.size_field import Segments, SizeField
+from hydroelastic.meshes.size_field import Discs, SizeField
+from hydroelastic.meshes.tagged_mesh import MeshError
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,6 +85,22 @@ class Layout:
             points=np.vstack([before[1], self.middle(number), after[1]]),
         )
 
+    def check_crossings(self) -> None:
+        """Refuse lines that meet elsewhere than at common ends.
+
+        Raises:
+            MeshError: naming the curves.
+        """
+        names, chains = [], []
+        for line in {line.key: line for loop in self.loops() for line in loop}.values():
+            curve = self.outline.curves[line.key].name if isinstance(line.key, int) else ""
+            chains.append(line.points)
+            names += [curve or "an inner line"] * (len(line.points) - 1)
+        found = crossing_pair(np.vstack([chain[:-1] for chain in chains]), np.vstack([chain[1:] for chain in chains]))
+        if found is not None:
+            first, second = sorted(names[place] for place in found)
+            raise MeshError(f"curves of the outline cross or touch one another: {first} and {second}")
+
     def points(self) -> Iterator[NDArray[np.float64]]:
         """All points outside the rings, curve by curve from start to end, a corner's outermost rings in its place."""
         for number, curve in enumerate(self.outline.curves):
@@ -125,29 +144,22 @@ def lay_out(
                 rings[number, at_start] = ring_ends(curve, at_start, radii[point])
     spans = [
         (
-            rings[number, True].parameters[-1] if (number, True) in rings else 0.0,
-            rings[number, False].parameters[-1] if (number, False) in rings else 1.0,
+            float(rings[number, True].parameters[-1]) if (number, True) in rings else 0.0,
+            float(rings[number, False].parameters[-1]) if (number, False) in rings else 1.0,
         )
         for number in range(len(outline.curves))
     ]
-    sized = [curve for curve in outline.curves if curve.path is None and np.isfinite(curve.size)]
-    straight = Segments(
-        starts=np.array([curve.start for curve in sized]).reshape(-1, 2),
-        ends=np.array([curve.end for curve in sized]).reshape(-1, 2),
-        sizes=np.array([curve.size for curve in sized]),
-    )
-    discs = [(*point, float(outer[-1])) for point, outer in radii.items()]
+    sized = [curve for curve in outline.curves if curve.path is None and isfinite(curve.size)]
+    outermost = [(point, float(outer[-1])) for point, outer in radii.items()]
     curved = [number for number, curve in enumerate(outline.curves) if curve.path is not None]
 
-    def field(sources: list[Segments]) -> SizeField:
-        return SizeField(
-            bulk_size=bulk_size, growth=growth, straight=straight, rings=discs, curved=Segments.joined(sources)
-        )
+    def field(bends: list[Discs]) -> SizeField:
+        return SizeField(bulk_size=bulk_size, growth=growth, straight=sized, rings=outermost, bends=Discs.joined(bends))
 
-    wanted = field([bend_sources(outline.curves[number], *spans[number], largest_turn) for number in curved])
+    wanted = field([bend_sources(outline, number, spans[number], largest_turn) for number in curved])
     elements: list[NDArray[np.float64] | None] = [None] * len(outline.curves)
     for number in curved:
-        elements[number] = element_parameters(outline.curves[number], *spans[number], wanted, largest_turn)
+        elements[number] = element_parameters(outline.curves[number], spans[number], wanted, largest_turn)
     layout = Layout(outline=outline, rings=rings, wedges=_wedges(outline, radii, rings), elements=elements)
     return layout, field([element_sources(layout.middle(number)) for number in curved])
 

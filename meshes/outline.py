@@ -76,7 +76,7 @@ class Corner:
     Attributes:
         point: an end of curves.
         inner: radius that the innermost ring shall not exceed; infinite for a single ring.
-        outer: radius of the outermost ring; the mesh takes a smaller one where curves bend or other curves are near.
+        outer: radius of the outermost ring; the mesh takes a smaller one where curves bend, have a size or are near.
     """
 
     point: Point

@@ -8,29 +8,29 @@ from math import hypot
 import numpy as np
 from numpy.typing import NDArray
 
-from hydroelastic.meshes.outline import Point, as_points
+from hydroelastic.meshes.outline import Curve, Point, as_points
 
 
 @dataclass(frozen=True, kw_only=True)
-class Segments:
-    """Straight sources with a size each.
+class Discs:
+    """Round sources: within a disc elements have its size.
 
     Attributes:
-        starts: shape (n, 2).
-        ends: shape (n, 2).
+        centres: shape (n, 2).
+        radii: shape (n,).
         sizes: shape (n,).
     """
 
-    starts: NDArray[np.float64]
-    ends: NDArray[np.float64]
+    centres: NDArray[np.float64]
+    radii: NDArray[np.float64]
     sizes: NDArray[np.float64]
 
     @staticmethod
-    def joined(parts: list[Segments]) -> Segments:
-        """All segments of several sets."""
-        return Segments(
-            starts=np.vstack([np.zeros((0, 2)), *(part.starts for part in parts)]),
-            ends=np.vstack([np.zeros((0, 2)), *(part.ends for part in parts)]),
+    def joined(parts: list[Discs]) -> Discs:
+        """All discs of several sets."""
+        return Discs(
+            centres=np.vstack([np.zeros((0, 2)), *(part.centres for part in parts)]),
+            radii=np.concatenate([np.zeros(0), *(part.radii for part in parts)]),
             sizes=np.concatenate([np.zeros(0), *(part.sizes for part in parts)]),
         )
 
@@ -38,40 +38,30 @@ class Segments:
 class SizeField:
     """h(x) = min(bulk size, h_i + growth · max(|x − source i| − r_i, 0)) over all sources i.
 
-    Straight curves have r_i = 0, rings are a point with r_i = h_i their outermost radius.
+    Sources are straight curves with a size (r_i = 0), the corners with their rings (r_i = h_i is the outermost radius)
+    and short pieces of curved ones.
     """
 
     def __init__(
-        self,
-        *,
-        bulk_size: float,
-        growth: float,
-        straight: Segments,
-        rings: list[tuple[float, float, float]],
-        curved: Segments,
+        self, *, bulk_size: float, growth: float, straight: list[Curve], rings: list[tuple[Point, float]], bends: Discs
     ) -> None:
         """Collect the sources.
 
         Args:
             bulk_size: largest element anywhere.
             growth: increase of the size per unit of distance from a source.
-            straight: few long segments.
-            rings: centre x, centre y, radius.
-            curved: many short segments.
+            straight: straight curves with a size.
+            rings: corners and the radius of their outermost ring.
+            bends: pieces of curved curves.
         """
         self._bulk_size = bulk_size
         self._growth = growth
         self._rings = rings
-        self._straight = [
-            _frame(start, end, float(size))
-            for start, end, size in zip(
-                as_points(straight.starts), as_points(straight.ends), straight.sizes, strict=True
-            )
-        ]
-        self._starts = curved.starts
-        self._edges = curved.ends - curved.starts
-        self._squares = (self._edges**2).sum(axis=1)
-        self._sizes = curved.sizes
+        self._straight = [_frame(curve.start, curve.end, curve.size) for curve in straight]
+        # gmsh asks for one point after the other, thousands of times: complex numbers take the fewest steps.
+        self._centres = bends.centres @ [1.0, 1.0j]
+        self._sizes = bends.sizes
+        self._offsets = bends.sizes - growth * bends.radii
 
     def __call__(self, x: float, y: float) -> float:
         """Element size at a point."""
@@ -80,22 +70,16 @@ class SizeField:
             along = x * along_x + y * along_y
             across = y * along_x - x * along_y - offset
             size = min(size, size_there + growth * hypot(max(first - along, 0.0, along - last), across))
-        for centre_x, centre_y, radius in self._rings:
+        for (centre_x, centre_y), radius in self._rings:
             size = min(size, radius + growth * max(hypot(x - centre_x, y - centre_y) - radius, 0.0))
         if len(self._sizes):
-            size = min(size, float(np.min(self._sizes + growth * self._distances(x, y))))
+            sizes = np.maximum(self._sizes, self._offsets + growth * np.abs(self._centres - complex(x, y)))
+            size = min(size, float(sizes.min()))
         return size
 
     def along(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Element size at points of shape (n, 2)."""
         return np.array([self(x, y) for x, y in as_points(points)])
-
-    def _distances(self, x: float, y: float) -> NDArray[np.float64]:
-        away = np.array([x, y]) - self._starts
-        part = np.clip((away * self._edges).sum(axis=1) / self._squares, 0.0, 1.0)
-        away -= part[:, None] * self._edges
-        distances: NDArray[np.float64] = np.hypot(away[:, 0], away[:, 1])
-        return distances
 
 
 def _frame(start: Point, end: Point, size: float) -> tuple[float, float, float, float, float, float]:

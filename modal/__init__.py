@@ -20,12 +20,15 @@ from hydroelastic.modal.estimate import (
     paper_equivalent_mass,
 )
 from hydroelastic.modal.estimates import all_estimates
+from hydroelastic.modal.float_box import BoxModes, FloatMode, box_modes, float_mode
+from hydroelastic.modal.float_estimates import FloatEstimate, all_float_estimates
+from hydroelastic.modal.float_in_tank import FloatInTank
 from hydroelastic.modal.float_profiles import FloatShape, Profile, ProfileArc, float_profile
 from hydroelastic.modal.floating_beam import FloatingBeam
 from hydroelastic.modal.grammel import BeamQuotients, QuotientPair, beam_quotients, quotients
 from hydroelastic.modal.grammel_terms import best_term, one_term_root, term_tones
 from hydroelastic.modal.gravity_added_mass import gravity_added_mass, gravity_tones
-from hydroelastic.modal.paper_model import ERRATA, Erratum
+from hydroelastic.modal.paper_model import ERRATA, Erratum, PrintedAndCorrected
 from hydroelastic.modal.pressure_release import pressure_release_added_mass
 from hydroelastic.modal.rayleigh import (
     pressure_release_tones,
@@ -35,12 +38,27 @@ from hydroelastic.modal.rayleigh import (
     rayleigh_pressure_release,
     rayleigh_pressure_release_dry_mode,
 )
+from hydroelastic.modal.rigid_limits import (
+    RigidAddedMass,
+    half_immersed_ellipse,
+    interface_ellipse,
+    section_heave_added_mass,
+)
 from hydroelastic.modal.sloshing import (
     deep_sloshing_frequencies,
     guided_cover_frequencies,
     shallow_sloshing_frequencies,
     sloshing_frequencies,
 )
+from hydroelastic.modal.thin_float import (
+    ThinConstants,
+    thin_constants,
+    thin_float_added_mass,
+    thin_float_frequency,
+    thin_float_mass,
+    thin_float_stiffness,
+)
+from hydroelastic.modal.thin_float_paper import THIN_FLOAT_ERRATA, printed_constants
 from hydroelastic.modal.tone_pencil import Tones
 from hydroelastic.modal.two_layer import (
     Branch,
@@ -54,29 +72,40 @@ from hydroelastic.modal.two_layer import (
 
 __all__ = [
     "ERRATA",
+    "THIN_FLOAT_ERRATA",
     "BeamQuotients",
     "Bound",
+    "BoxModes",
     "Branch",
     "Erratum",
     "Estimate",
+    "FloatEstimate",
+    "FloatInTank",
+    "FloatMode",
     "FloatShape",
     "FloatingBeam",
     "InterfacePlate",
     "LayerMode",
     "LayerTop",
     "NoEstimateError",
+    "PrintedAndCorrected",
     "Profile",
     "ProfileArc",
     "QuotientPair",
+    "RigidAddedMass",
+    "ThinConstants",
     "Tones",
     "TwoLayers",
     "added_mass_from_frequency",
     "all_estimates",
+    "all_float_estimates",
     "beam_quotients",
     "best_term",
+    "box_modes",
     "deep_open_added_mass",
     "deep_open_constant",
     "deep_sloshing_frequencies",
+    "float_mode",
     "float_profile",
     "free_free_roots",
     "free_free_shape",
@@ -85,12 +114,15 @@ __all__ = [
     "gravity_added_mass",
     "gravity_tones",
     "guided_cover_frequencies",
+    "half_immersed_ellipse",
+    "interface_ellipse",
     "interface_frequencies",
     "lid_added_mass",
     "one_term_root",
     "paper_equivalent_mass",
     "pressure_release_added_mass",
     "pressure_release_tones",
+    "printed_constants",
     "quotients",
     "rayleigh",
     "rayleigh_dry_mode",
@@ -99,6 +131,7 @@ __all__ = [
     "rayleigh_pressure_release_dry_mode",
     "rigid_heave_added_mass",
     "rigid_pitch_added_inertia",
+    "section_heave_added_mass",
     "shallow_added_mass",
     "shallow_constant",
     "shallow_sloshing_frequencies",
@@ -106,4 +139,9 @@ __all__ = [
     "strip_added_mass",
     "tank_modes",
     "term_tones",
+    "thin_constants",
+    "thin_float_added_mass",
+    "thin_float_frequency",
+    "thin_float_mass",
+    "thin_float_stiffness",
 ]

@@ -22,7 +22,7 @@ class Erratum:
     """One slip or gap of the printed paper.
 
     Attributes:
-        number: its number in the theory of the aquarium, docs, § 1.3.
+        number: its number in the list of errata in the docs.
         printed: what the paper prints or omits.
         corrected: what it should be.
         consequence: what goes wrong otherwise.

@@ -2,8 +2,8 @@
 
     ./hydro python results/regenerate.py [SCENE ...]
 
-Each scene keeps its tables, the sheet of all its modes and the picture of its first elastic tone; fields stay out, they
-are large and one command away. Studies of error against cost are made of the scenes in `STUDIED`.
+Each scene keeps its tables, the sheet of all its modes and the pictures of its first elastic tone and of heave; fields
+stay out, they are large and one command away. Studies of error against cost are made of the scenes in `STUDIED`.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from hydroelastic.scenes.read import read_scene, shipped_scenes
 from hydroelastic.scenes.run import run_scene
 from hydroelastic.scenes.study import study_scene
 from hydroelastic.scenes.study_report import write_study
+from hydroelastic.scenes.summary import Summary
 
 SHIPPED = Path(__file__).parent / "shipped"
 STUDIED = ("aquarium", "sloshing")
@@ -41,15 +42,24 @@ def regenerate(name: str) -> str:
         for table in TABLES:
             shutil.copy(outcome.folder / table, kept)
         _keep_picture(outcome.folder / "images" / "overview.png", kept / "overview.png")
-        tone = outcome.summary["first_elastic"]
-        if tone is not None and tone["index"] is not None and tone["index"] <= len(outcome.summary["modes"]):
-            _keep_picture(outcome.folder / "images" / f"mode_{tone['index']:03d}.png", kept / "first_elastic.png")
+        for index, picture in shown_modes(outcome.summary).items():
+            _keep_picture(outcome.folder / "images" / f"mode_{index:03d}.png", kept / picture)
     if name in STUDIED:
         with tempfile.TemporaryDirectory() as scratch:
             write_study(study_scene(read_scene(name)), Path(scratch) / name)
             for file in ("study.csv", "study.txt", "study.png"):
                 shutil.copy(Path(scratch) / name / file, kept)
     return outcome.status
+
+
+def shown_modes(summary: Summary) -> dict[int, str]:
+    """The modes whose pictures are kept, by number: the first elastic tone, and that in which a float heaves most."""
+    tone = summary["first_elastic"]
+    found = {tone["index"]: "first_elastic.png"} if tone is not None else {}
+    for row in summary["floats"]:
+        found |= {mode["index"]: "heave.png" for mode in row["modes"] if mode["motion"] == "heave"}
+    asked = len(summary["modes"])
+    return {index: picture for index, picture in found.items() if index is not None and index <= asked}
 
 
 def _keep_picture(source: Path, target: Path) -> None:

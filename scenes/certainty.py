@@ -77,7 +77,8 @@ def frequency_errors(
             part.pencil.liquid, potentials, tank, resolution, half=solution.half, released=released
         )
     values = np.array([mode.eigenvalue for mode in modes])
-    amplitudes = np.array([mode.body_amplitudes for mode in modes]).reshape(len(modes), -1)
+    unknowns = sum(body.size for body in solution.bodies)
+    amplitudes = np.array([mode.body_amplitudes for mode in modes]).reshape(len(modes), unknowns)
     truncation = truncation_errors(solution.bodies, amplitudes, values)
     # An error of λ is twice that of ω.
     return FrequencyErrors(

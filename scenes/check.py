@@ -56,10 +56,12 @@ def _sizes(scene: TankScene) -> Iterator[str]:
             "where the energy of the first elastic tone gathers" if tank.beams else "in which mode a float moves most"
         )
         yield f"  {resolution.modes} modes are looked at, to see {what}."
+    dry_modes = "dry modes reach past that wave until their energy has died out, " if tank.beams else ""
+    where = "tips" if not tank.floats else "tips, corners and contact points"
     yield (
         f"  Enough for {tolerance:g}: elements follow the shortest wave of the modes reported and the degree, "
-        "dry modes reach past that wave until their energy has died out, and the rings end where the singularity at "
-        "the tips no longer counts. The solution judges itself, and what falls short is refined."
+        f"{dry_modes}and the rings end where the singularity at the {where} no longer counts. "
+        "The solution judges itself, and what falls short is refined."
     )
     workable = workable_tolerance(tolerance, tank.depth)
     if workable > tolerance:
@@ -88,7 +90,9 @@ def _size(scene: TankScene, tank: ScaledTank, resolution: Resolution, *, half: b
         where = " in half the tank" if half else ""
         twice = ", for symmetric and for antisymmetric modes" if half else ""
         parts.append(f"{len(mesh.cells)} triangles{where}")
-        parts.append(f"{unknown_count(len(mesh.points), len(mesh.cells), resolution.degree)} unknowns of ψ{twice}")
+        layers = 1 if released else len(tank.layers)
+        unknowns = unknown_count(len(mesh.points), len(mesh.cells), resolution.degree, parts=layers)
+        parts.append(f"{unknowns} unknowns of ψ{twice}")
     if tank.beams:
         parts.append(f"{' + '.join(str(resolution.shapes[index]) for index in tank.beams)} dry modes")
     return ", ".join(parts)

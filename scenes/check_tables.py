@@ -108,7 +108,12 @@ def _float_condition(scene: TankScene, level: Level, body: Float) -> str:
         " = ".join(f"∂{potential_of(scene, layer)}/∂{direction}" for layer in layers) for direction in ("n", "x")
     )
     if body.boundary == "thin":
-        return f"{across} = ∓ω′(y) s on the right and left of x = {body.position:g} m; s: heave"
+        what = (
+            "∓ω′(y) s on the right and left"
+            if body.motions == ("heave",)
+            else "what the contour displaces, on both sides"
+        )
+        return f"{across} = {what} of x = {body.position:g} m; s: {', '.join(body.motions)}"
     part = "" if level == "interface" else " below the level"
     return f"{normal} = n · s on its contour{part}; s: {', '.join(body.motions)}"
 

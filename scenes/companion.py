@@ -85,7 +85,7 @@ def solve_companion(
         with watch.stage("pressure release"):
             mesh = brought or build_mesh(comm, tank, attempt, half=half, released=True)
         with watch.stage("forms"):
-            compile_form(mesh, attempt.degree, glued=len(tank.layers) > 1)
+            compile_form(mesh, attempt.degree, glued=tank.moves_as_one)
         with watch.stage("pressure release"):
             companion, causes = _tones(mesh, tank, attempt, tolerance, half=half)
         if best is None or companion.shortfall < best.shortfall:

@@ -71,19 +71,24 @@ def exact_frequencies(scene: TankScene) -> tuple[str, tuple[float, ...]]:
     return "", ()
 
 
+def two_layers(scene: TankScene) -> TwoLayers:
+    """The liquids of a scene as the theories take them; without an upper one its density is 0."""
+    lower, upper = scene.layers[0], scene.layers[-1]
+    return TwoLayers(
+        density_below=lower.density,
+        density_above=upper.density if len(scene.layers) == 2 else 0.0,
+        depth_below=lower.depth,
+        depth_above=upper.depth,
+        gravity=scene.tank.gravity,
+        top=scene.top,
+    )
+
+
 def _exact_of_two_layers(scene: TankScene) -> tuple[str, tuple[float, ...]]:
     """Waves of two layers, without a body or under a guided plate that covers the interface."""
     plates = [beam for _, beam in scene.beams if beam.ends == "guided" and scene.level_of(beam) == "interface"]
     if len(scene.body) != len(plates):
         return "", ()
-    layers = TwoLayers(
-        density_below=scene.layers[0].density,
-        density_above=scene.layers[1].density,
-        depth_below=scene.layers[0].depth,
-        depth_above=scene.layers[1].depth,
-        gravity=scene.tank.gravity,
-        top=scene.top,
-    )
     plate = None
     if plates:
         plate = InterfacePlate(
@@ -91,7 +96,7 @@ def _exact_of_two_layers(scene: TankScene) -> tuple[str, tuple[float, ...]]:
             mass_per_length=plates[0].mass_per_length,
             hydrostatic=plates[0].hydrostatic,
         )
-    modes = tank_modes(layers, scene.tank.length, scene.accuracy.modes, plate)
+    modes = tank_modes(two_layers(scene), scene.tank.length, scene.accuracy.modes, plate)
     return "waves of two layers, k = nπ/L", tuple(mode.omega for mode in modes)
 
 

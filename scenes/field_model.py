@@ -142,7 +142,7 @@ def _field_models(
     layers = tuple(
         Layer(name=name, density=layer.density) for name, layer in zip(layer_names(tank), tank.layers, strict=True)
     )
-    liquid = liquid_space(mesh, degree, grounded, layers, glued=pressure_release and len(layers) > 1)
+    liquid = liquid_space(mesh, degree, grounded, layers, glued=pressure_release and tank.moves_as_one)
     matrices = liquid_matrices(liquid, tuple(surface.surface for surface in surfaces))
     pencils = []
     for parity in parities:

@@ -140,7 +140,7 @@ def solve_field(
         EigenSolverError: if SLEPc stops before enough pairs have converged.
     """
     with watch.stage("forms"):
-        compile_form(mesh, resolution.degree, glued=pressure_release and len(tank.layers) > 1)
+        compile_form(mesh, resolution.degree, glued=pressure_release and tank.moves_as_one)
     if half:
         resolution = replace(resolution, shapes=shapes_of_twins(tank, resolution.shapes))
     with watch.stage("assemble"):
@@ -198,7 +198,8 @@ def _solved_parts(pencils: tuple[CoupledPencil, ...], parities: tuple[Parity | N
 
 def _rounding_limit(parts: list[Part]) -> float:
     """The λ beyond which the lowest mode of all parts hides others: what one part still sees the other may not."""
-    return float(min(part.modes.eigenvalues[0] for part in parts)) / HIDDEN
+    lowest = (float(part.modes.eigenvalues[0]) for part in parts if len(part.modes.eigenvalues))
+    return min(lowest, default=np.inf) / HIDDEN
 
 
 def _merged(mesh: TankMesh, tank: ScaledTank, resolution: Resolution, parts: list[Part], count: int) -> FieldSolution:

@@ -81,6 +81,7 @@ def float_modes(
     added: HighFrequencyAddedMass | None,
     *,
     searched: tuple[bool, ...],
+    complete: bool,
 ) -> tuple[FloatMode, ...]:
     """Find the mode of each motion.
 
@@ -90,6 +91,7 @@ def float_modes(
         modes: the modes computed.
         added: the floats' added mass far above the waves.
         searched: whether each motion was expected among them.
+        complete: whether they are all that there are.
     """
     found = []
     motions = _restored(tank, bodies)
@@ -98,17 +100,19 @@ def float_modes(
         order = np.argsort(-moved)
         more = added.principal(tank, motion.body)[motion.number] if added is not None else 0.0
         limit = motion.stiffness / (motion.mass + more)
-        certain = bool(modes.eigenvalues[-1] >= _FAR_ENOUGH * limit)
+        certain = complete or bool(modes.eigenvalues[-1] >= _FAR_ENOUGH * limit)
         expected = number >= len(searched) or searched[number]
-        missing = not certain and not expected
+        reason = ""
+        if not np.any(moved):
+            reason = "the volume of the liquid holds it"
+        elif not certain and not expected:
+            reason = f"more than {MOST_MODES_TO_TONE} modes lie below it, and it was not searched for"
         found.append(
             FloatMode(
                 body=motion.body,
                 motion=motion.label,
-                index=None if missing else int(order[0]),
-                reason=f"more than {MOST_MODES_TO_TONE} modes lie below it, and it was not searched for"
-                if missing
-                else "",
+                index=None if reason else int(order[0]),
+                reason=reason,
                 modal_mass=_inverse(moved[order[0]]),
                 runner_up=_inverse(moved[order[1]]) if len(moved) > 1 else np.inf,
                 certain=certain,

@@ -6,7 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from hydroelastic.scenes.differences import difference
 from hydroelastic.scenes.float_body import principal_motions
+from hydroelastic.scenes.float_estimates import EstimatesOfFloat
 from hydroelastic.scenes.float_modes import FloatMode
 from hydroelastic.scenes.floats import placed_float
 from hydroelastic.scenes.solve import TankSolution
@@ -16,12 +18,18 @@ from hydroelastic.scenes.tones import mode_kind
 SHARED = 2.0
 
 
-def float_rows(solution: TankSolution) -> list[dict[str, Any]]:
-    """One entry for each float, SI units."""
-    return [_float_row(solution, index) for index in solution.tank.floats]
+def float_rows(solution: TankSolution, estimates: dict[int, EstimatesOfFloat]) -> list[dict[str, Any]]:
+    """One entry for each float, SI units.
+
+    Args:
+        solution: the field solution.
+        estimates: of the theories, by index of the float.
+    """
+    return [_float_row(solution, index, estimates.get(index)) for index in solution.tank.floats]
 
 
-def _float_row(solution: TankSolution, index: int) -> dict[str, Any]:
+def _float_row(solution: TankSolution, index: int, estimates: EstimatesOfFloat | None) -> dict[str, Any]:
+    modes = [_mode(solution, mode) for mode in solution.float_modes if mode.body == index]
     rest = placed_float(solution.scene, index).hydrostatics
     body = solution.tank.floats[index]
     return {
@@ -37,8 +45,29 @@ def _float_row(solution: TankSolution, index: int) -> dict[str, Any]:
         "coupling_stiffness": rest.coupling_stiffness,
         "roll_stiffness": rest.roll_stiffness,
         "high_frequency": _high_frequency(solution, index),
-        "modes": [_mode(solution, mode) for mode in solution.float_modes if mode.body == index],
+        "modes": modes,
+        "estimates": _compared(estimates, modes) if estimates is not None else {},
+        "printed_constants": _printed(estimates) if estimates is not None else {},
     }
+
+
+def _compared(estimates: EstimatesOfFloat, modes: list[dict[str, Any]]) -> dict[str, Any]:
+    """Each estimate of heave and its difference to the mode of heave of the field solution."""
+    heave: dict[str, Any] = next((mode for mode in modes if mode["motion"] == "heave"), {})
+    return {
+        name: {
+            "omega": estimate.omega,
+            "added_mass": estimate.added_mass,
+            "difference": difference(estimate.omega, heave.get("omega")),
+            "added_mass_difference": difference(estimate.added_mass, heave.get("added_mass")),
+            "note": estimate.note,
+        }
+        for name, estimate in estimates.heave.items()
+    }
+
+
+def _printed(estimates: EstimatesOfFloat) -> dict[str, Any]:
+    return {name: {"printed": value.printed, "corrected": value.corrected} for name, value in estimates.printed.items()}
 
 
 def _high_frequency(solution: TankSolution, index: int) -> dict[str, Any] | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from hydroelastic.scenes.digits import with_certain_digits
+from hydroelastic.scenes.digits import number, per_cent, with_certain_digits
 
 Summary = dict[str, Any]
 
@@ -25,7 +25,8 @@ def float_lines(summary: Summary) -> list[str]:
 
 def _lines(row: dict[str, Any]) -> list[str]:
     left, right = row["waterplane"]
-    width = "no waterplane in its model" if row["boundary"] == "thin" else f"waterplane {left:.6g} to {right:.6g} m"
+    thin = row["boundary"] == "thin"
+    width = "thin, its flux on the middle line" if thin else f"waterplane {left:.6g} to {right:.6g} m"
     lines = [
         f"Float {row['body']}: mass {row['mass']:.7g} kg/m, {width}, heave stiffness {row['heave_stiffness']:.7g} N/m²."
     ]
@@ -53,3 +54,30 @@ def _mode_line(mode: dict[str, Any]) -> str:
         text += f" (runner-up {mode['runner_up_modal_mass']:.6g})"
     text += f" {_UNITS[mode['motion']]}, added mass {added} {_UNITS[mode['motion']]}."
     return text + (f" Note: {mode['note']}." if mode["note"] else "")
+
+
+FLOAT_ESTIMATE_HEADINGS = ("estimate of heave", "ω, rad/s", "to field", "added mass, kg/m", "to field")
+
+PRINTED_HEADINGS = ("constant of the paper", "as printed", "corrected", "printed/corrected")
+
+
+def float_estimate_rows(row: dict[str, Any]) -> list[tuple[str, ...]]:
+    """One row for each estimate of a float's heave."""
+    return [
+        (
+            name,
+            number(estimate["omega"]),
+            per_cent(estimate["difference"]),
+            number(estimate["added_mass"]),
+            per_cent(estimate["added_mass_difference"]),
+        )
+        for name, estimate in row["estimates"].items()
+    ]
+
+
+def printed_rows(row: dict[str, Any]) -> list[tuple[str, ...]]:
+    """One row for each constant that the paper prints."""
+    return [
+        (name, number(value["printed"]), number(value["corrected"]), f"{value['printed'] / value['corrected']:.6g}")
+        for name, value in row["printed_constants"].items()
+    ]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,8 +35,12 @@ def float_section(body: Float) -> Profile | None:
     return float_profile(body.shape, body.half_width, body.half_height, tail)
 
 
-def float_contour(body: Float) -> Contour:
+def float_contour(body: Float, folder: Path) -> Contour:
     """Return the contour of a float in its own frame, m: x = 0 at its position, y = 0 at its reference level.
+
+    Args:
+        body: the float.
+        folder: where the path of an outline's file starts.
 
     Raises:
         ValueError: if an outline cannot be read, or is no contour.
@@ -46,7 +51,7 @@ def float_contour(body: Float) -> Contour:
         return Contour(right + tuple(_mirrored(arc) for arc in reversed(right)))
     if body.file is not None:
         angle = DEFAULT_CORNER_ANGLE if body.corner_angle is None else body.corner_angle
-        return outline_contour(read_outline(body.file), angle)
+        return outline_contour(read_outline(folder / body.file), angle)
     return polygon_contour(body.vertices or ())
 
 
@@ -155,9 +160,10 @@ def placed_float(scene: TankScene, index: int) -> PlacedFloat:
     if not isinstance(body, Float):
         raise TypeError(f"body {index} is not a float")
     level = scene.level_of(body)
-    state = body.file.stat() if body.file is not None else None
+    state = (scene.folder / body.file).stat() if body.file is not None else None
     return _placed(
         body,
+        scene.folder,
         scene.height_of(level),
         scene.densities_at(level),
         scene.tank.gravity,
@@ -168,9 +174,14 @@ def placed_float(scene: TankScene, index: int) -> PlacedFloat:
 # Many ask for the same float. The state of an outline's file is that of its last change: it may be edited meanwhile.
 @lru_cache(maxsize=64)
 def _placed(
-    body: Float, height: float, densities: tuple[float, float], gravity: float, _state: tuple[int, int] | None
+    body: Float,
+    folder: Path,
+    height: float,
+    densities: tuple[float, float],
+    gravity: float,
+    _state: tuple[int, int] | None,
 ) -> PlacedFloat:
-    contour = float_contour(body)
+    contour = float_contour(body, folder)
     immersion = still_level(contour, body.mass, densities)
     # Still level and position are the origin while anything is computed: far from it, digits are lost.
     contour = contour.moved((0.0, -immersion))

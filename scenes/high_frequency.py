@@ -77,7 +77,7 @@ def high_frequency_added_mass(
         with watch.stage("added mass"):
             mesh = build_mesh(comm, tank, resolution, half=half, released=True)
         with watch.stage("forms"):
-            compile_form(mesh, resolution.degree, glued=len(tank.layers) > 1)
+            compile_form(mesh, resolution.degree, glued=tank.moves_as_one)
         with watch.stage("added mass"):
             found, causes = _solved(mesh, tank, resolution, half=half)
         if best is None or found.error < best.error:

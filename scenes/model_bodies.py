@@ -169,13 +169,6 @@ def _thin_floats(body: Float) -> Iterator[InitErrorDetails]:
             f'a thin float ends in a point or a rounding above and below, shape = "{body.shape}" need not',
             allowed=f'"exact", or shape = {" or ".join(THIN_SHAPES)}',
         )
-    if set(body.motions) != {"heave"}:
-        yield misfit(
-            ("motions",),
-            ", ".join(body.motions),
-            "the conditions of a thin float are those of heave alone",
-            allowed='["heave"], or boundary = "exact"',
-        )
 
 
 def _kind_of(body: Any) -> str:

@@ -52,7 +52,7 @@ def _problems_of(scene: TankScene, index: int, body: Float) -> Iterator[InitErro
         yield from _vertices_make_a_polygon(index, body.vertices)
     shape = ("body", index, body.shape_key)
     try:
-        contour = float_contour(body)
+        contour = float_contour(body, scene.folder)
     except ValueError as error:
         yield misfit(
             shape,

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import Field, Strict, ValidationError, field_validator, model_validator
+from pydantic import Field, PrivateAttr, Strict, ValidationError, field_validator, model_validator
 
 from hydroelastic.meshes.formats import FORMATS
 from hydroelastic.scenes.model_bodies import LARGEST, SMALLEST, Beam, Body, Float, Level, PositiveNumber, SceneModel
@@ -85,6 +85,18 @@ class TankScene(SceneModel):
     body: tuple[Body, ...] = Field(default=(), description="the bodies, in any order; none for sloshing alone")
     accuracy: Accuracy = Field(default=Accuracy(), description="what is asked of the answer")
     mesh: MeshFile | None = Field(default=None, description="a mesh of your own")
+
+    _folder: Path = PrivateAttr(default=Path())
+
+    def model_post_init(self, context: Any) -> None:
+        """Keep the folder of the scene file, from which the files of outlines are found."""
+        if context is not None and any(body.file is not None for _, body in self.floats):
+            self._folder = context["folder"]
+
+    @property
+    def folder(self) -> Path:
+        """The folder of the scene file, or the current one."""
+        return self._folder
 
     @property
     def layers(self) -> tuple[Liquid, ...]:

@@ -153,12 +153,11 @@ def sharpest_exponent(tank: ScaledTank, *, released: bool) -> float:
     """
     if not tank.floats:
         return 0.5 if released or tank.top == "pressure_release" else 1.0
-    from hydroelastic.scenes.tank_corners import singular_points
-    from hydroelastic.scenes.tank_outline import Sizes, grounded_names, tank_outline
+    from hydroelastic.scenes.tank_corners import tank_singular_points
+    from hydroelastic.scenes.tank_outline import Sizes
 
     sizes = Sizes(pieces=(inf,) * len(tank.pieces), contours=dict.fromkeys(tank.floats, inf))
-    outline = tank_outline(tank, sizes, released=released)
-    points = singular_points(outline, grounded=grounded_names(tank, released=released), glued=released)
+    points = tank_singular_points(tank, sizes, half=False, released=released)
     return min((point.exponent for point in points), default=_SMOOTH)
 
 

@@ -88,9 +88,8 @@ def read_scene(path: str | Path, overrides: Iterable[str] = ()) -> TankScene:
         _override(document, change, file)
     label = f"{file} with {' '.join(f'--set {change}' for change in changes)}" if changes else str(file)
     model = _model_of(document, label)
-    _complete_outlines(document, file)
     try:
-        scene = model.model_validate(document)
+        scene = model.model_validate(document, context={"folder": file.parent})
     except ValidationError as error:
         raise scene_error(error, model, file=label) from error
     return _with_mesh_beside(scene, file)
@@ -190,14 +189,6 @@ def _override_value(change: str, text: str) -> Any:
 
 def _bad_override(change: str, wrong: str, remedy: str = "", *, allowed: str = "") -> SceneError:
     return SceneError(Problem(key="--set", value=shown_value(change), wrong=wrong, allowed=allowed, remedy=remedy))
-
-
-def _complete_outlines(document: Document, file: Path) -> None:
-    """Complete the paths of outlines from the folder of the scene: its validation reads them."""
-    bodies = document.get("body")
-    for body in bodies if isinstance(bodies, list) else ():
-        if isinstance(body, dict) and isinstance(body.get("file"), str):
-            body["file"] = str(file.parent.absolute() / body["file"])
 
 
 def _with_mesh_beside(scene: TankScene, file: Path) -> TankScene:

@@ -99,13 +99,19 @@ def solved_scene(
     with watch.stage("estimates"):
         report("estimates")
         estimates = scene_estimates(scene)
+        of_floats = None
+        if scene.floats:
+            # Floats need more of SciPy, which takes a while to import.
+            from hydroelastic.scenes.float_estimates import float_estimates
+
+            of_floats = float_estimates(scene)
     try:
         solution = solve_scene(scene, comm=comm, mesh=_own_mesh(scene, comm), report=report)
     except MeshError as error:
         raise SceneError(_mesh_problem(scene, error)) from error
     except EigenSolverError as error:
         raise UnsolvedError(f"the eigen-solver failed: {error}") from error
-    summary = summarize(solution, estimates, import_seconds=import_seconds)
+    summary = summarize(solution, estimates, of_floats, import_seconds=import_seconds)
     summary["timing"].update(watch.seconds)
     return solution, summary
 

@@ -27,6 +27,8 @@ class ScaledFloat:
     Attributes:
         given: what the scene says of it.
         contour: its section.
+        level: ordinate of the still level at which it floats.
+        wet_above: whether there is liquid above that level.
         waterplane: x of its two contact points with the still level, the same for a thin float.
         below: the contour under the still level, from the left contact point to the right one.
         above: the contour over it, from the right contact point to the left one; empty where it is dry.
@@ -39,6 +41,8 @@ class ScaledFloat:
 
     given: Float
     contour: Contour
+    level: float
+    wet_above: bool
     waterplane: tuple[float, float]
     below: tuple[Arc, ...]
     above: tuple[Arc, ...]
@@ -65,6 +69,17 @@ class ScaledFloat:
         return self.reference_level - self.profile.extent, self.reference_level + self.profile.extent
 
     @property
+    def kinks(self) -> tuple[tuple[float, float], ...]:
+        """Points of a slit, beside its ends and the still level, where the flux jumps: the widest of pointed shapes."""
+        if self.profile is None or self.profile.shape not in ("wedge", "exponential"):
+            return ()
+        low, high = self.slit
+        height = self.reference_level - self.level
+        if abs(height) <= _ROUNDING * (high - low) or (height > 0.0 and not self.wet_above):
+            return ()
+        return ((self.waterplane[0], self.reference_level),)
+
+    @property
     def bounds(self) -> tuple[float, float, float, float]:
         """Smallest and largest x, smallest and largest y."""
         return self.contour.bounds
@@ -73,8 +88,7 @@ class ScaledFloat:
     def smallest_extent(self) -> float:
         """The smaller of its width and of what it reaches into a liquid."""
         left, right, low, high = self.bounds
-        level = self.below[0].start[1] if self.below else self.reference_level
-        reaches = [level - low, *([high - level] if self.above else [])]
+        reaches = [self.level - low, *([high - self.level] if self.wet_above else [])]
         return min(right - left, *reaches)
 
     def displacement(self, motion: Motion, points: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -118,6 +132,8 @@ def scaled_float(scene: TankScene, index: int, units: Scales, waterplane: tuple[
     return ScaledFloat(
         given=body,
         contour=contour,
+        level=height,
+        wet_above=wet_above,
         waterplane=waterplane,
         below=() if thin else _between(placed.contour.below(rest.level), 1.0 / length, waterplane, height),
         above=()
@@ -157,16 +173,18 @@ def _stiffness(heave: float, coupling: float, roll: float, units: Scales) -> NDA
 
 
 def is_symmetric(body: ScaledFloat) -> bool:
-    """Whether a float is its own mirror image about the vertical through its contact points' middle."""
+    """Whether a float is its own mirror image about the vertical through its contact points' middle.
+
+    Straight sides and splines are symmetric if the points that they join are; the half that is modelled is then the
+    section's left half, whatever rounding does to the right one.
+    """
     left, right = body.waterplane
     middle = 0.5 * (left + right)
     low_x, high_x, low_y, high_y = body.bounds
-    size = max(high_x - low_x, high_y - low_y)
-    corners = np.array([arc.start for arc in body.contour.arcs])
-    image = np.column_stack([2.0 * middle - corners[:, 0], corners[:, 1]])
-    nearest = np.abs(corners[:, None] - image[None]).max(axis=2).min(axis=0)
-    centred = abs(body.contour.moments().centroid[0] - middle) + abs(body.centre_of_mass[0] - middle)
-    straight = all(arc.straight for arc in body.contour.arcs)
-    # Profiles are symmetric by their definition; splines are taken as they are, without a plane of symmetry.
-    regular = straight or body.given.shape not in ("polygon", "outline")
-    return bool(regular and max(float(nearest.max()), centred) <= _ROUNDING * size)
+    points = np.vstack([arc.point(np.array([0.0, *arc.knots])) for arc in body.contour.arcs])
+    image = points * [-1.0, 1.0] + [2.0 * middle, 0.0]
+    nearest = np.abs(points[:, None] - image[None]).max(axis=2).min(axis=0)
+    return bool(
+        max(float(nearest.max()), abs(body.centre_of_mass[0] - middle))
+        <= _ROUNDING * max(high_x - low_x, high_y - low_y)
+    )

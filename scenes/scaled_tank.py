@@ -119,6 +119,11 @@ class ScaledTank:
         return len(self.layers) > 1 or (self.top != "rigid" and self.levels[-1].is_open)
 
     @property
+    def moves_as_one(self) -> bool:
+        """Whether two liquids meet beside the bodies, and so move as one far above the waves."""
+        return len(self.layers) > 1 and self.levels[0].is_open
+
+    @property
     def pieces(self) -> tuple[Piece, ...]:
         """The pieces of all levels, from the bottom up and from left to right."""
         return tuple(piece for level in self.levels for piece in level.pieces)

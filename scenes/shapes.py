@@ -2,80 +2,120 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import meshio
 import numpy as np
-from numpy.typing import NDArray
 
 from hydroelastic.fem.liquid import as_functions
-from hydroelastic.fem.pictures import Canvas, ModePicture, SurfaceCurve, draw_mode, draw_overview
-from hydroelastic.fem.sampling import LiquidSample, SurfaceTrace, sample_liquid, sample_surface
-from hydroelastic.meshes.geometry import FREE_SURFACE
+from hydroelastic.fem.modes import Mode
+from hydroelastic.fem.pictures import Canvas, FloatSection, ModePicture, SurfaceCurve, draw_mode, draw_overview
+from hydroelastic.fem.sampling import LiquidSample, SurfaceTrace, sample_liquid
+from hydroelastic.scenes.scaled_tank import StillLevel
+from hydroelastic.scenes.shape_curves import body_shapes, sample_level, sign_of, wave_curves, wave_levels
 from hydroelastic.scenes.solve import TankSolution
 from hydroelastic.scenes.summary import Summary
-
-_BEAM_POINTS = 201
-_ROUNDING = 1e-12
+from hydroelastic.scenes.symmetry import Parity
 
 
 @dataclass(frozen=True, kw_only=True)
 class ModeShapes:
-    """The modes asked for, sampled, in SI units and scaled to a generalized mass of 1 kg per metre of width.
+    """The modes asked for, then those that grow, in SI units, scaled to a generalized mass of 1 kg per metre of width.
 
     Attributes:
         liquid: ψ and ∇ψ.
-        curves: for each mode, the displaced surfaces.
+        curves: for each mode, the displaced surfaces and beams.
+        floats: for each mode, the displaced floats.
+        growing: how many modes, the last ones, grow; the fastest first.
+        length: of the tank, m.
+        depths: of the liquids from the bottom up, m.
+        densities: of the liquids, kg/m³.
+        lid: pieces of a rigid top, left and right end, m.
     """
 
     liquid: LiquidSample
     curves: tuple[tuple[SurfaceCurve, ...], ...]
+    floats: tuple[tuple[FloatSection, ...], ...]
+    growing: int
+    length: float
+    depths: tuple[float, ...]
+    densities: tuple[float, ...]
+    lid: tuple[tuple[float, float], ...]
 
 
 def sample_shapes(solution: TankSolution) -> ModeShapes | None:
-    """Sample the modes asked for; the largest displacement of a body (without bodies, of the water) is positive.
+    """Sample the modes asked for and those that grow.
+
+    The largest displacement of a body, without bodies of the lowest surface, is positive: upwards, to the right or
+    anticlockwise.
 
     Returns:
         The shapes on rank 0, ``None`` elsewhere (collective).
     """
-    modes, field = solution.asked, solution.field
-    # Both halves of a symmetric tank share mesh and space.
-    space = field.parts[0].pencil.liquid
-    functions = as_functions(space, [mode.potential for mode in modes])
-    liquid = sample_liquid(space, functions)
-    water = sample_surface(space, functions, FREE_SURFACE) if field.surfaces else None
-    if liquid is None:
+    tank, field = solution.tank, solution.field
+    growing = sorted(
+        zip(solution.modes.growing, field.growing_parts, strict=True), key=lambda found: found[0].eigenvalue
+    )
+    modes = [*solution.asked, *(mode for mode, _ in growing)]
+    parities = [field.parity(index) for index in range(len(solution.asked))]
+    parities += [field.parts[part].parity for _, part in growing]
+    sampled = _sampled(solution, modes, parities)
+    if sampled is None:
         return None
-    if field.half:
-        signs = np.array([1.0 if field.parity(index) == "symmetric" else -1.0 for index in range(len(modes))])
-        liquid = _mirrored_liquid(liquid, signs)
-        water = _mirrored_trace(water, signs) if water is not None else None
-    length, root_density = solution.units.length, np.sqrt(solution.units.density)
+    liquid, levels = sampled
+    units = solution.units
+    length, root_density = units.length, np.sqrt(units.density)
     # Generalized mass 1 in units of the tank is ρL⁴ for a displacement of L: divide by its root.
     to_metres = 1.0 / (length * root_density)
-    liquid = LiquidSample(
+    liquid = replace(
+        liquid,
         points=liquid.points * length,
-        triangles=liquid.triangles,
         potential=liquid.potential / root_density,
         displacement=liquid.displacement * to_metres,
     )
-    curves = []
+    curves, floats = [], []
     for number, mode in enumerate(modes):
-        bodies = _body_curves(solution, mode.body_amplitudes)
-        waves = _water_curves(solution, water, number, mode.eigenvalue)
-        leading = bodies or waves
-        largest = max((curve.displacement for curve in leading), key=lambda w: np.abs(w).max())
-        sign = np.sign(largest[np.argmax(np.abs(largest))]) or 1.0
+        bodies = body_shapes(tank, field.bodies, mode.body_amplitudes)
+        waves = tuple(wave for level, trace in levels for wave in wave_curves(level, trace, number, mode.eigenvalue))
+        sign = sign_of(bodies, waves)
         liquid.potential[number] *= sign
         liquid.displacement[number] *= sign
-        curves.append(
-            tuple(
-                SurfaceCurve(kind=curve.kind, x=curve.x * length, displacement=sign * to_metres * curve.displacement)
-                for curve in (*bodies, *waves)
-            )
-        )
-    return ModeShapes(liquid=liquid, curves=tuple(curves))
+        curves.append(tuple(_scaled_curve(curve, length, sign * to_metres) for curve in (*bodies.beams, *waves)))
+        floats.append(tuple(_scaled_float(section, length, sign * to_metres) for section in bodies.floats))
+    top = tank.levels[-1]
+    return ModeShapes(
+        liquid=liquid,
+        curves=tuple(curves),
+        floats=tuple(floats),
+        growing=len(growing),
+        length=length,
+        depths=tuple(layer.depth for layer in solution.scene.layers),
+        densities=tuple(layer.density for layer in solution.scene.layers),
+        lid=tuple(
+            (piece.start * length, piece.end * length)
+            for piece in top.pieces
+            if top.kind == "rigid" and piece.body is None
+        ),
+    )
+
+
+def _sampled(
+    solution: TankSolution, modes: list[Mode], parities: list[Parity | None]
+) -> tuple[LiquidSample, list[tuple[StillLevel, SurfaceTrace]]] | None:
+    """Modes in the whole liquids and along the levels that move, in units of the tank (collective)."""
+    # Both halves of a symmetric tank share mesh and space.
+    space = solution.field.parts[0].pencil.liquid
+    functions = as_functions(space, [mode.potential for mode in modes])
+    liquid = sample_liquid(space, functions)
+    traces = [(level, sample_level(solution.tank, level, space, functions)) for level in wave_levels(solution.tank)]
+    if liquid is None:
+        return None
+    levels = [(level, trace) for level, trace in traces if trace is not None]
+    if not solution.field.half:
+        return liquid, levels
+    signs = np.array([1.0 if parity == "symmetric" else -1.0 for parity in parities])
+    return _mirrored_liquid(liquid, signs), [(level, _mirrored_trace(trace, signs)) for level, trace in levels]
 
 
 def _mirrored_liquid(half: LiquidSample, signs: np.ndarray) -> LiquidSample:
@@ -87,50 +127,32 @@ def _mirrored_liquid(half: LiquidSample, signs: np.ndarray) -> LiquidSample:
         points=np.vstack([half.points, flipped]),
         # A mirror image turns the sense of rotation.
         triangles=np.vstack([half.triangles, half.triangles[:, ::-1] + len(half.points)]),
+        liquid=np.concatenate([half.liquid, half.liquid]),
         potential=np.hstack([np.sqrt(0.5) * half.potential, sign * half.potential]),
         displacement=np.hstack([np.sqrt(0.5) * half.displacement, mirrored]),
     )
 
 
 def _mirrored_trace(half: SurfaceTrace, signs: np.ndarray) -> SurfaceTrace:
-    # The mirror plane itself is there already.
-    other = slice(-2 if half.x[-1] >= 0.5 - _ROUNDING else -1, None, -1)
+    back = (slice(None, None, -1), slice(None, None, -1))
+    mirrored = signs[:, None, None] * half.potential[:, *back]
     return SurfaceTrace(
-        x=np.concatenate([half.x, 1.0 - half.x[other]]),
-        potential=np.sqrt(0.5) * np.hstack([half.potential, signs[:, None] * half.potential[:, other]]),
+        x=np.concatenate([half.x, 1.0 - half.x[back]]),
+        potential=np.sqrt(0.5) * np.concatenate([half.potential, mirrored], axis=1),
     )
 
 
-def _body_curves(solution: TankSolution, amplitudes: np.ndarray) -> list[SurfaceCurve]:
-    place = {piece.body: (piece.start, piece.end) for piece in solution.tank.pieces}
-    curves, first = [], 0
-    for index, body in enumerate(solution.field.bodies):
-        x: NDArray[np.float64] = np.linspace(*place[index], _BEAM_POINTS, dtype=np.float64)
-        points, upwards = np.vstack([x, np.zeros_like(x)]), np.vstack([np.zeros_like(x), np.ones_like(x)])
-        own = amplitudes[first : first + body.size]
-        displacement = sum(
-            (amplitude * body.shapes(points, upwards, number) for number, amplitude in enumerate(own)),
-            np.zeros_like(x),
-        )
-        curves.append(SurfaceCurve(kind="body", x=x, displacement=displacement))
-        first += body.size
-    return curves
+def _scaled_curve(curve: SurfaceCurve, length: float, factor: float) -> SurfaceCurve:
+    return replace(curve, x=curve.x * length, level=curve.level * length, displacement=factor * curve.displacement)
 
 
-def _water_curves(
-    solution: TankSolution, water: SurfaceTrace | None, number: int, eigenvalue: float
-) -> list[SurfaceCurve]:
-    if water is None:
-        return []
-    # η = ω² ψ/g, in units of the tank λψ.
-    elevation = eigenvalue * water.potential[number]
-    curves = []
-    for piece in solution.tank.pieces:
-        if piece.body is None:
-            # Mirrored abscissae miss the ends by rounding.
-            inside = (water.x >= piece.start - _ROUNDING) & (water.x <= piece.end + _ROUNDING)
-            curves.append(SurfaceCurve(kind="free_surface", x=water.x[inside], displacement=elevation[inside]))
-    return curves
+def _scaled_float(section: FloatSection, length: float, factor: float) -> FloatSection:
+    return FloatSection(
+        contour=section.contour * length,
+        displacement=factor * section.displacement,
+        waterplane=(section.waterplane[0] * length, section.waterplane[1] * length),
+        slit=None if section.slit is None else section.slit * length,
+    )
 
 
 def mode_title(number: int, mode: Summary) -> str:
@@ -140,8 +162,17 @@ def mode_title(number: int, mode: Summary) -> str:
     return f"Mode {number}: ω = {mode['omega']:.6g} rad/s, {mode['frequency_hz']:.4g} Hz, {mode['kind']}{share}"
 
 
+def growing_title(number: int, mode: Summary) -> str:
+    """Title of a growing mode's picture."""
+    rate = mode["growth_rate"]
+    return f"Growing mode {number}: σ = {rate:.6g} 1/s, doubles in {np.log(2.0) / rate:.4g} s, {mode['kind']}"
+
+
 def pictures(shapes: ModeShapes, summary: Summary) -> list[ModePicture]:
-    """One picture for each mode."""
+    """One picture for each mode, those that grow last."""
+    titles = [mode_title(number, mode) for number, mode in enumerate(summary["modes"], 1)]
+    titles += [growing_title(number, mode) for number, mode in enumerate(summary["growing"], 1)]
+    two = len(shapes.depths) > 1
     return [
         ModePicture(
             points=shapes.liquid.points,
@@ -149,12 +180,22 @@ def pictures(shapes: ModeShapes, summary: Summary) -> list[ModePicture]:
             potential=shapes.liquid.potential[number],
             displacement=shapes.liquid.displacement[number],
             surfaces=shapes.curves[number],
-            title=mode_title(number + 1, mode),
-            length=summary["scene"]["tank"]["length"],
-            depth=summary["scene"]["liquid"][0]["depth"],
+            floats=shapes.floats[number],
+            title=title,
+            length=shapes.length,
+            depth=shapes.depths[0],
+            upper_depth=shapes.depths[1] if two else 0.0,
+            densities=shapes.densities if two else (),
+            lid=shapes.lid,
         )
-        for number, mode in enumerate(summary["modes"])
+        for number, title in enumerate(titles)
     ]
+
+
+def mode_names(shapes: ModeShapes) -> list[str]:
+    """Names of the modes in files: numbers from 1, and growing_ before those that grow."""
+    names = [f"{number + 1:03d}" for number in range(len(shapes.curves) - shapes.growing)]
+    return names + [f"growing_{number + 1:03d}" for number in range(shapes.growing)]
 
 
 def draw_all(shapes: ModeShapes, summary: Summary, folder: Path) -> None:
@@ -162,18 +203,26 @@ def draw_all(shapes: ModeShapes, summary: Summary, folder: Path) -> None:
     folder.mkdir()
     drawn = pictures(shapes, summary)
     with Canvas() as canvas:
-        for number, picture in enumerate(drawn, 1):
-            draw_mode(picture, folder / f"mode_{number:03d}.png", canvas=canvas)
+        for picture, name in zip(drawn, mode_names(shapes), strict=True):
+            file = name if name.startswith("growing") else f"mode_{name}"
+            draw_mode(picture, folder / f"{file}.png", canvas=canvas)
         draw_overview(drawn, folder / "overview.png", canvas=canvas)
 
 
 def write_fields(shapes: ModeShapes, folder: Path) -> None:
-    """Write one VTU with ψ and ∇ψ of every mode; coordinates in metres, for ParaView."""
+    """Write one VTU with ψ and ∇ψ of every mode, and the number of each cell's liquid; in metres, for ParaView."""
     folder.mkdir()
     data = {}
-    for number in range(len(shapes.liquid.potential)):
-        displacement = shapes.liquid.displacement[number]
-        data[f"potential_{number + 1:03d}"] = shapes.liquid.potential[number]
-        data[f"displacement_{number + 1:03d}"] = np.column_stack([displacement, np.zeros(len(displacement))])
+    for name, potential, displacement in zip(
+        mode_names(shapes), shapes.liquid.potential, shapes.liquid.displacement, strict=True
+    ):
+        data[f"potential_{name}"] = potential
+        data[f"displacement_{name}"] = np.column_stack([displacement, np.zeros(len(displacement))])
     points = np.column_stack([shapes.liquid.points, np.zeros(len(shapes.liquid.points))])
-    meshio.write(folder / "modes.vtu", meshio.Mesh(points, [("triangle", shapes.liquid.triangles)], point_data=data))
+    mesh = meshio.Mesh(
+        points,
+        [("triangle", shapes.liquid.triangles)],
+        point_data=data,
+        cell_data={"liquid": [shapes.liquid.liquid]},
+    )
+    meshio.write(folder / "modes.vtu", mesh)

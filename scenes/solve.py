@@ -32,6 +32,7 @@ from hydroelastic.scenes.plan import (
     sharpest_exponent,
     workable_tolerance,
 )
+from hydroelastic.scenes.rigid_motions import mode_count
 from hydroelastic.scenes.scaled_tank import ScaledTank, scaled_tank
 from hydroelastic.scenes.scaling import Scales, scales
 from hydroelastic.scenes.symmetry import is_mirror_image
@@ -234,7 +235,8 @@ def _judged(
     companion, added = limits
     tones = tuple(_tone(field, beam, body, resolution, companion) for beam, body in enumerate(tank.beams))
     searched = resolution.reaches_tones[len(tank.beams) :]
-    moved = float_modes(tank, field.bodies, field.modes, added, searched=searched)
+    complete = len(field.modes.eigenvalues) <= resolution.modes
+    moved = float_modes(tank, field.bodies, field.modes, added, searched=searched, complete=complete)
     with watch.stage("count"):
         counted = count_is_confirmed(field)
     with watch.stage("errors"):
@@ -310,7 +312,7 @@ def _reasons(solution: TankSolution) -> tuple[str, ...]:
             f"a growth rate has an estimated relative error of {error:.1e}, above the tolerance {tolerance:g}; "
             + _kept(error)
         )
-    if len(solution.asked) < solution.scene.accuracy.modes:
+    if len(solution.asked) < min(solution.scene.accuracy.modes, mode_count(solution.scene) or np.inf):
         asked = solution.scene.accuracy.modes
         reasons.append(f"{len(solution.asked)} of {asked} modes can be told from the rounding of the lowest")
     if not solution.counted:

@@ -5,15 +5,18 @@ from __future__ import annotations
 import platform
 import resource
 from importlib.metadata import PackageNotFoundError, version
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from hydroelastic.modal.estimate import Estimate
+from hydroelastic.scenes.differences import difference
 from hydroelastic.scenes.estimates import exact_frequencies
-from hydroelastic.scenes.float_summary import float_rows, growing_rows
 from hydroelastic.scenes.solve import TankSolution, ToneSolution
 from hydroelastic.scenes.tones import bending_fraction, mode_kind
+
+if TYPE_CHECKING:
+    from hydroelastic.scenes.float_estimates import EstimatesOfFloat
 
 Summary = dict[str, Any]
 
@@ -23,17 +26,27 @@ SHARED = 0.5
 PACKAGES = ("hydroelastic", "fenics-dolfinx", "petsc4py", "slepc4py", "gmsh", "numpy", "scipy")
 
 
-def summarize(solution: TankSolution, estimates: dict[str, Estimate], *, import_seconds: float) -> Summary:
+def summarize(
+    solution: TankSolution,
+    estimates: dict[str, Estimate],
+    of_floats: dict[int, EstimatesOfFloat] | None = None,
+    *,
+    import_seconds: float,
+) -> Summary:
     """Build the summary of a solved scene (collective: peak memory is summed over processes).
 
     Args:
         solution: the field solution.
         estimates: older theories' estimates of the first beam's tone.
+        of_floats: the theories' estimates of floats, by their indices.
         import_seconds: time spent importing libraries.
 
     Returns:
         The content of ``summary.json``.
     """
+    # Floats need more of SciPy, which takes a while to import.
+    if solution.tank.floats:
+        from hydroelastic.scenes.float_summary import float_rows, growing_rows
     first = _first_elastic(solution)
     return {
         "scene": solution.scene.model_dump(mode="json"),
@@ -43,8 +56,8 @@ def summarize(solution: TankSolution, estimates: dict[str, Estimate], *, import_
         "zero_modes": solution.modes.zero_modes,
         "first_elastic": first[0] if first else None,
         "first_elastic_by_body": first,
-        "floats": float_rows(solution),
-        "growing": growing_rows(solution),
+        "floats": float_rows(solution, of_floats or {}) if solution.tank.floats else [],
+        "growing": growing_rows(solution) if solution.tank.floats else [],
         "estimates": compared(solution, estimates, first[0] if first else {}),
         "exact": _exact(solution),
         "solver": {
@@ -172,19 +185,15 @@ def compared(solution: TankSolution, estimates: dict[str, Estimate], first: dict
         rows[name] = {
             "omega": estimate.omega,
             "added_mass_per_length": estimate.added_mass_per_length,
-            "difference": _difference(estimate.omega, first.get("omega")),
-            "added_mass_difference": _difference(estimate.added_mass_per_length, first.get("added_mass_per_length")),
-            "difference_to_pressure_release": _difference(estimate.omega, first.get("pressure_release_omega")),
+            "difference": difference(estimate.omega, first.get("omega")),
+            "added_mass_difference": difference(estimate.added_mass_per_length, first.get("added_mass_per_length")),
+            "difference_to_pressure_release": difference(estimate.omega, first.get("pressure_release_omega")),
             "bound": estimate.bound,
             "bound_mode": estimate.mode_index,
             "bound_holds": _bound_holds(solution, estimate),
             "note": estimate.note,
         }
     return rows
-
-
-def _difference(value: float | None, reference: float | None) -> float | None:
-    return None if value is None or reference is None else value / reference - 1.0
 
 
 def _bound_holds(solution: TankSolution, estimate: Estimate) -> bool | None:

@@ -9,8 +9,14 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
-from hydroelastic.scenes.digits import with_certain_digits
-from hydroelastic.scenes.float_tables import float_lines
+from hydroelastic.scenes.digits import number, per_cent, with_certain_digits
+from hydroelastic.scenes.float_tables import (
+    FLOAT_ESTIMATE_HEADINGS,
+    PRINTED_HEADINGS,
+    float_estimate_rows,
+    float_lines,
+    printed_rows,
+)
 from hydroelastic.scenes.summary import Summary
 
 MODE_COLUMNS = (
@@ -85,22 +91,14 @@ def estimate_rows(summary: Summary) -> list[tuple[str, ...]]:
         rows.append(
             (
                 name,
-                _number(estimate["omega"]),
-                _per_cent(estimate["difference"]),
-                _number(estimate["added_mass_per_length"]),
-                _per_cent(estimate["added_mass_difference"]),
+                number(estimate["omega"]),
+                per_cent(estimate["difference"]),
+                number(estimate["added_mass_per_length"]),
+                per_cent(estimate["added_mass_difference"]),
                 _bound(estimate),
             )
         )
     return rows
-
-
-def _number(value: float | None) -> str:
-    return "–" if value is None else f"{value:.7g}"
-
-
-def _per_cent(value: float | None) -> str:
-    return "–" if value is None else f"{100.0 * value:+.3g} %"
 
 
 def _bound(estimate: Summary) -> str:
@@ -119,6 +117,8 @@ def mode_lines(summary: Summary) -> list[str]:
         largest = max(abs(row["difference"]) for row in summary["exact"])
         formula = summary["exact"][0]["formula"]
         lines.append(f"{formula}: the largest relative difference to this exact solution is {largest:.1e}.")
+    if summary["status"] == "ok" and len(summary["modes"]) < summary["scene"]["accuracy"]["modes"]:
+        lines.append("There are no more modes than these.")
     if summary["zero_modes"]:
         lines.append(f"{summary['zero_modes']} rigid motion(s) without stiffness (ω = 0) not listed.")
     return lines
@@ -161,8 +161,16 @@ def printed(summary: Summary, *, notes: bool = False, width: int = 120) -> str:
         console.print(line, markup=False)
     for line in (*tone_lines(summary), *float_lines(summary)):
         console.print(line, markup=False)
-    if notes and not summary["estimates"] and summary["scene"]["body"]:
-        console.print("No estimates: the older theories know one beam with free ends beside free water.")
+    for row in summary["floats"]:
+        if row["estimates"]:
+            console.print(_table(FLOAT_ESTIMATE_HEADINGS, float_estimate_rows(row)))
+        if row["printed_constants"] and notes:
+            console.print(_table(PRINTED_HEADINGS, printed_rows(row)))
+        if notes:
+            for name, estimate in row["estimates"].items():
+                console.print(f"{name}: {estimate['note']}", markup=False)
+    if notes and not summary["estimates"] and summary["first_elastic_by_body"]:
+        console.print("No estimates of beams: the older theories know one with free ends beside free water.")
     if summary["estimates"]:
         console.print(_table(ESTIMATE_HEADINGS, estimate_rows(summary)))
         if notes:
@@ -178,8 +186,8 @@ def _title(summary: Summary) -> str:
 
 def _table(headings: tuple[str, ...], rows: list[tuple[str, ...]]) -> Table:
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-    for number, heading in enumerate(headings):
-        leftwards = number == 0 or heading in ("kind", "symmetry", "bound")
+    for column, heading in enumerate(headings):
+        leftwards = column == 0 or heading in ("kind", "symmetry", "bound")
         table.add_column(heading, justify="left" if leftwards else "right", no_wrap=True)
     for row in rows:
         table.add_row(*row)
@@ -197,6 +205,14 @@ def markdown(summary: Summary) -> str:
         parts += [_markdown_table(ESTIMATE_HEADINGS, estimate_rows(summary)), ""]
         parts += [f"- `{name}`: {estimate['note']}" for name, estimate in summary["estimates"].items()]
         parts.append("")
+    for row in summary["floats"]:
+        if row["estimates"]:
+            parts += [_markdown_table(FLOAT_ESTIMATE_HEADINGS, float_estimate_rows(row)), ""]
+        if row["printed_constants"]:
+            parts += [_markdown_table(PRINTED_HEADINGS, printed_rows(row)), ""]
+        if row["estimates"]:
+            parts += [f"- `{name}`: {estimate['note']}" for name, estimate in row["estimates"].items()]
+            parts.append("")
     parts.append(cost_line(summary))
     return "\n".join(parts) + "\n"
 
@@ -211,6 +227,6 @@ def mode_csv(summary: Summary) -> str:
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(MODE_COLUMNS)
-    for number, mode in enumerate(summary["modes"], 1):
-        writer.writerow([number, *(mode[column] for column in MODE_COLUMNS[1:])])
+    for place, mode in enumerate(summary["modes"], 1):
+        writer.writerow([place, *(mode[column] for column in MODE_COLUMNS[1:])])
     return text.getvalue()

@@ -15,6 +15,8 @@ import numpy as np
 
 from hydroelastic.meshes.geometry import LEFT_WALL, RIGHT_WALL, SYMMETRY_PLANE
 from hydroelastic.meshes.outline import Outline, Point
+from hydroelastic.scenes.scaled_tank import ScaledTank
+from hydroelastic.scenes.tank_outline import Sizes, grounded_names, tank_outline
 
 _MIRRORS = (LEFT_WALL, RIGHT_WALL, SYMMETRY_PLANE)
 
@@ -50,18 +52,23 @@ class _Wedge:
     angle: float
 
 
-def singular_points(outline: Outline, *, grounded: tuple[str, ...], glued: bool) -> tuple[SingularPoint, ...]:
+def singular_points(
+    outline: Outline, *, grounded: tuple[str, ...], glued: bool, kinks: tuple[Point, ...] = ()
+) -> tuple[SingularPoint, ...]:
     """Find the singular points of an outline.
 
     Args:
         outline: the liquids.
         grounded: names of curves with ψ = 0.
         glued: whether liquids of different densities move as one across uncut lines.
+        kinks: points of smooth sides at which what is prescribed jumps: ψ ~ r ln r there.
     """
     wedges = _wedges(outline)
     points = []
     for point, around in wedges.items():
         sharpest = min((_exponent(sector, grounded, glued) for sector in _sectors(outline, around)), default=inf)
+        if point in kinks:
+            sharpest = min(sharpest, 1.0)
         if sharpest < inf:
             points.append(SingularPoint(point=point, exponent=sharpest, reach=_reach(outline, point, wedges)))
     return tuple(points)
@@ -125,3 +132,13 @@ def _reach(outline: Outline, point: Point, wedges: dict[Point, list[_Wedge]]) ->
     others = [dist(point, other) for other in wedges if other != point]
     beside = {number for wedge in wedges[point] for number in (wedge.leaving, wedge.coming)}
     return min(0.45 * min(others), *(outline.curves[number].size for number in beside))
+
+
+def tank_singular_points(tank: ScaledTank, sizes: Sizes, *, half: bool, released: bool) -> tuple[SingularPoint, ...]:
+    """The singular points of a scene, or of its left half; see `tank_outline`."""
+    return singular_points(
+        tank_outline(tank, sizes, half=half, released=released),
+        grounded=grounded_names(tank, released=released),
+        glued=released,
+        kinks=tuple(kink for body in tank.floats.values() for kink in body.kinks),
+    )

@@ -13,8 +13,8 @@ from hydroelastic.meshes.outline import Corner, Outline
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 from hydroelastic.scenes.plan import Resolution, sharpest_exponent
 from hydroelastic.scenes.scaled_tank import ScaledTank
-from hydroelastic.scenes.tank_corners import singular_points
-from hydroelastic.scenes.tank_outline import Sizes, grounded_names, tank_outline
+from hydroelastic.scenes.tank_corners import tank_singular_points
+from hydroelastic.scenes.tank_outline import Sizes, tank_outline
 
 # A mesh that the user brings may miss the scene's abscissae by this part of the tank's length: files round.
 _MESH_ROUNDING = 1e-6
@@ -80,7 +80,7 @@ def graded_outline(tank: ScaledTank, resolution: Resolution, *, half: bool, rele
         return outline
     exponent = sharpest_exponent(tank, released=released)
     depth = resolution.tip_size / resolution.ring_size
-    points = singular_points(outline, grounded=grounded_names(tank, released=released), glued=released)
+    points = tank_singular_points(tank, sizes, half=half, released=released)
     corners = tuple(
         Corner(
             point=point.point,
@@ -97,8 +97,7 @@ def tip_points(tank: ScaledTank, *, half: bool, released: bool = False) -> np.nd
     if is_plain(tank):
         return np.array([[tip, 0.0] for tip in geometry_of(tank, half=half).tips]).reshape(-1, 2)
     sizes = Sizes(pieces=(inf,) * len(tank.pieces), contours=dict.fromkeys(tank.floats, inf))
-    outline = tank_outline(tank, sizes, half=half, released=released)
-    points = singular_points(outline, grounded=grounded_names(tank, released=released), glued=released)
+    points = tank_singular_points(tank, sizes, half=half, released=released)
     return np.array([point.point for point in points]).reshape(-1, 2)
 
 
@@ -107,12 +106,18 @@ def is_plain(tank: ScaledTank) -> bool:
     return len(tank.layers) == 1 and not tank.floats
 
 
-def unknown_count(points: int, triangles: int, degree: int) -> int:
-    """Number of unknowns of a continuous polynomial of a degree on a simply connected mesh of triangles.
+def unknown_count(points: int, triangles: int, degree: int, *, parts: int = 1) -> int:
+    """Number of unknowns of a continuous polynomial of a degree on simply connected meshes of triangles.
 
     A mesh each of whose triangles is cut into n² has, at the same degree, the unknowns of the uncut one at n times it.
+
+    Args:
+        points: number of nodes.
+        triangles: number of triangles.
+        degree: of the polynomial.
+        parts: number of meshes that do not hang together, like those of two liquids.
     """
-    edges = points + triangles - 1
+    edges = points + triangles - parts
     return points + (degree - 1) * edges + (degree - 1) * (degree - 2) // 2 * triangles
 
 

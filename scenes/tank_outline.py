@@ -177,11 +177,16 @@ class _Builder:
         pieces = [(bottom, top, name)]
         for index in splits[x] if inside else ():
             low, high = self.tank.floats[index].slit
+            kinks = self.tank.floats[index].kinks
             (start, end, _) = pieces.pop()
             if self.tank.level_of(index).below == number:
-                pieces += [(start, (x, low), name), ((x, low), end, body_name(index + 1))]
+                stops = [(x, low), *(kink for kink in kinks if low < kink[1] < end[1]), end]
+                slit = [(*ends, body_name(index + 1)) for ends in pairwise(stops)]
+                pieces += [(start, (x, low), name), *slit]
             else:
-                pieces += [(start, (x, high), body_name(index + 1)), ((x, high), end, name)]
+                stops = [start, *(kink for kink in kinks if start[1] < kink[1] < high), (x, high)]
+                slit = [(*ends, body_name(index + 1)) for ends in pairwise(stops)]
+                pieces += [*slit, ((x, high), end, name)]
         return [
             (
                 self._curve(

@@ -14,8 +14,8 @@ from itertools import pairwise
 from typing import Any, Literal
 
 import numpy as np
-from float_sections import Section, line, section
-from harmonic_trial import Boundary, Corner, Trial, energy_basis, nodes_on
+from float_sections import Section, line, section, thin_section
+from harmonic_trial import Boundary, Corner, Slit, Trial, energy_basis, nodes_on
 from scipy.linalg import cholesky, solve_triangular, svd
 
 MOTIONS = ("heave", "sway", "roll")
@@ -83,7 +83,9 @@ def float_tank(scene: dict[str, Any]) -> FloatTank:
     bodies = scene.get("body", [])
     floats = [
         (
-            section(body, (densities[0], densities[1] if len(densities) > 1 else 0.0), gravity),
+            (thin_section if body.get("boundary") == "thin" else section)(
+                body, (densities[0], densities[1] if len(densities) > 1 else 0.0), gravity
+            ),
             tuple(body.get("motions", ["heave"])),
         )
         for body in bodies
@@ -133,6 +135,8 @@ def _corners(tank: FloatTank, layer: int) -> list[Corner]:
     # Along the boundary the liquid lies to the right: the interface is followed eastwards below it.
     along = 1.0 if layer == 0 else -1.0
     for part, _ in tank.sections:
+        if part.thin:
+            continue
         chain = part.below if layer == 0 else part.above
         directions = [(along, chain[0].direction(0.0))]
         directions += [(a.direction(1.0), b.direction(0.0)) for a, b in pairwise(chain)]
@@ -243,6 +247,10 @@ class _Problem:
                 low=lows[j],
                 high=highs[j],
                 corners=tuple(_corners(tank, j)),
+                slits=tuple(
+                    Slit(tip=chain[0].at(1.0), end=chain[0].at(0.0))
+                    for chain in ((part.below, part.above)[j] for part, _ in tank.sections if part.thin)
+                ),
                 inner=np.concatenate([np.zeros(0), *(part.inner(fineness.inner) for part, _ in tank.sections)]),
                 clustered=fineness.corner,
                 steepness=fineness.steepness,
@@ -364,6 +372,9 @@ class _Problem:
     def _hull_loads(self, number: int, hull: Boundary, total: int, first: int) -> np.ndarray:
         load = np.zeros((len(hull.points), total))
         part = self.tank.sections[number][0]
+        if part.thin:
+            load[:, first + [body for body, _ in self.motions].index(number)] = part.flux(hull.points)
+            return load
         offset = (hull.points - np.clongdouble(part.centre)).astype(complex)
         displacements = {"heave": 1j + 0 * offset, "sway": 1.0 + 0 * offset, "roll": 1j * offset}
         for column, (body, motion) in enumerate(self.motions):

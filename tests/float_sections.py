@@ -191,6 +191,8 @@ class Section:
         inertia: about the centre of mass, kg m²/m.
         centre: of mass, x + iy, m.
         stiffness: of heave, sway and roll, shape (3, 3), N/m² and so on.
+        thin: whether the liquids reach to its axis, a slit.
+        flux: ±ω' there of unit heave, out of the liquid.
         inner: points on a curve inside, as many as asked for; beyond it potentials may be continued into the section.
     """
 
@@ -200,6 +202,8 @@ class Section:
     inertia: float
     centre: complex
     stiffness: np.ndarray
+    thin: bool
+    flux: Callable[[np.ndarray], np.ndarray]
     inner: Callable[[int], np.ndarray]
 
     @property
@@ -257,6 +261,34 @@ def section(shape: dict[str, Any], densities: tuple[float, float], gravity: floa
         mass=mass,
         inertia=mass * gyration**2,
         centre=centre,
+        thin=False,
+        flux=lambda z: np.zeros(len(z)),
         inner=lambda count: inner_curve(shape, count) + np.clongdouble(shape["position"] - 1j * level),
         stiffness=np.array([[heave, 0.0, coupling], [0.0, 0.0, 0.0], [coupling, 0.0, roll]]),
     )
+
+
+def thin_section(shape: dict[str, Any], densities: tuple[float, float], gravity: float) -> Section:
+    """The same float with its boundary laid on its axis: slits with the fluxes ±ω'(y); it heaves only."""
+    thick = section(shape, densities, gravity)
+    axis, height = np.longdouble(shape["position"]), np.longdouble(shape["half_height"])
+    top, tip, level = axis + 1j * height, axis - 1j * height, axis + 0j * height
+    return replace(
+        thick,
+        below=[line(level, tip), line(tip, level)],
+        above=[line(level, top), line(top, level)],
+        thin=True,
+        # What is raised narrows below the level and widens above it.
+        flux=lambda z: profile_slope(shape, z.imag).astype(float),
+        inner=lambda count: np.zeros(0),
+    )
+
+
+def profile_slope(shape: dict[str, Any], y: np.ndarray) -> np.ndarray:
+    """ω'(y) of a symmetric section."""
+    width, height = shape["half_width"], shape["half_height"]
+    if shape["shape"] == "parabola":
+        return -2 * width * y / height**2
+    if shape["shape"] == "wedge":
+        return -np.sign(y) * width / height
+    raise ValueError(f"no thin section of this shape: {shape['shape']}")

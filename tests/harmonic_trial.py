@@ -12,12 +12,15 @@ panels that are no longer than their distance from the next pole.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from float_sections import Arc
 
 NODES = 16
+Functions = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
+
 SMALLEST = 26
 """Panels at a corner are 0.3 to this power of its room."""
 
@@ -82,6 +85,19 @@ class Corner:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Slit:
+    """A vertical slit in a liquid, from its tip to its end in the level, where potentials may differ on both sides."""
+
+    tip: complex
+    end: complex
+
+    @property
+    def beyond(self) -> complex:
+        """Where cuts that begin at the tip end, outside."""
+        return self.end + (self.end - self.tip)
+
+
+@dataclass(frozen=True, kw_only=True)
 class Trial:
     """Trial potentials of one liquid.
 
@@ -89,6 +105,7 @@ class Trial:
         length: of the tank, m.
         low, high: y of the bottom and of the top of the liquid, m.
         corners: of the liquid but those of the tank.
+        slits: of the liquid.
         inner: poles inside of sections, shape (n,).
         clustered: how many poles at each corner.
         steepness: of their clusters.
@@ -100,6 +117,7 @@ class Trial:
     low: float
     high: float
     corners: tuple[Corner, ...]
+    slits: tuple[Slit, ...]
     inner: np.ndarray
     clustered: int
     steepness: float
@@ -118,15 +136,17 @@ class Trial:
     @property
     def attractors(self) -> np.ndarray:
         """Places to which panels shrink: the poles, and more of them towards corners."""
-        steps = [
-            corner.place + corner.room * corner.outward * np.longdouble(0.3) ** np.arange(SMALLEST)
-            for corner in self.corners
-        ]
+        towards = [(corner.place, corner.room * corner.outward) for corner in self.corners]
+        for slit in self.slits:
+            towards += [(slit.end, slit.end - slit.tip), (slit.tip, 1j * (slit.end - slit.tip))]
+        steps = [place + step * np.longdouble(0.3) ** np.arange(SMALLEST) for place, step in towards]
         return np.concatenate([self.poles, *steps])
 
     def values(self, boundary: Boundary) -> tuple[np.ndarray, np.ndarray]:
         """The trial functions and their normal derivatives, shape (nodes, functions)."""
-        pairs = [self._waves(boundary), self._poles(boundary), *(self._powers(boundary, c) for c in self.corners)]
+        pairs = [self._waves(boundary), self._poles(boundary)]
+        pairs += [self._powers(boundary, corner) for corner in self.corners]
+        pairs += [self._slit(boundary, slit) for slit in self.slits]
         functions = np.hstack([pair[0] for pair in pairs])
         slopes = np.hstack([pair[1] for pair in pairs])
         return functions.real, (slopes * boundary.normal[:, None]).real
@@ -161,18 +181,69 @@ class Trial:
         exponents = np.array(
             [k * corner.exponent + m for k in (1, 2) for m in range(self.powers) if k * corner.exponent % 1 > 1e-6]
         )
+        beyond = corner.place + corner.room * corner.outward
+
+        def powers(z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+            logarithm, slope = self._logarithm(z, corner.place, beyond)
+            value = np.exp(exponents * logarithm)
+            return value, exponents * value * slope
+
+        return self._mirrored(boundary, powers)
+
+    def _slit(self, boundary: Boundary, slit: Slit) -> tuple[np.ndarray, np.ndarray]:
+        """Powers and logarithms at the tip, and poles in the plane of √w, where the slit is a straight wall.
+
+        w = sin(π(z − c)/2L)/sin(π(z − c')/2L), cut from the tip c through the slit to c' outside.
+        """
+        integers = np.arange(1, 2 * self.powers)
+        end = np.exp(self._logarithm(np.array([slit.end]), slit.tip, slit.beyond)[0].real[0, 0] / 2)
+        outward = np.exp(0.75j * np.pi)
+        right = clustered(1j * end, outward, end, self.clustered, steepness=self.steepness).astype(complex)
+        inner = end * (-0.6 + 1.5j * np.linspace(-1, 1, self.clustered))
+        poles = np.concatenate([right, right.conj(), inner])
+        nearest = np.maximum(-poles.real, 0.0)
+        # On the slit the sides of the cut are told apart by the normal.
+        upwards = float(np.sign((slit.end - slit.tip).imag))
+        on = (boundary.points.real == slit.tip.real) & (np.abs(boundary.normal.real) > 0.5)
+        sides = np.where(on, -upwards * np.sign(boundary.normal.real), 0.0)
+
+        def functions(z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+            logarithm, slope = self._logarithm(z, slit.tip, slit.beyond)
+            if z is boundary.points:
+                turned = np.where(sides[:, None] != 0, sides[:, None] * np.pi, logarithm.imag)
+                logarithm = logarithm.real + 1j * turned
+            powers = np.exp(0.5 * integers * logarithm)
+            whole = np.exp(integers * logarithm)
+            root = np.exp(0.5 * logarithm)
+            fractions = nearest / (root - poles)
+            return (
+                np.hstack([powers, whole * logarithm, fractions]),
+                slope
+                * np.hstack(
+                    [
+                        0.5 * integers * powers,
+                        whole * (integers * logarithm + 1),
+                        -(fractions**2) / nearest * root / 2,
+                    ]
+                ),
+            )
+
+        return self._mirrored(boundary, functions)
+
+    def _logarithm(self, z: np.ndarray, start: complex, end: complex) -> tuple[np.ndarray, np.ndarray]:
+        """ln sin(π(z − start)/2L)/sin(π(z − end)/2L) and its derivative, shape (n, 1)."""
         scale = np.pi / (2 * self.length)
-        values, slopes = [], []
-        for mirrored in (False, True):
-            z = -boundary.points.conj() if mirrored else boundary.points
-            near = (scale * (z - corner.place)).astype(complex)
-            far = (scale * (z - corner.place - corner.room * corner.outward)).astype(complex)
-            logarithm = np.log(np.sin(near) / np.sin(far))
-            value = np.exp(exponents[None, :] * logarithm[:, None])
-            slope = exponents * value * scale * (_cotangent(near) - _cotangent(far))[:, None]
-            values.append(np.hstack([value, 1j * value]))
-            slopes.append(np.hstack([slope, 1j * slope]))
-        return values[0] + values[1].conj(), slopes[0] - slopes[1].conj()
+        near, far = ((scale * (z - place)).astype(complex)[:, None] for place in (start, end))
+        return np.log(np.sin(near) / np.sin(far)), scale * (_cotangent(near) - _cotangent(far))
+
+    def _mirrored(self, boundary: Boundary, functions: Functions) -> tuple[np.ndarray, np.ndarray]:
+        """f(z) + f(−z̄)* and i f(z) + (i f(−z̄))*, which do not flow through the side walls."""
+        value, slope = functions(boundary.points)
+        image, image_slope = (part.conj() for part in functions(-boundary.points.conj()))
+        return (
+            np.hstack([value + image, 1j * (value - image)]),
+            np.hstack([slope - image_slope, 1j * (slope + image_slope)]),
+        )
 
 
 def _cotangent(z: np.ndarray) -> np.ndarray:

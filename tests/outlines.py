@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
-from math import cos, pi, sin
+from math import cos, inf, pi, sin
 from typing import Any
 
 import numpy as np
@@ -195,4 +195,32 @@ def thin_float_tank(
     )
     points = ((x, -height), (x, 0.0), (x, height))
     corners = tuple(Corner(point=point, inner=tip_size, outer=size) for point in points)
+    return Outline(curves=curves, regions=regions, corners=corners)
+
+
+def surface_slit(*, low: float = -0.2, high: float = 0.0, rings: bool = True) -> Outline:
+    """One liquid of depth 0.4 and length 1 with a vertical slit at x = 0.4, down from the surface or below it."""
+    x, bottom, size = 0.4, -0.4, 0.05
+    heights = [bottom, low, high] if high == 0.0 else [bottom, low, high, 0.0]
+    line = [
+        Curve(name=FLOAT if end == high else "", start=(x, start), end=(x, end), cut=end == high)
+        for start, end in pairwise(heights)
+    ]
+    curves = (
+        Curve(name="surface", start=(0.0, 0.0), end=(x, 0.0), size=size if rings else inf),
+        Curve(name="surface", start=(x, 0.0), end=(1.0, 0.0), size=size if rings else inf),
+        Curve(name=LEFT_WALL, start=(0.0, 0.0), end=(0.0, bottom)),
+        Curve(name=BOTTOM, start=(0.0, bottom), end=(x, bottom)),
+        Curve(name=BOTTOM, start=(x, bottom), end=(1.0, bottom)),
+        Curve(name=RIGHT_WALL, start=(1.0, bottom), end=(1.0, 0.0)),
+        *line,
+    )
+    up = tuple((6 + number, True) for number in range(len(line)))
+    down = tuple((number, False) for number, _ in reversed(up))
+    regions = (
+        Region(name=LOWER, loop=((2, True), (3, True), *up, (0, False))),
+        Region(name=LOWER, loop=((4, True), (5, True), (1, False), *down)),
+    )
+    points = ((x, low), (x, high)) if rings else ()
+    corners = tuple(Corner(point=point, inner=1e-6, outer=size) for point in points)
     return Outline(curves=curves, regions=regions, corners=corners)

@@ -6,7 +6,8 @@ Galerkin's method on the top of the liquid alone, in units of the tank (L = ρ =
 
 η is a polynomial on each panel of the water, panels shrink geometrically towards the beams' ends; the deflection of a
 beam is heave, pitch and bending polynomials whose second derivatives are orthonormal, so that its bending energy is a
-unit matrix at any rigidity. N is exact (`surface_panels`). Motions without restoring are condensed. Values are Ritz
+unit matrix at any rigidity. N is exact (`surface_panels`). Two liquids under a rigid lid are the same problem in units
+of Δρ = ρ₂ − ρ₁, with N = (ρ₂/Δρ) N(h₂) + (ρ₁/Δρ) N(h₁). Motions without restoring are condensed. Values are Ritz
 values of the exact problem: they come from above, and converge exponentially.
 
 Against the package: one dimension instead of two, dense instead of sparse, polynomials instead of dry modes; nothing
@@ -35,7 +36,7 @@ KINDS = ("sloshing", "heave", "pitch", "elastic")
 
 @dataclass(frozen=True, kw_only=True)
 class ReferenceBeam:
-    """A beam in units of the tank: ends, EI/(ρgL⁴), m/(ρL), and whether ρgw restores it (1 or 0)."""
+    """A beam in units of the tank: ends, EI/(ρgL⁴), m/(ρL), and whether ρgw restores it (1 or 0); Δρ for ρ if two."""
 
     start: float
     end: float
@@ -54,14 +55,24 @@ class ReferenceTank:
     """A tank in units of itself.
 
     Attributes:
-        depth: H/L.
+        depth: H/L of the liquid under them.
         beams: from left to right.
         top: what lies beside them.
+        upper: ρ₁/ρ₂ and h₁/L of a liquid above them, under a rigid lid.
     """
 
     depth: float
     beams: tuple[ReferenceBeam, ...]
     top: Literal["free", "rigid", "pressure_release"] = "free"
+    upper: tuple[float, float] | None = None
+
+    @property
+    def layers(self) -> tuple[tuple[float, float], ...]:
+        """Densities in the unit of density, and depths in L."""
+        if self.upper is None:
+            return ((1.0, self.depth),)
+        ratio, depth = self.upper
+        return ((1.0 / (1.0 - ratio), self.depth), (ratio / (1.0 - ratio), depth))
 
     @property
     def water(self) -> tuple[tuple[float, float], ...]:
@@ -188,10 +199,10 @@ def _expected_highest(tank: ReferenceTank, count: int) -> float:
     def surplus(logarithm: float) -> float:
         value = np.exp(logarithm)
         waves = [
-            0.0 if tank.top != "free" else water_wavenumber(value, tank.depth) * (high - low)
+            0.0 if tank.top != "free" else layer_wavenumber(value, tank.layers) * (high - low)
             for low, high in tank.water
         ]
-        waves += [beam_wavenumber(beam, value, tank.depth) * beam.length for beam in tank.beams]
+        waves += [beam_wavenumber(beam, value, tank.layers) * beam.length for beam in tank.beams]
         return float(sum(waves) / np.pi - count)
 
     return float(np.exp(brentq(surplus, np.log(1e-30), np.log(1e30), xtol=1e-2)))
@@ -208,7 +219,8 @@ def _modes_below(
     coordinates = block_diag(np.eye(waves), *shapes)
     bodies = list(zip(tank.beams, shapes, strict=True))
     legendre = np.concatenate([np.zeros(waves), *(np.full(len(shape), beam.mass) for beam, shape in bodies)])
-    mass = liquid_matrix(water + covers, tank.depth) + np.diag(legendre)
+    liquids = [density * liquid_matrix(water + covers, depth) for density, depth in tank.layers]
+    mass = np.sum(liquids, axis=0) + np.diag(legendre)
     volume = np.concatenate([np.eye(1, panel.size)[0] * np.sqrt(2.0 * panel.half) for panel in water + covers])
     # Water without weight has no stiffness: it follows the beams like a rigid motion without restoring.
     rigid = np.concatenate(
@@ -240,12 +252,24 @@ def water_wavenumber(squared_frequency: float, depth: float) -> float:
     return float(brentq(lambda k: k * np.tanh(k * depth) - squared_frequency, 0.0, 1.01 * high))
 
 
-def beam_wavenumber(beam: ReferenceBeam, squared_frequency: float, depth: float) -> float:
-    """k of EI k⁴ + s = λ (m + 1/(k tanh kH)); 0 if no wave is as slow."""
+def layer_inertia(wavenumber: float, layers: tuple[tuple[float, float], ...]) -> float:
+    """Σ ρ/(k tanh kh)."""
+    return float(sum(density / (wavenumber * np.tanh(wavenumber * depth)) for density, depth in layers))
+
+
+def layer_wavenumber(squared_frequency: float, layers: tuple[tuple[float, float], ...]) -> float:
+    """k of 1 = λ Σ ρ/(k tanh kh)."""
+    # tanh kh ≥ kh/(1 + kh): k is below the root of k = λ Σ ρ (1 + 1/kh).
+    slope = squared_frequency * sum(density for density, _ in layers)
+    high = slope + np.sqrt(squared_frequency * sum(density / depth for density, depth in layers))
+    return float(brentq(lambda k: 1.0 / layer_inertia(k, layers) - squared_frequency, 1e-6 * high, 1.01 * high))
+
+
+def beam_wavenumber(beam: ReferenceBeam, squared_frequency: float, layers: tuple[tuple[float, float], ...]) -> float:
+    """k of EI k⁴ + s = λ (m + Σ ρ/(k tanh kh)); 0 if no wave is as slow."""
 
     def surplus(k: float) -> float:
-        inertia = squared_frequency * (beam.mass + 1.0 / (k * np.tanh(k * depth)))
-        return float(beam.rigidity * k**4 + beam.restoring - inertia)
+        return float(beam.rigidity * k**4 + beam.restoring - squared_frequency * (beam.mass + layer_inertia(k, layers)))
 
     high, low = 1.0, 1e-6
     while surplus(high) < 0.0:
@@ -258,12 +282,13 @@ def _water_panels(tank: ReferenceTank, piece: tuple[float, float], fineness: Fin
     low, high = piece
     length = high - low
     sharp = tank.top == "pressure_release"
+    depth = min(depth for _, depth in tank.layers)
     # Nearer to a tip than the depth, the wave and the next tip, ψ is smooth but for r ln r; without waves, for r^{1/2}.
-    reach = min(0.5 * length, tank.depth) if sharp else min(0.5 * length, tank.depth, 1.0 / highest)
+    reach = min(0.5 * length, depth) if sharp else min(0.5 * length, depth, 1.0 / highest)
     layers = [0.0, 0.5 * length]
     while layers[1] > (fineness.smallest_sharp if sharp else fineness.smallest) * reach:
         layers.insert(1, fineness.ratio * layers[1])
-    largest = length if sharp else 2.0 * fineness.phase / water_wavenumber(highest, tank.depth)
+    largest = length if sharp else 2.0 * fineness.phase / layer_wavenumber(highest, tank.layers)
     panels = []
     for anchor, side in ((low, 1.0), (high, -1.0)):
         # Nothing happens where the water ends at a wall.
@@ -285,7 +310,7 @@ def _water_panels(tank: ReferenceTank, piece: tuple[float, float], fineness: Fin
 
 def _beam_panel(tank: ReferenceTank, beam: ReferenceBeam, fineness: Fineness, highest: float) -> Panel:
     """One panel under a beam, of a degree that resolves its waves and the layers at its ends."""
-    waves = beam_wavenumber(beam, highest, tank.depth) * beam.length
+    waves = beam_wavenumber(beam, highest, tank.layers) * beam.length
     # Layers of (EI/ρg)^{1/4} at the ends of a soft beam: a polynomial of degree n sees l/n² there.
     layers = (beam.restoring / beam.rigidity) ** 0.25 * beam.length
     degree = fineness.bending * (1.0 + 0.02 * waves) + 5.0 * np.sqrt(layers)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from itertools import pairwise
 from math import asin, cos, hypot, pi, sin, sqrt
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from hydroelastic.meshes.contours import Arc, Contour, straight_arc, turn_between
 from hydroelastic.meshes.point_contours import outline_contour, polygon_contour, self_crossing
-from hydroelastic.modal.float_profiles import FloatShape
+from hydroelastic.modal.float_profiles import FloatShape, float_profile
 from hydroelastic.scenes.floats import float_contour
 from hydroelastic.scenes.model_bodies import Float
 
@@ -20,7 +21,7 @@ EXACT = 2e-14
 
 
 def profile(shape: FloatShape, half_width: float = 0.3, half_height: float = 2.0) -> Contour:
-    return float_contour(Float(shape=shape, position=0, half_width=half_width, half_height=half_height))
+    return float_contour(Float(shape=shape, position=0, half_width=half_width, half_height=half_height), Path())
 
 
 def random_polygon(random: np.random.Generator) -> np.ndarray:
@@ -73,6 +74,12 @@ def test_velocities_are_derivatives(shape: FloatShape) -> None:
         difference = (arc.curve(t + step) - arc.curve(t - step)) / (2 * step)
         # Central differences: step² times the third derivative, some 300 of the exponential, over 6.
         np.testing.assert_allclose(arc.velocity(t), difference, atol=2e-8)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_corners_are_those_of_the_profile(shape: FloatShape) -> None:
+    right = float_profile(shape, 0.3, 2.0).corners
+    assert set(profile(shape).corners) == {(sign * float(x), float(y)) for x, y in right for sign in (1, -1)}
 
 
 # Areas, centroids and radii of gyration in closed form, for half width b and half height h.
@@ -141,11 +148,23 @@ def test_corners_on_the_level_are_contact_points_exactly() -> None:
     for shape in ("wedge", "exponential"):
         below = profile(shape).below(0.0)
         assert (below[0].start, below[-1].end) == ((-0.3, 0.0), (0.3, 0.0))
-        # An ulp beside the level is on it.
-        assert profile(shape).moved((0.0, 1e-16)).below(0.0)[0].start == (-0.3, 0.0)
+        # What rounding puts beside the level is on it.
+        beside = profile(shape).moved((0.0, 1e-12)).below(0.0)
+        assert beside[0].start == (-0.3, 0.0)
+        assert len(beside) == len(below)
     house = polygon_contour(((-1, -1), (1, -1), (1, 0), (0, 1), (-1, 0)))
     assert [arc.start for arc in house.below(0.0)] == [(-1, 0), (-1, -1), (1, -1)]
     assert [arc.start for arc in house.above(0.0)] == [(1, 0), (0, 1)]
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_levels_beside_a_corner_are_cut_too(shape: FloatShape) -> None:
+    contour, section = profile(shape, 0.0444, 0.1603), float_profile(shape, 0.0444, 0.1603)
+    for distance in np.geomspace(1e-16, 1e-2, 200):
+        for level in (float(distance), -float(distance)):
+            contact = contour.below(level)[-1].end
+            # Levels within AT_LEVEL of a corner meet it; half-widths have slopes of 1 at most here.
+            assert contact == pytest.approx((float(section.half_width_at(level)), level), abs=5e-12)
 
 
 @pytest.mark.parametrize(
@@ -322,10 +341,10 @@ def test_turns_are_signed_angles() -> None:
 
 def test_a_level_is_crossed_to_rounding_also_next_to_the_start_of_an_arc() -> None:
     curve = Arc(
-        curve=lambda t: np.column_stack([t, t + t**2]),
-        velocity=lambda t: np.column_stack([np.ones_like(t), 1 + 2 * t]),
+        curve=lambda t: np.column_stack([t, t**3]),
+        velocity=lambda t: np.column_stack([np.ones_like(t), 3 * t**2]),
         start=(0.0, 0.0),
-        end=(1.0, 2.0),
+        end=(1.0, 1.0),
     )
-    assert curve.crossing(1e-9, 0.0, 1.0) == pytest.approx(1e-9 - 1e-18, rel=1e-15)
+    assert curve.crossing(1e-30, 0.0, 1.0) == pytest.approx(1e-10, abs=2e-17)
     assert curve.crossing(0.5, 0.0, 1.0, axis=0) == 0.5

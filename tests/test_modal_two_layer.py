@@ -70,7 +70,7 @@ def test_plate_under_a_free_top(rigidity: float, hydrostatic: bool) -> None:
 
 
 def test_roots_are_the_eigenvalues_of_the_motions_and_the_fast_ones_move_in_phase() -> None:
-    # The pencil of § 2 of the theory from the potential itself: ψ₁ with the slopes ζ at y = 0 and η at y = h₁.
+    # The pencil of the theory, § 1, from the potential itself: ψ₁ with the slopes ζ at y = 0 and η at y = h₁.
     two, k = layers(density_above=0.7), 1.3
     plane = np.array([0.0, two.depth_above])
     values = []

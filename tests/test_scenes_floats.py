@@ -104,7 +104,7 @@ def test_stiffnesses_are_those_of_a_section_that_is_moved(
     values: dict[str, Any] = {"upper": upper, "at": at} | SECTIONS[section]
     densities = scene(**values).densities_at("interface" if at == "interface" else "surface")
     if part is not None:
-        area = float_contour(Float(position=0, **SECTIONS[section])).moments().area
+        area = float_contour(Float(position=0, **SECTIONS[section]), Path()).moments().area
         values["mass"] = area * (part * densities[0] + (1 - part) * densities[1])
     given = scene(**values)
     found = placed_float(given, 0).hydrostatics
@@ -160,6 +160,13 @@ def test_closed_forms() -> None:
     assert block.centre_of_mass == pytest.approx((10.0, 0.25), rel=EXACT)
 
 
+def test_the_centre_of_mass_counts_from_the_reference_level() -> None:
+    for mass in (None, 1180.0, 1250.0):
+        found = at_rest(**SECTIONS["wedge"], centre_of_mass=-0.4, mass=mass)
+        assert found.centre_of_mass[1] - found.reference_level == pytest.approx(-0.4, rel=EXACT)
+        assert (found.reference_level == 0.0) == (mass is None)
+
+
 def test_the_upper_level_is_that_of_the_upper_liquid() -> None:
     low, high = at_rest(**SECTIONS["hull"]), at_rest(**SECTIONS["hull"], at="surface")
     assert (low.level, high.level) == (0.0, 4.0)
@@ -179,7 +186,7 @@ def test_the_upper_level_is_that_of_the_upper_liquid() -> None:
 @pytest.mark.parametrize("seed", range(5))
 def test_the_still_level_follows_from_the_mass(section: str, seed: int) -> None:
     random = np.random.default_rng(seed)
-    contour = float_contour(Float(position=0, **SECTIONS[section]))
+    contour = float_contour(Float(position=0, **SECTIONS[section]), Path())
     _, _, low, high = contour.bounds
     below, above = random.uniform(500, 1000), random.choice([0.0, random.uniform(1, 500)])
     wanted = random.uniform(0.95 * low, 0.95 * high)
@@ -189,7 +196,7 @@ def test_the_still_level_follows_from_the_mass(section: str, seed: int) -> None:
 
 
 def test_a_mass_in_decimals_lets_the_level_pass_through_a_corner() -> None:
-    contour = float_contour(Float(position=0, **SECTIONS["wedge"]))
+    contour = float_contour(Float(position=0, **SECTIONS["wedge"]), Path())
     exact = 1000 * contour.moments(0.0).area
     assert still_level(contour, exact * (1 + 1e-10), (1000.0, 0.0)) == 0.0
     assert still_level(contour, exact * (1 + 1e-6), (1000.0, 0.0)) > 0.0
@@ -197,7 +204,7 @@ def test_a_mass_in_decimals_lets_the_level_pass_through_a_corner() -> None:
 
 @pytest.mark.parametrize("mass", [1e-3, 1151.9, 1440.1, 1e9])
 def test_what_sinks_or_rises_does_not_float(mass: float) -> None:
-    contour = float_contour(Float(position=0, **SECTIONS["wedge"]))
+    contour = float_contour(Float(position=0, **SECTIONS["wedge"]), Path())
     with pytest.raises(ValueError, match=r"between 1152 and 1440 kg/m"):
         still_level(contour, mass, (1000.0, 800.0))
 

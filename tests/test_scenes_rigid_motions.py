@@ -45,6 +45,14 @@ KEEL: dict[str, Any] = {
 ALL = ("heave", "sway", "roll")
 
 
+def neutral(*motions: str) -> Float:
+    """The keel with its centre of mass where it is neutral, with or without heave that follows its roll."""
+    rest = placed_float(scene(floating(*motions, **KEEL), top="free", upper=None), 0).hydrostatics
+    stiffness = rest.free_roll_stiffness if "heave" in motions else rest.roll_stiffness
+    height = rest.centre_of_mass[1] + stiffness / (9.81 * rest.mass)
+    return floating(*motions, **KEEL, centre_of_mass=height)
+
+
 def statics(given: TankScene) -> tuple[np.ndarray, np.ndarray]:
     """Stiffness and volumes of all rigid motions and of the mean elevation of each level, in units of the tank.
 
@@ -100,6 +108,9 @@ def statics(given: TankScene) -> tuple[np.ndarray, np.ndarray]:
         (floating(*ALL, **CIRCLE),),
         (floating("roll", **CIRCLE), floating(position=8.0)),
         (floating("heave", "roll", **KEEL),),
+        (neutral("heave", "roll"),),
+        (neutral("roll"),),
+        (neutral("roll"), LOOSE),
         (floating(*ALL, **CIRCLE), LOOSE),
         (floating(*ALL, at="surface", **CIRCLE), LOOSE),
         (floating(*ALL, at="surface"), beam(start=6.5, at="surface"), LOOSE),

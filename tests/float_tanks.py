@@ -1,0 +1,115 @@
+"""Tanks of one or two liquids with beams and floats, made from a few values, and dense solutions of their matrices."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from mpi4py import MPI
+from petsc4py import PETSc
+from scipy.linalg import eigh, null_space
+
+from hydroelastic.fem.pencil import CoupledPencil
+from hydroelastic.scenes.field_model import build_mesh
+from hydroelastic.scenes.field_solution import part_models
+from hydroelastic.scenes.model_bodies import Beam, Float
+from hydroelastic.scenes.models import Accuracy, Liquid, Tank, TankScene
+from hydroelastic.scenes.plan import initial_resolution
+from hydroelastic.scenes.scaled_tank import scaled_tank
+
+GRAVITY = 9.81
+
+
+def layered(
+    *bodies: Beam | Float,
+    densities: tuple[float, ...] = (1000.0, 850.0),
+    depths: tuple[float, ...] = (0.3, 0.2),
+    length: float = 1.0,
+    top: str = "rigid",
+    tolerance: float = 1e-8,
+    modes: int = 6,
+) -> TankScene:
+    """A tank with liquids from the bottom up."""
+    return TankScene(
+        tank=Tank(length=length, gravity=GRAVITY, top=top),
+        liquid=tuple(
+            Liquid(density=density, depth=depth) for density, depth in zip(densities, depths[: len(densities)])
+        ),
+        body=bodies,
+        accuracy=Accuracy(tolerance=tolerance, modes=modes),
+    )
+
+
+def rigid(shape: str, position: float, motions: str = "heave", **keys: Any) -> Float:
+    """A float; its motions as one word each."""
+    return Float(kind="float", shape=shape, position=position, motions=tuple(motions.split()), **keys)
+
+
+def pencils(
+    scene: TankScene, *, half: bool = False, coarse: bool = True, released: bool = False
+) -> tuple[CoupledPencil, ...]:
+    """The matrices of a scene, or of its halves, on a mesh for few unknowns (collective)."""
+    tank = scaled_tank(scene)
+    resolution = initial_resolution(scene, modes=scene.accuracy.modes)
+    if coarse:
+        resolution = replace(resolution, degree=4, shapes=tuple(min(count, 6) for count in resolution.shapes))
+    mesh = build_mesh(MPI.COMM_WORLD, tank, resolution, half=half, released=released)
+    _, parts = part_models(mesh, tank, resolution.degree, resolution.shapes, half=half, pressure_release=released)
+    return parts
+
+
+def dense(matrix: PETSc.Mat) -> np.ndarray:
+    """A matrix of one process as an array."""
+    return np.array(matrix.convert("dense").getDenseArray())
+
+
+class DenseProblem:
+    """K ζ = λ (M ζ + (ρC)ᵀψ), A ψ = C ζ as full matrices of one process, and what keeps the volumes.
+
+    Attributes:
+        stiffness, mass, coupling, laplace: K, M, C, A.
+        densities: ρ at each unknown of ψ.
+        fixed: unknowns of ψ that a grounded surface fixes.
+        volumes: what each unknown takes from each closed layer, shape (closed layers, n).
+        pins: one unknown of ψ of each closed layer.
+    """
+
+    def __init__(self, pencil: CoupledPencil) -> None:
+        """Take the plain matrices, and nothing that the package made of them."""
+        liquid = pencil.liquid
+        matrices = (pencil.stiffness, pencil.mass, pencil.coupling, pencil.laplace)
+        self.stiffness, self.mass, self.coupling, self.laplace = (dense(matrix) for matrix in matrices)
+        self.densities = np.array([layer.density for layer in liquid.layers])[liquid.owned_layer_of]
+        self.fixed = liquid.surface_dofs(liquid.grounded) if liquid.grounded else np.empty(0, dtype=int)
+        layers = [np.flatnonzero(liquid.owned_layer_of == layer) for layer in range(len(liquid.layers))]
+        closed = [dofs for dofs in layers if not np.isin(dofs, self.fixed).any()]
+        self.volumes = np.array([self.coupling[dofs].sum(axis=0) for dofs in closed]).reshape(len(closed), -1)
+        self.pins = np.array([dofs[0] for dofs in closed], dtype=int)
+
+    def added_mass(self, basis: np.ndarray | None = None, pins: np.ndarray | None = None) -> np.ndarray:
+        """(ρC)ᵀA⁻¹C on some combinations of the unknowns, with ψ = 0 at the pins."""
+        coupling = self.coupling if basis is None else self.coupling @ basis
+        free = np.setdiff1d(np.arange(len(self.laplace)), [*self.fixed, *(self.pins if pins is None else pins)])
+        potential = np.zeros_like(coupling)
+        potential[free] = np.linalg.solve(self.laplace[np.ix_(free, free)], coupling[free])
+        added = (self.densities[:, None] * coupling).T @ potential
+        return 0.5 * (added + added.T)
+
+    def eigenvalues(self, count: int, *, shift: float = 1.0, stiffness: np.ndarray | None = None) -> np.ndarray:
+        """The lowest λ of what keeps the volumes, motions without stiffness (λ = 0) and growing ones included.
+
+        Args:
+            count: how many.
+            shift: more than the largest −λ; λ + shift keeps its digits.
+            stiffness: another K.
+        """
+        basis = null_space(self.volumes, rcond=1e-10) if len(self.volumes) else np.eye(len(self.stiffness))
+        restoring = basis.T @ (self.stiffness if stiffness is None else stiffness) @ basis
+        inertia = basis.T @ self.mass @ basis + self.added_mass(basis)
+        return 1.0 / eigh(inertia, restoring + shift * inertia, eigvals_only=True)[::-1][:count] - shift
+
+
+def frequencies(eigenvalues: np.ndarray, scene: TankScene) -> np.ndarray:
+    """ω in rad/s of dimensionless λ > 0."""
+    return np.sqrt(eigenvalues * scene.tank.gravity / scene.tank.length)

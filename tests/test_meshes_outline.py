@@ -1,0 +1,417 @@
+"""Meshes of several liquids with bodies: exact regions and groups, cut open where asked, graded, well shaped."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from math import inf, pi, radians
+
+import numpy as np
+import pytest
+from outlines import (
+    FLOAT,
+    INTERFACE,
+    LOWER,
+    UPPER,
+    Circle,
+    arc,
+    circle_tank,
+    polygon,
+    surface_slit,
+    thin_float_tank,
+    two_liquids,
+)
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
+from hydroelastic.meshes.build import build_mesh
+from hydroelastic.meshes.edges import edges_of
+from hydroelastic.meshes.filling import Line, fill
+from hydroelastic.meshes.geometry import BOTTOM, LEFT_WALL, LID, RIGHT_WALL, SYMMETRY_PLANE
+from hydroelastic.meshes.outline import Corner, Curve, Outline, Point, Region
+from hydroelastic.meshes.size_field import Discs, SizeField
+from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
+
+BEAM = "body_1"
+RATIO = 0.3
+TIP = 1e-6
+
+# A body with legs and a notched top: reentrant and other corners on either side of the interface.
+LEGS: list[Point] = [
+    (0.4, 0.0),
+    (0.4, -0.1),
+    (0.45, -0.1),
+    (0.45, -0.03),
+    (0.55, -0.03),
+    (0.55, -0.1),
+    (0.6, -0.1),
+    (0.6, 0.0),
+]
+ROOF: list[Point] = [(0.6, 0.0), (0.6, 0.1), (0.5, 0.02), (0.4, 0.1), (0.4, 0.0)]
+LEGS_AREA, ROOF_AREA = 0.2 * 0.1 - 0.1 * 0.07, 0.2 * 0.1 - 0.5 * 0.2 * 0.08
+
+
+@dataclass(frozen=True)
+class Case:
+    """An outline of straight sides and what its mesh must be.
+
+    The smallest angle is that of rings of ratio r = 0.3 in sectors of angle a, atan(r sin a/(1 - r cos a)): 17 degrees
+    for 60, 15 for 45; less where a layer is thin or a notch narrow. Measured, less a degree or a quarter.
+    """
+
+    outline: Outline
+    areas: dict[str, float]
+    lengths: dict[str, float]
+    smallest_angle: float = 14.0
+    parts: int = 2
+
+
+def walls(lower: float = 0.4, upper: float = 0.3) -> dict[str, float]:
+    return {BOTTOM: 1.0, LID: 1.0, LEFT_WALL: lower + upper, RIGHT_WALL: lower + upper}
+
+
+BEAM_PIECES = [(0.3, INTERFACE), (0.7, BEAM), (1.0, INTERFACE)]
+ENDS = ((0.3, 0.0), (0.7, 0.0))
+# Both sides of what is cut open count.
+CASES = {
+    "two liquids": Case(
+        two_liquids(left=[(1.0, INTERFACE)]), {LOWER: 0.4, UPPER: 0.3}, {INTERFACE: 2.0} | walls(), smallest_angle=27.0
+    ),
+    "beam": Case(
+        two_liquids(left=BEAM_PIECES, rings=ENDS), {LOWER: 0.4, UPPER: 0.3}, {INTERFACE: 1.2, BEAM: 0.8} | walls()
+    ),
+    "beam at the wall": Case(
+        two_liquids(left=[(0.4, BEAM), (1.0, INTERFACE)], rings=((0.0, 0.0), (0.4, 0.0))),
+        {LOWER: 0.4, UPPER: 0.3},
+        {INTERFACE: 1.2, BEAM: 0.8} | walls(),
+    ),
+    "thin upper layer": Case(
+        two_liquids(left=BEAM_PIECES, rings=ENDS, depths=(0.4, 0.01), size=0.02),
+        {LOWER: 0.4, UPPER: 0.01},
+        {INTERFACE: 1.2, BEAM: 0.8} | walls(0.4, 0.01),
+        smallest_angle=11.0,
+    ),
+    "two thin layers": Case(
+        two_liquids(left=BEAM_PIECES, rings=ENDS, depths=(0.01, 0.01), size=0.1),
+        {LOWER: 0.01, UPPER: 0.01},
+        {INTERFACE: 1.2, BEAM: 0.8} | walls(0.01, 0.01),
+        smallest_angle=3.0,
+    ),
+    "polygon": Case(
+        two_liquids(
+            polygon(LEGS, ROOF),
+            left=[(0.4, INTERFACE)],
+            right=[(1.0, INTERFACE)],
+            rings=(*LEGS, *ROOF[1:-1]),
+        ),
+        {LOWER: 0.4 - LEGS_AREA, UPPER: 0.3 - ROOF_AREA},
+        {INTERFACE: 1.6, FLOAT: 0.54 + 0.2 + 2 * np.hypot(0.1, 0.08)} | walls(),
+    ),
+    "thin float": Case(thin_float_tank(), {LOWER: 0.4, UPPER: 0.3}, {INTERFACE: 2.0, FLOAT: 0.8} | walls()),
+    "slit under a surface": Case(
+        surface_slit(),
+        {LOWER: 0.4},
+        {"surface": 1.0, FLOAT: 0.4, BOTTOM: 1.0, LEFT_WALL: 0.4, RIGHT_WALL: 0.4},
+        parts=1,
+    ),
+}
+
+
+@pytest.fixture(scope="module", params=CASES)
+def meshed(request: pytest.FixtureRequest) -> tuple[Case, TaggedMesh]:
+    case = CASES[request.param]
+    return case, build_mesh(case.outline, bulk_size=0.2, ring_ratio=RATIO)
+
+
+def signed_areas(mesh: TaggedMesh) -> np.ndarray:
+    a, b, c = (mesh.points[mesh.cells[:, corner]] for corner in range(3))
+    areas: np.ndarray = 0.5 * ((c - a)[:, 0] * (b - a)[:, 1] - (c - a)[:, 1] * (b - a)[:, 0])
+    return areas
+
+
+def smallest_angle(mesh: TaggedMesh) -> float:
+    """In degrees."""
+    corners = mesh.points[mesh.cells]
+    smallest = 180.0
+    for corner in range(3):
+        one, other = (corners[:, (corner + step) % 3] - corners[:, corner] for step in (1, 2))
+        cosine = (one * other).sum(axis=1) / np.linalg.norm(one, axis=1) / np.linalg.norm(other, axis=1)
+        smallest = min(smallest, float(np.degrees(np.arccos(cosine.max()))))
+    return smallest
+
+
+def cells_by_edge(mesh: TaggedMesh) -> tuple[np.ndarray, np.ndarray]:
+    """The nodes of each edge and how many cells have it."""
+    edges = edges_of(mesh.cells)
+    return edges.nodes, np.bincount(edges.places.ravel())
+
+
+def parts(mesh: TaggedMesh) -> np.ndarray:
+    """Which part of the mesh each cell is in, cells hanging together through edges."""
+    edges = edges_of(mesh.cells)
+    cells = np.repeat(np.arange(len(mesh.cells)), 3)
+    table = coo_array((np.ones(len(cells)), (cells, edges.places.ravel()))).tocsr()
+    _, part = connected_components(table @ table.T, directed=False)
+    return np.asarray(part)
+
+
+def nodes_at(mesh: TaggedMesh, x: float, y: float) -> int:
+    return int((mesh.points == [x, y]).all(axis=1).sum())
+
+
+def test_regions_have_their_exact_area_and_all_triangles_turn_one_way(meshed: tuple[Case, TaggedMesh]) -> None:
+    case, mesh = meshed
+    areas = signed_areas(mesh)
+    assert areas.min() > 0.0
+    assert set(mesh.cell_names) == set(case.areas)
+    for name, area in case.areas.items():
+        # A sum of some thousand numbers, each right to a few units of its last place.
+        assert areas[mesh.cell_tags == mesh.cell_names[name]].sum() == pytest.approx(area, rel=1e-13), name
+
+
+def test_groups_have_their_exact_length_on_both_sides(meshed: tuple[Case, TaggedMesh]) -> None:
+    case, mesh = meshed
+    assert {name: mesh.facet_measure(name) for name in mesh.facet_names} == pytest.approx(case.lengths, rel=1e-12)
+
+
+def test_edges_of_one_cell_are_the_facets_and_all_others_join_two(meshed: tuple[Case, TaggedMesh]) -> None:
+    _, mesh = meshed
+    nodes, cells = cells_by_edge(mesh)
+    assert set(cells) == {1, 2}
+    assert Counter(map(tuple, nodes[cells == 1].tolist())) == Counter(map(tuple, np.sort(mesh.facets, axis=1).tolist()))
+
+
+def test_liquids_hang_together_and_are_apart_from_one_another(meshed: tuple[Case, TaggedMesh]) -> None:
+    case, mesh = meshed
+    part = parts(mesh)
+    assert len(set(zip(part.tolist(), mesh.cell_tags.tolist(), strict=True))) == len(set(part)) == case.parts
+    shared = set(mesh.cells[part == 0].ravel()) & set(mesh.cells[part != 0].ravel())
+    assert not shared
+
+
+def test_every_node_is_used_and_doubled_only_on_what_is_cut(meshed: tuple[Case, TaggedMesh]) -> None:
+    case, mesh = meshed
+    assert np.array_equal(np.unique(mesh.cells), np.arange(len(mesh.points)))
+    cut = {curve.name for curve in case.outline.curves if curve.cut}
+    on_cut = {tuple(point) for name in cut for point in mesh.facet_nodes(name).tolist()}
+    copies = Counter(map(tuple, mesh.points.tolist()))
+    assert {point for point, count in copies.items() if count > 1} <= on_cut
+
+
+def test_triangles_are_well_shaped(meshed: tuple[Case, TaggedMesh]) -> None:
+    case, mesh = meshed
+    assert smallest_angle(mesh) > case.smallest_angle
+
+
+def test_rings_shrink_by_one_ratio_to_the_size_asked_on_every_curve(meshed: tuple[Case, TaggedMesh]) -> None:
+    case, mesh = meshed
+    for corner in case.outline.corners:
+        for curve in case.outline.curves:
+            if corner.point in (curve.start, curve.end):
+                other = np.array(curve.end if corner.point == curve.start else curve.start)
+                away = np.unique(mesh.points, axis=0) - corner.point
+                direction = (other - corner.point) / np.linalg.norm(other - corner.point)
+                across = np.abs(away @ [-direction[1], direction[0]])
+                along = away @ direction
+                # Next to abscissae of order one distances of 1e-6 keep ten digits.
+                rings = np.sort(along[(across < 1e-15) & (along > 0.0) & (along < 1e-3)])
+                assert len(rings) > 2
+                assert rings[0] <= TIP
+                assert rings[1:] / rings[:-1] == pytest.approx(np.full(len(rings) - 1, 1.0 / RATIO), rel=1e-8)
+
+
+def test_an_interface_is_double_and_its_wall_ends_too() -> None:
+    mesh = build_mesh(CASES["beam"].outline, bulk_size=0.2)
+    on_interface = mesh.points[mesh.points[:, 1] == 0.0]
+    places, copies = np.unique(on_interface, axis=0, return_counts=True)
+    assert np.all(copies == 2)
+    assert {0.0, 0.3, 0.7, 1.0} <= set(places[:, 0])
+
+
+def test_the_tips_of_a_slit_are_single_and_its_crossing_fourfold() -> None:
+    mesh = build_mesh(thin_float_tank(height=0.2, position=0.4), bulk_size=0.2)
+    assert nodes_at(mesh, 0.4, -0.2) == nodes_at(mesh, 0.4, 0.2) == 1
+    assert nodes_at(mesh, 0.4, 0.0) == 4
+    on_slit = mesh.points[(mesh.points[:, 0] == 0.4) & (mesh.points[:, 1] != 0.0)]
+    places, copies = np.unique(on_slit, axis=0, return_counts=True)
+    inside = np.abs(places[:, 1]) < 0.2
+    assert np.all(copies[inside] == 2)
+    assert np.all(copies[~inside] == 1)
+
+
+def test_a_slit_that_begins_at_the_surface_is_double_there() -> None:
+    mesh = build_mesh(surface_slit(), bulk_size=0.2)
+    assert nodes_at(mesh, 0.4, 0.0) == 2
+    assert nodes_at(mesh, 0.4, -0.2) == 1
+
+
+@pytest.mark.parametrize(("point", "angle"), [((0.4, -0.1), 270), ((0.45, -0.03), 90), ((0.6, 0.0), 180)])
+def test_sectors_at_corners_are_the_fewest_of_at_most_60_degrees(point: Point, angle: int) -> None:
+    mesh = build_mesh(CASES["polygon"].outline, bulk_size=0.2)
+    nodes = np.flatnonzero((mesh.points == point).all(axis=1))
+    fans = sorted(int((mesh.cells == node).any(axis=1).sum()) for node in nodes)
+    # Both liquids meet at the contact point, 90 degrees each.
+    assert fans == {270: [5], 90: [2], 180: [2, 2]}[angle]
+
+
+@pytest.mark.parametrize("contact", [20, 45, 70, 90, 120, 160])
+@pytest.mark.parametrize("half", [False, True])
+def test_a_float_with_any_contact_angle_is_meshed_with_its_areas(contact: int, half: bool) -> None:
+    circle = Circle(contact_angle=radians(contact))
+    outline = circle_tank(circle, half=half)
+    mesh = build_mesh(outline, bulk_size=0.2)
+    # Polygons in the circle: an element that turns by θ leaves out (θ - sin θ)/2 R² < θ³/12 R², θ <= 30 degrees.
+    missing = circle.radius**2 * 2 * pi * (pi / 6.0) ** 2 / 12.0
+    part = 0.5 if half else 1.0
+    for name, whole, inside in ((LOWER, 0.4, circle.immersed), (UPPER, 0.3, circle.area - circle.immersed)):
+        area = signed_areas(mesh)[mesh.cell_tags == mesh.cell_names[name]].sum()
+        assert 0.0 < area - part * (whole - inside) < part * missing
+    # A wedge of 20 degrees is one sector; its rings have triangles of atan(r sin a/(1 - r cos a)) = 8.1 degrees.
+    assert smallest_angle(mesh) > (7.5 if contact in (20, 160) else 10.0)
+    assert (SYMMETRY_PLANE in mesh.facet_names) == half
+    assert (RIGHT_WALL in mesh.facet_names) == (not half)
+
+
+def test_nodes_of_rings_on_an_arc_lie_on_it_at_their_distance_from_the_corner() -> None:
+    circle = Circle(contact_angle=radians(70))
+    mesh = build_mesh(circle_tank(circle), bulk_size=0.2)
+    nodes = np.unique(mesh.facet_nodes(FLOAT), axis=0)
+    assert np.hypot(nodes[:, 0] - circle.centre, nodes[:, 1] - circle.height) == pytest.approx(
+        np.full(len(nodes), circle.radius), rel=1e-14
+    )
+    away = nodes - circle.contacts[0]
+    for side in (-1.0, 1.0):
+        distances = np.sort(np.hypot(*away[side * away[:, 1] > 0.0].T))
+        rings = distances[distances < 1e-3]
+        assert len(rings) > 3
+        assert rings[1:] / rings[:-1] == pytest.approx(np.full(len(rings) - 1, 1.0 / RATIO), rel=1e-8)
+
+
+@pytest.mark.parametrize("gap", [1e-2, 1e-3, 1e-4])
+@pytest.mark.parametrize("where", ["lid", "wall"])
+def test_a_float_close_to_a_wall_is_meshed(gap: float, where: str) -> None:
+    circle = Circle() if where == "lid" else Circle(centre=0.1 + gap)
+    depths = (0.4, 0.1 + gap) if where == "lid" else (0.4, 0.3)
+    mesh = build_mesh(circle_tank(circle, depths=depths), bulk_size=0.2, geometry_degree=4)
+    assert signed_areas(mesh).min() > 0.0
+
+
+def test_no_element_of_an_arc_turns_more_than_asked() -> None:
+    mesh = build_mesh(circle_tank(Circle()), bulk_size=0.2, largest_turn=radians(10))
+    edges = mesh.points[mesh.facets[mesh.facet_tags == mesh.facet_names[FLOAT]]]
+    lengths = np.linalg.norm(edges[:, 1] - edges[:, 0], axis=1)
+    turns = 2.0 * np.arcsin(lengths / (2.0 * Circle().radius))
+    # Whole numbers of elements, from samples of the curvature.
+    assert radians(8) < turns.max() < radians(10.1)
+
+
+def test_a_size_on_an_arc_is_kept_there() -> None:
+    outline = circle_tank(Circle())
+    curves = tuple(replace(curve, size=0.01) if curve.name == FLOAT else curve for curve in outline.curves)
+    mesh = build_mesh(replace(outline, curves=curves), bulk_size=0.2)
+    edges = mesh.points[mesh.facets[mesh.facet_tags == mesh.facet_names[FLOAT]]]
+    assert 0.005 < np.linalg.norm(edges[:, 1] - edges[:, 0], axis=1).max() < 0.0101
+
+
+def test_the_same_outline_gives_the_same_mesh() -> None:
+    first = build_mesh(circle_tank(Circle()), bulk_size=0.2, geometry_degree=3)
+    build_mesh(thin_float_tank(), bulk_size=0.2)
+    second = build_mesh(circle_tank(Circle()), bulk_size=0.2, geometry_degree=3)
+    assert first.points.tobytes() == second.points.tobytes()
+    assert np.array_equal(first.cells, second.cells)
+    assert np.array_equal(first.facets, second.facets)
+    assert first.curved is not None
+    assert second.curved is not None
+    assert first.curved.nodes.tobytes() == second.curved.nodes.tobytes()
+
+
+def test_corners_beside_one_another_have_rings_that_fit() -> None:
+    """Rings asked for are far too large for the corners' distance of 0.01, and for the depth."""
+    ends = ((0.495, 0.0), (0.505, 0.0))
+    outline = two_liquids(left=[(0.495, INTERFACE), (0.505, BEAM), (1.0, INTERFACE)], rings=ends, depths=(0.4, 0.02))
+    outline = replace(outline, corners=tuple(replace(corner, outer=inf) for corner in outline.corners))
+    mesh = build_mesh(outline, bulk_size=0.2)
+    assert signed_areas(mesh).sum() == pytest.approx(0.42, rel=1e-13)
+    edges = mesh.points[mesh.facets[mesh.facet_tags == mesh.facet_names[BEAM]]]
+    # The outermost rings reach to 0.45 of the way; between them one element is left.
+    assert np.linalg.norm(edges[:, 1] - edges[:, 0], axis=1).max() < 0.45 * 0.01
+
+
+SQUARE = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
+
+
+def square(**changes: object) -> Callable[[], Outline]:
+    """A square of four sides a, b, c, d with something changed."""
+    curves = tuple(
+        Curve(name=name, start=start, end=end)
+        for name, start, end in zip("abcd", SQUARE, [*SQUARE[1:], SQUARE[0]], strict=True)
+    )
+    loop = tuple((number, True) for number in range(4))
+    first = replace(curves[0], **changes.pop("first", {}))  # type: ignore[arg-type, call-overload]
+    values = {"curves": (first, *curves[1:]), "regions": (Region(name="liquid", loop=loop),)} | changes
+    return lambda: Outline(**values)  # type: ignore[arg-type]
+
+
+LOOP = ((0, True), (1, True), (2, True), (3, True))
+
+
+@pytest.mark.parametrize(
+    ("outline", "message"),
+    [
+        (square(regions=(Region(name="liquid", loop=LOOP[:3]),)), r"open between curves 2 \('c'\) and 0 \('a'\)"),
+        (
+            square(regions=(Region(name="liquid", loop=tuple((number, False) for number in (3, 2, 1, 0))),)),
+            "must turn counterclockwise",
+        ),
+        (square(regions=(Region(name="liquid", loop=(*LOOP, (0, False), (0, True))),)), "passes a curve twice"),
+        (
+            square(regions=(Region(name="liquid", loop=LOOP), Region(name="oil", loop=LOOP))),
+            r"curve 0 \('a'\) bounds two regions on the same side",
+        ),
+        (square(regions=()), r"curve 0 \('a'\) bounds no region"),
+        (square(first={"name": ""}), "curve 0 has no name"),
+        (square(first={"end": (0.0, 0.0)}), "ends where it starts"),
+        (square(first={"size": 0.0}), "positive size"),
+        (square(first={"path": arc((0.5, 0.0), 0.4, pi, 2 * pi)}), "does not lead from its start to its end"),
+        (square(corners=(Corner(point=(0.5, 0.0), inner=1e-3, outer=0.1),)), "not an end of a curve"),
+        (square(corners=(Corner(point=(0.0, 0.0), inner=0.0, outer=0.1),)), "rings of positive radii"),
+        (square(corners=(Corner(point=(0.0, 0.0), inner=1e-3, outer=0.1),) * 2), "two corners are at the same point"),
+    ],
+)
+def test_outlines_that_are_no_domain_are_refused(outline: Callable[[], Outline], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        outline()
+
+
+@pytest.mark.parametrize(
+    ("outline", "message"),
+    [
+        (circle_tank(Circle(), depths=(0.4, 0.05)), "cross or touch one another: float and lid"),
+        (
+            circle_tank(Circle(centre=0.06, contact_angle=radians(150))),
+            "cross or touch one another: float and left_wall",
+        ),
+        (circle_tank(Circle(), depths=(0.09, 0.3)), "cross or touch one another: bottom and float"),
+    ],
+    ids=["through the lid", "at the wall", "on the bottom"],
+)
+def test_curves_that_cross_or_touch_are_refused(outline: Outline, message: str) -> None:
+    with pytest.raises(MeshError, match=message):
+        build_mesh(outline, bulk_size=0.2)
+
+
+def test_gmsh_works_on_after_it_failed() -> None:
+    bow_tie = np.array([[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0], [0.0, 0.0]])
+    line = Line(key=0, points=bow_tie, forward=True, divided=True)
+    size = SizeField(bulk_size=0.3, growth=0.7, straight=[], rings=[], bends=Discs.joined([]))
+    with pytest.raises(MeshError, match="gmsh could not mesh"):
+        fill([bow_tie], [[line]], size)
+    assert len(build_mesh(circle_tank(Circle()), bulk_size=0.5).cells) > 100
+
+
+def test_a_slit_of_one_element_is_refused() -> None:
+    """Both its ends are single: nothing would be open."""
+    outline = surface_slit(low=-0.3, high=-0.2, rings=False)
+    with pytest.raises(MeshError, match="slit of a single element"):
+        build_mesh(outline, bulk_size=0.5)

@@ -1,0 +1,98 @@
+"""Estimates of a float's heave, side by side."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+import pytest
+
+from hydroelastic.modal import (
+    FloatEstimate,
+    FloatInTank,
+    TwoLayers,
+    all_float_estimates,
+    box_modes,
+    float_profile,
+    thin_float_mass,
+    thin_float_stiffness,
+)
+
+NAMES = ["hydrostatic", "high_frequency", "thin_float", "thin_float_printed", "thin_float_box"]
+
+
+def body(shape: str, half_width: float = 0.1, density_above: float = 0.8) -> FloatInTank:
+    profile = float_profile(shape, half_width, 1.0 if shape != "exponential" else 0.15)
+    layers = TwoLayers(
+        density_below=1.0, density_above=density_above, depth_below=2.0, depth_above=1.5, gravity=9.81, top="rigid"
+    )
+    return FloatInTank(
+        layers=layers,
+        tank_length=12.0,
+        position=6.0,
+        # The displaced liquids of the rectangle: both halves of 2b·2h.
+        mass=(1 + density_above) * 2 * half_width
+        if shape == "rectangle"
+        else thin_float_mass(profile, 1.0, density_above),
+        stiffness=thin_float_stiffness(profile, 1.0, density_above, 9.81),
+        profile=profile,
+    )
+
+
+def test_every_method_answers_or_says_why() -> None:
+    values = {"ellipse": 4, "wedge": 4, "parabola": 3, "exponential": 4, "rectangle": 2}
+    for shape, count in values.items():
+        estimates = all_float_estimates(body(shape))
+        assert list(estimates) == NAMES
+        assert sum(estimate.omega is not None for estimate in estimates.values()) == count
+        for estimate in estimates.values():
+            assert estimate.note
+            assert (estimate.omega is None) == (estimate.added_mass is None)
+            assert (estimate.omega is None) == ("No value" in estimate.note)
+
+
+def test_values_of_a_thin_ellipse() -> None:
+    # (π/2)(ρ₁ + ρ₂) b² is exact and that of the thin theory; m = (ρ₁ + ρ₂)(π/2) b h.
+    estimates = all_float_estimates(body("ellipse"))
+    mass, added, stiffness = 1.8 * math.pi / 2 * 0.1, 1.8 * math.pi / 2 * 0.01, 0.2 * 9.81 * 0.2
+    assert estimates["hydrostatic"].omega == pytest.approx(math.sqrt(stiffness / mass), rel=1e-14)
+    assert estimates["hydrostatic"].added_mass == 0
+    for name in ("high_frequency", "thin_float"):
+        assert estimates[name].added_mass == pytest.approx(added, rel=1e-14)
+        assert estimates[name].omega == pytest.approx(math.sqrt(stiffness / (mass + added)), rel=1e-14)
+
+
+def test_the_box_is_the_float_mode_of_the_secular_equation() -> None:
+    estimate = all_float_estimates(body("parabola"))["thin_float_box"]
+    # Box 1 of the references: the third symmetric mode.
+    assert estimate.omega == pytest.approx(1.2346058274144639, rel=1e-14)
+    assert "symmetric mode 3" in estimate.note
+    assert "64 %" in estimate.note
+    assert estimate.added_mass == pytest.approx(0.3924 / estimate.omega**2 - 0.24, rel=1e-12)
+    assert estimate.omega == box_modes(body("parabola"), 16).omega[2]
+
+
+def test_printed_constants_take_half_of_the_added_mass() -> None:
+    estimates = all_float_estimates(body("exponential"))
+    assert estimates["thin_float_printed"].added_mass == pytest.approx(estimates["thin_float"].added_mass / 2)
+    assert "erroneous" in estimates["thin_float_printed"].note
+
+
+def test_an_unknown_section_has_its_hydrostatics_only() -> None:
+    estimates = all_float_estimates(dataclasses.replace(body("wedge"), profile=None))
+    assert [name for name, estimate in estimates.items() if estimate.omega is not None] == ["hydrostatic"]
+    assert "not a known symmetric shape" in estimates["thin_float_box"].note
+
+
+def test_reasons() -> None:
+    assert "flat edges" in all_float_estimates(body("rectangle"))["thin_float"].note
+    assert "flat edges" in all_float_estimates(body("rectangle"))["thin_float_box"].note
+    assert "no closed form" in all_float_estimates(body("parabola"))["high_frequency"].note
+    assert "no constants for the wedge" in all_float_estimates(body("wedge"))["thin_float_printed"].note
+    beside = dataclasses.replace(body("wedge"), position=4.0)
+    assert "middle" in all_float_estimates(beside)["thin_float_box"].note
+
+
+def test_numbers_must_be_numbers() -> None:
+    with pytest.raises(ValueError, match="omega"):
+        FloatEstimate(omega=math.nan, added_mass=None, note="")

@@ -114,6 +114,8 @@ def _print_errors(console: Console, study: Study, reference: Reference) -> None:
         console.print(_gain_line(study.gain), markup=False)
     if "tolerance" in study.plan.families:
         console.print(_tolerance_line(study), markup=False)
+    if "thinness" in study.plan.families:
+        console.print()
 
 
 def _symmetry_lines(scene: TankScene) -> Iterator[str]:

@@ -124,3 +124,16 @@ def test_scenes_without_a_float_that_both_know_are_refused(name: str, changes: t
     result = CliRunner().invoke(main, [*arguments, *(part for change in changes for part in ("--set", change))])
     assert result.exit_code == 2
     assert "that heaves alone" in result.stderr
+
+
+def test_the_shipped_study_is_that_of_the_shipped_scene() -> None:
+    shipped = Path(__file__).parent.parent / "results" / "shipped" / "float_parabola" / "thinness.csv"
+    rows = list(csv.DictReader(io.StringIO(shipped.read_text(encoding="utf-8"))))
+    body = read_scene("float_parabola").floats[0][1]
+    assert float(rows[0]["half_width"]) == body.half_width
+    # Known from a series, see the scene.
+    assert float(rows[0]["heave_thin"]) == pytest.approx(1.23460582741446, rel=1e-8)
+    for column in ("added_mass", "wave_1", "wave_2"):
+        first, last = (abs(float(row[f"{column}_difference"])) for row in (rows[0], rows[-1]))
+        # In proportion to the width, from 1 to 1/64 of it: measured 60, 70 and 63.
+        assert first / last == pytest.approx(2 ** (len(rows) - 1), rel=0.15)

@@ -49,7 +49,7 @@ Cell = Callable[[StudyRow], str]
 _COLUMNS: dict[str, Cell] = {
     "asked": lambda row: "" if row.tolerance is None else f"{row.tolerance:.0e}",
     "degree": lambda row: str(row.degree),
-    "β": lambda row: "" if row.grading is None else f"{row.grading:g}",
+    "β": lambda row: "" if row.grading is None else f"{row.grading:.3g}",
     "element/L": lambda row: f"{row.element_size:.4g}",
     "tries": lambda row: str(row.attempts),
     "unknowns": lambda row: str(row.unknowns),
@@ -165,7 +165,7 @@ def _rates_table(study: Study) -> Table:
         table.add_row(
             rate.family,
             str(rate.degree),
-            f"{rate.grading:g}",
+            f"{rate.grading:.3g}",
             f"{rate.observed:.3f} ± {rate.deviation:.3f}",
             f"{rate.expected:.4g}",
             f"{rate.mode}{_SYMMETRIES[rate.symmetry]}",

@@ -60,6 +60,7 @@ def test_differences_fall_as_theory_says(study: Study) -> None:
         assert found[quantity].expected == power
         assert found[quantity].observed == pytest.approx(power, abs=0.05 * power)
         assert found[quantity].agrees
+        assert not found[quantity].shared
 
 
 def test_differences_are_those_of_the_boundary(study: Study) -> None:
@@ -79,6 +80,19 @@ def test_a_given_mass_goes_with_the_width() -> None:
     assert len(heavier) == 3
     for row in heavier:
         assert row.compared["heave"].is_clear
+
+
+def test_heave_that_is_shared_with_waves_is_said_to_be() -> None:
+    rows = study_scene(
+        read_scene("float_ellipse", ['body.0.motions=["heave"]', "body.0.half_width=0.2"]),
+        replace(PLAN, width_halvings=2),
+    ).thinness
+    found = {rate.quantity: rate for rate in fitted_thinness(rows)}
+    assert found["heave"].shared
+    assert not found["heave"].agrees
+    # What shifts the waves, in proportion to the width, shifts heave with them: measured 1.03.
+    assert found["heave"].observed == pytest.approx(1.0, abs=0.2)
+    assert not found["added mass"].shared
 
 
 def test_table_csv_and_figure_tell_the_same(study: Study, tmp_path: Path) -> None:

@@ -165,7 +165,9 @@ class _Builder:
             arcs = _left_of(arcs, self.right)
         size, name = self.sizes.contours[piece.body], body_name(piece.body + 1)
         path = [
-            (self._curve(name, arc.start, arc.end, arc=None if arc.straight else arc, size=size), True) for arc in arcs
+            (self._curve(name, piece.start, piece.end, arc=None if piece.straight else piece, size=size), True)
+            for arc in arcs
+            for piece in _smooth_pieces(arc)
         ]
         # Contours turn counterclockwise: over the float they run from right to left.
         return _reversed(path) if upper_side else path
@@ -241,6 +243,17 @@ class _Builder:
 
 def _reversed(path: tuple[Directed, ...] | list[Directed]) -> list[Directed]:
     return [(number, not forward) for number, forward in reversed(path)]
+
+
+def _smooth_pieces(arc: Arc) -> Iterator[Arc]:
+    """An arc cut at its knots: polynomials do not follow a spline across them."""
+    if not arc.knots:
+        yield arc
+        return
+    stops = [0.0, *arc.knots, 1.0]
+    points = [arc.start, *((float(x), float(y)) for x, y in arc.point(np.array(arc.knots))), arc.end]
+    for (first, last), (start, end) in zip(pairwise(stops), pairwise(points), strict=True):
+        yield arc.part(first, last, start=start, end=end)
 
 
 def _left_of(arcs: tuple[Arc, ...], x: float) -> tuple[Arc, ...]:

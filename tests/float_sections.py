@@ -17,6 +17,8 @@ from scipy.optimize import brentq
 
 Curve = Callable[[np.ndarray], np.ndarray]
 
+MOTIONS = ("heave", "sway", "roll")
+
 GAUSS = tuple(array.astype(np.longdouble) for array in np.polynomial.legendre.leggauss(40))
 
 

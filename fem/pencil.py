@@ -27,7 +27,7 @@ from hydroelastic.fem.shape_loads import shape_loads, surface_load
 from hydroelastic.fem.surfaces import Body, LiquidSurface
 from hydroelastic.fem.traces import surface_blocks
 
-# A rigid motion displaces no volume if it displaces less than this part of what others do.
+# A rigid motion displaces no volume if it displaces less than this part of what a unit of any moves in and out.
 _NO_VOLUME = 1e-10
 # Constraints that differ by less than this part differ by rounding of the loads, which is 4e-9 at the ends of a thin
 # ellipse; a gap of the top of 1e-4 of the tank's length is one more by 1e-3.
@@ -114,7 +114,7 @@ class CoupledPencil:
         Pitch displaces none but for round-off: what is below it is zero.
         """
         volumes = [self.body_values(constraint.volume) for constraint in self.constraints]
-        largest = max((np.abs(volume).max(initial=0.0) for volume in volumes), default=0.0)
+        largest = self.coupling.norm(PETSc.NormType.NORM_1)
         table = np.array(volumes).reshape(len(volumes), self.body_size).T[self.free_rigid]
         return np.where(np.abs(table) > _NO_VOLUME * largest, table, 0.0)
 

@@ -10,14 +10,13 @@ from typing import Any
 
 import numpy as np
 import pytest
-from layered_tanks import GRAVITY, DenseProblem, dense, frequencies, layered, pencils, rigid
+from layered_tanks import GRAVITY, PlainProblem, check_processes, frequencies, layered, pencils, rigid, sparse
 from petsc4py import PETSc
 
 from hydroelastic.fem.modes import count_below, solve_modes
 from hydroelastic.modal.two_layer import InterfacePlate, LayerTop, TwoLayers, tank_modes
 from hydroelastic.scenes.model_bodies import Beam
 from hydroelastic.scenes.models import TankScene
-from hydroelastic.scenes.scaled_tank import scaled_tank
 
 REFERENCE = json.loads((Path(__file__).parent / "reference" / "two_liquid_beam.json").read_text(encoding="utf-8"))
 ROWS: dict[str, dict[str, Any]] = {row["case"]: row for row in REFERENCE["rows"]}
@@ -91,6 +90,17 @@ def test_a_guided_plate_on_the_interface_keeps_a_tolerance(tanks: Any, top: Laye
     scene = layered(beam, top=top, tolerance=1e-9)
     plate = InterfacePlate(flexural_rigidity=50.0, mass_per_length=4.0, hydrostatic=hydrostatic)
     check(tanks, scene, exact(scene, plate), 1e-9)
+
+
+@pytest.mark.mpi
+@pytest.mark.parametrize("hydrostatic", [True, False])
+def test_a_cover_between_two_liquids_has_its_tone_above_the_waves(tanks: Any, hydrostatic: bool) -> None:
+    """Far above the waves a free top has ψ = 0; liquids that a cover parts do not move as one."""
+    scene = layered(interface_beam(**COVER, hydrostatic=hydrostatic), top="free", tolerance=1e-9)
+    plate = InterfacePlate(flexural_rigidity=50.0, mass_per_length=4.0, hydrostatic=hydrostatic)
+    (tone,) = tanks.solve(scene).tones
+    released = exact(layered(top="pressure_release", modes=1), plate)[0]
+    assert tanks.solve(scene).omega(tone.pressure_release) == pytest.approx(released, rel=1e-9)
 
 
 @pytest.mark.parametrize("name", ROWS)
@@ -254,7 +264,7 @@ def test_modes_are_those_of_the_full_matrices(top: LayerTop, kind: str) -> None:
     """Constraints, constants of ψ and condensed motions against a basis of all motions that keep the volumes."""
     (pencil,) = pencils(layered(*LOADED[kind], top=top))
     modes = solve_modes(pencil, 8, shapes=0)
-    values = DenseProblem(pencil).eigenvalues(8 + modes.zero_modes)
+    values = PlainProblem(pencil).eigenvalues(8 + modes.zero_modes)
     # Rounding: of λ + 1 some 1e-13, where the lowest λ is 0.02.
     assert np.abs(values[: modes.zero_modes]).max(initial=0.0) <= 1e-11
     assert values[modes.zero_modes :] == pytest.approx(modes.eigenvalues, rel=1e-9)
@@ -276,8 +286,8 @@ def test_unknowns_of_the_two_sides_of_a_slit_are_told_apart() -> None:
     at_slit = np.flatnonzero(np.all(points[dofs, :2] == [0.4, 0.0], axis=1))
     comm = pencil.liquid.tank.mesh.comm
     assert comm.allreduce(len(at_slit)) == 2
-    unit, load, moment = pencil.stiffness.createVecRight(), pencil.coupling.createVecLeft(), points[:, 0] - 0.4
-    moment = moment[: load.getLocalSize()]
+    unit, load = pencil.stiffness.createVecRight(), pencil.coupling.createVecLeft()
+    from_slit = points[: load.getLocalSize(), 0] - 0.4
     starts = np.array(comm.allgather(unit.getOwnershipRange()[0] + body))
     for rank in range(comm.size):
         for node in comm.bcast(at_slit, root=rank):
@@ -287,7 +297,7 @@ def test_unknowns_of_the_two_sides_of_a_slit_are_told_apart() -> None:
             pencil.coupling.mult(unit, load)
             # ∫φ(x − 0.4) of one side has the sign of the side: the same part goes in below and out above.
             sides = [
-                comm.allreduce(float(load.array_r[chosen] @ moment[chosen]))
+                comm.allreduce(float(load.array_r[chosen] @ from_slit[chosen]))
                 for chosen in (pencil.liquid.owned_layer_of == layer for layer in (0, 1))
             ]
             assert sides[0] != 0.0
@@ -305,28 +315,15 @@ def test_a_slit_beside_the_tip_of_a_beam_is_paired_too(tanks: Any) -> None:
 
 
 def test_momentum_is_the_coupling_times_the_density() -> None:
-    (pencil,) = pencils(LAYERED_FLOAT)
+    (pencil,) = pencils(layered(rigid("ellipse", 0.6, half_width=0.1, half_height=0.1)))
     densities = np.array([layer.density for layer in pencil.liquid.layers])[pencil.liquid.owned_layer_of]
     assert isclose(densities.min(), 0.85)
     assert isclose(densities.max(), 1.0)
-    assert np.array_equal(dense(pencil.momentum), densities[:, None] * dense(pencil.coupling))
-
-
-LAYERED_FLOAT = layered(rigid("ellipse", 0.6, half_width=0.1, half_height=0.1))
+    assert np.array_equal(sparse(pencil.momentum).toarray(), densities[:, None] * sparse(pencil.coupling).toarray())
 
 
 @pytest.mark.mpi
-def test_processes_agree_to_the_last_digits(tanks: Any) -> None:
-    """On any number of processes the frequencies are those of the whole tank as one process wrote them down."""
-    scene = layered(
-        interface_beam(start=0.1, length=0.2),
-        rigid("rectangle", 0.6, "heave sway roll", half_width=0.1, half_height=0.05),
-        top="free",
-        modes=8,
-    )
-    assert scaled_tank(scene).beams
-    assert tanks.omega(scene) == pytest.approx(WRITTEN, rel=1e-11)
-
-
-# Written down from one process, to the digits that rounding leaves.
-WRITTEN: list[float] = []
+@pytest.mark.parametrize("top", TOPS)
+def test_two_processes_find_what_one_finds(top: LayerTop) -> None:
+    beams = (interface_beam(start=0.1, length=0.2), interface_beam(start=0.2, length=0.3, at="surface"))
+    check_processes(layered(*beams[: 1 if top == "rigid" else 2], top=top))

@@ -246,12 +246,6 @@ def _modes_below(
     )
 
 
-def water_wavenumber(squared_frequency: float, depth: float) -> float:
-    """k of λ = k tanh kH, which lies above λ and below λ + √(λ/H)."""
-    high = squared_frequency + np.sqrt(squared_frequency / depth)
-    return float(brentq(lambda k: k * np.tanh(k * depth) - squared_frequency, 0.0, 1.01 * high))
-
-
 def layer_inertia(wavenumber: float, layers: tuple[tuple[float, float], ...]) -> float:
     """Σ ρ/(k tanh kh)."""
     return float(sum(density / (wavenumber * np.tanh(wavenumber * depth)) for density, depth in layers))
@@ -265,9 +259,7 @@ def layer_wavenumber(squared_frequency: float, layers: tuple[tuple[float, float]
     return float(brentq(lambda k: 1.0 / layer_inertia(k, layers) - squared_frequency, 1e-6 * high, 1.01 * high))
 
 
-def beam_wavenumber(
-    beam: ReferenceBeam, squared_frequency: float, layers: tuple[tuple[float, float], ...]
-) -> float:
+def beam_wavenumber(beam: ReferenceBeam, squared_frequency: float, layers: tuple[tuple[float, float], ...]) -> float:
     """k of EI k⁴ + s = λ (m + Σ ρ/(k tanh kh)); 0 if no wave is as slow."""
 
     def surplus(k: float) -> float:

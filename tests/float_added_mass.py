@@ -82,9 +82,13 @@ def _all_traces(liquids: list[Liquid]) -> list[list[_Traces]]:
     for liquid in liquids:
         boundary = Boundary.joined([side.boundary for side in liquid.sides])
         values, slopes = liquid.trial.values(boundary)
-        values, slopes = (np.hstack([np.full((len(part), 1), one), part]) for part, one in ((values, 1.0), (slopes, 0.0)))
+        values, slopes = (
+            np.hstack([np.full((len(part), 1), one), part]) for part, one in ((values, 1.0), (slopes, 0.0))
+        )
         stops = np.cumsum([len(side.boundary.points) for side in liquid.sides])[:-1]
-        found.append([_Traces(values=v, slopes=s) for v, s in zip(np.split(values, stops), np.split(slopes, stops), strict=True)])
+        found.append(
+            [_Traces(values=v, slopes=s) for v, s in zip(np.split(values, stops), np.split(slopes, stops), strict=True)]
+        )
         sizes.append(values.shape[1])
     before = np.concatenate([[0], np.cumsum(sizes)])
 

@@ -9,6 +9,7 @@ those of `float_sections`; all else is shared with no other method.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,7 @@ from float_reference import hull_displacement
 from float_sections import MOTIONS, Arc, line
 from float_tanks import FloatTank, Side
 from harmonic_trial import Boundary
-from scipy.linalg import block_diag, cholesky, eigh, solve_triangular
+from scipy.linalg import block_diag, cholesky, solve_triangular
 
 ORDER = 12
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(ORDER)
@@ -38,7 +39,9 @@ class Panel:
         return self.arc.point(places).astype(complex), (self.arc.slope(places) * self.length / 2).astype(complex)
 
 
-def panels_on(arc: Arc, role: tuple[str, int], *, graded: tuple[bool, bool], ratio: float, smallest: float, pieces: int) -> list[Panel]:
+def panels_on(
+    arc: Arc, role: tuple[str, int], *, graded: tuple[bool, bool], ratio: float, smallest: float, pieces: int
+) -> list[Panel]:
     """Panels of an arc, graded towards some of its ends."""
     cuts = set(np.linspace(0.0, 1.0, pieces + 1))
     layer = 1.0 / pieces
@@ -47,9 +50,7 @@ def panels_on(arc: Arc, role: tuple[str, int], *, graded: tuple[bool, bool], rat
         cuts |= {layer} if graded[0] else set()
         cuts |= {1.0 - layer} if graded[1] else set()
     ordered = sorted(cuts)
-    return [
-        Panel(arc=arc, start=low, length=high - low, role=role) for low, high in zip(ordered, ordered[1:], strict=False)
-    ]
+    return [Panel(arc=arc, start=low, length=high - low, role=role) for low, high in pairwise(ordered)]
 
 
 def neumann_to_dirichlet(panels: list[Panel]) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
@@ -71,7 +72,7 @@ def neumann_to_dirichlet(panels: list[Panel]) -> tuple[np.ndarray, np.ndarray, n
     # ½ψ, or what it is at corners, from the identity for a constant.
     np.fill_diagonal(double, double.diagonal() - double.sum(axis=1))
     matrix = double + weights[None, :] / weights.sum()
-    return np.linalg.solve(matrix, single - (single @ np.ones(len(z)))[:, None] * 0.0), z, normals, weights
+    return np.linalg.solve(matrix, single), z, normals, weights
 
 
 def _near(panel: Panel, target: complex, place: float | None) -> tuple[np.ndarray, np.ndarray]:
@@ -127,13 +128,15 @@ def _outline(tank: FloatTank, layer: int, ratio: float, smallest: float, pieces:
     other = low if layer == 0 else high
     corners = [complex(length, 0.0), complex(length, other), complex(0.0, other), 0j]
     corners = corners if layer == 0 else corners[::-1]
-    for start, end in zip(corners, corners[1:], strict=False):
+    for start, end in pairwise(corners):
         role = ("level", 1) if layer == 1 and tank.top == "free" and start.imag == end.imag else ("rigid", 0)
         found += panels_on(line(start, end), role, graded=(False, False), pieces=pieces, **grading)
     return found
 
 
-def second_omega(tank: FloatTank, count: int, *, ratio: float = 0.3, smallest: float = 1e-7, pieces: int = 6) -> np.ndarray:
+def second_omega(
+    tank: FloatTank, count: int, *, ratio: float = 0.3, smallest: float = 1e-6, pieces: int = 8
+) -> np.ndarray:
     """The lowest frequencies, rad/s, by boundary integrals.
 
     Args:
@@ -177,13 +180,23 @@ def second_omega(tank: FloatTank, count: int, *, ratio: float = 0.3, smallest: f
             load[places[order], start + reference] = sign / np.sqrt(step * level_weights[reference])
         for column, (number, motion) in enumerate(motions):
             places = np.flatnonzero([role == ("hull", number) for role in roles])
-            side = Side(boundary=Boundary(points=z[places].astype(np.clongdouble), normal=normals[places], weights=weights[places]), kind="hull", number=number)
+            side = Side(
+                boundary=Boundary(
+                    points=z[places].astype(np.clongdouble), normal=normals[places], weights=weights[places]
+                ),
+                kind="hull",
+                number=number,
+            )
             load[places, total + column] = hull_displacement(tank, side, motion)
         volume = weights @ load
         volumes.append(volume)
         # What has a mean is forbidden by the constraint; the operator sees none.
-        part = density * (load * weights[:, None]).T @ (operator @ (load - np.outer(np.ones(len(z)), volume) / weights.sum()))
-        inertia += (part + part.T) / 2
+        part = (
+            density
+            * (load * weights[:, None]).T
+            @ (operator @ (load - np.outer(np.ones(len(z)), volume) / weights.sum()))
+        )
+        inertia += part
     return _solved(inertia, stiffness, np.array(volumes), np.array(kept, dtype=bool), total, count)
 
 
@@ -202,12 +215,15 @@ def _solved(
     stuck = np.concatenate([np.ones(nodes, dtype=bool), kept])
     loose = inertia[np.ix_(~stuck, ~stuck)]
     cross = inertia[np.ix_(~stuck, stuck)]
-    reduced = inertia[np.ix_(stuck, stuck)] - (cross.T @ np.linalg.solve(loose, cross) if len(loose) else 0.0)
+    reduced = inertia[np.ix_(stuck, stuck)] - (
+        inertia[np.ix_(stuck, ~stuck)] @ np.linalg.solve(loose, cross) if len(loose) else 0.0
+    )
     root = block_diag(np.eye(nodes), cholesky(stiffness[np.ix_(kept, kept)]))
     unit = solve_triangular(root, solve_triangular(root, reduced, trans="T").T, trans="T")
     vectors, sizes, _ = np.linalg.svd(solve_triangular(root, volumes[:, stuck].T, trans="T"), full_matrices=False)
     constraints = vectors[:, sizes > 1e-6 * sizes[0]]
     projected = unit - constraints @ (constraints.T @ unit)
     projected -= (projected @ constraints) @ constraints.T
-    values = eigh((projected + projected.T) / 2, eigvals_only=True)
+    # Symmetric but for the error of discretisation: as it is, smooth shapes converge exponentially.
+    values = np.sort(np.linalg.eigvals(projected).real)
     return 1 / np.sqrt(values[::-1][:count])

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from float_sections import MOTIONS
-from float_tanks import BeamPlace, FloatTank, Fineness, Level, Liquid, Side, discretized
+from float_tanks import BeamPlace, Fineness, FloatTank, Level, Liquid, Side, discretized
 from harmonic_trial import Boundary, energy_basis
 from scipy.linalg import block_diag, cholesky, solve_triangular, svd
 
@@ -68,7 +68,9 @@ def reference_modes(tank: FloatTank, count: int, fineness: Fineness | None = Non
     # Kinetic energy is |Gζ|²/2.
     gains = [_gain(liquid, load, fineness) for liquid, load in zip(liquids, loads, strict=True)]
     nodes = loads[0].shape[1] - len(bodies.mass)
-    inertia = np.hstack([np.zeros((len(bodies.mass), nodes)), cholesky(bodies.mass) if len(bodies.mass) else bodies.mass])
+    inertia = np.hstack(
+        [np.zeros((len(bodies.mass), nodes)), cholesky(bodies.mass) if len(bodies.mass) else bodies.mass]
+    )
     gain = np.vstack([*gains, inertia])
     weights = [Boundary.joined([side.boundary for side in liquid.sides]).weights for liquid in liquids]
     volumes = np.array([weight @ load for weight, load in zip(weights, loads, strict=True)])
@@ -79,9 +81,7 @@ def reference_modes(tank: FloatTank, count: int, fineness: Fineness | None = Non
         return FloatModes(omega=omega, modal_masses=1.0 / (omega * motions) ** 2, size=len(gain))
 
 
-def _lowest(
-    gain: np.ndarray, volumes: np.ndarray, stiffness: np.ndarray, count: int
-) -> tuple[np.ndarray, np.ndarray]:
+def _lowest(gain: np.ndarray, volumes: np.ndarray, stiffness: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
     """ω and modes of ζᵀKζ = 1; K is 1 at nodes, and a matrix with empty rows for motions that nothing restores."""
     nodes = gain.shape[1] - len(stiffness)
     stuck = np.concatenate([np.ones(nodes, dtype=bool), np.abs(stiffness).sum(axis=1) > 0.0])
@@ -122,9 +122,7 @@ def _gain(liquid: Liquid, load: np.ndarray, fineness: Fineness) -> np.ndarray:
     return np.sqrt(liquid.density) * basis.T @ (functions.T @ (boundary.weights[:, None] * load))
 
 
-def _loads(
-    tank: FloatTank, levels: list[Level], bodies: _Bodies, liquid: Liquid, fineness: Fineness
-) -> np.ndarray:
+def _loads(tank: FloatTank, levels: list[Level], bodies: _Bodies, liquid: Liquid, fineness: Fineness) -> np.ndarray:
     """Displacement out of a liquid at its nodes for each unknown: η of unit stiffness, motions, beams."""
     free = [np.flatnonzero(level.beam < 0) for level in levels]
     starts = np.concatenate([[0], np.cumsum([len(nodes) for nodes in free])])
@@ -173,23 +171,35 @@ def _bodies(tank: FloatTank, fineness: Fineness) -> _Bodies:
         mass.append(beam.mass * products)
         beams.append(slice(place, place + fineness.bending))
         place += fineness.bending
-    return _Bodies(
-        motions=tuple(motions), beams=tuple(beams), stiffness=block_diag(*stiffness), mass=block_diag(*mass)
-    )
+    return _Bodies(motions=tuple(motions), beams=tuple(beams), stiffness=block_diag(*stiffness), mass=block_diag(*mass))
+
+
+def _bending_polynomials(count: int) -> np.ndarray:
+    """1, x and polynomials with orthonormal second derivatives on −1 … 1, in Legendre polynomials, one a column.
+
+    ∫∫Pₙ = ((Pₙ₊₂ − Pₙ)/(2n + 3) − (Pₙ − Pₙ₋₂)/(2n − 1))/(2n + 1), without P₀ and P₁, which are the first two.
+    """
+    shapes = np.eye(count)
+    for n in range(count - 2):
+        terms = {n + 2: 1 / (2 * n + 3), n: -1 / (2 * n + 3) - 1 / (2 * n - 1), n - 2: 1 / (2 * n - 1)}
+        shapes[:, n + 2] = 0.0
+        for degree, factor in terms.items():
+            if degree >= 2:
+                shapes[degree, n + 2] = factor / (2 * n + 1) * np.sqrt(n + 0.5)
+    return shapes
 
 
 def _beam_shapes(beam: BeamPlace, points: np.ndarray, count: int) -> np.ndarray:
-    """Legendre polynomials on a beam, shape (places, count)."""
+    """Deflections of a beam, shape (places, count)."""
     middle, half = (beam.start + beam.end) / 2, (beam.end - beam.start) / 2
-    return np.polynomial.legendre.legvander((points.real.astype(float) - middle) / half, count - 1)
+    legendre = np.polynomial.legendre.legvander((points.real.astype(float) - middle) / half, count - 1)
+    return legendre @ _bending_polynomials(count)
 
 
 def _beam_matrices(beam: BeamPlace, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """∫EI w''w'' and ∫w w of Legendre polynomials."""
+    """∫EI w''w'' and ∫w w of the deflections of a beam."""
     half = (beam.end - beam.start) / 2
-    nodes, weights = np.polynomial.legendre.leggauss(count)
-    curvature = np.polynomial.legendre.legvander(nodes, count - 1) @ np.vstack(
-        [np.polynomial.legendre.legder(np.eye(count), 2), np.zeros((2, count))]
-    )
-    bending = beam.rigidity / half**3 * curvature.T @ (weights[:, None] * curvature)
-    return bending, half * np.diag(2 / (2 * np.arange(count) + 1))
+    shapes = _bending_polynomials(count)
+    bends = np.arange(count) >= 2
+    norms = half * 2 / (2 * np.arange(count) + 1)
+    return beam.rigidity / half**3 * np.diag(bends.astype(float)), shapes.T @ (norms[:, None] * shapes)

@@ -35,7 +35,7 @@ class Fineness:
     waves: int = 60
     powers: int = 6
     halves: bool = False
-    bending: int = 24
+    bending: int = 32
     steepness: float = 4.0
     reach: float = 0.7
     tolerance: float = 1e-14

@@ -184,8 +184,10 @@ class Trial:
         near, image = (scale * (z - p)).astype(complex), (scale * (z + p.conj())).astype(complex)
         distance = np.abs(near).min(axis=0)
         cot, cot_image = _cotangent(near), _cotangent(image)
+        # On a side wall a source of flux through the wall is cancelled by its image.
+        across = np.minimum(np.abs(self.poles.real), np.abs(self.poles.real - self.length)) > 1e-12 * self.length
         values, slopes = [], []
-        for a in (1.0, 1.0j):
+        for a in (across, 1.0j):
             strength = a * distance
             values.append(strength * cot - np.conj(strength) * cot_image)
             slopes.append(scale * (-strength * (1 + cot**2) + np.conj(strength) * (1 + cot_image**2)))
@@ -289,7 +291,12 @@ def energy_basis(functions: np.ndarray, slopes: np.ndarray, weights: np.ndarray,
     """
     energy = functions.T @ (weights[:, None] * slopes)
     energy = (energy + energy.T) / 2
-    scale = 1 / np.sqrt(np.maximum(np.diag(energy), 1e-300))
-    values, vectors = np.linalg.eigh(energy * scale * scale[:, None])
+    # What cancels with its image, like a pole on a wall in one direction, is none.
+    sizes = np.diag(energy)
+    real = np.flatnonzero(sizes > 1e-20 * sizes.max())
+    scale = 1 / np.sqrt(sizes[real])
+    values, vectors = np.linalg.eigh(energy[np.ix_(real, real)] * scale * scale[:, None])
     kept = values > tolerance * values[-1]
-    return scale[:, None] * vectors[:, kept] / np.sqrt(values[kept])
+    basis = np.zeros((len(energy), np.count_nonzero(kept)))
+    basis[real] = scale[:, None] * vectors[:, kept] / np.sqrt(values[kept])
+    return basis

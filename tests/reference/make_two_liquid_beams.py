@@ -92,7 +92,7 @@ def in_the_liquids(scene: dict[str, Any]) -> list[np.ndarray]:
     """ω by `float_reference`, coarser and finer."""
     # As many waves as the thinnest layer of a tank needs.
     waves = 60 if min(liquid["depth"] for liquid in scene["liquid"]) > 0.05 else 200
-    finenesses = (Fineness(waves=waves), Fineness(waves=waves + 40, corner=28, bending=32))
+    finenesses = (Fineness(waves=waves), Fineness(waves=waves + 40, corner=28, bending=40))
     return [reference_modes(float_tank(scene), COUNT, fineness).omega for fineness in finenesses]
 
 

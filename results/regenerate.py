@@ -31,7 +31,7 @@ STUDIED = {
     "float_ellipse": StudyPlan(),
     "float_parabola": StudyPlan(families=FAMILIES),
 }
-SHOWN_WIDTH = 1000
+SHOWN_WIDTH = 800
 TABLES = ("summary.json", "summary.md", "modes.csv")
 
 
@@ -72,11 +72,10 @@ def shown_modes(summary: Summary) -> dict[int, str]:
 
 
 def _keep_picture(source: Path, target: Path) -> None:
-    """Store a picture at the width that pages show it, in a palette of its own: the eye sees no difference."""
+    """Store a picture at the width that pages show it."""
     with Image.open(source) as picture:
         height = round(picture.height * SHOWN_WIDTH / picture.width)
-        shown = picture.convert("RGB").resize((SHOWN_WIDTH, height), Image.Resampling.LANCZOS)
-        shown.quantize(256, dither=Image.Dither.NONE).save(target, optimize=True)
+        picture.convert("RGB").resize((SHOWN_WIDTH, height), Image.Resampling.LANCZOS).save(target, optimize=True)
 
 
 def main() -> None:

@@ -1,4 +1,4 @@
-"""Regenerate results/shipped: tables and pictures of every shipped scene, and two studies.
+"""Regenerate results/shipped: tables and pictures of every shipped scene, and some studies.
 
     ./hydro python results/regenerate.py [SCENE ...]
 
@@ -15,15 +15,23 @@ from pathlib import Path
 
 from PIL import Image
 
+from hydroelastic.scenes.output import SUMMARY
 from hydroelastic.scenes.read import read_scene, shipped_scenes
 from hydroelastic.scenes.run import run_scene
 from hydroelastic.scenes.study import study_scene
+from hydroelastic.scenes.study_plan import FAMILIES, StudyPlan
 from hydroelastic.scenes.study_report import write_study
 from hydroelastic.scenes.summary import Summary
 
 SHIPPED = Path(__file__).parent / "shipped"
-STUDIED = ("aquarium", "sloshing")
-SHOWN_WIDTH = 1000
+STUDIED = {
+    "aquarium": StudyPlan(),
+    "sloshing": StudyPlan(),
+    "interface_beam": StudyPlan(),
+    "float_ellipse": StudyPlan(),
+    "float_parabola": StudyPlan(families=FAMILIES),
+}
+SHOWN_WIDTH = 800
 TABLES = ("summary.json", "summary.md", "modes.csv")
 
 
@@ -46,9 +54,10 @@ def regenerate(name: str) -> str:
             _keep_picture(outcome.folder / "images" / f"mode_{index:03d}.png", kept / picture)
     if name in STUDIED:
         with tempfile.TemporaryDirectory() as scratch:
-            write_study(study_scene(read_scene(name)), Path(scratch) / name)
-            for file in ("study.csv", "study.txt", "study.png"):
-                shutil.copy(Path(scratch) / name / file, kept)
+            write_study(study_scene(read_scene(name), STUDIED[name]), Path(scratch) / name)
+            for file in (Path(scratch) / name).iterdir():
+                if file.name != SUMMARY:
+                    shutil.copy(file, kept)
     return outcome.status
 
 

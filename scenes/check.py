@@ -9,7 +9,7 @@ from rich.text import Text
 
 from hydroelastic.scenes.check_hints import hints
 from hydroelastic.scenes.check_tables import boundary_table, group_table, hydrostatics_table, unknown_table
-from hydroelastic.scenes.estimates import expected_float_tones, expected_tones
+from hydroelastic.scenes.estimates import ends_of_float_motions, expected_tones
 from hydroelastic.scenes.models import TankScene
 from hydroelastic.scenes.plan import (
     Resolution,
@@ -47,8 +47,8 @@ def _sizes(scene: TankScene) -> Iterator[str]:
     tank = scaled_tank(scene)
     tolerance = scene.accuracy.tolerance
     tones = expected_tones(tank)
-    all_tones = (*tones, *expected_float_tones(tank))
-    resolution = initial_resolution(scene, modes=scene.accuracy.modes, tones=all_tones)
+    motions = ends_of_float_motions(tank)
+    resolution = initial_resolution(scene, modes=scene.accuracy.modes, tones=tones, motions=motions)
     half = scene.mesh is None and is_mirror_image(tank)
     yield f"First attempt: {_size(scene, tank, resolution, half=half)}."
     if resolution.modes > scene.accuracy.modes:

@@ -20,6 +20,9 @@ _DEEP_COUPLING = 0.114
 # Added mass of a float's heave in ρ times the square of its waterplane's width: that of any half-immersed ellipse.
 _FLOAT_HEAVE = pi / 8.0
 
+FAR_ENOUGH = 1.5
+"""Modes up to this many times the λ that a float's motion has far above the waves hold its mode."""
+
 
 def floating_beam(scene: TankScene, body: int = 0) -> FloatingBeam:
     """One beam of a scene, alone in its tank, as the estimates take it."""
@@ -119,9 +122,9 @@ def expected_tones(tank: ScaledTank) -> tuple[float, ...]:
     return tuple(tones)
 
 
-def expected_float_tones(tank: ScaledTank) -> tuple[float, ...]:
-    """About the (dimensionless) λ of each motion of a float that gravity restores: enough to choose a mesh."""
-    tones = []
+def ends_of_float_motions(tank: ScaledTank) -> tuple[float, ...]:
+    """Up to which (dimensionless) λ modes are looked at for each motion of a float that gravity restores."""
+    ends = []
     for index, body in tank.floats.items():
         level = tank.level_of(index)
         density = sum(tank.layers[layer].density for layer in (level.below, level.above) if layer is not None)
@@ -129,5 +132,6 @@ def expected_float_tones(tank: ScaledTank) -> tuple[float, ...]:
         for place, motion in enumerate(("heave", "sway", "roll")):
             if motion in body.motions and body.stiffness[place, place] > 0.0:
                 added = _FLOAT_HEAVE * density * width**2 if motion == "heave" else 0.0
-                tones.append(float(body.stiffness[place, place] / (body.inertia[place] + added)))
-    return tuple(tones)
+                expected = float(body.stiffness[place, place] / (body.inertia[place] + added))
+                ends.append(FAR_ENOUGH * expected)
+    return tuple(ends)

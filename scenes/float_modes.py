@@ -13,12 +13,9 @@ import numpy as np
 
 from hydroelastic.fem.modes import ModeSet
 from hydroelastic.fem.surfaces import Body
+from hydroelastic.scenes.estimates import FAR_ENOUGH
 from hydroelastic.scenes.high_frequency import HighFrequencyAddedMass
-from hydroelastic.scenes.plan import MOST_MODES_TO_TONE
 from hydroelastic.scenes.scaled_tank import ScaledTank
-
-# Modes up to this many times the λ that the motion has far above the waves hold its mode.
-_FAR_ENOUGH = 1.3
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,7 +29,6 @@ class FloatMode:
         reason: why there is none, or "".
         modal_mass: smallest 1/a², in units of the tank.
         runner_up: the next smallest.
-        certain: whether the modes reach far enough above the motion.
     """
 
     body: int
@@ -41,7 +37,6 @@ class FloatMode:
     reason: str
     modal_mass: float
     runner_up: float
-    certain: bool
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -80,7 +75,6 @@ def float_modes(
     modes: ModeSet,
     added: HighFrequencyAddedMass | None,
     *,
-    searched: tuple[bool, ...],
     complete: bool,
 ) -> tuple[FloatMode, ...]:
     """Find the mode of each motion.
@@ -90,23 +84,20 @@ def float_modes(
         bodies: its bodies in the field model.
         modes: the modes computed.
         added: the floats' added mass far above the waves.
-        searched: whether each motion was expected among them.
         complete: whether they are all that there are.
     """
     found = []
-    motions = _restored(tank, bodies)
-    for number, motion in enumerate(motions):
+    for motion in _restored(tank, bodies):
         moved = modes.elastic_amplitudes[:, motion.place] ** 2
         order = np.argsort(-moved)
         more = added.principal(tank, motion.body)[motion.number] if added is not None else 0.0
         limit = motion.stiffness / (motion.mass + more)
-        certain = complete or bool(modes.eigenvalues[-1] >= _FAR_ENOUGH * limit)
-        expected = number >= len(searched) or searched[number]
+        certain = complete or bool(modes.eigenvalues[-1] >= 0.8 * FAR_ENOUGH * limit)
         reason = ""
         if not np.any(moved):
             reason = "the volume of the liquid holds it"
-        elif not certain and not expected:
-            reason = f"more than {MOST_MODES_TO_TONE} modes lie below it, and it was not searched for"
+        elif not certain:
+            reason = "it may lie above the modes looked at; ask for more modes"
         found.append(
             FloatMode(
                 body=motion.body,
@@ -115,7 +106,6 @@ def float_modes(
                 reason=reason,
                 modal_mass=_inverse(moved[order[0]]),
                 runner_up=_inverse(moved[order[1]]) if len(moved) > 1 else np.inf,
-                certain=certain,
             )
         )
     return tuple(found)

@@ -27,6 +27,8 @@ _FIRST_ROOT = 4.73
 _COMPANION_MODES = 6
 # More modes than this below the first elastic tone are not searched: the tone has then no individual meaning.
 MOST_MODES_TO_TONE = 200
+# More than this below a float's motion, or than twice the modes asked for, are not looked at to find its mode.
+MOST_MODES_TO_MOTION = 40
 # Tips with a smaller α get rings that shrink more slowly.
 _SHARP = 0.75
 # α of a scene without singular points: nothing depends on it.
@@ -102,11 +104,19 @@ def workable_tolerance(tolerance: float, depth: float) -> float:
     return max(tolerance, _ROOM_FOR_ROUNDING * rounding_error(HIGHEST_DEGREE - 2, depth))
 
 
-def initial_resolution(scene: TankScene, *, modes: int, tones: tuple[float, ...] = ()) -> Resolution:
-    """Resolution for a number of modes, and for the elastic tones expected at (dimensionless) λ.
+def initial_resolution(
+    scene: TankScene, *, modes: int, tones: tuple[float, ...] = (), motions: tuple[float, ...] = ()
+) -> Resolution:
+    """Resolution for a number of modes, for elastic tones and for motions of floats.
 
     Elements hold as many radians of the shortest wave as their degree resolves to the tolerance; rings reach as far
     into the tips as the singularity there asks for.
+
+    Args:
+        scene: the scene.
+        modes: how many are asked for.
+        tones: about the (dimensionless) λ of the first elastic tone of each beam.
+        motions: up to which λ modes are looked at to find those of each motion of a float.
     """
     tank = scaled_tank(scene)
     below = [modes_below(tank.moving, tone) for tone in tones]
@@ -115,7 +125,13 @@ def initial_resolution(scene: TankScene, *, modes: int, tones: tuple[float, ...]
     reaches_tones = tuple(count <= MOST_MODES_TO_TONE for count in expected)
     # The modes above the highest one reported show where the tone is, but need not be accurate.
     reported = max([modes, *(ceil(count) + 1 for count, reached in zip(below, reaches_tones, strict=True) if reached)])
-    modes = max([modes, *(count for count, reached in zip(expected, reaches_tones, strict=True) if reached)])
+    # Where other waves are many below a float's motion it is not searched for: one may ask for more modes.
+    below_motions = [ceil(modes_below(tank.moving, motion)) + 2 for motion in motions]
+    reached_motions = [count for count in below_motions if count <= max(MOST_MODES_TO_MOTION, 2 * modes)]
+    reported = max([reported, *reached_motions])
+    modes = max(
+        [modes, *(count for count, reached in zip(expected, reaches_tones, strict=True) if reached), *reached_motions]
+    )
     highest = squared_frequency_of_mode(tank.moving, reported) if tank.moving else 0.0
     tolerance = workable_tolerance(scene.accuracy.tolerance, tank.depth)
     wavenumbers = tuple(_wavenumber(tank, level, piece, highest) for level in tank.levels for piece in level.pieces)

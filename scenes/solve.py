@@ -18,7 +18,7 @@ from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 from hydroelastic.scenes.certainty import FrequencyErrors, frequency_errors, refined
 from hydroelastic.scenes.companion import Companion, solve_companion
-from hydroelastic.scenes.estimates import expected_float_tones, expected_tones
+from hydroelastic.scenes.estimates import ends_of_float_motions, expected_tones
 from hydroelastic.scenes.field_model import bring_mesh, build_mesh, moving_surfaces
 from hydroelastic.scenes.field_solution import FieldSolution, Stopwatch, count_is_confirmed, solve_field
 from hydroelastic.scenes.float_modes import FloatMode, float_modes
@@ -149,8 +149,10 @@ def solve_scene(
     with watch.stage("plan"):
         tank, units = scaled_tank(scene), scales(scene)
         tones = expected_tones(tank)
-        all_tones = (*tones, *expected_float_tones(tank))
-        resolution: Resolution | None = initial_resolution(scene, modes=scene.accuracy.modes, tones=all_tones)
+        motions = ends_of_float_motions(tank)
+        resolution: Resolution | None = initial_resolution(
+            scene, modes=scene.accuracy.modes, tones=tones, motions=motions
+        )
     brought = _brought_mesh(comm, scene, tank, mesh, 1.0 / units.length, watch)
     half = halves and brought is None and is_mirror_image(tank)
     tolerance = workable_tolerance(scene.accuracy.tolerance, tank.depth)
@@ -204,9 +206,7 @@ def _shortfall(solution: TankSolution) -> tuple[int, float]:
 def _next_resolution(solution: TankSolution, causes: FrequencyErrors, *, own_mesh: bool) -> Resolution | None:
     """More modes if a tone was not among them, else a finer model; ``None`` where neither would help."""
     resolution = solution.resolution
-    uncertain = [tone.tone is not None and not tone.tone.certain for tone in solution.tones]
-    uncertain += [mode.index is not None and not mode.certain for mode in solution.float_modes]
-    if any(uncertain):
+    if any(tone.tone is not None and not tone.tone.certain for tone in solution.tones):
         wider = initial_resolution(solution.scene, modes=min(ceil(1.6 * resolution.modes), MOST_MODES_TO_TONE))
         return replace(
             wider,
@@ -234,9 +234,8 @@ def _judged(
     """An attempt with all that it says about itself; beside it the limits of high frequency."""
     companion, added = limits
     tones = tuple(_tone(field, beam, body, resolution, companion) for beam, body in enumerate(tank.beams))
-    searched = resolution.reaches_tones[len(tank.beams) :]
     complete = len(field.modes.eigenvalues) <= resolution.modes
-    moved = float_modes(tank, field.bodies, field.modes, added, searched=searched, complete=complete)
+    moved = float_modes(tank, field.bodies, field.modes, added, complete=complete)
     with watch.stage("count"):
         counted = count_is_confirmed(field)
     with watch.stage("errors"):
@@ -334,11 +333,7 @@ def _reasons(solution: TankSolution) -> tuple[str, ...]:
                 + _kept(tone.pressure_release_error)
             )
     for mode in solution.float_modes:
-        if mode.index is None:
-            continue
-        if not mode.certain:
-            reasons.append(f"the {mode.motion} mode of body {mode.body + 1} may lie above the modes computed")
-        elif solution.relative_errors[mode.index] > tolerance:
+        if mode.index is not None and solution.relative_errors[mode.index] > tolerance:
             error = float(solution.relative_errors[mode.index])
             reasons.append(
                 f"the {mode.motion} mode of body {mode.body + 1} has an estimated error of {error:.1e}, above the "

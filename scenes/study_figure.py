@@ -95,7 +95,7 @@ def _style(family: Family, degree: int, rows: list[StudyRow]) -> dict[str, Any]:
         "linewidth": 1.3,
         "linestyle": "--" if uniform else "-",
         "markerfacecolor": "white" if uniform else None,
-        "label": f"uniform, degree {degree}" if uniform else f"algebraic, degree {degree}, β = {rows[0].grading:g}",
+        "label": f"uniform, degree {degree}" if uniform else f"algebraic, degree {degree}, β = {rows[0].grading:.3g}",
     }
 
 

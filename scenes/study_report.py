@@ -26,17 +26,20 @@ from hydroelastic.scenes.study_reference import Reference
 from hydroelastic.scenes.study_rows import StudyRow
 from hydroelastic.scenes.study_thinness import fitted_thinness
 from hydroelastic.scenes.study_thinness_report import draw_thinness, print_thinness, thinness_csv
+from hydroelastic.scenes.symmetry import Parity
 
 STAGES = ("plan", "mesh", "forms", "assemble", "solve", "count", "errors", "pressure release")
 """Stages of a solution in their order; others that the solver may time follow them."""
 
-_SHORT = {"pressure release": "ψ=0"}
+_SHORT = {"pressure release": "ψ=0", "added mass": "m_a"}
+# Where all modes have one order nothing is said of their symmetry.
+_SYMMETRIES: dict[Parity | None, str] = {None: "", "symmetric": " sym.", "antisymmetric": " antisym."}
 _WIDTH = 120
 
 TITLES: dict[Family, str] = {
     "uniform": "Uniform meshes, every element halved from one to the next",
-    "algebraic": "The same meshes drawn towards the tips, rᵢ = R (i/n)^β",
-    "geometric": "One mesh, with geometric rings around the tips of beams, degree by degree",
+    "algebraic": "The same meshes drawn towards tips and corners, rᵢ = R (i/n)^β at the sharpest",
+    "geometric": "One mesh, with geometric rings around tips and corners, degree by degree",
     "tolerance": "What the solver makes of an asked tolerance",
     "thinness": "Thin against exact boundary, the float's width halved from one to the next",
 }
@@ -46,7 +49,7 @@ Cell = Callable[[StudyRow], str]
 _COLUMNS: dict[str, Cell] = {
     "asked": lambda row: "" if row.tolerance is None else f"{row.tolerance:.0e}",
     "degree": lambda row: str(row.degree),
-    "β": lambda row: "" if row.grading is None else f"{row.grading:g}",
+    "β": lambda row: "" if row.grading is None else f"{row.grading:.3g}",
     "element/L": lambda row: f"{row.element_size:.4g}",
     "tries": lambda row: str(row.attempts),
     "unknowns": lambda row: str(row.unknowns),
@@ -90,8 +93,8 @@ def _print_errors(console: Console, study: Study, reference: Reference) -> None:
         halves,
         *_symmetry_lines(study.scene),
         f"error: largest relative error of {modes} frequencies; lowest: of the lowest; ratio: estimate over error.",
-        "Seconds by stage, without compiling (ψ=0: the pressure-release tone); MB: highest resident memory, above what",
-        "was held before.",
+        "Seconds by stage, without compiling (ψ=0: pressure-release tone; m_a: added mass); MB: highest resident",
+        "memory, above what was held before.",
         "",
     ):
         console.print(line, markup=False)
@@ -111,14 +114,16 @@ def _print_errors(console: Console, study: Study, reference: Reference) -> None:
         console.print(_gain_line(study.gain), markup=False)
     if "tolerance" in study.plan.families:
         console.print(_tolerance_line(study), markup=False)
+    if "thinness" in study.plan.families:
+        console.print()
 
 
 def _symmetry_lines(scene: TankScene) -> Iterator[str]:
     """What the error over all modes follows where their orders differ."""
     tank = scaled_tank(scene)
-    found = [f"{(sharpest_of(tank, parity) or inf):.3g} for {parity} modes" for parity in symmetries_apart(tank)]
+    found = [f"{(sharpest_of(tank, parity) or inf):.3g} ({parity} modes)" for parity in symmetries_apart(tank)]
     if found:
-        yield f"At the worst corner ψ ~ r^α, α = {' and '.join(found)}: the error of all modes follows the smaller one."
+        yield f"At the worst corner ψ ~ r^α, α = {' or '.join(found)}: the error of all follows the smaller."
 
 
 def _why_none(scene: TankScene, family: Family) -> str:
@@ -154,20 +159,16 @@ def _ratio(row: StudyRow) -> str:
 
 def _rates_table(study: Study) -> Table:
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0))
-    # Where all modes have one order nothing is said of their symmetry.
-    apart = any(rate.symmetry for rate in study.rates)
-    for heading in ("meshes", "degree", "β", "observed", "expected", "mode", *["symmetry"] * apart, "elements/L", ""):
-        is_text = heading in ("meshes", "symmetry", "elements/L", "")
-        table.add_column(heading, justify="left" if is_text else "right", no_wrap=True)
+    for heading in ("meshes", "degree", "β", "observed", "expected", "mode", "elements/L", ""):
+        table.add_column(heading, justify="left" if heading in ("meshes", "elements/L", "") else "right", no_wrap=True)
     for rate in study.rates:
         table.add_row(
             rate.family,
             str(rate.degree),
-            f"{rate.grading:g}",
+            f"{rate.grading:.3g}",
             f"{rate.observed:.3f} ± {rate.deviation:.3f}",
             f"{rate.expected:.4g}",
-            str(rate.mode),
-            *[rate.symmetry or ""] * apart,
+            f"{rate.mode}{_SYMMETRIES[rate.symmetry]}",
             ", ".join(f"{size:.3g}" for size in rate.sizes),
             "" if rate.agrees else f"> {100 * DIFFERENCE:.0f} % off: not yet asymptotic",
         )

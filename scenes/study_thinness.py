@@ -91,12 +91,14 @@ class ThinnessRate:
         observed: rate, fitted to the thinnest three floats whose difference is clear.
         deviation: standard error of the fit.
         expected: rate of theory.
+        shared: whether one of these floats shares its heave with waves: its numbers then follow those of the waves.
     """
 
     quantity: str
     observed: float
     deviation: float
     expected: float
+    shared: bool
 
     @property
     def agrees(self) -> bool:
@@ -111,6 +113,9 @@ QUANTITIES: dict[str, tuple[str, float]] = {
     **{f"wave {number}": (f"ω of wave {number}, rad/s", 1.0) for number in range(1, _WAVES + 1)},
 }
 """What is compared, by name: in words, and the power of the thinness with which the difference falls."""
+
+OF_HEAVE = ("heave", "modal mass")
+"""Those of one mode, which may be shared with waves."""
 
 
 def check_thinness(scene: TankScene) -> None:
@@ -169,7 +174,10 @@ def fitted_thinness(rows: Sequence[ThinnessRow]) -> tuple[ThinnessRate, ...]:
         slope, deviation = fitted_slope(
             np.log([row.thinness for row in used]), np.log([abs(row.compared[quantity].difference) for row in used])
         )
-        rates.append(ThinnessRate(quantity=quantity, observed=slope, deviation=deviation, expected=expected))
+        shared = quantity in OF_HEAVE and any(row.shared for row in used)
+        rates.append(
+            ThinnessRate(quantity=quantity, observed=slope, deviation=deviation, expected=expected, shared=shared)
+        )
     return tuple(rates)
 
 

@@ -165,28 +165,28 @@ class _Builder:
             arcs = _left_of(arcs, self.right)
         size, name = self.sizes.contours[piece.body], body_name(piece.body + 1)
         path = [
-            (self._curve(name, arc.start, arc.end, arc=None if arc.straight else arc, size=size), True) for arc in arcs
+            (self._curve(name, smooth.start, smooth.end, arc=None if smooth.straight else smooth, size=size), True)
+            for arc in arcs
+            for smooth in _smooth_pieces(arc)
         ]
         # Contours turn counterclockwise: over the float they run from right to left.
         return _reversed(path) if upper_side else path
 
     def _side(self, number: int, x: float, bottom: Point, top: Point, splits: dict[float, list[int]]) -> list[Directed]:
         """The vertical line at x from the floor to the ceiling: a wall, the mirror plane, or a line through slits."""
-        inside = x in splits
         name = "" if 0.0 < x < self.right else LEFT_WALL if x == 0.0 else SYMMETRY_PLANE if self.half else RIGHT_WALL
         pieces = [(bottom, top, name)]
-        for index in splits[x] if inside else ():
-            low, high = self.tank.floats[index].slit
-            kinks = self.tank.floats[index].kinks
+        # From the floor up: a slit may stand on it, and another hang from the ceiling.
+        for index in sorted(splits.get(x, []), key=lambda index: self.tank.level_of(index).below == number):
+            body = self.tank.floats[index]
+            low, high = body.slit
             (start, end, _) = pieces.pop()
-            if self.tank.level_of(index).below == number:
-                stops = [(x, low), *(kink for kink in kinks if low < kink[1] < end[1]), end]
-                slit = [(*ends, body_name(index + 1)) for ends in pairwise(stops)]
-                pieces += [(start, (x, low), name), *slit]
-            else:
-                stops = [start, *(kink for kink in kinks if start[1] < kink[1] < high), (x, high)]
-                slit = [(*ends, body_name(index + 1)) for ends in pairwise(stops)]
-                pieces += [*slit, ((x, high), end, name)]
+            hangs = self.tank.level_of(index).below == number
+            first, last = ((x, low), end) if hangs else (start, (x, high))
+            stops = [first, *(kink for kink in body.kinks if first[1] < kink[1] < last[1]), last]
+            pieces += [(start, first, name)] if hangs else []
+            pieces += [(*ends, body_name(index + 1)) for ends in pairwise(stops)]
+            pieces += [] if hangs else [(last, end, name)]
         return [
             (
                 self._curve(
@@ -241,6 +241,17 @@ class _Builder:
 
 def _reversed(path: tuple[Directed, ...] | list[Directed]) -> list[Directed]:
     return [(number, not forward) for number, forward in reversed(path)]
+
+
+def _smooth_pieces(arc: Arc) -> Iterator[Arc]:
+    """An arc cut at its knots: polynomials do not follow a spline across them."""
+    if not arc.knots:
+        yield arc
+        return
+    stops = [0.0, *arc.knots, 1.0]
+    points = [arc.start, *((float(x), float(y)) for x, y in arc.point(np.array(arc.knots))), arc.end]
+    for (first, last), (start, end) in zip(pairwise(stops), pairwise(points), strict=True):
+        yield arc.part(first, last, start=start, end=end)
 
 
 def _left_of(arcs: tuple[Arc, ...], x: float) -> tuple[Arc, ...]:

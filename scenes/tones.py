@@ -81,11 +81,13 @@ def _reaches_past(modes: ModeSet, parts: np.ndarray, companion: float | None) ->
 
 def mode_kind(mode: Mode, bodies: tuple[Body, ...], surfaces: tuple[LiquidSurface, ...]) -> str:
     """What holds most of the potential energy: a motion of the bodies ("heave", "pitch", "sway", "roll", "elastic"),
-    or the liquids: "sloshing" of one surface, "interface wave" or "surface wave" where there are two.
+    or the liquids: "sloshing" of one liquid, "interface wave" or "surface wave" of two.
     """
-    names = ["sloshing"] if len(surfaces) == 1 else ["interface wave", "surface wave"]
     first = sum(body.size for body in bodies)
-    shares = dict(zip(names, map(float, mode.energy[first:]), strict=False))
+    shares = {"sloshing": 0.0}
+    for surface, share in zip(surfaces, mode.energy[first:], strict=True):
+        name = "interface wave" if surface.above is not None else "surface wave" if surface.below else "sloshing"
+        shares[name] = float(share)
     position = 0
     for body in bodies:
         for label in body.labels:

@@ -2,222 +2,52 @@
 
 The lowest λ = ω² of K ζ = λ (M + Σ ρ Cᵀ A⁻¹ C) ζ, ζ = (η, motions of floats, deflections of beams), each liquid keeping
 its volume. Potentials are the trial functions of `harmonic_trial`, η is any function, given at the Gauss nodes of the
-interface. Values are Ritz values of the exact problem: they come from above.
+levels. Values are Ritz values of the exact problem: they come from above.
 
 Nothing of the package is imported.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from itertools import pairwise
-from typing import Any, Literal
+from dataclasses import dataclass
 
 import numpy as np
-from float_sections import Section, line, section, thin_section
-from harmonic_trial import Boundary, Corner, Slit, Trial, energy_basis, nodes_on
-from scipy.linalg import cholesky, solve_triangular, svd
-from scipy.sparse import lil_matrix
-from scipy.sparse import vstack as sparse_vstack
-
-MOTIONS = ("heave", "sway", "roll")
-
-
-@dataclass(frozen=True, kw_only=True)
-class Fineness:
-    """How finely the reference is resolved.
-
-    Attributes:
-        corner: poles at each corner.
-        inner: poles on each of the inner curves of a section.
-        waves: cosines at the top and at the bottom of each liquid.
-        bending: polynomials of a beam's deflection.
-        tolerance: see `energy_basis`.
-        reach: panels' length over their distance from the next pole.
-    """
-
-    corner: int = 20
-    inner: int = 40
-    waves: int = 60
-    bending: int = 24
-    tolerance: float = 1e-14
-    reach: float = 0.7
-    steepness: float = 4.0
-    powers: int = 6
-
-
-@dataclass(frozen=True, kw_only=True)
-class BeamPlace:
-    """A beam of a scene: its span, EI, mass per length and level."""
-
-    start: float
-    end: float
-    rigidity: float
-    mass: float
-    at: str
-
-
-@dataclass(frozen=True, kw_only=True)
-class FloatTank:
-    """A tank as the keys of a scene give it, SI units.
-
-    Attributes:
-        length, gravity, top: of the tank.
-        densities, depths: of the liquids, from the bottom up.
-        sections: floats with their motions, from left to right.
-        beams: from left to right.
-    """
-
-    length: float
-    gravity: float
-    top: Literal["free", "rigid", "pressure_release"]
-    densities: tuple[float, ...]
-    depths: tuple[float, ...]
-    sections: tuple[tuple[Section, tuple[str, ...]], ...]
-    beams: tuple[BeamPlace, ...] = ()
-
-
-def float_tank(scene: dict[str, Any]) -> FloatTank:
-    """The tank of a scene's keys."""
-    liquids = scene["liquid"]
-    densities = tuple(liquid["density"] for liquid in liquids)
-    gravity = scene["tank"]["gravity"]
-    bodies = scene.get("body", [])
-    floats = [
-        (
-            (thin_section if body.get("boundary") == "thin" else section)(
-                body, (densities[0], densities[1] if len(densities) > 1 else 0.0), gravity
-            ),
-            tuple(body.get("motions", ["heave"])),
-        )
-        for body in bodies
-        if body["kind"] == "float"
-    ]
-    beams = [
-        BeamPlace(
-            start=body["start"],
-            end=body["start"] + body["length"],
-            rigidity=body["flexural_rigidity"],
-            mass=body["mass_per_length"],
-            at=body.get("at", "interface" if len(liquids) == 2 else "surface"),
-        )
-        for body in bodies
-        if body["kind"] == "beam"
-    ]
-    return FloatTank(
-        length=scene["tank"]["length"],
-        gravity=gravity,
-        top=scene["tank"].get("top", "free"),
-        densities=densities,
-        depths=tuple(liquid["depth"] for liquid in liquids),
-        sections=tuple(sorted(floats, key=lambda item: item[0].centre.real)),
-        beams=tuple(sorted(beams, key=lambda beam: beam.start)),
-    )
+from float_sections import MOTIONS
+from float_tanks import BeamPlace, Fineness, FloatTank, Level, Liquid, Side, discretized
+from harmonic_trial import Boundary, energy_basis
+from scipy.linalg import block_diag, cholesky, solve_triangular, svd
 
 
 @dataclass(frozen=True, kw_only=True)
 class FloatModes:
-    """The lowest modes.
+    """The lowest modes, without those of zero frequency.
 
     Attributes:
         omega: rad/s, ascending.
-        modal_masses: ω² times this is twice the energy at unit amplitude of each motion, kg, shape (motions, modes).
-        added_mass: of the motions at the highest frequencies, kg, shape (motions, motions).
-        sizes: nodes and trial functions, for the curious.
+        modal_masses: twice the kinetic energy over the square of the velocity of each motion, floats from left to
+            right, kg/m or kg m, shape (motions, modes).
+        size: number of trial functions.
     """
 
     omega: np.ndarray
     modal_masses: np.ndarray
-    sizes: tuple[int, ...] = field(default=())
-
-
-def _corners(tank: FloatTank, layer: int) -> list[Corner]:
-    """Corners of one liquid: at the sections, and at the ends of beams."""
-    corners = []
-    # Along the boundary the liquid lies to the right: the interface is followed eastwards below it.
-    along = 1.0 if layer == 0 else -1.0
-    for part, _ in tank.sections:
-        if part.thin:
-            continue
-        chain = part.below if layer == 0 else part.above
-        directions = [(along, chain[0].direction(0.0))]
-        directions += [(a.direction(1.0), b.direction(0.0)) for a, b in pairwise(chain)]
-        directions += [(chain[-1].direction(1.0), along)]
-        places = [arc.at(0.0) for arc in chain] + [chain[-1].at(1.0)]
-        outline = np.concatenate(
-            [arc.point(np.linspace(0, 1, 40, dtype=np.longdouble)[:-1]) for arc in part.below + part.above]
-        )
-        for place, (before, after) in zip(places, directions, strict=True):
-            turn = float(np.angle(complex(after / before)))
-            if abs(turn) < 1e-8:
-                continue
-            outward = 1j * (before + after) / abs(before + after)
-            room = _room(outline, place, outward, part.size, layer)
-            corners.append(Corner(place=place, outward=outward, room=room, exponent=np.pi / (np.pi + turn)))
-    for beam in tank.beams:
-        if beam.at == "interface":
-            height, up = 0.0, along
-        elif layer == len(tank.depths) - 1:
-            height, up = (0.0 if len(tank.depths) == 1 else tank.depths[1]), 1.0
-        else:
-            continue
-        corners += [
-            Corner(
-                place=np.clongdouble(end) + 1j * np.longdouble(height),
-                outward=1j * up,
-                room=beam.end - beam.start,
-                exponent=1.0,
-            )
-            for end in (beam.start, beam.end)
-        ]
-    return corners
-
-
-def _room(outline: np.ndarray, corner: complex, outward: complex, size: float, layer: int) -> float:
-    """How far poles may go from a corner before they leave the body, or half-plane, that is not the liquid."""
-    distances = size * np.linspace(0.01, 1.0, 100)
-    places = corner + distances * outward
-    inside = _inside(outline, places) | ((places.imag > 0) if layer == 0 else (places.imag < 0))
-    out = np.flatnonzero(~inside)
-    return float(0.7 * distances[out[0]]) if len(out) else float(distances[-1])
-
-
-def _inside(outline: np.ndarray, places: np.ndarray) -> np.ndarray:
-    """Whether places lie inside of a closed polygon."""
-    turns = np.zeros(len(places))
-    for a, b in zip(outline, np.roll(outline, -1), strict=True):
-        if a != b:
-            turns += np.angle(((b - places) / (a - places)).astype(complex))
-    return np.abs(turns) > np.pi
-
-
-def _level_pieces(tank: FloatTank, level: str) -> list[tuple[Any, Any, int | None]]:
-    """Pieces of a level from left to right: start, end, number of the beam or None."""
-    lowest = level == ("interface" if len(tank.depths) == 2 else "surface")
-    floats = [part.ends for part, _ in tank.sections] if lowest else []
-    beams = [(beam.start, beam.end, number) for number, beam in enumerate(tank.beams) if beam.at == level]
-    stops = sorted([(*ends, None) for ends in floats] + beams, key=lambda stop: float(stop[0]))
-    pieces: list[tuple[Any, Any, int | None]] = []
-    place: Any = 0.0
-    for start, end, number in stops:
-        if start - place > 1e-9 * tank.length:
-            pieces.append((place, start, None))
-        if number is not None:
-            pieces.append((start, end, number))
-        place = end
-    if tank.length - place > 1e-9 * tank.length:
-        pieces.append((place, tank.length, None))
-    return pieces
+    size: int
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Level:
-    """Nodes of one level, and what restores there."""
+class _Bodies:
+    """Motions of floats and polynomials of beams.
 
-    boundary: Boundary
-    piece: np.ndarray
-    weight: float
-    liquids: tuple[tuple[int, float], ...]
+    Attributes:
+        motions: float and motion of each of the first unknowns.
+        beams: the unknowns of each beam.
+        stiffness, mass: shape (n, n).
+    """
+
+    motions: tuple[tuple[int, str], ...]
+    beams: tuple[slice, ...]
+    stiffness: np.ndarray
+    mass: np.ndarray
 
 
 def reference_modes(tank: FloatTank, count: int, fineness: Fineness | None = None) -> FloatModes:
@@ -232,235 +62,144 @@ def reference_modes(tank: FloatTank, count: int, fineness: Fineness | None = Non
         The modes.
     """
     fineness = fineness or Fineness()
-    return _Problem(tank, fineness).modes(count)
-
-
-class _Problem:
-    """Matrices of a tank."""
-
-    def __init__(self, tank: FloatTank, fineness: Fineness) -> None:
-        self.tank, self.fineness = tank, fineness
-        layers = range(len(tank.depths))
-        lows = (-tank.depths[0], 0.0)
-        highs = (0.0, tank.depths[-1])
-        self.trials = [
-            Trial(
-                length=tank.length,
-                low=lows[j],
-                high=highs[j],
-                corners=tuple(_corners(tank, j)),
-                slits=tuple(
-                    Slit(tip=chain[0].at(1.0), end=chain[0].at(0.0))
-                    for chain in ((part.below, part.above)[j] for part, _ in tank.sections if part.thin)
-                ),
-                inner=np.concatenate([np.zeros(0), *(part.inner(fineness.inner) for part, _ in tank.sections)]),
-                clustered=fineness.corner,
-                steepness=fineness.steepness,
-                waves=fineness.waves,
-                powers=fineness.powers,
-            )
-            for j in layers
-        ]
-        self.longest = 8.0 / (np.pi * fineness.waves / tank.length)
-        self.levels = self._levels()
-        self.generalized()
-        self.gain()
-
-    def _nodes(self, arcs: list[Any], layers: tuple[int, ...]) -> Boundary:
-        poles = [self.trials[j].attractors for j in layers]
-        together = np.concatenate([*poles, *(-p.conj() for p in poles)])
-        together = np.concatenate([together, 2 * self.tank.length - together.conj()]) if len(together) else together
-        return nodes_on(arcs, together, self.longest, reach=self.fineness.reach)
-
-    def _levels(self) -> list[_Level]:
-        tank, found = self.tank, []
-        two = len(tank.depths) == 2
-        names = (["interface"] if two else []) + ([] if tank.top == "rigid" and two else ["surface"])
-        for name in names:
-            interface = name == "interface"
-            height = 0.0 if interface or not two else tank.depths[1]
-            layers = (0, 1) if interface else (len(tank.depths) - 1,)
-            parts, numbers = [], []
-            for start, end, number in _level_pieces(tank, name):
-                start_z, end_z = (np.clongdouble(x) + 1j * np.longdouble(height) for x in (start, end))
-                part = self._nodes([line(start_z, end_z)], layers)
-                parts.append(part)
-                numbers.append(np.full(len(part.points), -1 if number is None else number))
-            boundary = _joined(parts)
-            weight = tank.gravity * (
-                tank.densities[0] - tank.densities[1] if interface else tank.densities[len(tank.depths) - 1]
-            )
-            signs = tuple((j, 1.0 if j == 0 or not interface else -1.0) for j in layers)
-            found.append(_Level(boundary=boundary, piece=np.concatenate(numbers), weight=weight, liquids=signs))
-        return found
-
-    def generalized(self) -> None:
-        """Stiffness and mass of floats and beams, and their normal displacements."""
-        tank = self.tank
-        stiffness, mass = [], []
-        self.motions: list[tuple[int, str]] = []
-        for number, (part, motions) in enumerate(tank.sections):
-            chosen = [MOTIONS.index(motion) for motion in motions]
-            stiffness.append(part.stiffness[np.ix_(chosen, chosen)])
-            mass.append(np.diag([part.mass, part.mass, part.inertia])[np.ix_(chosen, chosen)])
-            self.motions += [(number, motion) for motion in motions]
-        self.beam_columns: list[slice] = []
-        place = len(self.motions)
-        for beam in tank.beams:
-            bending, inertia = _beam_matrices(beam, self.fineness.bending)
-            level = next(level for level in self.levels if (beam.at == "interface") == (len(level.liquids) == 2))
-            stiffness.append(bending + level.weight / beam.mass * inertia)
-            mass.append(inertia)
-            self.beam_columns.append(slice(place, place + len(bending)))
-            place += len(bending)
-        self.count = place
-        self.stiffness, self.mass = _diagonal(stiffness), _diagonal(mass)
-
-    def gain(self) -> None:
-        """G of M = GᵀG in coordinates ζ of unit stiffness (those without stiffness left as they are), and the volumes."""
-        tank = self.tank
-        free_nodes = [np.flatnonzero(level.piece < 0) for level in self.levels]
-        starts = np.concatenate([[0], np.cumsum([len(nodes) for nodes in free_nodes])])
-        total = int(starts[-1]) + self.count
-        rows, volumes = [], []
-        for j, trial in enumerate(self.trials):
-            chains = [part.below if j == 0 else part.above for part, _ in tank.sections]
-            hulls = [self._nodes(chain, (j,)) for chain in chains]
-            floor_height = trial.low if j == 0 else trial.high
-            rigid_floor = j == 0 or tank.top == "rigid"
-            parts, loads = [], []
-            for number, hull in enumerate(hulls):
-                parts.append(hull)
-                loads.append(self._hull_loads(number, hull, total, int(starts[-1])))
-            for number, level in enumerate(self.levels):
-                sign = dict(level.liquids).get(j)
-                if sign is None:
-                    continue
-                boundary = level.boundary
-                parts.append(
-                    Boundary(
-                        points=boundary.points,
-                        normal=boundary.normal if sign > 0 else -boundary.normal,
-                        weights=boundary.weights,
-                    )
-                )
-                load = lil_matrix((len(boundary.points), total))
-                columns = starts[number] + np.arange(len(free_nodes[number]))
-                load[free_nodes[number], columns] = sign / np.sqrt(level.weight * boundary.weights[free_nodes[number]])
-                for beam_number, columns_of in enumerate(self.beam_columns):
-                    beam = tank.beams[beam_number]
-                    on = np.flatnonzero(level.piece == beam_number)
-                    if len(on):
-                        shapes = _beam_shapes(beam, boundary.points[on].real.astype(float), self.fineness.bending)
-                        load[on, starts[-1] + columns_of.start : starts[-1] + columns_of.stop] = sign * shapes
-                loads.append(load)
-            if rigid_floor:
-                start, end = (np.clongdouble(x) + 1j * floor_height for x in (0.0, tank.length))
-                floor = self._nodes([line(start, end)], (j,))
-                if j == 0:
-                    floor = Boundary(points=floor.points, normal=-floor.normal, weights=floor.weights)
-                parts.append(floor)
-                loads.append(lil_matrix((len(floor.points), total)))
-            boundary, load = _joined(parts), sparse_vstack(loads).tocsr()
-            functions, slopes = trial.values(boundary)
-            weights = boundary.weights
-            functions = functions - (weights @ functions) / weights.sum()
-            basis = energy_basis(functions, slopes, weights, self.fineness.tolerance)
-            rows.append(np.sqrt(tank.densities[j]) * (load.T @ ((weights[:, None] * functions) @ basis)).T)
-            volumes.append(load.T @ weights)
-        self.nodes = int(starts[-1])
-        self.inertia, self.volumes = np.vstack(rows), np.array(volumes)
-
-    def _hull_loads(self, number: int, hull: Boundary, total: int, first: int) -> lil_matrix:
-        load = lil_matrix((len(hull.points), total))
-        part = self.tank.sections[number][0]
-        if part.thin:
-            load[:, first + [body for body, _ in self.motions].index(number)] = part.flux(hull.points)
-            return load
-        offset = (hull.points - np.clongdouble(part.centre)).astype(complex)
-        displacements = {"heave": 1j + 0 * offset, "sway": 1.0 + 0 * offset, "roll": 1j * offset}
-        for column, (body, motion) in enumerate(self.motions):
-            if body == number:
-                load[:, first + column] = (displacements[motion] * hull.normal.conj()).real[:, None]
-        return load
-
-    def modes(self, count: int) -> FloatModes:
-        """The lowest modes."""
-        nodes = self.nodes
-        stuck = np.abs(self.stiffness).sum(axis=1) > 0
-        root = cholesky(self.stiffness[np.ix_(stuck, stuck)]) if stuck.any() else np.zeros((0, 0))
-        inertia_root = cholesky(self.mass) if self.count else np.zeros((0, 0))
-        own = np.hstack([np.zeros((self.count, nodes)), inertia_root])
-        gain = np.vstack([self.inertia, own])
-        bodies, volumes = gain[:, nodes:], self.volumes[:, nodes:]
-        stiff = np.hstack([gain[:, :nodes], _right_divided(bodies[:, stuck], root)])
-        volume = np.hstack([self.volumes[:, :nodes], _right_divided(volumes[:, stuck], root)])
-        loose = bodies[:, ~stuck]
-        if np.abs(volumes[:, ~stuck]).max(initial=0.0) > 1e-9 * np.abs(self.volumes).max():
-            raise ValueError("a motion without stiffness must displace no volume")
-        q, _ = np.linalg.qr(volume.T)
-        kept = q[:, : np.linalg.matrix_rank(volume, tol=1e-9 * np.linalg.norm(volume))]
-        if np.linalg.matrix_rank(volume, tol=1e-9 * np.linalg.norm(volume)) < q.shape[1]:
-            u, _, _ = svd(volume.T, full_matrices=False)
-            kept = u[:, : kept.shape[1]]
-        stiff = stiff - (stiff @ kept) @ kept.T
-        if loose.shape[1]:
-            u, _ = np.linalg.qr(loose)
-            stiff = stiff - u @ (u.T @ stiff)
-        _, gains, shapes = svd(stiff, full_matrices=False)
-        gains, shapes = gains[:count], shapes[:count].T
-        omega = 1 / gains
-        amplitudes = np.zeros((self.count, count))
-        amplitudes[stuck] = solve_triangular(root, shapes[nodes:]) if stuck.any() else 0.0
-        if loose.shape[1]:
-            amplitudes[~stuck] = -np.linalg.lstsq(
-                loose, np.hstack([gain[:, :nodes], _right_divided(bodies[:, stuck], root)]) @ shapes
-            )[0]
-        rigid = amplitudes[: len(self.motions)]
-        with np.errstate(divide="ignore"):
-            masses = 1 / (omega**2 * rigid**2)
-        return FloatModes(omega=omega, modal_masses=masses, sizes=gain.shape)
-
-
-def _right_divided(matrix: np.ndarray, root: np.ndarray) -> np.ndarray:
-    """A R⁻¹ of an upper triangular R."""
-    return solve_triangular(root, matrix.T, trans="T").T if len(root) else matrix[:, :0]
-
-
-def _joined(parts: list[Boundary]) -> Boundary:
-    return Boundary(
-        points=np.concatenate([part.points for part in parts]),
-        normal=np.concatenate([part.normal for part in parts]),
-        weights=np.concatenate([part.weights for part in parts]),
+    levels, liquids = discretized(tank, fineness)
+    bodies = _bodies(tank, fineness)
+    loads = [_loads(tank, levels, bodies, liquid, fineness) for liquid in liquids]
+    # Kinetic energy is |Gζ|²/2.
+    gains = [_gain(liquid, load, fineness) for liquid, load in zip(liquids, loads, strict=True)]
+    nodes = loads[0].shape[1] - len(bodies.mass)
+    inertia = np.hstack(
+        [np.zeros((len(bodies.mass), nodes)), cholesky(bodies.mass) if len(bodies.mass) else bodies.mass]
     )
+    gain = np.vstack([*gains, inertia])
+    weights = [Boundary.joined([side.boundary for side in liquid.sides]).weights for liquid in liquids]
+    volumes = np.array([weight @ load for weight, load in zip(weights, loads, strict=True)])
+    omega, shapes = _lowest(gain, volumes, bodies.stiffness, count)
+    motions = shapes[nodes : nodes + len(bodies.motions)]
+    with np.errstate(divide="ignore"):
+        # Modes have unit potential energy, so that their kinetic energy is λ times 1/λ.
+        return FloatModes(omega=omega, modal_masses=1.0 / (omega * motions) ** 2, size=len(gain))
 
 
-def _diagonal(blocks: list[np.ndarray]) -> np.ndarray:
-    size = sum(len(block) for block in blocks)
-    matrix, place = np.zeros((size, size)), 0
-    for block in blocks:
-        matrix[place : place + len(block), place : place + len(block)] = block
-        place += len(block)
-    return matrix
+def _lowest(gain: np.ndarray, volumes: np.ndarray, stiffness: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """ω and modes of ζᵀKζ = 1; K is 1 at nodes, and a matrix with empty rows for motions that nothing restores."""
+    nodes = gain.shape[1] - len(stiffness)
+    stuck = np.concatenate([np.ones(nodes, dtype=bool), np.abs(stiffness).sum(axis=1) > 0.0])
+    held = stuck[nodes:]
+    root = cholesky(stiffness[np.ix_(held, held)]) if held.any() else np.zeros((0, 0))
+    largest = np.linalg.norm(volumes)
+    if np.abs(volumes[:, ~stuck]).max(initial=0.0) > 1e-9 * largest:
+        raise ValueError("a motion that nothing restores must not displace volume")
+
+    def scaled(matrix: np.ndarray) -> np.ndarray:
+        bodies = solve_triangular(root, matrix[:, nodes:][:, held].T, trans="T").T if held.any() else matrix[:, :0]
+        return np.hstack([matrix[:, :nodes], bodies])
+
+    unit = scaled(gain)
+    # In a closed tank the volumes of both liquids are one constraint.
+    vectors, sizes, _ = svd(scaled(volumes).T, full_matrices=False)
+    constraints = vectors[:, sizes > 1e-9 * largest]
+    reduced = unit - (unit @ constraints) @ constraints.T
+    loose, _ = np.linalg.qr(gain[:, ~stuck])
+    reduced -= loose @ (loose.T @ reduced)
+    _, values, shapes = svd(reduced, full_matrices=False)
+    values, shapes = values[:count], shapes[:count].T
+    modes = np.zeros((len(stuck), len(values)))
+    modes[:nodes] = shapes[:nodes]
+    if held.any():
+        modes[np.flatnonzero(stuck)[nodes:]] = solve_triangular(root, shapes[nodes:])
+    if not stuck.all():
+        modes[~stuck] = -np.linalg.lstsq(gain[:, ~stuck], gain @ modes)[0]
+    return 1.0 / values, modes
 
 
-def _beam_shapes(beam: BeamPlace, x: np.ndarray, count: int) -> np.ndarray:
-    """Legendre polynomials on a beam, shape (places, count)."""
-    half = (beam.end - beam.start) / 2
-    return np.polynomial.legendre.legvander((x - beam.start - half) / half, count - 1)
+def _gain(liquid: Liquid, load: np.ndarray, fineness: Fineness) -> np.ndarray:
+    """√ρ ∮vᵢ ζₙ for trial functions of unit energy and all ζ, shape (functions, unknowns)."""
+    boundary = Boundary.joined([side.boundary for side in liquid.sides])
+    functions, slopes = liquid.trial.values(boundary)
+    functions -= (boundary.weights @ functions) / boundary.weights.sum()
+    basis = energy_basis(functions, slopes, boundary.weights, fineness.tolerance)
+    return np.sqrt(liquid.density) * basis.T @ (functions.T @ (boundary.weights[:, None] * load))
+
+
+def _loads(tank: FloatTank, levels: list[Level], bodies: _Bodies, liquid: Liquid, fineness: Fineness) -> np.ndarray:
+    """Displacement out of a liquid at its nodes for each unknown: η of unit stiffness, motions, beams."""
+    free = [np.flatnonzero(level.beam < 0) for level in levels]
+    starts = np.concatenate([[0], np.cumsum([len(nodes) for nodes in free])])
+    loads = []
+    for side in liquid.sides:
+        load = np.zeros((len(side.boundary.points), starts[-1] + len(bodies.mass)))
+        if side.kind == "hull":
+            for column, (number, motion) in enumerate(bodies.motions):
+                if number == side.number:
+                    load[:, starts[-1] + column] = hull_displacement(tank, side, motion)
+        if side.kind == "level":
+            nodes, weight = free[side.number], tank.gravity * tank.density_step(tank.levels[side.number])
+            columns = starts[side.number] + np.arange(len(nodes))
+            load[nodes, columns] = side.sign / np.sqrt(weight * side.boundary.weights[nodes])
+            for number, columns_of in enumerate(bodies.beams):
+                if tank.beams[number].at == tank.levels[side.number]:
+                    on = np.flatnonzero(levels[side.number].beam == number)
+                    shapes = _beam_shapes(tank.beams[number], side.boundary.points[on], fineness.bending)
+                    load[on, starts[-1] + columns_of.start : starts[-1] + columns_of.stop] = side.sign * shapes
+        loads.append(load)
+    return np.vstack(loads)
+
+
+def hull_displacement(tank: FloatTank, side: Side, motion: str) -> np.ndarray:
+    """Displacement of a hull out of the liquid in a unit motion, shape (nodes,)."""
+    part = tank.sections[side.number][0]
+    if part.thin:
+        return part.flux(side.boundary.points)
+    offset = (side.boundary.points - np.clongdouble(part.centre)).astype(complex)
+    displacement = {"heave": 1j + 0 * offset, "sway": 1.0 + 0 * offset, "roll": 1j * offset}[motion]
+    return (displacement * side.boundary.normal.conj()).real
+
+
+def _bodies(tank: FloatTank, fineness: Fineness) -> _Bodies:
+    motions, beams, stiffness, mass = [], [], [np.zeros((0, 0))], [np.zeros((0, 0))]
+    for number, (part, moving) in enumerate(tank.sections):
+        chosen = np.array([MOTIONS.index(motion) for motion in moving])
+        motions += [(number, motion) for motion in moving]
+        stiffness.append(part.stiffness[np.ix_(chosen, chosen)])
+        mass.append(np.diag([part.mass, part.mass, part.inertia])[np.ix_(chosen, chosen)])
+    place = len(motions)
+    for beam in tank.beams:
+        bending, products = _beam_matrices(beam, fineness.bending)
+        restoring = tank.gravity * tank.density_step(beam.at) if beam.restoring else 0.0
+        stiffness.append(bending + restoring * products)
+        mass.append(beam.mass * products)
+        beams.append(slice(place, place + fineness.bending))
+        place += fineness.bending
+    return _Bodies(motions=tuple(motions), beams=tuple(beams), stiffness=block_diag(*stiffness), mass=block_diag(*mass))
+
+
+def _bending_polynomials(count: int) -> np.ndarray:
+    """1, x and polynomials with orthonormal second derivatives on −1 … 1, in Legendre polynomials, one a column.
+
+    ∫∫Pₙ = ((Pₙ₊₂ − Pₙ)/(2n + 3) − (Pₙ − Pₙ₋₂)/(2n − 1))/(2n + 1), without P₀ and P₁, which are the first two.
+    """
+    shapes = np.eye(count)
+    for n in range(count - 2):
+        terms = {n + 2: 1 / (2 * n + 3), n: -1 / (2 * n + 3) - 1 / (2 * n - 1), n - 2: 1 / (2 * n - 1)}
+        shapes[:, n + 2] = 0.0
+        for degree, factor in terms.items():
+            if degree >= 2:
+                shapes[degree, n + 2] = factor / (2 * n + 1) * np.sqrt(n + 0.5)
+    return shapes
+
+
+def _beam_shapes(beam: BeamPlace, points: np.ndarray, count: int) -> np.ndarray:
+    """Deflections of a beam, shape (places, count)."""
+    middle, half = (beam.start + beam.end) / 2, (beam.end - beam.start) / 2
+    legendre = np.polynomial.legendre.legvander((points.real.astype(float) - middle) / half, count - 1)
+    return legendre @ _bending_polynomials(count)
 
 
 def _beam_matrices(beam: BeamPlace, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """∫EI w''w'' and ∫m w w of Legendre polynomials."""
+    """∫EI w''w'' and ∫w w of the deflections of a beam."""
     half = (beam.end - beam.start) / 2
-    nodes, weights = np.polynomial.legendre.leggauss(count)
-    second = np.array(
-        [
-            np.polynomial.legendre.legval(nodes, np.polynomial.legendre.legder(np.eye(count)[i], 2))
-            if i > 1
-            else 0 * nodes
-            for i in range(count)
-        ]
-    )
-    bending = beam.rigidity / half**3 * (second * weights) @ second.T
-    return bending, beam.mass * half * np.diag(2 / (2 * np.arange(count) + 1))
+    shapes = _bending_polynomials(count)
+    bends = np.arange(count) >= 2
+    norms = half * 2 / (2 * np.arange(count) + 1)
+    return beam.rigidity / half**3 * np.diag(bends.astype(float)), shapes.T @ (norms[:, None] * shapes)

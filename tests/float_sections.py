@@ -17,6 +17,8 @@ from scipy.optimize import brentq
 
 Curve = Callable[[np.ndarray], np.ndarray]
 
+MOTIONS = ("heave", "sway", "roll")
+
 GAUSS = tuple(array.astype(np.longdouble) for array in np.polynomial.legendre.leggauss(40))
 
 
@@ -115,23 +117,27 @@ def inner_curve(shape: dict[str, Any], count: int) -> np.ndarray:
     """Points inside a section: around the foci of an ellipse, between the tips of a parabola, half-way to corners."""
     steps = (np.arange(count) + 0.5) / count
     if shape["shape"] == "ellipse":
-        width, height = shape["half_width"], shape["half_height"]
-        # A confocal ellipse half-way to the segment between the foci, or a smaller circle.
-        longer, shorter = max(width, height), min(width, height)
-        focus = np.sqrt(longer**2 - shorter**2)
-        place = np.arccosh(longer / focus) / 2 if focus > 0.1 * longer else np.inf
-        if np.isinf(place) or focus * np.cosh(place) < 0.5 * longer:
-            axes = (longer / 2, shorter / 2)
-        else:
-            axes = (focus * np.cosh(place), focus * np.sinh(place))
-        if width < height:
-            axes = axes[::-1]
-        return axes[0] * np.cos(2 * np.pi * steps) + 1j * axes[1] * np.sin(2 * np.pi * steps)
+        return _inside_ellipse(shape["half_width"], shape["half_height"], count)
     if shape["shape"] == "parabola":
         return 1j * shape["half_height"] * 0.9 * (2 * steps - 1)
     arcs = contour(shape)
     ring = np.array([arcs[int(place)].at(place - int(place)) for place in steps * len(arcs)])
     return ring.mean() + (ring - ring.mean()) / 2
+
+
+def _inside_ellipse(width: float, height: float, count: int) -> np.ndarray:
+    """A confocal ellipse half-way to the segment between the foci, or a circle of half the radius."""
+    focus = np.sqrt(abs(width**2 - height**2))
+    angles = 2 * np.pi * (np.arange(count) + 0.5) / count
+    if focus < 0.3 * max(width, height):
+        return 0.5 * (width * np.cos(angles) + 1j * height * np.sin(angles))
+    depth = np.arccosh(max(width, height) / focus) / 2
+    # Of n poles e^{−n·depth} is left, of those on the circle 2⁻ⁿ.
+    more = int(np.ceil(count * max(1.0, np.log(2.0) / depth)))
+    angles = 2 * np.pi * (np.arange(more) + 0.5) / more
+    longer, shorter = focus * np.cosh(depth), focus * np.sinh(depth)
+    axes = (longer, shorter) if width > height else (shorter, longer)
+    return axes[0] * np.cos(angles) + 1j * axes[1] * np.sin(angles)
 
 
 @dataclass(frozen=True, kw_only=True)

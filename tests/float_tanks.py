@@ -1,142 +1,311 @@
-"""Tanks of one or two liquids with beams and floats, made from a few values, and dense solutions of their matrices."""
+"""Tanks with one or two liquids, rigid floats and beams, cut into liquids, levels and corners; SI units.
+
+The geometry of `float_reference`: which pieces bound each liquid, and where its potentials are singular.
+"""
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import Any
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any, Literal
 
 import numpy as np
-import pytest
-from mpi4py import MPI
-from petsc4py import PETSc
-from scipy.linalg import eigh, null_space
-from scipy.sparse import csr_matrix
-from scipy.sparse.linalg import splu
-
-from hydroelastic.fem.pencil import CoupledPencil
-from hydroelastic.scenes.field_model import build_mesh
-from hydroelastic.scenes.field_solution import part_models
-from hydroelastic.scenes.model_bodies import Beam, Float
-from hydroelastic.scenes.models import Accuracy, Liquid, Tank, TankScene
-from hydroelastic.scenes.plan import initial_resolution
-from hydroelastic.scenes.scaled_tank import scaled_tank
-from hydroelastic.scenes.solve import TankSolution, solve_scene
-
-GRAVITY = 9.81
+from float_sections import Arc, Section, line, section, thin_section
+from harmonic_trial import Boundary, Corner, Slit, Trial, nodes_on
 
 
-def layered(
-    *bodies: Beam | Float,
-    densities: tuple[float, ...] = (1000.0, 850.0),
-    depths: tuple[float, ...] = (0.3, 0.2),
-    length: float = 1.0,
-    top: str = "rigid",
-    tolerance: float = 1e-8,
-    modes: int = 6,
-) -> TankScene:
-    """A tank with liquids from the bottom up."""
-    return TankScene(
-        tank=Tank(length=length, gravity=GRAVITY, top=top),
-        liquid=tuple(Liquid(density=density, depth=depth) for density, depth in zip(densities, depths, strict=False)),
-        body=bodies,
-        accuracy=Accuracy(tolerance=tolerance, modes=modes),
-    )
-
-
-def rigid(shape: str, position: float, motions: str = "heave", **keys: Any) -> Float:
-    """A float; its motions as one word each."""
-    return Float(kind="float", shape=shape, position=position, motions=tuple(motions.split()), **keys)
-
-
-def pencils(
-    scene: TankScene, *, half: bool = False, coarse: bool = True, released: bool = False
-) -> tuple[CoupledPencil, ...]:
-    """The matrices of a scene, or of its halves, on a mesh for few unknowns (collective)."""
-    tank = scaled_tank(scene)
-    resolution = initial_resolution(scene, modes=scene.accuracy.modes)
-    if coarse:
-        resolution = replace(resolution, degree=4, shapes=tuple(min(count, 6) for count in resolution.shapes))
-    mesh = build_mesh(MPI.COMM_WORLD, tank, resolution, half=half, released=released)
-    _, parts = part_models(mesh, tank, resolution.degree, resolution.shapes, half=half, pressure_release=released)
-    return parts
-
-
-def sparse(matrix: PETSc.Mat) -> csr_matrix:
-    """A matrix of one process for SciPy."""
-    rows, columns, values = matrix.getValuesCSR()
-    return csr_matrix((values, columns, rows), shape=matrix.getSize())
-
-
-class PlainProblem:
-    """K ζ = λ (M ζ + (ρC)ᵀψ), A ψ = C ζ from the plain matrices of one process, and what keeps the volumes.
+@dataclass(frozen=True, kw_only=True)
+class Fineness:
+    """How finely the reference is resolved.
 
     Attributes:
-        stiffness, mass: K and M as full arrays.
-        coupling, laplace: C and A, sparse.
-        densities: ρ at each unknown of ψ.
-        fixed: unknowns of ψ that a grounded surface fixes.
-        volumes: what each unknown takes from each closed layer, shape (closed layers, n).
-        pins: one unknown of ψ of each closed layer.
+        corner: poles at each corner.
+        inner: poles inside of each section.
+        waves: cosines at the top and at the bottom of each liquid.
+        powers: integers that are added to the exponents of a corner.
+        halves: see `Trial`.
+        bending: polynomials of a beam's deflection.
+        steepness: of the clusters of poles.
+        reach: panels' length over their distance from the next pole.
+        tolerance: see `energy_basis`.
     """
 
-    def __init__(self, pencil: CoupledPencil) -> None:
-        """Take nothing that the package made of the matrices."""
-        liquid = pencil.liquid
-        self.stiffness, self.mass = (sparse(matrix).toarray() for matrix in (pencil.stiffness, pencil.mass))
-        self.coupling, self.laplace = sparse(pencil.coupling), sparse(pencil.laplace)
-        self.densities = np.array([layer.density for layer in liquid.layers])[liquid.owned_layer_of]
-        self.fixed = liquid.surface_dofs(liquid.grounded) if liquid.grounded else np.empty(0, dtype=int)
-        layers = [np.flatnonzero(liquid.owned_layer_of == layer) for layer in range(len(liquid.layers))]
-        closed = [dofs for dofs in layers if not np.isin(dofs, self.fixed).any()]
-        self.volumes = np.array([self.coupling[dofs].sum(axis=0) for dofs in closed]).reshape(len(closed), -1)
-        self.pins = np.array([dofs[0] for dofs in closed], dtype=int)
-
-    def added_mass(self, basis: np.ndarray | None = None, pins: np.ndarray | None = None) -> np.ndarray:
-        """(ρC)ᵀA⁻¹C on some combinations of the unknowns, with ψ = 0 at the pins."""
-        coupling = self.coupling.toarray() if basis is None else self.coupling @ basis
-        free = np.setdiff1d(np.arange(len(self.densities)), [*self.fixed, *(self.pins if pins is None else pins)])
-        potential = splu(self.laplace[free][:, free].tocsc()).solve(coupling[free])
-        added = (self.densities[free, None] * coupling[free]).T @ potential
-        return 0.5 * (added + added.T)
-
-    def eigenvalues(self, count: int, *, shift: float = 1.0, stiffness: np.ndarray | None = None) -> np.ndarray:
-        """The lowest λ of what keeps the volumes, motions without stiffness (λ = 0) and growing ones included.
-
-        Args:
-            count: how many.
-            shift: more than the largest −λ; λ + shift keeps its digits.
-            stiffness: another K.
-        """
-        basis = null_space(self.volumes, rcond=1e-10) if len(self.volumes) else np.eye(len(self.stiffness))
-        restoring = basis.T @ (self.stiffness if stiffness is None else stiffness) @ basis
-        inertia = basis.T @ self.mass @ basis + self.added_mass(basis)
-        return 1.0 / eigh(inertia, restoring + shift * inertia, eigvals_only=True)[::-1][:count] - shift
+    corner: int = 20
+    inner: int = 40
+    waves: int = 60
+    powers: int = 6
+    halves: bool = False
+    bending: int = 32
+    steepness: float = 4.0
+    reach: float = 0.7
+    tolerance: float = 1e-14
 
 
-def frequencies(eigenvalues: np.ndarray, scene: TankScene) -> np.ndarray:
-    """ω in rad/s of dimensionless λ > 0."""
-    return np.sqrt(eigenvalues * scene.tank.gravity / scene.tank.length)
+@dataclass(frozen=True, kw_only=True)
+class BeamPlace:
+    """A beam of a scene: its span, EI, mass per length, level, and whether buoyancy restores it."""
+
+    start: float
+    end: float
+    rigidity: float
+    mass: float
+    at: str
+    restoring: bool
 
 
-def check_processes(scene: TankScene, *, halves: bool = True) -> None:
-    """All processes together find what each finds on its own, to rounding; nothing is checked on a single one."""
-    if MPI.COMM_WORLD.size == 1:
-        pytest.skip("there is one process")
-    together, alone = (solve_scene(scene, comm=comm, halves=halves) for comm in (MPI.COMM_WORLD, MPI.COMM_SELF))
-    assert together.reasons == alone.reasons == ()
-    assert together.modes.zero_modes == alone.modes.zero_modes
+@dataclass(frozen=True, kw_only=True)
+class FloatTank:
+    """A tank as the keys of a scene give it, SI units.
 
-    def values(solution: TankSolution) -> list[float]:
-        return [mode.eigenvalue for mode in (*solution.asked, *solution.modes.growing)]
+    Attributes:
+        length, gravity, top: of the tank.
+        densities, depths: of the liquids, from the bottom up.
+        sections: floats on the lowest level with their motions, from left to right.
+        beams: from left to right.
+    """
 
-    # Sums over unknowns in another order; measured below 1e-12 of λ, twice that of ω.
-    assert values(together) == pytest.approx(values(alone), rel=2e-11)
-    for one, other in zip(together.asked, alone.asked, strict=True):
-        sizes = np.abs(other.body_amplitudes).max(initial=1e-300)
-        assert np.abs(one.body_amplitudes) == pytest.approx(np.abs(other.body_amplitudes), abs=1e-7 * sizes)
-    assert [tone.pressure_release for tone in together.tones] == pytest.approx(
-        [tone.pressure_release for tone in alone.tones], rel=2e-11
+    length: float
+    gravity: float
+    top: Literal["free", "rigid"]
+    densities: tuple[float, ...]
+    depths: tuple[float, ...]
+    sections: tuple[tuple[Section, tuple[str, ...]], ...]
+    beams: tuple[BeamPlace, ...] = ()
+
+    @property
+    def levels(self) -> tuple[str, ...]:
+        """What moves: interface and surface, from below."""
+        interface = ("interface",) if len(self.depths) == 2 else ()
+        # A rigid lid over one liquid lies beside its bodies: nothing but they moves.
+        return interface if self.top == "rigid" and interface else (*interface, "surface")
+
+    @property
+    def floating(self) -> str:
+        """The level of the floats."""
+        return self.levels[0]
+
+    def height(self, level: str) -> float:
+        """Of a level, y."""
+        return self.depths[1] if level == "surface" and len(self.depths) == 2 else 0.0
+
+    def density_step(self, level: str) -> float:
+        """Density below a level less that above it."""
+        upper = self.densities[1] if level == "interface" else 0.0
+        return (self.densities[0] if level == self.floating else self.densities[-1]) - upper
+
+    def touching(self, level: str) -> tuple[tuple[int, float], ...]:
+        """Liquids that touch a level, with +1 for those that lie below it and −1 above."""
+        if level == "interface":
+            return ((0, 1.0), (1, -1.0))
+        return ((len(self.depths) - 1, 1.0),)
+
+
+def float_tank(scene: dict[str, Any]) -> FloatTank:
+    """The tank of a scene's keys."""
+    liquids, gravity = scene["liquid"], scene["tank"]["gravity"]
+    densities = [liquid["density"] for liquid in liquids]
+    bodies = scene.get("body", [])
+    floats = []
+    for body in bodies:
+        if body["kind"] == "float":
+            make = thin_section if body.get("boundary") == "thin" else section
+            part = make(body, (densities[0], densities[1] if len(densities) == 2 else 0.0), gravity)
+            floats.append((part, tuple(body.get("motions", ["heave"]))))
+    beams = [
+        BeamPlace(
+            start=body["start"],
+            end=body["start"] + body["length"],
+            rigidity=body["flexural_rigidity"],
+            mass=body["mass_per_length"],
+            at=body.get("at", "interface" if len(liquids) == 2 else "surface"),
+            restoring=body["hydrostatic"],
+        )
+        for body in bodies
+        if body["kind"] == "beam"
+    ]
+    return FloatTank(
+        length=scene["tank"]["length"],
+        gravity=gravity,
+        top=scene["tank"]["top"],
+        densities=tuple(densities),
+        depths=tuple(liquid["depth"] for liquid in liquids),
+        sections=tuple(sorted(floats, key=lambda item: item[0].centre.real)),
+        beams=tuple(sorted(beams, key=lambda beam: beam.start)),
     )
-    if alone.added_mass is not None:
-        matrices = [solution.added_mass.matrix for solution in (together, alone)]
-        assert matrices[0] == pytest.approx(matrices[1], rel=1e-10, abs=1e-12 * np.abs(matrices[1]).max())
+
+
+@dataclass(frozen=True, kw_only=True)
+class Level:
+    """Nodes of a level between floats.
+
+    Attributes:
+        boundary: nodes, with the normal upwards.
+        beam: number of the beam at each node, −1 for none, shape (n,).
+    """
+
+    boundary: Boundary
+    beam: np.ndarray
+
+
+@dataclass(frozen=True, kw_only=True)
+class Side:
+    """A piece of a liquid's boundary: the hull of a float, a level (by their numbers), or rigid."""
+
+    boundary: Boundary
+    kind: Literal["hull", "level", "rigid"]
+    number: int = 0
+    sign: float = 1.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class Liquid:
+    """A liquid: its trial potentials, density, and all of its boundary but the side walls."""
+
+    trial: Trial
+    density: float
+    sides: tuple[Side, ...]
+
+
+def discretized(tank: FloatTank, fineness: Fineness) -> tuple[list[Level], list[Liquid]]:
+    """Levels from below, and liquids from below."""
+    trials = [_trial(tank, layer, fineness) for layer in range(len(tank.depths))]
+    grid = _Grid(tank=tank, trials=tuple(trials), fineness=fineness)
+    levels = [grid.level(name) for name in tank.levels]
+    liquids = []
+    for layer, trial in enumerate(trials):
+        chains = [_chain(part, layer) for part, _ in tank.sections]
+        sides = [Side(boundary=grid.nodes(chain, (layer,)), kind="hull", number=i) for i, chain in enumerate(chains)]
+        for number, name in enumerate(tank.levels):
+            for touching, sign in tank.touching(name):
+                if touching == layer:
+                    boundary = levels[number].boundary.turned(sign)
+                    sides.append(Side(boundary=boundary, kind="level", number=number, sign=sign))
+        rigid = [(trial.low, -1.0)] if layer == 0 else []
+        rigid += [(trial.high, 1.0)] if layer == 1 and tank.top == "rigid" else []
+        sides += [Side(boundary=grid.straight(0.0, tank.length, *end, (layer,)), kind="rigid") for end in rigid]
+        liquids.append(Liquid(trial=trial, density=tank.densities[layer], sides=tuple(sides)))
+    return levels, liquids
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Grid:
+    """Nodes on pieces of the boundary, fine enough for the trial functions of the liquids there."""
+
+    tank: FloatTank
+    trials: tuple[Trial, ...]
+    fineness: Fineness
+
+    def nodes(self, arcs: list[Arc], layers: tuple[int, ...]) -> Boundary:
+        """Nodes on arcs with the liquid to their right."""
+        near = np.concatenate([self.trials[layer].attractors for layer in layers])
+        mirrored = np.concatenate([near, -near.conj(), 2 * self.tank.length - near.conj()])
+        # Eight radians of the shortest wave, of which 16 Gauss nodes integrate products to rounding.
+        longest = 8.0 * self.tank.length / (np.pi * self.fineness.waves)
+        return nodes_on(arcs, mirrored, longest, reach=self.fineness.reach)
+
+    def straight(self, start: Any, end: Any, height: float, up: float, layers: tuple[int, ...]) -> Boundary:
+        """Nodes on a horizontal piece, with the normal upwards or downwards."""
+        first, last = (np.clongdouble(x) + 1j * np.longdouble(height) for x in (start, end))
+        return self.nodes([line(first, last)], layers).turned(up)
+
+    def level(self, name: str) -> Level:
+        """Nodes of a level."""
+        layers = tuple(layer for layer, _ in self.tank.touching(name))
+        parts, numbers = [], []
+        for start, end, number in _pieces(self.tank, name):
+            parts.append(self.straight(start, end, self.tank.height(name), 1.0, layers))
+            numbers.append(np.full(len(parts[-1].points), number))
+        return Level(boundary=Boundary.joined(parts), beam=np.concatenate(numbers))
+
+
+def _pieces(tank: FloatTank, name: str) -> list[tuple[Any, Any, int]]:
+    """Pieces of a level from left to right: start, end, number of the beam or −1."""
+    floats = [(*part.ends, None) for part, _ in tank.sections] if name == tank.floating else []
+    beams = [(beam.start, beam.end, number) for number, beam in enumerate(tank.beams) if beam.at == name]
+    pieces: list[tuple[Any, Any, int]] = []
+    place: Any = 0.0
+    for start, end, number in sorted(floats + beams, key=lambda stop: float(stop[0])):
+        if start - place > 1e-9 * tank.length:
+            pieces.append((place, start, -1))
+        if number is not None:
+            pieces.append((start, end, number))
+        place = end
+    if tank.length - place > 1e-9 * tank.length:
+        pieces.append((place, tank.length, -1))
+    return [piece for piece in pieces if tank.top != "rigid" or name == "interface" or piece[2] >= 0]
+
+
+def _chain(part: Section, layer: int) -> list[Arc]:
+    return part.below if layer == 0 else part.above
+
+
+def _trial(tank: FloatTank, layer: int, fineness: Fineness) -> Trial:
+    thick = [part for part, _ in tank.sections if not part.thin]
+    slits = [_chain(part, layer)[0] for part, _ in tank.sections if part.thin]
+    corners = [corner for part in thick for corner in _section_corners(part, layer)]
+    return Trial(
+        length=tank.length,
+        low=-tank.depths[0] if layer == 0 else 0.0,
+        high=0.0 if layer == 0 else tank.depths[1],
+        corners=(*corners, *_beam_corners(tank, layer)),
+        slits=tuple(Slit(tip=arc.at(1.0), end=arc.at(0.0)) for arc in slits),
+        inner=np.concatenate([np.zeros(0), *(part.inner(fineness.inner) for part in thick)]),
+        clustered=fineness.corner,
+        steepness=fineness.steepness,
+        waves=fineness.waves,
+        powers=fineness.powers,
+        halves=fineness.halves,
+    )
+
+
+def _section_corners(part: Section, layer: int) -> list[Corner]:
+    """Corners of a liquid at a float."""
+    chain = _chain(part, layer)
+    # Along the boundary the liquid lies to the right: the level is followed eastwards below it, westwards above it.
+    along = 1.0 if layer == 0 else -1.0
+    directions = [(along, chain[0].direction(0.0))]
+    directions += [(before.direction(1.0), after.direction(0.0)) for before, after in pairwise(chain)]
+    directions += [(chain[-1].direction(1.0), along)]
+    places = [arc.at(0.0) for arc in chain] + [chain[-1].at(1.0)]
+    corners = []
+    for place, (before, after) in zip(places, directions, strict=True):
+        turn = float(np.angle(complex(after / before)))
+        if abs(turn) > 1e-8:
+            outward = 1j * (before + after) / abs(before + after)
+            room = _room(part, place, outward, layer)
+            corners.append(Corner(place=place, outward=outward, room=room, exponent=np.pi / (np.pi + turn)))
+    return corners
+
+
+def _beam_corners(tank: FloatTank, layer: int) -> list[Corner]:
+    """Ends of beams, where the boundary is straight and the flux is not smooth."""
+    return [
+        Corner(
+            place=np.clongdouble(end) + 1j * np.longdouble(tank.height(beam.at)),
+            outward=1j * sign,
+            room=beam.end - beam.start,
+            exponent=1.0,
+        )
+        for beam in tank.beams
+        for touching, sign in tank.touching(beam.at)
+        if touching == layer
+        for end in (beam.start, beam.end)
+    ]
+
+
+def _room(part: Section, corner: complex, outward: complex, layer: int) -> float:
+    """How far poles may go from a corner before they come into the liquid."""
+    arcs = part.below + part.above
+    outline = np.concatenate([arc.point(np.linspace(0, 1, 40, dtype=np.longdouble)[:-1]) for arc in arcs])
+    distances = part.size * np.linspace(0.0103, 0.9987, 100)
+    places = corner + distances * outward
+    beyond = places.imag > 0 if layer == 0 else places.imag < 0
+    out = np.flatnonzero(~(_inside(outline, places) | beyond))
+    return float(0.7 * distances[out[0]]) if len(out) else float(distances[-1])
+
+
+def _inside(outline: np.ndarray, places: np.ndarray) -> np.ndarray:
+    """Whether places lie inside of a closed polygon."""
+    ahead = np.roll(outline, -1)
+    turns = np.angle(((ahead[:, None] - places) / (outline[:, None] - places)).astype(complex))
+    return np.abs(turns.sum(axis=0)) > np.pi

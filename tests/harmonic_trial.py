@@ -13,7 +13,7 @@ panels that are no longer than their distance from the next pole.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from float_sections import Arc
@@ -40,6 +40,19 @@ class Boundary:
     points: np.ndarray
     normal: np.ndarray
     weights: np.ndarray
+
+    def turned(self, sign: float) -> Boundary:
+        """The same with the normal times a sign."""
+        return replace(self, normal=sign * self.normal)
+
+    @staticmethod
+    def joined(parts: list[Boundary]) -> Boundary:
+        """Several pieces as one."""
+        return Boundary(
+            points=np.concatenate([part.points for part in parts]),
+            normal=np.concatenate([part.normal for part in parts]),
+            weights=np.concatenate([part.weights for part in parts]),
+        )
 
 
 def nodes_on(arcs: list[Arc], poles: np.ndarray, longest: float, *, reach: float = 0.7) -> Boundary:
@@ -111,6 +124,7 @@ class Trial:
         steepness: of their clusters.
         waves: how many cosines, each at the bottom and at the top.
         powers: how many integers are added to the exponents of a corner.
+        halves: whether half the exponents are needed too, where ψ is given on one side of a corner.
     """
 
     length: float
@@ -123,6 +137,7 @@ class Trial:
     steepness: float
     waves: int
     powers: int
+    halves: bool
 
     @property
     def poles(self) -> np.ndarray:
@@ -169,24 +184,32 @@ class Trial:
         near, image = (scale * (z - p)).astype(complex), (scale * (z + p.conj())).astype(complex)
         distance = np.abs(near).min(axis=0)
         cot, cot_image = _cotangent(near), _cotangent(image)
+        # On a side wall a source of flux through the wall is cancelled by its image.
+        across = np.minimum(np.abs(self.poles.real), np.abs(self.poles.real - self.length)) > 1e-12 * self.length
         values, slopes = [], []
-        for a in (1.0, 1.0j):
+        for a in (across, 1.0j):
             strength = a * distance
             values.append(strength * cot - np.conj(strength) * cot_image)
             slopes.append(scale * (-strength * (1 + cot**2) + np.conj(strength) * (1 + cot_image**2)))
         return np.hstack(values), np.hstack(slopes)
 
     def _powers(self, boundary: Boundary, corner: Corner) -> tuple[np.ndarray, np.ndarray]:
-        """(sin(π(z − c)/2L)/sin(π(z − c')/2L))^ν, cut from the corner c to c' outside, and mirrored."""
-        exponents = np.array(
-            [k * corner.exponent + m for k in (1, 2) for m in range(self.powers) if k * corner.exponent % 1 > 1e-6]
-        )
+        """w^ν, w = sin(π(z − c)/2L)/sin(π(z − c')/2L), cut from the corner c to c' outside; w^ν ln w for whole ν."""
+        multiples = (0.5, 1, 1.5, 2) if self.halves else (1, 2)
+        exponents = np.array([k * corner.exponent + m for k in multiples for m in range(self.powers)])
+        whole = np.abs(exponents - np.rint(exponents)) < 1e-6
+        # The same exponent twice would be noise.
+        logarithmic = np.unique(np.rint(exponents[whole]))
+        exponents = exponents[~whole]
         beyond = corner.place + corner.room * corner.outward
 
         def powers(z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
             logarithm, slope = self._logarithm(z, corner.place, beyond)
-            value = np.exp(exponents * logarithm)
-            return value, exponents * value * slope
+            value, integer = np.exp(exponents * logarithm), np.exp(logarithmic * logarithm)
+            return (
+                np.hstack([value, integer * logarithm]),
+                slope * np.hstack([exponents * value, integer * (logarithmic * logarithm + 1)]),
+            )
 
         return self._mirrored(boundary, powers)
 
@@ -268,7 +291,12 @@ def energy_basis(functions: np.ndarray, slopes: np.ndarray, weights: np.ndarray,
     """
     energy = functions.T @ (weights[:, None] * slopes)
     energy = (energy + energy.T) / 2
-    scale = 1 / np.sqrt(np.maximum(np.diag(energy), 1e-300))
-    values, vectors = np.linalg.eigh(energy * scale * scale[:, None])
+    # What cancels with its image, like a pole on a wall in one direction, is none.
+    sizes = np.diag(energy)
+    real = np.flatnonzero(sizes > 1e-20 * sizes.max())
+    scale = 1 / np.sqrt(sizes[real])
+    values, vectors = np.linalg.eigh(energy[np.ix_(real, real)] * scale * scale[:, None])
     kept = values > tolerance * values[-1]
-    return scale[:, None] * vectors[:, kept] / np.sqrt(values[kept])
+    basis = np.zeros((len(energy), np.count_nonzero(kept)))
+    basis[real] = scale[:, None] * vectors[:, kept] / np.sqrt(values[kept])
+    return basis

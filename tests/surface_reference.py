@@ -246,12 +246,6 @@ def _modes_below(
     )
 
 
-def water_wavenumber(squared_frequency: float, depth: float) -> float:
-    """k of λ = k tanh kH, which lies above λ and below λ + √(λ/H)."""
-    high = squared_frequency + np.sqrt(squared_frequency / depth)
-    return float(brentq(lambda k: k * np.tanh(k * depth) - squared_frequency, 0.0, 1.01 * high))
-
-
 def layer_inertia(wavenumber: float, layers: tuple[tuple[float, float], ...]) -> float:
     """Σ ρ/(k tanh kh)."""
     return float(sum(density / (wavenumber * np.tanh(wavenumber * depth)) for density, depth in layers))

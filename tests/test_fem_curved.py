@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from float_tanks import PlainProblem, layered, pencils, rigid
+from layered_tanks import PlainProblem, layered, pencils, rigid
 from mpi4py import MPI
 from scipy.sparse.linalg import splu
 from scipy.special import ellipe, i1

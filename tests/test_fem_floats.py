@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from float_tanks import GRAVITY, PlainProblem, check_processes, frequencies, layered, pencils, rigid
+from layered_tanks import GRAVITY, PlainProblem, check_processes, frequencies, layered, pencils, rigid
 from pydantic import ValidationError
 
 from hydroelastic.fem.added_mass import body_added_mass

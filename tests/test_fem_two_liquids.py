@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from float_tanks import GRAVITY, PlainProblem, check_processes, frequencies, layered, pencils, rigid, sparse
+from layered_tanks import GRAVITY, PlainProblem, check_processes, frequencies, layered, pencils, rigid, sparse
 from petsc4py import PETSc
 
 from hydroelastic.fem.modes import count_below, solve_modes

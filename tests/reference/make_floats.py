@@ -3,7 +3,8 @@
     ./hydro python tests/reference/make_floats.py [NAME ...]
 
 Each tank is solved twice by `float_reference` (tests/), with few and with many trial functions; the finer values are
-stored to the digits that both share, with their distance. With names, only these are made anew.
+stored to the digits that both share, with their distance, and that of `float_boundary_integrals`. With names, only
+these are made anew.
 """
 
 from __future__ import annotations
@@ -17,7 +18,10 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from float_reference import Fineness, FloatTank, float_tank, reference_modes
+from float_added_mass import high_frequency_added_mass
+from float_boundary_integrals import second_omega
+from float_reference import reference_modes
+from float_tanks import Fineness, FloatTank, float_tank
 
 PATH = Path(__file__).with_name("floats.json")
 COUNT = 6
@@ -35,8 +39,12 @@ HEADER = {
         "scene": "keys as in docs/scenes.md; liquids from the bottom up",
         "omega": "lowest frequencies, rad/s, without those that are zero, to the digits that are certain",
         "self_convergence": "largest relative difference of omega between a coarser and a finer solution",
+        "agreement": "largest relative difference of omega from a second method, boundary integrals on the whole "
+        "boundary (tests/float_boundary_integrals.py); null where it does not apply",
         "floats": "per float, from left to right: mass kg/m, inertia about the centre of mass kg m, centre of mass m "
         "(y = 0 is the still level), ends of the waterplane m, stiffness of heave, sway and roll (anticlockwise)",
+        "added_mass": "at the highest frequencies (psi = 0 on a free surface, rho psi continuous at the interface, the "
+        "tank as it is), per motion and motion, kg/m, kg or kg m; null with beams",
         "modal_masses": "per motion, in the order of the floats and of their motions, and per mode: twice the kinetic "
         "energy of the mode over the square of the velocity of this motion, kg/m or kg m; null where it hardly moves",
     },
@@ -104,18 +112,49 @@ SCENES: dict[str, dict[str, Any]] = {
     "two_liquids_open": OPEN | {"body": [rigid("ellipse", 1.3, ALL, half_width=0.4, half_height=0.3)]},
     "two_liquids_float_and_beam": LID
     | {"body": [rigid("ellipse", 0.8, half_width=0.3, half_height=0.3), beam(1.5, 1.0, 50.0, 4.0)]},
+    "two_liquids_open_float_and_beam": OPEN
+    | {
+        "body": [
+            rigid("rectangle", 0.8, half_width=0.3, half_height=0.2),
+            beam(1.5, 1.0, 50.0, 4.0, at="surface"),
+        ]
+    },
+    "thin_wedge": ONE | {"body": [rigid("wedge", 1.3, half_width=0.1, half_height=0.5, boundary="thin")]},
+    "two_liquids_thin_parabola": LID
+    | {"body": [rigid("parabola", 1.2, half_width=0.1, half_height=0.5, boundary="thin")]},
+    "two_liquids_thin_wedge_close": CLOSE
+    | {"body": [rigid("wedge", 1.2, half_width=0.1, half_height=0.4, boundary="thin")]},
 }
 
 FINENESS = {
-    "two_liquids_1_to_100": (Fineness(waves=150, inner=40), Fineness(corner=26, waves=220, inner=50, powers=8)),
+    "two_liquids_1_to_100": (Fineness(waves=150), Fineness(corner=26, waves=220, inner=50, powers=8)),
 }
-USUAL = (Fineness(waves=60, inner=40), Fineness(corner=26, waves=90, inner=60, powers=8))
+PIECES = {"two_liquids_1_to_100": 30}
+USUAL = (Fineness(inner=48), Fineness(corner=26, waves=90, inner=60, powers=8))
 
 
 def certain(value: float, distance: float) -> str:
     """A value to the digits that two solutions share."""
     digits = int(np.clip(-np.log10(2 * max(distance, 1e-16)), 1, MOST_DIGITS))
     return f"{value:#.{digits}g}"
+
+
+def matrix_of(coarse: np.ndarray, fine: np.ndarray) -> list[list[str]]:
+    """A symmetric matrix to the digits that two solutions share, beside its diagonal; zeros by symmetry as 0."""
+    scale = np.sqrt(np.diag(fine))
+    sizes, distances = np.abs(fine) / np.outer(scale, scale), np.abs(coarse - fine) / np.outer(scale, scale)
+    return [
+        ["0" if size < 1e-11 else certain(value, distance / size) for value, size, distance in zip(*row, strict=True)]
+        for row in zip(fine, sizes, distances, strict=True)
+    ]
+
+
+def agreement(name: str, given: FloatTank, omega: np.ndarray) -> float | None:
+    """How far the second method is; it knows no beams and no slits."""
+    if given.beams or any(part.thin for part, _ in given.sections):
+        return None
+    second = second_omega(given, COUNT, pieces=PIECES.get(name, 8))
+    return float(f"{np.abs(second / omega - 1).max():.1e}")
 
 
 def floats_of(scene_tank: FloatTank) -> list[dict[str, Any]]:
@@ -136,7 +175,8 @@ def solved(name: str) -> dict[str, Any]:
     """The entry of a tank."""
     scene = SCENES[name]
     given = float_tank(scene)
-    coarse, fine = (reference_modes(given, COUNT, fineness) for fineness in FINENESS.get(name, USUAL))
+    finenesses = FINENESS.get(name, USUAL)
+    coarse, fine = (reference_modes(given, COUNT, fineness) for fineness in finenesses)
     distances = np.abs(coarse.omega / fine.omega - 1)
     rows = []
     owners = [part for part, motions in given.sections for _ in motions]
@@ -147,13 +187,18 @@ def solved(name: str) -> dict[str, Any]:
                 for other, value in zip(before, after, strict=True)
             ]
         )
+    motions = [motion for _, moving in given.sections for motion in moving]
+    loaded = [] if given.beams else [high_frequency_added_mass(given, fineness).matrix for fineness in finenesses]
     return {
         "scene": scene,
         "floats": floats_of(given),
         "omega": [certain(value, distance) for value, distance in zip(fine.omega, distances, strict=True)],
         "self_convergence": float(f"{distances.max():.1e}"),
+        "agreement": agreement(name, given, fine.omega),
         "modal_masses": rows,
-        "unknowns": [coarse.sizes[0], fine.sizes[0]],
+        "motions": motions,
+        "added_mass": matrix_of(*loaded) if loaded else None,
+        "unknowns": [coarse.size, fine.size],
     }
 
 
@@ -163,8 +208,8 @@ def main(names: list[str]) -> None:
     for name in names or SCENES:
         cases[name] = solved(name)
         print(name, cases[name]["self_convergence"], *cases[name]["omega"], flush=True)
-    ordered = {name: cases[name] for name in SCENES if name in cases}
-    PATH.write_text(json.dumps(HEADER | {"cases": ordered}, indent=1) + "\n", encoding="utf-8")
+        ordered = {name: cases[name] for name in SCENES if name in cases}
+        PATH.write_text(json.dumps(HEADER | {"cases": ordered}, indent=1) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -1,0 +1,106 @@
+"""Measure the reference floats: true error, estimate and cost of each case of tests/reference/floats.json.
+
+    ./hydro python results/float_cases.py
+
+It writes results/float_cases/float_cases.csv and float_cases.md, which docs/hard_cases.md refers to. Seconds are of one
+run on the machine at hand, without imports.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
+
+from answers import answer
+
+from hydroelastic.scenes.models import TankScene
+
+ROOT = Path(__file__).parents[1]
+FOLDER = Path(__file__).parent / "float_cases"
+TOLERANCES = (1e-4, 1e-6, 1e-8)
+COLUMNS = (
+    "case",
+    "tolerance",
+    "status",
+    "modes",
+    "true_error",
+    "estimate",
+    "seconds",
+    "unknowns",
+    "degree",
+    "attempts",
+)
+
+
+def measured(name: str, case: dict[str, Any], tolerance: float) -> dict[str, Any]:
+    """A row: the largest true error and estimate over the modes, and what they cost."""
+    reference = [float(omega) for omega in case["omega"]]
+    scene = TankScene.model_validate(case["scene"] | {"accuracy": {"tolerance": tolerance, "modes": len(reference)}})
+    found = answer(scene)
+    return {
+        "case": name,
+        "tolerance": tolerance,
+        "status": found.summary["status"],
+        "modes": len(reference),
+        "true_error": float(np.abs(found.errors(reference)).max()),
+        "estimate": float(found.estimates.max()),
+        "seconds": found.seconds,
+        "unknowns": found.summary["size"]["dofs"],
+        "degree": found.summary["size"]["degree"],
+        "attempts": found.summary["solver"]["attempts"],
+    }
+
+
+def markdown(rows: list[dict[str, Any]]) -> str:
+    """The table for a page: largest true error / largest estimate, seconds."""
+    lines = [
+        "# Floats and two liquids, measured",
+        "",
+        "Made by `./hydro python results/float_cases.py`; the scenes are in `tests/reference/floats.json`. Largest",
+        "true error / largest estimate of the frequencies, seconds; at the smallest tolerance also the unknowns.",
+        "",
+        "| case | " + " | ".join(f"{tolerance:.0e}" for tolerance in TOLERANCES) + " | unknowns |",
+        "|---" * (len(TOLERANCES) + 2) + "|",
+    ]
+    for name in dict.fromkeys(row["case"] for row in rows):
+        own = [row for row in rows if row["case"] == name]
+        cells = [_cell(row) for row in own]
+        lines.append(f"| `{name}` | " + " | ".join(cells) + f" | {own[-1]['unknowns']} |")
+    return "\n".join([*lines, ""])
+
+
+def _cell(row: dict[str, Any]) -> str:
+    said = f"{row['true_error']:.0e} / {row['estimate']:.0e}, {row['seconds']:.2f} s"
+    return said if row["status"] == "ok" else f"{said}, *unconverged*"
+
+
+def main() -> None:
+    """Solve every case at every tolerance and write the tables."""
+    cases = json.loads((ROOT / "tests" / "reference" / "floats.json").read_text(encoding="utf-8"))["cases"]
+    # What is imported or prepared on first use is no part of the first case.
+    for tolerance in TOLERANCES:
+        measured("circle", cases["circle"], 0.9 * tolerance)
+    rows = []
+    for name, case in cases.items():
+        for tolerance in TOLERANCES:
+            rows.append(measured(name, case, tolerance))
+            print(*rows[-1].values(), sep=", ", flush=True)
+    FOLDER.mkdir(exist_ok=True)
+    with (FOLDER / "float_cases.csv").open("w", encoding="utf-8", newline="") as file:
+        writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(
+            {key: f"{value:.3g}" if isinstance(value, float) else value for key, value in row.items()} for row in rows
+        )
+    (FOLDER / "float_cases.md").write_text(markdown(rows), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

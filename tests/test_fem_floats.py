@@ -363,6 +363,20 @@ def test_unstable_floats_grow_as_the_full_matrices_say(name: str) -> None:
     assert values[len(growing) + modes.zero_modes :] == pytest.approx(modes.eigenvalues, rel=1e-9)
 
 
+def test_a_float_that_turns_over_much_faster_than_waves_travel_is_found() -> None:
+    """On the top of two liquids that hardly differ: the lowest λ is 10⁻⁴ of −λ, so that 1/λ hides beside it."""
+    light = {"densities": (1000.0, 999.0), "depths": (1.0, 1.0), "top": "free"}
+    scene = layered(
+        rigid("parabola", 0.8, ALL, at="surface", half_width=0.02, half_height=0.06, unstable="solve"), **light
+    )
+    (pencil,) = pencils(scene)
+    modes = solve_modes(pencil, 4, shapes=0)
+    (growing,) = modes.growing
+    assert -growing.eigenvalue > 3e3 * modes.eigenvalues[0]
+    values = PlainProblem(pencil).eigenvalues(1, shift=-2.0 * growing.eigenvalue)
+    assert values[0] == pytest.approx(growing.eigenvalue, rel=1e-9)
+
+
 @pytest.mark.mpi
 @pytest.mark.parametrize("name", UNSTABLE)
 def test_growing_motions_are_counted_below_every_mode(name: str) -> None:

@@ -17,20 +17,27 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from float_reference import Fineness, float_tank, reference_modes
+from float_reference import reference_modes
+from float_tanks import Fineness, float_tank
 from random_floats import draw_floats
 
 from hydroelastic.scenes.models import TankScene
 
 PATH = Path(__file__).with_name("random_floats.json")
 SEED, COUNT = 1, 72
-FINENESS = (Fineness(corner=14, waves=32, inner=24), Fineness(corner=20, waves=48, inner=36, powers=7))
+FINENESS = (
+    Fineness(corner=8, waves=20, inner=16, powers=4, reach=1.0),
+    Fineness(corner=12, waves=30, inner=24, powers=5, reach=1.0),
+)
 NEAR_ENOUGH = 0.1
+UNTRUE = (3, 36, 44)
+"""Slender wedges and parabolas of a given mass: with poles inside of them `float_reference` misses low modes (its
+frequencies lie a third above those without such poles, and it gives them from above)."""
 LIGHT = 1e4
 """Modal masses above this many times the mass of the float are not stored: the float hardly moves there."""
 
 HEADER = {
-    "about": "Closed 2-D tanks with rigid floats drawn at random (tests/random_floats.py), per metre of width, SI units.",
+    "about": "Closed 2-D tanks with floats drawn at random (tests/random_floats.py), per metre of width, SI units.",
     "source": "Made for this list by tests/reference/make_random_floats.py, as floats.json is.",
     "command": "./hydro python tests/reference/make_random_floats.py",
     "schema": {
@@ -66,7 +73,7 @@ def main() -> None:
     tanks = []
     for number, scene in enumerate(draw_floats(SEED, COUNT)):
         entry = solved(scene)
-        kept = entry["self_convergence"] <= NEAR_ENOUGH * scene.accuracy.tolerance
+        kept = number not in UNTRUE and entry["self_convergence"] <= NEAR_ENOUGH * scene.accuracy.tolerance
         print(number, [body.kind for body in scene.body], entry["self_convergence"], "" if kept else "out", flush=True)
         if kept:
             tanks.append({"number": number} | entry)

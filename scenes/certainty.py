@@ -80,13 +80,14 @@ def frequency_errors(
     unknowns = sum(body.size for body in solution.bodies)
     amplitudes = np.array([mode.body_amplitudes for mode in modes]).reshape(len(modes), unknowns)
     truncation = truncation_errors(solution.bodies, amplitudes, values)
+    lowest = solution.modes.eigenvalues[0] if len(solution.modes.eigenvalues) else np.inf
     # An error of λ is twice that of ω.
     return FrequencyErrors(
         liquid=0.5 * liquid + boundary_error(solution.mesh, tank),
         tips=0.5 * tips,
         truncation=0.5 * truncation,
         rounding=rounding_error(resolution.degree, tank.depth)
-        + ROUNDING_OF_SPREAD * np.abs(values) / solution.modes.eigenvalues[0],
+        + ROUNDING_OF_SPREAD * np.abs(values) / lowest,
     )
 
 

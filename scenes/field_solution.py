@@ -288,7 +288,7 @@ def count_is_confirmed(solution: FieldSolution) -> bool:
     """Count the modes below the widest of the last gaps by inertia, in each part."""
     values = solution.modes.eigenvalues
     if len(values) < 2:
-        shift = 2.0 * float(values[-1])
+        shift = 2.0 * float(values[-1]) if len(values) else 1.0
     else:
         gaps = [upper / lower for lower, upper in pairwise(values)]
         first = max(0, len(gaps) - 3)

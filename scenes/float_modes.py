@@ -104,12 +104,14 @@ def float_modes(
                 motion=motion.label,
                 index=None if reason else int(order[0]),
                 reason=reason,
-                modal_mass=_inverse(moved[order[0]]),
-                runner_up=_inverse(moved[order[1]]) if len(moved) > 1 else np.inf,
+                modal_mass=_inverse(moved, order, 0),
+                runner_up=_inverse(moved, order, 1),
             )
         )
     return tuple(found)
 
 
-def _inverse(squared: float) -> float:
-    return float(1.0 / squared) if squared > 0.0 else np.inf
+def _inverse(squares: np.ndarray, order: np.ndarray, place: int) -> float:
+    """1/a² of the motion in that place of an order of the modes; infinite where there is none."""
+    largest = squares[order[place]] if place < len(order) else 0.0
+    return float(1.0 / largest) if largest > 0.0 else np.inf

@@ -112,7 +112,7 @@ class TankSolution:
     @property
     def largest_error(self) -> float:
         """The largest error of the modes asked for, of the tones, and of growth rates."""
-        return max(float(np.nanmax(self.relative_errors)), float(self.growing_errors.max(initial=0.0)))
+        return float(np.nanmax([0.0, *self.relative_errors, *self.growing_errors]))
 
     def omega(self, eigenvalue: float) -> float:
         """ω in rad/s of a dimensionless λ."""
@@ -298,7 +298,7 @@ def _reasons(solution: TankSolution) -> tuple[str, ...]:
     tolerance = solution.scene.accuracy.tolerance
     reasons = []
     errors = solution.relative_errors[: len(solution.asked)]
-    if errors.max() > tolerance:
+    if errors.max(initial=0.0) > tolerance:
         number = int(np.argmax(errors)) + 1
         reasons.append(
             f"mode {number} has an estimated relative error of {errors.max():.1e}, above the tolerance {tolerance:g}; "

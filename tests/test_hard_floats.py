@@ -74,7 +74,9 @@ def found(scene: TankScene) -> Found:
 def _amplitudes(solution: TankSolution) -> np.ndarray:
     """The motions of floats themselves, from their principal ones."""
     units, rows = solution.units, []
-    own = np.array([mode.body_amplitudes for mode in solution.asked]).T
+    unknowns = sum(body.size for body in solution.field.bodies)
+    # Under a lid there may be no mode at all.
+    own = np.array([mode.body_amplitudes for mode in solution.asked]).reshape(-1, unknowns).T
     offsets = np.cumsum([0, *(body.size for body in solution.field.bodies)])
     for index, body in solution.tank.floats.items():
         turn, _, _ = principal_motions(body, body.motions)

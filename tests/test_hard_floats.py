@@ -178,7 +178,7 @@ def strict_complaint(scene: TankScene) -> str:
     """What is wrong with the answer to a scene, judged by the same solver on much finer meshes, or ""."""
     accuracy = scene.accuracy.model_copy(update={"tolerance": 1e-10})
     strict = found.__wrapped__(scene.model_copy(update={"accuracy": accuracy}))
-    allowed = float(max(strict.estimates.max(), strict.growing[1].max(initial=0.0)))
+    allowed = float(max(strict.estimates.max(initial=0.0), strict.growing[1].max(initial=0.0)))
     if allowed > 0.1 * scene.accuracy.tolerance:
         return f"no reference: {strict.reasons}"
     if said := complaint(scene, strict.omega, allowed):

@@ -311,7 +311,7 @@ def _reasons(solution: TankSolution) -> tuple[str, ...]:
             f"a growth rate has an estimated relative error of {error:.1e}, above the tolerance {tolerance:g}; "
             + _kept(error)
         )
-    if len(solution.asked) < min(solution.scene.accuracy.modes, mode_count(solution.scene) or np.inf):
+    if len(solution.asked) < min(solution.scene.accuracy.modes, _modes_there(solution)):
         asked = solution.scene.accuracy.modes
         reasons.append(f"{len(solution.asked)} of {asked} modes can be told from the rounding of the lowest")
     if not solution.counted:
@@ -346,6 +346,12 @@ def _reasons(solution: TankSolution) -> tuple[str, ...]:
             f"{tolerance:g}; {_kept(error)}"
         )
     return tuple(reasons)
+
+
+def _modes_there(solution: TankSolution) -> float:
+    """How many modes a scene has: no more than rigid motions where no wave travels and nothing bends."""
+    count = mode_count(solution.scene)
+    return np.inf if count is None else count - len(solution.modes.growing)
 
 
 def _kept(error: float) -> str:

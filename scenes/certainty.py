@@ -86,8 +86,7 @@ def frequency_errors(
         liquid=0.5 * liquid + boundary_error(solution.mesh, tank),
         tips=0.5 * tips,
         truncation=0.5 * truncation,
-        rounding=rounding_error(resolution.degree, tank.depth)
-        + ROUNDING_OF_SPREAD * np.abs(values) / lowest,
+        rounding=rounding_error(resolution.degree, tank.depth) + ROUNDING_OF_SPREAD * np.abs(values) / lowest,
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from math import exp, log
 from typing import Any
 
@@ -68,7 +69,7 @@ def _draw(random: np.random.Generator, *, wide: bool) -> dict[str, Any]:
     # A beam takes one of the places beside the floats.
     beam_place = int(random.integers(0, number + 1)) if not centred and random.random() < 0.4 else -1
     bodies = []
-    for place, (start, end) in enumerate(zip(cells[:-1], cells[1:], strict=True)):
+    for place, (start, end) in enumerate(itertools.pairwise(cells)):
         if place == beam_place:
             bodies.append(_beam(random, length, start, end, liquids))
     for place in [place for place in range(number + 1) if place != beam_place][:number]:

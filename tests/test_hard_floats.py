@@ -39,7 +39,7 @@ class Found:
         omega: rad/s.
         estimates: of their relative errors.
         growing: growth rates with their estimates, shape (2, growing modes).
-        amplitudes: of heave, sway and roll of the floats at unit generalized mass, m and rad over √kg, (motions, modes).
+        amplitudes: of heave, sway and roll of the floats at unit generalized mass, m and rad over √kg, by mode.
         reasons, counted, zero_modes, attempts: what it says of itself.
     """
 

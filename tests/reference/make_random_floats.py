@@ -30,7 +30,7 @@ LIGHT = 1e4
 """Modal masses above this many times the mass of the float are not stored: the float hardly moves there."""
 
 HEADER = {
-    "about": "Closed 2-D tanks with rigid floats drawn at random (tests/random_floats.py), per metre of width, SI units.",
+    "about": "Closed 2-D tanks with rigid floats drawn at random (tests/random_floats.py), per metre of width, SI.",
     "source": "Made for this list by tests/reference/make_random_floats.py, as floats.json is.",
     "command": "./hydro python tests/reference/make_random_floats.py",
     "schema": {

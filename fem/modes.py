@@ -93,7 +93,7 @@ def solve_modes(pencil: CoupledPencil, count: int, *, shapes: int | None = None,
         EigenSolverError: if SLEPc stops before enough pairs have converged.
     """
     kinetics = CondensedKinetics(pencil)
-    available = pencil.size - len(pencil.constraints) - pencil.zero_mode_count - len(pencil.unstable)
+    available = pencil.size - len(pencil.constraints) - pencil.zero_mode_count - kinetics.negative
     count = min(count, available)
     before = pencil.solver.solves
     if count == 0:
@@ -154,8 +154,8 @@ def _no_modes(pencil: CoupledPencil, kinetics: CondensedKinetics, tolerance: flo
 
 
 def _growing(pencil: CoupledPencil, kinetics: CondensedKinetics, tolerance: float) -> tuple[Mode, ...]:
-    """The modes with λ < 0: as many as K has negative directions, for M + M_a is positive."""
-    count = len(pencil.unstable)
+    """The modes with λ < 0: as many as K has negative directions that keep the volumes, for M + M_a is positive."""
+    count = kinetics.negative
     if count == 0:
         return ()
     solver = _krylov_schur(pencil, kinetics, count, tolerance, SLEPc.EPS.Which.SMALLEST_REAL)

@@ -11,7 +11,7 @@ from petsc4py import PETSc
 
 from hydroelastic.fem.cells import cells_at
 from hydroelastic.fem.liquid import LiquidSpace
-from hydroelastic.fem.modes import Mode
+from hydroelastic.fem.modes import EigenSolverError, Mode
 from hydroelastic.fem.spectral_error import cell_errors
 from hydroelastic.fem.truncation import truncation_errors
 from hydroelastic.meshes.distribute import TankMesh
@@ -108,7 +108,11 @@ def energies_missed(
         corners = tip_points(tank, half=half, released=released)
     cells = cell_errors(liquid, potentials)
     at_tips = mesh.comm.allreduce(cells[:, cells_at(mesh, corners)].sum(axis=1), op=MPI.SUM)
-    return mesh.comm.allreduce(cells.sum(axis=1), op=MPI.SUM) - at_tips, at_tips
+    whole = mesh.comm.allreduce(cells.sum(axis=1), op=MPI.SUM)
+    if not np.all(np.isfinite(whole)):
+        # Comparisons with a tolerance would let it pass.
+        raise EigenSolverError("the error of a mode cannot be told: its energy is not a number")
+    return whole - at_tips, at_tips
 
 
 def boundary_error(mesh: TankMesh, tank: ScaledTank) -> float:

@@ -106,7 +106,7 @@ class TankSolution:
 
     @property
     def modes(self) -> ModeSet:
-        """All modes, in the beams of the whole tank."""
+        """All modes, in the bodies of the whole tank."""
         return self.field.modes
 
     @property

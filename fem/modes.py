@@ -18,6 +18,10 @@ from hydroelastic.meshes.interrupts import interrupts_deferred
 HIDDEN = 1e-14
 """Part of the largest 1/λ below which double precision cannot tell one from zero."""
 
+# Of the Krylov space for growing motions: with 14 one that grows 10⁴ times faster than waves travel was not found in
+# 1400 solutions of Laplace's equation, with 120 in one pass.
+_GROWING_VECTORS = 120
+
 
 class EigenSolverError(RuntimeError):
     """The eigen-solver did not deliver what was asked."""
@@ -159,6 +163,8 @@ def _growing(pencil: CoupledPencil, kinetics: CondensedKinetics, tolerance: floa
     if count == 0:
         return ()
     solver = _krylov_schur(pencil, kinetics, count, tolerance, SLEPc.EPS.Which.SMALLEST_REAL)
+    # Fast growth is a 1/λ close to zero, beside the largest of slow waves: a few vectors do not tell it from the rest.
+    solver.setDimensions(count, min(count + _GROWING_VECTORS, pencil.size))
     _, inverses = _inverses(solver, count, tolerance)
     displacement, force = pencil.stiffness.createVecs()
     modes = []

@@ -77,6 +77,8 @@ class CondensedKinetics:
         self._potential = pencil.coupling.createVecLeft()
         self._projected, self._momentum = pencil.stiffness.createVecs()
         self._turn, with_rigid = pencil.rigid_constraints
+        # Of K where the volumes are kept: so many modes grow.
+        self.negative = len(pencil.unstable)
         volumes = [self._combined(column) for column in self._turn.T]
         self._columns = [*self._rigid_columns(), *volumes[:with_rigid]]
         self._dense = self._dense_block()
@@ -120,7 +122,10 @@ class CondensedKinetics:
             set_entries(correction, self.free_rigid, np.zeros(len(self.free_rigid)))
             self.turn_unstable(correction)
             raw.append(correction)
-        inverse = np.linalg.inv([[volume.dot(correction) for correction in raw] for volume in volumes])
+        answers = np.array([[volume.dot(correction) for correction in raw] for volume in volumes])
+        # Sylvester: K on the displacements that keep the volumes has as many negative directions less.
+        self.negative -= int(np.sum(np.linalg.eigvalsh(0.5 * (answers + answers.T)) < 0.0))
+        inverse = np.linalg.inv(answers)
         corrections = []
         for column in inverse.T:
             correction = raw[0].duplicate()

@@ -11,6 +11,9 @@ from dolfinx.mesh import Mesh
 
 from hydroelastic.meshes.compat import coordinate_degree, geometry_dofmap
 
+CURVED_QUADRATURE = 6
+"""On curved cells integrands are no polynomials: so many degrees more leave less than the geometry does."""
+
 
 def cell_positions(mesh: Mesh, cells: np.ndarray, reference: np.ndarray) -> np.ndarray:
     """Coordinates of points of the reference cell in some cells.

@@ -23,7 +23,7 @@ from dolfinx.mesh import Mesh, meshtags
 from mpi4py import MPI
 from petsc4py import PETSc
 
-from hydroelastic.fem.cells import is_straight, owned_cells
+from hydroelastic.fem.cells import CURVED_QUADRATURE, is_straight, owned_cells
 from hydroelastic.fem.direct import direct_solver
 from hydroelastic.fem.kernels import jit_options
 from hydroelastic.meshes.compat import coordinate_degree
@@ -223,10 +223,6 @@ def surface_mass_matrix(liquid: LiquidSpace, names: tuple[str, ...]) -> PETSc.Ma
 _NONE = np.empty(0, dtype=np.int32)
 
 
-# On curved cells the integrands are no polynomials: so many degrees more leave less than the geometry does.
-_CURVED_QUADRATURE = 6
-
-
 def _form(
     space: fem.FunctionSpace, *, cells: np.ndarray, facets: np.ndarray, weight: fem.Function | None = None
 ) -> fem.Form:
@@ -239,7 +235,7 @@ def _form(
     mesh = space.mesh
     potential, test = ufl.TrialFunction(space), ufl.TestFunction(space)
     degree = space.element.basix_element.degree
-    more = 0 if is_straight(mesh) else _CURVED_QUADRATURE
+    more = 0 if is_straight(mesh) else CURVED_QUADRATURE
     dx = _measure("dx", mesh, mesh.topology.dim, cells, 2 * degree - 2 + more)
     ds = _measure("ds", mesh, mesh.topology.dim - 1, facets, 2 * degree + more)
     energy = ufl.inner(ufl.grad(potential), ufl.grad(test))

@@ -18,6 +18,10 @@ from hydroelastic.meshes.interrupts import interrupts_deferred
 HIDDEN = 1e-14
 """Part of the largest 1/λ below which double precision cannot tell one from zero."""
 
+# Of the Krylov space for growing motions: with 14 one that grows 10⁴ times faster than waves travel was not found in
+# 1400 solutions of Laplace's equation, with 120 in one pass.
+_GROWING_VECTORS = 120
+
 
 class EigenSolverError(RuntimeError):
     """The eigen-solver did not deliver what was asked."""
@@ -93,7 +97,7 @@ def solve_modes(pencil: CoupledPencil, count: int, *, shapes: int | None = None,
         EigenSolverError: if SLEPc stops before enough pairs have converged.
     """
     kinetics = CondensedKinetics(pencil)
-    available = pencil.size - len(pencil.constraints) - pencil.zero_mode_count - len(pencil.unstable)
+    available = pencil.size - len(pencil.constraints) - pencil.zero_mode_count - kinetics.negative
     count = min(count, available)
     before = pencil.solver.solves
     if count == 0:
@@ -154,11 +158,13 @@ def _no_modes(pencil: CoupledPencil, kinetics: CondensedKinetics, tolerance: flo
 
 
 def _growing(pencil: CoupledPencil, kinetics: CondensedKinetics, tolerance: float) -> tuple[Mode, ...]:
-    """The modes with λ < 0: as many as K has negative directions, for M + M_a is positive."""
-    count = len(pencil.unstable)
+    """The modes with λ < 0: as many as K has negative directions that keep the volumes, for M + M_a is positive."""
+    count = kinetics.negative
     if count == 0:
         return ()
     solver = _krylov_schur(pencil, kinetics, count, tolerance, SLEPc.EPS.Which.SMALLEST_REAL)
+    # Fast growth is a 1/λ close to zero, beside the largest of slow waves: a few vectors do not tell it from the rest.
+    solver.setDimensions(count, min(count + _GROWING_VECTORS, pencil.size))
     _, inverses = _inverses(solver, count, tolerance)
     displacement, force = pencil.stiffness.createVecs()
     modes = []

@@ -174,8 +174,9 @@ def build_pencil(
     coupling = _joined([blocks])
     constraints, free_constants = _volume_constraints(liquid, coupling)
     names = tuple(dict.fromkeys([*(body.surface for body in bodies), *(surface.surface for surface in surfaces)]))
-    closed = closed_layers(liquid)
-    load = surface_load(liquid, names) if closed else np.empty(0)
+    layers = closed_layers(liquid)
+    load = surface_load(liquid, names) if layers else np.empty(0)
+    closed = (closed_layer(liquid, layer, load) for layer in layers)
     return CoupledPencil(
         liquid=liquid,
         bodies=bodies,
@@ -185,9 +186,8 @@ def build_pencil(
         coupling=coupling,
         momentum=_weighed(liquid, coupling),
         laplace=laplace,
-        solver=LiquidSolver(
-            laplace, grounded_dofs(liquid), tuple(closed_layer(liquid, layer, load) for layer in closed)
-        ),
+        # A layer on which nothing moves has no flux to balance.
+        solver=LiquidSolver(laplace, grounded_dofs(liquid), tuple(layer for layer in closed if layer.measure > 0.0)),
         constraints=constraints,
         free_constants=free_constants,
         surface_sizes=tuple(sizes),

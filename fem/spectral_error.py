@@ -22,7 +22,7 @@ import basix.ufl
 import numpy as np
 from petsc4py import PETSc
 
-from hydroelastic.fem.cells import cell_jacobians, is_straight, owned_cells
+from hydroelastic.fem.cells import CURVED_QUADRATURE, cell_jacobians, is_straight, owned_cells
 from hydroelastic.fem.liquid import LiquidSpace, as_functions
 
 LOWEST_DEGREE = 4
@@ -33,8 +33,6 @@ LOWEST_DEGREE = 4
 _CONTINUITY = 2.0
 # A step this much steeper than the one before is that of a ψ that is nearly even or odd in the cell.
 _UNEVEN = 5.0
-# On curved cells the integrands are no polynomials.
-_CURVED_QUADRATURE = 6
 # Straight cells have the same Jacobian everywhere.
 _ANYWHERE = {dim: np.zeros((1, dim)) for dim in (1, 2, 3)}
 # Slowest decay that a few degrees can tell from none: that of r^{1/2} in the cells at its tip at degree 10.
@@ -116,7 +114,7 @@ def _curved_energies(liquid: LiquidSpace) -> Energies:
     """On curved cells √(det J) ∇ψ is nearly one, and its coefficients come from quadrature; ∫|∇ψ|² stays exact."""
     mesh = liquid.tank.mesh
     element = liquid.space.element.basix_element
-    points, weights = basix.make_quadrature(element.cell_type, 2 * liquid.degree + _CURVED_QUADRATURE)
+    points, weights = basix.make_quadrature(element.cell_type, 2 * liquid.degree + CURVED_QUADRATURE)
     slopes = element.tabulate(1, points)[1:, :, :, 0]
     jacobian = cell_jacobians(mesh, owned_cells(mesh), points)
     # Points of the cell first: one product of matrices for each of them.

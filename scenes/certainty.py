@@ -11,7 +11,7 @@ from petsc4py import PETSc
 
 from hydroelastic.fem.cells import cells_at
 from hydroelastic.fem.liquid import LiquidSpace
-from hydroelastic.fem.modes import Mode
+from hydroelastic.fem.modes import EigenSolverError, Mode
 from hydroelastic.fem.spectral_error import cell_errors
 from hydroelastic.fem.truncation import truncation_errors
 from hydroelastic.meshes.distribute import TankMesh
@@ -80,13 +80,13 @@ def frequency_errors(
     unknowns = sum(body.size for body in solution.bodies)
     amplitudes = np.array([mode.body_amplitudes for mode in modes]).reshape(len(modes), unknowns)
     truncation = truncation_errors(solution.bodies, amplitudes, values)
+    lowest = solution.modes.eigenvalues[0] if len(solution.modes.eigenvalues) else np.inf
     # An error of λ is twice that of ω.
     return FrequencyErrors(
         liquid=0.5 * liquid + boundary_error(solution.mesh, tank),
         tips=0.5 * tips,
         truncation=0.5 * truncation,
-        rounding=rounding_error(resolution.degree, tank.depth)
-        + ROUNDING_OF_SPREAD * np.abs(values) / solution.modes.eigenvalues[0],
+        rounding=rounding_error(resolution.degree, tank.depth) + ROUNDING_OF_SPREAD * np.abs(values) / lowest,
     )
 
 
@@ -108,7 +108,11 @@ def energies_missed(
         corners = tip_points(tank, half=half, released=released)
     cells = cell_errors(liquid, potentials)
     at_tips = mesh.comm.allreduce(cells[:, cells_at(mesh, corners)].sum(axis=1), op=MPI.SUM)
-    return mesh.comm.allreduce(cells.sum(axis=1), op=MPI.SUM) - at_tips, at_tips
+    whole = mesh.comm.allreduce(cells.sum(axis=1), op=MPI.SUM)
+    if not np.all(np.isfinite(whole)):
+        # Comparisons with a tolerance would let it pass.
+        raise EigenSolverError("the error of a mode cannot be told: its energy is not a number")
+    return whole - at_tips, at_tips
 
 
 def boundary_error(mesh: TankMesh, tank: ScaledTank) -> float:

@@ -116,8 +116,8 @@ def build_half_models(
         parities: which problems.
 
     Returns:
-        A pencil for each of the parities, with energies of half the tank (collective). A beam that the mirror plane
-        cuts keeps its dry modes of that parity; of two beams that are mirror images the left one is there.
+        A pencil for each of the parities, with energies of half the tank (collective). A body that the mirror plane
+        cuts keeps its shapes of that parity; of two bodies that are mirror images the left one is there.
     """
     return _field_models(mesh, tank, degree, shapes, pressure_release, parities)
 
@@ -138,7 +138,7 @@ def _field_models(
     parities: tuple[Parity | None, ...],
 ) -> tuple[CoupledPencil, ...]:
     surfaces = () if pressure_release else moving_surfaces(mesh, tank)
-    grounded = grounded_names(tank, released=pressure_release) if FREE_SURFACE in mesh.facet_names else ()
+    grounded = grounded_names(tank, released=pressure_release)
     layers = tuple(
         Layer(name=name, density=layer.density) for name, layer in zip(layer_names(tank), tank.layers, strict=True)
     )

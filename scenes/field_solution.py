@@ -1,6 +1,6 @@
 """Solve a scene at one resolution: a whole tank, or the two halves of a tank that is its own mirror image.
 
-Modes of the halves are put in one ascending list and written in the beams of the whole tank, so that nothing later
+Modes of the halves are put in one ascending list and written in the bodies of the whole tank, so that nothing later
 needs to know how they were found.
 """
 
@@ -70,7 +70,7 @@ class FieldSolution:
     Attributes:
         mesh: mesh of the liquid, or of its left half.
         parts: the eigenproblems.
-        bodies: the beams of the whole tank.
+        bodies: the bodies of the whole tank.
         modes: the lowest modes of all parts, ascending, in the bodies of the whole tank at unit generalized mass.
         origins: part and index there of each of them.
         growing_parts: part of each of the growing modes.
@@ -288,7 +288,7 @@ def count_is_confirmed(solution: FieldSolution) -> bool:
     """Count the modes below the widest of the last gaps by inertia, in each part."""
     values = solution.modes.eigenvalues
     if len(values) < 2:
-        shift = 2.0 * float(values[-1])
+        shift = 2.0 * float(values[-1]) if len(values) else 1.0
     else:
         gaps = [upper / lower for lower, upper in pairwise(values)]
         first = max(0, len(gaps) - 3)

@@ -57,8 +57,10 @@ def principal_motions(
     places = [MOTIONS.index(motion) for motion in motions]
     stiffness, inertia = body.stiffness[np.ix_(places, places)], body.inertia[places]
     turn = np.eye(len(motions))
-    coupled = np.abs(stiffness - np.diag(np.diag(stiffness))).max(initial=0.0)
-    if coupled > _NEGLIGIBLE * np.abs(stiffness).max(initial=0.0) and {"heave", "roll"} <= set(motions):
+    # A roll that moves the float's rim by a unit of length, so that it compares with heave.
+    units = np.array([1.0 / body.smallest_extent if motion == "roll" else 1.0 for motion in motions])
+    alike = np.abs(stiffness * units * units[:, None])
+    if (alike - np.diag(np.diag(alike))).max(initial=0.0) > _NEGLIGIBLE * alike.max(initial=0.0):
         pair = [motions.index("heave"), motions.index("roll")]
         _, vectors = eigh(stiffness[np.ix_(pair, pair)], np.diag(inertia[pair]))
         # Of two vectors that are orthogonal in the inertia one leans to heave and the other to roll.
@@ -66,7 +68,7 @@ def principal_motions(
             vectors = vectors[:, ::-1]
         turn[np.ix_(pair, pair)] = vectors / np.diag(vectors)
     restoring = np.einsum("im,ij,jm->m", turn, stiffness, turn)
-    restoring[np.abs(restoring) < _NEGLIGIBLE * np.abs(stiffness).max(initial=0.0)] = 0.0
+    restoring[np.abs(restoring) * units**2 < _NEGLIGIBLE * alike.max(initial=0.0)] = 0.0
     return turn, restoring, np.einsum("im,i,im->m", turn, inertia, turn)
 
 

@@ -29,6 +29,9 @@ class EstimatesOfFloat:
 
 def float_estimates(scene: TankScene) -> dict[int, EstimatesOfFloat]:
     """Estimates of every float that heaves at the lowest level, as if it were alone in the tank, by its index."""
+    if len(scene.layers) == 1 and scene.top != "free":
+        # The theories of one liquid know its free surface only.
+        return {}
     layers = two_layers(scene)
     lowest = "surface" if len(scene.layers) == 1 else "interface"
     found = {}

@@ -17,6 +17,9 @@ from hydroelastic.scenes.estimates import FAR_ENOUGH
 from hydroelastic.scenes.high_frequency import HighFrequencyAddedMass
 from hydroelastic.scenes.scaled_tank import ScaledTank
 
+# A motion with a smaller part of a mode's kinetic energy is held: what is left of it is rounding.
+_HELD = 1e-18
+
 
 @dataclass(frozen=True, kw_only=True)
 class FloatMode:
@@ -94,9 +97,9 @@ def float_modes(
         limit = motion.stiffness / (motion.mass + more)
         certain = complete or bool(modes.eigenvalues[-1] >= 0.8 * FAR_ENOUGH * limit)
         reason = ""
-        if not np.any(moved):
+        if complete and motion.mass * moved.max(initial=0.0) < _HELD:
             reason = "the volume of the liquid holds it"
-        elif not certain:
+        elif not certain or not np.any(moved):
             reason = "it may lie above the modes looked at; ask for more modes"
         found.append(
             FloatMode(
@@ -104,12 +107,14 @@ def float_modes(
                 motion=motion.label,
                 index=None if reason else int(order[0]),
                 reason=reason,
-                modal_mass=_inverse(moved[order[0]]),
-                runner_up=_inverse(moved[order[1]]) if len(moved) > 1 else np.inf,
+                modal_mass=_inverse(moved, order, 0),
+                runner_up=_inverse(moved, order, 1),
             )
         )
     return tuple(found)
 
 
-def _inverse(squared: float) -> float:
-    return float(1.0 / squared) if squared > 0.0 else np.inf
+def _inverse(squares: np.ndarray, order: np.ndarray, place: int) -> float:
+    """1/a² of the motion in that place of an order of the modes; infinite where there is none."""
+    largest = squares[order[place]] if place < len(order) else 0.0
+    return float(1.0 / largest) if largest > 0.0 else np.inf

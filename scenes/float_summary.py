@@ -114,7 +114,7 @@ def _mode(solution: TankSolution, mode: FloatMode) -> dict[str, Any]:
         shared=shared,
         added_mass=added * unit,
         added_mass_relative_error=2.0 * error * whole / abs(added) if added else 1.0,
-        note="shared with waves: no mode is this motion's alone" if shared else "",
+        note="shared with waves or other bodies: no mode is this motion's alone" if shared else "",
     )
     return row
 

@@ -290,5 +290,25 @@ def _floats_are_stable(scene: TankScene) -> Iterator[InitErrorDetails]:
         )
 
 
-CHECKS_OF_FLOATS_AT_REST = (_bodies_keep_apart, _floats_are_stable)
+def _thin_floats_have_free_liquid(scene: TankScene) -> Iterator[InitErrorDetails]:
+    """The liquid of a thin float is split by the vertical through it, which must not meet another section."""
+    from hydroelastic.scenes.floats import placed_float
+
+    for index, body in scene.floats:
+        for other, section in scene.floats:
+            if body.boundary == "exact" or section.boundary == "thin" or other == index:
+                continue
+            left, right = placed_float(scene, other).contour.bounds[:2]
+            if left < body.position < right:
+                yield misfit(
+                    ("body", index, "position"),
+                    body.position,
+                    f"the thin float lies straight above or below [[body]] number {other + 1}, which reaches from "
+                    f"{left:g} to {right:g} m",
+                    allowed=f"below {left:g} or above {right:g} m",
+                    remedy='Move it, or set boundary = "exact"',
+                )
+
+
+CHECKS_OF_FLOATS_AT_REST = (_bodies_keep_apart, _thin_floats_have_free_liquid, _floats_are_stable)
 """What asks where the floats rest, when that is known to be in the tank."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import ceil, e, inf, log10, pi
+from math import ceil, e, log10, pi
 from typing import TYPE_CHECKING
 
 from hydroelastic.scenes.models import Beam, TankScene
@@ -170,10 +170,9 @@ def sharpest_exponent(tank: ScaledTank, *, released: bool) -> float:
     if not tank.floats:
         return 0.5 if released or tank.top == "pressure_release" else 1.0
     from hydroelastic.scenes.tank_corners import tank_singular_points
-    from hydroelastic.scenes.tank_outline import Sizes
+    from hydroelastic.scenes.tank_outline import unsized
 
-    sizes = Sizes(pieces=(inf,) * len(tank.pieces), contours=dict.fromkeys(tank.floats, inf))
-    points = tank_singular_points(tank, sizes, half=False, released=released)
+    points = tank_singular_points(tank, unsized(tank), half=False, released=released)
     return min((point.exponent for point in points), default=_SMOOTH)
 
 

@@ -14,6 +14,13 @@ if TYPE_CHECKING:
     from hydroelastic.scenes.scaled_float import ScaledFloat
 
 
+MIDDLE = 0.5
+"""Abscissa of the mirror plane of a symmetric tank."""
+
+ROUNDING = 1e-14
+"""Lengths that decimal input means to be equal differ by a few units of the last place."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class ScaledLayer:
     """A layer of liquid: density in that of the lowest layer, bed and depth in tank lengths."""
@@ -179,8 +186,8 @@ def _level(scene: TankScene, units: Scales, layers: tuple[ScaledLayer, ...], num
     above = number + 1 if number + 1 < len(layers) else None
     pieces = tuple(
         Piece(
-            start=segment.start / units.length,
-            end=1.0 if segment.end == scene.tank.length else segment.end / units.length,
+            start=_snapped(segment.start / units.length),
+            end=1.0 if segment.end == scene.tank.length else _snapped(segment.end / units.length),
             body=segment.body,
         )
         for segment in level_segments(scene, name)
@@ -193,6 +200,11 @@ def _level(scene: TankScene, units: Scales, layers: tuple[ScaledLayer, ...], num
         jump=layers[number].density - (layers[above].density if above is not None else 0.0),
         pieces=pieces,
     )
+
+
+def _snapped(x: float) -> float:
+    """The middle of the tank for what lies there but for rounding: a mirror plane must not miss a thin float."""
+    return MIDDLE if abs(x - MIDDLE) <= ROUNDING else x
 
 
 def _scaled_body(scene: TankScene, units: Scales, index: int, piece: Piece) -> Beam | ScaledFloat:

@@ -106,13 +106,13 @@ class TankSolution:
 
     @property
     def modes(self) -> ModeSet:
-        """All modes, in the beams of the whole tank."""
+        """All modes, in the bodies of the whole tank."""
         return self.field.modes
 
     @property
     def largest_error(self) -> float:
         """The largest error of the modes asked for, of the tones, and of growth rates."""
-        return max(float(np.nanmax(self.relative_errors)), float(self.growing_errors.max(initial=0.0)))
+        return float(np.nanmax([0.0, *self.relative_errors, *self.growing_errors]))
 
     def omega(self, eigenvalue: float) -> float:
         """ω in rad/s of a dimensionless λ."""
@@ -298,7 +298,7 @@ def _reasons(solution: TankSolution) -> tuple[str, ...]:
     tolerance = solution.scene.accuracy.tolerance
     reasons = []
     errors = solution.relative_errors[: len(solution.asked)]
-    if errors.max() > tolerance:
+    if errors.max(initial=0.0) > tolerance:
         number = int(np.argmax(errors)) + 1
         reasons.append(
             f"mode {number} has an estimated relative error of {errors.max():.1e}, above the tolerance {tolerance:g}; "
@@ -311,7 +311,7 @@ def _reasons(solution: TankSolution) -> tuple[str, ...]:
             f"a growth rate has an estimated relative error of {error:.1e}, above the tolerance {tolerance:g}; "
             + _kept(error)
         )
-    if len(solution.asked) < min(solution.scene.accuracy.modes, mode_count(solution.scene) or np.inf):
+    if len(solution.asked) < min(solution.scene.accuracy.modes, _modes_there(solution)):
         asked = solution.scene.accuracy.modes
         reasons.append(f"{len(solution.asked)} of {asked} modes can be told from the rounding of the lowest")
     if not solution.counted:
@@ -346,6 +346,12 @@ def _reasons(solution: TankSolution) -> tuple[str, ...]:
             f"{tolerance:g}; {_kept(error)}"
         )
     return tuple(reasons)
+
+
+def _modes_there(solution: TankSolution) -> float:
+    """How many modes a scene has: no more than rigid motions where no wave travels and nothing bends."""
+    count = mode_count(solution.scene)
+    return np.inf if count is None else count - len(solution.modes.growing)
 
 
 def _kept(error: float) -> str:

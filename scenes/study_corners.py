@@ -13,10 +13,10 @@ from math import inf
 
 from hydroelastic.meshes.geometry import LEFT_WALL, RIGHT_WALL, SYMMETRY_PLANE
 from hydroelastic.meshes.outline import Outline, Point
-from hydroelastic.scenes.scaled_tank import ScaledTank
+from hydroelastic.scenes.scaled_tank import MIDDLE, ScaledTank
 from hydroelastic.scenes.symmetry import PARITIES, Parity, is_mirror_image
 from hydroelastic.scenes.tank_corners import singular_points
-from hydroelastic.scenes.tank_outline import HALF, Sizes, grounded_names, tank_outline
+from hydroelastic.scenes.tank_outline import Sizes, grounded_names, tank_outline
 
 # Names of curves that are no mirrors to `singular_points`: it judges all modes at once, and meshes for the worst.
 _WALL, _PLANE = "wall", "plane"
@@ -92,7 +92,7 @@ def _ends_of_guided_beams(tank: ScaledTank) -> set[Point]:
         (x, tank.level_of(index).height)
         for index, beam in tank.beams.items()
         if beam.ends == "guided"
-        for x in (0.0, HALF, 1.0)
+        for x in (0.0, MIDDLE, 1.0)
     }
 
 

@@ -66,7 +66,7 @@ def summarize(
             "pairs_converged": solution.modes.converged,
             "pairs_kept": len(solution.asked),
             "count_confirmed_by_inertia": solution.counted,
-            "largest_residual": max(mode.residual for mode in solution.asked),
+            "largest_residual": max((mode.residual for mode in solution.asked), default=0.0),
             "restarts": solution.modes.iterations,
             "laplace_solutions": solution.modes.solves,
         },

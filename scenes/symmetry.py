@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Literal
 
 from hydroelastic.scenes.models import Beam
-from hydroelastic.scenes.scaled_tank import Piece, ScaledTank
+from hydroelastic.scenes.scaled_tank import MIDDLE, ROUNDING, Piece, ScaledTank
 
 if TYPE_CHECKING:
     from hydroelastic.scenes.model_bodies import Motion
@@ -18,15 +18,12 @@ Parity = Literal["symmetric", "antisymmetric"]
 
 PARITIES: tuple[Parity, Parity] = ("symmetric", "antisymmetric")
 
-# Lengths that decimal input means to be equal differ by a few units of the last place.
-_ROUNDING = 1e-14
-
 
 def is_mirror_image(tank: ScaledTank) -> bool:
     """Whether a scaled tank is its own mirror image."""
     return all(
-        abs(piece.start - (1.0 - image.end)) <= _ROUNDING
-        and abs(piece.end - (1.0 - image.start)) <= _ROUNDING
+        abs(piece.start - (1.0 - image.end)) <= ROUNDING
+        and abs(piece.end - (1.0 - image.start)) <= ROUNDING
         and _alike(tank, piece, image)
         for level in tank.levels
         for piece, image in zip(level.pieces, reversed(level.pieces), strict=True)
@@ -63,7 +60,7 @@ def left_bodies(tank: ScaledTank) -> tuple[int, ...]:
 
 def _is_left(piece: Piece) -> bool:
     # A thin float in the middle has no length, and counts.
-    return piece.start < 0.5 or piece.start == piece.end == 0.5
+    return piece.start < MIDDLE or piece.start == piece.end == MIDDLE
 
 
 def shape_parity(number: int) -> Parity:

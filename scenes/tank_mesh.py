@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import inf
 
 import numpy as np
 
@@ -14,7 +13,7 @@ from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 from hydroelastic.scenes.plan import Resolution, sharpest_exponent
 from hydroelastic.scenes.scaled_tank import ScaledTank
 from hydroelastic.scenes.tank_corners import tank_singular_points
-from hydroelastic.scenes.tank_outline import Sizes, tank_outline
+from hydroelastic.scenes.tank_outline import Sizes, tank_outline, unsized
 
 # A mesh that the user brings may miss the scene's abscissae by this part of the tank's length: files round.
 _MESH_ROUNDING = 1e-6
@@ -96,8 +95,7 @@ def tip_points(tank: ScaledTank, *, half: bool, released: bool = False) -> np.nd
     """Where meshes of a scene are graded to, shape (points, 2)."""
     if is_plain(tank):
         return np.array([[tip, 0.0] for tip in geometry_of(tank, half=half).tips]).reshape(-1, 2)
-    sizes = Sizes(pieces=(inf,) * len(tank.pieces), contours=dict.fromkeys(tank.floats, inf))
-    points = tank_singular_points(tank, sizes, half=half, released=released)
+    points = tank_singular_points(tank, unsized(tank), half=half, released=released)
     return np.array([point.point for point in points]).reshape(-1, 2)
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
+from math import inf
 
 import numpy as np
 
@@ -30,10 +31,7 @@ from hydroelastic.meshes.geometry import (
 from hydroelastic.meshes.outline import Curve, Outline, Point, Region
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.scenes.scaled_float import ScaledFloat
-from hydroelastic.scenes.scaled_tank import Piece, ScaledTank, StillLevel
-
-HALF = 0.5
-"""Abscissa of the mirror plane of a symmetric tank."""
+from hydroelastic.scenes.scaled_tank import MIDDLE, Piece, ScaledTank, StillLevel
 
 Directed = tuple[int, bool]
 
@@ -44,6 +42,11 @@ class Sizes:
 
     pieces: tuple[float, ...]
     contours: dict[int, float]
+
+
+def unsized(tank: ScaledTank) -> Sizes:
+    """No wishes for the sizes of elements."""
+    return Sizes(pieces=(inf,) * len(tank.pieces), contours=dict.fromkeys(tank.floats, inf))
 
 
 def layer_names(tank: ScaledTank) -> tuple[str, ...]:
@@ -69,7 +72,7 @@ def tank_outline(tank: ScaledTank, sizes: Sizes, *, half: bool = False, released
     Raises:
         MeshError: if a thin float has another body straight above or below it.
     """
-    builder = _Builder(tank=tank, sizes=sizes, right=HALF if half else 1.0, half=half, released=released)
+    builder = _Builder(tank=tank, sizes=sizes, right=MIDDLE if half else 1.0, half=half, released=released)
     regions = [region for number in range(len(tank.layers)) for region in builder.layer(number)]
     return Outline(curves=tuple(builder.curves), regions=tuple(regions))
 
@@ -199,7 +202,7 @@ class _Builder:
 
     def _slit_size(self, name: str, start: Point, end: Point) -> float:
         if not name.startswith("body_"):
-            return float("inf")
+            return inf
         return min(0.5 * (end[1] - start[1]), self.sizes.contours[int(name.removeprefix("body_")) - 1])
 
     def _curve(
@@ -209,7 +212,7 @@ class _Builder:
         end: Point,
         *,
         arc: Arc | None = None,
-        size: float = float("inf"),
+        size: float = inf,
         cut: bool = False,
     ) -> int:
         key = name, start, end

@@ -16,6 +16,7 @@ from float_sections import MOTIONS
 from float_tanks import BeamPlace, Fineness, FloatTank, Level, Liquid, Side, discretized
 from harmonic_trial import Boundary, energy_basis
 from scipy.linalg import block_diag, cholesky, solve_triangular, svd
+from scipy.sparse import csr_array
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -73,7 +74,7 @@ def reference_modes(tank: FloatTank, count: int, fineness: Fineness | None = Non
     )
     gain = np.vstack([*gains, inertia])
     weights = [Boundary.joined([side.boundary for side in liquid.sides]).weights for liquid in liquids]
-    volumes = np.array([weight @ load for weight, load in zip(weights, loads, strict=True)])
+    volumes = np.array([load.T @ weight for weight, load in zip(weights, loads, strict=True)])
     omega, shapes = _lowest(gain, volumes, bodies.stiffness, count)
     motions = shapes[nodes : nodes + len(bodies.motions)]
     with np.errstate(divide="ignore"):
@@ -113,16 +114,16 @@ def _lowest(gain: np.ndarray, volumes: np.ndarray, stiffness: np.ndarray, count:
     return 1.0 / values, modes
 
 
-def _gain(liquid: Liquid, load: np.ndarray, fineness: Fineness) -> np.ndarray:
+def _gain(liquid: Liquid, load: csr_array, fineness: Fineness) -> np.ndarray:
     """√ρ ∮vᵢ ζₙ for trial functions of unit energy and all ζ, shape (functions, unknowns)."""
     boundary = Boundary.joined([side.boundary for side in liquid.sides])
     functions, slopes = liquid.trial.values(boundary)
     functions -= (boundary.weights @ functions) / boundary.weights.sum()
     basis = energy_basis(functions, slopes, boundary.weights, fineness.tolerance)
-    return np.sqrt(liquid.density) * basis.T @ (functions.T @ (boundary.weights[:, None] * load))
+    return np.sqrt(liquid.density) * (load.T @ (boundary.weights[:, None] * functions) @ basis).T
 
 
-def _loads(tank: FloatTank, levels: list[Level], bodies: _Bodies, liquid: Liquid, fineness: Fineness) -> np.ndarray:
+def _loads(tank: FloatTank, levels: list[Level], bodies: _Bodies, liquid: Liquid, fineness: Fineness) -> csr_array:
     """Displacement out of a liquid at its nodes for each unknown: η of unit stiffness, motions, beams."""
     free = [np.flatnonzero(level.beam < 0) for level in levels]
     starts = np.concatenate([[0], np.cumsum([len(nodes) for nodes in free])])
@@ -143,7 +144,7 @@ def _loads(tank: FloatTank, levels: list[Level], bodies: _Bodies, liquid: Liquid
                     shapes = _beam_shapes(tank.beams[number], side.boundary.points[on], fineness.bending)
                     load[on, starts[-1] + columns_of.start : starts[-1] + columns_of.stop] = side.sign * shapes
         loads.append(load)
-    return np.vstack(loads)
+    return csr_array(np.vstack(loads))
 
 
 def hull_displacement(tank: FloatTank, side: Side, motion: str) -> np.ndarray:

@@ -39,7 +39,7 @@ def rigid(shape: str, position: float, width: float, height: float, **keys: Any)
     return {"kind": "float", "shape": shape, "position": position, "half_width": width, "half_height": height} | keys
 
 
-@pytest.mark.parametrize("name", some_slow(FLOATS, {"circle_off_centre", "two_liquids_open", "thin_wedge"}))
+@pytest.mark.parametrize("name", some_slow(FLOATS, {"circle_off_centre", "thin_wedge"}))
 def test_stored_floats_are_made_anew(name: str) -> None:
     thin_layer = name == "two_liquids_1_to_100"
     modes = reference_modes(float_tank(FLOATS[name]["scene"]), 6, Fineness(corner=22, waves=160 if thin_layer else 70))
@@ -66,8 +66,9 @@ def test_beams_have_eleven_digits(name: str) -> None:
 @pytest.mark.parametrize("name", ["circle_off_centre", "rectangle", "two_liquids_open"])
 def test_boundary_integrals_give_the_same(name: str) -> None:
     omega = second_omega(float_tank(FLOATS[name]["scene"]), 6, smallest=1e-4, pieces=6)
-    # Measured 1e-14 for smooth hulls; at the corners of the rectangle panels of 1e-4 leave their 4/3rd power, 1e-10.
-    np.testing.assert_allclose(omega, numbers(FLOATS[name]["omega"]), rtol=3e-10 if name == "rectangle" else 2e-12)
+    # Twelve digits are stored; measured 1e-14 for smooth hulls. At corners panels of 1e-4 leave
+    # their 4/3rd power, 1e-10.
+    np.testing.assert_allclose(omega, numbers(FLOATS[name]["omega"]), rtol=3e-10 if name == "rectangle" else 5e-12)
 
 
 def test_two_free_levels_obey_their_dispersion_relation() -> None:
@@ -82,6 +83,7 @@ def test_two_free_levels_obey_their_dispersion_relation() -> None:
     np.testing.assert_allclose(reference_modes(float_tank(scene), 8).omega, expected, rtol=1e-13)
 
 
+@pytest.mark.slow
 def test_thin_floats_are_those_of_the_series() -> None:
     """A parabola and a wedge amid a box, to which a series in cosines gives 18 digits; their flux is symmetric."""
     box = tank(12.0, (1.0, 2.0), (0.8, 1.5), top="rigid") | {
@@ -98,6 +100,7 @@ def test_thin_floats_are_those_of_the_series() -> None:
     np.testing.assert_allclose(reference_modes(float_tank(box), 8).omega[1::2], symmetric, rtol=1e-12)
 
 
+@pytest.mark.slow
 def test_added_mass_of_half_immersed_ellipses() -> None:
     """π/2 (ρ₁ + ρ₂) l² in heave in unbounded liquids; two layers of one depth are one liquid of density ρ₁ + ρ₂."""
     body = {"body": [rigid("ellipse", 20.0, 0.1, 0.2)]}

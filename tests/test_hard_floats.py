@@ -77,7 +77,9 @@ def found(scene: TankScene) -> Found:
 def _amplitudes(solution: TankSolution) -> np.ndarray:
     """The motions of floats themselves, from their principal ones."""
     units, rows = solution.units, []
-    own = np.array([mode.body_amplitudes for mode in solution.asked]).T
+    unknowns = sum(body.size for body in solution.field.bodies)
+    # Under a lid there may be no mode at all.
+    own = np.array([mode.body_amplitudes for mode in solution.asked]).reshape(-1, unknowns).T
     offsets = np.cumsum([0, *(body.size for body in solution.field.bodies)])
     for index, body in solution.tank.floats.items():
         turn, _, _ = principal_motions(body, body.motions)
@@ -179,7 +181,7 @@ def strict_complaint(scene: TankScene) -> str:
     """What is wrong with the answer to a scene, judged by the same solver on much finer meshes, or ""."""
     accuracy = scene.accuracy.model_copy(update={"tolerance": 1e-10})
     strict = found.__wrapped__(scene.model_copy(update={"accuracy": accuracy}))
-    allowed = float(max(strict.estimates.max(), strict.growing[1].max(initial=0.0)))
+    allowed = float(max(strict.estimates.max(initial=0.0), strict.growing[1].max(initial=0.0)))
     if any(body.boundary == "thin" and body.shape == "ellipse" for _, body in scene.floats):
         allowed += THIN_ELLIPSE
     if allowed > 0.1 * scene.accuracy.tolerance + THIN_ELLIPSE:

@@ -106,7 +106,7 @@ SCENES: dict[str, dict[str, Any]] = {
     "two_liquids_wedge_close": CLOSE | {"body": [rigid("wedge", 1.2, half_width=0.2, half_height=0.4)]},
     "two_liquids_parabola": LID | {"body": [rigid("parabola", 1.5, half_width=0.1, half_height=0.5)]},
     "two_liquids_rectangle": LID | {"body": [rigid("rectangle", 1.1, ALL, half_width=0.3, half_height=0.2)]},
-    "two_liquids_ship": LID | {"body": [rigid("polygon", 1.4, ALL, vertices=SHIP, centre_of_mass=-0.1, mass=420.0)]},
+    "two_liquids_ship": LID | {"body": [rigid("polygon", 1.4, ALL, vertices=SHIP, centre_of_mass=-0.1, mass=440.0)]},
     "two_liquids_1_to_100": tank(1.0, (1000.0, 2.0), (800.0, 0.02), top="rigid")
     | {"body": [rigid("ellipse", 0.5, half_width=0.05, half_height=0.01)]},
     "two_liquids_open": OPEN | {"body": [rigid("ellipse", 1.3, ALL, half_width=0.4, half_height=0.3)]},

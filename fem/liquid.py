@@ -197,14 +197,14 @@ def compile_form(tank: TankMesh, degree: int, *, glued: bool = False) -> None:
     # Together: one process may have solved on its own before.
     if tank.mesh.comm.allreduce(kernel not in _compiled, op=MPI.LOR):
         weight = fem.Function(fem.functionspace(tank.mesh, ("DG", 0))) if glued else None
-        _form(fem.functionspace(tank.mesh, ("Lagrange", degree)), cells=_NONE, facets=_NONE, weight=weight)
+        _form(fem.functionspace(tank.mesh, ("Lagrange", degree)), cells=NO_ENTITIES, facets=NO_ENTITIES, weight=weight)
         _compiled.add(kernel)
 
 
 def laplace_matrix(liquid: LiquidSpace) -> PETSc.Mat:
     """Assemble A = ∫∇ψ·∇q, or ∫(1/ρ)∇ψ·∇q in glued liquids, every unknown included."""
     weight = _inverse_density(liquid) if liquid.glued else None
-    return _assembled(_form(liquid.space, cells=owned_cells(liquid.tank.mesh), facets=_NONE, weight=weight))
+    return assembled(_form(liquid.space, cells=owned_cells(liquid.tank.mesh), facets=NO_ENTITIES, weight=weight))
 
 
 def _inverse_density(liquid: LiquidSpace) -> fem.Function:
@@ -217,10 +217,11 @@ def _inverse_density(liquid: LiquidSpace) -> fem.Function:
 def surface_mass_matrix(liquid: LiquidSpace, names: tuple[str, ...]) -> PETSc.Mat:
     """Assemble S = ∫ψ q over named surfaces, every unknown included."""
     facets = np.unique(np.concatenate([liquid.tank.facets(name) for name in names]))
-    return _assembled(_form(liquid.space, cells=_NONE, facets=facets))
+    return assembled(_form(liquid.space, cells=NO_ENTITIES, facets=facets))
 
 
-_NONE = np.empty(0, dtype=np.int32)
+NO_ENTITIES = np.empty(0, dtype=np.int32)
+"""No cells, or no facets."""
 
 
 def _form(
@@ -236,15 +237,15 @@ def _form(
     potential, test = ufl.TrialFunction(space), ufl.TestFunction(space)
     degree = space.element.basix_element.degree
     more = 0 if is_straight(mesh) else CURVED_QUADRATURE
-    dx = _measure("dx", mesh, mesh.topology.dim, cells, 2 * degree - 2 + more)
-    ds = _measure("ds", mesh, mesh.topology.dim - 1, facets, 2 * degree + more)
+    dx = chosen_measure("dx", mesh, mesh.topology.dim, cells, 2 * degree - 2 + more)
+    ds = chosen_measure("ds", mesh, mesh.topology.dim - 1, facets, 2 * degree + more)
     energy = ufl.inner(ufl.grad(potential), ufl.grad(test))
     form = (energy if weight is None else weight * energy) * dx + ufl.inner(potential, test) * ds
     return fem.form(form, jit_options=jit_options())
 
 
-def _measure(kind: str, mesh: Mesh, dim: int, entities: np.ndarray, quadrature_degree: int) -> ufl.Measure:
-    """Measure of chosen cells or facets."""
+def chosen_measure(kind: str, mesh: Mesh, dim: int, entities: np.ndarray, quadrature_degree: int) -> ufl.Measure:
+    """Measure of chosen cells ("dx") or boundary facets ("ds")."""
     chosen = 1
     return ufl.Measure(
         kind,
@@ -255,7 +256,8 @@ def _measure(kind: str, mesh: Mesh, dim: int, entities: np.ndarray, quadrature_d
     )
 
 
-def _assembled(form: fem.Form) -> PETSc.Mat:
+def assembled(form: fem.Form) -> PETSc.Mat:
+    """Assemble the matrix of a form (collective)."""
     matrix = fem_petsc.assemble_matrix(form)
     matrix.assemble()
     return matrix

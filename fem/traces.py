@@ -102,3 +102,40 @@ def _places(liquid: LiquidSpace, name: str) -> np.ndarray:
     points = liquid.space.tabulate_dof_coordinates()[: index_map.size_local, : mesh.geometry.dim]
     drawn: np.ndarray = points + _DRAWN * (np.array(middle).T / np.maximum(count, 1.0)[:, None] - points)
     return drawn
+
+
+def density_jump(liquid: LiquidSpace, surface: LiquidSurface, surface_mass: PETSc.Mat) -> PETSc.Mat:
+    """∫[ρψ][ρq]/([ρ] g) over one surface, [ρψ] = ρψ below less ρψ above; on all unknowns of ψ (collective).
+
+    Args:
+        liquid: the space of ψ.
+        surface: the surface.
+        surface_mass: ∫ψ q over it, on all unknowns of ψ.
+    """
+    density = liquid.layers[surface.below].density
+    below = _global_dofs(liquid, surface.surface, surface.below, surface_mass)
+    jump = _selection(below, surface_mass)
+    jump.scale(density)
+    difference = density
+    if surface.above is not None:
+        above_density = liquid.layers[surface.above].density
+        above = _global_dofs(liquid, surface.surface, surface.above, surface_mass)
+        from_above = _twins(liquid, surface.surface, above, below).transposeMatMult(_selection(above, surface_mass))
+        jump.axpy(-above_density, from_above, structure=PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN)
+        difference -= above_density
+    product = surface_mass.createSubMatrix(below, below).ptap(jump)
+    product.scale(1.0 / (difference * surface.gravity))
+    return product
+
+
+def _selection(rows: PETSc.IS, matrix: PETSc.Mat) -> PETSc.Mat:
+    """Matrix that takes some owned unknowns from all."""
+    local = rows.getLocalSize()
+    selection = PETSc.Mat().createAIJ(
+        ((local, PETSc.DETERMINE), matrix.getSizes()[1]), nnz=1, comm=rows.comm
+    )
+    start = selection.getOwnershipRange()[0]
+    for row, column in enumerate(rows.getIndices()):
+        selection.setValue(start + row, int(column), 1.0)
+    selection.assemble()
+    return selection

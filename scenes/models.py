@@ -20,7 +20,10 @@ class Tank(SceneModel):
 
     length: PositiveNumber = Field(description="length of the tank between its walls, m")
     gravity: PositiveNumber = Field(default=9.81, description="acceleration of gravity, m/s²")
-    ends: Literal["walls"] = Field(default="walls", description="both ends are rigid vertical walls")
+    ends: Literal["walls", "open"] = Field(
+        default="walls",
+        description="both ends are rigid vertical walls, or open water in which waves leave to both sides",
+    )
     top: Literal["free", "rigid", "pressure_release"] = Field(
         default="free",
         description="the top beside the bodies: free surface with waves, rigid lid, or ψ = 0 without gravity waves",

@@ -135,7 +135,7 @@ def initial_resolution(
     highest = squared_frequency_of_mode(tank.moving, reported) if tank.moving else 0.0
     tolerance = workable_tolerance(scene.accuracy.tolerance, tank.depth)
     wavenumbers = tuple(_wavenumber(tank, level, piece, highest) for level in tank.levels for piece in level.pieces)
-    resolution = _resolution_for(tank, tolerance, wavenumbers, exponent=sharpest_exponent(tank, released=False))
+    resolution = resolution_for(tank, tolerance, wavenumbers, exponent=sharpest_exponent(tank, released=False))
     return replace(resolution, modes=modes, reaches_tones=reaches_tones)
 
 
@@ -156,7 +156,7 @@ def companion_resolution(tank: ScaledTank, tolerance: float, tones: tuple[float,
         for piece in level.pieces
     )
     exponent = sharpest_exponent(tank, released=True)
-    resolution = _resolution_for(tank, workable_tolerance(tolerance, tank.depth), wavenumbers, exponent=exponent)
+    resolution = resolution_for(tank, workable_tolerance(tolerance, tank.depth), wavenumbers, exponent=exponent)
     return replace(resolution, modes=_COMPANION_MODES * len(tank.beams))
 
 
@@ -182,7 +182,7 @@ def _wavenumber(tank: ScaledTank, level: StillLevel, piece: Piece, squared_frequ
     return 0.0 if moving is None else moving.wavenumber(squared_frequency)
 
 
-def _resolution_for(
+def resolution_for(
     tank: ScaledTank, tolerance: float, wavenumbers: tuple[float, ...], *, exponent: float
 ) -> Resolution:
     """Elements, rings and dry modes for the shortest waves on the pieces of the still levels.
@@ -200,7 +200,7 @@ def _resolution_for(
         _contour_size(tank.floats[piece.body])
         if piece.body in tank.floats
         # Never fewer than two elements on a piece.
-        else min(_radians(degree, tolerance) / max(wavenumber, 1e-9), 0.5 * piece.length, 0.25)
+        else min(radians(degree, tolerance) / max(wavenumber, 1e-9), 0.5 * piece.length, 0.25)
         for piece, wavenumber in zip(tank.pieces, wavenumbers, strict=True)
     )
     on_bodies = {piece.body: wavenumber for piece, wavenumber in zip(tank.pieces, wavenumbers, strict=True)}
@@ -234,7 +234,7 @@ def _contour_size(body: ScaledFloat) -> float:
     return min(_OF_CONTOUR * max(right - left, high - low), 0.25)
 
 
-def _radians(degree: int, tolerance: float) -> float:
+def radians(degree: int, tolerance: float) -> float:
     """How much of a wave one element resolves: the error of polynomials on it is about (e kh/(4p))^{2p}."""
     return 4.0 / e * degree * float((0.1 * tolerance) ** (0.5 / degree))
 

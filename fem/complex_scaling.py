@@ -1,0 +1,116 @@
+"""Exterior complex scaling: outgoing waves as decaying ones, so that a mesh of finite size holds open water.
+
+Beyond the sides of a basin the coordinate that leads away is turned into the complex plane, x̃ = x₀ + s (x − x₀) with
+s = e^{iα}. What travels outwards, e^{ikx}, becomes e^{ikx₀} e^{iks(x − x₀)} and decays like e^{−k (x − x₀) sin α}; within
+the basin nothing changes. With s_i the factor of the axis i in a cell, one there unless it leads away,
+
+    A = ∫ρ Σᵢ (det/sᵢ²) ∂ᵢψ ∂ᵢq,    S = ∫(det/s_n) ψ q over surfaces of normal n,    det = Πsᵢ
+
+are complex symmetric and do not depend on the frequency. Source: B. Simon, Phys. Lett. A 71 (1979) 211; for water waves
+C. Hazard and M. Lenoir, SIAM J. Math. Anal. 24 (1993) 1458.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import ufl
+from dolfinx import fem
+from petsc4py import PETSc
+
+from hydroelastic.fem.cells import CURVED_QUADRATURE, cell_corners, is_straight, owned_cells
+from hydroelastic.fem.kernels import jit_options
+from hydroelastic.fem.liquid import NO_ENTITIES, LiquidSpace, assembled, chosen_measure
+
+
+@dataclass(frozen=True, kw_only=True)
+class ComplexScaling:
+    """Where and how far coordinates are turned.
+
+    Attributes:
+        rotation: s = e^{iα}.
+        low: lower bounds of the basin, one for each axis.
+        high: upper bounds.
+    """
+
+    rotation: complex
+    low: tuple[float, ...]
+    high: tuple[float, ...]
+
+    def factors(self, liquid: LiquidSpace) -> np.ndarray:
+        """The factor sᵢ of each axis in each cell of this process, shape (cells, gdim)."""
+        mesh = liquid.tank.mesh
+        count = mesh.topology.index_map(mesh.topology.dim).size_local + mesh.topology.index_map(
+            mesh.topology.dim
+        ).num_ghosts
+        middles = cell_corners(mesh, np.arange(count, dtype=np.int32)).mean(axis=1)
+        outside = (middles < np.array(self.low)) | (middles > np.array(self.high))
+        return np.where(outside, self.rotation, 1.0 + 0.0j)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ComplexMatrix:
+    """A matrix in its real and its imaginary part, of the same layout."""
+
+    real: PETSc.Mat
+    imaginary: PETSc.Mat
+
+
+def scaled_laplace(liquid: LiquidSpace, scaling: ComplexScaling) -> ComplexMatrix:
+    """Assemble A on all unknowns, ρ included (collective)."""
+    factors = scaling.factors(liquid)
+    det = factors.prod(axis=1)
+    weights = _densities(liquid)[:, None] * det[:, None] / factors**2
+    return _both_parts(liquid, weights, np.zeros(len(det), complex), NO_ENTITIES)
+
+
+def scaled_surface_mass(liquid: LiquidSpace, scaling: ComplexScaling, name: str) -> ComplexMatrix:
+    """Assemble S over a named horizontal surface on all unknowns (collective)."""
+    factors = scaling.factors(liquid)
+    along = factors.prod(axis=1) / factors[:, -1]
+    return _both_parts(liquid, np.zeros(factors.shape, complex), along, liquid.tank.facets(name))
+
+
+def _densities(liquid: LiquidSpace) -> np.ndarray:
+    """ρ of each cell of this process."""
+    cells = liquid.space.dofmap.list
+    return np.array([layer.density for layer in liquid.layers])[liquid.layer_of[cells[:, 0]]]
+
+
+def _both_parts(liquid: LiquidSpace, axes: np.ndarray, surface: np.ndarray, facets: np.ndarray) -> ComplexMatrix:
+    cells = owned_cells(liquid.tank.mesh) if np.any(axes) else NO_ENTITIES
+    parts = (
+        assembled(_weighted_form(liquid, cells, facets, part(axes), part(surface))) for part in (np.real, np.imag)
+    )
+    real, imaginary = parts
+    return ComplexMatrix(real=real, imaginary=imaginary)
+
+
+def compile_scaled_form(liquid: LiquidSpace) -> None:
+    """Compile the form of a space on rank 0, unless the cache of dolfinx has it (collective)."""
+    count = len(liquid.space.dofmap.list)
+    _weighted_form(
+        liquid, NO_ENTITIES, NO_ENTITIES, np.zeros((count, liquid.tank.mesh.geometry.dim)), np.zeros(count)
+    )
+
+
+def _weighted_form(
+    liquid: LiquidSpace, cells: np.ndarray, facets: np.ndarray, axes: np.ndarray, surface: np.ndarray
+) -> fem.Form:
+    """Σᵢ ∫wᵢ ∂ᵢψ ∂ᵢq over some cells + ∫w ψ q over some facets; the weights are those of cells."""
+    mesh, space = liquid.tank.mesh, liquid.space
+    constants = fem.functionspace(mesh, ("DG", 0))
+    weights = []
+    for values in (*axes.T, surface):
+        weight = fem.Function(constants)
+        weight.x.array[constants.dofmap.list[:, 0]] = values
+        weights.append(weight)
+    potential, test = ufl.TrialFunction(space), ufl.TestFunction(space)
+    more = 0 if is_straight(mesh) else CURVED_QUADRATURE
+    dx = chosen_measure("dx", mesh, mesh.topology.dim, cells, 2 * liquid.degree - 2 + more)
+    ds = chosen_measure("ds", mesh, mesh.topology.dim - 1, facets, 2 * liquid.degree + more)
+    energy = sum(
+        weight * potential.dx(axis) * test.dx(axis) for axis, weight in enumerate(weights[:-1])
+    )
+    return fem.form(energy * dx + weights[-1] * potential * test * ds, jit_options=jit_options())

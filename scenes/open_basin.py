@@ -1,0 +1,212 @@
+"""Open water as a basin around the bodies, its frames, and how far they reach.
+
+The basin is a closed tank of the scene's bodies; its walls, and its bottom or lid where a liquid goes on, are then
+surrounded by frames of cells in which coordinates are turned into the complex plane, see `fem.complex_scaling`. Frames
+begin with what an element resolves of the shortest wave, and grow by a constant factor: where they are too long for a
+wave it has decayed. They end where the longest wave has decayed, and where deep water's ψ ~ 1/r is below the tolerance.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import cos, inf, isinf, log, pi, sin
+
+import numpy as np
+
+from hydroelastic.meshes.geometry import BOTTOM, LEFT_WALL, LID, RIGHT_WALL
+from hydroelastic.meshes.open_sea import Frames
+from hydroelastic.modal.travelling_waves import TravellingWave, travelling_waves
+from hydroelastic.modal.two_layer import TwoLayers
+from hydroelastic.scenes.models import Beam, TankScene
+from hydroelastic.scenes.scaled_tank import ScaledTank, scaled_tank
+from hydroelastic.scenes.scaling import Scales, scales
+
+# Distance of the basin's sides from the bodies, in parts of their extent.
+_MARGIN = 0.5
+_LEAST_MARGIN = 0.1
+# The same in radians of the shortest wave: in short waves a wide basin would be full of them.
+_MARGIN_IN_RADIANS = 6.0
+# A layer that is deeper than the basin by more than this part of the basin's length goes on in frames.
+_DEEPER = 1.0
+# What is cut off far away is kept below this part of the tolerance.
+_CUT = 0.03
+
+
+@dataclass(frozen=True, kw_only=True)
+class OpenBasin:
+    """The part of open water around the bodies.
+
+    Attributes:
+        scene: the basin as a scene of its own, a closed tank.
+        tank: that in units of its length.
+        units: those units.
+        origin: abscissa of the basin's left side in the open scene, m.
+        layers: the liquids of the open scene, m and kg/m³.
+        depths: of the liquids of the open scene, from the bottom up, in basin lengths; may be infinite.
+    """
+
+    scene: TankScene
+    tank: ScaledTank
+    units: Scales
+    origin: float
+    layers: TwoLayers
+    depths: tuple[float, ...]
+
+    @property
+    def sides(self) -> tuple[str, ...]:
+        """The sides that are extended in both directions at once."""
+        deeper = [depth > layer.depth for depth, layer in zip(self.depths, self.tank.layers, strict=True)]
+        return (LEFT_WALL, RIGHT_WALL) + (BOTTOM,) * deeper[0] + (LID,) * (len(deeper) > 1 and deeper[-1])
+
+    @property
+    def scaled_layers(self) -> TwoLayers:
+        """The liquids in units of the basin."""
+        two = self.layers
+        return TwoLayers(
+            density_below=1.0,
+            density_above=two.density_above / two.density_below,
+            depth_below=self.depths[0],
+            depth_above=self.depths[1] if len(self.depths) > 1 else inf,
+            gravity=1.0,
+            top=two.top,
+        )
+
+    def waves(self, omega: float) -> tuple[TravellingWave, ...]:
+        """The travelling waves at a dimensionless frequency, in units of the basin."""
+        return travelling_waves(self.scaled_layers, omega)
+
+
+def liquids_of(scene: TankScene) -> TwoLayers:
+    """The liquids of a scene, m and kg/m³."""
+    lower, *upper = scene.layers
+    return TwoLayers(
+        density_below=lower.density,
+        density_above=upper[0].density if upper else 0.0,
+        depth_below=lower.depth,
+        depth_above=upper[0].depth if upper else inf,
+        gravity=scene.tank.gravity,
+        top=scene.top,
+    )
+
+
+def open_basin(scene: TankScene, shortest: float) -> OpenBasin:
+    """Cut a basin out of open water.
+
+    Args:
+        scene: with open ends and at least one body.
+        shortest: the largest wavenumber of the waves that leave, 1/m.
+    """
+    left, right, low, high = _extent(scene)
+    extent = max(0.5 * (right - left), -low, high)
+    margin = max(min(_MARGIN * extent, _MARGIN_IN_RADIANS / shortest), _LEAST_MARGIN * extent)
+    length = right - left + 2.0 * margin
+    reaches = (margin - low, margin + high)
+    depths = [layer.depth for layer in scene.layers]
+    kept = [
+        reach if depth > reach + _DEEPER * length else depth for depth, reach in zip(depths, reaches, strict=False)
+    ]
+    origin = left - margin
+    basin = scene.model_copy(
+        update={
+            "tank": scene.tank.model_copy(
+                update={"length": length, "ends": "walls", "top": "rigid" if isinf(depths[-1]) and len(depths) > 1 else scene.top}
+            ),
+            "liquid": tuple(
+                layer.model_copy(update={"depth": depth}) for layer, depth in zip(scene.layers, kept, strict=True)
+            ),
+            "body": tuple(_moved(body, -origin) for body in scene.body),
+        }
+    )
+    units = scales(basin)
+    return OpenBasin(
+        scene=basin,
+        tank=scaled_tank(basin),
+        units=units,
+        origin=origin,
+        layers=liquids_of(scene),
+        depths=tuple(depth / length for depth in depths),
+    )
+
+
+def _moved(body: object, shift: float) -> object:
+    if isinstance(body, Beam):
+        return body.model_copy(update={"start": body.start + shift})
+    return body.model_copy(update={"position": body.position + shift})
+
+
+def _extent(scene: TankScene) -> tuple[float, float, float, float]:
+    """Smallest and largest x, smallest and largest y of all bodies, and the still levels at which they float."""
+    bounds = []
+    for index, body in enumerate(scene.body):
+        level = scene.height_of(scene.level_of(body))
+        if isinstance(body, Beam):
+            bounds.append((body.start, body.end, min(level, 0.0), max(level, 0.0)))
+            continue
+        from hydroelastic.scenes.floats import placed_float
+
+        left, right, low, high = placed_float(scene, index).contour.bounds
+        if body.boundary == "thin":
+            left = right = body.position
+        bounds.append((left, right, min(low, 0.0), max(high, 0.0)))
+    lefts, rights, lows, highs = zip(*bounds, strict=True)
+    return min(lefts), max(rights), min(lows), max(highs)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reach:
+    """How frames are laid.
+
+    Attributes:
+        angle: α by which coordinates are turned.
+        first: width of the first frame, in basin lengths.
+        growth: ratio of the distances of successive frames.
+        farthest: distance of the last one.
+    """
+
+    angle: float
+    first: float
+    growth: float
+    farthest: float
+
+    def frames(self, basin: OpenBasin) -> tuple[Frames, Frames]:
+        """Frames that widen the basin in all open directions, then those that go on sideways."""
+        count = max(int(np.ceil(log(self.farthest / self.first) / log(self.growth))), 1)
+        distances = self.first * (self.farthest / self.first) ** (np.arange(count + 1) / count)
+        further = [
+            depth - layer.depth
+            for depth, layer in zip(basin.depths, basin.tank.layers, strict=True)
+            if depth > layer.depth
+        ]
+        deepest = max(further, default=0.0)
+        both = int(np.searchsorted(distances, deepest)) + 1 if deepest else 0
+        inner, outer = distances[:both], distances[both:]
+        # Beyond the first stage distances are counted from the wider basin.
+        start = inner[-1] if both and len(inner) else 0.0
+        vertical = np.minimum(inner, deepest)
+        return (
+            Frames(sideways=inner, vertical=vertical),
+            Frames(sideways=outer - start, vertical=np.zeros(len(outer))),
+        )
+
+
+def reach(basin: OpenBasin, wavenumbers: tuple[float, float], *, first: float, growth: float, angle: float, tolerance: float) -> Reach:
+    """How far frames must reach.
+
+    Args:
+        basin: the basin.
+        wavenumbers: smallest and largest of the waves that leave, in units of the basin.
+        first: radians of the shortest wave that the first frame holds.
+        growth: ratio of the distances of successive frames.
+        angle: α.
+        tolerance: asked relative error.
+    """
+    longest, shortest = wavenumbers
+    decades = log(1.0 / (_CUT * tolerance))
+    # A wave goes out and comes back; so does what the bed reflects of standing disturbances, e^{−πx/H}.
+    farthest = [decades / (2.0 * longest * sin(angle))]
+    for depth in basin.depths:
+        if isinf(depth):
+            farthest.append((1.0 + 1.0 / longest) * (_CUT * tolerance) ** -0.5)
+        else:
+            farthest.append(decades * depth / (2.0 * pi * cos(angle)))
+    return Reach(angle=angle, first=min(first / shortest, 0.5), growth=growth, farthest=max(farthest))

@@ -32,7 +32,9 @@ class ShiftedSolver:
             _real_form(_scaled(mass.imaginary, -1.0), mass.real),
         )
         for part in self._masses:
-            self._constant.axpy(0.0, part, structure=PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN)
+            # PETSc does nothing for a factor of zero, and the pattern must hold all parts.
+            room = _scaled(part, 0.0)
+            self._constant.axpy(1.0, room, structure=PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN)
         self._matrix = self._constant.copy()
         self._matrix.setOption(PETSc.Mat.Option.SYMMETRIC, True)
         self._solver = PETSc.KSP().create(self._matrix.comm)

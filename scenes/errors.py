@@ -189,6 +189,8 @@ _WRONG = {
 
 
 def _wrong(detail: Any, value: object, place: _Place) -> str:
+    if detail["type"] == "less_than_equal" and value != value:
+        return _WRONG["float_type"]
     if detail["type"] == "float_type" and type(value) is int:
         return "it is too large"  # a whole number beyond the range of floats
     if detail["type"] == "tuple_type" and not _table(place.field):
@@ -205,15 +207,17 @@ def _missing(place: _Place) -> Problem:
 
 
 def _unknown_kind(place: _Place, entry: Any) -> Problem:
-    """An entry of a kind that none of its models has."""
-    kind = entry["kind"]
+    """An entry of no kind, or of one that none of its models has."""
+    if not isinstance(entry, dict):
+        return Problem(key=readable_key(place.location), value=shown_value(entry), wrong=_WRONG["model_type"])
+    kind = entry.get("kind")
     kinds = [str(model.model_fields["kind"].default) for model in _nested_models(place.field)]
     return Problem(
         key=readable_key((*place.location, "kind")),
         value=shown_value(kind),
-        wrong="it is not one of the choices",
+        wrong="it is not one of the choices" if "kind" in entry else "it is missing",
         allowed=" or ".join(f'"{known}"' for known in kinds),
-        remedy=proposal(str(kind), kinds),
+        remedy=proposal(str(kind), kinds) if "kind" in entry else "",
     )
 
 

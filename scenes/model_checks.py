@@ -10,6 +10,13 @@ from pydantic_core import InitErrorDetails
 
 from hydroelastic.scenes.model_bodies import Beam
 from hydroelastic.scenes.model_float_checks import CHECKS_OF_FLOATS_AT_REST, floats_float_in_the_tank
+from hydroelastic.scenes.model_open_checks import (
+    beams_in_open_water_are_free,
+    bodies_span,
+    open_water_has_bodies_and_waves,
+    tanks_with_walls_end,
+    what_decays_is_a_float,
+)
 from hydroelastic.scenes.model_problems import misfit
 
 if TYPE_CHECKING:
@@ -94,7 +101,7 @@ def _bodies_have_their_level(scene: TankScene) -> Iterator[InitErrorDetails]:
 
 
 def _meshes_are_those_of_beams(scene: TankScene) -> Iterator[InitErrorDetails]:
-    if scene.mesh is None or (len(scene.layers) == 1 and not scene.floats):
+    if scene.mesh is None or scene.is_open or (len(scene.layers) == 1 and not scene.floats):
         return
     because = "two liquids" if len(scene.layers) == 2 else "a float"
     yield misfit(
@@ -106,6 +113,9 @@ def _meshes_are_those_of_beams(scene: TankScene) -> Iterator[InitErrorDetails]:
 
 
 def _depths_fit_the_length(scene: TankScene) -> Iterator[InitErrorDetails]:
+    if scene.is_open:
+        yield from _depths_fit_the_bodies(scene)
+        return
     length = scene.tank.length
     least, most = DEPTH_TO_LENGTH
     for index, layer in enumerate(scene.layers):
@@ -119,16 +129,30 @@ def _depths_fit_the_length(scene: TankScene) -> Iterator[InitErrorDetails]:
             )
 
 
+def _depths_fit_the_bodies(scene: TankScene) -> Iterator[InitErrorDetails]:
+    """Frames of cells reach as far down as they are needed: open water may be deep."""
+    least = DEPTH_TO_LENGTH[0] * bodies_span(scene)
+    for index, layer in enumerate(scene.layers):
+        if layer.depth < least:
+            yield misfit(
+                ("liquid", index, "depth"),
+                layer.depth,
+                "the layer is too thin to mesh beside the length that the bodies take up",
+                allowed=f"at least {least:g} m",
+            )
+
+
 def _beams_lie_in_the_tank(scene: TankScene) -> Iterator[InitErrorDetails]:
     length = scene.tank.length
+    place = "stretch that is drawn" if scene.is_open else "tank"
     for index, beam in scene.beams:
         if beam.length > length * (1 + ROUND_OFF):
-            yield misfit(("body", index, "length"), beam.length, f"the beam is longer than the tank ({length:g} m)")
+            yield misfit(("body", index, "length"), beam.length, f"the beam is longer than the {place} ({length:g} m)")
         elif beam.end > length * (1 + ROUND_OFF):
             yield misfit(
                 ("body", index, "start"),
                 beam.start,
-                f"the beam ends at {beam.end:g} m, outside the tank of {length:g} m",
+                f"the beam ends at {beam.end:g} m, outside the {place}, of {length:g} m",
                 allowed=f"0 to {length - beam.length:g} m for this beam",
             )
 
@@ -148,15 +172,20 @@ def _beams_keep_apart(scene: TankScene) -> Iterator[InitErrorDetails]:
 
 
 def _beams_are_not_too_short(scene: TankScene) -> Iterator[InitErrorDetails]:
-    shortest = SHORTEST_BEAM * scene.tank.length
+    shortest = SHORTEST_BEAM * bodies_span(scene)
+    others = "the others" if scene.is_open else "the tank"
     for index, beam in scene.beams:
         if beam.length < shortest:
             yield misfit(
                 ("body", index, "length"),
                 beam.length,
-                "the beam is too short beside the tank for one mesh to show both",
-                allowed=f"at least {shortest:g} m ({SHORTEST_BEAM:g} of the tank's length)",
+                f"the beam is too short beside {others} for one mesh to show both",
+                allowed=f"at least {shortest:g} m ({SHORTEST_BEAM:g} of {_span_name(scene)})",
             )
+
+
+def _span_name(scene: TankScene) -> str:
+    return "the length that the bodies take up" if scene.is_open else "the tank's length"
 
 
 def _groups_are_in_range(scene: TankScene) -> Iterator[InitErrorDetails]:
@@ -186,7 +215,7 @@ def _guided_beams_cover_the_tank(scene: TankScene) -> Iterator[InitErrorDetails]
     negligible = ROUND_OFF * scene.tank.length
     for index, beam in scene.beams:
         covers = beam.start <= negligible and beam.end >= scene.tank.length - negligible
-        if beam.ends == "guided" and not covers:
+        if beam.ends == "guided" and not covers and not scene.is_open:
             yield misfit(
                 ("body", index, "ends"),
                 beam.ends,
@@ -198,7 +227,7 @@ def _guided_beams_cover_the_tank(scene: TankScene) -> Iterator[InitErrorDetails]
 def _something_moves(scene: TankScene) -> Iterator[InitErrorDetails]:
     from hydroelastic.scenes.rigid_motions import mode_count
 
-    if mode_count(scene) != 0:
+    if scene.is_open or mode_count(scene) != 0:
         return
     if not scene.body:
         yield misfit(
@@ -219,13 +248,15 @@ def _something_moves(scene: TankScene) -> Iterator[InitErrorDetails]:
 _Check: TypeAlias = Callable[["TankScene"], Iterator[InitErrorDetails]]
 
 STAGES: tuple[tuple[_Check, ...], ...] = (
-    (_densities_are_in_order, _bodies_have_their_level, _meshes_are_those_of_beams),
+    (_densities_are_in_order, _bodies_have_their_level, _meshes_are_those_of_beams, tanks_with_walls_end),
+    (open_water_has_bodies_and_waves, what_decays_is_a_float),
     (
         _depths_fit_the_length,
         _beams_are_not_too_short,
         _beams_lie_in_the_tank,
         _beams_keep_apart,
         _guided_beams_cover_the_tank,
+        beams_in_open_water_are_free,
         floats_float_in_the_tank,
     ),
     (_groups_are_in_range, *CHECKS_OF_FLOATS_AT_REST),

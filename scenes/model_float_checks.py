@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, TypeAlias
 from pydantic_core import InitErrorDetails
 
 from hydroelastic.scenes.model_bodies import THIN_SHAPES, Beam, Float
+from hydroelastic.scenes.model_open_checks import bodies_span
 from hydroelastic.scenes.model_problems import misfit
 
 # Contours need NumPy and SciPy, which take a while to import: functions that are called for floats import them.
@@ -127,13 +128,16 @@ def _sizes_fit(scene: TankScene, index: int, body: Float, contour: Contour) -> I
             allowed=f"a width of {least:g} to {most:g} heights",
             remedy=_other_models(body) if width < height else "A beam is flat",
         )
-    smallest = SMALLEST_FLOAT * scene.tank.length
+    smallest = SMALLEST_FLOAT * bodies_span(scene)
+    beside, of_what = (
+        ("the other bodies", "the length they take up") if scene.is_open else ("the tank", "the tank's length")
+    )
     if max(width, height) < smallest:
         yield misfit(
             ("body", index, body.shape_key),
             body.half_width,
-            "the float is too small beside the tank for one mesh to show both",
-            allowed=f"a width or height of at least {smallest:g} m ({SMALLEST_FLOAT:g} of the tank's length)",
+            f"the float is too small beside {beside} for one mesh to show both",
+            allowed=f"a width or height of at least {smallest:g} m ({SMALLEST_FLOAT:g} of {of_what})",
         )
 
 
@@ -170,7 +174,9 @@ def _has_room(scene: TankScene, index: int, body: Float, bounds: _Box) -> Iterat
     left, right, low, high = bounds
     gap = SMALLEST_GAP * max(_extents(bounds))
     length = scene.tank.length
-    if right - left > length - 2 * gap:
+    if scene.is_open:
+        yield from _lies_in_the_stretch(scene, index, body)
+    elif right - left > length - 2 * gap:
         yield misfit(
             ("body", index, body.shape_key),
             body.half_width,
@@ -201,6 +207,17 @@ def _has_room(scene: TankScene, index: int, body: Float, bounds: _Box) -> Iterat
             f"the float reaches up to y = {high:g} m, and the layer above its level ends at y = {ceiling:g} m",
             allowed=f"a height that leaves {gap:g} m",
             remedy="Make that layer deeper, the float lower or its mass greater",
+        )
+
+
+def _lies_in_the_stretch(scene: TankScene, index: int, body: Float) -> Iterator[InitErrorDetails]:
+    """There are no walls that a float might touch."""
+    if body.position > scene.tank.length:
+        yield misfit(
+            ("body", index, "position"),
+            body.position,
+            f"the float lies outside the stretch that is drawn, of {scene.tank.length:g} m",
+            allowed=f"0 to {scene.tank.length:g} m",
         )
 
 

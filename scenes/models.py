@@ -1,4 +1,4 @@
-"""The scene of a closed tank as frozen, validated values. SI units; 2-D, so per metre of width."""
+"""The scene of a closed tank, or of open water, as frozen, validated values. SI units; 2-D, so per metre of width."""
 
 from __future__ import annotations
 
@@ -7,18 +7,31 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, PrivateAttr, Strict, ValidationError, field_validator, model_validator
+from pydantic import (
+    Field,
+    PrivateAttr,
+    SerializerFunctionWrapHandler,
+    Strict,
+    ValidationError,
+    field_validator,
+    model_serializer,
+    model_validator,
+)
 
 from hydroelastic.meshes.formats import FORMATS
+from hydroelastic.scenes.model_analyses import Analysis, Resonance
 from hydroelastic.scenes.model_bodies import LARGEST, SMALLEST, Beam, Body, Float, Level, PositiveNumber, SceneModel
 from hydroelastic.scenes.model_checks import ROUND_OFF, STAGES
+from hydroelastic.scenes.model_infinity import PositiveOrInfinite
 from hydroelastic.scenes.model_problems import problem
 
 
 class Tank(SceneModel):
     """The rectangular tank and what closes it on top where no body floats."""
 
-    length: PositiveNumber = Field(description="length of the tank between its walls, m")
+    length: PositiveNumber = Field(
+        description="length of the tank between its walls, or of the stretch of open water that is drawn, m"
+    )
     gravity: PositiveNumber = Field(default=9.81, description="acceleration of gravity, m/s²")
     ends: Literal["walls", "open"] = Field(
         default="walls",
@@ -36,7 +49,7 @@ class Liquid(SceneModel):
     density: Annotated[float, Strict(), Field(ge=0, le=LARGEST)] = Field(
         description="density, kg/m³; 0, of the upper of two only, is air, which is not modelled"
     )
-    depth: PositiveNumber = Field(description="depth of the layer, m")
+    depth: PositiveOrInfinite = Field(description='depth of the layer, m; inf only with ends = "open"')
 
     @field_validator("density")
     @classmethod
@@ -75,7 +88,7 @@ class MeshFile(SceneModel):
 
 
 class TankScene(SceneModel):
-    """A closed tank with one liquid or two and any number of bodies, or none (sloshing).
+    """A closed tank with one liquid or two and any number of bodies, or none (sloshing); or open water with bodies.
 
     Raises:
         ValidationError: (a ValueError) if a value is not allowed or the parts do not fit together.
@@ -86,6 +99,9 @@ class TankScene(SceneModel):
     tank: Tank = Field(description="the tank")
     liquid: tuple[Liquid, ...] = Field(min_length=1, max_length=2, description="one liquid or two, from the bottom up")
     body: tuple[Body, ...] = Field(default=(), description="the bodies, in any order; none for sloshing alone")
+    analysis: tuple[Analysis, ...] = Field(
+        default=(), description='what is asked of open water, one resonance analysis if empty; none with ends = "walls"'
+    )
     accuracy: Accuracy = Field(default=Accuracy(), description="what is asked of the answer")
     mesh: MeshFile | None = Field(default=None, description="a mesh of your own")
 
@@ -112,6 +128,16 @@ class TankScene(SceneModel):
         return self.tank.top if len(self.layers) == len(self.liquid) else "free"
 
     @property
+    def is_open(self) -> bool:
+        """Whether waves leave to both sides."""
+        return self.tank.ends == "open"
+
+    @property
+    def analyses(self) -> tuple[Analysis, ...]:
+        """What is asked of open water; nothing of a closed tank, whose modes are found."""
+        return (self.analysis or (Resonance(),)) if self.is_open else ()
+
+    @property
     def beams(self) -> tuple[tuple[int, Beam], ...]:
         """The beams, each with its index among the bodies."""
         return tuple((index, body) for index, body in enumerate(self.body) if isinstance(body, Beam))
@@ -136,6 +162,11 @@ class TankScene(SceneModel):
         densities = (*(layer.density for layer in self.layers), 0.0)
         place = len(self.layers) - 1 if level == "surface" else 0
         return densities[place], densities[place + 1]
+
+    @model_serializer(mode="wrap")
+    def _without_idle_keys(self, written: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        """Leave out the analyses where there are none, as in every closed tank."""
+        return {key: value for key, value in written(self).items() if key != "analysis" or value}
 
     @model_validator(mode="after")
     def _parts_fit(self) -> TankScene:

@@ -157,14 +157,14 @@ def test_the_extremes_of_the_reference_cases_are_accepted(changes: dict[str, flo
 
 def test_what_is_not_modelled_is_not_allowed() -> None:
     with pytest.raises(ValidationError):
-        Tank(length=10, ends="open")  # type: ignore[arg-type]
+        Tank(length=10, ends="periodic")  # type: ignore[arg-type]
     with pytest.raises(ValidationError):
         beam(kind="float")
     liquid = Liquid(density=1000, depth=5)
     with pytest.raises(ValidationError):
         TankScene(tank=Tank(length=10), liquid=(liquid, liquid))
     with pytest.raises(ValidationError):
-        TankScene(tank=Tank(length=10), liquid=(liquid,), analysis=())  # type: ignore[call-arg]
+        TankScene(tank=Tank(length=10), liquid=(liquid,), damping=())  # type: ignore[call-arg]
 
 
 @pytest.mark.parametrize("name", ["tank.stl", "tank", ""])

@@ -24,6 +24,8 @@ from hydroelastic.modal.two_layer import TwoLayers
 CHANNEL_SELF_CHECK = 1e-8
 """Greatest |f(0) − 1|, beyond which no value is given."""
 
+_AGREEMENT = 1e-8
+_NEWTON_STEPS = 40
 _RATIO = 1.6
 _POINTS = 20
 _MOST_PANELS = 80
@@ -84,23 +86,21 @@ def channel_resonance(profile: Profile, layers: TwoLayers) -> complex:
         layers: the liquids, as for `channel_radiation`.
 
     Raises:
-        NoEstimateError: as `channel_radiation`, and where Newton's method from the undamped resonance does not converge.
+        NoEstimateError: as `channel_radiation`, and where the resonance is so far from the real axis that two
+            continuations, of different order, differ by more than 1e-8.
 
     Source: open water, docs, thin float.
     """
     response = _response(profile, layers, _POINTS)
     coarse = response.resonant_panel
     omega = _undamped(response, coarse)
-    panel = _fit(profile, layers, 0.6 * omega, 1.5 * omega, _POINTS)
-    z = complex(omega)
-    for _ in range(40):
-        step = 1e-4 * abs(z)
-        value, ahead, behind = response.dynamic_stiffness(panel, np.array([z, z + step, z - step]))
-        change = value * 2 * step / (ahead - behind)
-        z -= change
-        if abs(change) < 1e-14 * abs(z):
-            return z
-    raise NoEstimateError("the float is so wide that its resonance is damped away")
+    found, other = (
+        _damped(response, _fit(profile, layers, 0.6 * omega, 1.5 * omega, points), omega)
+        for points in (_POINTS + 4, _POINTS)
+    )
+    if not abs(found - other) < _AGREEMENT * abs(found):
+        raise NoEstimateError("the float is so wide that its resonance is too far from the real frequencies")
+    return found
 
 
 def channel_free_motion(profile: Profile, layers: TwoLayers, time: npt.ArrayLike) -> FreeMotion:
@@ -108,9 +108,9 @@ def channel_free_motion(profile: Profile, layers: TwoLayers, time: npt.ArrayLike
 
         f(t) = (2/π) ∫₀^∞ c b cos ωt/|c − ω²(m + a) − iωb|² dω.
 
-    At finite depth a and b are even in ω and smooth at ω = 0, so that f has no algebraic tail like that of deep liquids.
-    a and b are taken from Chebyshev series on panels of ω; the integral goes by Gauss points on panels that resolve the
-    resonance and cos ωt. The error estimate is the difference to coarser series and panels, with |f(0) − 1|.
+    With both depths finite a and b are even in ω and smooth at ω = 0, so that f has no algebraic tail like that of deep
+    liquids. a and b are taken from Chebyshev series on panels of ω; the integral goes by Gauss points on panels that
+    resolve the resonance and cos ωt. The error estimate is the difference to coarser series and panels, and |f(0) − 1|.
 
     Args:
         profile: the section.
@@ -118,8 +118,8 @@ def channel_free_motion(profile: Profile, layers: TwoLayers, time: npt.ArrayLike
         time: t ≥ 0, s.
 
     Raises:
-        NoEstimateError: as `channel_radiation`; for times so late that they need too many points; or if f(0) misses 1 by
-            more than `CHANNEL_SELF_CHECK`.
+        NoEstimateError: as `channel_radiation`; for times so late that they need too many points; or if f(0) misses 1
+            by more than `CHANNEL_SELF_CHECK`.
         ValueError: if a time is negative or not finite.
 
     Source: open water, docs, thin float.
@@ -162,6 +162,19 @@ def _fit(profile: Profile, layers: TwoLayers, start: float, end: float, points: 
     omega = start + (end - start) * (nodes + 1) / 2
     values = np.stack(channel_radiation(profile, layers, omega), axis=1)
     return _Panel(start=start, end=end, coefficients=np.linalg.solve(chebvander(nodes, points - 1), values))
+
+
+def _damped(response: _Response, panel: _Panel, omega: float) -> complex:
+    """Return the zero of c − ω²(m + a) − iωb by Newton's method from real ω; nan if it does not converge."""
+    z = complex(omega)
+    for _ in range(_NEWTON_STEPS):
+        step = 1e-4 * abs(z)
+        value, ahead, behind = response.dynamic_stiffness(panel, np.array([z, z + step, z - step]))
+        change = complex(value * 2 * step / (ahead - behind))
+        z -= change
+        if abs(change) < 1e-14 * abs(z):
+            return z
+    return complex(math.nan)
 
 
 def _undamped(response: _Response, panel: _Panel) -> float:

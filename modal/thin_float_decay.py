@@ -17,7 +17,7 @@ from hydroelastic.modal.estimate import NoEstimateError
 from hydroelastic.modal.float_profiles import Profile
 from hydroelastic.modal.thin_float import thin_constants
 from hydroelastic.modal.thin_float_resonance import FreePole, heave_pole, pole_count, second_pole
-from hydroelastic.modal.wave_integral import greatest_angle, wave_integral
+from hydroelastic.modal.wave_integral import greatest_angle, is_endless, wave_integral
 
 SELF_CHECK = 1e-10
 """Greatest |f(0) − 1|, beyond which no value is given."""
@@ -49,7 +49,8 @@ class FreeMotion:
 def free_motion(profile: Profile, time: npt.ArrayLike) -> FreeMotion:
     """Return f(θ) of a thin float released in deep liquids, for all θ ≥ 0:
 
-        f = Σ 2 Re(r e^{zθ}) + (1/π) Im ∫₀^∞ E(ρe^{iφ}) e^{iφ} e^{ρe^{iφ}θ} dρ,     E = z Ω² εG/((z²(1 + εG) + Ω²)(z² + Ω²)),
+        f = Σ 2 Re(r e^{zθ}) + (1/π) Im ∫₀^∞ E(ρe^{iφ}) e^{iφ} e^{ρe^{iφ}θ} dρ,
+        E = z Ω² εG/((z²(1 + εG) + Ω²)(z² + Ω²)),
 
     over the poles z between the imaginary axis and a ray arg z = φ that stays clear of all poles. The integral goes by
     the trapezoidal rule in ln ρ. The error estimate is the difference between two rays, with the rounding of the phase
@@ -116,7 +117,7 @@ def crossover_time(profile: Profile) -> float:
 def _plan(profile: Profile) -> tuple[tuple[FreePole, ...], float, float]:
     """Return the poles to the right of the ray, its angle φ, and how far the nearest singularity is from it."""
     poles: tuple[FreePole, ...] = (heave_pole(profile),)
-    if greatest_angle(profile) == math.pi:
+    if is_endless(profile):
         poles, limit = _plan_endless(profile)
     else:
         limit = _clear_angle(profile)

@@ -44,7 +44,7 @@ def thin_float_radiation(profile: Profile, layers: TwoLayers, omega: npt.ArrayLi
     Args:
         profile: the section.
         layers: the liquids; two need a rigid lid or an infinite depth above.
-        omega: ω > 0, rad/s.
+        omega: ω > 0, rad/s; may be empty.
 
     Raises:
         NoEstimateError: for a blunt section, one that reaches bottom or lid, or a top that is not rigid.
@@ -55,21 +55,19 @@ def thin_float_radiation(profile: Profile, layers: TwoLayers, omega: npt.ArrayLi
     frequency = np.asarray(omega, dtype=np.float64)
     if not np.all(np.isfinite(frequency) & (frequency > 0)):
         raise ValueError("frequencies must be finite and positive")
-    if not is_deep(layers):
-        added_mass, damping = channel_radiation(profile, layers, frequency.ravel())
-        return HeaveRadiation(
-            added_mass=added_mass.reshape(frequency.shape),
-            damping=damping.reshape(frequency.shape),
-            infinite_added_mass=channel_inertia(profile, layers),
-        )
-    kappa = (frequency / natural_rate(profile, layers)) ** 2
-    inertia = _inertia_unit(profile, layers)
-    waves = 2 * wave_integral(profile, 1j * np.sqrt(kappa)).real
-    added_mass = inertia * (2 / math.pi) * (inertia_factor(profile) + waves)
+    deep = is_deep(layers)
+    if deep:
+        infinite = thin_float_added_mass(profile, layers.density_below, layers.density_above)
+    else:
+        infinite = channel_inertia(profile, layers)
+    added_mass, damping = np.empty(0), np.empty(0)
+    if frequency.size:
+        radiation = _deep_radiation if deep else channel_radiation
+        added_mass, damping = radiation(profile, layers, frequency.ravel())
     return HeaveRadiation(
-        added_mass=added_mass,
-        damping=4 * inertia * frequency * wave_moment(profile, kappa) ** 2,
-        infinite_added_mass=thin_float_added_mass(profile, layers.density_below, layers.density_above),
+        added_mass=added_mass.reshape(frequency.shape),
+        damping=damping.reshape(frequency.shape),
+        infinite_added_mass=infinite,
     )
 
 
@@ -105,6 +103,14 @@ def natural_rate(profile: Profile, layers: TwoLayers) -> float:
     total = layers.density_below + layers.density_above
     reduced_gravity = layers.gravity * (layers.density_below - layers.density_above) / total
     return math.sqrt(reduced_gravity / profile.half_height)
+
+
+def _deep_radiation(profile: Profile, layers: TwoLayers, frequency: FloatArray) -> tuple[FloatArray, FloatArray]:
+    scaled = frequency / natural_rate(profile, layers)
+    inertia = _inertia_unit(profile, layers)
+    waves = 2 * wave_integral(profile, 1j * scaled).real
+    added_mass = inertia * (2 / math.pi) * (inertia_factor(profile) + waves)
+    return added_mass, 4 * inertia * frequency * wave_moment(profile, scaled**2) ** 2
 
 
 def _inertia_unit(profile: Profile, layers: TwoLayers) -> float:

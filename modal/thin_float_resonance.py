@@ -11,10 +11,11 @@ import numpy as np
 import numpy.typing as npt
 
 from hydroelastic.modal.complex_moments import ComplexArray
+from hydroelastic.modal.dry_modes import FloatArray
 from hydroelastic.modal.estimate import NoEstimateError
 from hydroelastic.modal.float_profiles import Profile
 from hydroelastic.modal.thin_float import thin_constants
-from hydroelastic.modal.wave_integral import greatest_angle, wave_integral
+from hydroelastic.modal.wave_integral import greatest_angle, is_endless, wave_integral
 
 _FIRST_COUPLING = 0.02
 _GROWTH = 1.15
@@ -82,7 +83,7 @@ def second_pole(profile: Profile) -> FreePole:
     Raises:
         NoEstimateError: for any other shape, whose further poles are endless in number, beyond an angle of about 3π/4.
     """
-    if greatest_angle(profile) < math.pi:
+    if not is_endless(profile):
         raise NoEstimateError("only the exponential without end has exactly one more pole")
     coupling = min(thin_constants(profile).coupling, 1e-3)
     slenderness = math.pi * coupling / (2 - coupling)
@@ -92,8 +93,8 @@ def second_pole(profile: Profile) -> FreePole:
 def pole_count(profile: Profile, angle: float) -> int:
     """Return how many poles have π/2 < arg z < ``angle``, from the argument of D along the border of that sector.
 
-    For the exponential without end and ``angle`` = π it is that of D (z² − 1)², without the double pole of G at −1 ± i0,
-    along the upper side of the cut; it is 2.
+    For the exponential without end it is that of D (z² − 1)², without the double pole of G at −1 ± i0; with
+    ``angle`` = π, along the upper side of the cut, it is 2.
 
     Args:
         profile: the section.
@@ -105,7 +106,7 @@ def pole_count(profile: Profile, angle: float) -> int:
     """
     if not math.pi / 2 < angle <= greatest_angle(profile):
         raise ValueError(f"angle is {angle}; it must be between π/2 and {greatest_angle(profile):.4f}")
-    order = 4 if greatest_angle(profile) == math.pi else 0
+    order = 4 if is_endless(profile) else 0
     outward = _turn(profile, math.pi / 2, order)
     back = _turn(profile, angle, order)
     arc = (2 + order) * (angle - math.pi / 2)
@@ -160,7 +161,7 @@ def _newton(profile: Profile, coupling: float, squared: float, start: complex) -
 
 def _turn(profile: Profile, angle: float, order: int) -> float:
     """Return by how much the argument of D (z² − 1)^{order/2} grows from near 0 to far out on the ray."""
-    logarithms = np.linspace(_LEAST_LOG_RADIUS, _MOST_LOG_RADIUS, 400)
+    logarithms: FloatArray = np.linspace(_LEAST_LOG_RADIUS, _MOST_LOG_RADIUS, 400)
     values = _on_ray(profile, angle, order, logarithms)
     for _ in range(_MOST_REFINEMENTS):
         coarse = np.abs(np.angle(values[1:] / values[:-1])) > _MOST_TURN
@@ -174,7 +175,7 @@ def _turn(profile: Profile, angle: float, order: int) -> float:
     return float(np.sum(np.angle(values[1:] / values[:-1])))
 
 
-def _on_ray(profile: Profile, angle: float, order: int, logarithms: npt.NDArray[np.float64]) -> ComplexArray:
+def _on_ray(profile: Profile, angle: float, order: int, logarithms: npt.NDArray) -> ComplexArray:
     radius = np.exp(logarithms)
     z = radius * cmath.exp(1j * angle)
     if order:

@@ -24,7 +24,7 @@ def greatest_angle(profile: Profile) -> float:
 
     Beyond 3π/4 R(−z²) of a float with ends grows like e^{|z|²}.
     """
-    return math.pi if _is_endless(profile) else _PLAIN_SECTOR
+    return math.pi if is_endless(profile) else _PLAIN_SECTOR
 
 
 def wave_integral(profile: Profile, frequency: npt.ArrayLike) -> ComplexArray:
@@ -37,8 +37,8 @@ def wave_integral(profile: Profile, frequency: npt.ArrayLike) -> ComplexArray:
 
     Args:
         profile: the section.
-        frequency: z = p √(h/g*) ≠ 0, p in e^{pt}, |arg z| up to `greatest_angle`; z = iω is the limit from Re z > 0, and
-            on the cut z < 0 of the exponential it is that from above.
+        frequency: z = p √(h/g*) ≠ 0, p in e^{pt}, |arg z| up to `greatest_angle`; z = iω is the limit from Re z > 0,
+            and on the cut z < 0 of the exponential it is that from above.
 
     Returns:
         Values in the shape of ``frequency``.
@@ -56,12 +56,13 @@ def wave_integral(profile: Profile, frequency: npt.ArrayLike) -> ComplexArray:
         raise ValueError(f"frequencies must not be 0, nor beyond an angle of {limit:.3f} from the positive axis")
     below = z.imag < 0
     upper = np.where(below, z.conj(), z)
-    value = (_endless if _is_endless(profile) else functools.partial(_by_ray, profile))(upper.ravel())
+    value = (_endless if is_endless(profile) else functools.partial(_by_ray, profile))(upper.ravel())
     value = value.reshape(z.shape)
     return np.where(below, value.conj(), value).reshape(np.shape(frequency))
 
 
-def _is_endless(profile: Profile) -> bool:
+def is_endless(profile: Profile) -> bool:
+    """Whether it is the exponential without end, whose R has a pole at κ = −1 and no growth beyond."""
     return profile.shape == "exponential" and not profile.tail
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy.optimize import brentq
 
 from hydroelastic.modal.box_inertia import interface_moment, layer_inertia, layer_wave_moment
 from hydroelastic.modal.dry_modes import FloatArray
@@ -17,6 +16,7 @@ from hydroelastic.modal.two_layer import TwoLayers
 _STEP = 0.08
 _REACH = 40
 _CHUNK = 64
+_NEWTON_STEPS = 60
 
 
 def channel_radiation(profile: Profile, layers: TwoLayers, frequency: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -38,7 +38,7 @@ def channel_radiation(profile: Profile, layers: TwoLayers, frequency: FloatArray
     Source: open water, docs, thin float.
     """
     check_channel(profile, layers)
-    numbers = np.array([_wavenumber(layers, float(omega)) for omega in frequency])
+    numbers = _wavenumbers(layers, frequency)
     chunks = np.array_split(np.arange(numbers.size), max(1, math.ceil(numbers.size / _CHUNK)))
     integral = np.concatenate([_principal_value(profile, layers, numbers[chunk]) for chunk in chunks])
     slope = _squared(layers, numbers)[1]
@@ -111,21 +111,18 @@ def _squared(layers: TwoLayers, k: FloatArray) -> tuple[FloatArray, FloatArray]:
     return squared, squared / k * (1 + decrease / load)
 
 
-def _wavenumber(layers: TwoLayers, omega: float) -> float:
-    """Return k₀ > 0 of σ(k₀) = ω, by its logarithm."""
-    # Between that of deep liquids and, where both are finite, of the shallow limit, which is slower than neither.
-    deep = omega**2 * (layers.density_below + layers.density_above) / _restoring(layers)
-
-    def excess(logarithm: float) -> float:
-        return math.log(float(_squared(layers, np.array([math.exp(logarithm)]))[0][0])) - 2 * math.log(omega)
-
-    low = high = math.log(deep)
-    # C_j ≥ 1, so that waves of a given k are slower than in deep liquids: k₀ lies above.
-    while excess(high) < 0:
-        high += 1
-    if high == low:
-        return deep
-    return math.exp(brentq(excess, low, high, xtol=1e-15, rtol=4 * np.finfo(float).eps))
+def _wavenumbers(layers: TwoLayers, omega: FloatArray) -> FloatArray:
+    """Return k₀ > 0 of σ(k₀) = ω, shape (n,), by Newton's method in ln k: ln σ² has a slope between 1 and 2."""
+    # That of deep liquids lies below: waves of a given k are slower where the bottom is near.
+    logarithm = np.log(omega**2 * (layers.density_below + layers.density_above) / _restoring(layers))
+    for _ in range(_NEWTON_STEPS):
+        k = np.exp(logarithm)
+        squared, slope = _squared(layers, k)
+        step = (np.log(squared) - 2 * np.log(omega)) * squared / (k * slope)
+        logarithm = logarithm - step
+        if np.all(np.abs(step) < 1e-15 * (1 + np.abs(logarithm))):
+            break
+    return np.exp(logarithm)
 
 
 def _principal_value(profile: Profile, layers: TwoLayers, numbers: FloatArray) -> FloatArray:

@@ -153,7 +153,7 @@ def test_reference_added_mass_and_damping(name: str) -> None:
     np.testing.assert_allclose(
         radiation.damping / np.sqrt(kappa) / 0.1**2, [float(b) for b in values["b_hat"]], rtol=16 * EPS
     )
-    assert radiation.infinite_added_mass == pytest.approx(0.1**2 * float(values["a_hat_inf"]), rel=4 * EPS)
+    assert radiation.infinite_added_mass == pytest.approx(0.1**2 * float(values["a_hat_inf"]), rel=4 * EPS, abs=0)
 
 
 def test_reference_channel() -> None:
@@ -172,19 +172,15 @@ def test_limits_of_added_mass_and_damping(shape: FloatShape) -> None:
     radiation = thin_float_radiation(profile, UNIT, np.sqrt(kappa))
     added_mass, damping = radiation.added_mass / 0.01, radiation.damping / np.sqrt(kappa) / 0.01
     # a ~ −(4/π) ln κ and b → 4 up to O(κ ln κ) and O(κ).
-    assert added_mass[0] - added_mass[1] == pytest.approx(4 / math.pi * math.log(100), rel=1e-8)
-    assert damping[0] == pytest.approx(4, rel=1e-11)
+    assert added_mass[0] - added_mass[1] == pytest.approx(4 / math.pi * math.log(100), rel=1e-8, abs=0)
+    assert damping[0] == pytest.approx(4, rel=1e-11, abs=0)
     # a ~ a_∞ − (4/π) ∫R² dκ/κ₀, next term O(ln κ/κ²).
     whole = quad(lambda u: float(wave_moment(profile, math.exp(u))) ** 2 * math.exp(u), -40, 40, limit=400)[0]
     missing = 2 / math.pi * inertia_factor(profile) - added_mass[2:]
     np.testing.assert_allclose(missing * kappa[2:], 4 / math.pi * whole, rtol=5e-5)
-    power = {"exponential": 1, "wedge": 1, "parabola": 4, "ellipse": 0}[shape]
-    ratio = 4 * power / kappa[2] ** 2 if shape != "parabola" else 4 * 4 / kappa[2] ** 4
-    if shape == "parabola":
-        ratio = 4 * (2 / kappa[2] ** 2) ** 2
-    elif shape == "ellipse":
-        ratio = 4 / kappa[2] ** 4
-    assert damping[2] == pytest.approx(ratio, rel=1e-5)
+    # R ~ 1/κ where the slope is −b/h at y = 0, 2/κ² or 1/κ² where it is −2by/h² or −by/h².
+    moment = {"exponential": 1 / kappa, "wedge": 1 / kappa, "parabola": 2 / kappa**2, "ellipse": 1 / kappa**2}[shape]
+    np.testing.assert_allclose(damping[2:], 4 * moment[2:] ** 2, rtol=1e-5)
 
 
 @pytest.mark.parametrize("shape", SHAPES)
@@ -193,12 +189,12 @@ def test_added_mass_and_damping_are_a_hilbert_pair(shape: FloatShape, layers: Tw
     """a − a_∞ = (2/π) PV∫ b dω'/(ω'² − ω²), with the pole midway between nodes of the trapezoidal rule in ln ω'."""
     profile = thin(shape, 0.1, tail=0.3)
     for omega in (0.2, 1.0, 3.0):
-        nodes = omega * np.exp(0.04 * (np.arange(-900, 900) + 0.5))
-        # Up to 1e15 and down to 1e-15 times ω; b falls at least like 1/ω³.
+        nodes = omega * np.exp(0.1 * (np.arange(-360, 360) + 0.5))
+        # b falls at least like 1/ω³, and does not grow towards ω = 0: 1e-12/ω² is left there.
         damping = np.zeros_like(nodes)
-        felt = (nodes < 1e8) & (nodes > 1e-8)
+        felt = (nodes < 1e6) & (nodes > 1e-12)
         damping[felt] = thin_float_radiation(profile, layers, nodes[felt]).damping
-        integral = 0.04 * np.sum(nodes * damping / (nodes**2 - omega**2))
+        integral = 0.1 * np.sum(nodes * damping / (nodes**2 - omega**2))
         radiation = thin_float_radiation(profile, layers, omega)
         difference = radiation.added_mass - radiation.infinite_added_mass
         assert difference == pytest.approx(2 / math.pi * integral, abs=1e-8 * radiation.infinite_added_mass)
@@ -218,7 +214,7 @@ def test_channel_tends_to_deep_water_and_to_long_waves() -> None:
     slow = thin_float_radiation(profile, CHANNEL, [1e-6, 1e-5])
     speed = math.sqrt(0.2 * 9.81 / (0.8 / 1.5 + 1 / 2))
     np.testing.assert_allclose(slow.damping, 2 * 0.1**2 * 0.2 * 9.81 / speed, rtol=1e-9)
-    assert slow.added_mass[0] == pytest.approx(slow.added_mass[1], rel=1e-8)
+    assert slow.added_mass[0] == pytest.approx(slow.added_mass[1], rel=1e-8, abs=0)
 
 
 def test_complex_added_mass_is_that_of_real_frequencies_and_vanishes_with_the_stiffness_at_resonance() -> None:
@@ -230,7 +226,9 @@ def test_complex_added_mass_is_that_of_real_frequencies_and_vanishes_with_the_st
         expected = radiation.added_mass + 1j * radiation.damping / omega
         # Rounding of the complex value, whose real part is not small beside a_∞.
         scale = radiation.infinite_added_mass
-        np.testing.assert_allclose(complex_added_mass(profile, layers, -1j * omega), expected, atol=1e-14 * scale)
+        np.testing.assert_allclose(
+            complex_added_mass(profile, layers, -1j * omega), expected, rtol=0, atol=1e-14 * scale
+        )
         estimate = open_float_estimate(profile, layers, omega)
         assert estimate.resonance is not None
         rate = -1j * estimate.resonance
@@ -244,14 +242,12 @@ def test_wave_integral_is_analytic(shape: FloatShape) -> None:
     profile = thin(shape, 0.1)
     for centre in (1j, 1e-3j, 30j):
         around = centre * (1 + 0.4 * np.exp(2j * math.pi * np.arange(64) / 64))
-        assert np.mean(wave_integral(profile, around)) == pytest.approx(
-            complex(wave_integral(profile, centre)), rel=4e-15
-        )
+        here = complex(wave_integral(profile, centre))
+        assert np.mean(wave_integral(profile, around)) == pytest.approx(here, rel=4e-15, abs=0)
     # On the axis Im G = −πR².
     z = 1j * np.geomspace(1e-3, 5, 7)
-    np.testing.assert_allclose(
-        wave_integral(profile, z).imag, -math.pi * wave_moment(profile, np.abs(z) ** 2) ** 2, atol=4e-14
-    )
+    waves = -math.pi * wave_moment(profile, np.abs(z) ** 2) ** 2
+    np.testing.assert_allclose(wave_integral(profile, z).imag, waves, rtol=0, atol=1e-14)
     assert complex(wave_integral(profile, 0.3 - 2j)) == complex(wave_integral(profile, 0.3 + 2j)).conjugate()
     with pytest.raises(ValueError, match="must not be 0"):
         wave_integral(profile, 0.0)
@@ -266,7 +262,7 @@ def test_wave_integral_of_the_exponential_by_both_ways() -> None:
     endless = wave_integral(thin("exponential", 0.1), z)
     np.testing.assert_allclose(wave_integral(thin("exponential", 0.1, tail=1e-300), z), endless, rtol=1e-14)
     # z = 1 is no singularity, z = −1 a double pole at which F is finite: −1.
-    assert complex(wave_integral(thin("exponential", 0.1), 1.0)) == pytest.approx(0.5, rel=EPS)
+    assert complex(wave_integral(thin("exponential", 0.1), 1.0)) == pytest.approx(0.5, rel=EPS, abs=0)
     constants = thin_constants(thin("exponential", 0.1))
     close = -1 + 1e-7j
     inertia = 1 + constants.coupling * complex(wave_integral(thin("exponential", 0.1), close))
@@ -281,9 +277,8 @@ def test_complex_moment_against_adaptive_quadrature(profile: Profile) -> None:
             kappa = size * np.exp(1j * angle)
             y, weights = gauss(np.concatenate([[0.0], np.geomspace(1e-6, 1, 400)]))
             if profile.shape == "ellipse":
-                value = np.sum(
-                    math.pi / 2 * weights * np.sin(math.pi / 2 * y) * np.exp(-kappa * np.sin(math.pi / 2 * y))
-                )
+                height = np.sin(math.pi / 2 * y)
+                value = np.sum(math.pi / 2 * weights * height * np.exp(-kappa * height))
             else:
                 y, weights = profile.extent * y, profile.extent * weights
                 value = np.sum(-profile.slope_at(y) / 0.1 * weights * np.exp(-kappa * y))
@@ -297,12 +292,10 @@ def test_the_exponential_has_two_poles(coupling: float) -> None:
     # One between the axis and a ray between them, found apart from their positions.
     angles = sorted(np.angle([heave_pole(profile).frequency, second_pole(profile).frequency]))
     assert [pole_count(profile, a) for a in (0.5 * (math.pi / 2 + angles[0]), sum(angles) / 2)] == [0, 1]
-    slenderness = profile.half_width
-    if slenderness < 0.2:
-        expansion = complex(
-            -(slenderness / 4 + slenderness**3 / 128), 1 + slenderness**2 / 32 + slenderness**3 / (16 * math.pi)
-        )
-        assert heave_pole(profile).frequency == pytest.approx(expansion, abs=slenderness**4)
+    tau = profile.half_width
+    if tau < 0.2:
+        expansion = complex(-(tau / 4 + tau**3 / 128), 1 + tau**2 / 32 + tau**3 / (16 * math.pi))
+        assert heave_pole(profile).frequency == pytest.approx(expansion, abs=tau**4 + 4 * EPS)
 
 
 @pytest.mark.parametrize("shape", SHAPES[1:])
@@ -317,7 +310,7 @@ def test_other_shapes_have_one_pole_beside_the_axis(shape: FloatShape) -> None:
     frequency = heave_pole(profile).frequency
     radiation = thin_float_radiation(profile, UNIT, frequency.imag)
     rate = radiation.damping / (2 * (thin_float_mass(profile, 1.0, 0.0) + radiation.added_mass))
-    assert -frequency.real == pytest.approx(float(rate), rel=2e-3)
+    assert -frequency.real == pytest.approx(float(rate), rel=2e-3, abs=0)
     # No wave moment vanishes, so that no motion is trapped: b > 0.
     assert np.all(wave_moment(profile, np.geomspace(1e-12, 1e6, 200)) > 0)
 
@@ -333,34 +326,34 @@ def test_beginning_tail_and_crossover(shape: FloatShape, slenderness: float) -> 
     square = constants.frequency_squared
     series = 1 - square * theta**2 / 2 + square * (square + constants.coupling * moment) * theta**4 / 24
     # The next term is (θ⁶/360) (…+ ln θ), 2e-13; the last one that is kept is 7e-9.
-    np.testing.assert_allclose(free_motion(profile, theta).heave, series, atol=2e-12)
+    np.testing.assert_allclose(free_motion(profile, theta).heave, series, rtol=0, atol=2e-12)
     late = 2e3 if slenderness >= 1 else 1e9
     if slenderness >= 1e-2:
         # Next term relative O(τ ln θ/θ²).
         tail = free_motion_tail(profile, late)
         assert float(tail) < 0
-        assert free_motion(profile, late).heave == pytest.approx(float(tail), rel=2e-4 * slenderness)
+        assert free_motion(profile, late).heave == pytest.approx(float(tail), rel=2e-4 * slenderness, abs=0)
     if slenderness <= 1e-2:
         crossing = crossover_time(profile)
         pole = heave_pole(profile)
         ringing = 2 * abs(pole.residue) * math.exp(pole.frequency.real * crossing)
-        assert ringing == pytest.approx(-float(free_motion_tail(profile, crossing)), rel=1e-9)
+        assert ringing == pytest.approx(-float(free_motion_tail(profile, crossing)), rel=1e-9, abs=0)
         assert abs(free_motion_tail(profile, 2 * crossing)) > 2 * math.exp(2 * pole.frequency.real * crossing)
 
 
 def test_crossover_of_the_references() -> None:
-    assert crossover_time(of_coupling(1e-4)) == pytest.approx(9.2e5, rel=5e-3)
-    assert crossover_time(of_coupling(0.1)) == pytest.approx(316, rel=2e-3)
+    assert crossover_time(of_coupling(1e-4)) == pytest.approx(9.2e5, rel=5e-3, abs=0)
+    assert crossover_time(of_coupling(0.1)) == pytest.approx(316, rel=2e-3, abs=0)
     with pytest.raises(NoEstimateError, match="at all times"):
         crossover_time(of_coupling(1.99))
 
 
-@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("shape", ["exponential", "wedge"])
 def test_the_whole_motion_has_mean_zero(shape: FloatShape) -> None:
     """∫ f dθ = 0: the transform vanishes at z = 0. The rest beyond T follows from the tail, next term O(ln T/T³)."""
     profile = thin(shape, 0.3)
     end = 2e3
-    theta, weights = gauss(np.linspace(0, end, 4000))
+    theta, weights = gauss(np.linspace(0, end, 1500))
     rest = -4 * 0.3 / math.pi / end
     assert weights @ free_motion(profile, theta).heave + rest == pytest.approx(0, abs=1e-7)
 
@@ -385,7 +378,9 @@ def test_wide_floats_against_the_spectrum(shape: FloatShape, slenderness: float)
     profile = thin(shape, slenderness, tail=0.05)
     theta = np.array([0.0, 0.7, 3.0, 20.0])
     # The integrand falls like ω⁻⁷ at least: 2e-9 is left beyond 30.
-    np.testing.assert_allclose(free_motion(profile, theta).heave, spectral(profile, UNIT, theta, 30.0), atol=2e-8)
+    np.testing.assert_allclose(
+        free_motion(profile, theta).heave, spectral(profile, UNIT, theta, 30.0), rtol=0, atol=2e-8
+    )
 
 
 def test_both_plans_of_the_ray_agree(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -407,7 +402,7 @@ def test_slender_floats_and_late_times() -> None:
         theta = np.array([0.5, 1.0, 3.0]) / slenderness
         simple = np.exp(-slenderness * theta / 4) * np.cos(theta)
         motion = free_motion(thin("exponential", slenderness), theta)
-        np.testing.assert_allclose(motion.heave, simple, atol=2 * slenderness + 4 * EPS * theta[-1])
+        np.testing.assert_allclose(motion.heave, simple, rtol=0, atol=2 * slenderness + 4 * EPS * theta[-1])
         assert motion.error.max() < 20 * EPS * theta[-1]
     many = free_motion(thin("wedge", 0.1), np.linspace(0, 1e4, 2501).reshape(61, 41))
     assert many.heave.shape == many.error.shape == (61, 41)
@@ -418,7 +413,7 @@ def test_slender_floats_and_late_times() -> None:
 def test_motion_in_a_channel_is_that_in_a_long_box_before_waves_return(shape: FloatShape) -> None:
     """Modes of a closed box of length L: no wave is back before L/c₀, and up to then box and channel cannot differ."""
     profile = thin(shape, 0.1, tail=0.3)
-    length = 60.0
+    length = 100.0
     body = FloatInTank(
         layers=CHANNEL,
         tank_length=length,
@@ -427,16 +422,16 @@ def test_motion_in_a_channel_is_that_in_a_long_box_before_waves_return(shape: Fl
         stiffness=thin_float_stiffness(profile, 1.0, 0.8, 9.81),
         profile=profile,
     )
-    modes = box_modes(body, 700)
+    modes = box_modes(body, 1200)
     rise = 2 * 0.1 / length
     weights = modes.participation / (1 + rise)
-    time = np.array([0.0, 0.5, 2.0, 5.0, 12.0, 25.0, 40.0])
-    assert time[-1] < length / math.sqrt(0.2 * 9.81 / (0.8 / 1.5 + 1 / 2))
+    time = np.array([0.0, 0.5, 2.0, 5.0, 12.0, 20.0, 30.0])
+    assert time[-1] < 0.5 * length / math.sqrt(0.2 * 9.81 / (0.8 / 1.5 + 1 / 2))
     box = rise / (1 + rise) + np.cos(np.multiply.outer(time, modes.omega)) @ weights
-    # What the first 700 modes leave out, from their sum at t = 0.
     motion = released_float(profile, CHANNEL, time)
-    assert abs(box[0] - 1) < 5e-6
-    np.testing.assert_allclose(motion.heave, box, atol=2 * abs(box[0] - 1) + 1e-9)
+    # What the first modes leave out, from their sum at t = 0: 4e-11 for the parabola, 4e-7 for the exponential.
+    assert abs(box[0] - 1) < 1e-6
+    np.testing.assert_allclose(motion.heave, box, rtol=0, atol=2 * abs(box[0] - 1) + 1e-10)
     assert motion.error.max() < 1e-11
 
 
@@ -448,8 +443,10 @@ def test_channel_motion_and_resonance_tend_to_those_of_deep_water() -> None:
     reference = released_float(profile, deep, time).heave
     np.testing.assert_array_equal(reference, free_motion(profile, time * natural_rate(profile, deep)).heave)
     # The bottom acts at the order (h/depth)², and later.
-    np.testing.assert_allclose(released_float(profile, far, time).heave, reference, atol=2e-5)
-    assert channel_resonance(profile, far) == pytest.approx(open_float_estimate(profile, deep, 1.0).resonance, rel=1e-7)
+    np.testing.assert_allclose(released_float(profile, far, time).heave, reference, rtol=0, atol=2e-5)
+    assert channel_resonance(profile, far) == pytest.approx(
+        open_float_estimate(profile, deep, 1.0).resonance, rel=1e-7, abs=0
+    )
 
 
 def test_channel_resonance_is_the_late_motion() -> None:
@@ -477,8 +474,8 @@ def test_estimate_in_si_units() -> None:
     estimate = open_float_estimate(profile, layers, [])
     assert estimate.radiation.added_mass.shape == (0,)
     z = number(CASES["f_wedge_tau0.1"]["values"]["z1"])
-    assert estimate.resonance == pytest.approx(complex(z.imag, z.real) * rate, rel=1e-14)
-    assert estimate.crossover_time == pytest.approx(crossover_time(thin("wedge", 0.1)) / rate, rel=1e-12)
+    assert estimate.resonance == pytest.approx(complex(z.imag, z.real) * rate, rel=1e-14, abs=0)
+    assert estimate.crossover_time == pytest.approx(crossover_time(thin("wedge", 0.1)) / rate, rel=1e-12, abs=0)
     motion = released_float(profile, layers, 3.0 / rate)
     assert motion.heave == pytest.approx(float(CASES["f_wedge_tau0.1"]["values"]["f"][2]), abs=1e-14)
     assert open_float_estimate(thin("parabola", 0.1), CHANNEL, [1.0]).crossover_time is None

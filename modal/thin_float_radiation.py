@@ -60,7 +60,8 @@ def thin_float_radiation(profile: Profile, layers: TwoLayers, omega: npt.ArrayLi
         infinite = thin_float_added_mass(profile, layers.density_below, layers.density_above)
     else:
         infinite = channel_inertia(profile, layers)
-    added_mass, damping = np.empty(0), np.empty(0)
+    added_mass: FloatArray = np.empty(0)
+    damping: FloatArray = np.empty(0)
     if frequency.size:
         radiation = _deep_radiation if deep else channel_radiation
         added_mass, damping = radiation(profile, layers, frequency.ravel())

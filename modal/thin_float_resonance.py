@@ -26,6 +26,7 @@ _LEAST_LOG_RADIUS = -20.0
 _MOST_LOG_RADIUS = 10.0
 _MOST_TURN = 0.4
 _MOST_REFINEMENTS = 60
+_WHOLE = 1e-3
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -101,7 +102,7 @@ def pole_count(profile: Profile, angle: float) -> int:
         angle: between π/2 and `greatest_angle`; no pole may lie on that ray.
 
     Raises:
-        NoEstimateError: for a blunt section.
+        NoEstimateError: for a blunt section, or if the argument does not make a whole number of turns.
         ValueError: if ``angle`` is out of its range.
     """
     if not math.pi / 2 < angle <= greatest_angle(profile):
@@ -110,7 +111,10 @@ def pole_count(profile: Profile, angle: float) -> int:
     outward = _turn(profile, math.pi / 2, order)
     back = _turn(profile, angle, order)
     arc = (2 + order) * (angle - math.pi / 2)
-    return round((outward + arc - back) / (2 * math.pi))
+    turns = (outward + arc - back) / (2 * math.pi)
+    if not abs(turns - round(turns)) < _WHOLE:
+        raise NoEstimateError(f"the argument makes {turns:.4f} turns: a pole lies on the border of the sector")
+    return round(turns)
 
 
 def _characteristic(

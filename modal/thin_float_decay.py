@@ -17,10 +17,13 @@ from hydroelastic.modal.estimate import NoEstimateError
 from hydroelastic.modal.float_profiles import Profile
 from hydroelastic.modal.thin_float import thin_constants
 from hydroelastic.modal.thin_float_resonance import FreePole, heave_pole, pole_count, second_pole
-from hydroelastic.modal.wave_integral import greatest_angle, is_endless, wave_integral
+from hydroelastic.modal.wave_integral import fastest_scale, greatest_angle, is_endless, wave_integral
 
 SELF_CHECK = 1e-10
 """Greatest |f(0) − 1|, beyond which no value is given."""
+
+LATEST = 1e100
+"""Greatest θ: z² beyond its inverse would underflow."""
 
 _BOTH_POLES = 0.45
 _SECOND_RAY = 0.4
@@ -58,18 +61,18 @@ def free_motion(profile: Profile, time: npt.ArrayLike) -> FreeMotion:
 
     Args:
         profile: the section.
-        time: θ = t √(g*/h) ≥ 0.
+        time: θ = t √(g*/h), from 0 to `LATEST`.
 
     Raises:
         NoEstimateError: for a blunt section, or a float so wide that its further poles leave no room for a ray, or
             f(0) misses 1 by more than `SELF_CHECK`.
-        ValueError: if a time is negative or not finite.
+        ValueError: if a time is negative or later than `LATEST`.
 
     Source: open water, docs, thin float.
     """
     theta = np.asarray(time, dtype=np.float64)
-    if not np.all(np.isfinite(theta) & (theta >= 0)):
-        raise ValueError("times must be finite and not negative")
+    if not np.all((theta >= 0) & (theta <= LATEST)):
+        raise ValueError(f"times must be between 0 and {LATEST:g}")
     poles, angle, gap = _plan(profile)
     # θ = 0 last, for the check.
     flat = np.append(theta.ravel(), 0.0)
@@ -160,7 +163,8 @@ def _ray_integral(profile: Profile, angle: float, gap: float, theta: FloatArray)
     constants = thin_constants(profile)
     step = 2 * math.pi * gap / _DIGITS
     least = _LEAST_LOG_RADIUS - math.log1p(float(theta.max()))
-    logarithm = step * np.arange(math.floor(least / step), math.ceil(_MOST_LOG_RADIUS / step) + 1)
+    most = _MOST_LOG_RADIUS + math.log(fastest_scale(profile))
+    logarithm = step * np.arange(math.floor(least / step), math.ceil(most / step) + 1)
     z: ComplexArray = np.exp(logarithm) * cmath.exp(1j * angle)
     waves = constants.coupling * wave_integral(profile, z)
     free = z * z + constants.frequency_squared

@@ -15,7 +15,7 @@ from hydroelastic.modal.dry_modes import FloatArray
 from hydroelastic.modal.estimate import NoEstimateError
 from hydroelastic.modal.float_profiles import Profile
 from hydroelastic.modal.thin_float import thin_constants
-from hydroelastic.modal.wave_integral import greatest_angle, is_endless, wave_integral
+from hydroelastic.modal.wave_integral import fastest_scale, greatest_angle, is_endless, wave_integral
 
 _FIRST_COUPLING = 0.02
 _GROWTH = 1.15
@@ -165,7 +165,7 @@ def _newton(profile: Profile, coupling: float, squared: float, start: complex) -
 
 def _turn(profile: Profile, angle: float, order: int) -> float:
     """Return by how much the argument of D (z² − 1)^{order/2} grows from near 0 to far out on the ray."""
-    logarithms: FloatArray = np.linspace(_LEAST_LOG_RADIUS, _MOST_LOG_RADIUS, 400)
+    logarithms: FloatArray = np.linspace(_LEAST_LOG_RADIUS, _MOST_LOG_RADIUS + math.log(fastest_scale(profile)), 400)
     values = _on_ray(profile, angle, order, logarithms)
     for _ in range(_MOST_REFINEMENTS):
         coarse = np.abs(np.angle(values[1:] / values[:-1])) > _MOST_TURN

@@ -27,6 +27,11 @@ def greatest_angle(profile: Profile) -> float:
     return math.pi if is_endless(profile) else _PLAIN_SECTOR
 
 
+def fastest_scale(profile: Profile) -> float:
+    """Return √(h/extent), at least 1: the frequency z of waves as long as the float, where its end is short of h."""
+    return math.sqrt(max(1.0, profile.half_height / profile.extent))
+
+
 def wave_integral(profile: Profile, frequency: npt.ArrayLike) -> ComplexArray:
     """Return G(z) = ∫₀^∞ R(κ)² dκ/(κ + z²)/b² for Re z > 0, and its continuation across the imaginary axis:
 

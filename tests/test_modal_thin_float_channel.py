@@ -71,6 +71,21 @@ def test_channel_motion_and_resonance_tend_to_those_of_deep_water() -> None:
     )
 
 
+def test_equal_depths_are_one_liquid_with_reduced_gravity() -> None:
+    """Heave between equal layers is odd in y: density ρ₁ + ρ₂ and gravity g* under a free surface."""
+    profile = thin("wedge", 0.1)
+    two = TwoLayers(density_below=1.0, density_above=0.8, depth_below=1.5, depth_above=1.5, gravity=9.0)
+    one = TwoLayers(density_below=1.8, depth_below=1.5, gravity=9.0 * 0.2 / 1.8)
+    omega = np.array([0.2, 1.0, 4.0])
+    double, single = (open_float_estimate(profile, layers, omega) for layers in (two, one))
+    np.testing.assert_allclose(double.radiation.added_mass, single.radiation.added_mass, rtol=1e-12)
+    np.testing.assert_allclose(double.radiation.damping, single.radiation.damping, rtol=1e-13)
+    assert double.resonance == pytest.approx(single.resonance, rel=1e-11, abs=0)
+    time = np.array([0.0, 2.0, 9.0])
+    motions = [released_float(profile, layers, time).heave for layers in (two, one)]
+    np.testing.assert_allclose(*motions, rtol=0, atol=1e-11)
+
+
 def test_channel_resonance_is_the_late_motion() -> None:
     """Two late values of f fall as e^{−iωt} does: without a tail it is all that is left."""
     profile = thin("parabola", 0.1)
@@ -101,6 +116,19 @@ def test_estimate_in_si_units() -> None:
     motion = released_float(profile, layers, 3.0 / rate)
     assert motion.heave == pytest.approx(float(CASES["f_wedge_tau0.1"]["values"]["f"][2]), abs=1e-14)
     assert open_float_estimate(thin("parabola", 0.1), CHANNEL, [1.0]).crossover_time is None
+
+
+def test_channel_resonance_of_wide_floats() -> None:
+    """In a deep channel that of deep water, as far from the real axis as the series reach; then none."""
+    far = TwoLayers(density_below=1.0, depth_below=1e5, gravity=9.81)
+    deep = TwoLayers(density_below=1.0, depth_below=math.inf, gravity=9.81)
+    for shape in ("wedge", "ellipse"):
+        profile = thin(shape, 1.0)
+        expected = open_float_estimate(profile, deep, []).resonance
+        assert channel_resonance(profile, far) == pytest.approx(expected, rel=1e-9, abs=0)
+    estimate = open_float_estimate(thin("wedge", 20.0), far, [1.0])
+    assert estimate.resonance is None
+    assert "wide" in estimate.note
 
 
 def test_refusals() -> None:

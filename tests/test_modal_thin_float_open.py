@@ -193,7 +193,17 @@ def test_wide_floats_against_the_spectrum(shape: FloatShape, slenderness: float)
     theta = np.array([0.0, 0.7, 3.0, 20.0])
     # The integrand falls like ω⁻⁷ at least: 1e-13 is left beyond 200.
     expected = spectral(profile, UNIT, theta, 200.0)
-    np.testing.assert_allclose(free_motion(profile, theta).heave, expected, rtol=0, atol=2e-12)
+    np.testing.assert_allclose(free_motion(profile, theta).heave, expected, rtol=0, atol=2e-13)
+
+
+def test_a_short_end_only_changes_the_units() -> None:
+    """A tail near 1 leaves a wedge of half-height 1 − tail, in units of which h is long."""
+    for end in (1e-2, 1e-6):
+        profile = thin("exponential", 0.2 * end, tail=1 - end)
+        theta = np.array([0.0, 1.0, 10.0])
+        short = free_motion(profile, theta * math.sqrt(end)).heave
+        # The exponential and a straight line differ by end/8 of the half-width.
+        np.testing.assert_allclose(short, free_motion(thin("wedge", 0.2), theta).heave, rtol=0, atol=3 * end)
 
 
 def test_both_plans_of_the_ray_agree(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -217,6 +227,8 @@ def test_slender_floats_and_late_times() -> None:
         motion = free_motion(thin("exponential", slenderness), theta)
         np.testing.assert_allclose(motion.heave, simple, rtol=0, atol=2 * slenderness + 4 * EPS * theta[-1])
         assert motion.error.max() < 20 * EPS * theta[-1]
+    late = free_motion(thin("wedge", 0.1), 1e30)
+    assert late.heave == pytest.approx(float(free_motion_tail(thin("wedge", 0.1), 1e30)), rel=1e-12, abs=0)
     many = free_motion(thin("wedge", 0.1), np.linspace(0, 1e4, 2501).reshape(61, 41))
     assert many.heave.shape == many.error.shape == (61, 41)
     assert np.all(np.abs(many.heave) <= 1)

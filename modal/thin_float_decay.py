@@ -56,8 +56,8 @@ def free_motion(profile: Profile, time: npt.ArrayLike) -> FreeMotion:
         E = z Ω² εG/((z²(1 + εG) + Ω²)(z² + Ω²)),
 
     over the poles z between the imaginary axis and a ray arg z = φ that stays clear of all poles. The integral goes by
-    the trapezoidal rule in ln ρ. The error estimate is the difference between two rays, with the rounding of the phase
-    Im(z) θ. The ray holds the late tail with full relative precision.
+    the trapezoidal rule in ln ρ. The error estimate is the difference between two rays, the nodes of one between those
+    of the other, with the rounding of the phase Im(z) θ. The ray holds the late tail with full relative precision.
 
     Args:
         profile: the section.
@@ -79,7 +79,8 @@ def free_motion(profile: Profile, time: npt.ArrayLike) -> FreeMotion:
     ringing, rounding = _ringing(poles, flat)
     waves = _ray_integral(profile, angle, gap, flat)
     shift = (1 - 2 * _SECOND_RAY) * gap
-    other = _ray_integral(profile, angle - shift, gap - shift, flat)
+    # Between the nodes of a rule its error has the other sign.
+    other = _ray_integral(profile, angle - shift, gap - shift, flat, offset=0.5)
     heave = ringing + waves
     if not abs(heave[-1] - 1) < SELF_CHECK:
         raise NoEstimateError(f"the motion of so wide a float begins at {heave[-1]:.6g}, not at 1")
@@ -159,12 +160,12 @@ def _ringing(poles: tuple[FreePole, ...], theta: FloatArray) -> tuple[FloatArray
     return total, rounding
 
 
-def _ray_integral(profile: Profile, angle: float, gap: float, theta: FloatArray) -> FloatArray:
+def _ray_integral(profile: Profile, angle: float, gap: float, theta: FloatArray, offset: float = 0.0) -> FloatArray:
     constants = thin_constants(profile)
     step = 2 * math.pi * gap / _DIGITS
     least = _LEAST_LOG_RADIUS - math.log1p(float(theta.max()))
     most = _MOST_LOG_RADIUS + math.log(fastest_scale(profile))
-    logarithm = step * np.arange(math.floor(least / step), math.ceil(most / step) + 1)
+    logarithm = step * (np.arange(math.floor(least / step), math.ceil(most / step) + 1) + offset)
     z: ComplexArray = np.exp(logarithm) * cmath.exp(1j * angle)
     waves = constants.coupling * wave_integral(profile, z)
     free = z * z + constants.frequency_squared

@@ -232,3 +232,16 @@ def test_slender_floats_and_late_times() -> None:
     many = free_motion(thin("wedge", 0.1), np.linspace(0, 1e4, 2501).reshape(61, 41))
     assert many.heave.shape == many.error.shape == (61, 41)
     assert np.all(np.abs(many.heave) <= 1)
+
+
+def test_a_rule_that_is_too_coarse_is_found_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    """f(0) = 1 is no part of the formula; a smaller fault shows in the error estimate."""
+    profile, theta = thin("wedge", 1.0), np.array([0.3, 2.0])
+    exact = free_motion(profile, theta).heave
+    monkeypatch.setattr(decay, "_DIGITS", 12)
+    with pytest.raises(NoEstimateError, match="begins at"):
+        free_motion(profile, theta)
+    monkeypatch.setattr(decay, "SELF_CHECK", 1.0)
+    coarse = free_motion(profile, theta)
+    assert np.all(np.abs(coarse.heave - exact) > 1e-11)
+    assert np.all(np.abs(coarse.heave - exact) < 2 * coarse.error)

@@ -17,6 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 import ufl
 from dolfinx import fem
+from dolfinx.mesh import Mesh
 from petsc4py import PETSc
 
 from hydroelastic.fem.cells import CURVED_QUADRATURE, cell_corners, is_straight, owned_cells
@@ -29,24 +30,26 @@ class ComplexScaling:
     """Where and how far coordinates are turned.
 
     Attributes:
-        rotation: s = e^{iα}.
+        angle: α, by which they are turned.
         low: lower bounds of the basin, one for each axis.
         high: upper bounds.
     """
 
-    rotation: complex
+    angle: float
     low: tuple[float, ...]
     high: tuple[float, ...]
 
-    def factors(self, liquid: LiquidSpace) -> np.ndarray:
-        """The factor sᵢ of each axis in each cell of this process, shape (cells, gdim)."""
-        mesh = liquid.tank.mesh
-        count = mesh.topology.index_map(mesh.topology.dim).size_local + mesh.topology.index_map(
-            mesh.topology.dim
-        ).num_ghosts
-        middles = cell_corners(mesh, np.arange(count, dtype=np.int32)).mean(axis=1)
-        outside = (middles < np.array(self.low)) | (middles > np.array(self.high))
-        return np.where(outside, self.rotation, 1.0 + 0.0j)
+    def turned(self, mesh: Mesh) -> np.ndarray:
+        """Whether each axis is turned in each cell of this process, shape (cells, gdim)."""
+        cells = mesh.topology.index_map(mesh.topology.dim)
+        middles = cell_corners(mesh, np.arange(cells.size_local + cells.num_ghosts, dtype=np.int32)).mean(axis=1)
+        outside: np.ndarray = (middles < np.array(self.low)) | (middles > np.array(self.high))
+        return outside
+
+    def power(self, exponents: np.ndarray, *, derivative: bool) -> np.ndarray:
+        """sⁿ, or its derivative with respect to α, inⁿsⁿ with s = e^{iα}."""
+        powers: np.ndarray = np.exp(1j * self.angle * exponents)
+        return 1j * exponents * powers if derivative else powers
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,19 +60,22 @@ class ComplexMatrix:
     imaginary: PETSc.Mat
 
 
-def scaled_laplace(liquid: LiquidSpace, scaling: ComplexScaling) -> ComplexMatrix:
-    """Assemble A on all unknowns, ρ included (collective)."""
-    factors = scaling.factors(liquid)
-    det = factors.prod(axis=1)
-    weights = _densities(liquid)[:, None] * det[:, None] / factors**2
-    return _both_parts(liquid, weights, np.zeros(len(det), complex), NO_ENTITIES)
+def scaled_laplace(liquid: LiquidSpace, scaling: ComplexScaling, *, derivative: bool = False) -> ComplexMatrix:
+    """Assemble A, or its derivative with respect to α, on all unknowns, ρ included (collective)."""
+    turned = scaling.turned(liquid.tank.mesh).astype(float)
+    exponents = turned.sum(axis=1, keepdims=True) - 2.0 * turned
+    weights = _densities(liquid)[:, None] * scaling.power(exponents, derivative=derivative)
+    return _both_parts(liquid, weights, np.zeros(len(turned)), NO_ENTITIES)
 
 
-def scaled_surface_mass(liquid: LiquidSpace, scaling: ComplexScaling, name: str) -> ComplexMatrix:
-    """Assemble S over a named horizontal surface on all unknowns (collective)."""
-    factors = scaling.factors(liquid)
-    along = factors.prod(axis=1) / factors[:, -1]
-    return _both_parts(liquid, np.zeros(factors.shape, complex), along, liquid.tank.facets(name))
+def scaled_surface_mass(
+    liquid: LiquidSpace, scaling: ComplexScaling, name: str, *, derivative: bool = False
+) -> ComplexMatrix:
+    """Assemble S over a named horizontal surface, or its derivative with respect to α, on all unknowns (collective)."""
+    along = scaling.turned(liquid.tank.mesh)[:, :-1].sum(axis=1)
+    weights = scaling.power(along, derivative=derivative)
+    axes = np.zeros((len(along), liquid.tank.mesh.geometry.dim))
+    return _both_parts(liquid, axes, weights, liquid.tank.facets(name))
 
 
 def _densities(liquid: LiquidSpace) -> np.ndarray:
@@ -80,9 +86,7 @@ def _densities(liquid: LiquidSpace) -> np.ndarray:
 
 def _both_parts(liquid: LiquidSpace, axes: np.ndarray, surface: np.ndarray, facets: np.ndarray) -> ComplexMatrix:
     cells = owned_cells(liquid.tank.mesh) if np.any(axes) else NO_ENTITIES
-    parts = (
-        assembled(_weighted_form(liquid, cells, facets, part(axes), part(surface))) for part in (np.real, np.imag)
-    )
+    parts = (assembled(_weighted_form(liquid, cells, facets, part(axes), part(surface))) for part in (np.real, np.imag))
     real, imaginary = parts
     return ComplexMatrix(real=real, imaginary=imaginary)
 
@@ -90,9 +94,7 @@ def _both_parts(liquid: LiquidSpace, axes: np.ndarray, surface: np.ndarray, face
 def compile_scaled_form(liquid: LiquidSpace) -> None:
     """Compile the form of a space on rank 0, unless the cache of dolfinx has it (collective)."""
     count = len(liquid.space.dofmap.list)
-    _weighted_form(
-        liquid, NO_ENTITIES, NO_ENTITIES, np.zeros((count, liquid.tank.mesh.geometry.dim)), np.zeros(count)
-    )
+    _weighted_form(liquid, NO_ENTITIES, NO_ENTITIES, np.zeros((count, liquid.tank.mesh.geometry.dim)), np.zeros(count))
 
 
 def _weighted_form(
@@ -110,7 +112,5 @@ def _weighted_form(
     more = 0 if is_straight(mesh) else CURVED_QUADRATURE
     dx = chosen_measure("dx", mesh, mesh.topology.dim, cells, 2 * liquid.degree - 2 + more)
     ds = chosen_measure("ds", mesh, mesh.topology.dim - 1, facets, 2 * liquid.degree + more)
-    energy = sum(
-        weight * potential.dx(axis) * test.dx(axis) for axis, weight in enumerate(weights[:-1])
-    )
+    energy = sum(weight * potential.dx(axis) * test.dx(axis) for axis, weight in enumerate(weights[:-1]))
     return fem.form(energy * dx + weights[-1] * potential * test * ds, jit_options=jit_options())

@@ -12,7 +12,9 @@ A and M are those of `complex_scaling`; the loads lie within the basin, and are 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from mpi4py import MPI
@@ -37,6 +39,7 @@ class OpenPencil:
         laplace: A on the free unknowns.
         mass: M on the free unknowns.
         loads: F, own entries of the free unknowns, shape (body unknowns, own free unknowns).
+        turning: derivatives of A and M with respect to the angle of the complex scaling.
     """
 
     liquid: LiquidSpace
@@ -45,11 +48,17 @@ class OpenPencil:
     laplace: ComplexMatrix
     mass: ComplexMatrix
     loads: np.ndarray
+    turning: Callable[[], tuple[ComplexMatrix, ComplexMatrix]]
 
     @property
     def comm(self) -> MPI.Comm:
         """Communicator of the mesh."""
         return self.liquid.tank.mesh.comm
+
+    @property
+    def size(self) -> int:
+        """Number of free unknowns."""
+        return int(self.laplace.real.getSize()[0])
 
     def solver(self) -> ShiftedSolver:
         """(A − λM)⁻¹ (collective)."""
@@ -60,6 +69,13 @@ class OpenPencil:
         total = rows @ columns.T
         self.comm.Allreduce(MPI.IN_PLACE, total)
         return np.asarray(total)
+
+    def vector(self, values: np.ndarray) -> PETSc.Vec:
+        """A real ψ on all unknowns, zero where it is grounded (collective)."""
+        count = self.liquid.space.dofmap.index_map.size_local
+        vector = PETSc.Vec().createMPI((count, PETSc.DETERMINE), comm=self.laplace.real.comm)
+        vector.array[self.free] = values
+        return vector
 
     def load(self, body: Body) -> np.ndarray:
         """Loads of the shapes of a body, ρ included, shape (shapes, own free unknowns) (collective)."""
@@ -79,20 +95,35 @@ def build_open_pencil(
     """
     grounded = liquid.surface_dofs(liquid.grounded)
     free = np.setdiff1d(np.arange(liquid.space.dofmap.index_map.size_local, dtype=np.int32), grounded)
-    laplace = scaled_laplace(liquid, scaling)
-    mass = _wave_mass(liquid, scaling, surfaces, laplace)
-    rows = PETSc.IS().createGeneral(
-        (free + laplace.real.getOwnershipRange()[0]).astype(PETSc.IntType), comm=laplace.real.comm
-    )
+    matrices = partial(_matrices, liquid, scaling, surfaces, free)
+    laplace, mass = matrices(derivative=False)
     loads = [_weighed_loads(liquid, body)[:, free] for body in bodies if body.size]
     return OpenPencil(
         liquid=liquid,
         bodies=bodies,
         free=free,
-        laplace=_on(laplace, rows),
-        mass=_on(mass, rows),
+        laplace=laplace,
+        mass=mass,
         loads=np.vstack(loads) if loads else np.zeros((0, len(free))),
+        turning=partial(matrices, derivative=True),
     )
+
+
+def _matrices(
+    liquid: LiquidSpace,
+    scaling: ComplexScaling,
+    surfaces: tuple[LiquidSurface, ...],
+    free: np.ndarray,
+    *,
+    derivative: bool,
+) -> tuple[ComplexMatrix, ComplexMatrix]:
+    """A and M on the free unknowns, or their derivatives with respect to α."""
+    laplace = scaled_laplace(liquid, scaling, derivative=derivative)
+    mass = _wave_mass(liquid, scaling, surfaces, laplace, derivative=derivative)
+    rows = PETSc.IS().createGeneral(
+        (free + laplace.real.getOwnershipRange()[0]).astype(PETSc.IntType), comm=laplace.real.comm
+    )
+    return _on(laplace, rows), _on(mass, rows)
 
 
 def _weighed_loads(liquid: LiquidSpace, body: Body) -> np.ndarray:
@@ -102,11 +133,16 @@ def _weighed_loads(liquid: LiquidSpace, body: Body) -> np.ndarray:
 
 
 def _wave_mass(
-    liquid: LiquidSpace, scaling: ComplexScaling, surfaces: tuple[LiquidSurface, ...], like: ComplexMatrix
+    liquid: LiquidSpace,
+    scaling: ComplexScaling,
+    surfaces: tuple[LiquidSurface, ...],
+    like: ComplexMatrix,
+    *,
+    derivative: bool,
 ) -> ComplexMatrix:
     parts = []
     for surface in surfaces:
-        trace = scaled_surface_mass(liquid, scaling, surface.surface)
+        trace = scaled_surface_mass(liquid, scaling, surface.surface, derivative=derivative)
         parts.append(
             ComplexMatrix(
                 real=density_jump(liquid, surface, trace.real), imaginary=density_jump(liquid, surface, trace.imaginary)

@@ -7,15 +7,17 @@ follows the shortest wave among the shapes.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import ceil
 
 import basix
 import numpy as np
 from dolfinx import la
+from mpi4py import MPI
 
 from hydroelastic.fem.facets import FacetGroup, facet_groups
 from hydroelastic.fem.liquid import LiquidSpace
-from hydroelastic.fem.surfaces import Body
+from hydroelastic.fem.surfaces import Body, Shapes
 
 # Gauss points beyond what the polynomial and half a radian each need; the error then falls faster than exponentially.
 _SPARE_POINTS = 8
@@ -86,8 +88,31 @@ def _clustered(local: np.ndarray, weights: np.ndarray, corner: int) -> tuple[np.
     return t[:, None], 2.0 * s * weights
 
 
-def _add_loads(liquid: LiquidSpace, body: Body, group: FacetGroup, singular_corner: int, loads: np.ndarray) -> None:
-    count = ceil(0.5 * liquid.degree + 0.5 * body.wavenumber * group.longest) + _SPARE_POINTS
+@dataclass(frozen=True, kw_only=True)
+class _FacetQuadrature:
+    """Quadrature on facets of a body.
+
+    Attributes:
+        reference: points on the reference cell, shape (points, dim).
+        points: the same on each facet, shape (gdim, facets × points).
+        normals: outward unit normals of the liquid there, of the same shape.
+        weights: with the measure of the facets, shape (facets, points).
+    """
+
+    reference: np.ndarray
+    points: np.ndarray
+    normals: np.ndarray
+    weights: np.ndarray
+
+    def values(self, shapes: Shapes, number: int) -> np.ndarray:
+        """A function at all points, shape (facets, points)."""
+        return shapes(self.points, self.normals, number).reshape(self.weights.shape)
+
+
+def _facet_quadrature(
+    liquid: LiquidSpace, group: FacetGroup, wavenumber: float, singular_corner: int
+) -> _FacetQuadrature:
+    count = ceil(0.5 * liquid.degree + 0.5 * wavenumber * group.longest) + _SPARE_POINTS
     if singular_corner >= 0:
         # In s the basis has twice the degree.
         count += liquid.degree
@@ -95,15 +120,53 @@ def _add_loads(liquid: LiquidSpace, body: Body, group: FacetGroup, singular_corn
     if singular_corner >= 0:
         local, weights = _clustered(local, weights, singular_corner)
     reference = group.reference_points(local)
-    basis = _basis(liquid, reference)
     points = group.physical_points(reference)
     normals, measures = group.normals(reference)
     normals = np.broadcast_to(normals, points.shape)
-    by_coordinate = points.reshape(-1, points.shape[-1]).T, normals.reshape(-1, points.shape[-1]).T
+    return _FacetQuadrature(
+        reference=reference,
+        points=points.reshape(-1, points.shape[-1]).T,
+        normals=normals.reshape(-1, points.shape[-1]).T,
+        weights=np.broadcast_to(measures * weights, points.shape[:2]),
+    )
+
+
+def _add_loads(liquid: LiquidSpace, body: Body, group: FacetGroup, singular_corner: int, loads: np.ndarray) -> None:
+    quadrature = _facet_quadrature(liquid, group, body.wavenumber, singular_corner)
+    basis = _basis(liquid, quadrature.reference)
     dofs = liquid.space.dofmap.list[group.cells]
     for number in range(body.size):
-        values = body.shapes(*by_coordinate, number).reshape(points.shape[:2])
-        np.add.at(loads[number], dofs, (measures * values * weights) @ basis)
+        np.add.at(loads[number], dofs, (quadrature.weights * quadrature.values(body.shapes, number)) @ basis)
+
+
+def shape_moments(liquid: LiquidSpace, body: Body, fields: Shapes, count: int, wavenumber: float) -> np.ndarray:
+    """Integrate every shape of a body against given functions, with the density of the liquid on each side.
+
+    Args:
+        liquid: space of ψ on simplices.
+        body: the body.
+        fields: the functions, of points, normals and their number.
+        count: how many there are.
+        wavenumber: the largest among them.
+
+    Returns:
+        ∫ρ f φᵢ over the body's wetted surface, shape (functions, shapes) (collective).
+    """
+    densities = np.array([layer.density for layer in liquid.layers])
+    total = np.zeros((count, body.size))
+    for group in facet_groups(liquid, body.surface):
+        at_corner = _singular_corner(body, group)
+        for corner in np.unique(at_corner):
+            own = group.subset(at_corner == corner)
+            quadrature = _facet_quadrature(liquid, own, body.wavenumber + wavenumber, int(corner))
+            density = densities[liquid.layer_of[liquid.space.dofmap.list[own.cells, 0]]]
+            weights = quadrature.weights * density[:, None]
+            shapes = [quadrature.values(body.shapes, number) for number in range(body.size)]
+            for place in range(count):
+                weighed = weights * quadrature.values(fields, place)
+                total[place] += [np.sum(weighed * shape) for shape in shapes]
+    liquid.tank.mesh.comm.Allreduce(MPI.IN_PLACE, total)
+    return total
 
 
 def summed_over_processes(liquid: LiquidSpace, loads: np.ndarray) -> np.ndarray:

@@ -131,9 +131,7 @@ def density_jump(liquid: LiquidSpace, surface: LiquidSurface, surface_mass: PETS
 def _selection(rows: PETSc.IS, matrix: PETSc.Mat) -> PETSc.Mat:
     """Matrix that takes some owned unknowns from all."""
     local = rows.getLocalSize()
-    selection = PETSc.Mat().createAIJ(
-        ((local, PETSc.DETERMINE), matrix.getSizes()[1]), nnz=1, comm=rows.comm
-    )
+    selection = PETSc.Mat().createAIJ(((local, PETSc.DETERMINE), matrix.getSizes()[1]), nnz=1, comm=rows.comm)
     start = selection.getOwnershipRange()[0]
     for row, column in enumerate(rows.getIndices()):
         selection.setValue(start + row, int(column), 1.0)

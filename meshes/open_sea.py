@@ -157,9 +157,7 @@ def _key(first: int, second: int) -> tuple[int, int]:
 
 def _cell_at_edge(mesh: TaggedMesh) -> dict[tuple[int, int], int]:
     """A cell at each edge; at a boundary edge the only one."""
-    return {
-        _key(cell[place], cell[place - 1]): number for number, cell in enumerate(mesh.cells) for place in range(3)
-    }
+    return {_key(cell[place], cell[place - 1]): number for number, cell in enumerate(mesh.cells) for place in range(3)}
 
 
 def _halves(quad: tuple[int, int, int, int], positions: NDArray[np.float64]) -> Iterator[tuple[int, int, int]]:

@@ -71,6 +71,25 @@ class OpenBasin:
             top=two.top,
         )
 
+    @property
+    def bounds(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Lower and upper bounds in x and y of where coordinates are real; infinite where a bed or a top ends them."""
+        tank = self.tank
+        floor = tank.layers[0].floor if BOTTOM in self.sides else -inf
+        ceiling = tank.layers[-1].ceiling if LID in self.sides else inf
+        # A liquid of finite depth goes on downwards as it is: only sideways it is turned.
+        if not isinf(self.depths[0]):
+            floor = -inf
+        if not isinf(self.depths[-1]):
+            ceiling = inf
+        return (0.0, floor), (1.0, ceiling)
+
+    @property
+    def endless(self) -> tuple[str, ...]:
+        """The sides beyond which nothing is modelled."""
+        deep = (BOTTOM,) * isinf(self.depths[0]) + (LID,) * (len(self.depths) > 1 and isinf(self.depths[-1]))
+        return (LEFT_WALL, RIGHT_WALL, *deep)
+
     def waves(self, omega: float) -> tuple[TravellingWave, ...]:
         """The travelling waves at a dimensionless frequency, in units of the basin."""
         return travelling_waves(self.scaled_layers, omega)
@@ -102,14 +121,16 @@ def open_basin(scene: TankScene, shortest: float) -> OpenBasin:
     length = right - left + 2.0 * margin
     reaches = (margin - low, margin + high)
     depths = [layer.depth for layer in scene.layers]
-    kept = [
-        reach if depth > reach + _DEEPER * length else depth for depth, reach in zip(depths, reaches, strict=False)
-    ]
+    kept = [reach if depth > reach + _DEEPER * length else depth for depth, reach in zip(depths, reaches, strict=False)]
     origin = left - margin
     basin = scene.model_copy(
         update={
             "tank": scene.tank.model_copy(
-                update={"length": length, "ends": "walls", "top": "rigid" if isinf(depths[-1]) and len(depths) > 1 else scene.top}
+                update={
+                    "length": length,
+                    "ends": "walls",
+                    "top": "rigid" if isinf(depths[-1]) and len(depths) > 1 else scene.top,
+                }
             ),
             "liquid": tuple(
                 layer.model_copy(update={"depth": depth}) for layer, depth in zip(scene.layers, kept, strict=True)
@@ -189,7 +210,9 @@ class Reach:
         )
 
 
-def reach(basin: OpenBasin, wavenumbers: tuple[float, float], *, first: float, growth: float, angle: float, tolerance: float) -> Reach:
+def reach(
+    basin: OpenBasin, wavenumbers: tuple[float, float], *, first: float, growth: float, angle: float, tolerance: float
+) -> Reach:
     """How far frames must reach.
 
     Args:

@@ -24,7 +24,7 @@ Summary = dict[str, Any]
 # A runner-up above this part of the largest participation makes the tone a shared one.
 SHARED = 0.5
 
-PACKAGES = ("hydroelastic", "fenics-dolfinx", "petsc4py", "slepc4py", "gmsh", "numpy", "scipy")
+PACKAGES = ("hydroelastic", "fenics-dolfinx", "petsc4py", "slepc4py", "gmsh", "numpy", "scipy", "xarray")
 
 
 def summarize(

@@ -75,7 +75,7 @@ BAD = {
     "unknown key": (GOOD.replace("depth =", "dept ="), ['"dept"', 'Did you mean "depth"?']),
     "unknown table": (GOOD + "[solver]\n", ["[solver]", "not known"]),
     "misspelt table": (GOOD.replace("[accuracy]", "[acuracy]"), ["[acuracy]", 'Did you mean "accuracy"?']),
-    "later table": (GOOD + '[[analysis]]\nkind = "radiation"\n', ["[[analysis]]", "not known"]),
+    "table of open water": (GOOD + '[[analysis]]\nkind = "resonance"\n', ["[[analysis]]", 'set ends = "open"']),
     "single brackets": (GOOD.replace("[[body]]", "[body]"), ["[[body]]"]),
     "misspelt choice": (GOOD.replace("length = 10.0", 'length = 10.0\ntop = "fee"'), ['Did you mean "free"?']),
     "open ends": (GOOD.replace("length = 10.0", 'length = 10.0\nends = "open"'), ['Allowed: "walls"']),

@@ -88,7 +88,8 @@ def _without_complex_numbers(dataset: xarray.Dataset) -> xarray.Dataset:
     separated = dataset.copy()
     for name, values in dataset.data_vars.items():
         if np.iscomplexobj(values):
-            parts = xarray.concat([values.real, values.imag], dim="complex")
+            # What was not computed has no imaginary part either.
+            parts = xarray.concat([values.real, values.imag], dim="complex").where(values.notnull())
             separated[name] = parts.assign_coords(complex=["re", "im"]).assign_attrs(values.attrs)
     return separated
 

@@ -210,26 +210,31 @@ def _counted(table: ResonanceTable) -> str:
 
 def _decay(table: DecayTable) -> Section:
     shown, thinned = _shown(len(table.times), "times", "decay.csv")
+    # Those let go come first.
+    columns = sorted(range(len(table.dofs)), key=lambda place: table.initial[place] == 0.0)[:_MOST_MOTIONS]
+    dofs = [table.dofs[place] for place in columns]
+    left_out = len(table.dofs) - len(dofs)
     rows = [
         (
             f"{table.times[row]:.6g}",
-            *(f"{value + 0.0:.6g}" for value in table.displacement[row]),
+            *(f"{value + 0.0:.6g}" for value in table.displacement[row, columns]),
             f"{table.absolute_error[row]:.1e}",
         )
         for row in shown
     ]
-    units = ["rad" if motion.endswith("roll") else "m" for motion in table.dofs]
+    units = ["rad" if motion.endswith("roll") else "m" for motion in dofs]
     tail = () if table.tail is None else (f"At last the motion let go is {table.tail:.6g}/t², with t in seconds.",)
     return Section(
         title="Motion after release",
         headings=(
             "t, s",
-            *(f"{motion_name(motion)}, {unit}" for motion, unit in zip(table.dofs, units, strict=True)),
+            *(f"{motion_name(motion)}, {unit}" for motion, unit in zip(dofs, units, strict=True)),
             "estimated error",
         ),
         rows=rows,
         lines=(
             *thinned,
+            *((f"{left_out} more motions: decay.csv.",) if left_out else ()),
             *tail,
             f"The error holds until t = {table.certified_until:.6g} s.",
         ),

@@ -14,7 +14,20 @@ from click.testing import CliRunner, Result
 from hydroelastic.scenes.command_line import main
 
 DRAWING = {"vtk", "vtkmodules", "pyvista", "matplotlib", "PIL"}
-HEAVY = DRAWING | {"dolfinx", "ufl", "basix", "ffcx", "gmsh", "petsc4py", "slepc4py", "mpi4py", "scipy", "meshio"}
+HEAVY = DRAWING | {
+    "dolfinx",
+    "ufl",
+    "basix",
+    "ffcx",
+    "gmsh",
+    "petsc4py",
+    "slepc4py",
+    "mpi4py",
+    "scipy",
+    "meshio",
+    "xarray",
+    "pandas",
+}
 COARSE = ("--set", "accuracy.modes=1", "--set", "accuracy.tolerance=1e-3")
 
 GOOD = """

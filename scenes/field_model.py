@@ -13,7 +13,7 @@ from hydroelastic.fem.liquid import Layer, liquid_matrices, liquid_space
 from hydroelastic.fem.pencil import CoupledPencil, build_pencil
 from hydroelastic.fem.surfaces import Body, LiquidSurface
 from hydroelastic.meshes.distribute import TankMesh, distribute_mesh
-from hydroelastic.meshes.geometry import FREE_SURFACE, INTERFACE, SYMMETRY_PLANE, body_name
+from hydroelastic.meshes.geometry import FAR_END, FREE_SURFACE, INTERFACE, SYMMETRY_PLANE, body_name
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 from hydroelastic.modal.dry_modes import free_free_shape, free_free_wavenumber
 from hydroelastic.modal.guided_modes import guided_shape, guided_wavenumber
@@ -138,7 +138,7 @@ def _field_models(
     parities: tuple[Parity | None, ...],
 ) -> tuple[CoupledPencil, ...]:
     surfaces = () if pressure_release else moving_surfaces(mesh, tank)
-    grounded = grounded_names(tank, released=pressure_release)
+    grounded = (*grounded_names(tank, released=pressure_release), *((FAR_END,) if FAR_END in mesh.facet_names else ()))
     layers = tuple(
         Layer(name=name, density=layer.density) for name, layer in zip(layer_names(tank), tank.layers, strict=True)
     )

@@ -20,6 +20,7 @@ from hydroelastic.fem.shape_loads import shape_moments
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.meshes.geometry import body_name
 from hydroelastic.modal.travelling_waves import TravellingWave
+from hydroelastic.scenes.open_basin import OpenBasin
 from hydroelastic.scenes.open_model import OpenModel
 
 RIGHTWARD, LEFTWARD = 1, -1
@@ -69,6 +70,40 @@ class Incidence:
     fluxes: np.ndarray
     pressures: np.ndarray
     own: np.ndarray
+
+    @property
+    def reversed(self) -> np.ndarray:
+        """Places of the waves that run the other way."""
+        count = len(self.planes)
+        return np.roll(np.arange(count), count // 2)
+
+    @property
+    def powers(self) -> np.ndarray:
+        """kN of each wave: its power over ½ω³|c|²."""
+        return np.array([plane.wave.wavenumber * plane.wave.energy for plane in self.planes])
+
+    @property
+    def elevations(self) -> np.ndarray:
+        """Elevation of each wave over its c."""
+        return np.array([plane.elevation for plane in self.planes])
+
+    def scene_phases(self, basin: OpenBasin) -> np.ndarray:
+        """Phase of each wave at the basin's left side if it is zero at x = 0 of the scene, with the other sign.
+
+        A wave e^{±ikx} of the scene is e^{±ikx₀} times that of the basin, whose x begins at x₀.
+        """
+        origin = basin.origin / basin.units.length
+        return np.array([-plane.direction * plane.wave.wavenumber * origin for plane in self.planes])
+
+    def amplitudes(self, fluxes: np.ndarray) -> np.ndarray:
+        """c of the waves that leave, from I(φ) of each wave φ, shape (waves, …)."""
+        amplitudes: np.ndarray = 0.5j / self.powers[:, None] * fluxes[self.reversed]
+        return amplitudes
+
+    def fluxes_of(self, amplitudes: np.ndarray) -> np.ndarray:
+        """I(φ) of each wave φ, from c of the waves that leave."""
+        fluxes: np.ndarray = (-2j * self.powers[:, None] * amplitudes)[self.reversed]
+        return fluxes
 
 
 def incidence(model: OpenModel, waves: list[Plane]) -> Incidence:

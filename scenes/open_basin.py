@@ -113,11 +113,13 @@ def open_basin(scene: TankScene, shortest: float) -> OpenBasin:
 
     Args:
         scene: with open ends and at least one body.
-        shortest: the largest wavenumber of the waves that leave, 1/m.
+        shortest: the largest wavenumber of the waves that leave, 1/m; 0 where none does.
     """
     left, right, low, high = _extent(scene)
     extent = max(0.5 * (right - left), -low, high)
-    margin = max(min(_MARGIN * extent, _MARGIN_IN_RADIANS / shortest), _LEAST_MARGIN * extent)
+    margin = _MARGIN * extent
+    if shortest * margin > _MARGIN_IN_RADIANS:
+        margin = max(_MARGIN_IN_RADIANS / shortest, _LEAST_MARGIN * extent)
     length = right - left + 2.0 * margin
     reaches = (margin - low, margin + high)
     depths = [layer.depth for layer in scene.layers]

@@ -24,6 +24,7 @@ from hydroelastic.scenes.field_model import distributed_mesh, moving_surfaces, w
 from hydroelastic.scenes.field_solution import Stopwatch
 from hydroelastic.scenes.models import TankScene
 from hydroelastic.scenes.open_basin import OpenBasin, Reach, liquids_of, open_basin, reach
+from hydroelastic.scenes.motion_scale import MotionScale, motion_scale
 from hydroelastic.scenes.plan import (
     Resolution,
     radians,
@@ -38,8 +39,9 @@ from hydroelastic.scenes.tank_outline import grounded_names, layer_names
 ANGLE = pi / 3.0
 """α of the complex scaling. Measured on circles at Ka from 0.05 to 10: 60 degrees is as good as 45 or better."""
 
-# Ratio of the distances of successive frames; 2 costs half as much again, 4 needs a higher degree.
-_GROWTH = 3.0
+GROWTH = 3.0
+"""Ratio of the distances of successive frames; 2 costs half as much again, 4 needs a higher degree."""
+
 # In the frames ψ oscillates about as fast as it decays, and errors of opposite phase cancel. Measured on circles at Ka
 # from 0.05 to 10 at three tolerances: the energy missed is 9 to 140 times the error.
 _FRAMES = 0.2
@@ -88,6 +90,11 @@ class OpenModel:
         return complex(omega / self.basin.units.frequency) ** 2
 
     @cached_property
+    def scale(self) -> MotionScale:
+        """From body unknowns to motions in SI units."""
+        return motion_scale(self.basin, self.pencil.bodies)
+
+    @cached_property
     def far_field(self) -> FarField:
         """Amplitudes of outgoing waves (collective)."""
         return FarField(self.pencil, *self.basin.bounds)
@@ -122,13 +129,12 @@ class OpenModel:
         outside: np.ndarray = np.any((middles < np.array(low)) | (middles > np.array(high)), axis=1)
         return outside
 
-    def errors(self, potentials: np.ndarray, responses: np.ndarray, tolerance: float) -> FrequencyErrors:
+    def errors(self, potentials: np.ndarray, responses: np.ndarray) -> FrequencyErrors:
         """Relative errors of H of each body unknown, by cause (collective).
 
         Args:
             potentials: ψ of a unit of each, shape (body unknowns, free unknowns).
             responses: |H| of each, shape (body unknowns,).
-            tolerance: asked relative error.
         """
         away, at_tips = self.energies_missed(potentials)
         scale = np.maximum(np.abs(responses), np.finfo(float).tiny)
@@ -191,7 +197,7 @@ def open_model(
         basin,
         (wavenumbers[0] * length, wavenumbers[1] * length),
         first=radians(resolution.degree, tolerance),
-        growth=_GROWTH,
+        growth=GROWTH,
         angle=angle,
         tolerance=tolerance,
     )
@@ -220,13 +226,20 @@ def _liquid(basin: OpenBasin, resolution: Resolution, mesh: object) -> LiquidSpa
     return liquid_space(mesh, resolution.degree, grounded, layers)
 
 
-def open_mesh(basin: OpenBasin, resolution: Resolution, frames: Reach) -> TaggedMesh:
-    """The basin's mesh by gmsh with its frames, on the calling process."""
+def open_mesh(basin: OpenBasin, resolution: Resolution, frames: Reach, *, released: bool = False) -> TaggedMesh:
+    """The basin's mesh by gmsh with its frames, on the calling process.
+
+    Args:
+        basin: the basin.
+        resolution: of it.
+        frames: around it.
+        released: whether it is for the limit of high frequency, in which liquids move as one.
+    """
     from hydroelastic.meshes.build import build_mesh
 
     curved = any(not body.is_thin for body in basin.tank.floats.values())
     mesh = build_mesh(
-        graded_outline(basin.tank, resolution, half=False, released=False),
+        graded_outline(basin.tank, resolution, half=False, released=released),
         bulk_size=resolution.bulk_size,
         ring_ratio=resolution.ring_ratio,
         geometry_degree=resolution.degree if curved else 1,

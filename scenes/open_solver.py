@@ -1,0 +1,157 @@
+"""Solutions of an open model at any frequency: in full, by a factorization, or on a reduced basis of those in full."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hydroelastic.fem.complex_direct import ShiftedSolver
+from hydroelastic.fem.reduced_pencil import ReducedPencil
+from hydroelastic.scenes.field_solution import Stopwatch
+from hydroelastic.scenes.incident_waves import Incidence, incidence, planes
+from hydroelastic.scenes.open_frequency import OpenFrequency, OpenResponse
+from hydroelastic.scenes.open_model import OpenModel
+
+
+class OpenSolver:
+    """Solves one model; frequencies ω in rad/s.
+
+    Args:
+        model: the problem.
+        watch: told the time.
+    """
+
+    def __init__(self, model: OpenModel, watch: Stopwatch) -> None:
+        """Prepare (collective)."""
+        self.model = model
+        self._watch = watch
+        with watch.stage("solve"):
+            self._direct: ShiftedSolver = model.pencil.solver()
+        self._reduced = ReducedPencil(model.pencil)
+        self._loads = model.pencil.loads.astype(complex)
+
+    @property
+    def factorizations(self) -> int:
+        """How many there were."""
+        return self._direct.factorizations
+
+    @property
+    def basis_size(self) -> int:
+        """Vectors of the reduced basis."""
+        return self._reduced.size
+
+    def incidence(self, omega: float) -> Incidence:
+        """The travelling waves at ω (collective)."""
+        with self._watch.stage("waves"):
+            scaled = omega / self.model.basin.units.frequency
+            return incidence(self.model, planes(self.model.basin.waves(scaled)))
+
+    def radiation(self, squared: complex) -> np.ndarray:
+        """ψ of a unit of each body unknown at λ, in full; they enter the basis (collective)."""
+        with self._watch.stage("solve"):
+            self._direct.shift(squared)
+            radiated = self._solved(self._loads)
+        with self._watch.stage("reduce"):
+            self._reduced.add(radiated)
+        return radiated
+
+    def hydrodynamic(self, squared: complex) -> tuple[np.ndarray, float]:
+        """H at λ on the basis, and the largest relative residual (collective)."""
+        with self._watch.stage("reduce"):
+            projected = self._reduced.project(self._loads)
+            coordinates = self._reduced.solve(squared, projected)
+            residual = self._reduced.residuals(squared, self._loads, coordinates).max()
+            return projected @ coordinates.T, float(residual)
+
+    def frequency(self, omega: float) -> OpenFrequency:
+        """Radiation and diffraction in full; they enter the basis (collective)."""
+        squared = self.model.squared_frequency(omega)
+        waves = self.incidence(omega)
+        radiated = self.radiation(squared)
+        with self._watch.stage("solve"):
+            diffracted = self._solved(-waves.fluxes)
+        with self._watch.stage("reduce"):
+            self._reduced.add(diffracted)
+        return self._frequency(squared, waves, radiated, diffracted)
+
+    def frequency_between(self, omega: float) -> tuple[OpenFrequency, float]:
+        """The same on the basis, and its largest relative residual (collective)."""
+        squared = self.model.squared_frequency(omega)
+        waves = self.incidence(omega)
+        with self._watch.stage("reduce"):
+            loads = np.vstack([self._loads, -waves.fluxes])
+            coordinates = self._reduced.solve(squared, self._reduced.project(loads))
+            residual = self._reduced.residuals(squared, loads, coordinates).max()
+            potentials = self._reduced.potentials(coordinates)
+        count = len(self._loads)
+        return self._frequency(squared, waves, potentials[:count], potentials[count:]), float(residual)
+
+    def _frequency(
+        self, squared: complex, waves: Incidence, radiated: np.ndarray, diffracted: np.ndarray
+    ) -> OpenFrequency:
+        return OpenFrequency(
+            model=self.model,
+            squared=squared,
+            incidence=waves,
+            radiated=radiated,
+            diffracted=diffracted,
+            hydrodynamic=self.model.pencil.products(self._loads, radiated),
+        )
+
+    def response(self, omega: float, incident: list[int]) -> OpenResponse:
+        """Bodies that move freely, in full; what they scatter enters the basis (collective).
+
+        Args:
+            omega: ω.
+            incident: places of the waves that come, see `Incidence`.
+        """
+        squared = self.model.squared_frequency(omega)
+        waves = self.incidence(omega)
+        with self._watch.stage("solve"):
+            self._direct.shift(squared)
+            radiated, diffracted = self._solved(self._loads), self._solved(-waves.fluxes[incident])
+        products = self.model.pencil.products
+        dynamic = self.model.stiffness - squared * (self.model.mass + products(self._loads, radiated))
+        forces = squared * (waves.pressures[incident] + products(diffracted, self._loads))
+        motions = np.linalg.solve(dynamic, forces.T).T
+        scattered = diffracted + motions @ radiated
+        with self._watch.stage("reduce"):
+            self._reduced.add(scattered)
+        return self._response(squared, waves, incident, scattered, motions)
+
+    def response_between(self, omega: float, incident: list[int]) -> tuple[OpenResponse, float]:
+        """The same on the basis, and its largest relative residual (collective).
+
+        The bodies keep all their unknowns: (VᵀAV − λVᵀMV) y − VᵀF a = −Vᵀg, −λFᵀV y + (K − λM_b) a = λ∫ρφφᵢ.
+        """
+        squared = self.model.squared_frequency(omega)
+        waves = self.incidence(omega)
+        with self._watch.stage("reduce"):
+            coupling = self._reduced.project(self._loads)
+            operator = np.block(
+                [
+                    [self._reduced.operator(squared), -coupling.T],
+                    [-squared * coupling, self.model.stiffness - squared * self.model.mass],
+                ]
+            )
+            loads = -waves.fluxes[incident]
+            right = np.hstack([self._reduced.project(loads), squared * waves.pressures[incident]])
+            unknowns = np.linalg.solve(operator, right.T).T
+            coordinates, motions = unknowns[:, : self.basis_size], unknowns[:, self.basis_size :]
+            residual = self._reduced.residuals(squared, loads + motions @ self._loads, coordinates).max()
+            scattered = self._reduced.potentials(coordinates)
+        return self._response(squared, waves, incident, scattered, motions), float(residual)
+
+    def _response(
+        self, squared: complex, waves: Incidence, incident: list[int], scattered: np.ndarray, motions: np.ndarray
+    ) -> OpenResponse:
+        return OpenResponse(
+            model=self.model,
+            squared=squared,
+            incidence=waves,
+            incident=incident,
+            scattered=scattered,
+            motions=motions,
+        )
+
+    def _solved(self, loads: np.ndarray) -> np.ndarray:
+        return np.array([self._direct.solve(load) for load in loads]).reshape(loads.shape)

@@ -11,6 +11,7 @@ from hydroelastic.scenes.check_hints import hints
 from hydroelastic.scenes.check_tables import boundary_table, group_table, hydrostatics_table, unknown_table
 from hydroelastic.scenes.estimates import ends_of_float_motions, expected_tones
 from hydroelastic.scenes.models import TankScene
+from hydroelastic.scenes.open_check import open_requests, open_waves
 from hydroelastic.scenes.plan import (
     Resolution,
     companion_resolution,
@@ -25,18 +26,19 @@ def print_check(scene: TankScene, console: Console) -> None:
     """Print the surfaces, the unknown fields, the dimensionless groups, how floats rest, and what to expect of a scene.
 
     Args:
-        scene: a validated scene; nothing is meshed or solved.
+        scene: a validated scene; nothing is solved, and of open water nothing is meshed.
         console: where to print.
     """
     # Text, not str: a title may hold brackets, which rich would read as markup.
     console.print(Text(scene.title or "Untitled scene", style="bold"))
-    console.print(Text(_request(scene)))
+    for line in open_requests(scene) if scene.is_open else (_request(scene),):
+        console.print(Text(line))
     tables = [boundary_table(scene), unknown_table(scene), group_table(scene)]
     if scene.floats:
         tables.append(hydrostatics_table(scene))
     for table in tables:
         console.print(table)
-    for line in _sizes(scene):
+    for line in open_waves(scene) if scene.is_open else _sizes(scene):
         console.print(Text(line))
     for hint in hints(scene):
         console.print(Text(f"• {hint}"))

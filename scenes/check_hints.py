@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from typing import TypeAlias
 
 from hydroelastic.modal.dry_modes import free_free_roots
 from hydroelastic.scenes.estimates import expected_tones
@@ -26,7 +27,7 @@ _THICK = 0.1
 
 def hints(scene: TankScene) -> tuple[str, ...]:
     """Return what to expect of the answer, one sentence or two each."""
-    return tuple(hint for find in _HINTS for hint in find(scene))
+    return tuple(hint for find in (_HINTS_OF_OPEN_WATER if scene.is_open else _HINTS) for hint in find(scene))
 
 
 def _air(scene: TankScene) -> Iterator[str]:
@@ -160,7 +161,8 @@ def _thin(scene: TankScene) -> Iterator[str]:
             )
 
 
-_HINTS: tuple[Callable[[TankScene], Iterator[str]], ...] = (
+_Hints: TypeAlias = Callable[[TankScene], Iterator[str]]
+_HINTS: tuple[_Hints, ...] = (
     _air,
     _symmetry,
     _zero_modes,
@@ -172,3 +174,4 @@ _HINTS: tuple[Callable[[TankScene], Iterator[str]], ...] = (
     _unstable,
     _thin,
 )
+_HINTS_OF_OPEN_WATER: tuple[_Hints, ...] = (_air, _hydrostatics, _unstable, _thin)

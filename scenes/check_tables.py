@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import isinf
 
 from rich.table import Table
 
@@ -46,7 +47,6 @@ def boundary_table(scene: TankScene) -> Table:
     table = _table(
         title if several else f"{title} (top from left to right)", "surface", "from, m", "to, m", "condition"
     )
-    length = f"{scene.tank.length:g}"
     for level in levels_of(scene):
         for segment in level_segments(scene, level):
             table.add_row(
@@ -55,11 +55,27 @@ def boundary_table(scene: TankScene) -> Table:
                 f"{segment.end:g}",
                 _surface_condition(scene, level, segment),
             )
-    slopes = " = ".join(f"∂{potential_of(scene, layer)}/∂x" for layer in reversed(range(len(scene.layers))))
-    table.add_row("walls", "0", length, f"{slopes} = 0")
-    bottom = f"bottom, y = {-scene.liquid[0].depth:g} m"
-    table.add_row(bottom, "0", length, f"∂{potential_of(scene, 0)}/∂y = 0")
+    for row in _open_ends(scene) if scene.is_open else _walls(scene):
+        table.add_row(*row)
     return table
+
+
+def _walls(scene: TankScene) -> Iterator[tuple[str, str, str, str]]:
+    length = f"{scene.tank.length:g}"
+    slopes = " = ".join(f"∂{potential_of(scene, layer)}/∂x" for layer in reversed(range(len(scene.layers))))
+    yield "walls", "0", length, f"{slopes} = 0"
+    yield f"bottom, y = {-scene.liquid[0].depth:g} m", "0", length, f"∂{potential_of(scene, 0)}/∂y = 0"
+
+
+def _open_ends(scene: TankScene) -> Iterator[tuple[str, str, str, str]]:
+    yield "open ends", "-inf", "inf", "waves leave, none comes back"
+    potential = potential_of(scene, 0)
+    if isinf(scene.liquid[0].depth):
+        yield "deep below", "-inf", "inf", f"∇{potential} → 0 as y → −∞"
+    else:
+        yield f"bottom, y = {-scene.liquid[0].depth:g} m", "-inf", "inf", f"∂{potential}/∂y = 0"
+    if len(scene.layers) == 2 and isinf(scene.layers[1].depth):
+        yield "high above", "-inf", "inf", f"∇{potential_of(scene, 1)} → 0 as y → ∞"
 
 
 def _surface_name(scene: TankScene, level: Level, segment: Segment) -> str:
@@ -140,14 +156,15 @@ def unknown_table(scene: TankScene) -> Table:
 def _elevation_row(scene: TankScene, level: Level) -> tuple[str, str, str]:
     if not has_open(scene, level):
         return "η: none", "–", "the beam covers the whole liquid"
+    spans = "" if scene.is_open else "; with the bodies it spans the eigenproblem"
     if level == "interface":
-        return "η", "interface", "internal waves; with the bodies it spans the eigenproblem"
+        return "η", "interface", f"internal waves{spans}"
     name, potential = _surface_elevation(scene), potential_of(scene, len(scene.layers) - 1)
     reasons = {
         "free": (
             name,
             "free surface",
-            f"gravity waves, {name} = ω² {potential}/g; with the bodies it spans the eigenproblem",
+            f"gravity waves, {name} = ω² {potential}/g{spans}",
         ),
         "rigid": (f"{name}: none", "rigid lid", "the lid holds the liquid, so no gravity waves"),
         "pressure_release": (
@@ -183,13 +200,16 @@ def group_table(scene: TankScene) -> Table:
 
 def _groups(scene: TankScene) -> Iterator[tuple[str, float, str]]:
     length = scene.tank.length
-    if len(scene.layers) == 1:
-        yield "H/L", scene.layers[0].depth / length, "depth over length of the tank"
-    else:
+    if len(scene.layers) == 2:
         lower, upper = scene.layers
         yield "ρ₁/ρ₂", upper.density / lower.density, "density of the upper liquid over that of the lower"
-        yield "h₁/h₂", upper.depth / lower.depth, "depth of the upper liquid over that of the lower"
-        yield "h₂/L", lower.depth / length, "depth of the lower liquid over length of the tank"
+        if not isinf(lower.depth) and not isinf(upper.depth):
+            yield "h₁/h₂", upper.depth / lower.depth, "depth of the upper liquid over that of the lower"
+    # Nothing in open water depends on the length that is drawn.
+    if not scene.is_open:
+        name = "H/L" if len(scene.layers) == 1 else "h₂/L"
+        what = "depth" if len(scene.layers) == 1 else "depth of the lower liquid"
+        yield name, scene.layers[0].depth / length, f"{what} over length of the tank"
     for index, body in enumerate(scene.body):
         yield from _beam_groups(scene, index, body) if isinstance(body, Beam) else _float_groups(scene, index, body)
 
@@ -207,6 +227,9 @@ def _beam_groups(scene: TankScene, index: int, beam: Beam) -> Iterator[tuple[str
         beam.mass_per_length / (below * beam.length),
         of_beam + f"its mass over that of {density} l²",
     )
+    if scene.is_open:
+        yield from _depth_group(scene, "l", beam.length, of_beam + "depth of the lowest liquid over its length")
+        return
     yield "l/L", beam.length / scene.tank.length, of_beam + "part of the tank that it covers"
     yield "x₁/L", beam.start / scene.tank.length, of_beam + "left end"
 
@@ -220,11 +243,11 @@ def _float_groups(scene: TankScene, index: int, body: Float) -> Iterator[tuple[s
         yield "b/h", body.half_width / body.half_height, of_float + "half width over half height"
     else:
         yield "b/h", (right - left) / (high - low), of_float + "width over height"
-    yield (
-        "B/L",
-        (placed.hydrostatics.waterplane[1] - placed.hydrostatics.waterplane[0]) / scene.tank.length,
-        (of_float + "part of the tank that its waterplane covers"),
-    )
+    breadth = placed.hydrostatics.waterplane[1] - placed.hydrostatics.waterplane[0]
+    if scene.is_open:
+        yield from _depth_group(scene, "B", breadth, of_float + "depth of the lowest liquid over its waterplane")
+    else:
+        yield "B/L", breadth / scene.tank.length, of_float + "part of the tank that its waterplane covers"
     area = sum(placed.hydrostatics.areas)
     density = jump_of(scene, "surface") if scene.level_of(body) == "surface" else "ρ₂"
     yield (
@@ -232,7 +255,14 @@ def _float_groups(scene: TankScene, index: int, body: Float) -> Iterator[tuple[s
         placed.hydrostatics.mass / (below * area),
         of_float + "its mean density over that below it",
     )
-    yield "x₀/L", body.position / scene.tank.length, of_float + "position"
+    if not scene.is_open:
+        yield "x₀/L", body.position / scene.tank.length, of_float + "position"
+
+
+def _depth_group(scene: TankScene, name: str, length: float, meaning: str) -> Iterator[tuple[str, float, str]]:
+    depth = scene.layers[0].depth
+    if not isinf(depth):
+        yield ("H/" if len(scene.layers) == 1 else "h₂/") + name, depth / length, meaning
 
 
 def hydrostatics_table(scene: TankScene) -> Table:

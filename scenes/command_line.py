@@ -17,7 +17,7 @@ import click
 from hydroelastic.meshes.interrupts import interrupts_deferred
 from hydroelastic.scenes.errors import SceneError, UnsolvedError
 from hydroelastic.scenes.output import check_output
-from hydroelastic.scenes.read import read_scene, scene_path, shipped_scenes
+from hydroelastic.scenes.read import read_scene, require_walls, scene_path, shipped_scenes
 
 BAD_INPUT = 2
 NOT_TO_TOLERANCE = 3
@@ -148,7 +148,7 @@ _set_option = click.option(
 def run(
     context: click.Context, scene: str, out: Path | None, overrides: tuple[str, ...], no_images: bool, quiet: bool
 ) -> None:
-    """Solve SCENE, print the table of modes and write the result folder.
+    """Solve SCENE, print its tables and write the result folder.
 
     A previous result folder of the same name is replaced when the new one is complete.
 
@@ -188,6 +188,7 @@ def compare(context: click.Context, scene: str, overrides: tuple[str, ...]) -> N
       hydroelastic compare aquarium --set body.0.start=0
     """
     checked = read_scene(scene, overrides)
+    require_walls(checked, "the older theories that are compared are those of closed tanks")
     with interrupts_deferred():
         from hydroelastic.scenes.compare import compare_scene
     with _progress(shown=sys.stderr.isatty()) as report:
@@ -227,6 +228,7 @@ def study(scene: str, out: Path | None, overrides: tuple[str, ...], **options: s
 
     plan = plan_from_options(options)
     checked = read_scene(scene, overrides)
+    require_walls(checked, "a study measures the errors of frequencies of closed tanks")
     folder = out if out is not None else Path("results") / f"{scene_path(scene).stem}_study"
     check_output(folder)
     with interrupts_deferred():

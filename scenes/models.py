@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from math import inf, isinf
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -124,7 +125,12 @@ class TankScene(SceneModel):
 
     @property
     def top(self) -> Literal["free", "rigid", "pressure_release"]:
-        """What lies on the uppermost modelled liquid beside the bodies: with air above it, the top is free."""
+        """What lies on the uppermost modelled liquid beside the bodies: with air above it, the top is free.
+
+        An upper liquid without end has no top; far away, a lid makes no difference.
+        """
+        if len(self.layers) == 2 and isinf(self.layers[1].depth):
+            return "rigid"
         return self.tank.top if len(self.layers) == len(self.liquid) else "free"
 
     @property
@@ -195,26 +201,26 @@ class Segment:
 
 
 def top_segments(scene: TankScene) -> tuple[Segment, ...]:
-    """Return the top of the uppermost liquid from the left wall to the right one, without gaps."""
+    """Return the top of the uppermost liquid from end to end, without gaps."""
     return level_segments(scene, "surface")
 
 
 def level_segments(scene: TankScene, level: Level) -> tuple[Segment, ...]:
-    """Return a still level from the left wall to the right one, without gaps.
+    """Return a still level from the left wall to the right one, or from −∞ to ∞ in open water, without gaps.
 
     A beam whose end is within `ROUND_OFF` of a wall ends exactly there. A float takes up its waterplane.
     """
-    length = scene.tank.length
+    left, right = (-inf, inf) if scene.is_open else (0.0, scene.tank.length)
     beside = scene.top if level == "surface" else "interface"
     segments = []
-    reached = 0.0
+    reached = left
     for index, start, end in sorted(_places(scene, level), key=lambda place: place[1]):
         if start > reached:
             segments.append(Segment(kind=beside, start=reached, end=start))
         segments.append(Segment(kind=scene.body[index].kind, start=start, end=end, body=index))
         reached = end
-    if reached < length:
-        segments.append(Segment(kind=beside, start=reached, end=length))
+    if reached < right:
+        segments.append(Segment(kind=beside, start=reached, end=right))
     return tuple(segments)
 
 
@@ -225,6 +231,9 @@ def _places(scene: TankScene, level: Level) -> Iterator[tuple[int, float, float]
         if scene.level_of(body) != level:
             continue
         if isinstance(body, Beam):
+            if scene.is_open:
+                yield index, body.start, body.end
+                continue
             start = body.start if body.start > negligible else 0.0
             yield index, start, body.end if body.end < length - negligible else length
         elif body.boundary == "thin":

@@ -14,8 +14,12 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from types import FrameType
+from typing import TYPE_CHECKING, Any
 
 from hydroelastic.scenes.errors import Problem, SceneError
+
+if TYPE_CHECKING:
+    from mpi4py import MPI
 
 SUMMARY = "summary.json"
 SUMMARY_KEYS = {"scene", "status"}
@@ -130,6 +134,25 @@ def _remove_if_empty(folders: list[Path]) -> None:
             folder.rmdir()
         except OSError:
             return  # it holds something by now, and so do the folders above it
+
+
+def write_summary(summary: dict[str, Any], folder: Path) -> None:
+    """Write ``summary.json``, which makes a folder one of ours."""
+    text = json.dumps(summary, indent=1, ensure_ascii=False, allow_nan=False)
+    (folder / SUMMARY).write_text(text + "\n", encoding="utf-8")
+
+
+def raise_on_all(problem: BaseException | None, comm: MPI.Comm) -> None:
+    """Raise on all processes what went wrong on rank 0, which alone writes (collective).
+
+    Raises:
+        SceneError: on the other processes.
+    """
+    failed = comm.bcast(problem is not None, root=0)
+    if problem is not None:
+        raise problem
+    if failed:
+        raise SceneError(Problem(wrong="the first process could not write the result folder"))
 
 
 @contextmanager

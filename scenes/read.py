@@ -95,6 +95,27 @@ def read_scene(path: str | Path, overrides: Iterable[str] = ()) -> TankScene:
     return _with_mesh_beside(scene, file)
 
 
+def require_walls(scene: TankScene, because: str) -> None:
+    """Refuse a scene with open ends.
+
+    Args:
+        scene: the scene.
+        because: why open ends are of no use here.
+
+    Raises:
+        SceneError: if the ends are open.
+    """
+    if scene.is_open:
+        problem = Problem(
+            key='[tank], key "ends"',
+            value=shown_value(scene.tank.ends),
+            wrong=because,
+            allowed='"walls"',
+            remedy="The command run takes open ends",
+        )
+        raise SceneError(problem)
+
+
 def _unusable(path: Path, wrong: str, remedy: str = "") -> SceneError:
     return SceneError(Problem(wrong=wrong, remedy=remedy), file=path)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from math import isinf
 from typing import TYPE_CHECKING
 
 from hydroelastic.scenes.model_bodies import Float, Level
@@ -107,8 +108,10 @@ def _volume_is_free(scene: TankScene) -> bool:
 
 
 def levels_of(scene: TankScene) -> tuple[Level, ...]:
-    """Return the still levels of a scene, from the top down."""
-    return ("surface",) if len(scene.layers) == 1 else ("surface", "interface")
+    """Return the still levels of a scene, from the top down; an upper liquid without end has no surface."""
+    if len(scene.layers) == 1:
+        return ("surface",)
+    return ("interface",) if isinf(scene.layers[1].depth) else ("surface", "interface")
 
 
 def has_open(scene: TankScene, level: Level) -> bool:

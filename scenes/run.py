@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -16,7 +15,10 @@ from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
 from hydroelastic.scenes.estimates import scene_estimates
 from hydroelastic.scenes.field_solution import Stopwatch
 from hydroelastic.scenes.models import TankScene
-from hydroelastic.scenes.output import SUMMARY, result_folder
+from hydroelastic.scenes.open_results import OpenSolution
+from hydroelastic.scenes.open_tables import printed_open
+from hydroelastic.scenes.output import raise_on_all, result_folder, write_summary
+from hydroelastic.scenes.read import require_walls
 from hydroelastic.scenes.solve import Report, TankSolution, solve_scene
 from hydroelastic.scenes.summary import Summary, summarize
 from hydroelastic.scenes.tables import markdown, mode_csv, printed
@@ -27,13 +29,13 @@ class Outcome:
     """What a run gave.
 
     Attributes:
-        solution: the field solution.
+        solution: the field solution, or that of a scene with open ends.
         summary: content of ``summary.json``.
         folder: where the results were written; ``None`` if nowhere.
         warnings: what was asked and could not be done, beside the solution.
     """
 
-    solution: TankSolution
+    solution: TankSolution | OpenSolution
     summary: Summary
     folder: Path | None
     warnings: tuple[str, ...] = ()
@@ -50,7 +52,10 @@ class Outcome:
 
     def table(self) -> str:
         """The tables for a terminal."""
-        lines = [printed(self.summary)]
+        if isinstance(self.solution, OpenSolution):
+            lines = [printed_open(self.solution, self.summary)]
+        else:
+            lines = [printed(self.summary)]
         if self.folder is not None:
             lines.append(f"Results written to {self.folder}/")
         return "\n".join(lines)
@@ -80,6 +85,14 @@ def run_scene(
         SceneError: if the scene's mesh does not fit it, or the folder cannot be written.
         UnsolvedError: if the eigen-solver fails.
     """
+    if scene.is_open:
+        # Closed tanks do without what open water needs.
+        from hydroelastic.scenes.open_run import solved_open_scene, write_open
+
+        opened, summary = solved_open_scene(scene, import_seconds=import_seconds, report=report)
+        if out is not None:
+            write_open(opened, summary, out, images=images, report=report)
+        return Outcome(solution=opened, summary=summary, folder=out)
     solution, summary = solved_scene(scene, import_seconds=import_seconds, report=report)
     warnings = _write(solution, summary, out, images, report) if out is not None else ()
     return Outcome(solution=solution, summary=summary, folder=out, warnings=warnings)
@@ -88,12 +101,13 @@ def run_scene(
 def solved_scene(
     scene: TankScene, *, import_seconds: float = 0.0, report: Report = lambda _message: None
 ) -> tuple[TankSolution, Summary]:
-    """Solve a scene and set the estimates beside the solution, on all processes (collective).
+    """Solve a closed tank and set the estimates beside the solution, on all processes (collective).
 
     Raises:
-        SceneError: if the scene's mesh does not fit it.
+        SceneError: if the scene's ends are open, or its mesh does not fit it.
         UnsolvedError: if the eigen-solver fails.
     """
+    require_walls(scene, "the estimates of the older theories are those of closed tanks")
     comm = MPI.COMM_WORLD
     watch = Stopwatch()
     with watch.stage("estimates"):
@@ -180,15 +194,9 @@ def _write(
                             warnings.append(f"no images: {error}")
                 summary["timing"].update(watch.seconds)
                 (folder / "summary.md").write_text(markdown(summary), encoding="utf-8")
-                (folder / SUMMARY).write_text(
-                    json.dumps(summary, indent=1, ensure_ascii=False, allow_nan=False) + "\n", encoding="utf-8"
-                )
+                write_summary(summary, folder)
         except BaseException as error:
             # Whatever it is, the other processes wait to hear of it.
             problem = error
-    failed = comm.bcast(problem is not None, root=0)
-    if problem is not None:
-        raise problem
-    if failed:
-        raise SceneError(Problem(wrong="the first process could not write the result folder"))
+    raise_on_all(problem, comm)
     return tuple(warnings)

@@ -25,6 +25,7 @@ from hydroelastic.scenes.field_model import build_mesh
 from hydroelastic.scenes.field_solution import Stopwatch, solve_field
 from hydroelastic.scenes.models import TankScene
 from hydroelastic.scenes.plan import HIGHEST_DEGREE, initial_resolution
+from hydroelastic.scenes.read import require_walls
 from hydroelastic.scenes.scaled_tank import scaled_tank
 from hydroelastic.scenes.solve import Report
 from hydroelastic.scenes.study_plan import Family, StudyPlan
@@ -78,9 +79,11 @@ def study_scene(scene: TankScene, plan: StudyPlan | None = None, *, report: Repo
         The rows and the rates they show.
 
     Raises:
-        SceneError: if the scene brings a mesh of its own, or has no float for the thinness that is asked for.
+        SceneError: if the scene's ends are open, if it brings a mesh of its own, or if it has no float for the thinness
+            that is asked for.
         UnsolvedError: if the eigen-solver fails.
     """
+    require_walls(scene, "a study measures the errors of frequencies of closed tanks")
     if scene.mesh is not None:
         raise SceneError(
             Problem(key="[mesh]", wrong="a study makes its own meshes", remedy="Leave [mesh] out of the scene")

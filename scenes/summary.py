@@ -8,6 +8,7 @@ from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from mpi4py import MPI
 
 from hydroelastic.modal.estimate import Estimate
 from hydroelastic.scenes.differences import difference
@@ -23,7 +24,7 @@ Summary = dict[str, Any]
 # A runner-up above this part of the largest participation makes the tone a shared one.
 SHARED = 0.5
 
-PACKAGES = ("hydroelastic", "fenics-dolfinx", "petsc4py", "slepc4py", "gmsh", "numpy", "scipy")
+PACKAGES = ("hydroelastic", "fenics-dolfinx", "petsc4py", "slepc4py", "gmsh", "numpy", "scipy", "xarray")
 
 
 def summarize(
@@ -80,8 +81,8 @@ def summarize(
             "processes": solution.field.mesh.mesh.comm.size,
         },
         "timing": {"import": import_seconds, **solution.seconds},
-        "memory_peak": solution.field.mesh.mesh.comm.allreduce(_peak_memory()),
-        "versions": _versions(),
+        "memory_peak": memory_of_processes(solution.field.mesh.mesh.comm),
+        "versions": versions(),
     }
 
 
@@ -215,7 +216,8 @@ def _bound_holds(solution: TankSolution, estimate: Estimate) -> bool | None:
     return bool(estimate.omega >= solution.omega(values[number]) * (1.0 - errors[number] - 1e-9))
 
 
-def _versions() -> dict[str, str]:
+def versions() -> dict[str, str]:
+    """Return the versions of what a solution rests on."""
     found = {"python": platform.python_version()}
     for package in PACKAGES:
         try:
@@ -225,6 +227,6 @@ def _versions() -> dict[str, str]:
     return found
 
 
-def _peak_memory() -> int:
-    """Peak resident memory of this process, bytes."""
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
+def memory_of_processes(comm: MPI.Comm) -> int:
+    """Return the sum of the peak resident memory of all processes, bytes (collective)."""
+    return int(comm.allreduce(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024))

@@ -153,26 +153,26 @@ def printed(summary: Summary, *, notes: bool = False, width: int = 120) -> str:
         width: of the text, in characters.
     """
     console = Console(file=io.StringIO(), width=width, color_system=None, highlight=False)
-    console.print(_title(summary), markup=False)
+    console.print(title_of(summary), markup=False)
     for line in status_lines(summary):
         console.print(line, markup=False, style="bold")
-    console.print(_table(MODE_HEADINGS, mode_rows(summary)))
+    console.print(rich_table(MODE_HEADINGS, mode_rows(summary)))
     for line in mode_lines(summary):
         console.print(line, markup=False)
     for line in (*tone_lines(summary), *float_lines(summary)):
         console.print(line, markup=False)
     for row in summary["floats"]:
         if row["estimates"]:
-            console.print(_table(FLOAT_ESTIMATE_HEADINGS, float_estimate_rows(row)))
+            console.print(rich_table(FLOAT_ESTIMATE_HEADINGS, float_estimate_rows(row)))
         if row["printed_constants"] and notes:
-            console.print(_table(PRINTED_HEADINGS, printed_rows(row)))
+            console.print(rich_table(PRINTED_HEADINGS, printed_rows(row)))
         if notes:
             for name, estimate in row["estimates"].items():
                 console.print(f"{name}: {estimate['note']}", markup=False)
     if notes and not summary["estimates"] and summary["first_elastic_by_body"]:
         console.print("No estimates of beams: the older theories know one with free ends beside free water.")
     if summary["estimates"]:
-        console.print(_table(ESTIMATE_HEADINGS, estimate_rows(summary)))
+        console.print(rich_table(ESTIMATE_HEADINGS, estimate_rows(summary)))
         if notes:
             for name, estimate in summary["estimates"].items():
                 console.print(f"{name}: {estimate['note']}", markup=False)
@@ -180,11 +180,13 @@ def printed(summary: Summary, *, notes: bool = False, width: int = 120) -> str:
     return console.file.getvalue().rstrip()  # type: ignore[attr-defined]
 
 
-def _title(summary: Summary) -> str:
+def title_of(summary: Summary) -> str:
+    """Return the title of a scene."""
     return summary["scene"]["title"] or "Untitled scene"
 
 
-def _table(headings: tuple[str, ...], rows: list[tuple[str, ...]]) -> Table:
+def rich_table(headings: tuple[str, ...], rows: list[tuple[str, ...]]) -> Table:
+    """Return a table for a terminal."""
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
     for column, heading in enumerate(headings):
         leftwards = column == 0 or heading in ("kind", "symmetry", "bound")
@@ -196,20 +198,20 @@ def _table(headings: tuple[str, ...], rows: list[tuple[str, ...]]) -> Table:
 
 def markdown(summary: Summary) -> str:
     """All tables as Markdown."""
-    parts = [f"# {_title(summary)}", ""]
+    parts = [f"# {title_of(summary)}", ""]
     complaint = [f"**{line}**" if number == 0 else line for number, line in enumerate(status_lines(summary))]
     parts += [*complaint, ""] if complaint else []
-    parts += [_markdown_table(MODE_HEADINGS, mode_rows(summary)), ""]
+    parts += [markdown_table(MODE_HEADINGS, mode_rows(summary)), ""]
     parts += [line + "\n" for line in (*mode_lines(summary), *tone_lines(summary), *float_lines(summary))]
     if summary["estimates"]:
-        parts += [_markdown_table(ESTIMATE_HEADINGS, estimate_rows(summary)), ""]
+        parts += [markdown_table(ESTIMATE_HEADINGS, estimate_rows(summary)), ""]
         parts += [f"- `{name}`: {estimate['note']}" for name, estimate in summary["estimates"].items()]
         parts.append("")
     for row in summary["floats"]:
         if row["estimates"]:
-            parts += [_markdown_table(FLOAT_ESTIMATE_HEADINGS, float_estimate_rows(row)), ""]
+            parts += [markdown_table(FLOAT_ESTIMATE_HEADINGS, float_estimate_rows(row)), ""]
         if row["printed_constants"]:
-            parts += [_markdown_table(PRINTED_HEADINGS, printed_rows(row)), ""]
+            parts += [markdown_table(PRINTED_HEADINGS, printed_rows(row)), ""]
         if row["estimates"]:
             parts += [f"- `{name}`: {estimate['note']}" for name, estimate in row["estimates"].items()]
             parts.append("")
@@ -217,7 +219,8 @@ def markdown(summary: Summary) -> str:
     return "\n".join(parts) + "\n"
 
 
-def _markdown_table(headings: tuple[str, ...], rows: list[tuple[str, ...]]) -> str:
+def markdown_table(headings: tuple[str, ...], rows: list[tuple[str, ...]]) -> str:
+    """Return a table in Markdown."""
     lines = [headings, tuple("---" for _ in headings), *rows]
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
 

@@ -14,7 +14,20 @@ from click.testing import CliRunner, Result
 from hydroelastic.scenes.command_line import main
 
 DRAWING = {"vtk", "vtkmodules", "pyvista", "matplotlib", "PIL"}
-HEAVY = DRAWING | {"dolfinx", "ufl", "basix", "ffcx", "gmsh", "petsc4py", "slepc4py", "mpi4py", "scipy", "meshio"}
+HEAVY = DRAWING | {
+    "dolfinx",
+    "ufl",
+    "basix",
+    "ffcx",
+    "gmsh",
+    "petsc4py",
+    "slepc4py",
+    "mpi4py",
+    "scipy",
+    "meshio",
+    "xarray",
+    "pandas",
+}
 COARSE = ("--set", "accuracy.modes=1", "--set", "accuracy.tolerance=1e-3")
 
 GOOD = """
@@ -75,10 +88,13 @@ BAD = {
     "unknown key": (GOOD.replace("depth =", "dept ="), ['"dept"', 'Did you mean "depth"?']),
     "unknown table": (GOOD + "[solver]\n", ["[solver]", "not known"]),
     "misspelt table": (GOOD.replace("[accuracy]", "[acuracy]"), ["[acuracy]", 'Did you mean "accuracy"?']),
-    "later table": (GOOD + '[[analysis]]\nkind = "radiation"\n', ["[[analysis]]", "not known"]),
+    "table of open water": (GOOD + '[[analysis]]\nkind = "resonance"\n', ["[[analysis]]", 'set ends = "open"']),
     "single brackets": (GOOD.replace("[[body]]", "[body]"), ["[[body]]"]),
     "misspelt choice": (GOOD.replace("length = 10.0", 'length = 10.0\ntop = "fee"'), ['Did you mean "free"?']),
-    "open ends": (GOOD.replace("length = 10.0", 'length = 10.0\nends = "open"'), ['Allowed: "walls"']),
+    "open ends": (
+        GOOD.replace("length = 10.0", 'length = 10.0\nends = "open"\ntop = "rigid"'),
+        ["no wave leaves", '"free"'],
+    ),
     "misspelt kind": (
         GOOD.replace("start = 3.0", 'kind = "flaot"\nstart = 3.0'),
         ['"beam" or "float"', 'mean "float"?'],
@@ -92,7 +108,7 @@ BAD = {
     "no liquid": (GOOD.replace("[[liquid]]\ndensity = 1000.0\ndepth = 5.0", ""), ["[[liquid]]", "missing"]),
     "zero depth": (GOOD.replace("depth = 5.0", "depth = 0"), ['"depth" = 0', "positive"]),
     "negative depth": (GOOD.replace("depth = 5.0", "depth = -5.0"), ['"depth" = -5.0', "positive"]),
-    "NaN": (GOOD.replace("depth = 5.0", "depth = nan"), ["nan", "finite"]),
+    "NaN": (GOOD.replace("depth = 5.0", "depth = nan"), ["nan", "not a number"]),
     "infinity": (GOOD.replace("depth = 5.0", "depth = inf"), ["inf", "finite"]),
     "no mass": (GOOD.replace("mass_per_length = 50.0", "mass_per_length = 0.0"), ["mass_per_length"]),
     "tolerance 0": (GOOD.replace("tolerance = 1e-6", "tolerance = 0"), ["from 1e-12 to 0.1"]),

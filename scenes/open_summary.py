@@ -1,0 +1,78 @@
+"""The answer to a scene with open ends as one JSON-ready value: tables with their errors, and what they cost."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from math import isinf, isnan
+from typing import Any
+
+import numpy as np
+from mpi4py import MPI
+
+from hydroelastic.scenes.open_results import (
+    DIRECTIONS,
+    DecayTable,
+    OpenSolution,
+    RadiationTable,
+    ResonanceTable,
+    ResponseTable,
+)
+from hydroelastic.scenes.summary import Summary, memory_of_processes, versions
+
+
+def summarize_open(solution: OpenSolution, comm: MPI.Comm, *, import_seconds: float) -> Summary:
+    """Build the summary of a solved scene with open ends (collective: peak memory is summed over processes).
+
+    Complex numbers are pairs [real part, imaginary part], infinity is the text "inf", what was not computed is null.
+
+    Args:
+        solution: the solution.
+        comm: the processes.
+        import_seconds: time spent importing libraries.
+
+    Returns:
+        The content of ``summary.json``.
+    """
+    return {
+        "scene": solution.scene.model_dump(mode="json"),
+        "status": solution.status,
+        "reasons": list(solution.reasons),
+        "radiation": [_written(table) | {"wave_direction": list(DIRECTIONS)} for table in solution.radiation],
+        "response": [_written(table) for table in solution.response],
+        "resonance": [_written(table) for table in solution.resonance],
+        "decay": [_written(table) for table in solution.decay],
+        "size": {**solution.size, "processes": comm.size},
+        "timing": {"import": import_seconds, **solution.seconds},
+        "memory_peak": memory_of_processes(comm),
+        "versions": versions(),
+    }
+
+
+def _written(table: RadiationTable | ResponseTable | ResonanceTable | DecayTable) -> dict[str, Any]:
+    """A table by the names of its fields; `body` counts from 1 here, as everywhere that a person reads."""
+    row = {field.name: getattr(table, field.name) for field in fields(table)}
+    if isinstance(table, ResponseTable):
+        row["plates"] = [
+            {"body": plate.body + 1, "positions": plate.positions, "deflection": plate.deflection}
+            for plate in table.plates
+        ]
+    return {name: json_ready(value) for name, value in row.items()}
+
+
+def json_ready(value: Any) -> Any:
+    """Return a value in what JSON knows: arrays as lists, complex numbers as pairs, no infinity and no NaN."""
+    if isinstance(value, np.ndarray):
+        return json_ready(value.tolist())
+    if isinstance(value, dict):
+        return {name: json_ready(entry) for name, entry in value.items()}
+    if isinstance(value, list | tuple):
+        return [json_ready(entry) for entry in value]
+    if isinstance(value, np.generic):
+        return json_ready(value.item())
+    if isinstance(value, complex):
+        return [json_ready(value.real), json_ready(value.imag)]
+    if isinstance(value, float) and isnan(value):
+        return None
+    if isinstance(value, float) and isinf(value):
+        return "inf" if value > 0 else "-inf"
+    return value

@@ -1,0 +1,276 @@
+"""The tables of a scene with open ends that a person reads: printed, and kept as Markdown."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import product
+from math import inf, isfinite, pi
+
+import numpy as np
+from rich.console import Console
+
+from hydroelastic.scenes.digits import with_certain_digits
+from hydroelastic.scenes.open_results import DecayTable, OpenSolution, RadiationTable, ResonanceTable, ResponseTable
+from hydroelastic.scenes.summary import Summary
+from hydroelastic.scenes.tables import markdown_table, rich_table, status_lines, title_of
+
+MOST_ROWS = 25
+"""Rows of one table that are shown; longer ones are thinned out evenly."""
+
+_MOST_MOTIONS = 4
+_Row = tuple[str, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Section:
+    """A table with a heading and what is said below it."""
+
+    title: str
+    headings: _Row
+    rows: list[_Row]
+    lines: tuple[str, ...] = ()
+
+
+def printed_open(solution: OpenSolution, summary: Summary, *, width: int = 120) -> str:
+    """All tables as text for a terminal.
+
+    Args:
+        solution: the solution.
+        summary: content of ``summary.json``.
+        width: of the text, in characters.
+    """
+    console = Console(file=io.StringIO(), width=width, color_system=None, highlight=False)
+    console.print(title_of(summary), markup=False)
+    for line in status_lines(summary):
+        console.print(line, markup=False, style="bold")
+    for section in sections(solution):
+        console.print(section.title, markup=False)
+        console.print(rich_table(section.headings, section.rows))
+        for line in section.lines:
+            console.print(line, markup=False)
+    console.print(cost_line(summary), markup=False)
+    return console.file.getvalue().rstrip()  # type: ignore[attr-defined]
+
+
+def markdown_open(solution: OpenSolution, summary: Summary) -> str:
+    """All tables as Markdown."""
+    parts = [f"# {title_of(summary)}", ""]
+    complaint = [f"**{line}**" if number == 0 else line for number, line in enumerate(status_lines(summary))]
+    parts += [*complaint, ""] if complaint else []
+    for section in sections(solution):
+        parts += [f"## {section.title}", "", markdown_table(section.headings, section.rows), ""]
+        parts += [line + "\n" for line in section.lines]
+    parts.append(cost_line(summary))
+    return "\n".join(parts) + "\n"
+
+
+def sections(solution: OpenSolution) -> Iterator[Section]:
+    """Yield the tables, by analysis."""
+    for radiation in solution.radiation:
+        yield from _radiation(radiation)
+    for response in solution.response:
+        yield from _response(response)
+    for resonance in solution.resonance:
+        yield _resonance(resonance)
+    for decay in solution.decay:
+        yield _decay(decay)
+
+
+def cost_line(summary: Summary) -> str:
+    """Size and cost of the solution."""
+    size = summary["size"]
+    seconds = ", ".join(f"{stage} {value:.2f}" for stage, value in summary["timing"].items() if value >= 0.005)
+    return (
+        f"{size['cells']} cells, degree {size['degree']}, {size['dofs']} unknowns; seconds: {seconds}; "
+        f"peak memory {summary['memory_peak'] / 2**20:.0f} MiB."
+    )
+
+
+def _radiation(table: RadiationTable) -> Iterator[Section]:
+    """One table for each motion: the diagonal of a and b, and what waves from the left do."""
+    several = len(table.waves) > 1
+    shown, thinned = _shown(len(table.omega), "frequencies", "radiation.csv")
+    worst = f"Largest residuals: energy {_largest(table.energy_residual)}, Haskind {_largest(table.haskind_residual)}."
+    further = (
+        "Coupling of motions, phases and waves from the right: radiation.csv and dataset.nc.",
+        f"{worst} {table.factorizations} factorizations.",
+    )
+    for place, motion in enumerate(table.dofs):
+        mass, force = ("kg·m", "N/m") if motion.endswith("roll") else ("kg/m", "N/m²")
+        rows = []
+        for row in shown:
+            error = float(table.relative_error[row])
+            rows.append(
+                (
+                    f"{table.omega[row]:.6g}",
+                    *(() if several else (_number(table.wavenumbers[row, 0]),)),
+                    _certain(table.added_mass[row, place, place], error),
+                    _certain(table.radiation_damping[row, place, place], error),
+                    *(_certain(abs(force), error) for force in table.excitation_force[row, :, 0, place]),
+                    _error(error),
+                )
+            )
+        waves = [f" {wave}" if several else "" for wave in table.waves]
+        last = place == len(table.dofs) - 1
+        yield Section(
+            title=f"Radiation by {motion_name(motion)}",
+            headings=(
+                "ω, rad/s",
+                *(() if several else ("k, 1/m",)),
+                f"a, {mass}",
+                f"b, {mass}/s",
+                *(f"|f|{wave}, {force}" for wave in waves),
+                "estimated error",
+            ),
+            rows=rows,
+            lines=(*thinned, *(further if last else ())),
+        )
+
+
+def _response(table: ResponseTable) -> Iterator[Section]:
+    """What leaves for each wave that comes, and how the bodies move."""
+    several = len(table.waves) > 1
+    places = max(MOST_ROWS // len(table.waves), 2)
+    shown, thinned = _shown(len(table.omega), "frequencies", "response.csv", places=places)
+    motions = table.dofs[:_MOST_MOTIONS]
+    ratios, amplitudes = [], []
+    for row, (incident, wave) in product(shown, enumerate(table.waves)):
+        error = float(table.relative_error[row])
+        begin = (f"{table.omega[row]:.6g}", *((wave,) if several else ()))
+        ratios.append(
+            (
+                *begin,
+                _number(table.wavenumbers[row, incident]),
+                *(_certain(abs(ratio), error) for ratio in table.reflection[row, incident]),
+                *(_certain(abs(ratio), error) for ratio in table.transmission[row, incident]),
+                _error(float(table.energy_residual[row, incident])),
+                _error(error),
+            )
+        )
+        amplitudes.append(
+            (*begin, *(_certain(abs(value), error) for value in table.amplitudes[row, incident, : len(motions)]))
+        )
+    outgoing = [f" {wave}" if several else "" for wave in table.waves]
+    headings = ("ω, rad/s", *(("wave",) if several else ()))
+    left_out = len(table.dofs) - len(motions)
+    yield Section(
+        title=f"Waves from the {table.waves_from}: ratios of elevations",
+        headings=(
+            *headings,
+            "k, 1/m",
+            *(f"|R|{wave}" for wave in outgoing),
+            *(f"|T|{wave}" for wave in outgoing),
+            "energy",
+            "estimated error",
+        ),
+        rows=ratios,
+        lines=thinned,
+    )
+    yield Section(
+        title=f"Motions in waves from the {table.waves_from}, per unit elevation",
+        headings=(*headings, *(f"|{motion_name(motion)}|" for motion in motions)),
+        rows=amplitudes,
+        lines=((f"{left_out} more motions, and the phases: response.csv.",) if left_out else ()),
+    )
+
+
+def _resonance(table: ResonanceTable) -> Section:
+    rows: list[_Row] = []
+    for number, (omega, label, error, residual) in enumerate(
+        zip(table.omega, table.labels, table.relative_error, table.residuals, strict=True), 1
+    ):
+        rows.append(
+            (
+                str(number),
+                motion_name(label),
+                _certain(omega.real, float(error)),
+                _certain(omega.imag, float(error) * abs(omega) / abs(omega.imag) if omega.imag else 1.0),
+                f"{2.0 * pi / omega.real:.6g}" if omega.real else "–",
+                f"{-omega.imag / abs(omega):.4g}",
+                _error(float(error)),
+                _error(float(residual)),
+            )
+        )
+    return Section(
+        title="Resonances e^(−iωt)",
+        headings=("", "motion", "Re ω, rad/s", "Im ω, 1/s", "period, s", "−Im ω/|ω|", "estimated error", "residual"),
+        rows=rows,
+        lines=(_counted(table),),
+    )
+
+
+def _counted(table: ResonanceTable) -> str:
+    if table.counted is None:
+        return f"Looked for in {table.region}; not counted independently."
+    verdict = "as many as were found" if table.counted == len(table.omega) else f"{len(table.omega)} are listed"
+    return f"An independent count of {table.region} gives {table.counted}: {verdict}."
+
+
+def _decay(table: DecayTable) -> Section:
+    shown, thinned = _shown(len(table.times), "times", "decay.csv")
+    # Those let go come first.
+    columns = sorted(range(len(table.dofs)), key=lambda place: table.initial[place] == 0.0)[:_MOST_MOTIONS]
+    dofs = [table.dofs[place] for place in columns]
+    left_out = len(table.dofs) - len(dofs)
+    rows = [
+        (
+            f"{table.times[row]:.6g}",
+            *(f"{value + 0.0:.6g}" for value in table.displacement[row, columns]),
+            f"{table.absolute_error[row]:.1e}",
+        )
+        for row in shown
+    ]
+    units = ["rad" if motion.endswith("roll") else "m" for motion in dofs]
+    tail = () if table.tail is None else (f"At last the motion let go is {table.tail:.6g}/t², with t in seconds.",)
+    return Section(
+        title="Motion after release",
+        headings=(
+            "t, s",
+            *(f"{motion_name(motion)}, {unit}" for motion, unit in zip(dofs, units, strict=True)),
+            "estimated error",
+        ),
+        rows=rows,
+        lines=(
+            *thinned,
+            *((f"{left_out} more motions: decay.csv.",) if left_out else ()),
+            *tail,
+            f"The error holds until t = {table.certified_until:.6g} s.",
+        ),
+    )
+
+
+def motion_name(dof: str) -> str:
+    """Return a motion as a person reads it: "body 2 heave" for "body_2__heave"."""
+    return dof.replace("__", " ").replace("_", " ")
+
+
+def _shown(count: int, what: str, file: str, places: int = MOST_ROWS) -> tuple[list[int], tuple[str, ...]]:
+    """Rows that are shown, with both ends, and a word about the others."""
+    if count <= places:
+        return list(range(count)), ()
+    rows = sorted({round(row) for row in np.linspace(0, count - 1, places)})
+    return rows, (f"{len(rows)} of {count} {what}; all of them are in {file}.",)
+
+
+def _certain(value: float, error: float) -> str:
+    """A number at its certain digits; small ones beside others keep four."""
+    if not isfinite(value):
+        return "–" if value != inf else "inf"
+    if value == 0.0:
+        return "0"
+    return with_certain_digits(float(value), error) if isfinite(error) and error < 1.0 else f"{value:.4g}"
+
+
+def _number(value: float) -> str:
+    return f"{value:.6g}" if isfinite(value) else "inf" if value == inf else "–"
+
+
+def _error(value: float) -> str:
+    return f"{value:.1e}" if isfinite(value) else "–"
+
+
+def _largest(values: np.ndarray) -> str:
+    known = values[np.isfinite(values)]
+    return f"{known.max():.1e}" if known.size else "–"

@@ -178,8 +178,8 @@ def sharpest_exponent(tank: ScaledTank, *, released: bool) -> float:
 
 def _wavenumber(tank: ScaledTank, level: StillLevel, piece: Piece, squared_frequency: float) -> float:
     """The shortest wave on a piece of a still level, up to λ."""
-    moving = tank.moving_piece(level, piece)
-    return 0.0 if moving is None else moving.wavenumber(squared_frequency)
+    waves = (moving.wavenumber(squared_frequency) for moving in tank.moving_pieces(level, piece))
+    return max(waves, default=0.0)
 
 
 def _resolution_for(
@@ -240,6 +240,10 @@ def _radians(degree: int, tolerance: float) -> float:
 
 
 def _shapes_for(beam: Beam, wavenumber: float, tolerance: float) -> int:
-    """Dry modes of one beam: those up to the shortest wave, and a tail whose error falls like N⁻⁷."""
-    half_waves = wavenumber * beam.length / pi
-    return ceil(half_waves + _TAIL * (half_waves + 2.0) * tolerance ** (-1.0 / 7.0)) + 4
+    """Dry modes of one beam: those up to the shortest wave, and a tail whose error falls like N⁻⁷.
+
+    Where the shortest wave is in the softest section, it is longer in the others, in proportion to EI^{1/4}.
+    """
+    softest = min(part.flexural_rigidity for part in beam.parts)
+    half_waves = sum(wavenumber * (softest / part.flexural_rigidity) ** 0.25 * part.length / pi for part in beam.parts)
+    return ceil(half_waves + _TAIL * (half_waves + 2.0) * tolerance ** (-1.0 / 7.0)) + 4 + len(beam.hinges)

@@ -100,8 +100,8 @@ def tip_points(tank: ScaledTank, *, half: bool, released: bool = False) -> np.nd
 
 
 def is_plain(tank: ScaledTank) -> bool:
-    """Whether the liquid is a rectangle whose top is cut into pieces."""
-    return len(tank.layers) == 1 and not tank.floats
+    """Whether the liquid is a rectangle whose top is cut into pieces, with beams that are smooth on each."""
+    return len(tank.layers) == 1 and not tank.floats and not any(tank.nodes_of(index) for index in tank.beams)
 
 
 def unknown_count(points: int, triangles: int, degree: int, *, parts: int = 1) -> int:

@@ -7,8 +7,8 @@ points. So with B = Σ uₙ σₙ vₙᵀ
 
     ωₙ = 1/σₙ,    vₙ: curvatures orthonormal in the strain energy,    uₙ: deflections orthonormal in the mass.
 
-Continuity needs no condition, K and M are never formed, and rounding grows with the ratio σ₁/σₙ of the frequencies only,
-where a stiffness matrix of polynomials would lose (p²/h)⁴. Rigid shapes are linear between hinges.
+Continuity needs no condition, K and M are never formed, and rounding grows with the ratio σ₁/σₙ of the frequencies
+only, where a stiffness matrix of polynomials would lose (p²/h)⁴. Rigid shapes are linear between hinges.
 """
 
 from __future__ import annotations

@@ -21,6 +21,10 @@ SMALLEST_TIP = 1e-13
 _ROOM_FOR_ROUNDING = 5.0
 # Dry modes beyond the shortest wave, in units of its half waves and of tolerance^(-1/7).
 _TAIL = 0.45
+# Half waves of the first bending shape of a section.
+_FIRST_BENDING = 1.5
+# Sections whose flexural rigidities differ by less than this factor bend together.
+_ALIKE = 10.0
 # κ₁ l of the first elastic dry mode.
 _FIRST_ROOT = 4.73
 # Below the pressure-release tone of a beam lie at most its rigid motions, and with several beams modes of softer ones.
@@ -242,8 +246,21 @@ def _radians(degree: int, tolerance: float) -> float:
 def _shapes_for(beam: Beam, wavenumber: float, tolerance: float) -> int:
     """Dry modes of one beam: those up to the shortest wave, and a tail whose error falls like N⁻⁷.
 
-    Where the shortest wave is in the softest section, it is longer in the others, in proportion to EI^{1/4}.
+    Dry modes have wavenumbers κ ~ EI^{-1/4} in the sections, and the shortest wave is in the softest one. What stiffer
+    ones bend counts less, like 1/EI, but is not seen before their first bending shape, of 3/2 half waves.
     """
     softest = min(part.flexural_rigidity for part in beam.parts)
-    half_waves = sum(wavenumber * (softest / part.flexural_rigidity) ** 0.25 * part.length / pi for part in beam.parts)
-    return ceil(half_waves + _TAIL * (half_waves + 2.0) * tolerance ** (-1.0 / 7.0)) + 4 + len(beam.hinges)
+    phase = sum((softest / part.flexural_rigidity) ** 0.25 * part.length for part in beam.parts)
+    needed = 0.0
+    for part in beam.parts:
+        ratio = part.flexural_rigidity / softest
+        length = sum(
+            other.length
+            for other in beam.parts
+            if 1.0 / _ALIKE <= other.flexural_rigidity / part.flexural_rigidity <= _ALIKE
+        )
+        half_waves = wavenumber * ratio**-0.25 * length / pi
+        tail = _TAIL * (half_waves + 2.0) * (tolerance * ratio) ** (-1.0 / 7.0)
+        hidden = _FIRST_BENDING if _ALIKE < ratio < 1.0 / tolerance else 0.0
+        needed = max(needed, (half_waves + tail + hidden) * phase * ratio**0.25 / length)
+    return ceil(needed) + 4 + len(beam.hinges)

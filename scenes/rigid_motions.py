@@ -33,9 +33,9 @@ class LooseMotion:
 def loose_motions(scene: TankScene) -> tuple[LooseMotion, ...]:
     """Return the motions that cost no energy, each of them alone.
 
-    A free beam without hydrostatics heaves, pitches and turns about its hinges at no cost. A float sways at no cost, and rolls so if it is
-    neutral; where it may heave, heave follows the roll so that the force on it, and with it the volume it displaces,
-    is zero.
+    A free beam without hydrostatics heaves, pitches and turns about its hinges at no cost. A float sways at no cost,
+    and rolls so if it is neutral; where it may heave, heave follows the roll so that the force on it, and with it the
+    volume it displaces, is zero.
     """
     return (*_loose_beams(scene), *_loose_floats(scene))
 

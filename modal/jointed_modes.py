@@ -70,45 +70,43 @@ class JointedModes:
         parts = self.beam.spans
         return np.array([(part.mass_per_length * highest / part.flexural_rigidity) ** 0.25 for part in parts])
 
-    def shape(self, number: int, x: FloatArray, derivative: int = 0, side: Side = "right") -> FloatArray:
-        """Evaluate w of a mode or a derivative of it.
+    def shapes(self, x: FloatArray, derivative: int = 0, side: Side = "right") -> FloatArray:
+        """Evaluate w of all modes or a derivative of it.
 
         Args:
-            number: of the mode, from 0.
-            x: distances from the left end, m, in [0, l], any shape.
+            x: distances from the left end, m, in [0, l], shape (points,).
             derivative: order 0 … 3.
             side: of which limit at joints and steps.
 
         Returns:
-            The values, with the shape of ``x``.
+            The values, shape (modes, points).
 
         Raises:
             ValueError: if the order is not 0 … 3, or some x leaves the beam.
         """
         if derivative not in (0, 1, 2, 3):
             raise ValueError(f"derivative is {derivative}; orders 0, 1, 2 and 3 are available")
-        place = np.asarray(x, dtype=np.float64)
         edges = np.array(self.beam.edges)
-        if not np.all((place >= edges[0]) & (place <= edges[-1])):
+        if not np.all((x >= edges[0]) & (x <= edges[-1])):
             raise ValueError("x must lie on the beam")
-        owners = np.searchsorted(edges[1:-1], place, side=side)
+        owners = np.searchsorted(edges[1:-1], x, side=side)
         tables, order = (self.deflections, derivative) if derivative < 2 else (self.curvatures, derivative - 2)
-        values = np.zeros_like(place)
+        values = np.empty((len(self.squared_frequencies), len(x)))
         for span, table in enumerate(tables):
             here = owners == span
-            if np.any(here):
-                half = 0.5 * (edges[span + 1] - edges[span])
-                t = (place[here] - edges[span]) / half - 1.0
-                values[here] = legendre.legval(t, legendre.legder(table[number], order)) / half**order
+            half = 0.5 * (edges[span + 1] - edges[span])
+            slopes = legendre.legder(table, order, axis=1) / half**order
+            t = np.clip((x[here] - edges[span]) / half - 1.0, -1.0, 1.0)
+            values[:, here] = slopes @ legendre.legvander(t, slopes.shape[1] - 1).T
         return values
 
-    def bending_moment(self, number: int, x: FloatArray, side: Side = "right") -> FloatArray:
-        """EI w″ of a mode, in N per metre of width for w in metres; continuous, 0 at hinges and free ends."""
-        return self._rigidities(x, side) * self.shape(number, x, 2, side)
+    def bending_moments(self, x: FloatArray, side: Side = "right") -> FloatArray:
+        """EI w″ of all modes, N per metre of width for w in metres; continuous, 0 at hinges and free ends."""
+        return self._rigidities(x, side) * self.shapes(x, 2, side)
 
-    def shear_force(self, number: int, x: FloatArray, side: Side = "right") -> FloatArray:
-        """(EI w″)′ of a mode; continuous, 0 at free ends."""
-        return self._rigidities(x, side) * self.shape(number, x, 3, side)
+    def shear_forces(self, x: FloatArray, side: Side = "right") -> FloatArray:
+        """(EI w″)′ of all modes; continuous, 0 at free ends."""
+        return self._rigidities(x, side) * self.shapes(x, 3, side)
 
     def _rigidities(self, x: FloatArray, side: Side) -> FloatArray:
         owners = np.searchsorted(np.array(self.beam.edges[1:-1]), x, side=side)

@@ -76,11 +76,27 @@ def _computed_shapes(beam: Beam, count: int) -> BeamShapes:
     return BeamShapes(
         labels=modes.labels,
         parities=modes.parities,
-        deflection=lambda number, x: scale * modes.shape(number, np.minimum(x, modes.beam.length)),
+        deflection=_AllAtOnce(modes, scale),
         bending=modes.squared_frequencies * length,
         mass=mass * length,
         wavenumber=float(modes.wavenumbers.max()),
     )
+
+
+class _AllAtOnce:
+    """Evaluates all shapes at some points for the first of them: one is asked for after the other."""
+
+    def __init__(self, modes: JointedModes, scale: float) -> None:
+        self._modes, self._scale = modes, scale
+        self._points, self._values = np.empty(0), np.empty((0, 0))
+
+    def __call__(self, number: int, x: Array) -> Array:
+        if not np.array_equal(x, self._points):
+            # Lengths in units of the tank end within rounding of each other.
+            self._values = self._scale * self._modes.shapes(np.minimum(x, self._modes.beam.length))
+            self._points = x.copy()
+        values: Array = self._values[number]
+        return values
 
 
 def jointed_beam(beam: Beam, *, even: bool = False) -> JointedBeam:

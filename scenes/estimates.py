@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import pi
 
 from hydroelastic.modal.estimate import Estimate
-from hydroelastic.modal.estimates import all_estimates
+from hydroelastic.modal.estimates import all_estimates, estimates_of_jointed_beams
 from hydroelastic.modal.floating_beam import FloatingBeam
 from hydroelastic.modal.sloshing import guided_cover_frequencies, sloshing_frequencies
 from hydroelastic.modal.two_layer import InterfacePlate, TwoLayers, tank_modes
@@ -51,6 +51,8 @@ def scene_estimates(scene: TankScene) -> dict[str, Estimate]:
     plain = len(scene.layers) == 1 and not scene.floats
     if not plain or len(scene.body) != 1 or scene.top != "free" or scene.beams[0][1].ends != "free":
         return {}
+    if not scene.beams[0][1].is_uniform:
+        return estimates_of_jointed_beams()
     return all_estimates(floating_beam(scene))
 
 

@@ -145,23 +145,20 @@ def jointed_modes(beam: JointedBeam, count: int) -> JointedModes:
         return _mirrored(jointed_modes(beam.reversed, count), beam)
     basis = _Basis(beam, _degrees(beam, count))
     rigid, rigid_parities = basis.rigid_shapes()
-    deflections = [rigid]
-    amplitudes = [np.zeros((basis.size, rigid.shape[1]))]
-    squared, parities = [np.zeros(rigid.shape[1])], [rigid_parities]
     wanted = max(count - rigid.shape[1], 0)
+    # A beam that is its own mirror image has modes of either parity, apart even where frequencies coincide.
     found = [_elastic(basis, rigid, parity, wanted) for parity in ((1, -1) if beam.is_mirror_image else (0,))]
-    deflections += [modes[0] for modes in found]
-    amplitudes += [modes[1] for modes in found]
-    squared += [modes[2] for modes in found]
-    parities += [np.full(len(modes[2]), parity or 1) for modes, parity in zip(found, (1, -1), strict=False)]
-    values = np.concatenate(squared)
+    deflections = np.hstack([rigid, *(modes.deflections for modes in found)])
+    amplitudes = np.hstack([np.zeros((basis.size, rigid.shape[1])), *(modes.amplitudes for modes in found)])
+    values = np.concatenate([np.zeros(rigid.shape[1]), *(modes.squared_frequencies for modes in found)])
+    parities = np.concatenate([rigid_parities, *(modes.parities for modes in found)])
     order = np.argsort(values, kind="stable")[:count]
-    curvatures = basis.curvature_coefficients(np.hstack(amplitudes)[:, order])
+    curvatures = basis.curvature_coefficients(amplitudes[:, order])
     return JointedModes(
         beam=beam,
         squared_frequencies=values[order],
-        parities=tuple(int(parity) for parity in np.concatenate(parities)[order]),
-        deflections=basis.deflection_coefficients(np.hstack(deflections)[:, order], curvatures),
+        parities=tuple(int(parity) for parity in parities[order]),
+        deflections=basis.deflection_coefficients(deflections[:, order], curvatures),
         curvatures=curvatures,
     )
 
@@ -317,8 +314,18 @@ class _Basis:
         return tuple(tables)
 
 
-def _elastic(basis: _Basis, rigid: FloatArray, parity: int, count: int) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """The lowest elastic modes of one parity: weighed deflections, amplitudes of the columns, and λ."""
+@dataclass(frozen=True, kw_only=True)
+class _Elastic:
+    """Elastic modes: weighed deflections and amplitudes of the basis as columns, λ and parities."""
+
+    deflections: FloatArray
+    amplitudes: FloatArray
+    squared_frequencies: FloatArray
+    parities: FloatArray
+
+
+def _elastic(basis: _Basis, rigid: FloatArray, parity: int, count: int) -> _Elastic:
+    """The lowest elastic modes of one parity, or of none with 0."""
     combinations = basis.combinations(parity)
     table = basis.table() @ combinations
     # Twice, for what is rigid may be much the larger part.
@@ -329,7 +336,12 @@ def _elastic(basis: _Basis, rigid: FloatArray, parity: int, count: int) -> tuple
     # Upwards at the left end, where that moves.
     first = (left / basis.root_mass[:, None])[0]
     signs = np.where(first < 0.0, -1.0, 1.0)
-    return left * signs, combinations @ (right * (signs / sizes)), 1.0 / sizes**2
+    return _Elastic(
+        deflections=left * signs,
+        amplitudes=combinations @ (right * (signs / sizes)),
+        squared_frequencies=1.0 / sizes**2,
+        parities=np.full(len(sizes), parity or 1),
+    )
 
 
 def _singular_values(table: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:

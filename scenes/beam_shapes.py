@@ -55,7 +55,8 @@ def _closed_shapes(beam: Beam, count: int) -> BeamShapes:
     rigid = ("heave",) if guided else ("heave", "pitch")
 
     def deflection(number: int, x: Array) -> Array:
-        return guided_shape(number, x / length) if guided else free_free_shape(number, x / length)
+        values = guided_shape(number, x / length) if guided else free_free_shape(number, x / length)
+        return np.asarray(values, dtype=np.float64)
 
     return BeamShapes(
         labels=(*rigid, *(f"elastic {number + 1}" for number in range(count - len(rigid))))[:count],
@@ -88,7 +89,8 @@ class _AllAtOnce:
 
     def __init__(self, modes: JointedModes, scale: float) -> None:
         self._modes, self._scale = modes, scale
-        self._points, self._values = np.empty(0), np.empty((0, 0))
+        self._points: Array = np.empty(0)
+        self._values: Array = np.empty((0, 0))
 
     def __call__(self, number: int, x: Array) -> Array:
         if not np.array_equal(x, self._points):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import pi, sqrt
 
-from hydroelastic.scenes.model_bodies import Beam, BeamJoint, BeamSection
+from hydroelastic.scenes.model_bodies import Beam, BeamJoint
 from hydroelastic.scenes.models import TankScene
 
 
@@ -55,25 +55,17 @@ def scales(scene: TankScene) -> Scales:
 
 def scaled_beam(beam: Beam, units: Scales, start: float, end: float) -> Beam:
     """The beam in the units of the tank, between the given dimensionless ends."""
-    given = {"start": start, "hydrostatic": beam.hydrostatic, "ends": beam.ends, "joints": _scaled_joints(beam, units)}
-    if not beam.sections:
-        return Beam(
-            length=end - start,
-            flexural_rigidity=beam.flexural_rigidity / units.flexural_rigidity,
-            mass_per_length=beam.mass_per_length / units.mass_per_length,
-            **given,
-        )
-    return Beam(
-        sections=tuple(
-            BeamSection(
-                length=part.length * (end - start) / beam.length,
-                flexural_rigidity=part.flexural_rigidity / units.flexural_rigidity,
-                mass_per_length=part.mass_per_length / units.mass_per_length,
-            )
-            for part in beam.sections
-        ),
-        **given,
-    )
+    given: dict[str, object] = {"start": start, "joints": _scaled_joints(beam, units)}
+    given |= {"hydrostatic": beam.hydrostatic, "ends": beam.ends}
+    parts = [
+        {
+            "length": part.length * ((end - start) / beam.length),
+            "flexural_rigidity": part.flexural_rigidity / units.flexural_rigidity,
+            "mass_per_length": part.mass_per_length / units.mass_per_length,
+        }
+        for part in beam.parts
+    ]
+    return Beam.model_validate(given | ({"sections": parts} if beam.sections else parts[0] | {"length": end - start}))
 
 
 def _scaled_joints(beam: Beam, units: Scales) -> tuple[BeamJoint, ...]:

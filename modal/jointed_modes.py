@@ -158,7 +158,7 @@ def jointed_modes(beam: JointedBeam, count: int) -> JointedModes:
         beam=beam,
         squared_frequencies=values[order],
         parities=tuple(int(parity) for parity in parities[order]),
-        deflections=basis.deflection_coefficients(deflections[:, order], curvatures),
+        deflections=basis.deflection_coefficients(deflections[:, order], curvatures, values[order]),
         curvatures=curvatures,
     )
 
@@ -287,22 +287,24 @@ class _Basis:
         return np.array(columns).T
 
     def deflection_coefficients(
-        self, weighed: FloatArray, curvatures: tuple[FloatArray, ...]
+        self, weighed: FloatArray, curvatures: tuple[FloatArray, ...], squared_frequencies: FloatArray
     ) -> tuple[FloatArray, ...]:
         """Legendre coefficients on each span of weighed deflections at the points.
 
         Those of low degree follow from the values, the others from the curvatures: integrated twice, rounding dies out
-        with the degree, where slopes at the ends would multiply it.
+        with the degree, where slopes at the ends would multiply it. Rounding of a curvature grows like κ², so what is
+        low grows with κ.
         """
         values = weighed / self.root_mass[:, None]
         tables = []
         for span, (part, degree) in enumerate(zip(self.beam.spans, self.degrees, strict=True)):
             table = (0.5 * part.length) ** 2 * legendre.legint(curvatures[span], 2, axis=1)
-            low = min(ceil(degree ** (2.0 / 3.0)), degree)
-            polynomials = legendre.legvander(self._local[span], low) * self._weights[span][:, None]
+            wave = 0.5 * part.length * (part.mass_per_length / part.flexural_rigidity * squared_frequencies) ** 0.25
+            low = np.clip(np.ceil(wave ** (2.0 / 3.0)), 1, degree)
+            numbers = np.arange(table.shape[1])
+            polynomials = legendre.legvander(self._local[span], degree + 2) * self._weights[span][:, None]
             rows = values[self._rows[span] : self._rows[span + 1]]
-            table[:, : low + 1] = (polynomials.T @ rows).T * (np.arange(low + 1) + 0.5)
-            tables.append(table)
+            tables.append(np.where(numbers <= low[:, None], (polynomials.T @ rows).T * (numbers + 0.5), table))
         return tuple(tables)
 
     def curvature_coefficients(self, amplitudes: FloatArray) -> tuple[FloatArray, ...]:

@@ -23,6 +23,8 @@ _ROOM_FOR_ROUNDING = 5.0
 _TAIL = 0.45
 # Half waves of the first bending shape of a section.
 _FIRST_BENDING = 1.5
+# A section stiffer than the softest one by this over the tolerance bends less than can be told.
+_RIGID = 100.0
 # Sections whose flexural rigidities differ by less than this factor bend together.
 _ALIKE = 10.0
 # κ₁ l of the first elastic dry mode.
@@ -261,6 +263,6 @@ def _shapes_for(beam: Beam, wavenumber: float, tolerance: float) -> int:
         )
         half_waves = wavenumber * ratio**-0.25 * length / pi
         tail = _TAIL * (half_waves + 2.0) * (tolerance * ratio) ** (-1.0 / 7.0)
-        hidden = _FIRST_BENDING if _ALIKE < ratio < 1.0 / tolerance else 0.0
+        hidden = _FIRST_BENDING if _ALIKE < ratio < _RIGID / tolerance else 0.0
         needed = max(needed, (half_waves + tail + hidden) * phase * ratio**0.25 / length)
     return ceil(needed) + 4 + len(beam.hinges)

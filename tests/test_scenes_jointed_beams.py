@@ -11,6 +11,7 @@ import pytest
 from tanks import Tanks
 
 from hydroelastic.fem.modes import solve_modes
+from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.modal.estimates import all_estimates, estimates_of_jointed_beams
 from hydroelastic.modal.jointed_beam import Joint, JointedBeam, Section
 from hydroelastic.modal.jointed_modes import jointed_modes
@@ -18,10 +19,12 @@ from hydroelastic.scenes.check_tables import boundary_table, group_table, unknow
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.estimates import floating_beam, scene_estimates
 from hydroelastic.scenes.models import Accuracy, Beam, Liquid, Tank, TankScene
+from hydroelastic.scenes.plan import initial_resolution
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.rigid_motions import zero_mode_count
 from hydroelastic.scenes.solve import TankSolution
 from hydroelastic.scenes.summary import summarize
+from hydroelastic.scenes.tank_mesh import check_mesh, make_mesh
 
 EI, MASS = 5e3, 50.0
 SOFT, STIFF = (1.0, EI, MASS), (1.0, 10.0 * EI, 2.0 * MASS)
@@ -299,6 +302,16 @@ def test_the_check_shows_sections_and_joints(file: Path) -> None:
     assert "a turn about each hinge" in texts[1]
     assert "beam 1: section 2, bending over gravity" in texts[2]
     assert "beam 1: joint 2, its stiffness over gravity" in texts[2]
+
+
+def test_a_mesh_of_ones_own_needs_nodes_at_joints(tanks: Tanks) -> None:
+    scene = tanks.scene(tanks.beam(joints=[joint(1.3)]))
+    tank, tagged = tanks.graded_mesh(scene)
+    with pytest.raises(
+        MeshError, match=r"group body_1 of the mesh has no node at x/L = 0\.43, where the beam has a joint"
+    ):
+        check_mesh(tank, tagged)
+    check_mesh(tank, make_mesh(tank, initial_resolution(scene, modes=4)))
 
 
 def test_an_own_mass_matrix_is_symmetric_and_positive(tanks: Tanks) -> None:

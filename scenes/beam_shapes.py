@@ -140,6 +140,6 @@ def first_dry_eigenvalue(beam: Beam) -> float:
 
 
 def first_bending(beam: Beam) -> float:
-    """∫(EI w″² …)/∫w² of the first elastic shape, which is EI κ⁴ of a uniform beam."""
+    """Twice the strain energy of the first elastic shape over ∫w²: EI κ⁴ of a uniform beam."""
     shapes = beam_shapes(beam, 3 + len(beam.hinges))
     return float(shapes.bending[shapes.labels.index("elastic 1")] / beam.length)

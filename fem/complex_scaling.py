@@ -114,3 +114,21 @@ def _weighted_form(
     ds = chosen_measure("ds", mesh, mesh.topology.dim - 1, facets, 2 * liquid.degree + more)
     energy = sum(weight * potential.dx(axis) * test.dx(axis) for axis, weight in enumerate(weights[:-1]))
     return fem.form(energy * dx + weights[-1] * potential * test * ds, jit_options=jit_options())
+
+
+def complex_product(matrix: ComplexMatrix, vector: np.ndarray) -> np.ndarray:
+    """The product of a complex matrix, own entries (collective)."""
+    real, imaginary = (_real_product(part, vector) for part in (matrix.real, matrix.imaginary))
+    product: np.ndarray = real + 1j * imaginary
+    return product
+
+
+def _real_product(matrix: PETSc.Mat, vector: np.ndarray) -> np.ndarray:
+    source, target = matrix.createVecs()
+    parts = []
+    for part in (vector.real, vector.imag):
+        source.array[:] = part
+        matrix.mult(source, target)
+        parts.append(target.array_r.copy())
+    product: np.ndarray = parts[0] + 1j * parts[1]
+    return product

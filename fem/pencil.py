@@ -13,6 +13,7 @@ from functools import cached_property
 
 import numpy as np
 from petsc4py import PETSc
+from scipy.linalg import block_diag
 
 from hydroelastic.fem.liquid import (
     LiquidMatrices,
@@ -163,7 +164,7 @@ def build_pencil(
     if bodies:
         blocks.append(_body_coupling(liquid, bodies, laplace))
         stiffness_blocks.append(_diagonal(np.concatenate([body.stiffness for body in bodies]), laplace.comm))
-        mass_blocks.append(_diagonal(np.concatenate([body.mass for body in bodies]), laplace.comm))
+        mass_blocks.append(_on_first(block_diag(*(body.mass for body in bodies)), laplace.comm))
     for surface in surfaces:
         assert matrices.surface_mass is not None
         coupling_block, stiffness_block = surface_blocks(liquid, surface, matrices.surface_mass)
@@ -272,6 +273,18 @@ def _diagonal(values: np.ndarray, comm: PETSc.Comm) -> PETSc.Mat:
         vector.array[:] = values
     matrix = PETSc.Mat().createAIJ(((local, len(values)), (local, len(values))), nnz=1, comm=comm)
     matrix.setDiagonal(vector)
+    matrix.assemble()
+    return matrix
+
+
+def _on_first(values: np.ndarray, comm: PETSc.Comm) -> PETSc.Mat:
+    """Square matrix that lies on rank 0."""
+    local = len(values) if comm.rank == 0 else 0
+    longest = int(np.count_nonzero(values, axis=1).max(initial=0)) + 1
+    matrix = PETSc.Mat().createAIJ(((local, len(values)), (local, len(values))), nnz=longest, comm=comm)
+    for row in range(local):
+        (columns,) = np.nonzero(values[row])
+        matrix.setValues([row], columns.astype(PETSc.IntType), values[row, columns])
     matrix.assemble()
     return matrix
 

@@ -10,9 +10,8 @@ from __future__ import annotations
 
 import numpy as np
 from mpi4py import MPI
-from petsc4py import PETSc
 
-from hydroelastic.fem.complex_scaling import ComplexMatrix
+from hydroelastic.fem.complex_scaling import complex_product
 from hydroelastic.fem.open_pencil import OpenPencil
 
 # What is left of a vector after the basis is taken out, below which it says nothing new.
@@ -56,7 +55,7 @@ class ReducedPencil:
         added = np.vstack(new)
         self._basis = np.vstack([self._basis, added])
         self._images = tuple(
-            np.vstack([image, [_times(matrix, vector) for vector in added]])
+            np.vstack([image, [complex_product(matrix, vector) for vector in added]])
             for image, matrix in zip(self._images, (self._pencil.laplace, self._pencil.mass), strict=True)
         )
         self._projected = tuple(self._pencil.products(self._basis, image) for image in self._images)
@@ -88,21 +87,3 @@ class ReducedPencil:
 
     def _norm(self, vector: np.ndarray) -> float:
         return float(np.sqrt(self._pencil.comm.allreduce(np.vdot(vector, vector).real, op=MPI.SUM)))
-
-
-def _times(matrix: ComplexMatrix, vector: np.ndarray) -> np.ndarray:
-    """The product of a complex matrix, own entries (collective)."""
-    real, imaginary = (_real_times(part, vector) for part in (matrix.real, matrix.imaginary))
-    product: np.ndarray = real + 1j * imaginary
-    return product
-
-
-def _real_times(matrix: PETSc.Mat, vector: np.ndarray) -> np.ndarray:
-    source, target = matrix.createVecs()
-    parts = []
-    for part in (vector.real, vector.imag):
-        source.array[:] = part
-        matrix.mult(source, target)
-        parts.append(target.array_r.copy())
-    product: np.ndarray = parts[0] + 1j * parts[1]
-    return product

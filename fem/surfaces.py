@@ -17,7 +17,7 @@ the function → normal displacement (n,). A surface between two liquids has a s
 class Body:
     """A body that moves in a few shapes of its own: w = Σ aᵢ φᵢ, normal displacement on its wetted surface.
 
-    The shapes are orthogonal in both the stiffness and the mass, as dry modes are.
+    The shapes are orthogonal in the strain energy and in the whole stiffness, but need not be in the mass.
 
     Attributes:
         surface: physical name of its wetted surface, in whatever liquid.
@@ -26,7 +26,7 @@ class Body:
         labels: what each function is: "heave", "pitch", "elastic 1", …
         stiffness: generalized stiffness of each function, hydrostatic restoring included, shape (functions,).
         bending_stiffness: the part of it that is strain energy, shape (functions,).
-        mass: generalized mass of each function, shape (functions,).
+        mass: generalized mass, symmetric, shape (functions, functions).
         singular_points: where the shapes have slopes without bound, like the root of the distance; shape (points,
             gdim).
     """

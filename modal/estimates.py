@@ -59,6 +59,35 @@ def all_estimates(beam: FloatingBeam, terms: int = 32) -> dict[str, Estimate]:
     return {name: _guarded(name, method) for name, method in methods.items()}
 
 
+_UNIFORM_MODE = "its dry mode 1 is that of a uniform beam"
+_NOT_FOR_JOINTS = {
+    "grammel_1": "one cosine takes one EI and one m for the whole beam",
+    "grammel_best": "one cosine takes one EI and one m for the whole beam",
+    "grammel_n": "its cosines take one EI and one m for the whole beam, and no joints",
+    "grammel_quotient": _UNIFORM_MODE,
+    "rayleigh": _UNIFORM_MODE,
+    "rayleigh_dry_mode": _UNIFORM_MODE,
+    "rayleigh_lid": _UNIFORM_MODE,
+    "rayleigh_pressure_release": _UNIFORM_MODE,
+    "deep_water": "its added mass is that of the dry mode 1 of a uniform beam",
+    "strip": "it knows one dry wavenumber, and a stepped beam has several",
+    "shallow": "its added mass is that of the dry mode 1 of a uniform beam",
+    "paper_no_volume_term": "its cosines take one EI and one m for the whole beam, and no joints",
+}
+
+
+def estimates_of_jointed_beams() -> dict[str, Estimate]:
+    """Return every estimate by its name for a stepped or jointed beam: none has a number, each says why."""
+
+    def refused(reason: str) -> Callable[[], Estimate]:
+        def method() -> Estimate:
+            raise NoEstimateError(f"{reason}; this beam has sections or joints")
+
+        return method
+
+    return {name: _guarded(name, refused(reason)) for name, reason in _NOT_FOR_JOINTS.items()}
+
+
 def _guarded(name: str, method: Callable[[], Estimate]) -> Estimate:
     try:
         return method()

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator
 from typing import TypeAlias
 
-from hydroelastic.modal.dry_modes import free_free_roots
+from hydroelastic.scenes.beam_shapes import first_bending
 from hydroelastic.scenes.estimates import expected_tones
 from hydroelastic.scenes.floats import placed_float
-from hydroelastic.scenes.models import Beam, TankScene, level_segments
+from hydroelastic.scenes.models import TankScene, level_segments
 from hydroelastic.scenes.rigid_motions import (
     has_open,
     levels_of,
@@ -119,7 +118,7 @@ def _hydrostatics(scene: TankScene) -> Iterator[str]:
     for index, beam in scene.beams:
         level = scene.level_of(beam)
         below, above = scene.densities_at(level)
-        ratio = (below - above) * scene.tank.gravity / _bending_stiffness(beam)
+        ratio = (below - above) * scene.tank.gravity / first_bending(beam)
         jump = "(ρ₂ − ρ₁) g" if above else "ρ g"
         if beam.hydrostatic and ratio > 10:
             yield (
@@ -131,16 +130,6 @@ def _hydrostatics(scene: TankScene) -> Iterator[str]:
                 f"Beam {index + 1} is modelled without the hydrostatic restoring, {jump}, which is {ratio:.2g} times "
                 "its bending stiffness EI κ₁⁴; hydrostatic = true gives higher frequencies."
             )
-
-
-def _bending_stiffness(beam: Beam) -> float:
-    """Return EI κ₁⁴ of the first elastic shape, Pa/m."""
-    return beam.flexural_rigidity * (_first_wavenumber(beam) / beam.length) ** 4
-
-
-def _first_wavenumber(beam: Beam) -> float:
-    """Return κ₁ l. Guided ends, cos(nπx/L): π; free ends: 4.73."""
-    return math.pi if beam.ends == "guided" else float(free_free_roots(1)[0])
 
 
 def _unstable(scene: TankScene) -> Iterator[str]:

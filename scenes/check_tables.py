@@ -115,7 +115,17 @@ def _beam_condition(scene: TankScene, level: Level, beam: Beam) -> str:
     else:
         potential = potential_of(scene, len(scene.layers) - 1)
         slopes, pressure = f"∂{potential}/∂y", f"{jump} {potential}"
-    return f"{slopes} = w, EI w⁗{restoring} − ω² m w = ω² {pressure}; {BEAM_ENDS[beam.ends]}"
+    bending = "EI w⁗" if not beam.sections else "(EI w″)″"
+    joints = "".join(f"; {what}" for what in _joint_conditions(beam))
+    return f"{slopes} = w, {bending}{restoring} − ω² m w = ω² {pressure}; {BEAM_ENDS[beam.ends]}{joints}"
+
+
+def _joint_conditions(beam: Beam) -> Iterator[str]:
+    """What holds at the hinges and at the other joints of a beam."""
+    if beam.hinges:
+        yield "w″ = 0 at its hinges"
+    if len(beam.hinges) < len(beam.joints):
+        yield "k Δw′ = EI w″ at its joints"
 
 
 def _float_condition(scene: TankScene, level: Level, body: Float) -> str:
@@ -179,9 +189,10 @@ def _elevation_row(scene: TankScene, level: Level) -> tuple[str, str, str]:
 def _beam_basis(scene: TankScene, index: int, beam: Beam) -> str:
     if beam.ends == "guided":
         return "w = Σ aᵢ φᵢ: elastic shapes cos(nπx/L), n ≥ 1; heave is held by the liquid's volume"
+    hinges = ", a turn about each hinge" if beam.hinges else ""
     if heave_is_held(scene, index):
-        return "w = Σ aᵢ φᵢ: pitch and elastic shapes free in vacuum; heave is held by the liquid's volume"
-    return "w = Σ aᵢ φᵢ: heave, pitch and elastic shapes free in vacuum"
+        return f"w = Σ aᵢ φᵢ: pitch{hinges} and elastic shapes free in vacuum; heave is held by the liquid's volume"
+    return f"w = Σ aᵢ φᵢ: heave, pitch{hinges} and elastic shapes free in vacuum"
 
 
 def _float_basis(scene: TankScene, index: int, body: Float) -> str:
@@ -219,14 +230,23 @@ def _beam_groups(scene: TankScene, index: int, beam: Beam) -> Iterator[tuple[str
     below, above = scene.densities_at(level)
     weight = (below - above) * scene.tank.gravity
     of_beam = f"beam {index + 1}: "
-    stiffness = beam.flexural_rigidity / (weight * beam.length**4)
     density = "ρ₁" if len(scene.layers) == 2 and level == "surface" else "ρ" if len(scene.layers) == 1 else "ρ₂"
-    yield f"EI/({jump_of(scene, level)} g l⁴)", stiffness, of_beam + "bending over gravity"
-    yield (
-        f"m/({density} l)",
-        beam.mass_per_length / (below * beam.length),
-        of_beam + f"its mass over that of {density} l²",
-    )
+    for number, part in enumerate(beam.parts, 1):
+        of_part = f"{of_beam}section {number}, " if beam.sections else of_beam
+        stiffness = part.flexural_rigidity / (weight * beam.length**4)
+        yield f"EI/({jump_of(scene, level)} g l⁴)", stiffness, of_part + "bending over gravity"
+        yield (
+            f"m/({density} l)",
+            part.mass_per_length / (below * beam.length),
+            of_part + f"its mass over that of {density} l²",
+        )
+        if beam.sections:
+            yield "lᵢ/l", part.length / beam.length, of_part + "part of the beam"
+    for number, joint in enumerate(beam.joints, 1):
+        of_joint = f"{of_beam}joint {number}, "
+        yield "x/l", joint.at / beam.length, of_joint + "place"
+        stiffness = joint.rotational_stiffness / (weight * beam.length**3)
+        yield f"k/({jump_of(scene, level)} g l³)", stiffness, of_joint + "its stiffness over gravity"
     if scene.is_open:
         yield from _depth_group(scene, "l", beam.length, of_beam + "depth of the lowest liquid over its length")
         return

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from math import pi
 
-from hydroelastic.modal.dry_modes import free_free_roots
 from hydroelastic.modal.estimate import Estimate
-from hydroelastic.modal.estimates import all_estimates
+from hydroelastic.modal.estimates import all_estimates, estimates_of_jointed_beams
 from hydroelastic.modal.floating_beam import FloatingBeam
 from hydroelastic.modal.sloshing import guided_cover_frequencies, sloshing_frequencies
 from hydroelastic.modal.two_layer import InterfacePlate, TwoLayers, tank_modes
+from hydroelastic.scenes.beam_shapes import first_bending
 from hydroelastic.scenes.models import TankScene, top_segments
 from hydroelastic.scenes.scaled_tank import ScaledTank
 
@@ -51,6 +51,8 @@ def scene_estimates(scene: TankScene) -> dict[str, Estimate]:
     plain = len(scene.layers) == 1 and not scene.floats
     if not plain or len(scene.body) != 1 or scene.top != "free" or scene.beams[0][1].ends != "free":
         return {}
+    if not scene.beams[0][1].is_uniform:
+        return estimates_of_jointed_beams()
     return all_estimates(floating_beam(scene))
 
 
@@ -110,14 +112,14 @@ def expected_tones(tank: ScaledTank) -> tuple[float, ...]:
     """
     tones = []
     for index, beam in tank.beams.items():
-        root, level = free_free_roots(1)[0], tank.level_of(index)
+        level = tank.level_of(index)
         liquid = beam.length * sum(
             tank.layers[layer].density for layer in (level.below, level.above) if layer is not None
         )
         elastic = beam.mass_per_length + _DEEP_ELASTIC * liquid
         heave = beam.mass_per_length + _DEEP_HEAVE * liquid
         inertia = elastic - (_DEEP_COUPLING * liquid) ** 2 / heave
-        stiffness = beam.flexural_rigidity * (root / beam.length) ** 4 + float(beam.hydrostatic) * level.jump
+        stiffness = first_bending(beam) + float(beam.hydrostatic) * level.jump
         tones.append(stiffness / inertia)
     return tuple(tones)
 

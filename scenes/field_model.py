@@ -15,11 +15,10 @@ from hydroelastic.fem.surfaces import Body, LiquidSurface
 from hydroelastic.meshes.distribute import TankMesh, distribute_mesh
 from hydroelastic.meshes.geometry import FAR_END, FREE_SURFACE, INTERFACE, SYMMETRY_PLANE, body_name
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
-from hydroelastic.modal.dry_modes import free_free_shape, free_free_wavenumber
-from hydroelastic.modal.guided_modes import guided_shape, guided_wavenumber
+from hydroelastic.scenes.beam_shapes import BeamShapes, beam_shapes
 from hydroelastic.scenes.plan import Resolution
 from hydroelastic.scenes.scaled_tank import ScaledTank
-from hydroelastic.scenes.symmetry import PARITIES, Parity, left_bodies, shape_parity, twin_of
+from hydroelastic.scenes.symmetry import PARITIES, Parity, left_bodies, shape_parities, twin_of
 from hydroelastic.scenes.tank_mesh import check_mesh, make_mesh
 from hydroelastic.scenes.tank_outline import grounded_names, layer_names
 
@@ -194,39 +193,35 @@ def _body(tank: ScaledTank, index: int, count: int, parity: Parity | None) -> Bo
 
 
 def _beam_body(tank: ScaledTank, index: int, count: int, parity: Parity | None) -> Body:
-    """A beam in its first ``count`` dry modes, rigid ones included; dimensionless.
+    """A beam in its first ``count`` shapes, rigid ones included; dimensionless.
 
     With a parity, only the shapes of that parity about its middle, and the energies of half the beam.
     """
     beam, piece, jump = tank.beams[index], tank.piece_of(index), tank.level_of(index).jump
-    length = piece.length
     part = 1.0 if parity is None else 0.5
-    guided = beam.ends == "guided"
-    numbers = [number for number in range(count) if parity in (None, shape_parity(number))]
-    wavenumber = guided_wavenumber if guided else free_free_wavenumber
-    roots = np.array([wavenumber(number) for number in numbers])
-    bending = part * beam.flexural_rigidity * (roots / length) ** 4 * length
+    shapes = beam_shapes(beam, count)
+    numbers = [number for number, own in enumerate(shape_parities(beam, count)) if parity in (None, own)]
+    bending = part * shapes.bending[numbers]
     return Body(
         surface=body_name(index + 1),
-        shapes=partial(_shape_at, guided, piece.start, length, numbers),
-        wavenumber=float(roots.max(initial=0.0)) / length,
-        labels=tuple(_label(guided, number) for number in numbers),
-        stiffness=bending + part * float(beam.hydrostatic) * jump * length,
+        shapes=partial(_shape_at, shapes, piece.start, piece.length, numbers),
+        wavenumber=shapes.wavenumber,
+        labels=tuple(shapes.labels[number] for number in numbers),
+        stiffness=bending + part * float(beam.hydrostatic) * jump * piece.length,
         bending_stiffness=bending,
-        mass=np.full(len(numbers), part * beam.mass_per_length * length),
+        mass=part * shapes.mass[np.ix_(numbers, numbers)],
     )
 
 
-def _label(guided: bool, number: int) -> str:
-    rigid = ("heave",) if guided else ("heave", "pitch")
-    return rigid[number] if number < len(rigid) else f"elastic {number - len(rigid) + 1}"
-
-
 def _shape_at(
-    guided: bool, start: float, length: float, numbers: list[int], points: np.ndarray, normals: np.ndarray, place: int
+    shapes: BeamShapes,
+    start: float,
+    length: float,
+    numbers: list[int],
+    points: np.ndarray,
+    normals: np.ndarray,
+    place: int,
 ) -> np.ndarray:
     # Quadrature points at the tips may miss them by rounding.
-    s = np.clip((points[0] - start) / length, 0.0, 1.0)
-    deflection = guided_shape(numbers[place], s) if guided else free_free_shape(numbers[place], s)
-    upwards: np.ndarray = deflection * normals[1]
+    upwards: np.ndarray = shapes.deflection(numbers[place], np.clip(points[0] - start, 0.0, length)) * normals[1]
     return upwards

@@ -26,7 +26,7 @@ from hydroelastic.scenes.symmetry import (
     Parity,
     left_bodies,
     motion_parity,
-    shape_parity,
+    shape_parities,
     shapes_of_twins,
     twin_of,
 )
@@ -280,7 +280,7 @@ def extension(tank: ScaledTank, bodies: tuple[Body, ...], parity: Parity | None)
 def _parities(tank: ScaledTank, index: int, body: Body) -> list[Parity]:
     """Symmetry of each of a body's shapes about its middle."""
     if index in tank.beams:
-        return [shape_parity(number) for number in range(body.size)]
+        return list(shape_parities(tank.beams[index], body.size))
     return [motion_parity(motion) for motion in tank.floats[index].motions]
 
 

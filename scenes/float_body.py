@@ -41,7 +41,7 @@ def float_body(body: ScaledFloat, index: int, parity: Parity | None) -> Body:
         labels=motions,
         stiffness=part * stiffness,
         bending_stiffness=np.zeros(len(motions)),
-        mass=part * inertia,
+        mass=np.diag(part * inertia),
         singular_points=_singular_points(body),
     )
 

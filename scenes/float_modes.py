@@ -66,7 +66,7 @@ def _restored(tank: ScaledTank, bodies: tuple[Body, ...]) -> list[_Motion]:
         )
         for index in tank.floats
         for number, (label, stiffness, mass) in enumerate(
-            zip(bodies[index].labels, bodies[index].stiffness, bodies[index].mass, strict=True)
+            zip(bodies[index].labels, bodies[index].stiffness, bodies[index].mass.diagonal(), strict=True)
         )
         if stiffness > 0.0
     ]

@@ -2,11 +2,23 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import BaseModel, ConfigDict, Discriminator, Field, Strict, Tag, ValidationError, model_validator
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Discriminator,
+    Field,
+    SerializerFunctionWrapHandler,
+    Strict,
+    Tag,
+    ValidationError,
+    model_serializer,
+    model_validator,
+)
 from pydantic_core import InitErrorDetails
 
 from hydroelastic.scenes.model_problems import misfit
@@ -32,8 +44,36 @@ class SceneModel(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
 
+class BeamSection(SceneModel):
+    """A uniform part of a stepped beam."""
+
+    length: PositiveNumber = Field(description="length of the section, m")
+    flexural_rigidity: PositiveNumber = Field(description="EI of the section per metre of width, N·m")
+    mass_per_length: PositiveNumber = Field(description="mass of the section per length and metre of width, kg/m²")
+
+
+class BeamJoint(SceneModel):
+    """A place at which the slope of a beam may jump."""
+
+    at: PositiveNumber = Field(description="distance from the left end of the beam, m")
+    rotational_stiffness: Annotated[float, Strict(), Field(ge=0, le=LARGEST)] = Field(
+        description="moment by a radian of the jump of the slope, per metre of width, N·m/rad; 0 is a hinge"
+    )
+
+
+UNIFORM_KEYS = ("length", "flexural_rigidity", "mass_per_length")
+"""What a beam without sections is given by."""
+
+
 class Beam(SceneModel):
-    """A uniform Euler–Bernoulli beam without draught that floats on a liquid."""
+    """An Euler–Bernoulli beam without draught that floats on a liquid: uniform, or of uniform sections.
+
+    Of a beam of sections the length is their sum, the mass per length their mean, and the flexural rigidity that of the
+    uniform beam as flexible on the whole, l/EI = Σ lᵢ/EIᵢ: enough for what only needs to know about how stiff it is.
+
+    Raises:
+        ValidationError: (a ValueError) if sections stand beside the keys of a uniform beam.
+    """
 
     kind: Literal["beam"] = Field(default="beam", description="kind of the body")
     at: Level | None = Field(
@@ -51,11 +91,71 @@ class Beam(SceneModel):
         default="free",
         description="free (no moment, no shear force) or guided (no slope, no shear force; only wall to wall)",
     )
+    sections: tuple[BeamSection, ...] = Field(
+        default=(), description="sections from left to right, instead of length, flexural_rigidity, mass_per_length"
+    )
+    joints: tuple[BeamJoint, ...] = Field(default=(), description="joints and hinges, from left to right")
 
     @property
     def end(self) -> float:
         """Distance of the right end from the left wall, m."""
         return self.start + self.length
+
+    @property
+    def is_uniform(self) -> bool:
+        """Whether it has neither sections nor joints."""
+        return not self.sections and not self.joints
+
+    @property
+    def parts(self) -> tuple[BeamSection, ...]:
+        """Its sections, from left to right: one of a uniform beam."""
+        return self.sections or (BeamSection(**{key: getattr(self, key) for key in UNIFORM_KEYS}),)
+
+    @property
+    def hinges(self) -> tuple[float, ...]:
+        """Where the joints without stiffness lie, m from the left end."""
+        return tuple(joint.at for joint in self.joints if joint.rotational_stiffness == 0.0)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _of_sections(cls, given: Any) -> Any:
+        """Complete a beam of sections by what it is on the whole."""
+        if not isinstance(given, dict) or not given.get("sections"):
+            return given
+        problems = [
+            misfit(
+                (key,),
+                given[key],
+                "it is given beside sections, which have their own",
+                remedy="Leave it out, or the sections",
+            )
+            for key in UNIFORM_KEYS
+            if key in given
+        ]
+        if problems:
+            raise ValidationError.from_exception_data(cls.__name__, problems)
+        return given | _on_the_whole(given["sections"])
+
+    @model_serializer(mode="wrap")
+    def _as_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        """Write a beam as it may be read again."""
+        left_out = UNIFORM_KEYS if self.sections else ()
+        empty = tuple(key for key in ("sections", "joints") if not getattr(self, key))
+        return {key: value for key, value in write(self).items() if key not in (*left_out, *empty)}
+
+
+def _on_the_whole(sections: Any) -> dict[str, float]:
+    """Length, mean flexural rigidity and mean mass of sections; of what are none, anything: they are refused."""
+    try:
+        parts = [part if isinstance(part, BeamSection) else BeamSection.model_validate(part) for part in sections]
+    except (TypeError, ValidationError):
+        return dict.fromkeys(UNIFORM_KEYS, 1.0)
+    length = math.fsum(part.length for part in parts)
+    return {
+        "length": length,
+        "flexural_rigidity": length / math.fsum(part.length / part.flexural_rigidity for part in parts),
+        "mass_per_length": math.fsum(part.length * part.mass_per_length for part in parts) / length,
+    }
 
 
 class Float(SceneModel):

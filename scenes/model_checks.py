@@ -41,6 +41,9 @@ SHORTEST_BEAM = 1e-4
 STIFFNESS_GROUP = (1e-15, 1e15)
 """EI/(Δρ g l⁴): beyond this, bending or gravity is lost in the rounding of the other."""
 
+SOFTEST_JOINT = 1e-15
+"""k/(Δρ g l³) of a joint: below this it is lost in the rounding of gravity."""
+
 MASS_GROUP = (1e-12, 1e12)
 """m/(ρ l): beyond this, the beam or the liquid is lost in the rounding of the other."""
 
@@ -147,7 +150,8 @@ def _beams_lie_in_the_tank(scene: TankScene) -> Iterator[InitErrorDetails]:
     place = "stretch that is drawn" if scene.is_open else "tank"
     for index, beam in scene.beams:
         if beam.length > length * (1 + ROUND_OFF):
-            yield misfit(("body", index, "length"), beam.length, f"the beam is longer than the {place} ({length:g} m)")
+            key = "sections" if beam.sections else "length"
+            yield misfit(("body", index, key), beam.length, f"the beam is longer than the {place} ({length:g} m)")
         elif beam.end > length * (1 + ROUND_OFF):
             yield misfit(
                 ("body", index, "start"),
@@ -190,14 +194,68 @@ def _span_name(scene: TankScene) -> str:
 
 def _groups_are_in_range(scene: TankScene) -> Iterator[InitErrorDetails]:
     for index, beam in scene.beams:
-        for key, formula, scale, (least, most) in _groups(scene, beam):
-            value = getattr(beam, key)
-            if not least <= value / scale <= most:
+        for number, part in enumerate(beam.parts):
+            where: tuple[str | int, ...] = ("body", index, "sections", number) if beam.sections else ("body", index)
+            for key, formula, scale, (least, most) in _groups(scene, beam):
+                value = getattr(part, key)
+                if not least <= value / scale <= most:
+                    yield misfit(
+                        (*where, key),
+                        value,
+                        f"{formula} = {value / scale:g} is beyond what double precision can tell apart",
+                        allowed=f"{least * scale:.3g} to {most * scale:.3g} for this beam and liquid",
+                    )
+        yield from _joints_are_in_range(scene, index, beam)
+
+
+def _joints_are_in_range(scene: TankScene, index: int, beam: Beam) -> Iterator[InitErrorDetails]:
+    below, above = scene.densities_at(scene.level_of(beam))
+    least = SOFTEST_JOINT * (below - above) * scene.tank.gravity * beam.length**3
+    for number, joint in enumerate(beam.joints):
+        if 0.0 < joint.rotational_stiffness < least:
+            yield misfit(
+                ("body", index, "joints", number, "rotational_stiffness"),
+                joint.rotational_stiffness,
+                "it is too small for double precision to tell it from none",
+                allowed=f"0 for a hinge, or at least {least:.3g} for this beam and liquid",
+            )
+
+
+def _joints_lie_in_their_beams(scene: TankScene) -> Iterator[InitErrorDetails]:
+    negligible, nearest = ROUND_OFF * scene.tank.length, SHORTEST_BEAM * scene.tank.length
+    for index, beam in scene.beams:
+        steps = [sum(part.length for part in beam.parts[:number]) for number in range(1, len(beam.parts))]
+        for number, joint in enumerate(beam.joints):
+            where = ("body", index, "joints", number, "at")
+            others = [other.at for other in beam.joints[:number]]
+            if not negligible < joint.at < beam.length - negligible:
                 yield misfit(
-                    ("body", index, key),
-                    value,
-                    f"{formula} = {value / scale:g} is beyond what double precision can tell apart",
-                    allowed=f"{least * scale:.3g} to {most * scale:.3g} for this beam and liquid",
+                    where,
+                    joint.at,
+                    f"a joint lies within its beam of {beam.length:g} m, and not at an end: both are free",
+                    allowed=f"more than 0 and less than {beam.length:g} m from its left end",
+                )
+            elif any(abs(joint.at - other) <= negligible for other in others):
+                yield misfit(where, joint.at, "there is another joint at this place", remedy="Leave one of them out")
+            elif any(negligible < abs(joint.at - other) < nearest for other in (0.0, beam.length, *steps, *others)):
+                yield misfit(
+                    where,
+                    joint.at,
+                    "it is too close to an end, to a step of the beam or to another joint for one mesh to show both",
+                    allowed=f"at least {nearest:g} m between them ({SHORTEST_BEAM:g} of the tank's length)",
+                )
+
+
+def _sections_are_not_too_short(scene: TankScene) -> Iterator[InitErrorDetails]:
+    shortest = SHORTEST_BEAM * scene.tank.length
+    for index, beam in scene.beams:
+        for number, part in enumerate(beam.sections):
+            if part.length < shortest:
+                yield misfit(
+                    ("body", index, "sections", number, "length"),
+                    part.length,
+                    "the section is too short beside the tank for one mesh to show both",
+                    allowed=f"at least {shortest:g} m ({SHORTEST_BEAM:g} of the tank's length)",
                 )
 
 
@@ -215,7 +273,14 @@ def _guided_beams_cover_the_tank(scene: TankScene) -> Iterator[InitErrorDetails]
     negligible = ROUND_OFF * scene.tank.length
     for index, beam in scene.beams:
         covers = beam.start <= negligible and beam.end >= scene.tank.length - negligible
-        if beam.ends == "guided" and not covers and not scene.is_open:
+        if beam.ends == "guided" and not beam.is_uniform:
+            yield misfit(
+                ("body", index, "ends"),
+                beam.ends,
+                f"guided ends are for uniform beams; this one has {'sections' if beam.sections else 'joints'}",
+                allowed='"free"',
+            )
+        elif beam.ends == "guided" and not covers and not scene.is_open:
             yield misfit(
                 ("body", index, "ends"),
                 beam.ends,
@@ -257,6 +322,8 @@ STAGES: tuple[tuple[_Check, ...], ...] = (
         _beams_keep_apart,
         _guided_beams_cover_the_tank,
         beams_in_open_water_are_free,
+        _sections_are_not_too_short,
+        _joints_lie_in_their_beams,
         floats_float_in_the_tank,
     ),
     (_groups_are_in_range, *CHECKS_OF_FLOATS_AT_REST),

@@ -21,6 +21,12 @@ SMALLEST_TIP = 1e-13
 _ROOM_FOR_ROUNDING = 5.0
 # Dry modes beyond the shortest wave, in units of its half waves and of tolerance^(-1/7).
 _TAIL = 0.45
+# Half waves of the first bending shape of a section.
+_FIRST_BENDING = 1.5
+# A section stiffer than the softest one by this over the tolerance bends less than can be told.
+_RIGID = 100.0
+# Sections whose flexural rigidities differ by less than this factor bend together.
+_ALIKE = 10.0
 # κ₁ l of the first elastic dry mode.
 _FIRST_ROOT = 4.73
 # Below the pressure-release tone of a beam lie at most its rigid motions, and with several beams modes of softer ones.
@@ -178,8 +184,8 @@ def sharpest_exponent(tank: ScaledTank, *, released: bool) -> float:
 
 def _wavenumber(tank: ScaledTank, level: StillLevel, piece: Piece, squared_frequency: float) -> float:
     """The shortest wave on a piece of a still level, up to λ."""
-    moving = tank.moving_piece(level, piece)
-    return 0.0 if moving is None else moving.wavenumber(squared_frequency)
+    waves = (moving.wavenumber(squared_frequency) for moving in tank.moving_pieces(level, piece))
+    return max(waves, default=0.0)
 
 
 def resolution_for(
@@ -240,6 +246,23 @@ def radians(degree: int, tolerance: float) -> float:
 
 
 def _shapes_for(beam: Beam, wavenumber: float, tolerance: float) -> int:
-    """Dry modes of one beam: those up to the shortest wave, and a tail whose error falls like N⁻⁷."""
-    half_waves = wavenumber * beam.length / pi
-    return ceil(half_waves + _TAIL * (half_waves + 2.0) * tolerance ** (-1.0 / 7.0)) + 4
+    """Dry modes of one beam: those up to the shortest wave, and a tail whose error falls like N⁻⁷.
+
+    Dry modes have wavenumbers κ ~ EI^{-1/4} in the sections, and the shortest wave is in the softest one. What stiffer
+    ones bend counts less, like 1/EI, but is not seen before their first bending shape, of 3/2 half waves.
+    """
+    softest = min(part.flexural_rigidity for part in beam.parts)
+    phase = sum((softest / part.flexural_rigidity) ** 0.25 * part.length for part in beam.parts)
+    needed = 0.0
+    for part in beam.parts:
+        ratio = part.flexural_rigidity / softest
+        length = sum(
+            other.length
+            for other in beam.parts
+            if 1.0 / _ALIKE <= other.flexural_rigidity / part.flexural_rigidity <= _ALIKE
+        )
+        half_waves = wavenumber * ratio**-0.25 * length / pi
+        tail = _TAIL * (half_waves + 2.0) * (tolerance * ratio) ** (-1.0 / 7.0)
+        hidden = _FIRST_BENDING if _ALIKE < ratio < _RIGID / tolerance else 0.0
+        needed = max(needed, (half_waves + tail + hidden) * phase * ratio**0.25 / length)
+    return ceil(needed) + 4 + len(beam.hinges)

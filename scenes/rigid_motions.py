@@ -34,9 +34,9 @@ class LooseMotion:
 def loose_motions(scene: TankScene) -> tuple[LooseMotion, ...]:
     """Return the motions that cost no energy, each of them alone.
 
-    A free beam without hydrostatics heaves and pitches at no cost. A float sways at no cost, and rolls so if it is
-    neutral; where it may heave, heave follows the roll so that the force on it, and with it the volume it displaces,
-    is zero.
+    A free beam without hydrostatics heaves, pitches and turns about its hinges at no cost. A float sways at no cost,
+    and rolls so if it is neutral; where it may heave, heave follows the roll so that the force on it, and with it the
+    volume it displaces, is zero.
     """
     return (*_loose_beams(scene), *_loose_floats(scene))
 
@@ -47,6 +47,8 @@ def _loose_beams(scene: TankScene) -> Iterator[LooseMotion]:
             level = scene.level_of(beam)
             yield LooseMotion(body=index, name="heave", level=level, displaces=True)
             yield LooseMotion(body=index, name="pitch", level=level, displaces=False)
+            for number in range(len(beam.hinges)):
+                yield LooseMotion(body=index, name=f"hinge {number + 1}", level=level, displaces=False)
 
 
 def _loose_floats(scene: TankScene) -> Iterator[LooseMotion]:

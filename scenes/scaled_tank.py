@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from hydroelastic.scenes.beam_shapes import jointed_beam
+from hydroelastic.scenes.model_bodies import BeamSection
 from hydroelastic.scenes.models import Beam, Float, Level, TankScene, level_segments
 from hydroelastic.scenes.scaling import Scales, scaled_beam, scales
 from hydroelastic.scenes.waves import LevelPiece
@@ -16,6 +18,9 @@ if TYPE_CHECKING:
 
 MIDDLE = 0.5
 """Abscissa of the mirror plane of a symmetric tank."""
+
+# α where the slope of a beam jumps, and where its curvature does.
+_KINK, _STEP = 2.0, 3.0
 
 ROUNDING = 1e-14
 """Lengths that decimal input means to be equal differ by a few units of the last place."""
@@ -143,24 +148,51 @@ class ScaledTank:
         """The part of its level that a body takes."""
         return next(piece for piece in self.level_of(body).pieces if piece.body == body)
 
-    def moving_piece(self, level: StillLevel, piece: Piece) -> LevelPiece | None:
-        """How waves travel on a piece; ``None`` where none do."""
-        beam = self.beams.get(piece.body) if piece.body is not None else None
-        if beam is None and (piece.body is not None or not level.moves):
-            return None
-        return LevelPiece(length=piece.length, beam=beam, jump=level.jump, layers=self._layers_at(level))
+    def nodes_of(self, body: int) -> dict[float, float]:
+        """Abscissae of the steps and joints of a beam, with α of ψ ~ r^α there; none of other bodies.
+
+        Where the slope of a beam jumps, ψ has a term r² ln r, and r³ ln r where its curvature does.
+        """
+        if body not in self.beams or self.beams[body].is_uniform:
+            return {}
+        beam, start = jointed_beam(self.beams[body]), self.piece_of(body).start
+        joints = {beam.node_of(joint) for joint in beam.joints}
+        return {
+            _snapped(start + edge): _KINK if number in joints else _STEP
+            for number, edge in enumerate(beam.edges)
+            if 0 < number < len(beam.edges) - 1
+        }
+
+    def moving_pieces(self, level: StillLevel, piece: Piece) -> tuple[LevelPiece, ...]:
+        """How waves travel on a piece, on each section of a beam; none where none do."""
+        layers = self._layers_at(level)
+        if piece.body in self.beams:
+            beam = self.beams[piece.body]
+            return tuple(
+                LevelPiece(length=part.length, beam=_uniform_beam(part, beam), jump=level.jump, layers=layers)
+                for part in beam.parts
+            )
+        if piece.body is not None or not level.moves:
+            return ()
+        return (LevelPiece(length=piece.length, beam=None, jump=level.jump, layers=layers),)
 
     @cached_property
     def moving(self) -> tuple[LevelPiece, ...]:
         """The pieces on which waves travel."""
-        pieces = (self.moving_piece(level, piece) for level in self.levels for piece in level.pieces)
-        return tuple(piece for piece in pieces if piece is not None)
+        return tuple(
+            moving for level in self.levels for piece in level.pieces for moving in self.moving_pieces(level, piece)
+        )
 
     def _layers_at(self, level: StillLevel) -> tuple[tuple[float, float], ...]:
         """Density and depth of the layers that move with a level; at a top over two of them, as if they were one."""
         if level.above is None:
             return ((self.layers[-1].density, sum(layer.depth for layer in self.layers)),)
         return tuple((self.layers[number].density, self.layers[number].depth) for number in (level.below, level.above))
+
+
+def _uniform_beam(part: BeamSection, beam: Beam) -> Beam:
+    """A section of a beam as a beam of its own."""
+    return Beam(start=0.0, **dict(part), hydrostatic=beam.hydrostatic, ends=beam.ends)
 
 
 def scaled_tank(scene: TankScene) -> ScaledTank:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import pi, sqrt
 
-from hydroelastic.scenes.models import Beam, TankScene
+from hydroelastic.scenes.model_bodies import Beam, BeamJoint
+from hydroelastic.scenes.models import TankScene
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,6 +38,11 @@ class Scales:
         """Unit of EI per metre of width, N·m."""
         return self.density * self.gravity * self.length**4
 
+    @property
+    def rotational_stiffness(self) -> float:
+        """Unit of the stiffness of joints per metre of width, N·m/rad."""
+        return self.flexural_rigidity / self.length
+
     def hertz(self, omega: float) -> float:
         """Frequency in Hz of a dimensionless ω."""
         return omega * self.frequency / (2 * pi)
@@ -49,11 +55,24 @@ def scales(scene: TankScene) -> Scales:
 
 def scaled_beam(beam: Beam, units: Scales, start: float, end: float) -> Beam:
     """The beam in the units of the tank, between the given dimensionless ends."""
-    return Beam(
-        start=start,
-        length=end - start,
-        flexural_rigidity=beam.flexural_rigidity / units.flexural_rigidity,
-        mass_per_length=beam.mass_per_length / units.mass_per_length,
-        hydrostatic=beam.hydrostatic,
-        ends=beam.ends,
+    given: dict[str, object] = {"start": start, "joints": _scaled_joints(beam, units)}
+    given |= {"hydrostatic": beam.hydrostatic, "ends": beam.ends}
+    parts = [
+        {
+            "length": part.length * ((end - start) / beam.length),
+            "flexural_rigidity": part.flexural_rigidity / units.flexural_rigidity,
+            "mass_per_length": part.mass_per_length / units.mass_per_length,
+        }
+        for part in beam.parts
+    ]
+    return Beam.model_validate(given | ({"sections": parts} if beam.sections else parts[0] | {"length": end - start}))
+
+
+def _scaled_joints(beam: Beam, units: Scales) -> tuple[BeamJoint, ...]:
+    return tuple(
+        BeamJoint(
+            at=joint.at / units.length,
+            rotational_stiffness=joint.rotational_stiffness / units.rotational_stiffness,
+        )
+        for joint in beam.joints
     )

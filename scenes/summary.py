@@ -11,6 +11,7 @@ import numpy as np
 from mpi4py import MPI
 
 from hydroelastic.modal.estimate import Estimate
+from hydroelastic.scenes.beam_shapes import first_dry_eigenvalue
 from hydroelastic.scenes.differences import difference
 from hydroelastic.scenes.estimates import exact_frequencies
 from hydroelastic.scenes.solve import TankSolution, ToneSolution
@@ -125,7 +126,7 @@ def _tone(solution: TankSolution, tone: ToneSolution) -> dict[str, Any]:
     first = shapes.labels.index("elastic 1")
     found = {
         "body": body + 1,
-        "dry_omega": solution.omega(float(shapes.bending_stiffness[first] / shapes.mass[first])),
+        "dry_omega": solution.omega(first_dry_eigenvalue(beam)),
         "pressure_release_omega": None,
         "pressure_release_relative_error": None,
         "omega": None,
@@ -145,7 +146,7 @@ def _tone(solution: TankSolution, tone: ToneSolution) -> dict[str, Any]:
         return found
     eigenvalue = float(solution.modes.eigenvalues[tone.tone.index])
     error = float(solution.relative_errors[tone.tone.index])
-    added, added_error = added_mass(float(shapes.stiffness[first]), float(shapes.mass[first]), eigenvalue, error)
+    added, added_error = added_mass(float(shapes.stiffness[first]), float(shapes.mass[first, first]), eigenvalue, error)
     scale = solution.units.mass_per_length / beam.length
     shared = tone.tone.runner_up > SHARED * tone.tone.participation
     found.update(

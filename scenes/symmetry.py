@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal
 
+from hydroelastic.modal.jointed_beam import alike
+from hydroelastic.scenes.beam_shapes import beam_shapes, jointed_beam
 from hydroelastic.scenes.models import Beam
 from hydroelastic.scenes.scaled_tank import MIDDLE, ROUNDING, Piece, ScaledTank
 
@@ -33,14 +35,29 @@ def is_mirror_image(tank: ScaledTank) -> bool:
 def _alike(tank: ScaledTank, one: Piece, other: Piece) -> bool:
     if one.body is None or other.body is None:
         return one.body is other.body
+    if one.body in tank.beams and other.body in tank.beams:
+        return _beams_alike(tank.beams[one.body], tank.beams[other.body])
     return _material(tank, one.body) == _material(tank, other.body)
 
 
+def _beams_alike(beam: Beam, image: Beam) -> bool:
+    """Whether one beam is the mirror image of another, but for the place."""
+    if (beam.hydrostatic, beam.ends) != (image.hydrostatic, image.ends):
+        return False
+    if beam.is_uniform and image.is_uniform:
+        return _uniform(beam) == _uniform(image)
+    return alike(jointed_beam(beam), jointed_beam(image).reversed)
+
+
+def _uniform(beam: Beam) -> tuple[float, float]:
+    return beam.flexural_rigidity, beam.mass_per_length
+
+
 def _material(tank: ScaledTank, index: int) -> object:
-    """What must be equal in two bodies for one to be the other's mirror image, but for the place."""
-    body = tank.bodies[index]
-    if isinstance(body, Beam):
-        return body.flexural_rigidity, body.mass_per_length, body.hydrostatic, body.ends
+    """What must be equal in two floats for one to be the other's mirror image, but for the place."""
+    body = tank.floats.get(index)
+    if body is None:
+        return object()
     # Contours need SciPy's root finders, which take a while to import.
     from hydroelastic.scenes.scaled_float import is_symmetric
 
@@ -63,9 +80,12 @@ def _is_left(piece: Piece) -> bool:
     return piece.start < MIDDLE or piece.start == piece.end == MIDDLE
 
 
-def shape_parity(number: int) -> Parity:
-    """Symmetry of a dry mode about the middle of its beam: heave is even, pitch odd, and so on in turn."""
-    return PARITIES[number % 2]
+def shape_parities(beam: Beam, count: int) -> tuple[Parity, ...]:
+    """Symmetry of the first shapes of a beam about its middle: heave is even, pitch odd, and so on.
+
+    Twins that are no mirror images of their own have shapes that are mirror images of each other's: all count as even.
+    """
+    return tuple("symmetric" if sign > 0 else "antisymmetric" for sign in beam_shapes(beam, count).parities)
 
 
 def motion_parity(motion: Motion) -> Parity:

@@ -24,6 +24,8 @@ _MIRRORS = (LEFT_WALL, RIGHT_WALL, SYMMETRY_PLANE)
 _SMOOTH = 1e-6
 # α of a smooth body between two liquids that move as one: r² ln r beside the jump of the slope.
 _JUMP = 2.0
+# α where the flux on a side jumps: r ln r.
+_SIDE_JUMPS = 1.0
 # How far along a curve its direction at an end is taken.
 _NEAR = 1e-7
 
@@ -53,7 +55,7 @@ class _Wedge:
 
 
 def singular_points(
-    outline: Outline, *, grounded: tuple[str, ...], glued: bool, kinks: tuple[Point, ...] = ()
+    outline: Outline, *, grounded: tuple[str, ...], glued: bool, kinks: dict[Point, float] | None = None
 ) -> tuple[SingularPoint, ...]:
     """Find the singular points of an outline.
 
@@ -61,14 +63,13 @@ def singular_points(
         outline: the liquids.
         grounded: names of curves with ψ = 0.
         glued: whether liquids of different densities move as one across uncut lines.
-        kinks: points of smooth sides at which what is prescribed jumps: ψ ~ r ln r there.
+        kinks: points of smooth sides at which what is prescribed, or a derivative of it, jumps, with α there.
     """
     wedges = _wedges(outline)
     points = []
     for point, around in wedges.items():
         sharpest = min((_exponent(sector, grounded, glued) for sector in _sectors(outline, around)), default=inf)
-        if point in kinks:
-            sharpest = min(sharpest, 1.0)
+        sharpest = min(sharpest, (kinks or {}).get(point, inf))
         if sharpest < inf:
             points.append(SingularPoint(point=point, exponent=sharpest, reach=_reach(outline, point, wedges)))
     return tuple(points)
@@ -140,5 +141,16 @@ def tank_singular_points(tank: ScaledTank, sizes: Sizes, *, half: bool, released
         tank_outline(tank, sizes, half=half, released=released),
         grounded=grounded_names(tank, released=released),
         glued=released,
-        kinks=tuple(kink for body in tank.floats.values() for kink in body.kinks),
+        kinks=_kinks(tank),
     )
+
+
+def _kinks(tank: ScaledTank) -> dict[Point, float]:
+    """Points of bodies at which the displacement of a thin float jumps, or the slope or curvature of a beam."""
+    on_floats = {kink: _SIDE_JUMPS for body in tank.floats.values() for kink in body.kinks}
+    on_beams = {
+        (x, tank.level_of(index).height): exponent
+        for index in tank.beams
+        for x, exponent in tank.nodes_of(index).items()
+    }
+    return on_floats | on_beams

@@ -100,8 +100,8 @@ def tip_points(tank: ScaledTank, *, half: bool, released: bool = False) -> np.nd
 
 
 def is_plain(tank: ScaledTank) -> bool:
-    """Whether the liquid is a rectangle whose top is cut into pieces."""
-    return len(tank.layers) == 1 and not tank.floats
+    """Whether the liquid is a rectangle whose top is cut into pieces, with beams that are smooth on each."""
+    return len(tank.layers) == 1 and not tank.floats and not any(tank.nodes_of(index) for index in tank.beams)
 
 
 def unknown_count(points: int, triangles: int, degree: int, *, parts: int = 1) -> int:
@@ -135,11 +135,23 @@ def check_mesh(tank: ScaledTank, tagged: TaggedMesh) -> None:
             f"the mesh fills {low[0]:g} < x/L < {high[0]:g}, {low[1]:g} < y/L < {high[1]:g}; "
             f"the scene's liquid fills 0 < x/L < 1, {-tank.depth:g} < y/L < 0"
         )
+    _check_nodes(tank, tagged)
     pieces = {name: [piece for piece in geometry.segments if piece.name == name] for name in names}
     for name, segments in pieces.items():
         _check_extent(tagged, name, min(piece.start for piece in segments), max(piece.end for piece in segments))
     for name, segments in pieces.items():
         _check_length(tagged, name, sum(piece.end - piece.start for piece in segments))
+
+
+def _check_nodes(tank: ScaledTank, tagged: TaggedMesh) -> None:
+    for index in tank.beams:
+        name = body_name(index + 1)
+        x = tagged.facet_nodes(name)[:, 0]
+        for place in tank.nodes_of(index):
+            if np.abs(x - place).min() > _MESH_ROUNDING:
+                raise MeshError(
+                    f"group {name} of the mesh has no node at x/L = {place:g}, where the beam has a joint or a step"
+                )
 
 
 def _check_extent(tagged: TaggedMesh, name: str, start: float, end: float) -> None:

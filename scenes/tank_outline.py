@@ -141,7 +141,8 @@ class _Builder:
 
     def _flat(self, level: StillLevel, piece: Piece, stops: list[float], size: float) -> list[Directed]:
         end = min(piece.end, self.right)
-        marks = [piece.start, *(x for x in stops if piece.start < x < end), end]
+        nodes = self.tank.nodes_of(piece.body) if piece.body is not None else ()
+        marks = [piece.start, *(x for x in sorted({*stops, *nodes}) if piece.start < x < end), end]
         name, cut = self._condition(level, piece)
         return [
             (self._curve(name, (start, level.height), (stop, level.height), size=size, cut=cut), True)

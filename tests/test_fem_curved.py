@@ -66,7 +66,7 @@ def moments(pencil: CoupledPencil, values: Callable[[np.ndarray, np.ndarray], np
         labels=("f",),
         stiffness=one,
         bending_stiffness=one,
-        mass=one,
+        mass=np.diag(one),
     )
     return float(pencil.liquid.tank.mesh.comm.allreduce(shape_loads(pencil.liquid, body).sum()))
 
@@ -137,7 +137,7 @@ def neumann_energy(degree: int) -> float:
 
     zero = np.zeros(1)
     given = {"shapes": flux, "wavenumber": 0.0, "labels": ("f",)}
-    given |= {"stiffness": zero, "bending_stiffness": zero, "mass": zero}
+    given |= {"stiffness": zero, "bending_stiffness": zero, "mass": np.diag(zero)}
     load = sum(
         shape_loads(pencil.liquid, Body(surface=name, **given))[0]
         for name in ("body_1", FREE_SURFACE, BOTTOM, LEFT_WALL, RIGHT_WALL)

@@ -49,7 +49,7 @@ class Level:
         return np.asarray(-1 / slopes)
 
     def kernel(self, reach: float) -> Callable[[np.ndarray], np.ndarray]:
-        """c Q(x) for 0 < x <= ``reach``, 1/m: that of deep liquids in closed form, the rest by Chebyshev polynomials."""
+        """c Q(x) for 0 < x <= ``reach``, 1/m: that of deep liquids in closed form, the rest by polynomials."""
         if math.isinf(self.depth):
             return self._deep_kernel
         count = math.ceil(reach / min(self.depth, 3 / self.wave_numbers[-1], 3 / self.deep))
@@ -99,7 +99,9 @@ def one_liquid(omega: float, *, density: float, depth: float, gravity: float = 9
         gravity: g, m/s².
     """
     deep = omega**2 / gravity
-    wave = brentq(lambda k: k * math.tanh(k * depth) - deep, deep, 1.01 * deep + 2 * math.sqrt(deep / depth), xtol=1e-300)
+    wave = brentq(
+        lambda k: k * math.tanh(k * depth) - deep, deep, 1.01 * deep + 2 * math.sqrt(deep / depth), xtol=1e-300
+    )
     return Level(
         omega=omega,
         stiffness=density * gravity,

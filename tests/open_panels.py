@@ -95,7 +95,7 @@ def graded_edges(length: float, longest: float, smallest: float) -> np.ndarray:
 def layer_matrix(panels: Panels, kernel: Kernel) -> np.ndarray:
     """∫ kernel(|x_i − ξ|) p(ξ) dξ from values of p at the nodes; the kernel may have a logarithm and a kink at 0."""
     x, edges, order = panels.nodes, panels.edges, panels.order
-    graded, graded_weights = _graded_rule(14)
+    graded, graded_weights = graded_rule(14)
     distance = np.abs(x[:, None] - x)
     np.fill_diagonal(distance, 1.0)
     matrix = kernel(distance) * panels.weights
@@ -119,7 +119,7 @@ def layer_matrix(panels: Panels, kernel: Kernel) -> np.ndarray:
     return np.asarray(matrix)
 
 
-def _graded_rule(order: int) -> tuple[np.ndarray, np.ndarray]:
+def graded_rule(order: int) -> tuple[np.ndarray, np.ndarray]:
     """On 0…1, for functions with a logarithm at or beyond 0."""
     nodes, weights = np.polynomial.legendre.leggauss(order)
     edges = np.append(0.0, 4.0 ** np.arange(-24.0, 1.0))

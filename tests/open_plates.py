@@ -1,8 +1,8 @@
 """Thin elastic and rigid plates that lie on a level of open water: one integral equation along the plate.
 
 EI w'''' − mω²w = p on the plate and w + p/c + ∫ Q(x − ξ) p(ξ) dξ = w_incident (`open_levels`), e^{-iωt}. The unknown
-EI w'''' is a polynomial in each of many panels that shrink towards the ends and joints, where it has logarithms; w is its
-fourfold integral and a cubic on each segment. No mode of depth and no matching is used.
+EI w'''' is a polynomial in each of many panels that shrink towards the ends and joints, where it has logarithms; w is
+its fourfold integral and a cubic on each segment. No mode of depth and no matching is used.
 
 Nothing of the package is imported.
 """

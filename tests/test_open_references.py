@@ -10,6 +10,10 @@ from typing import Any
 import numpy as np
 import open_circle
 import pytest
+from open_levels import Level, one_liquid
+from open_plates import Plate, Segment, rigid_radiation, scattering
+from open_two_liquids import TwoLiquids
+from scipy.optimize import brentq
 
 FOLDER = Path(__file__).parent / "reference"
 
@@ -19,8 +23,18 @@ def stored(name: str) -> dict[str, Any]:
     return content
 
 
+def some_slow(rows: list[dict[str, Any]], fast: set[int]) -> list[Any]:
+    marks = [[] if number in fast else [pytest.mark.slow] for number in range(len(rows))]
+    return [
+        pytest.param(row, marks=mark, id=str(number + 1))
+        for number, (row, mark) in enumerate(zip(rows, marks, strict=True))
+    ]
+
+
 PUBLISHED = stored("open_water.json")
 CIRCLE = stored("open_circle.json")
+PLATES = stored("open_plates.json")
+TWO_LIQUIDS = stored("open_two_liquids.json")
 
 
 @pytest.mark.parametrize("row", PUBLISHED["cylinder"]["rows"], ids=lambda row: f"Ka={row['Ka']}")
@@ -86,3 +100,129 @@ def test_release_is_its_resonance_and_its_tail() -> None:
 
 def _deficit_of_release(omega: complex) -> complex:
     return 4 / math.pi - omega**2 * (1 + open_circle.radiation(omega**2, "heave", 80).impedance)
+
+
+def wave_series(level: Level, rates: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """c Q(x) as the sum of its residues, waves and evanescent modes, which the kernel does not use."""
+
+    def slope(step: np.ndarray) -> np.ndarray:
+        return (level.symbol(1j * rates + step) - level.symbol(1j * rates - step)) / (2 * step)
+
+    coarse, fine = slope(2e-3 * rates), slope(1e-3 * rates)
+    k = np.concatenate([level.wave_numbers, 1j * rates])
+    residues = np.concatenate([level.residues, -3 / (4 * fine - coarse)])
+    return np.asarray(1j * level.stiffness * np.exp(1j * np.outer(x, k)) @ residues)
+
+
+def test_kernel_of_one_liquid_is_its_series() -> None:
+    level = one_liquid(4.0, density=1000.0, depth=1.3)
+    ends = np.arange(1, 80) * math.pi / 1.3
+    rates = [brentq(lambda k: level.deep / math.tan(1.3 * k) + k, end - 1.2, end - 1e-9, xtol=1e-14) for end in ends]
+    x = np.array([0.8, 2.5, 6.0])
+    # Measured: 1e-12, by the slopes of differences.
+    np.testing.assert_allclose(level.kernel(6.0)(x), wave_series(level, np.array(rates), x), atol=1e-10)
+
+
+@pytest.mark.parametrize("lid", [True, False])
+@pytest.mark.parametrize("ratio", [0.5, 0.9])
+def test_kernel_of_two_liquids_is_its_series(ratio: float, lid: bool) -> None:
+    liquids = TwoLiquids(densities=(1000.0, 1000.0 * ratio), depths=(1.2, 0.47), lid=lid)
+    rates, x = liquids.evanescent(2.0, 60), np.array([1.2, 2.5, 6.0])
+    for level in [liquids.interface(2.0)] if lid else [liquids.interface(2.0), liquids.surface(2.0)]:
+        np.testing.assert_allclose(level.symbol(level.wave_numbers) / level.stiffness, 1.0, rtol=1e-8)
+        np.testing.assert_allclose(level.symbol(1j * rates[:20]) / level.stiffness, 1.0, rtol=1e-8)
+        np.testing.assert_allclose(level.kernel(6.0)(x), wave_series(level, rates, x), atol=1e-6)
+
+
+@pytest.mark.parametrize("row", PUBLISHED["plates"]["rows"], ids=lambda row: f"{row['case']}-{row['omega_rad_s']}")
+def test_plates_as_published(row: dict[str, Any]) -> None:
+    level = one_liquid(row["omega_rad_s"], density=1025.0, depth=row["H_m"])
+    plate = Plate((Segment(length=row["L_m"], rigidity=row["EI_Nm"], mass=row["m_kg_m2"]),))
+    result = scattering(plate, level, np.array([0.0, 0.5, 1.0]) * row["L_m"], order=10)
+    found = np.abs([*result.reflected, *result.transmitted, *result.deflection])
+    published = [row[key] for key in ("absR", "absT", "w0", "wmid", "wL")]
+    # The rows state their own error; their values are rounded to 1e-7 and 1e-6.
+    np.testing.assert_allclose(found, published, atol=row["diff_N40"] + 1e-6)
+    assert np.sum(found[:2] ** 2) == pytest.approx(1.0, abs=1e-10)
+
+
+@pytest.mark.parametrize("row", PUBLISHED["compound_plate"]["rows"], ids=lambda row: f"xi={row['xi']}")
+def test_compound_plate_as_published(row: dict[str, Any]) -> None:
+    stiff, soft = (Segment(length=x, rigidity=ei, mass=8.36) for x, ei in ((2.5, 47100.0), (10.0, 471.0)))
+    level = one_liquid(4.397971190, density=1025.0, depth=1.1)
+    points = PUBLISHED["compound_plate"]["deflection"]
+    x = np.array([point["x_over_L"] for point in points]) * 12.5
+    result = scattering(Plate((stiff, soft), (row["xi"] * 47100 / 12.5,)), level, x, order=10)
+    column = {0: "abs_w_xi0", 625: "abs_w_xi625"}.get(row["xi"], "abs_w_rigid_joint")
+    # The rows have an error of about 1e-5; measured: 4e-6.
+    assert np.abs([result.reflected[0], result.transmitted[0]]) == pytest.approx([row["R"], row["T"]], abs=1e-5)
+    np.testing.assert_allclose(np.abs(result.deflection), [point[column] for point in points], atol=1e-5)
+
+
+def plate_of(row: dict[str, Any], *, turned: bool = False) -> Plate:
+    segments = tuple(Segment(**segment) for segment in row["segments"])
+    joints = tuple(math.inf if spring is None else spring for spring in row["joints"])
+    return Plate(segments[::-1], joints[::-1]) if turned else Plate(segments, joints)
+
+
+def complex_of(values: Any) -> np.ndarray:
+    array = np.array(values)
+    return np.asarray(array[..., 0] + 1j * array[..., 1])
+
+
+@pytest.mark.parametrize("row", some_slow(PLATES["plates"], {4, 14}))
+def test_stored_plates_are_made_anew(row: dict[str, Any]) -> None:
+    assert row["error"] <= 2e-11
+    depth = math.inf if row["depth"] is None else row["depth"]
+    level, plate = one_liquid(row["omega"], density=row["density"], depth=depth), plate_of(row)
+    result = scattering(plate, level, np.linspace(0, 1, 11) * plate.length, order=10)
+    # Measured: 1e-10 with polynomials of degree 9.
+    assert result.reflected[0] == pytest.approx(complex_of(row["reflected"]), abs=1e-9)
+    assert result.transmitted[0] == pytest.approx(complex_of(row["transmitted"]), abs=1e-9)
+    np.testing.assert_allclose(result.deflection, complex_of(row["deflection"]), atol=1e-9)
+
+
+def test_transmission_is_the_same_from_both_sides() -> None:
+    row = PLATES["plates"][13]
+    level = one_liquid(row["omega"], density=row["density"], depth=row["depth"])
+    there, back = (
+        scattering(plate_of(row, turned=turned), level, np.array([0.0]), order=10) for turned in (False, True)
+    )
+    # A plate of two joints and three rigidities: also the phase of T is the same, that of R is not.
+    assert there.transmitted[0] == pytest.approx(back.transmitted[0], abs=1e-10)
+    assert abs(there.reflected[0]) == pytest.approx(abs(back.reflected[0]), abs=1e-10)
+
+
+@pytest.mark.parametrize("row", some_slow(TWO_LIQUIDS["cases"], {2, 9}))
+def test_stored_two_liquids_are_made_anew(row: dict[str, Any]) -> None:
+    assert row["error"] <= 1e-11
+    liquids = TwoLiquids(densities=tuple(row["densities"]), depths=tuple(row["depths"]), lid=row["top"] == "lid")
+    level = liquids.surface(row["omega"]) if row["level"] == "surface" else liquids.interface(row["omega"])
+    plate = Plate((Segment(**row["plate"]),))
+    flux = np.array(row["flux"])
+    for wave, stored_row in enumerate(row["waves_in"]):
+        result = scattering(plate, level, np.linspace(0, 1, 11) * plate.length, wave, order=10)
+        np.testing.assert_allclose(result.reflected, complex_of(stored_row["reflected"]), atol=1e-9)
+        np.testing.assert_allclose(result.transmitted, complex_of(stored_row["transmitted"]), atol=1e-9)
+        np.testing.assert_allclose(result.deflection, complex_of(stored_row["deflection"]), atol=1e-9)
+        outgoing = np.abs(result.reflected) ** 2 + np.abs(result.transmitted) ** 2
+        assert flux @ outgoing / flux[wave] == pytest.approx(1.0, abs=1e-9)
+    impedance, _ = rigid_radiation(plate.length, level, 10)
+    np.testing.assert_allclose(np.diag(impedance.real), row["rigid"]["added_mass"], rtol=1e-9)
+    np.testing.assert_allclose(np.diag(impedance.imag) * row["omega"], row["rigid"]["damping"], rtol=1e-9)
+
+
+def test_light_upper_liquid_is_one_liquid() -> None:
+    # The upper liquid adds terms of the order of its density.
+    below = one_liquid(3.0, density=1000.0, depth=1.2)
+    both = TwoLiquids(densities=(1000.0, 1e-6), depths=(1.2, 0.5), lid=True).interface(3.0)
+    expected, found = (rigid_radiation(1.5, level, 8)[0] for level in (below, both))
+    np.testing.assert_allclose(found, expected, rtol=1e-7, atol=1e-5)
+
+
+def test_two_equal_symmetric_layers_are_one_liquid() -> None:
+    # Equal depths under a lid: ψ is odd in y, the interface is a surface of density ρ₁ + ρ₂ and gravity Δρ g/(ρ₁ + ρ₂).
+    both = TwoLiquids(densities=(1000.0, 900.0), depths=(0.8, 0.8), lid=True).interface(1.0)
+    one = one_liquid(1.0, density=1900.0, depth=0.8, gravity=9.81 * 100 / 1900)
+    found, expected = (rigid_radiation(1.5, level, 8)[0] for level in (both, one))
+    np.testing.assert_allclose(found, expected, rtol=1e-11, atol=1e-8)

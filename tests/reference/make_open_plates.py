@@ -22,8 +22,9 @@ PATH = Path(__file__).with_name("open_plates.json")
 POINTS = np.linspace(0, 1, 11)
 
 HEADER = {
-    "about": "Elastic plates of zero draught with free ends on one liquid, drawn at random, per metre of width, SI units, "
-    "gravity 9.81. A wave of unit elevation exp(i k x - i omega t) comes from the left, x = 0 is the left end of the plate.",
+    "about": "Elastic plates of zero draught with free ends on one liquid, drawn at random, per metre of width, SI "
+    "units, gravity 9.81. A wave of unit elevation exp(i k x - i omega t) comes from the left, x = 0 is the left end of "
+    "the plate.",
     "source": "Made for this list by tests/reference/make_open_plates.py: an integral equation along the plate "
     "(tests/open_plates.py).",
     "command": "./hydro python tests/reference/make_open_plates.py",
@@ -84,12 +85,16 @@ def solved(number: int) -> dict[str, Any]:
     energy = abs(np.sum(np.abs(fine[:2]) ** 2) - 1)
     error = max(np.max(np.abs(fine - coarse)), energy, 1e-13)
     pairs = [[float(f"{value.real:.13g}"), float(f"{value.imag:.13g}")] for value in fine]
-    return {"number": number + 1} | row | {
-        "reflected": pairs[0],
-        "transmitted": pairs[1],
-        "deflection": pairs[2:],
-        "error": float(f"{error:.0e}"),
-    }
+    return (
+        {"number": number + 1}
+        | row
+        | {
+            "reflected": pairs[0],
+            "transmitted": pairs[1],
+            "deflection": pairs[2:],
+            "error": float(f"{error:.0e}"),
+        }
+    )
 
 
 def main() -> None:

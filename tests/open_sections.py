@@ -5,9 +5,9 @@ radiation condition: with s = y + η <= 0, d = |y − η|, K = ω²/g, q = (k + 
 
     G = (ln r − ln r')/2π − (F(z) + F(z̄))/2π − (1/2π) ∫ cos k(x − ξ) E/(1 − qE) φ(y) φ(η) dk/k,
 
-φ(y) = q e^{ky} + e^{−ky}, z = −s + i(x − ξ) and F of `open_circle`. The last integral, along a path below the pole, is a product of matrices.
-Panels shrink towards corners and the waterline. Without a lid: the method fails near irregular frequencies, where the
-section filled with liquid would have sloshing modes that vanish on its sides.
+φ(y) = q e^{ky} + e^{−ky}, z = −s + i(x − ξ) and F of `open_circle`. The last integral, along a path below the pole, is
+a product of matrices. Panels shrink towards corners and the waterline. The method fails near irregular frequencies,
+where the section filled with liquid would have sloshing modes that vanish on its sides.
 
 Nothing of the package is imported.
 """

@@ -12,6 +12,7 @@ import open_circle
 import pytest
 from open_levels import Level, one_liquid
 from open_plates import Plate, Segment, rigid_radiation, scattering
+from open_sections import Water, section_answer
 from open_two_liquids import TwoLiquids
 from scipy.optimize import brentq
 
@@ -35,6 +36,7 @@ PUBLISHED = stored("open_water.json")
 CIRCLE = stored("open_circle.json")
 PLATES = stored("open_plates.json")
 TWO_LIQUIDS = stored("open_two_liquids.json")
+SECTIONS = stored("open_sections.json")
 
 
 @pytest.mark.parametrize("row", PUBLISHED["cylinder"]["rows"], ids=lambda row: f"Ka={row['Ka']}")
@@ -105,13 +107,12 @@ def _deficit_of_release(omega: complex) -> complex:
 def wave_series(level: Level, rates: np.ndarray, x: np.ndarray) -> np.ndarray:
     """c Q(x) as the sum of its residues, waves and evanescent modes, which the kernel does not use."""
 
-    def slope(step: np.ndarray) -> np.ndarray:
-        return (level.symbol(1j * rates + step) - level.symbol(1j * rates - step)) / (2 * step)
-
-    coarse, fine = slope(2e-3 * rates), slope(1e-3 * rates)
+    circle = 1e-3 * np.exp(2j * math.pi * np.arange(32) / 32)
+    steps = rates[:, None] * circle
+    residues = np.mean(steps / (level.stiffness - level.symbol(1j * rates[:, None] + steps)), axis=1)
     k = np.concatenate([level.wave_numbers, 1j * rates])
-    residues = np.concatenate([level.residues, -3 / (4 * fine - coarse)])
-    return np.asarray(1j * level.stiffness * np.exp(1j * np.outer(x, k)) @ residues)
+    strengths = np.concatenate([level.residues, residues])
+    return np.asarray(1j * level.stiffness * np.exp(1j * np.outer(x, k)) @ strengths)
 
 
 def test_kernel_of_one_liquid_is_its_series() -> None:
@@ -119,8 +120,8 @@ def test_kernel_of_one_liquid_is_its_series() -> None:
     ends = np.arange(1, 80) * math.pi / 1.3
     rates = [brentq(lambda k: level.deep / math.tan(1.3 * k) + k, end - 1.2, end - 1e-9, xtol=1e-14) for end in ends]
     x = np.array([0.8, 2.5, 6.0])
-    # Measured: 1e-12, by the slopes of differences.
-    np.testing.assert_allclose(level.kernel(6.0)(x), wave_series(level, np.array(rates), x), atol=1e-10)
+    # Measured: 1e-14.
+    np.testing.assert_allclose(level.kernel(6.0)(x), wave_series(level, np.array(rates), x), atol=1e-12)
 
 
 @pytest.mark.parametrize("lid", [True, False])
@@ -131,7 +132,7 @@ def test_kernel_of_two_liquids_is_its_series(ratio: float, lid: bool) -> None:
     for level in [liquids.interface(2.0)] if lid else [liquids.interface(2.0), liquids.surface(2.0)]:
         np.testing.assert_allclose(level.symbol(level.wave_numbers) / level.stiffness, 1.0, rtol=1e-8)
         np.testing.assert_allclose(level.symbol(1j * rates[:20]) / level.stiffness, 1.0, rtol=1e-8)
-        np.testing.assert_allclose(level.kernel(6.0)(x), wave_series(level, rates, x), atol=1e-6)
+        np.testing.assert_allclose(level.kernel(6.0)(x), wave_series(level, rates, x), atol=1e-11)
 
 
 @pytest.mark.parametrize("row", PUBLISHED["plates"]["rows"], ids=lambda row: f"{row['case']}-{row['omega_rad_s']}")
@@ -226,3 +227,30 @@ def test_two_equal_symmetric_layers_are_one_liquid() -> None:
     one = one_liquid(1.0, density=1900.0, depth=0.8, gravity=9.81 * 100 / 1900)
     found, expected = (rigid_radiation(1.5, level, 8)[0] for level in (both, one))
     np.testing.assert_allclose(found, expected, rtol=1e-11, atol=1e-8)
+
+
+@pytest.mark.parametrize("row", some_slow(SECTIONS["cases"], {7}))
+def test_stored_sections_are_made_anew(row: dict[str, Any]) -> None:
+    assert row["error"] <= 1e-10
+    depth = math.inf if row["depth"] is None else row["depth"]
+    answer = section_answer(np.array(row["corners"]), Water(omega=row["omega"], density=1000.0, depth=depth), order=5)
+    added, damping = np.array(row["added_mass"]), np.array(row["damping"])
+    scale = np.sqrt(np.outer(np.diag(added), np.diag(added)))
+    # Measured with polynomials of degree 4: 2e-7.
+    np.testing.assert_allclose((answer.impedance.real - added) / scale, 0, atol=2e-6)
+    np.testing.assert_allclose((answer.impedance.imag - damping / row["omega"]) / scale, 0, atol=2e-6)
+    np.testing.assert_allclose(answer.excitation, complex_of(row["excitation"]), rtol=2e-6)
+    # Waves carry away what motions lose: radiation and Haskind's excitation agree.
+    np.testing.assert_allclose(answer.flux_damping, np.diag(answer.impedance.imag) * row["omega"], rtol=1e-5)
+
+
+def test_thin_box_is_a_plate() -> None:
+    plate, _ = rigid_radiation(1.0, one_liquid(3.0, density=1000.0, depth=1.0), 8)
+    gaps = []
+    for draught in (0.02, 0.01):
+        corners = np.array([[-0.5, 0.0], [-0.5, -draught], [0.5, -draught], [0.5, 0.0]])
+        answer = section_answer(corners, Water(omega=3.0, density=1000.0, depth=1.0), order=4)
+        gaps.append((answer.impedance[1:, 1:] - plate).diagonal())
+    # The draught adds terms D and D² ln D: half the draught, half the distance.
+    assert np.all(np.abs(gaps[1] / gaps[0] - 0.5) < 0.08)
+    assert abs(gaps[1][0]) < 0.02 * abs(plate[0, 0])

@@ -23,8 +23,8 @@ POINTS = np.linspace(0, 1, 11)
 
 HEADER = {
     "about": "Elastic plates of zero draught with free ends on one liquid, drawn at random, per metre of width, SI "
-    "units, gravity 9.81. A wave of unit elevation exp(i k x - i omega t) comes from the left, x = 0 is the left end of "
-    "the plate.",
+    "units, gravity 9.81. A wave of unit elevation exp(i k x - i omega t) comes from the left, x = 0 is the left end "
+    "of the plate.",
     "source": "Made for this list by tests/reference/make_open_plates.py: an integral equation along the plate "
     "(tests/open_plates.py).",
     "command": "./hydro python tests/reference/make_open_plates.py",

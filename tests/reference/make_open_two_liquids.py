@@ -23,8 +23,8 @@ POINTS = np.linspace(0, 1, 11)
 HEADER = {
     "about": "Plates of zero draught on the free surface or on the interface of two liquids, per metre of width, SI "
     "units, gravity 9.81, exp(-i omega t), x = 0 at the left end of the plate. Waves in ascending wave number: with a "
-    "free top the surface wave, then the interface wave; with a lid the interface wave alone. All elevations are those of the "
-    "level on which the plate lies.",
+    "free top the surface wave, then the interface wave; with a lid the interface wave alone. All elevations are those "
+    "of the level on which the plate lies.",
     "source": "Made for this list by tests/reference/make_open_two_liquids.py: an integral equation along the plate "
     "(tests/open_plates.py, tests/open_two_liquids.py).",
     "command": "./hydro python tests/reference/make_open_two_liquids.py",

@@ -44,7 +44,9 @@ def test_circle_as_published(row: dict[str, Any]) -> None:
     heave, sway = (open_circle.radiation(row["Ka"], motion, 80).impedance for motion in open_circle.MOTIONS)
     found = [heave.real, heave.imag, sway.real, sway.imag]
     # The rows have an absolute error of 1e-6; measured: 1.4e-7.
-    np.testing.assert_allclose(found, [row[key] for key in ("heave_a", "heave_b", "sway_a", "sway_b")], atol=3e-7)
+    np.testing.assert_allclose(
+        found, [row[key] for key in ("heave_a", "heave_b", "sway_a", "sway_b")], rtol=0, atol=3e-7
+    )
 
 
 @pytest.mark.parametrize("row", CIRCLE["radiation"], ids=lambda row: f"Ka={row['Ka']}")
@@ -83,7 +85,7 @@ def test_released_circle() -> None:
     times, values = np.array(CIRCLE["release"]["t"]), np.array(CIRCLE["release"]["s"])
     found = open_circle.release(np.concatenate([[0.0, 0.02], times]), 32)
     # Measured with 32 multipoles: 8e-10. s(0) = 1 is the energy balance, s''(0) = −c/(m + a(∞)) = −2/π.
-    np.testing.assert_allclose(found[2:], values, atol=5e-9)
+    np.testing.assert_allclose(found[2:], values, rtol=0, atol=5e-9)
     assert found[0] == pytest.approx(1.0, abs=5e-9)
     assert (found[1] - 1) * 2 / 0.02**2 == pytest.approx(-2 / math.pi, abs=1e-4)
     # Ursell 1964: −(4/π)/t², the next term is of the order ln t/t⁴.
@@ -121,7 +123,7 @@ def test_kernel_of_one_liquid_is_its_series() -> None:
     rates = [brentq(lambda k: level.deep / math.tan(1.3 * k) + k, end - 1.2, end - 1e-9, xtol=1e-14) for end in ends]
     x = np.array([0.8, 2.5, 6.0])
     # Measured: 1e-14.
-    np.testing.assert_allclose(level.kernel(6.0)(x), wave_series(level, np.array(rates), x), atol=1e-12)
+    np.testing.assert_allclose(level.kernel(6.0)(x), wave_series(level, np.array(rates), x), rtol=0, atol=1e-12)
 
 
 @pytest.mark.parametrize("lid", [True, False])
@@ -132,7 +134,7 @@ def test_kernel_of_two_liquids_is_its_series(ratio: float, lid: bool) -> None:
     for level in [liquids.interface(2.0)] if lid else [liquids.interface(2.0), liquids.surface(2.0)]:
         np.testing.assert_allclose(level.symbol(level.wave_numbers) / level.stiffness, 1.0, rtol=1e-8)
         np.testing.assert_allclose(level.symbol(1j * rates[:20]) / level.stiffness, 1.0, rtol=1e-8)
-        np.testing.assert_allclose(level.kernel(6.0)(x), wave_series(level, rates, x), atol=1e-11)
+        np.testing.assert_allclose(level.kernel(6.0)(x), wave_series(level, rates, x), rtol=0, atol=1e-11)
 
 
 @pytest.mark.parametrize("row", PUBLISHED["plates"]["rows"], ids=lambda row: f"{row['case']}-{row['omega_rad_s']}")
@@ -143,7 +145,7 @@ def test_plates_as_published(row: dict[str, Any]) -> None:
     found = np.abs([*result.reflected, *result.transmitted, *result.deflection])
     published = [row[key] for key in ("absR", "absT", "w0", "wmid", "wL")]
     # The rows state their own error; their values are rounded to 1e-7 and 1e-6.
-    np.testing.assert_allclose(found, published, atol=row["diff_N40"] + 1e-6)
+    np.testing.assert_allclose(found, published, rtol=0, atol=row["diff_N40"] + 1e-6)
     assert np.sum(found[:2] ** 2) == pytest.approx(1.0, abs=1e-10)
 
 
@@ -157,7 +159,7 @@ def test_compound_plate_as_published(row: dict[str, Any]) -> None:
     column = {0: "abs_w_xi0", 625: "abs_w_xi625"}.get(row["xi"], "abs_w_rigid_joint")
     # The rows have an error of about 1e-5; measured: 4e-6.
     assert np.abs([result.reflected[0], result.transmitted[0]]) == pytest.approx([row["R"], row["T"]], abs=1e-5)
-    np.testing.assert_allclose(np.abs(result.deflection), [point[column] for point in points], atol=1e-5)
+    np.testing.assert_allclose(np.abs(result.deflection), [point[column] for point in points], rtol=0, atol=1e-5)
 
 
 def plate_of(row: dict[str, Any], *, turned: bool = False) -> Plate:
@@ -180,16 +182,16 @@ def test_stored_plates_are_made_anew(row: dict[str, Any]) -> None:
     # Measured: 1e-10 with polynomials of degree 9.
     assert result.reflected[0] == pytest.approx(complex_of(row["reflected"]), abs=1e-9)
     assert result.transmitted[0] == pytest.approx(complex_of(row["transmitted"]), abs=1e-9)
-    np.testing.assert_allclose(result.deflection, complex_of(row["deflection"]), atol=1e-9)
+    np.testing.assert_allclose(result.deflection, complex_of(row["deflection"]), rtol=0, atol=1e-9)
 
 
 def test_transmission_is_the_same_from_both_sides() -> None:
-    row = PLATES["plates"][13]
+    row = PLATES["plates"][16]
     level = one_liquid(row["omega"], density=row["density"], depth=row["depth"])
     there, back = (
         scattering(plate_of(row, turned=turned), level, np.array([0.0]), order=10) for turned in (False, True)
     )
-    # A plate of two joints and three rigidities: also the phase of T is the same, that of R is not.
+    # A plate of two rigidities: also the phase of T is the same, that of R is not.
     assert there.transmitted[0] == pytest.approx(back.transmitted[0], abs=1e-10)
     assert abs(there.reflected[0]) == pytest.approx(abs(back.reflected[0]), abs=1e-10)
 
@@ -203,9 +205,9 @@ def test_stored_two_liquids_are_made_anew(row: dict[str, Any]) -> None:
     flux = np.array(row["flux"])
     for wave, stored_row in enumerate(row["waves_in"]):
         result = scattering(plate, level, np.linspace(0, 1, 11) * plate.length, wave, order=10)
-        np.testing.assert_allclose(result.reflected, complex_of(stored_row["reflected"]), atol=1e-9)
-        np.testing.assert_allclose(result.transmitted, complex_of(stored_row["transmitted"]), atol=1e-9)
-        np.testing.assert_allclose(result.deflection, complex_of(stored_row["deflection"]), atol=1e-9)
+        np.testing.assert_allclose(result.reflected, complex_of(stored_row["reflected"]), rtol=0, atol=1e-9)
+        np.testing.assert_allclose(result.transmitted, complex_of(stored_row["transmitted"]), rtol=0, atol=1e-9)
+        np.testing.assert_allclose(result.deflection, complex_of(stored_row["deflection"]), rtol=0, atol=1e-9)
         outgoing = np.abs(result.reflected) ** 2 + np.abs(result.transmitted) ** 2
         assert flux @ outgoing / flux[wave] == pytest.approx(1.0, abs=1e-9)
     impedance, _ = rigid_radiation(plate.length, level, 10)
@@ -237,8 +239,8 @@ def test_stored_sections_are_made_anew(row: dict[str, Any]) -> None:
     added, damping = np.array(row["added_mass"]), np.array(row["damping"])
     scale = np.sqrt(np.outer(np.diag(added), np.diag(added)))
     # Measured with polynomials of degree 4: 2e-7.
-    np.testing.assert_allclose((answer.impedance.real - added) / scale, 0, atol=2e-6)
-    np.testing.assert_allclose((answer.impedance.imag - damping / row["omega"]) / scale, 0, atol=2e-6)
+    np.testing.assert_allclose((answer.impedance.real - added) / scale, 0, rtol=0, atol=2e-6)
+    np.testing.assert_allclose((answer.impedance.imag - damping / row["omega"]) / scale, 0, rtol=0, atol=2e-6)
     np.testing.assert_allclose(answer.excitation, complex_of(row["excitation"]), rtol=2e-6)
     # Waves carry away what motions lose: radiation and Haskind's excitation agree.
     np.testing.assert_allclose(answer.flux_damping, np.diag(answer.impedance.imag) * row["omega"], rtol=1e-5)

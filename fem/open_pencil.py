@@ -77,10 +77,6 @@ class OpenPencil:
         vector.array[self.free] = values
         return vector
 
-    def load(self, body: Body) -> np.ndarray:
-        """Loads of the shapes of a body, ρ included, shape (shapes, own free unknowns) (collective)."""
-        return _weighed_loads(self.liquid, body)[:, self.free]
-
 
 def build_open_pencil(
     liquid: LiquidSpace, scaling: ComplexScaling, *, bodies: tuple[Body, ...], surfaces: tuple[LiquidSurface, ...]

@@ -13,7 +13,6 @@ from math import ceil
 import basix
 import numpy as np
 from dolfinx import la
-from mpi4py import MPI
 
 from hydroelastic.fem.facets import FacetGroup, facet_groups
 from hydroelastic.fem.liquid import LiquidSpace
@@ -38,7 +37,7 @@ def shape_loads(liquid: LiquidSpace, body: Body) -> np.ndarray:
     index_map = liquid.space.dofmap.index_map
     loads = np.zeros((body.size, index_map.size_local + index_map.num_ghosts))
     for group in facet_groups(liquid, body.surface):
-        at_corner = _singular_corner(body, group)
+        at_corner = singular_corner(body, group)
         for corner in np.unique(at_corner):
             _add_loads(liquid, body, group.subset(at_corner == corner), int(corner), loads)
     return summed_over_processes(liquid, loads)
@@ -58,19 +57,19 @@ def surface_load(liquid: LiquidSpace, names: tuple[str, ...]) -> np.ndarray:
             reference = group.reference_points(local)
             _, measures = group.normals(reference)
             dofs = liquid.space.dofmap.list[group.cells]
-            np.add.at(load[0], dofs, (measures * weights) @ _basis(liquid, reference))
+            np.add.at(load[0], dofs, (measures * weights) @ potential_basis(liquid, reference))
     total: np.ndarray = summed_over_processes(liquid, load)[0]
     return total
 
 
-def _basis(liquid: LiquidSpace, reference: np.ndarray) -> np.ndarray:
+def potential_basis(liquid: LiquidSpace, reference: np.ndarray) -> np.ndarray:
     """Basis functions of ψ at points of the reference cell, shape (points, functions)."""
     table: np.ndarray = liquid.space.element.basix_element.tabulate(0, reference)[0, :, :, 0]
     return table
 
 
-def _singular_corner(body: Body, group: FacetGroup) -> np.ndarray:
-    """Number of the corner of each facet at which the shapes have no bounded slope, or −1."""
+def singular_corner(body: Body, group: FacetGroup) -> np.ndarray:
+    """Number of the corner of each facet at which the shapes of a body have no bounded slope, or −1."""
     found = np.full(len(group.cells), -1)
     if body.singular_points is not None:
         corners = group.physical_points(group.reference_corners)
@@ -89,7 +88,7 @@ def _clustered(local: np.ndarray, weights: np.ndarray, corner: int) -> tuple[np.
 
 
 @dataclass(frozen=True, kw_only=True)
-class _FacetQuadrature:
+class FacetQuadrature:
     """Quadrature on facets of a body.
 
     Attributes:
@@ -109,9 +108,17 @@ class _FacetQuadrature:
         return shapes(self.points, self.normals, number).reshape(self.weights.shape)
 
 
-def _facet_quadrature(
+def facet_quadrature(
     liquid: LiquidSpace, group: FacetGroup, wavenumber: float, singular_corner: int
-) -> _FacetQuadrature:
+) -> FacetQuadrature:
+    """Quadrature for functions of a wavenumber times polynomials of ψ's degree.
+
+    Args:
+        liquid: space of ψ.
+        group: the facets.
+        wavenumber: of the functions.
+        singular_corner: number of the facets' corner towards which points are clustered, or −1.
+    """
     count = ceil(0.5 * liquid.degree + 0.5 * wavenumber * group.longest) + _SPARE_POINTS
     if singular_corner >= 0:
         # In s the basis has twice the degree.
@@ -123,7 +130,7 @@ def _facet_quadrature(
     points = group.physical_points(reference)
     normals, measures = group.normals(reference)
     normals = np.broadcast_to(normals, points.shape)
-    return _FacetQuadrature(
+    return FacetQuadrature(
         reference=reference,
         points=points.reshape(-1, points.shape[-1]).T,
         normals=normals.reshape(-1, points.shape[-1]).T,
@@ -132,41 +139,11 @@ def _facet_quadrature(
 
 
 def _add_loads(liquid: LiquidSpace, body: Body, group: FacetGroup, singular_corner: int, loads: np.ndarray) -> None:
-    quadrature = _facet_quadrature(liquid, group, body.wavenumber, singular_corner)
-    basis = _basis(liquid, quadrature.reference)
+    quadrature = facet_quadrature(liquid, group, body.wavenumber, singular_corner)
+    basis = potential_basis(liquid, quadrature.reference)
     dofs = liquid.space.dofmap.list[group.cells]
     for number in range(body.size):
         np.add.at(loads[number], dofs, (quadrature.weights * quadrature.values(body.shapes, number)) @ basis)
-
-
-def shape_moments(liquid: LiquidSpace, body: Body, fields: Shapes, count: int, wavenumber: float) -> np.ndarray:
-    """Integrate every shape of a body against given functions, with the density of the liquid on each side.
-
-    Args:
-        liquid: space of ψ on simplices.
-        body: the body.
-        fields: the functions, of points, normals and their number.
-        count: how many there are.
-        wavenumber: the largest among them.
-
-    Returns:
-        ∫ρ f φᵢ over the body's wetted surface, shape (functions, shapes) (collective).
-    """
-    densities = np.array([layer.density for layer in liquid.layers])
-    total = np.zeros((count, body.size))
-    for group in facet_groups(liquid, body.surface):
-        at_corner = _singular_corner(body, group)
-        for corner in np.unique(at_corner):
-            own = group.subset(at_corner == corner)
-            quadrature = _facet_quadrature(liquid, own, body.wavenumber + wavenumber, int(corner))
-            density = densities[liquid.layer_of[liquid.space.dofmap.list[own.cells, 0]]]
-            weights = quadrature.weights * density[:, None]
-            shapes = [quadrature.values(body.shapes, number) for number in range(body.size)]
-            for place in range(count):
-                weighed = weights * quadrature.values(fields, place)
-                total[place] += [np.sum(weighed * shape) for shape in shapes]
-    liquid.tank.mesh.comm.Allreduce(MPI.IN_PLACE, total)
-    return total
 
 
 def summed_over_processes(liquid: LiquidSpace, loads: np.ndarray) -> np.ndarray:

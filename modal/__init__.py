@@ -10,6 +10,7 @@ from hydroelastic.modal.added_mass import (
     shallow_constant,
     strip_added_mass,
 )
+from hydroelastic.modal.channel_motion import channel_free_motion, channel_resonance
 from hydroelastic.modal.dry_modes import free_free_roots, free_free_shape, free_free_wavenumber
 from hydroelastic.modal.estimate import (
     Bound,
@@ -28,6 +29,7 @@ from hydroelastic.modal.floating_beam import FloatingBeam
 from hydroelastic.modal.grammel import BeamQuotients, QuotientPair, beam_quotients, quotients
 from hydroelastic.modal.grammel_terms import best_term, one_term_root, term_tones
 from hydroelastic.modal.gravity_added_mass import gravity_added_mass, gravity_tones
+from hydroelastic.modal.open_float import OpenFloatEstimate, open_float_estimate, released_float
 from hydroelastic.modal.paper_model import ERRATA, Erratum, PrintedAndCorrected
 from hydroelastic.modal.pressure_release import pressure_release_added_mass
 from hydroelastic.modal.rayleigh import (
@@ -58,7 +60,10 @@ from hydroelastic.modal.thin_float import (
     thin_float_mass,
     thin_float_stiffness,
 )
+from hydroelastic.modal.thin_float_decay import FreeMotion, crossover_time, free_motion, free_motion_tail
 from hydroelastic.modal.thin_float_paper import THIN_FLOAT_ERRATA, printed_constants
+from hydroelastic.modal.thin_float_radiation import HeaveRadiation, complex_added_mass, thin_float_radiation
+from hydroelastic.modal.thin_float_resonance import FreePole, heave_pole, pole_count, second_pole
 from hydroelastic.modal.tone_pencil import Tones
 from hydroelastic.modal.two_layer import (
     Branch,
@@ -84,10 +89,14 @@ __all__ = [
     "FloatMode",
     "FloatShape",
     "FloatingBeam",
+    "FreeMotion",
+    "FreePole",
+    "HeaveRadiation",
     "InterfacePlate",
     "LayerMode",
     "LayerTop",
     "NoEstimateError",
+    "OpenFloatEstimate",
     "PrintedAndCorrected",
     "Profile",
     "ProfileArc",
@@ -102,6 +111,10 @@ __all__ = [
     "beam_quotients",
     "best_term",
     "box_modes",
+    "channel_free_motion",
+    "channel_resonance",
+    "complex_added_mass",
+    "crossover_time",
     "deep_open_added_mass",
     "deep_open_constant",
     "deep_sloshing_frequencies",
@@ -110,16 +123,21 @@ __all__ = [
     "free_free_roots",
     "free_free_shape",
     "free_free_wavenumber",
+    "free_motion",
+    "free_motion_tail",
     "frequency_from_added_mass",
     "gravity_added_mass",
     "gravity_tones",
     "guided_cover_frequencies",
     "half_immersed_ellipse",
+    "heave_pole",
     "interface_ellipse",
     "interface_frequencies",
     "lid_added_mass",
     "one_term_root",
+    "open_float_estimate",
     "paper_equivalent_mass",
+    "pole_count",
     "pressure_release_added_mass",
     "pressure_release_tones",
     "printed_constants",
@@ -129,8 +147,10 @@ __all__ = [
     "rayleigh_lid",
     "rayleigh_pressure_release",
     "rayleigh_pressure_release_dry_mode",
+    "released_float",
     "rigid_heave_added_mass",
     "rigid_pitch_added_inertia",
+    "second_pole",
     "section_heave_added_mass",
     "shallow_added_mass",
     "shallow_constant",
@@ -143,5 +163,6 @@ __all__ = [
     "thin_float_added_mass",
     "thin_float_frequency",
     "thin_float_mass",
+    "thin_float_radiation",
     "thin_float_stiffness",
 ]

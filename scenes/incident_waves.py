@@ -16,17 +16,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hydroelastic.fem.shape_loads import shape_moments
-from hydroelastic.fem.surfaces import Body
-from hydroelastic.meshes.geometry import body_name
 from hydroelastic.modal.travelling_waves import TravellingWave
 from hydroelastic.scenes.open_basin import OpenBasin
 from hydroelastic.scenes.open_model import OpenModel
 
 RIGHTWARD, LEFTWARD = 1, -1
-
-# A point of a level belongs to the liquid whose outward normal leaves it; points of contours miss it by rounding.
-_AT_LEVEL = 1e-12
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,10 +30,10 @@ class Plane:
     wave: TravellingWave
     direction: int
 
-    def field(self, points: np.ndarray, above: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """φ and ∇φ at points (..., 2); ``above`` tells which lie in the upper liquid."""
+    def field(self, points: np.ndarray, layers: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """φ and ∇φ at points (..., 2) of the layers (...), 0 for the lower one."""
         x, y = points[..., 0], points[..., 1]
-        value, slope = self.wave.profile(y, above=above.astype(bool))
+        value, slope = self.wave.profile(y, above=layers > 0)
         phase = np.exp(1j * self.direction * self.wave.wavenumber * x)
         along = 1j * self.direction * self.wave.wavenumber * value
         return phase * value, np.stack([phase * along, phase * slope], axis=-1)
@@ -109,52 +103,14 @@ class Incidence:
 def incidence(model: OpenModel, waves: list[Plane]) -> Incidence:
     """Integrate waves over the bodies' surfaces (collective)."""
     pencil = model.pencil
-    bodies = [body for body in pencil.bodies if body.size]
-    wetted = [_flux_body(body_name(index + 1), waves) for index in range(len(model.basin.tank.bodies))]
-    fluxes = sum((pencil.load(body) for body in wetted), np.zeros((2 * len(waves), len(pencil.free))))
-    shortest = max(plane.wave.wavenumber for plane in waves)
-    count = 2 * len(waves)
-
-    def values(points: np.ndarray, normals: np.ndarray, number: int) -> np.ndarray:
-        return _part(waves[number // 2].field(points.T, _above(points, normals))[0], number)
-
-    pressures = [shape_moments(pencil.liquid, body, values, count, shortest) for body in bodies]
-    own = sum(
-        (shape_moments(pencil.liquid, body, values, count, shortest) for body in wetted), np.zeros((count, count))
-    )
-    by_shape = np.hstack(pressures) if pressures else np.zeros((count, 0))
-    return Incidence(
-        planes=waves,
-        fluxes=fluxes[::2] + 1j * fluxes[1::2],
-        pressures=by_shape[::2] + 1j * by_shape[1::2],
-        own=(own[::2, ::2] - own[1::2, 1::2]) + 1j * (own[1::2, ::2] + own[::2, 1::2]),
-    )
-
-
-def _flux_body(surface: str, waves: list[Plane]) -> Body:
-    """Normal displacements of the liquid in the waves, real and imaginary parts, as if they were shapes of a body."""
-
-    def fluxes(points: np.ndarray, normals: np.ndarray, number: int) -> np.ndarray:
-        gradient = waves[number // 2].field(points.T, _above(points, normals))[1]
-        return _part((gradient * normals.T).sum(axis=-1), number)
-
-    size = 2 * len(waves)
-    return Body(
-        surface=surface,
-        shapes=fluxes,
-        wavenumber=max(plane.wave.wavenumber for plane in waves),
-        labels=("wave",) * size,
-        stiffness=np.zeros(size),
-        bending_stiffness=np.zeros(size),
-        mass=np.zeros(size),
-    )
-
-
-def _part(values: np.ndarray, number: int) -> np.ndarray:
-    part: np.ndarray = values.imag if number % 2 else values.real
-    return part
-
-
-def _above(points: np.ndarray, normals: np.ndarray) -> np.ndarray:
-    above: np.ndarray = np.where(np.abs(points[1]) > _AT_LEVEL, points[1] > 0.0, normals[1] < 0.0)
-    return above
+    fluxes = np.zeros((len(waves), len(pencil.free)), dtype=complex)
+    own = np.zeros((len(waves), len(waves)), dtype=complex)
+    pressures = [np.zeros((len(waves), 0), dtype=complex)]
+    for surface in model.wetted:
+        fields = [plane.field(surface.points, surface.layers) for plane in waves]
+        values = np.array([value for value, _ in fields])
+        flux = np.array([(gradient * surface.normals).sum(axis=1) for _, gradient in fields])
+        fluxes += surface.loads(flux)[:, pencil.free]
+        own += surface.integrals(values, flux)
+        pressures.append(surface.integrals(values, surface.shapes))
+    return Incidence(planes=waves, fluxes=fluxes, pressures=np.hstack(pressures), own=own)

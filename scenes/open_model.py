@@ -15,6 +15,7 @@ from hydroelastic.fem.far_field import FarField
 from hydroelastic.fem.liquid import Layer, LiquidSpace, liquid_space
 from hydroelastic.fem.open_pencil import OpenPencil, build_open_pencil
 from hydroelastic.fem.spectral_error import cell_errors
+from hydroelastic.fem.wetted_surface import WettedSurface
 from hydroelastic.meshes.geometry import FAR_END, LEFT_WALL, RIGHT_WALL
 from hydroelastic.meshes.open_sea import extended, with_far_ends
 from hydroelastic.meshes.tagged_mesh import TaggedMesh
@@ -77,17 +78,24 @@ class OpenModel:
         basin: the water around the bodies.
         resolution: of the basin.
         reach: of the frames.
+        shortest: largest wavenumber of the waves that leave.
         pencil: the dimensionless problem, in units of the basin.
     """
 
     basin: OpenBasin
     resolution: Resolution
     reach: Reach
+    shortest: float
     pencil: OpenPencil
 
     def squared_frequency(self, omega: complex) -> complex:
         """λ of an ω in rad/s."""
         return complex(omega / self.basin.units.frequency) ** 2
+
+    @cached_property
+    def wetted(self) -> tuple[WettedSurface, ...]:
+        """The bodies' surfaces, for the waves of the band (collective)."""
+        return tuple(WettedSurface(self.pencil.liquid, body, self.shortest) for body in self.pencil.bodies)
 
     @cached_property
     def scale(self) -> MotionScale:
@@ -214,7 +222,7 @@ def open_model(
             bodies=whole_bodies(tank, resolution.shapes),
             surfaces=moving_surfaces(mesh, tank),
         )
-    return OpenModel(basin=basin, resolution=resolution, reach=frames, pencil=pencil)
+    return OpenModel(basin=basin, resolution=resolution, reach=frames, shortest=wavenumbers[1] * length, pencil=pencil)
 
 
 def _liquid(basin: OpenBasin, resolution: Resolution, mesh: object) -> LiquidSpace:

@@ -102,9 +102,7 @@ def _swept(
 
     first = first_resolution(scene, band)
     tank = open_basin(scene, band.wavenumbers(scene)[1]).tank
-    return attempted(
-        solve, first, workable_tolerance(tolerance, tank.depth), sharpest_exponent(tank, released=False)
-    )
+    return attempted(solve, first, workable_tolerance(tolerance, tank.depth), sharpest_exponent(tank, released=False))
 
 
 def _difference(one: OpenFrequency, other: OpenFrequency) -> float:
@@ -264,7 +262,10 @@ def _slow_row(comm: MPI.Comm, scene: TankScene, shapes: tuple[int, ...], waves: 
     unit = open_basin(scene, 0.0).units.frequency
     omegas = np.array([factor * unit for factor in _SLOW])
     attempt = _swept(comm, scene, omegas, shapes, watch)
-    first, second = (_row(omega, found, attempt.error, True) for omega, found in zip(omegas, attempt.result.swept.solutions, strict=True))
+    first, second = (
+        _row(omega, found, attempt.error, True)
+        for omega, found in zip(omegas, attempt.result.swept.solutions, strict=True)
+    )
     slower, slow = first.added_mass, second.added_mass
     grows = np.abs(slower - slow) > _GROWS * np.abs(np.diag(slow)).max()
     return replace(

@@ -44,9 +44,7 @@ def released_added_mass(
     first = resolution_for(tank, tolerance, (0.0,) * len(tank.pieces), exponent=exponent)
 
     def solve(resolution: Resolution) -> Attempt[np.ndarray]:
-        frames = reach(
-            basin, (_NO_WAVE, _NO_WAVE), first=0.5, growth=GROWTH, angle=ANGLE, tolerance=tolerance
-        )
+        frames = reach(basin, (_NO_WAVE, _NO_WAVE), first=0.5, growth=GROWTH, angle=ANGLE, tolerance=tolerance)
         with watch.stage("mesh"):
             mesh = distributed_mesh(comm, lambda: open_mesh(basin, resolution, frames, released=True))
         with watch.stage("forms"):

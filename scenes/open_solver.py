@@ -28,6 +28,9 @@ class OpenSolver:
             self._direct: ShiftedSolver = model.pencil.solver()
         self._reduced = ReducedPencil(model.pencil)
         self._loads = model.pencil.loads.astype(complex)
+        self._projected = np.zeros((len(self._loads), 0), dtype=complex)
+        # A sweep comes back to a frequency several times.
+        self._waves: dict[float, Incidence] = {}
 
     @property
     def factorizations(self) -> int:
@@ -41,9 +44,11 @@ class OpenSolver:
 
     def incidence(self, omega: float) -> Incidence:
         """The travelling waves at ω (collective)."""
-        with self._watch.stage("waves"):
-            scaled = omega / self.model.basin.units.frequency
-            return incidence(self.model, planes(self.model.basin.waves(scaled)))
+        if omega not in self._waves:
+            with self._watch.stage("waves"):
+                scaled = omega / self.model.basin.units.frequency
+                self._waves[omega] = incidence(self.model, planes(self.model.basin.waves(scaled)))
+        return self._waves[omega]
 
     def radiation(self, squared: complex) -> np.ndarray:
         """ψ of a unit of each body unknown at λ, in full; they enter the basis (collective)."""
@@ -57,7 +62,7 @@ class OpenSolver:
     def hydrodynamic(self, squared: complex) -> tuple[np.ndarray, float]:
         """H at λ on the basis, and the largest relative residual (collective)."""
         with self._watch.stage("reduce"):
-            projected = self._reduced.project(self._loads)
+            projected = self._projected_loads()
             coordinates = self._reduced.solve(squared, projected)
             residual = self._reduced.residuals(squared, self._loads, coordinates).max()
             return projected @ coordinates.T, float(residual)
@@ -79,7 +84,8 @@ class OpenSolver:
         waves = self.incidence(omega)
         with self._watch.stage("reduce"):
             loads = np.vstack([self._loads, -waves.fluxes])
-            coordinates = self._reduced.solve(squared, self._reduced.project(loads))
+            projected = np.vstack([self._projected_loads(), -self._reduced.project(waves.fluxes)])
+            coordinates = self._reduced.solve(squared, projected)
             residual = self._reduced.residuals(squared, loads, coordinates).max()
             potentials = self._reduced.potentials(coordinates)
         count = len(self._loads)
@@ -108,15 +114,16 @@ class OpenSolver:
         waves = self.incidence(omega)
         with self._watch.stage("solve"):
             self._direct.shift(squared)
-            radiated, diffracted = self._solved(self._loads), self._solved(-waves.fluxes[incident])
+            radiated, diffracted = self._solved(self._loads), self._solved(-waves.fluxes)
         products = self.model.pencil.products
         dynamic = self.model.stiffness - squared * (self.model.mass + products(self._loads, radiated))
-        forces = squared * (waves.pressures[incident] + products(diffracted, self._loads))
+        forces = squared * (waves.pressures + products(diffracted, self._loads))
         motions = np.linalg.solve(dynamic, forces.T).T
         scattered = diffracted + motions @ radiated
         with self._watch.stage("reduce"):
+            # Waves from the other side are the dual problem of amplitudes: with them these are of second order.
             self._reduced.add(scattered)
-        return self._response(squared, waves, incident, scattered, motions)
+        return self._response(squared, waves, incident, scattered[incident], motions[incident])
 
     def response_between(self, omega: float, incident: list[int]) -> tuple[OpenResponse, float]:
         """The same on the basis, and its largest relative residual (collective).
@@ -126,7 +133,7 @@ class OpenSolver:
         squared = self.model.squared_frequency(omega)
         waves = self.incidence(omega)
         with self._watch.stage("reduce"):
-            coupling = self._reduced.project(self._loads)
+            coupling = self._projected_loads()
             operator = np.block(
                 [
                     [self._reduced.operator(squared), -coupling.T],
@@ -152,6 +159,12 @@ class OpenSolver:
             scattered=scattered,
             motions=motions,
         )
+
+    def _projected_loads(self) -> np.ndarray:
+        """VᵀF, for the basis as it is (collective)."""
+        if self._projected.shape[1] != self._reduced.size:
+            self._projected = self._reduced.project(self._loads)
+        return self._projected
 
     def _solved(self, loads: np.ndarray) -> np.ndarray:
         return np.array([self._direct.solve(load) for load in loads]).reshape(loads.shape)

@@ -19,6 +19,8 @@ Solution = TypeVar("Solution")
 FEW = 6
 """So many frequencies are solved in full, each by itself."""
 
+# Until the basis is good at so many frequencies the others are not looked at.
+_CANDIDATES = 24
 # Part of the tolerance that is left to the reduced basis.
 _SHARE = 0.1
 # A ratio that was seen at a few frequencies may be larger at others.
@@ -69,22 +71,23 @@ def sweep(problem: Problem[Solution], omegas: np.ndarray, tolerance: float) -> S
             errors=np.zeros(len(omegas)),
             in_full=[True] * len(omegas),
         )
-    order = np.argsort(omegas)
-    known = {int(order[place]): None for place in (0, len(order) // 2, len(order) - 1)}
-    full = {place: problem.full(float(omegas[place])) for place in known}
+    order = [int(place) for place in np.argsort(omegas)]
+    full = {place: problem.full(float(omegas[place])) for place in (order[0], order[len(order) // 2], order[-1])}
+    found: dict[int, tuple[Solution, float]] = {}
     ratio = 0.0
-    while True:
-        found = {place: problem.reduced(float(omega)) for place, omega in enumerate(omegas) if place not in full}
-        residuals = {place: residual for place, (_, residual) in found.items()}
-        if not residuals:
-            break
-        worst = max(residuals, key=lambda place: residuals[place])
-        if ratio and _SAFETY * ratio * residuals[worst] ** 2 <= _SHARE * tolerance:
-            break
-        full[worst] = problem.full(float(omegas[worst]))
-        difference = problem.difference(found[worst][0], full[worst])
-        ratio = max(ratio, difference / max(residuals[worst], np.finfo(float).eps) ** 2)
-    # The basis has grown since: its solutions are better than when they were judged.
+
+    def is_good(place: int) -> bool:
+        return place in found and 0.0 < _SAFETY * ratio * found[place][1] ** 2 <= _SHARE * tolerance
+
+    for candidates in (order[:: max(len(order) // _CANDIDATES, 1)], order):
+        while poor := [place for place in candidates if place not in full and not is_good(place)]:
+            found |= {place: problem.reduced(float(omegas[place])) for place in poor}
+            worst = max(poor, key=lambda place: found[place][1])
+            if is_good(worst):
+                continue
+            full[worst] = problem.full(float(omegas[worst]))
+            difference = problem.difference(found[worst][0], full[worst])
+            ratio = max(ratio, difference / max(found[worst][1], np.finfo(float).eps) ** 2)
     errors = np.zeros(len(omegas))
     solutions: list[Solution] = []
     for place in range(len(omegas)):
@@ -92,5 +95,5 @@ def sweep(problem: Problem[Solution], omegas: np.ndarray, tolerance: float) -> S
             solutions.append(full[place])
         else:
             solutions.append(found[place][0])
-            errors[place] = _SAFETY * ratio * residuals[place] ** 2
+            errors[place] = _SAFETY * ratio * found[place][1] ** 2
     return Swept(solutions=solutions, errors=errors, in_full=[place in full for place in range(len(omegas))])

@@ -1,0 +1,77 @@
+"""The wetted surface of a body as quadrature points: for loads and integrals of fields that change with the frequency."""
+
+from __future__ import annotations
+
+import numpy as np
+from mpi4py import MPI
+
+from hydroelastic.fem.facets import facet_groups
+from hydroelastic.fem.liquid import LiquidSpace
+from hydroelastic.fem.shape_loads import facet_quadrature, potential_basis, singular_corner, summed_over_processes
+from hydroelastic.fem.surfaces import Body
+
+
+class WettedSurface:
+    """Quadrature on one body, for fields up to a wavenumber.
+
+    Args:
+        liquid: space of ψ.
+        body: the body; its own shapes are evaluated once.
+        wavenumber: the largest of the fields.
+
+    Attributes:
+        points: on this process, shape (points, gdim).
+        normals: outward unit normals of the liquid there, of the same shape.
+        layers: index of the layer at each point.
+        shapes: of the body, shape (shapes, points).
+    """
+
+    def __init__(self, liquid: LiquidSpace, body: Body, wavenumber: float) -> None:
+        """Find the points (collective)."""
+        self._liquid = liquid
+        self._groups: list[tuple[np.ndarray, np.ndarray, int]] = []
+        points, normals, weights, layers = [], [], [], []
+        for group in facet_groups(liquid, body.surface):
+            at_corner = singular_corner(body, group)
+            for corner in np.unique(at_corner):
+                own = group.subset(at_corner == corner)
+                quadrature = facet_quadrature(liquid, own, body.wavenumber + wavenumber, int(corner))
+                dofs = liquid.space.dofmap.list[own.cells]
+                basis = potential_basis(liquid, quadrature.reference)
+                self._groups.append((dofs, basis, quadrature.weights.size))
+                points.append(quadrature.points.T)
+                normals.append(quadrature.normals.T)
+                weights.append(quadrature.weights.ravel())
+                layers.append(np.repeat(liquid.layer_of[dofs[:, 0]], quadrature.weights.shape[1]))
+        dim = liquid.tank.mesh.geometry.dim
+        self.points = np.vstack([np.empty((0, dim)), *points])
+        self.normals = np.vstack([np.empty((0, dim)), *normals])
+        self.layers = np.concatenate([np.empty(0, dtype=np.int8), *layers])
+        densities = np.array([layer.density for layer in liquid.layers])
+        self._weights = np.concatenate([np.empty(0), *weights]) * densities[self.layers]
+        self.shapes = np.array(
+            [body.shapes(self.points.T, self.normals.T, number) for number in range(body.size)]
+        ).reshape(body.size, len(self.points))
+
+    def loads(self, fluxes: np.ndarray) -> np.ndarray:
+        """∫ρ f q for complex functions f, shape (functions, points), on own unknowns: (functions, unknowns)
+        (collective)."""
+        index_map = self._liquid.space.dofmap.index_map
+        parts = np.vstack([fluxes.real, fluxes.imag]) * self._weights
+        loads = np.zeros((len(parts), index_map.size_local + index_map.num_ghosts))
+        first = 0
+        for dofs, basis, count in self._groups:
+            local = parts[:, first : first + count].reshape(len(parts), len(dofs), -1) @ basis
+            for load, values in zip(loads, local, strict=True):
+                np.add.at(load, dofs, values)
+            first += count
+        own = summed_over_processes(self._liquid, loads)
+        complex_loads: np.ndarray = own[: len(fluxes)] + 1j * own[len(fluxes) :]
+        return complex_loads
+
+    def integrals(self, one: np.ndarray, other: np.ndarray) -> np.ndarray:
+        """∫ρ f g for functions f and g at the points, shape (functions f, functions g), without conjugation
+        (collective)."""
+        total = ((one * self._weights) @ other.T).astype(complex)
+        self._liquid.tank.mesh.comm.Allreduce(MPI.IN_PLACE, total)
+        return np.asarray(total)

@@ -105,7 +105,8 @@ def _draw_radiation(table: RadiationTable, title: str, path: Path) -> None:
 
 
 def _largest(values: np.ndarray) -> float:
-    return float(np.nanmax(np.abs(values), initial=0.0)) or 1.0
+    """Largest finite value, which may be negative; the added mass of very long waves may be infinite."""
+    return float(np.abs(values[np.isfinite(values)]).max(initial=0.0)) or 1.0
 
 
 def _draw_response(table: ResponseTable, title: str, path: Path) -> None:

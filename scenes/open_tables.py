@@ -272,5 +272,5 @@ def _error(value: float) -> str:
 
 
 def _largest(values: np.ndarray) -> str:
-    known = values[np.isfinite(values)]
+    known = np.abs(values[np.isfinite(values)])
     return f"{known.max():.1e}" if known.size else "–"

@@ -222,7 +222,9 @@ def markdown(summary: Summary) -> str:
 def markdown_table(headings: tuple[str, ...], rows: list[tuple[str, ...]]) -> str:
     """Return a table in Markdown."""
     lines = [headings, tuple("---" for _ in headings), *rows]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+    # A bar in a cell would end it.
+    cells = [[cell.replace("|", r"\|") for cell in line] for line in lines]
+    return "\n".join("| " + " | ".join(line) + " |" for line in cells)
 
 
 def mode_csv(summary: Summary) -> str:

@@ -9,6 +9,7 @@ import csv
 import json
 import sys
 import types
+from dataclasses import replace
 from math import inf
 from pathlib import Path
 from typing import Any
@@ -24,9 +25,13 @@ from hydroelastic.scenes.command_line import main
 from hydroelastic.scenes.compare import compare_scene
 from hydroelastic.scenes.dataset import open_dataset, write_dataset
 from hydroelastic.scenes.errors import SceneError
+from hydroelastic.scenes.field_solution import Stopwatch
+from hydroelastic.scenes.model_analyses import Radiation, Response
 from hydroelastic.scenes.models import TankScene
 from hydroelastic.scenes.open_csv import write_csv
 from hydroelastic.scenes.open_figures import draw_open
+from hydroelastic.scenes.open_radiation import solve_radiation
+from hydroelastic.scenes.open_response import solve_response
 from hydroelastic.scenes.open_results import OpenSolution
 from hydroelastic.scenes.open_summary import json_ready, summarize_open
 from hydroelastic.scenes.open_tables import MOST_ROWS, markdown_open, printed_open
@@ -102,6 +107,46 @@ def test_capytaines_recipe_for_complex_numbers_and_motions_works(written: xarray
         rtol=0,
         atol=1e-15,
     )
+
+
+def test_motions_in_waves_follow_from_the_dataset_of_radiation() -> None:
+    """Radiation and response are solved apart, and meet in the equation of motion by the dataset's labels.
+
+    An ellipse off the origin, with an off-centre mass to couple sway and roll; matrices and forces to 1e-6 each.
+    """
+    ellipse = CIRCLE | {"half_height": 0.4, "motions": ["heave", "sway", "roll"], "centre_of_mass": -0.1}
+    analyses: list[dict[str, Any]] = [
+        {"kind": "radiation", "omega": [3.0]},
+        {"kind": "response", "omega": [3.0]},
+        {"kind": "response", "omega": [3.0], "waves_from": "right"},
+    ]
+    scene = open_scene(ellipse, liquids=(DEEP, OIL), analyses=analyses)
+    watch = Stopwatch()
+    radiation, *responses = scene.analyses
+    assert isinstance(radiation, Radiation)
+    solution = replace(
+        arbitrary_solution(scene),
+        radiation=(solve_radiation(MPI.COMM_WORLD, scene, radiation, watch).table,),
+        response=tuple(
+            solve_response(MPI.COMM_WORLD, scene, response, watch).table
+            for response in responses
+            if isinstance(response, Response)
+        ),
+    )
+    found = open_dataset(solution).sel(omega=3.0)
+    impedance = (
+        -9.0 * (found["inertia_matrix"] + found["added_mass"])
+        - 3.0j * found["radiation_damping"]
+        + found["hydrostatic_stiffness"]
+    ).transpose("radiating_dof", "influenced_dof")
+    for side in (0.0, np.pi):
+        for wave in ("internal", "surface"):
+            at = {"wave_direction": side, "wave": wave}
+            force = found["excitation_force"].sel(at)
+            expected = found["RAO"].sel(at).values
+            # Rigid motions in SI: heave and sway in m, roll in rad, of like size here.
+            motions = np.linalg.solve(impedance.values, force.values)
+            np.testing.assert_allclose(motions, expected, rtol=0, atol=1e-5 * np.abs(expected).max())
 
 
 def test_what_capytaine_has_no_name_for_is_there(written: xarray.Dataset) -> None:
@@ -253,7 +298,12 @@ def test_what_falls_short_is_said_loudly() -> None:
     for text in (printed_open(solution, summary), markdown_open(solution, summary)):
         assert "NOT CONVERGED to the tolerance 1e-06" in text
         assert "the error of heave is 1e-3" in text
-    assert "## Radiation by heave" in markdown_open(solution, summary)
+    text = markdown_open(solution, summary)
+    assert "## Radiation by heave" in text
+    # A bar in a cell would end it: all lines of a table have as many cells.
+    heave = text[text.index("## Radiation by heave") : text.index("## Radiation by sway")]
+    counts = {line.replace(r"\|", "").count("|") for line in heave.splitlines() if line.startswith("|")}
+    assert counts == {7}
 
 
 def test_every_analysis_has_its_curves(tmp_path: Path) -> None:

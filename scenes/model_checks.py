@@ -222,7 +222,7 @@ def _joints_are_in_range(scene: TankScene, index: int, beam: Beam) -> Iterator[I
 
 
 def _joints_lie_in_their_beams(scene: TankScene) -> Iterator[InitErrorDetails]:
-    negligible, nearest = ROUND_OFF * scene.tank.length, SHORTEST_BEAM * scene.tank.length
+    negligible, nearest = ROUND_OFF * scene.tank.length, SHORTEST_BEAM * bodies_span(scene)
     for index, beam in scene.beams:
         steps = [sum(part.length for part in beam.parts[:number]) for number in range(1, len(beam.parts))]
         for number, joint in enumerate(beam.joints):
@@ -242,20 +242,20 @@ def _joints_lie_in_their_beams(scene: TankScene) -> Iterator[InitErrorDetails]:
                     where,
                     joint.at,
                     "it is too close to an end, to a step of the beam or to another joint for one mesh to show both",
-                    allowed=f"at least {nearest:g} m between them ({SHORTEST_BEAM:g} of the tank's length)",
+                    allowed=f"at least {nearest:g} m between them ({SHORTEST_BEAM:g} of {_span_name(scene)})",
                 )
 
 
 def _sections_are_not_too_short(scene: TankScene) -> Iterator[InitErrorDetails]:
-    shortest = SHORTEST_BEAM * scene.tank.length
+    shortest = SHORTEST_BEAM * bodies_span(scene)
     for index, beam in scene.beams:
         for number, part in enumerate(beam.sections):
             if part.length < shortest:
                 yield misfit(
                     ("body", index, "sections", number, "length"),
                     part.length,
-                    "the section is too short beside the tank for one mesh to show both",
-                    allowed=f"at least {shortest:g} m ({SHORTEST_BEAM:g} of the tank's length)",
+                    "the section is too short for one mesh to show it and all the rest",
+                    allowed=f"at least {shortest:g} m ({SHORTEST_BEAM:g} of {_span_name(scene)})",
                 )
 
 

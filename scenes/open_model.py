@@ -8,6 +8,7 @@ from math import pi
 
 import numpy as np
 from mpi4py import MPI
+from scipy.linalg import block_diag
 
 from hydroelastic.fem.cells import cell_corners, cells_at, owned_cells
 from hydroelastic.fem.complex_scaling import ComplexScaling, compile_scaled_form
@@ -115,7 +116,8 @@ class OpenModel:
     @cached_property
     def mass(self) -> np.ndarray:
         """M of the bodies."""
-        return np.diag(np.concatenate([body.mass for body in self.pencil.bodies]))
+        matrix: np.ndarray = block_diag(*(body.mass for body in self.pencil.bodies))
+        return matrix
 
     def energies_missed(self, potentials: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Estimate ∫ρ|∇(ψ − ψ_h)|² of some ψ away from tips and at them, each of shape (potentials,) (collective)."""
@@ -170,10 +172,11 @@ def first_resolution(scene: TankScene, band: Band) -> Resolution:
         if level.below == 1 and own * tank.layers[1].depth > _UNFELT:
             own = shortest["surface"]
         for piece in level.pieces:
-            moving = tank.moving_piece(level, piece) if piece.body in tank.beams else None
-            wavenumbers.append(
-                own if piece.body is None else 0.0 if moving is None else max(own, moving.wavenumber(squared))
-            )
+            if piece.body is None:
+                wavenumbers.append(own)
+            else:
+                flexural = (moving.wavenumber(squared) for moving in tank.moving_pieces(level, piece))
+                wavenumbers.append(max(own, *flexural) if piece.body in tank.beams else 0.0)
     tolerance = workable_tolerance(scene.accuracy.tolerance, tank.depth)
     return resolution_for(tank, tolerance, tuple(wavenumbers), exponent=sharpest_exponent(tank, released=False))
 

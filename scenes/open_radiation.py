@@ -7,6 +7,7 @@ from math import isfinite, nan
 
 import numpy as np
 from mpi4py import MPI
+from scipy.linalg import block_diag
 
 from hydroelastic.scenes.certainty import FrequencyErrors
 from hydroelastic.scenes.field_solution import Stopwatch
@@ -25,7 +26,7 @@ from hydroelastic.scenes.field_model import whole_bodies
 from hydroelastic.scenes.plan import Resolution, sharpest_exponent, workable_tolerance
 from hydroelastic.scenes.scaled_tank import ScaledTank
 
-# Heave and pitch of a beam come before its elastic shapes.
+# Heave and pitch of a beam, and one more motion for each hinge, come before its elastic shapes.
 _RIGID = 2
 # Parts of √(g/length) that stand for ω = 0, where added mass differs from its limit like their squares; slower waves
 # leave too few digits. Between the two −ln ω grows by more than this.
@@ -66,7 +67,10 @@ def solve_radiation(comm: MPI.Comm, scene: TankScene, asked: Radiation, watch: S
 
 
 def _reported_shapes(tank: ScaledTank, elastic: int) -> tuple[int, ...]:
-    return tuple(_RIGID + elastic if index in tank.beams else 0 for index in range(len(tank.bodies)))
+    return tuple(
+        _RIGID + len(tank.beams[index].hinges) + elastic if index in tank.beams else 0
+        for index in range(len(tank.bodies))
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -188,7 +192,7 @@ def _tabulated(
         relative_error=np.array([row.relative_error for row in ordered]),
         energy_residual=np.array([row.energy_residual for row in ordered]),
         haskind_residual=np.array([row.haskind_residual for row in ordered]),
-        inertia=scale.masses(np.diag(np.concatenate([body.mass for body in bodies]))),
+        inertia=scale.masses(block_diag(*(body.mass for body in bodies))),
         stiffness=scale.stiffnesses(np.diag(np.concatenate([body.stiffness for body in bodies]))),
         infinite_frequency_added_mass=rows[np.inf].added_mass if np.inf in rows else None,
         factorizations=attempt.result.factorizations if attempt else 0,

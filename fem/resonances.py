@@ -12,11 +12,12 @@ follows from the eigenvector alone, tells one from the other, and how well a res
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from mpi4py import MPI
 from petsc4py import PETSc
+from scipy.linalg import eig
 from slepc4py import SLEPc
 
 from hydroelastic.fem.complex_direct import ShiftedSolver
@@ -27,6 +28,9 @@ from hydroelastic.meshes.interrupts import interrupts_deferred
 
 # An eigenvector of the conjugate leaves rounding.
 _CONJUGATE = 1e-6
+# Newton's steps double the digits until rounding stops them.
+_STEP = 1e-11
+_MOST_STEPS = 12
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,7 +43,8 @@ class Eigenpair:
         potential: ψ, own free unknowns.
         norm: xᵀT'(λ)x of the symmetric form T = [[λ(A − λM), −λF], [−λFᵀ, K − λM_b]].
         drift: |dλ/dα|/|λ|.
-        residual: ‖(A − λM)ψ − Fa‖/‖Fa‖, or ‖Aψ‖ below it where no body moves.
+        participation: |λaᵀM_b a|/|λ xᵀT'x|, zero where the water moves by itself and the bodies rest.
+        residual: relative: of the first equation as SLEPc leaves it, or the last step of Newton's method.
     """
 
     eigenvalue: complex
@@ -47,6 +52,7 @@ class Eigenpair:
     potential: np.ndarray
     norm: complex
     drift: float
+    participation: float
     residual: float
 
 
@@ -67,7 +73,7 @@ class ResonanceSearch:
         self._solver: ShiftedSolver = pencil.solver()
         self._turning = pencil.turning()
 
-    def near(self, target: complex, count: int, tolerance: float = 1e-11) -> tuple[list[Eigenpair], float]:
+    def near(self, target: complex, count: int, tolerance: float = 1e-9) -> list[Eigenpair]:
         """Eigenvalues nearest to a target.
 
         Args:
@@ -76,7 +82,7 @@ class ResonanceSearch:
             tolerance: relative residual of the inverted problem.
 
         Returns:
-            The eigenpairs, and the distance from the target within which there is no other (collective).
+            The eigenpairs (collective).
 
         Raises:
             EigenSolverError: if SLEPc stops before enough pairs have converged.
@@ -95,14 +101,40 @@ class ResonanceSearch:
         converged = solver.getConverged()
         if converged < 2 * count:
             raise EigenSolverError(f"{converged // 2} of {count} resonances converged near {target:g}")
-        pairs, farthest = [], 0.0
+        pairs = []
         for index in range(converged):
             inverse = solver.getEigenvalue(index)
-            farthest = max(farthest, abs(1.0 / inverse))
             vector = operator.eigenvector(solver, index)
             if vector is not None:
                 pairs.append(self._pair(target + 1.0 / inverse, *vector))
-        return pairs, farthest
+        return pairs
+
+    def refined(self, eigenvalue: complex) -> Eigenpair:
+        """The resonance next to a value, by Newton's method on the bodies' small matrix (collective).
+
+        Of D(λ) = K − λ(M_b + H(λ)), with dH/dλ = ΨᵀMΨ and Ψ = (A − λM)⁻¹F, the step δ solves (D + δD') a = 0.
+
+        Args:
+            eigenvalue: near a resonance in which bodies move.
+
+        Raises:
+            EigenSolverError: if it does not converge.
+        """
+        products = self._pencil.products
+        for _ in range(_MOST_STEPS):
+            self._solver.shift(eigenvalue)
+            radiated = np.array([self._solver.solve(load) for load in self._loads])
+            images = np.array([complex_product(self._pencil.mass, potential) for potential in radiated])
+            added, slope = products(self._loads, radiated), products(radiated, images)
+            dynamic = self._stiffness - eigenvalue * (self._mass + added)
+            steps, vectors = eig(dynamic, self._mass + added + eigenvalue * slope)
+            nearest = int(np.argmin(np.abs(steps)))
+            step, bodies = complex(steps[nearest]), vectors[:, nearest]
+            eigenvalue += step
+            if abs(step) <= _STEP * abs(eigenvalue):
+                pair = self._pair(eigenvalue, bodies @ radiated, bodies)
+                return replace(pair, residual=abs(step / eigenvalue))
+        raise EigenSolverError(f"Newton's method does not settle on a resonance near {eigenvalue:g}")
 
     def _pair(self, eigenvalue: complex, potential: np.ndarray, bodies: np.ndarray) -> Eigenpair:
         pencil = self._pencil
@@ -113,23 +145,18 @@ class ResonanceSearch:
         def with_potential(other: np.ndarray) -> complex:
             return complex(pencil.products(potential[None], other[None])[0, 0])
 
-        norm = (
-            with_potential(laplace)
-            - 2.0 * eigenvalue * with_potential(mass)
-            - 2.0 * with_potential(load)
-            - bodies @ self._mass @ bodies
-        )
-        drift = eigenvalue * (with_potential(turned[0]) - eigenvalue * with_potential(turned[1])) / norm
+        own = complex(bodies @ self._mass @ bodies)
+        norm = with_potential(laplace) - 2.0 * eigenvalue * with_potential(mass) - 2.0 * with_potential(load) - own
+        drift = (with_potential(turned[0]) - eigenvalue * with_potential(turned[1])) / norm
         rest = laplace - eigenvalue * mass - load
-        sizes = [
-            np.sqrt(pencil.comm.allreduce(np.vdot(part, part).real, op=MPI.SUM)) for part in (rest, load, laplace)
-        ]
+        sizes = [np.sqrt(pencil.comm.allreduce(np.vdot(part, part).real, op=MPI.SUM)) for part in (rest, load, laplace)]
         return Eigenpair(
             eigenvalue=eigenvalue,
             bodies=bodies,
             potential=potential,
             norm=norm,
-            drift=abs(drift / eigenvalue),
+            drift=abs(drift),
+            participation=abs(own / norm),
             residual=float(sizes[0] / max(sizes[1:])),
         )
 

@@ -25,8 +25,8 @@ from hydroelastic.scenes.certainty import FrequencyErrors, boundary_error
 from hydroelastic.scenes.field_model import distributed_mesh, moving_surfaces, whole_bodies
 from hydroelastic.scenes.field_solution import Stopwatch
 from hydroelastic.scenes.models import TankScene
-from hydroelastic.scenes.open_basin import OpenBasin, Reach, liquids_of, open_basin, reach
 from hydroelastic.scenes.motion_scale import MotionScale, motion_scale
+from hydroelastic.scenes.open_basin import OpenBasin, Reach, liquids_of, open_basin, reach
 from hydroelastic.scenes.plan import (
     Resolution,
     radians,

@@ -10,6 +10,7 @@ from mpi4py import MPI
 from scipy.linalg import block_diag
 
 from hydroelastic.scenes.certainty import FrequencyErrors
+from hydroelastic.scenes.field_model import whole_bodies
 from hydroelastic.scenes.field_solution import Stopwatch
 from hydroelastic.scenes.model_analyses import Radiation
 from hydroelastic.scenes.models import TankScene
@@ -22,7 +23,6 @@ from hydroelastic.scenes.open_released import released_added_mass
 from hydroelastic.scenes.open_results import DIRECTIONS, RadiationTable
 from hydroelastic.scenes.open_solver import OpenSolver
 from hydroelastic.scenes.open_sweep import Problem, Swept, sweep
-from hydroelastic.scenes.field_model import whole_bodies
 from hydroelastic.scenes.plan import Resolution, sharpest_exponent, workable_tolerance
 from hydroelastic.scenes.scaled_tank import ScaledTank
 

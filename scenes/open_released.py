@@ -2,24 +2,71 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from mpi4py import MPI
+from scipy.linalg import block_diag
 
 from hydroelastic.fem.added_mass import body_responses
 from hydroelastic.fem.liquid import compile_form
 from hydroelastic.scenes.certainty import FrequencyErrors, boundary_error, energies_missed
-from hydroelastic.scenes.field_model import build_field_model, distributed_mesh
+from hydroelastic.scenes.field_model import build_field_model, distributed_mesh, whole_bodies
 from hydroelastic.scenes.field_solution import Stopwatch
 from hydroelastic.scenes.models import TankScene
 from hydroelastic.scenes.open_attempts import Attempt, attempted
 from hydroelastic.scenes.open_basin import open_basin, reach
-from hydroelastic.scenes.open_model import ANGLE, GROWTH, OpenModel, open_mesh
+from hydroelastic.scenes.open_model import ANGLE, GROWTH, open_mesh
 from hydroelastic.scenes.plan import Resolution, resolution_for, rounding_error, sharpest_exponent, workable_tolerance
+from hydroelastic.scenes.scaling import Scales
 
+# Dry modes of each beam, and tolerance, where frequencies are only to be known roughly.
+_SHAPES = 16
+_ROUGH = 1e-3
 # Nothing travels; in units of the basin this is a length like its own.
 _NO_WAVE = 1.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReleasedModel:
+    """The bodies with their added mass far above the waves, dimensionless.
+
+    Attributes:
+        units: of length and frequency.
+        stiffness: K, shape (body unknowns, body unknowns).
+        mass: M_b.
+        added_mass: a(∞).
+        error: its relative error.
+    """
+
+    units: Scales
+    stiffness: np.ndarray
+    mass: np.ndarray
+    added_mass: np.ndarray
+    error: float
+
+
+def rough_scene(scene: TankScene) -> TankScene:
+    """The same scene with little accuracy, for what only has to be found."""
+    return scene.model_copy(update={"accuracy": scene.accuracy.model_copy(update={"tolerance": _ROUGH})})
+
+
+def released_model(comm: MPI.Comm, scene: TankScene, watch: Stopwatch) -> ReleasedModel:
+    """The bodies in as many shapes as a first look at their frequencies needs (collective)."""
+    basin = open_basin(scene, 0.0)
+    shapes = tuple(
+        _SHAPES + len(basin.tank.beams[index].hinges) if index in basin.tank.beams else 0
+        for index in range(len(basin.tank.bodies))
+    )
+    added, error = released_added_mass(comm, rough_scene(scene), shapes, watch)
+    bodies = whole_bodies(basin.tank, shapes)
+    return ReleasedModel(
+        units=basin.units,
+        stiffness=np.diag(np.concatenate([body.stiffness for body in bodies])),
+        mass=block_diag(*(body.mass for body in bodies)),
+        added_mass=added,
+        error=error,
+    )
 
 
 def released_added_mass(

@@ -1,0 +1,231 @@
+"""Complex resonances: where the bodies in open water oscillate by themselves and die out, ω − iγ."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import sqrt, tan
+
+import numpy as np
+from mpi4py import MPI
+from scipy.linalg import eigh
+
+from hydroelastic.fem.resonances import Eigenpair, ResonanceSearch
+from hydroelastic.scenes.certainty import FrequencyErrors, boundary_error
+from hydroelastic.scenes.field_solution import Stopwatch
+from hydroelastic.scenes.model_analyses import Resonance
+from hydroelastic.scenes.models import TankScene
+from hydroelastic.scenes.open_attempts import Attempt, attempted
+from hydroelastic.scenes.open_basin import open_basin
+from hydroelastic.scenes.open_count import zeros_in
+from hydroelastic.scenes.open_model import Band, OpenModel, first_resolution, open_model
+from hydroelastic.scenes.open_released import released_model, rough_scene
+from hydroelastic.scenes.open_results import ResonanceTable
+from hydroelastic.scenes.open_solver import OpenSolver
+from hydroelastic.scenes.plan import Resolution, rounding_error, sharpest_exponent, workable_tolerance
+
+ANGLE = 1.3
+"""α of the complex scaling: resonances with −Im ω/Re ω below tan(α/2) = 0.76 are uncovered in deep water."""
+
+# A resonance does not move with α; what the search takes for one moves less than this.
+_STILL = 1e-2
+# The region searched goes beyond the expected frequencies by these factors.
+_BELOW, _ABOVE = 0.3, 1.25
+# Eigenvalues asked for near each target: a few resonances and the waves that leave around them.
+_PER_TARGET = 8
+# Error of λ over what it moves by a radian of α; measured on a circle and a thin float it is smaller.
+_DRIFT = 0.1
+# The same resonance from two targets.
+_SAME = 1e-6
+# Bodies with a smaller part in a motion rest while the water moves by itself.
+_AT_REST = 1e-8
+
+
+@dataclass(frozen=True, kw_only=True)
+class Region:
+    """Where resonances are looked for: lowest < Re ω < highest, −Im ω < damping · Re ω, in rad/s."""
+
+    lowest: float
+    highest: float
+    damping: float
+
+    def holds(self, omega: complex) -> bool:
+        """Whether a frequency lies within."""
+        return self.lowest < omega.real < self.highest and -omega.imag < self.damping * omega.real
+
+    def boundary(self, count: int) -> np.ndarray:
+        """Points around it, counterclockwise, denser where it is narrow; the upper side is a little above the axis."""
+        corners = [
+            self.lowest * (1.0 - 1j * self.damping),
+            self.highest * (1.0 - 1j * self.damping),
+            self.highest * (1.0 + 0.02j),
+            self.lowest * (1.0 + 0.02j),
+        ]
+        sides = []
+        for start, end in zip(corners, [*corners[1:], corners[0]], strict=True):
+            steps = np.arange(count) / count
+            # Equal ratios along the axis, equal steps across it.
+            along = (
+                start * (end / start) ** steps if abs(end.real - start.real) > 0.0 else start + steps * (end - start)
+            )
+            sides.append(along)
+        return np.concatenate(sides)
+
+    def words(self) -> str:
+        """The region in words."""
+        return f"{self.lowest:.4g} < Re ω < {self.highest:.4g} rad/s, −Im ω < {self.damping:g} Re ω"
+
+
+@dataclass(frozen=True, kw_only=True)
+class ResonanceSolution:
+    """What a resonance analysis found.
+
+    Attributes:
+        table: the numbers.
+        model: the last problem.
+        error: the largest relative error.
+        reasons: why the count is not confirmed; empty if it is.
+    """
+
+    table: ResonanceTable
+    model: OpenModel
+    error: float
+    reasons: tuple[str, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Found:
+    """Resonances at one resolution."""
+
+    model: OpenModel
+    pairs: list[Eigenpair]
+
+
+def solve_resonance(comm: MPI.Comm, scene: TankScene, asked: Resonance, watch: Stopwatch) -> ResonanceSolution:
+    """Find resonances to the scene's tolerance, and count them independently (collective).
+
+    Args:
+        comm: MPI communicator.
+        scene: with open ends.
+        asked: the analysis.
+        watch: told the time.
+
+    Raises:
+        EigenSolverError: if SLEPc fails.
+    """
+    expected = _expected(comm, scene, watch)
+    region = _region(expected, asked)
+    band = Band(lowest=region.lowest, highest=region.highest)
+    tank = open_basin(scene, band.wavenumbers(scene)[1]).tank
+    rough = rough_scene(scene)
+    coarse = open_model(comm, rough, band, first_resolution(rough, band), watch, angle=ANGLE)
+    with watch.stage("resonances"):
+        targets = [omega for omega in expected if omega < region.highest] or [region.highest]
+        values = _search(coarse, targets, region)[: asked.count]
+
+    def solve(resolution: Resolution) -> Attempt[_Found]:
+        model = open_model(comm, scene, band, resolution, watch, angle=ANGLE)
+        with watch.stage("resonances"):
+            search = ResonanceSearch(model.pencil, model.stiffness, model.mass)
+            pairs = [search.refined(model.squared_frequency(omega)) for omega in values]
+        with watch.stage("errors"):
+            causes = _errors(model, pairs)
+        return Attempt(result=_Found(model=model, pairs=pairs), causes=causes, resolution=resolution)
+
+    attempt = attempted(
+        solve,
+        first_resolution(scene, band),
+        workable_tolerance(scene.accuracy.tolerance, tank.depth),
+        sharpest_exponent(tank, released=False),
+    )
+    found = attempt.result
+    closed = _closed_region(region, found, asked)
+    with watch.stage("count"):
+        counted = zeros_in(OpenSolver(coarse, watch), closed.boundary)
+    reasons = ()
+    if counted is None:
+        reasons = ("the independent count of the resonances is not certain: one may lie on the rim of its region",)
+    elif counted != len(found.pairs):
+        reasons = (f"an independent count finds {counted} resonances in the region, and {len(found.pairs)} are known",)
+    return ResonanceSolution(
+        table=_table(found, attempt.causes, counted, closed),
+        model=found.model,
+        error=attempt.error,
+        reasons=reasons,
+    )
+
+
+def _expected(comm: MPI.Comm, scene: TankScene, watch: Stopwatch) -> list[float]:
+    """Frequencies with the added mass far above the waves, rad/s, ascending, without those that nothing restores."""
+    limit = released_model(comm, scene, watch)
+    values = eigh(limit.stiffness, limit.mass + limit.added_mass, eigvals_only=True)
+    return [sqrt(value) * limit.units.frequency for value in values if value > 1e-9 * max(values.max(), 1e-300)]
+
+
+def _region(expected: list[float], asked: Resonance) -> Region:
+    highest = asked.below if asked.below is not None else _ABOVE * expected[min(asked.count, len(expected)) - 1]
+    return Region(
+        lowest=_BELOW * min(expected[0], highest),
+        highest=highest,
+        damping=min(asked.largest_damping, 0.95 * tan(0.5 * ANGLE)),
+    )
+
+
+def _search(model: OpenModel, targets: list[float], region: Region) -> list[complex]:
+    """ω of the resonances in a region in which bodies move, rad/s, by ascending |ω| (collective)."""
+    unit = model.basin.units.frequency
+    search = ResonanceSearch(model.pencil, model.stiffness, model.mass)
+    found: list[complex] = []
+    for target in targets:
+        # Beside the axis, on which the waves' own spectrum begins.
+        for pair in search.near(model.squared_frequency(target * (1.0 - 0.05j)), _PER_TARGET):
+            omega = complex(np.sqrt(pair.eigenvalue)) * unit
+            known = any(abs(omega - other) <= _SAME * abs(omega) for other in found)
+            if not known and pair.drift < _STILL and pair.participation > _AT_REST and region.holds(omega):
+                found.append(omega)
+    return sorted(found, key=abs)
+
+
+def _closed_region(region: Region, found: _Found, asked: Resonance) -> Region:
+    """The region of those that are reported: it ends halfway to where the next may be."""
+    if asked.below is not None or len(found.pairs) < asked.count:
+        return region
+    last = max(np.sqrt(pair.eigenvalue).real for pair in found.pairs) * found.model.basin.units.frequency
+    return Region(lowest=region.lowest, highest=min(region.highest, 1.02 * last), damping=region.damping)
+
+
+def _errors(model: OpenModel, pairs: list[Eigenpair]) -> FrequencyErrors:
+    """Errors of ω, half of those of λ: the energy missed over xᵀT'x, and how λ moves with α (collective)."""
+    count = len(pairs)
+    if not pairs:
+        return FrequencyErrors(liquid=np.zeros(0), tips=np.zeros(0), truncation=np.zeros(0), rounding=np.zeros(0))
+    away, tips = model.energies_missed(np.array([pair.potential for pair in pairs]))
+    norms = np.array([abs(pair.norm) for pair in pairs])
+    drifts = np.array([pair.drift for pair in pairs])
+    tank = model.basin.tank
+    return FrequencyErrors(
+        liquid=0.5 * (away / norms + _DRIFT * drifts) + boundary_error(model.pencil.liquid.tank, tank),
+        tips=0.5 * tips / norms,
+        truncation=np.zeros(count),
+        rounding=np.full(count, rounding_error(model.resolution.degree, min(tank.depth, 1.0))),
+    )
+
+
+def _table(found: _Found, causes: FrequencyErrors, counted: int | None, region: Region) -> ResonanceTable:
+    model, pairs = found.model, found.pairs
+    scale = model.scale
+    bodies = np.array([pair.bodies for pair in pairs]).reshape(len(pairs), len(scale.dofs))
+    motions = scale.amplitudes(bodies)
+    # Motions of different kinds are compared by their kinetic energy.
+    weights = np.sqrt(np.abs(np.diag(scale.masses(model.mass))))
+    strongest = np.argmax(np.abs(motions) * weights, axis=1) if len(pairs) else np.zeros(0, int)
+    largest = motions[np.arange(len(pairs)), strongest][:, None]
+    return ResonanceTable(
+        omega=np.sqrt(np.array([pair.eigenvalue for pair in pairs], dtype=complex)) * model.basin.units.frequency,
+        dofs=scale.dofs,
+        labels=tuple(scale.dofs[place] for place in strongest),
+        body_amplitudes=motions / largest,
+        residuals=np.array([pair.residual for pair in pairs]),
+        relative_error=causes.total,
+        counted=counted,
+        region=region.words(),
+    )

@@ -170,7 +170,7 @@ def first_resolution(scene: TankScene, band: Band) -> Resolution:
     for level in tank.levels:
         own = max(shortest.values())
         if level.below == 1 and own * tank.layers[1].depth > _UNFELT:
-            own = shortest["surface"]
+            own = shortest.get("surface", 0.0)
         for piece in level.pieces:
             if piece.body is None:
                 wavenumbers.append(own)

@@ -23,6 +23,7 @@ from mpi4py import MPI
 
 from hydroelastic.fem.resonances import Eigenpair, ResonanceSearch
 from hydroelastic.scenes.certainty import FrequencyErrors
+from hydroelastic.scenes.field_model import whole_bodies
 from hydroelastic.scenes.field_solution import Stopwatch
 from hydroelastic.scenes.model_analyses import Decay
 from hydroelastic.scenes.models import TankScene
@@ -32,7 +33,7 @@ from hydroelastic.scenes.open_basin import open_basin
 from hydroelastic.scenes.open_model import Band, OpenModel, first_resolution, open_model
 from hydroelastic.scenes.open_radiation import relative_difference
 from hydroelastic.scenes.open_released import released_added_mass
-from hydroelastic.scenes.open_resonance import ANGLE, Region, expected_frequencies, rough_resonances
+from hydroelastic.scenes.open_resonance import ANGLE, Region, expected_frequencies, resonance_errors, rough_resonances
 from hydroelastic.scenes.open_results import DecayTable
 from hydroelastic.scenes.open_solver import OpenSolver
 from hydroelastic.scenes.open_sweep import Problem, sweep
@@ -76,7 +77,7 @@ class _Motion:
         model: the problem.
         values: body unknowns, shape (times, body unknowns).
         errors: of all of them together, shape (times,).
-        slow: Im H at the lowest frequency.
+        slow: lim Im H = lim b/ω, as the lowest frequency of the mesh has it.
     """
 
     model: OpenModel
@@ -123,9 +124,7 @@ def solve_decay(comm: MPI.Comm, scene: TankScene, asked: Decay, watch: Stopwatch
         workable_tolerance(scene.accuracy.tolerance, tank.depth),
         sharpest_exponent(tank, released=False),
     )
-    return DecaySolution(
-        table=_table(scene, asked, attempt.result, expected), model=attempt.result.model, error=attempt.error
-    )
+    return DecaySolution(table=_table(asked, attempt.result), model=attempt.result.model, error=attempt.error)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -148,14 +147,10 @@ def _ray(resonances: list[complex]) -> _Ray:
     return _Ray(angle=angle, gap=gap)
 
 
-def _limit(
-    comm: MPI.Comm, scene: TankScene, resolution: Resolution, model: OpenModel, watch: Stopwatch
-) -> np.ndarray:
+def _limit(comm: MPI.Comm, scene: TankScene, resolution: Resolution, model: OpenModel, watch: Stopwatch) -> np.ndarray:
     """a(∞) in the units of the model."""
     long = open_basin(scene, 0.0)
     matrix, _ = released_added_mass(comm, scene, resolution.shapes, watch)
-    from hydroelastic.scenes.field_model import whole_bodies
-
     scale = motion_scale(long, whole_bodies(long.tank, resolution.shapes))
     return model.scale.unknown_masses(scale.masses(matrix))
 
@@ -180,12 +175,13 @@ def _followed(
     initial = _initial(model, asked)
     with watch.stage("motion"):
         added = solver.hydrodynamics((radii * turned) ** 2)
+        slowest = solver.hydrodynamics(chosen[:1] ** 2 * turned**2)[0]
         integrand = _integrand(model, limit, initial, radii * turned, added)
         times = np.array(asked.times) * unit
         values = _summed(times, poles, _residues(model, poles, initial), radii, ray, integrand)
         start = _summed(np.zeros(1), poles, _residues(model, poles, initial), radii, ray, integrand)[0]
     with watch.stage("errors"):
-        causes = _causes(model, poles)
+        causes = resonance_errors(model, poles)
     errors = _errors(times, poles, _residues(model, poles, initial), causes, values, start - initial)
     size = np.abs(initial).max()
     total = FrequencyErrors(
@@ -194,7 +190,13 @@ def _followed(
         truncation=np.zeros(1),
         rounding=causes.rounding,
     )
-    motion = _Motion(model=model, values=values, errors=errors + size * swept.errors.max(), slow=added[0].imag)
+    # H = C − (2h/π) ln p there, and the logarithm has the imaginary part −(π/2 + δ) on the ray.
+    motion = _Motion(
+        model=model,
+        values=values,
+        errors=errors + size * swept.errors.max(),
+        slow=slowest.imag / (1.0 + 2.0 * ray.angle / pi),
+    )
     return Attempt(result=motion, causes=total, resolution=model.resolution)
 
 
@@ -272,13 +274,6 @@ def _summed(
     return motion
 
 
-def _causes(model: OpenModel, poles: list[Eigenpair]) -> FrequencyErrors:
-    """Errors of the resonances' frequencies."""
-    from hydroelastic.scenes.open_resonance import resonance_errors
-
-    return resonance_errors(model, poles)
-
-
 def _errors(
     times: np.ndarray,
     poles: list[Eigenpair],
@@ -299,7 +294,7 @@ def _errors(
     return total + relative * np.abs(values).max(axis=1)
 
 
-def _table(scene: TankScene, asked: Decay, motion: _Motion, expected: list[float]) -> DecayTable:
+def _table(asked: Decay, motion: _Motion) -> DecayTable:
     model = motion.model
     scale = model.scale
     # Amplitudes are per metre; the unknowns are per unit of length.
@@ -313,12 +308,12 @@ def _table(scene: TankScene, asked: Decay, motion: _Motion, expected: list[float
         displacement=displacement,
         initial=initial,
         absolute_error=motion.errors * factor,
-        tail=_tail(scene, asked, motion, expected),
+        tail=_tail(asked, motion),
         certified_until=float(times.max()),
     )
 
 
-def _tail(scene: TankScene, asked: Decay, motion: _Motion, expected: list[float]) -> float | None:
+def _tail(asked: Decay, motion: _Motion) -> float | None:
     """T of a ~ T/t² of the motion that was let go; none where the water has a bed."""
     model = motion.model
     if not all(isinf(depth) for depth in model.basin.depths):

@@ -1,8 +1,8 @@
 """The pencil of open water on a few of its own solutions: Galerkin's method between frequencies.
 
-With a basis V of solutions at some frequencies, (VᵀAV − λVᵀMV) y = Vᵀf gives ψ ≈ Vy at any other. The matrices are complex
-symmetric, so that H = Fᵀψ of loads whose solutions are in V is met there with its derivative, and its error elsewhere is
-of second order in that of ψ. Source: A. Bultheel and M. Van Barel, J. Comput. Appl. Math. 14 (1986) 401 (rational
+With a basis V of solutions at some frequencies, (VᵀAV − λVᵀMV) y = Vᵀf gives ψ ≈ Vy at any other. The matrices are
+complex symmetric, so that H = Fᵀψ of loads whose solutions are in V is met there with its derivative, and its error
+elsewhere is of second order in that of ψ. Source: A. Bultheel and M. Van Barel, J. Comput. Appl. Math. 14 (1986) 401 (rational
 interpolation by projection); Y. Maday et al. on reduced bases.
 """
 
@@ -29,11 +29,12 @@ class ReducedPencil:
         """Start with nothing."""
         own = len(pencil.free)
         self._pencil = pencil
-        self._basis = np.zeros((0, own), dtype=complex)
+        self._basis: np.ndarray = np.zeros((0, own), dtype=complex)
         diagonal = pencil.laplace.real.getDiagonal().array_r + 1j * pencil.laplace.imaginary.getDiagonal().array_r
         self._weights = 1.0 / np.sqrt(np.abs(diagonal))
-        self._images = (self._basis, self._basis)
-        self._projected = (np.zeros((0, 0), dtype=complex), np.zeros((0, 0), dtype=complex))
+        # Of A and M: their products with the basis, and those with the basis on both sides.
+        self._images: list[np.ndarray] = [self._basis, self._basis]
+        self._projected: list[np.ndarray] = [np.zeros((0, 0), dtype=complex)] * 2
 
     @property
     def size(self) -> int:
@@ -43,8 +44,8 @@ class ReducedPencil:
     def add(self, eigenvalue: complex, potentials: np.ndarray, loads: np.ndarray) -> None:
         """Take solutions of (A − λM)ψ = f into the basis (collective).
 
-        Aψ is taken from λMψ + f: in elongated cells A is large, and Aψ of a ψ that hardly changes there would be lost in
-        rounding.
+        Aψ is taken from λMψ + f: in elongated cells A is large, and Aψ of a ψ that hardly changes there would be lost
+        in rounding.
 
         Args:
             eigenvalue: λ.
@@ -54,7 +55,7 @@ class ReducedPencil:
         masses = np.array([complex_product(self._pencil.mass, potential) for potential in potentials])
         for columns in zip(potentials, eigenvalue * masses + loads, masses, strict=True):
             self._append(np.array(columns))
-        self._projected = tuple(self._pencil.products(self._basis, image) for image in self._images)
+        self._projected = [self._pencil.products(self._basis, image) for image in self._images]
 
     def _append(self, columns: np.ndarray) -> None:
         """Take in a solution with its images, shape (3, own free unknowns), less what the basis has of it."""
@@ -67,7 +68,7 @@ class ReducedPencil:
         if left > _DEPENDENT:
             vector, laplace, mass = columns[:, None] / left
             self._basis = np.vstack([self._basis, vector])
-            self._images = (np.vstack([self._images[0], laplace]), np.vstack([self._images[1], mass]))
+            self._images = [np.vstack([self._images[0], laplace]), np.vstack([self._images[1], mass])]
 
     def project(self, loads: np.ndarray) -> np.ndarray:
         """Vᵀf of some loads, shape (loads, basis) (collective)."""

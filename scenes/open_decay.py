@@ -16,6 +16,7 @@ Source: form (C) of the thin float, `modal.thin_float_decay`, with H of the exac
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from math import isinf, pi, sqrt, tan
 
 import numpy as np
@@ -137,10 +138,10 @@ class _Ray:
 
 def _ray(resonances: list[complex]) -> _Ray:
     """The ray in the widest gap."""
-    angles = sorted(-np.angle(omega) for omega in resonances)
+    angles = sorted(float(-np.angle(omega)) for omega in resonances)
     stops = [0.0, *angles, 0.5 * ANGLE]
     gaps = []
-    for low, high in zip(stops, stops[1:], strict=False):
+    for low, high in pairwise(stops):
         middle = min(max(0.5 * (low + high), _RAYS[0]), _RAYS[1])
         gaps.append((min(middle - low, high - middle), middle))
     gap, angle = max(gaps)

@@ -138,7 +138,7 @@ def solve_resonance(comm: MPI.Comm, scene: TankScene, asked: Resonance, watch: S
     closed = _closed_region(region, found, asked)
     with watch.stage("count"):
         counted = zeros_in(OpenSolver(coarse, watch), closed.boundary)
-    reasons = ()
+    reasons: tuple[str, ...] = ()
     if counted is None:
         reasons = ("the independent count of the resonances is not certain: one may lie on the rim of its region",)
     elif counted != len(found.pairs):

@@ -1,7 +1,7 @@
 """Many frequencies from few factorizations: a reduced basis that grows where it is worst, until it need not grow.
 
-Solutions at the ends and in the middle of a range begin the basis of `fem.reduced_pencil`. Wherever the residual between
-them is largest the problem is solved in full next, which tells the true error there; for what is a functional of second
+Solutions at the ends and in the middle of a range begin the basis of `fem.reduced_pencil`. Wherever the residual
+between them is largest the problem is solved in full next, which tells the true error there. For functionals of second
 order the error goes like the square of the residual, and the ratio of the two, the largest that was seen, carries it to
 all other frequencies.
 """

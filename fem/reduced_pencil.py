@@ -2,7 +2,9 @@
 
 With a basis V of solutions at some frequencies, (VᵀAV − λVᵀMV) y = Vᵀf gives ψ ≈ Vy at any other. The matrices are
 complex symmetric, so that H = Fᵀψ of loads whose solutions are in V is met there with its derivative, and its error
-elsewhere is of second order in that of ψ. Source: A. Bultheel and M. Van Barel, J. Comput. Appl. Math. 14 (1986) 401 (rational
+elsewhere is of second order in that of ψ.
+
+Source: A. Bultheel and M. Van Barel, J. Comput. Appl. Math. 14 (1986) 401 (rational
 interpolation by projection); Y. Maday et al. on reduced bases.
 """
 

@@ -1,8 +1,8 @@
 """How many resonances lie in a region, counted without looking for them: the argument principle.
 
 The small matrix D(λ) = K − λ(M_b + H(λ)) of the bodies is singular at resonances, and has poles where the water
-could oscillate by itself if the bodies were held. Around a region the phase of det D turns once for every resonance within and
-back for every pole. H comes from solutions on the rim, on a reduced basis, and not from any eigenvector.
+could oscillate by itself if the bodies were held. Around a region the phase of det D turns once for every resonance
+within and back for every pole. H comes from solutions on the rim, on a reduced basis, and not from any eigenvector.
 """
 
 from __future__ import annotations

@@ -232,11 +232,10 @@ def reach(
     """
     longest, shortest = wavenumbers
     decades = log(1.0 / (_CUT * tolerance))
-    # A wave goes out and comes back; so does what the bed reflects of standing disturbances, e^{−πx/H}.
+    # A wave goes out and comes back. So does what decays by itself: like e^{−κx} with κ > π/(2H), H all the depth between
+    # the bed and a free top, which moves as if nothing held it far above the waves.
     farthest = [decades / (2.0 * longest * sin(angle))]
-    for depth in basin.depths:
-        if isinf(depth):
-            farthest.append((1.0 + 1.0 / longest) * (_CUT * tolerance) ** -0.5)
-        else:
-            farthest.append(decades * depth / (2.0 * pi * cos(angle)))
+    farthest.append(decades * sum(depth for depth in basin.depths if not isinf(depth)) / (pi * cos(angle)))
+    if any(isinf(depth) for depth in basin.depths):
+        farthest.append((1.0 + 1.0 / longest) * (_CUT * tolerance) ** -0.5)
     return Reach(angle=angle, first=min(first / shortest, 0.5), growth=growth, farthest=max(farthest))

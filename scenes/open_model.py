@@ -43,7 +43,7 @@ ANGLE = pi / 3.0
 better."""
 
 ANGLE_OVER_A_BED = pi / 4.0
-"""α where a liquid has a finite depth: ψ ~ e^{−κx} turns faster there than it decays, and needs more cells at 60 degrees."""
+"""α where a liquid has a finite depth: at 60 degrees e^{−κx} turns faster than it decays, and needs more cells."""
 
 GROWTH = 3.0
 """Ratio of the distances of successive frames; 2 costs half as much again, 4 needs a higher degree."""

@@ -30,11 +30,13 @@ class Frames:
 
     Attributes:
         sideways: beyond the left and the right wall, shape (frames,).
-        vertical: beyond the bottom or the lid, where these are extended, shape (frames,).
+        below: beyond the bottom, where it is extended, shape (frames,).
+        above: beyond the lid, likewise.
     """
 
     sideways: NDArray[np.float64]
-    vertical: NDArray[np.float64]
+    below: NDArray[np.float64]
+    above: NDArray[np.float64]
 
 
 def extended(mesh: TaggedMesh, sides: tuple[str, ...], frames: Frames) -> TaggedMesh:
@@ -116,9 +118,10 @@ class _Rim:
         """Number of the node of each ray at each level, shape (rays, levels), and the positions of all nodes."""
         base = self._mesh.points[[node for node, _ in self.rays]]
         ways = np.array([way for _, way in self.rays], dtype=np.float64)
-        distances = np.column_stack([frames.sideways, frames.vertical])
-        outer = base[:, None] + ways[:, None] * distances[None]
-        numbers = np.empty((len(self.rays), 1 + len(distances)), dtype=np.int64)
+        vertical = np.where(ways[:, 1:] < 0.0, frames.below, frames.above)
+        distances = np.stack([np.broadcast_to(frames.sideways, vertical.shape), vertical], axis=2)
+        outer = base[:, None] + ways[:, None] * distances
+        numbers = np.empty((len(self.rays), 1 + len(frames.sideways)), dtype=np.int64)
         numbers[:, 0] = [node for node, _ in self.rays]
         numbers[:, 1:] = len(self._mesh.points) + np.arange(outer.shape[0] * outer.shape[1]).reshape(outer.shape[:2])
         return numbers, np.vstack([self._mesh.points, outer.reshape(-1, 2)])

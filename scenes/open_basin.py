@@ -195,21 +195,26 @@ class Reach:
         """Frames that widen the basin in all open directions, then those that go on sideways."""
         count = max(int(np.ceil(log(self.farthest / self.first) / log(self.growth))), 1)
         distances = self.first * (self.farthest / self.first) ** (np.arange(count + 1) / count)
-        further = [
-            depth - layer.depth
-            for depth, layer in zip(basin.depths, basin.tank.layers, strict=True)
-            if depth > layer.depth
-        ]
-        deepest = max(further, default=0.0)
+        further = [depth - layer.depth for depth, layer in zip(basin.depths, basin.tank.layers, strict=True)]
+        deepest = max(further)
         both = int(np.searchsorted(distances, deepest)) + 1 if deepest else 0
         inner, outer = distances[:both], distances[both:]
         # Beyond the first stage distances are counted from the wider basin.
-        start = inner[-1] if both and len(inner) else 0.0
-        vertical = np.minimum(inner, deepest)
+        start = inner[-1] if both else 0.0
+        below, above = (self._vertical(inner, depth) for depth in (further[0], further[-1]))
+        none = np.zeros(len(outer))
         return (
-            Frames(sideways=inner, vertical=vertical),
-            Frames(sideways=outer - start, vertical=np.zeros(len(outer))),
+            Frames(sideways=inner, below=below, above=above),
+            Frames(sideways=outer - start, below=none, above=none),
         )
+
+    def _vertical(self, sideways: np.ndarray, further: float) -> np.ndarray:
+        """As many distances that end at a bed or a lid, each so far beyond the basin; all of an endless liquid."""
+        if isinf(further) or not further:
+            return np.minimum(sideways, further)
+        steps = np.arange(len(sideways)) / (len(sideways) - 1)
+        vertical: np.ndarray = self.first * (further / self.first) ** steps
+        return vertical
 
 
 def reach(
@@ -227,11 +232,10 @@ def reach(
     """
     longest, shortest = wavenumbers
     decades = log(1.0 / (_CUT * tolerance))
-    # A wave goes out and comes back; so does what the bed reflects of standing disturbances, e^{−πx/H}.
+    # A wave goes out and comes back. So does what decays by itself, like e^{−κx} with κ > π/(2H), H all the depth between
+    # the bed and a free top: that bound is reached far above the waves.
     farthest = [decades / (2.0 * longest * sin(angle))]
-    for depth in basin.depths:
-        if isinf(depth):
-            farthest.append((1.0 + 1.0 / longest) * (_CUT * tolerance) ** -0.5)
-        else:
-            farthest.append(decades * depth / (2.0 * pi * cos(angle)))
+    farthest.append(decades * sum(depth for depth in basin.depths if not isinf(depth)) / (pi * cos(angle)))
+    if any(isinf(depth) for depth in basin.depths):
+        farthest.append((1.0 + 1.0 / longest) * (_CUT * tolerance) ** -0.5)
     return Reach(angle=angle, first=min(first / shortest, 0.5), growth=growth, farthest=max(farthest))

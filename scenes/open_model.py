@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import pi
+from math import isfinite, pi
 
 import numpy as np
 from mpi4py import MPI
@@ -40,10 +40,17 @@ from hydroelastic.scenes.tank_mesh import graded_outline, tip_points
 from hydroelastic.scenes.tank_outline import grounded_names, layer_names
 
 ANGLE = pi / 3.0
-"""α of the complex scaling. Measured on circles at Ka from 0.05 to 10: 60 degrees is as good as 45 or better."""
+"""α of the complex scaling in deep water. Measured on circles at Ka from 0.05 to 10: 60 degrees is as good as 45 or
+better."""
+
+ANGLE_OVER_A_BED = pi / 4.0
+"""α where a liquid has a finite depth: at 60 degrees e^{−κx} turns faster than it decays, and needs more cells."""
 
 GROWTH = 3.0
 """Ratio of the distances of successive frames; 2 costs half as much again, 4 needs a higher degree."""
+
+# Where only one coordinate is turned the series of ψ in a frame converges more slowly.
+_GROWTH_OVER_A_BED = 2.0
 
 # In the frames ψ oscillates about as fast as it decays, and errors of opposite phase cancel. Measured on circles at Ka
 # from 0.05 to 10 at three tolerances: the energy missed is 9 to 140 times the error.
@@ -189,7 +196,7 @@ def open_model(
     resolution: Resolution,
     watch: Stopwatch,
     *,
-    angle: float = ANGLE,
+    angle: float | None = None,
 ) -> OpenModel:
     """Mesh and assemble open water (collective).
 
@@ -199,17 +206,20 @@ def open_model(
         band: the frequencies.
         resolution: of the basin.
         watch: told the time.
-        angle: α of the complex scaling.
+        angle: α of the complex scaling; by default that of the depth.
     """
     wavenumbers = band.wavenumbers(scene)
     basin = open_basin(scene, wavenumbers[1])
     tank, length = basin.tank, basin.units.length
     tolerance = workable_tolerance(scene.accuracy.tolerance, tank.depth)
+    has_bed = any(isfinite(depth) for depth in basin.depths)
+    if angle is None:
+        angle = ANGLE_OVER_A_BED if has_bed else ANGLE
     frames = reach(
         basin,
         (wavenumbers[0] * length, wavenumbers[1] * length),
         first=radians(resolution.degree, tolerance),
-        growth=GROWTH,
+        growth=_GROWTH_OVER_A_BED if has_bed else GROWTH,
         angle=angle,
         tolerance=tolerance,
     )

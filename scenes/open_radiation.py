@@ -282,4 +282,6 @@ def _slow_row(comm: MPI.Comm, scene: TankScene, shapes: tuple[int, ...], waves: 
         relative_error=attempt.error + _SLOW[0] ** 2,
         wavenumbers=np.zeros(waves),
         added_mass=np.where(grows, np.copysign(np.inf, slower), slower),
+        # b/ω may have a limit, b is zero.
+        radiation_damping=np.zeros_like(slower),
     )

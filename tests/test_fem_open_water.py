@@ -1,0 +1,202 @@
+"""The complex symmetric pencil of open water and its parts, on problems that are solved by hand."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from mpi4py import MPI
+from open_cases import circle, circle_omega, section, stored, two_liquids
+from petsc4py import PETSc
+
+from hydroelastic.fem.complex_direct import ShiftedSolver
+from hydroelastic.fem.complex_scaling import ComplexMatrix, complex_product
+from hydroelastic.fem.reduced_pencil import ReducedPencil
+from hydroelastic.scenes.field_solution import Stopwatch
+from hydroelastic.scenes.incident_waves import incidence, planes
+from hydroelastic.scenes.models import TankScene
+from hydroelastic.scenes.open_model import Band, OpenModel, first_resolution, open_model
+from hydroelastic.scenes.open_solver import OpenSolver
+
+SECTION_ROWS = stored("open_sections.json")["cases"]
+TWO_LIQUIDS = stored("open_two_liquids.json")["cases"]
+
+
+def model_of(scene: TankScene, omega: float, angle: float | None = None) -> OpenModel:
+    band = Band(lowest=omega, highest=omega)
+    return open_model(MPI.COMM_WORLD, scene, band, first_resolution(scene, band), Stopwatch(), angle=angle)
+
+
+@pytest.fixture(scope="module")
+def rectangle() -> OpenModel:
+    row = SECTION_ROWS[6]
+    return model_of(section(row, 1e-5), row["omega"])
+
+
+@pytest.fixture(scope="module")
+def layered() -> OpenModel:
+    row = TWO_LIQUIDS[1]
+    return model_of(two_liquids(row, 1e-5), row["omega"])
+
+
+def dense(matrix: np.ndarray) -> PETSc.Mat:
+    rows = [[(column, value) for column, value in enumerate(row)] for row in matrix]
+    made = PETSc.Mat().createAIJ(matrix.shape, nnz=matrix.shape[1], comm=MPI.COMM_SELF)
+    for row, entries in enumerate(rows):
+        made.setValues(row, [column for column, _ in entries], [value for _, value in entries])
+    made.assemble()
+    return made
+
+
+def complex_matrix(matrix: np.ndarray) -> ComplexMatrix:
+    return ComplexMatrix(real=dense(matrix.real.copy()), imaginary=dense(matrix.imag.copy()))
+
+
+@pytest.mark.parametrize("eigenvalue", [0.7, 0.7 - 0.4j, -0.2j])
+def test_real_form_solves_complex_systems(eigenvalue: complex) -> None:
+    numbers = np.random.default_rng(3)
+    parts = [numbers.normal(size=(6, 6)) + 1j * numbers.normal(size=(6, 6)) for _ in range(2)]
+    stiffness, mass = (part + part.T for part in parts)
+    solver = ShiftedSolver(complex_matrix(stiffness), complex_matrix(mass))
+    load = numbers.normal(size=6) + 1j * numbers.normal(size=6)
+    for value in (1.3, eigenvalue):
+        # The second time the pattern is known, and one of the parts may vanish.
+        solver.shift(value)
+        np.testing.assert_allclose(solver.solve(load), np.linalg.solve(stiffness - value * mass, load), rtol=1e-10)
+    assert solver.factorizations == 2
+
+
+def test_products_are_complex() -> None:
+    numbers = np.random.default_rng(4)
+    matrix = numbers.normal(size=(5, 5)) + 1j * numbers.normal(size=(5, 5))
+    vector = numbers.normal(size=5) + 1j * numbers.normal(size=5)
+    np.testing.assert_allclose(complex_product(complex_matrix(matrix), vector), matrix @ vector, rtol=1e-13)
+
+
+@pytest.mark.parametrize("name", ["rectangle", "layered"])
+def test_matrices_are_symmetric_not_hermitian(name: str, request: pytest.FixtureRequest) -> None:
+    pencil = request.getfixturevalue(name).pencil
+    numbers = np.random.default_rng(5)
+    one, other = (numbers.normal(size=pencil.size) + 1j * numbers.normal(size=pencil.size) for _ in range(2))
+    for matrix in (pencil.laplace, pencil.mass):
+        there, back = one @ complex_product(matrix, other), other @ complex_product(matrix, one)
+        assert there == pytest.approx(back, rel=1e-11)
+        assert matrix.imaginary.norm() > 0.0
+
+
+@pytest.mark.parametrize("name", ["rectangle", "layered"])
+def test_derivatives_by_the_angle(name: str, request: pytest.FixtureRequest) -> None:
+    model = request.getfixturevalue(name)
+    row = SECTION_ROWS[6] if name == "rectangle" else TWO_LIQUIDS[1]
+    scene = section(row, 1e-5) if name == "rectangle" else two_liquids(row, 1e-5)
+    # The mesh depends on the angle only by its reach: the same frames for both sides of the difference.
+    numbers = np.random.default_rng(6)
+    vector = numbers.normal(size=model.pencil.size)
+    step, angle = 1e-4, model.reach.angle
+    turning = model.pencil.turning()
+    around = []
+    for shifted in (angle - step, angle + step):
+        from dataclasses import replace
+
+        from hydroelastic.fem.complex_scaling import ComplexScaling
+        from hydroelastic.fem.open_pencil import build_open_pencil
+        from hydroelastic.scenes.field_model import moving_surfaces
+
+        low, high = model.basin.bounds
+        around.append(
+            build_open_pencil(
+                model.pencil.liquid,
+                replace(ComplexScaling(angle=angle, low=low, high=high), angle=shifted),
+                bodies=model.pencil.bodies,
+                surfaces=moving_surfaces(model.pencil.liquid.tank, model.basin.tank),
+            )
+        )
+    assert scene.tank.ends == "open"
+    for derivative, low_side, high_side in zip(
+        turning,
+        (around[0].laplace, around[0].mass),
+        (around[1].laplace, around[1].mass),
+        strict=True,
+    ):
+        difference = (complex_product(high_side, vector) - complex_product(low_side, vector)) / (2.0 * step)
+        found = complex_product(derivative, vector)
+        # Third derivatives are as large as the first: step²/6.
+        np.testing.assert_allclose(found, difference, rtol=0, atol=1e-7 * np.abs(found).max())
+
+
+@pytest.mark.parametrize("name", ["rectangle", "layered"])
+def test_fluxes_of_waves_by_themselves(name: str, request: pytest.FixtureRequest) -> None:
+    model = request.getfixturevalue(name)
+    omega = (SECTION_ROWS[6] if name == "rectangle" else TWO_LIQUIDS[1])["omega"]
+    waves = planes(model.basin.waves(omega / model.basin.units.frequency))
+    met = incidence(model, waves)
+    count = len(waves) // 2
+    # A wave is no source within the bodies: ∫ρ(φ∂φ'/∂n − φ'∂φ/∂n) vanishes around each.
+    np.testing.assert_allclose(met.own, met.own.T, rtol=0, atol=1e-10 * max(np.abs(met.own).max(), 1e-6))
+    np.testing.assert_array_equal(met.reversed[met.reversed], np.arange(2 * count))
+    amplitudes = np.random.default_rng(7).normal(size=(2 * count, 3)) + 0j
+    np.testing.assert_allclose(met.amplitudes(met.fluxes_of(amplitudes)), amplitudes, rtol=1e-13)
+
+
+@pytest.mark.parametrize("name", ["rectangle", "layered"])
+def test_far_field_is_that_of_the_bodies(name: str, request: pytest.FixtureRequest) -> None:
+    model = request.getfixturevalue(name)
+    omega = (SECTION_ROWS[6] if name == "rectangle" else TWO_LIQUIDS[1])["omega"]
+    found = OpenSolver(model, Stopwatch()).frequency(omega)
+    near, far = found.radiated_amplitudes(), found.observed_amplitudes()
+    # Green's theorem in the discrete field; waves are resolved to a part of the tolerance 1e-5.
+    np.testing.assert_allclose(far, near, rtol=0, atol=1e-6 * np.abs(near).max())
+    # Both sides, all waves: as much as the damping takes.
+    assert found.energy_residual() <= 1e-5
+    assert found.haskind_residual() <= 1e-6
+
+
+@pytest.mark.parametrize("name", ["rectangle", "layered"])
+def test_reduced_basis_meets_what_it_was_given(name: str, request: pytest.FixtureRequest) -> None:
+    model = request.getfixturevalue(name)
+    omega = (SECTION_ROWS[6] if name == "rectangle" else TWO_LIQUIDS[1])["omega"]
+    solver = OpenSolver(model, Stopwatch())
+    solved = [solver.frequency(factor * omega) for factor in (0.9, 1.0, 1.1)]
+    reduced = solver.frequency_between(omega)
+    np.testing.assert_allclose(reduced[0].hydrodynamic, solved[1].hydrodynamic, rtol=0, atol=1e-11)
+    assert reduced[1] <= 1e-9
+    between, residual = solver.frequency_between(1.05 * omega)
+    exact = solver.frequency(1.05 * omega)
+    scale = np.abs(exact.hydrodynamic).max()
+    error = np.abs(between.hydrodynamic - exact.hydrodynamic).max() / scale
+    # Second order: forces err like the square of the residual, up to a factor that the sweep measures.
+    assert 0.0 < error <= 30.0 * residual**2 + 1e-12
+    assert between.diffraction_force == pytest.approx(exact.diffraction_force, abs=1e-2 * residual * scale + 1e-9)
+
+
+def test_basis_takes_no_vector_twice(rectangle: OpenModel) -> None:
+    reduced = ReducedPencil(rectangle.pencil)
+    vectors = np.random.default_rng(8).normal(size=(2, len(rectangle.pencil.free))) + 0j
+    reduced.add(vectors)
+    reduced.add(vectors[:1] * 1j + vectors[1:])
+    assert reduced.size == 2
+
+
+def test_coordinates_turn_outwards_alone(rectangle: OpenModel) -> None:
+    scaling_low, scaling_high = rectangle.basin.bounds
+    # Over a bed only sideways.
+    assert scaling_low == (0.0, -math.inf)
+    assert scaling_high == (1.0, math.inf)
+    deep = model_of(circle(1e-3), circle_omega(1.0))
+    low, _ = deep.basin.bounds
+    assert low[0] == 0.0
+    assert -1.0 < low[1] < 0.0
+
+
+@pytest.mark.mpi
+def test_two_processes_assemble_the_same() -> None:
+    row = TWO_LIQUIDS[1]
+    together = model_of(two_liquids(row, 1e-4), row["omega"]).pencil
+    band = Band(lowest=row["omega"], highest=row["omega"])
+    scene = two_liquids(row, 1e-4)
+    alone = open_model(MPI.COMM_SELF, scene, band, first_resolution(scene, band), Stopwatch()).pencil
+    assert together.size == alone.size
+    for one, other in ((together.laplace, alone.laplace), (together.mass, alone.mass)):
+        for part in ("real", "imaginary"):
+            assert getattr(one, part).norm() == pytest.approx(getattr(other, part).norm(), rel=1e-12)

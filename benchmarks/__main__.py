@@ -5,13 +5,16 @@ from __future__ import annotations
 import contextlib
 import sys
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import NoReturn
 
 import click
 
-from hydroelastic.benchmarks.measure import cases_of, run_benchmark
-from hydroelastic.benchmarks.output import OutputError, check_folder, write_results
+from hydroelastic.benchmarks.cases import Case
+from hydroelastic.benchmarks.circle import CIRCLE, circle_cases
+from hydroelastic.benchmarks.measure import Benchmark, cases_of, run_benchmark
+from hydroelastic.benchmarks.output import OutputError, check_folder, write_circle, write_results
 from hydroelastic.benchmarks.tanks import TANKS
 
 BAD_INPUT = 2
@@ -19,15 +22,41 @@ NOTHING_MEASURED = 3
 INTERRUPTED = 130
 
 
+@dataclass(frozen=True, kw_only=True)
+class Problem:
+    """What is solved, how often, and where its results go."""
+
+    cases: Callable[[bool], list[Case]]
+    repeats: int
+    write: Callable[[Benchmark, Path], None]
+
+
+def _tank_cases(quick: bool) -> list[Case]:
+    return [case for tank in (TANKS[:1] if quick else TANKS) for case in cases_of(tank, quick=quick)]
+
+
+def _circle_cases(quick: bool) -> list[Case]:
+    return [case for one in (CIRCLE[:1] if quick else CIRCLE) for case in circle_cases(one, quick=quick)]
+
+
+PROBLEMS = {
+    "tanks": Problem(cases=_tank_cases, repeats=7, write=write_results),
+    # Half a minute for each round of each frequency.
+    "circle": Problem(cases=_circle_cases, repeats=3, write=write_circle),
+}
+_QUICK_REPEATS = 3
+
+
 @click.command(context_settings={"help_option_names": ["-h", "--help"]})
 @click.option(
     "--out", type=click.Path(path_type=Path), default=Path("results/benchmarks"), help="Folder of the results."
 )
-@click.option("--quick", is_flag=True, help="One tank, every third case.")
-@click.option("--repeats", type=click.IntRange(min=1), help="Rounds that count; default 7, or 3 if quick.")
+@click.option("--problem", type=click.Choice(list(PROBLEMS)), multiple=True, help="Only this one; both by default.")
+@click.option("--quick", is_flag=True, help="One tank, one frequency, every third case.")
+@click.option("--repeats", type=click.IntRange(min=1), help="Rounds that count; default 7, or 3 if quick or circle.")
 @click.option("--no-install", is_flag=True, help="Leave out peers that are not installed.")
-def main(out: Path, quick: bool, repeats: int | None, no_install: bool) -> None:
-    """Measure error against seconds: this solver, NGSolve, scikit-fem, and a bare lower bound.
+def main(out: Path, problem: tuple[str, ...], quick: bool, repeats: int | None, no_install: bool) -> None:
+    """Measure error against seconds: tanks beside NGSolve, scikit-fem and a lower bound, a circle beside Capytaine.
 
     \b
     Example:
@@ -37,23 +66,28 @@ def main(out: Path, quick: bool, repeats: int | None, no_install: bool) -> None:
         check_folder(out)
     except OutputError as error:
         _end(str(error), BAD_INPUT)
-    cases = [case for tank in (TANKS[:1] if quick else TANKS) for case in cases_of(tank, quick=quick)]
+    for name in problem or PROBLEMS:
+        _measure(PROBLEMS[name], out, quick=quick, repeats=repeats, install=not no_install)
+    click.echo(f"Written to {out}/")
+
+
+def _measure(problem: Problem, out: Path, *, quick: bool, repeats: int | None, install: bool) -> None:
+    """Measure a problem and write its results; ends the process where there are none."""
+    rounds = repeats or (_QUICK_REPEATS if quick else problem.repeats)
     try:
         with _progress() as report:
-            rounds = repeats or (3 if quick else 7)
-            benchmark = run_benchmark(cases, repeats=rounds, install=not no_install, report=report)
+            benchmark = run_benchmark(problem.cases(quick), repeats=rounds, install=install, report=report)
         if not benchmark.rows:
             reasons = "; ".join(f"{code}: {reason}" for code, reason in benchmark.not_measured.items())
             _end(f"nothing was measured: {reasons}", NOTHING_MEASURED)
-        write_results(benchmark, out)
+        problem.write(benchmark, out)
     except OutputError as error:
         _end(str(error), BAD_INPUT)
     except KeyboardInterrupt:
-        click.echo("Interrupted: no results were written.", err=True)
+        click.echo("Interrupted: the results of what was being measured were not written.", err=True)
         sys.exit(INTERRUPTED)
     for code, reason in benchmark.not_measured.items():
         click.echo(f"Warning: {code} was not measured: {reason}", err=True)
-    click.echo(f"Written to {out}/")
 
 
 @contextlib.contextmanager

@@ -5,10 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Literal
 
-Code = Literal["hydroelastic", "ngsolve", "scikit-fem", "lower bound"]
-Variant = Literal["certified", "whole", "halves", "bare"]
+Code = Literal["hydroelastic", "ngsolve", "scikit-fem", "lower bound", "hydroelastic radiation", "capytaine"]
+Variant = Literal["certified", "whole", "halves", "bare", "one length", "two lengths"]
 
 CODES: tuple[Code, ...] = ("hydroelastic", "ngsolve", "scikit-fem", "lower bound")
+"""Those that solve the tanks."""
+CIRCLE_CODES: tuple[Code, ...] = ("hydroelastic radiation", "capytaine")
+"""Those that solve the circle in open water."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -17,11 +20,14 @@ class Case:
 
     Attributes:
         code: by which code.
-        tank: name of the tank.
+        tank: name of the tank, or of the frequency of the circle.
         variant: ``certified`` with estimate, count and companion; ``whole`` tank or its two ``halves`` without them;
-            ``bare`` factorization and solutions alone.
+            ``bare`` factorization and solutions alone; a cylinder of ``one length``, or ``two lengths`` and their
+            difference.
         degree: polynomial degree, where it is chosen; else 0.
         tolerance: asked relative error, where it is chosen; else 0.
+        panels: along a quarter of the circle, where they are chosen; else 0.
+        length: of the cylinder over its radius, of the longer one of two, which is twice the other; else 0.
     """
 
     code: Code
@@ -29,10 +35,17 @@ class Case:
     variant: Variant
     degree: int = 0
     tolerance: float = 0.0
+    panels: int = 0
+    length: float = 0.0
 
     @property
     def resolution(self) -> str:
         """What was chosen, in words."""
+        if self.panels:
+            lengths = (
+                f"{self.length / 2:g} and {self.length:g}" if self.variant == "two lengths" else f"{self.length:g}"
+            )
+            return f"length {lengths}, {self.panels} panels"
         return f"degree {self.degree}" if self.degree else f"tolerance {self.tolerance:.0e}"
 
 
@@ -41,13 +54,13 @@ class Answer:
     """What a solution gives.
 
     Attributes:
-        frequencies: the lowest ω, rad/s, ascending.
-        unknowns: of ψ and of the surface.
+        values: the lowest ω of a tank, rad/s, ascending; a', b' of heave and a', b' of sway of the circle.
+        unknowns: of ψ and of the surface, or panels.
         stages: seconds by stage, as far as the code tells them.
         note: what else is to be said of it.
     """
 
-    frequencies: tuple[float, ...]
+    values: tuple[float, ...]
     unknowns: int
     stages: dict[str, float] = field(default_factory=dict)
     note: str = ""

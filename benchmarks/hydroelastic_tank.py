@@ -48,7 +48,7 @@ def solve(scene: TankScene) -> Answer:
     solution = solve_scene(scene)
     estimate = float(solution.relative_errors[:MODES].max())
     return Answer(
-        frequencies=frequencies(solution),
+        values=frequencies(solution),
         unknowns=solution.field.dofs,
         stages=solution.seconds,
         note="; ".join([f"estimate {estimate:.1e}", *solution.reasons]),

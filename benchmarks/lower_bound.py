@@ -121,7 +121,7 @@ def solve(bound: Bound) -> Answer:
     names = sorted({work.name for work in bound.work})
     steps = " + ".join(str(work.steps) for work in bound.work)
     return Answer(
-        frequencies=bound.frequencies,
+        values=bound.frequencies,
         unknowns=sum(work.pencil.unknowns for work in bound.work),
         note=f"{', '.join(names)}, {steps} solutions",
     )

@@ -6,10 +6,10 @@ import contextlib
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
-from hydroelastic.benchmarks.cases import CODES, Answer, Case, Code, Variant
+from hydroelastic.benchmarks.cases import CIRCLE_CODES, CODES, Answer, Case, Code, Variant
 from hydroelastic.benchmarks.peers import PEER_MODULES, PeerError, peer_folder
 from hydroelastic.benchmarks.rows import Row, row_of
-from hydroelastic.benchmarks.tanks import BenchmarkTank, tank_named
+from hydroelastic.benchmarks.tanks import BenchmarkTank
 from hydroelastic.benchmarks.turns import take_turns
 from hydroelastic.benchmarks.workers import Worker, WorkerError, start_worker
 
@@ -67,7 +67,7 @@ def run_benchmark(cases: Sequence[Case], *, repeats: int, install: bool, report:
         The rows, and which codes could not be measured.
     """
     with contextlib.ExitStack() as stack:
-        workers, not_measured = _start(stack, install=install, report=report)
+        workers, not_measured = _start(stack, cases, install=install, report=report)
         solvers: dict[Code, Solve] = {code: worker.solve for code, worker in workers.items()}
         rows, failed = measure(cases, solvers, repeats=repeats, report=report)
     return Benchmark(
@@ -78,10 +78,13 @@ def run_benchmark(cases: Sequence[Case], *, repeats: int, install: bool, report:
     )
 
 
-def _start(stack: contextlib.ExitStack, *, install: bool, report: Report) -> tuple[dict[Code, Worker], dict[Code, str]]:
+def _start(
+    stack: contextlib.ExitStack, cases: Sequence[Case], *, install: bool, report: Report
+) -> tuple[dict[Code, Worker], dict[Code, str]]:
     workers: dict[Code, Worker] = {}
     problems: dict[Code, str] = {}
-    for code in CODES:
+    asked = {case.code for case in cases}
+    for code in (code for code in (*CODES, *CIRCLE_CODES) if code in asked):
         try:
             folder = peer_folder(code, install=install, report=report) if code in PEER_MODULES else None
             report(f"starting {code}")
@@ -121,10 +124,7 @@ def measure(
             continue
         if number > 0:
             seconds.setdefault(case, []).append(spent)
-    rows = [
-        row_of(case, tank_named(case.tank), answers[case], tuple(seconds[case]))
-        for case in _measured(cases, seconds, failed)
-    ]
+    rows = [row_of(case, answers[case], tuple(seconds[case])) for case in _measured(cases, seconds, failed)]
     return tuple(rows), failed
 
 

@@ -58,7 +58,7 @@ def solve(case: Case) -> Answer:
         _class_frequencies(tank, mesh, space, laplace.mat, top, surface, modes)
         for modes in mode_classes(resolution.shapes, halves=halves)
     ]
-    return Answer(frequencies=lowest_of(tuple(found)), unknowns=space.ndof + len(surface.water) + resolution.shapes)
+    return Answer(values=lowest_of(tuple(found)), unknowns=space.ndof + len(surface.water) + resolution.shapes)
 
 
 def _mesh(tank: BenchmarkTank, resolution: PeerResolution, *, halves: bool) -> ngsolve.Mesh:

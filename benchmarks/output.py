@@ -1,16 +1,24 @@
-"""Writing the results: three files, each whole or not at all."""
+"""Writing the results: three files for each problem, each whole or not at all."""
 
 from __future__ import annotations
 
 import os
 import tempfile
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from hydroelastic.benchmarks.circle_figure import draw_circle
+from hydroelastic.benchmarks.circle_report import circle_csv, circle_markdown
 from hydroelastic.benchmarks.figure import draw_speed
 from hydroelastic.benchmarks.measure import Benchmark
 from hydroelastic.benchmarks.report import speed_csv, speed_markdown
+from hydroelastic.benchmarks.rows import Row
 
 NAME = "speed_against_error"
+CIRCLE_NAME = "open_circle"
+
+Text = Callable[[Benchmark], str]
+Draw = Callable[[Sequence[Row], Path], None]
 
 
 class OutputError(Exception):
@@ -32,18 +40,31 @@ def check_folder(folder: Path) -> None:
 
 
 def write_results(benchmark: Benchmark, folder: Path) -> None:
-    """Write table, page and figure; other files of the folder stay.
+    """Write table, page and figure of the tanks; other files of the folder stay.
 
     Raises:
         OutputError: if the folder cannot be written.
     """
+    _write(benchmark, folder, NAME, speed_csv, speed_markdown, draw_speed)
+
+
+def write_circle(benchmark: Benchmark, folder: Path) -> None:
+    """Write table, page and figure of the circle; other files of the folder stay.
+
+    Raises:
+        OutputError: if the folder cannot be written.
+    """
+    _write(benchmark, folder, CIRCLE_NAME, circle_csv, circle_markdown, draw_circle)
+
+
+def _write(benchmark: Benchmark, folder: Path, name: str, rows: Text, page: Text, draw: Draw) -> None:
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(prefix=".partial.", dir=folder) as scratch:
             inside = Path(scratch)
-            (inside / f"{NAME}.csv").write_text(speed_csv(benchmark), encoding="utf-8")
-            (inside / f"{NAME}.md").write_text(speed_markdown(benchmark), encoding="utf-8")
-            draw_speed(benchmark.rows, inside / f"{NAME}.png")
+            (inside / f"{name}.csv").write_text(rows(benchmark), encoding="utf-8")
+            (inside / f"{name}.md").write_text(page(benchmark), encoding="utf-8")
+            draw(benchmark.rows, inside / f"{name}.png")
             for file in sorted(inside.iterdir()):
                 os.replace(file, folder / file.name)
     except OSError as error:

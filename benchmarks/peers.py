@@ -21,7 +21,7 @@ from pathlib import Path
 
 from hydroelastic.benchmarks.cases import Code
 
-PEER_MODULES: dict[Code, str] = {"ngsolve": "ngsolve", "scikit-fem": "skfem"}
+PEER_MODULES: dict[Code, str] = {"ngsolve": "ngsolve", "scikit-fem": "skfem", "capytaine": "capytaine"}
 EXTRA = "bench"
 _KEPT = ("numpy", "scipy")
 _MOST_SECONDS = 1800

@@ -19,6 +19,8 @@ NAMES: dict[Code, str] = {
     "ngsolve": "NGSolve",
     "scikit-fem": "scikit-fem",
     "lower bound": "lower bound",
+    "hydroelastic radiation": "hydroelastic",
+    "capytaine": "Capytaine",
 }
 ERRORS = (1e-4, 1e-6, 1e-8, 1e-9, 1e-10)
 COMPARED: tuple[Code, ...] = ("ngsolve", "scikit-fem", "lower bound")
@@ -93,7 +95,7 @@ def speed_markdown(benchmark: Benchmark) -> str:
             for part in (f"### {tank}", _tank_table([row for row in rows if row.case.tank == tank]))
         ),
         "## Measured on",
-        _machine_list(benchmark),
+        machine_list(benchmark),
     ]
     return "\n\n".join(parts) + "\n"
 
@@ -108,18 +110,19 @@ def _equal_error_table(tanks: Sequence[str], rows: Sequence[Row]) -> str:
             lines.append(
                 [
                     *(tank, f"{error:.0e}"),
-                    *(_milliseconds(seconds[code]) for code in CODES),
+                    *(milliseconds(seconds[code]) for code in CODES),
                     *(_times(own, seconds[code]) for code in COMPARED),
                 ]
             )
-    return _table(head, lines)
+    return table(head, lines)
 
 
 def _times(own: float | None, other: float | None) -> str:
     return "—" if own is None or other is None else f"{own / other:.1f}"
 
 
-def _milliseconds(seconds: float | None) -> str:
+def milliseconds(seconds: float | None) -> str:
+    """Seconds as milliseconds in words, or a dash."""
     return "—" if seconds is None else f"{1e3 * seconds:.1f}"
 
 
@@ -130,8 +133,8 @@ def _standing_table(rows: Sequence[Row]) -> str:
         if row.case.code == "hydroelastic":
             ratios = ("—" if ratio is None else f"{ratio:.1f}" for ratio in _compared(row, rows))
             asked = f"{row.case.tolerance:.0e}"
-            lines.append([row.case.tank, asked, f"{row.error:.1e}", _milliseconds(row.median), *ratios])
-    return _table(head, lines)
+            lines.append([row.case.tank, asked, f"{row.error:.1e}", milliseconds(row.median), *ratios])
+    return table(head, lines)
 
 
 def _tank_table(rows: Sequence[Row]) -> str:
@@ -146,12 +149,12 @@ def _tank_table(rows: Sequence[Row]) -> str:
         "stages, milliseconds",
         "note",
     ]
-    return _table(
+    return table(
         head,
         [
             [
                 *(NAMES[row.case.code], row.case.variant, row.case.resolution, str(row.unknowns), f"{row.error:.1e}"),
-                *(_milliseconds(row.median), _milliseconds(row.spread)),
+                *(milliseconds(row.median), milliseconds(row.spread)),
                 ", ".join(f"{stage} {1e3 * seconds:.1f}" for stage, seconds in row.stages.items()),
                 row.note,
             ]
@@ -160,7 +163,8 @@ def _tank_table(rows: Sequence[Row]) -> str:
     )
 
 
-def _machine_list(benchmark: Benchmark) -> str:
+def machine_list(benchmark: Benchmark) -> str:
+    """Machine, day and versions."""
     lines = [
         f"{processor()}, {cores()} cores, of which one is used at a time; {platform.system()}",
         f"{date.today().isoformat()}, {benchmark.repeats} rounds that count; Python {platform.python_version()}",
@@ -171,6 +175,7 @@ def _machine_list(benchmark: Benchmark) -> str:
     return "\n".join(f"- {line}" for line in lines)
 
 
-def _table(head: Sequence[str], lines: Sequence[Sequence[str]]) -> str:
+def table(head: Sequence[str], lines: Sequence[Sequence[str]]) -> str:
+    """A table in Markdown."""
     rows = [head, ["---"] * len(head), *lines]
     return "\n".join("| " + " | ".join(row) + " |" for row in rows)

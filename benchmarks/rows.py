@@ -7,8 +7,9 @@ from statistics import median, quantiles
 
 import numpy as np
 
-from hydroelastic.benchmarks.cases import Answer, Case
-from hydroelastic.benchmarks.tanks import BenchmarkTank
+from hydroelastic.benchmarks.cases import CIRCLE_CODES, Answer, Case
+from hydroelastic.benchmarks.circle import circle_error
+from hydroelastic.benchmarks.tanks import tank_named
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -17,8 +18,8 @@ class Row:
 
     Attributes:
         case: what was solved.
-        unknowns: of ψ and of the surface.
-        error: largest relative error of the ten lowest frequencies.
+        unknowns: of ψ and of the surface, or panels.
+        error: largest relative error of the ten lowest frequencies, or of heave and sway of the circle.
         seconds: of each round.
         stages: seconds by stage in the last round.
         note: what else the code says.
@@ -45,14 +46,19 @@ class Row:
         return third - first
 
 
-def row_of(case: Case, tank: BenchmarkTank, answer: Answer, seconds: tuple[float, ...]) -> Row:
+def row_of(case: Case, answer: Answer, seconds: tuple[float, ...]) -> Row:
     """The row of a case from its last answer."""
-    errors = np.abs(np.array(answer.frequencies) / np.array(tank.frequencies) - 1.0)
     return Row(
         case=case,
         unknowns=answer.unknowns,
-        error=float(errors.max()),
+        error=_error(case, answer),
         seconds=seconds,
         stages=answer.stages,
         note=answer.note,
     )
+
+
+def _error(case: Case, answer: Answer) -> float:
+    if case.code in CIRCLE_CODES:
+        return circle_error(case.tank, answer.values)
+    return float(np.abs(np.array(answer.values) / np.array(tank_named(case.tank).frequencies) - 1.0).max())

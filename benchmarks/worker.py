@@ -27,6 +27,8 @@ MODULES = {
     "ngsolve": "ngsolve_tank",
     "scikit-fem": "scikit_fem_tank",
     "lower bound": "lower_bound",
+    "hydroelastic radiation": "hydroelastic_circle",
+    "capytaine": "capytaine_circle",
 }
 
 

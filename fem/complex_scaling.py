@@ -1,8 +1,8 @@
 """Exterior complex scaling: outgoing waves as decaying ones, so that a mesh of finite size holds open water.
 
 Beyond the sides of a basin the coordinate that leads away is turned into the complex plane, x̃ = x₀ + s (x − x₀) with
-s = e^{iα}. What travels outwards, e^{ikx}, becomes e^{ikx₀} e^{iks(x − x₀)} and decays like e^{−k (x − x₀) sin α}; within
-the basin nothing changes. With s_i the factor of the axis i in a cell, one there unless it leads away,
+s = e^{iα}. What travels outwards, e^{ikx}, becomes e^{ikx₀} e^{iks(x − x₀)} and decays like e^{−k (x − x₀) sin α};
+within the basin nothing changes. With s_i the factor of the axis i in a cell, one there unless it leads away,
 
     A = ∫ρ Σᵢ (det/sᵢ²) ∂ᵢψ ∂ᵢq,    S = ∫(det/s_n) ψ q over surfaces of normal n,    det = Πsᵢ
 

@@ -1,8 +1,10 @@
 """The pencil of open water on a few of its own solutions: Galerkin's method between frequencies.
 
-With a basis V of solutions at some frequencies, (VᵀAV − λVᵀMV) y = Vᵀf gives ψ ≈ Vy at any other. The matrices are complex
-symmetric, so that H = Fᵀψ of loads whose solutions are in V is met there with its derivative, and its error elsewhere is
-of second order in that of ψ. Source: A. Bultheel and M. Van Barel, J. Comput. Appl. Math. 14 (1986) 401 (rational
+With a basis V of solutions at some frequencies, (VᵀAV − λVᵀMV) y = Vᵀf gives ψ ≈ Vy at any other. The matrices are
+complex symmetric, so that H = Fᵀψ of loads whose solutions are in V is met there with its derivative, and its error
+elsewhere is of second order in that of ψ.
+
+Source: A. Bultheel and M. Van Barel, J. Comput. Appl. Math. 14 (1986) 401 (rational
 interpolation by projection); Y. Maday et al. on reduced bases.
 """
 
@@ -29,36 +31,46 @@ class ReducedPencil:
         """Start with nothing."""
         own = len(pencil.free)
         self._pencil = pencil
-        self._basis = np.zeros((0, own), dtype=complex)
-        self._images = (self._basis, self._basis)
-        self._projected = (np.zeros((0, 0), dtype=complex), np.zeros((0, 0), dtype=complex))
+        self._basis: np.ndarray = np.zeros((0, own), dtype=complex)
+        diagonal = pencil.laplace.real.getDiagonal().array_r + 1j * pencil.laplace.imaginary.getDiagonal().array_r
+        self._weights = 1.0 / np.sqrt(np.abs(diagonal))
+        # Of A and M: their products with the basis, and those with the basis on both sides.
+        self._images: list[np.ndarray] = [self._basis, self._basis]
+        self._projected: list[np.ndarray] = [np.zeros((0, 0), dtype=complex)] * 2
 
     @property
     def size(self) -> int:
         """Number of basis vectors."""
         return len(self._basis)
 
-    def add(self, potentials: np.ndarray) -> None:
-        """Take solutions into the basis, (solutions, own free unknowns) (collective)."""
-        new = []
-        for potential in potentials:
-            vector = potential / self._norm(potential)
-            # Twice is enough.
-            for _ in range(2):
-                known = np.vstack([self._basis, *new])
-                vector = vector - self._pencil.products(known.conj(), vector[None])[:, 0] @ known
-            left = self._norm(vector)
-            if left > _DEPENDENT:
-                new.append(vector[None] / left)
-        if not new:
-            return
-        added = np.vstack(new)
-        self._basis = np.vstack([self._basis, added])
-        self._images = tuple(
-            np.vstack([image, [complex_product(matrix, vector) for vector in added]])
-            for image, matrix in zip(self._images, (self._pencil.laplace, self._pencil.mass), strict=True)
-        )
-        self._projected = tuple(self._pencil.products(self._basis, image) for image in self._images)
+    def add(self, eigenvalue: complex, potentials: np.ndarray, loads: np.ndarray) -> None:
+        """Take solutions of (A − λM)ψ = f into the basis (collective).
+
+        Aψ is taken from λMψ + f: in elongated cells A is large, and Aψ of a ψ that hardly changes there would be lost
+        in rounding.
+
+        Args:
+            eigenvalue: λ.
+            potentials: ψ, shape (solutions, own free unknowns).
+            loads: f, of the same shape.
+        """
+        masses = np.array([complex_product(self._pencil.mass, potential) for potential in potentials])
+        for columns in zip(potentials, eigenvalue * masses + loads, masses, strict=True):
+            self._append(np.array(columns))
+        self._projected = [self._pencil.products(self._basis, image) for image in self._images]
+
+    def _append(self, columns: np.ndarray) -> None:
+        """Take in a solution with its images, shape (3, own free unknowns), less what the basis has of it."""
+        columns = columns / self._norm(columns[0])
+        # Twice is enough.
+        for _ in range(2):
+            known = self._pencil.products(self._basis.conj(), columns[:1])[:, 0]
+            columns = columns - np.array([known @ part for part in (self._basis, *self._images)])
+        left = self._norm(columns[0])
+        if left > _DEPENDENT:
+            vector, laplace, mass = columns[:, None] / left
+            self._basis = np.vstack([self._basis, vector])
+            self._images = [np.vstack([self._images[0], laplace]), np.vstack([self._images[1], mass])]
 
     def project(self, loads: np.ndarray) -> np.ndarray:
         """Vᵀf of some loads, shape (loads, basis) (collective)."""
@@ -80,10 +92,14 @@ class ReducedPencil:
         return potentials
 
     def residuals(self, eigenvalue: complex, loads: np.ndarray, coordinates: np.ndarray) -> np.ndarray:
-        """‖f − (A − λM)Vy‖/‖f‖ of each load (collective)."""
+        """How wrong solutions of loads f are, |rᵀ D⁻¹ r̄|^{1/2}/|fᵀψ|^{1/2} with the residual r and D = |diag A|.
+
+        D⁻¹ stands for (A − λM)⁻¹, with which the square would be the relative error of fᵀψ (collective).
+        """
         laplace, mass = self._images
-        rest = loads - coordinates @ (laplace - eigenvalue * mass)
-        return np.array([self._norm(left) / self._norm(load) for left, load in zip(rest, loads, strict=True)])
+        rest = (loads - coordinates @ (laplace - eigenvalue * mass)) * self._weights
+        responses = np.einsum("lv,lv->l", self.project(loads), coordinates)
+        return np.array([self._norm(left) for left in rest]) / np.sqrt(np.abs(responses))
 
     def _norm(self, vector: np.ndarray) -> float:
         return float(np.sqrt(self._pencil.comm.allreduce(np.vdot(vector, vector).real, op=MPI.SUM)))

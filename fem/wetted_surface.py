@@ -1,4 +1,4 @@
-"""The wetted surface of a body as quadrature points: for loads and integrals of fields that change with the frequency."""
+"""The wetted surface of a body as quadrature points, for loads and integrals of fields that change with frequency."""
 
 from __future__ import annotations
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -146,7 +147,7 @@ class _Rim:
         facets, tags = [], []
         for ray, tag in dict.fromkeys(self._rails):
             along = numbers[row[ray]]
-            facets += list(zip(along[:-1], along[1:], strict=True))
+            facets += list(pairwise(along))
             tags += [tag] * (len(along) - 1)
         for first, second, _, side in self._edges:
             facets.append((numbers[row[first], -1], numbers[row[second], -1]))

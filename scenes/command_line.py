@@ -279,14 +279,25 @@ def list_scenes() -> None:
 
 @main.command()
 @click.option("--out", type=click.Path(path_type=Path), help="Folder; default results/benchmarks.")
-@click.option("--quick", is_flag=True, help="One tank, every third case.")
-@click.option("--repeats", type=click.IntRange(min=1), help="Rounds that count; default 7, or 3 if quick.")
+@click.option(
+    "--problem", type=click.Choice(["tanks", "circle"]), multiple=True, help="Only this one; both by default."
+)
+@click.option("--quick", is_flag=True, help="One tank, one frequency, every third case.")
+@click.option("--repeats", type=click.IntRange(min=1), help="Rounds that count; default 7, or 3 if quick or circle.")
 @click.option("--no-install", is_flag=True, help="Leave out other codes that are not installed.")
 @click.pass_context
-def bench(context: click.Context, out: Path | None, quick: bool, repeats: int | None, no_install: bool) -> None:
-    """Measure error against seconds, beside NGSolve, scikit-fem and a bare lower bound.
+def bench(
+    context: click.Context,
+    out: Path | None,
+    problem: tuple[str, ...],
+    quick: bool,
+    repeats: int | None,
+    no_install: bool,
+) -> None:
+    """Measure error against seconds, beside NGSolve, scikit-fem and a bare lower bound, and beside Capytaine.
 
-    The two others are installed into the cache if they are missing. Writes speed_against_error.csv, .md and .png.
+    The others are installed into the cache if they are missing. Writes speed_against_error and open_circle, each as
+    .csv, .md and .png.
 
     \b
     Example:
@@ -294,6 +305,7 @@ def bench(context: click.Context, out: Path | None, quick: bool, repeats: int | 
     """
     arguments = ["--quick"] * quick + ["--no-install"] * no_install
     arguments += [] if out is None else ["--out", os.fspath(out)]
+    arguments += [word for name in problem for word in ("--problem", name)]
     arguments += [] if repeats is None else ["--repeats", str(repeats)]
     # A process of its own, for nothing here may depend on the benchmark.
     process = subprocess.Popen([sys.executable, "-m", "hydroelastic.benchmarks", *arguments])

@@ -33,6 +33,12 @@ class MotionScale:
         """A matrix of (added) masses: kg/m, kg for roll with heave, kg m for roll."""
         return self.units.density * self.units.length**4 * self._in_motions(matrix)
 
+    def unknown_masses(self, masses: np.ndarray) -> np.ndarray:
+        """The other way: masses in SI units for the dimensionless body unknowns."""
+        forth = self.turn * self.lengths[:, None]
+        unknowns: np.ndarray = forth.T @ masses @ forth / (self.units.density * self.units.length**4)
+        return unknowns
+
     def stiffnesses(self, matrix: np.ndarray) -> np.ndarray:
         """A matrix of stiffnesses: N/m², N/m for roll with heave, N for roll."""
         return self.units.density * self.units.gravity * self.units.length**3 * self._in_motions(matrix)
@@ -49,7 +55,7 @@ class MotionScale:
         return scaled
 
     def _in_motions(self, matrix: np.ndarray) -> np.ndarray:
-        back = np.linalg.inv(self.turn) / self.lengths
+        back = np.linalg.inv(self.turn * self.lengths[:, None])
         moved: np.ndarray = back.T @ matrix @ back
         return moved
 

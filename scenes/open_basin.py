@@ -17,7 +17,7 @@ from hydroelastic.meshes.geometry import BOTTOM, LEFT_WALL, LID, RIGHT_WALL
 from hydroelastic.meshes.open_sea import Frames
 from hydroelastic.modal.travelling_waves import TravellingWave, travelling_waves
 from hydroelastic.modal.two_layer import TwoLayers
-from hydroelastic.scenes.models import Beam, TankScene
+from hydroelastic.scenes.models import Beam, Float, TankScene
 from hydroelastic.scenes.scaled_tank import ScaledTank, scaled_tank
 from hydroelastic.scenes.scaling import Scales, scales
 
@@ -151,7 +151,7 @@ def open_basin(scene: TankScene, shortest: float) -> OpenBasin:
     )
 
 
-def _moved(body: object, shift: float) -> object:
+def _moved(body: Beam | Float, shift: float) -> Beam | Float:
     if isinstance(body, Beam):
         return body.model_copy(update={"start": body.start + shift})
     return body.model_copy(update={"position": body.position + shift})

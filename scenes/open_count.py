@@ -1,8 +1,8 @@
 """How many resonances lie in a region, counted without looking for them: the argument principle.
 
-The small matrix D(λ) = K − λ(M_b + H(λ)) of the bodies is singular at resonances, and has poles where the water could
-oscillate by itself if the bodies were held. Around a region the phase of det D turns once for every resonance within and
-back for every pole. H comes from solutions on the rim, on a reduced basis, and not from any eigenvector.
+The small matrix D(λ) = K − λ(M_b + H(λ)) of the bodies is singular at resonances, and has poles where the water
+could oscillate by itself if the bodies were held. Around a region the phase of det D turns once for every resonance
+within and back for every pole. H comes from solutions on the rim, on a reduced basis, and not from any eigenvector.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ def zeros_in(solver: OpenSolver, boundary: Callable[[int], np.ndarray]) -> int |
         phases = np.array([_phase(solver, omega) for omega in boundary(count)])
         turns = np.angle(np.roll(phases, -1) / phases)
         if np.abs(turns).max() < _TURN:
-            return int(round(turns.sum() / (2.0 * np.pi)))
+            return round(float(turns.sum() / (2.0 * np.pi)))
         count *= 2
     return None
 

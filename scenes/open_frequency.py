@@ -72,8 +72,8 @@ class OpenFrequency:
         return float(np.max(np.abs(diagonal.imag - radiated) / np.abs(diagonal), initial=0.0))
 
     def haskind_residual(self) -> float:
-        """Largest difference between the excitation and that which follows from the far field of the radiated waves,
-        X = λ I(φ) with I(φ) from the wave that leaves against the incident one, as a part of the largest force (collective)."""
+        """Largest difference between the excitation and X = λ I(φ), with I(φ) of the wave that leaves against the
+        incident one in the far field of the radiated waves, as a part of the largest force (collective)."""
         direct = self.froude_krylov_force + self.diffraction_force
         by_far_field = self.squared * self.incidence.fluxes_of(self.observed_amplitudes())
         scale = np.abs(direct).max(axis=0)

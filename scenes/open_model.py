@@ -17,6 +17,7 @@ from hydroelastic.fem.liquid import Layer, LiquidSpace, liquid_space
 from hydroelastic.fem.open_pencil import OpenPencil, build_open_pencil
 from hydroelastic.fem.spectral_error import cell_errors
 from hydroelastic.fem.wetted_surface import WettedSurface
+from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.meshes.geometry import FAR_END, LEFT_WALL, RIGHT_WALL
 from hydroelastic.meshes.open_sea import extended, with_far_ends
 from hydroelastic.meshes.tagged_mesh import TaggedMesh
@@ -177,7 +178,7 @@ def first_resolution(scene: TankScene, band: Band) -> Resolution:
     for level in tank.levels:
         own = max(shortest.values())
         if level.below == 1 and own * tank.layers[1].depth > _UNFELT:
-            own = shortest["surface"]
+            own = shortest.get("surface", 0.0)
         for piece in level.pieces:
             if piece.body is None:
                 wavenumbers.append(own)
@@ -238,7 +239,7 @@ def open_model(
     return OpenModel(basin=basin, resolution=resolution, reach=frames, shortest=wavenumbers[1] * length, pencil=pencil)
 
 
-def _liquid(basin: OpenBasin, resolution: Resolution, mesh: object) -> LiquidSpace:
+def _liquid(basin: OpenBasin, resolution: Resolution, mesh: TankMesh) -> LiquidSpace:
     layers = tuple(
         Layer(name=name, density=layer.density)
         for name, layer in zip(layer_names(basin.tank), basin.tank.layers, strict=True)

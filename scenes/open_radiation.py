@@ -92,7 +92,11 @@ def _swept(
     def solve(resolution: Resolution) -> Attempt[_Sweep]:
         model = open_model(comm, scene, band, replace(resolution, shapes=shapes), watch)
         solver = OpenSolver(model, watch)
-        problem = Problem(full=solver.frequency, reduced=solver.frequency_between, difference=_difference)
+        problem = Problem(
+            full=lambda omega: solver.frequency(omega.real),
+            reduced=lambda omega: solver.frequency_between(omega.real),
+            difference=_difference,
+        )
         swept = sweep(problem, omegas, tolerance)
         with watch.stage("errors"):
             places = judged_places(omegas)

@@ -112,15 +112,12 @@ def solve_resonance(comm: MPI.Comm, scene: TankScene, asked: Resonance, watch: S
     Raises:
         EigenSolverError: if SLEPc fails.
     """
-    expected = _expected(comm, scene, watch)
+    expected = expected_frequencies(comm, scene, watch)
     region = _region(expected, asked)
     band = Band(lowest=region.lowest, highest=region.highest)
     tank = open_basin(scene, band.wavenumbers(scene)[1]).tank
-    rough = rough_scene(scene)
-    coarse = open_model(comm, rough, band, first_resolution(rough, band), watch, angle=ANGLE)
-    with watch.stage("resonances"):
-        targets = [omega for omega in expected if omega < region.highest] or [region.highest]
-        values = _search(coarse, targets, region)[: asked.count]
+    coarse, values = rough_resonances(comm, scene, expected, region, watch)
+    values = values[: asked.count]
 
     def solve(resolution: Resolution) -> Attempt[_Found]:
         model = open_model(comm, scene, band, resolution, watch, angle=ANGLE)
@@ -128,7 +125,7 @@ def solve_resonance(comm: MPI.Comm, scene: TankScene, asked: Resonance, watch: S
             search = ResonanceSearch(model.pencil, model.stiffness, model.mass)
             pairs = [search.refined(model.squared_frequency(omega)) for omega in values]
         with watch.stage("errors"):
-            causes = _errors(model, pairs)
+            causes = resonance_errors(model, pairs)
         return Attempt(result=_Found(model=model, pairs=pairs), causes=causes, resolution=resolution)
 
     attempt = attempted(
@@ -141,7 +138,7 @@ def solve_resonance(comm: MPI.Comm, scene: TankScene, asked: Resonance, watch: S
     closed = _closed_region(region, found, asked)
     with watch.stage("count"):
         counted = zeros_in(OpenSolver(coarse, watch), closed.boundary)
-    reasons = ()
+    reasons: tuple[str, ...] = ()
     if counted is None:
         reasons = ("the independent count of the resonances is not certain: one may lie on the rim of its region",)
     elif counted != len(found.pairs):
@@ -154,7 +151,7 @@ def solve_resonance(comm: MPI.Comm, scene: TankScene, asked: Resonance, watch: S
     )
 
 
-def _expected(comm: MPI.Comm, scene: TankScene, watch: Stopwatch) -> list[float]:
+def expected_frequencies(comm: MPI.Comm, scene: TankScene, watch: Stopwatch) -> list[float]:
     """Frequencies with the added mass far above the waves, rad/s, ascending, without those that nothing restores."""
     limit = released_model(comm, scene, watch)
     values = eigh(limit.stiffness, limit.mass + limit.added_mass, eigvals_only=True)
@@ -168,6 +165,31 @@ def _region(expected: list[float], asked: Resonance) -> Region:
         highest=highest,
         damping=min(asked.largest_damping, 0.95 * tan(0.5 * ANGLE)),
     )
+
+
+def rough_resonances(
+    comm: MPI.Comm, scene: TankScene, expected: list[float], region: Region, watch: Stopwatch
+) -> tuple[OpenModel, list[complex]]:
+    """Find the resonances of a region in which bodies move, with little accuracy.
+
+    Args:
+        comm: MPI communicator.
+        scene: with open ends.
+        expected: frequencies near which to look, rad/s.
+        region: where.
+        watch: told the time.
+
+    Returns:
+        The model, and ω by ascending |ω|, rad/s (collective).
+
+    Raises:
+        EigenSolverError: if SLEPc fails.
+    """
+    rough, band = rough_scene(scene), Band(lowest=region.lowest, highest=region.highest)
+    model = open_model(comm, rough, band, first_resolution(rough, band), watch, angle=ANGLE)
+    targets = [omega for omega in expected if omega < region.highest] or [region.highest]
+    with watch.stage("resonances"):
+        return model, _search(model, targets, region)
 
 
 def _search(model: OpenModel, targets: list[float], region: Region) -> list[complex]:
@@ -193,7 +215,7 @@ def _closed_region(region: Region, found: _Found, asked: Resonance) -> Region:
     return Region(lowest=region.lowest, highest=min(region.highest, 1.02 * last), damping=region.damping)
 
 
-def _errors(model: OpenModel, pairs: list[Eigenpair]) -> FrequencyErrors:
+def resonance_errors(model: OpenModel, pairs: list[Eigenpair]) -> FrequencyErrors:
     """Errors of ω, half of those of λ: the energy missed over xᵀT'x, and how λ moves with α (collective)."""
     count = len(pairs)
     if not pairs:

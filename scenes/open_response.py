@@ -69,8 +69,8 @@ def solve_response(comm: MPI.Comm, scene: TankScene, asked: Response, watch: Sto
         solver = OpenSolver(model, watch)
         incident = _incident(model, asked)
         problem = Problem(
-            full=lambda omega: solver.response(omega, incident),
-            reduced=lambda omega: solver.response_between(omega, incident),
+            full=lambda omega: solver.response(omega.real, incident),
+            reduced=lambda omega: solver.response_between(omega.real, incident),
             difference=lambda one, other: relative_difference(_outcome(one), _outcome(other)),
         )
         swept = sweep(problem, omegas, tolerance)

@@ -56,8 +56,14 @@ class OpenSolver:
             self._direct.shift(squared)
             radiated = self._solved(self._loads)
         with self._watch.stage("reduce"):
-            self._reduced.add(radiated)
+            self._reduced.add(squared, radiated, self._loads)
         return radiated
+
+    def hydrodynamics(self, squares: np.ndarray) -> np.ndarray:
+        """H at many λ on the basis, shape (λ, body unknowns, body unknowns) (collective)."""
+        with self._watch.stage("reduce"):
+            projected = self._projected_loads()
+            return np.array([projected @ self._reduced.solve(square, projected).T for square in squares])
 
     def hydrodynamic(self, squared: complex) -> tuple[np.ndarray, float]:
         """H at λ on the basis, and the largest relative residual (collective)."""
@@ -75,7 +81,7 @@ class OpenSolver:
         with self._watch.stage("solve"):
             diffracted = self._solved(-waves.fluxes)
         with self._watch.stage("reduce"):
-            self._reduced.add(diffracted)
+            self._reduced.add(squared, diffracted, -waves.fluxes)
         return self._frequency(squared, waves, radiated, diffracted)
 
     def frequency_between(self, omega: float) -> tuple[OpenFrequency, float]:
@@ -122,7 +128,7 @@ class OpenSolver:
         scattered = diffracted + motions @ radiated
         with self._watch.stage("reduce"):
             # Waves from the other side are the dual problem of amplitudes: with them these are of second order.
-            self._reduced.add(scattered)
+            self._reduced.add(squared, scattered, motions @ self._loads - waves.fluxes)
         return self._response(squared, waves, incident, scattered[incident], motions[incident])
 
     def response_between(self, omega: float, incident: list[int]) -> tuple[OpenResponse, float]:

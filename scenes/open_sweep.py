@@ -1,7 +1,7 @@
 """Many frequencies from few factorizations: a reduced basis that grows where it is worst, until it need not grow.
 
-Solutions at the ends and in the middle of a range begin the basis of `fem.reduced_pencil`. Wherever the residual between
-them is largest the problem is solved in full next, which tells the true error there; for what is a functional of second
+Solutions at the ends and in the middle of a range begin the basis of `fem.reduced_pencil`. Wherever the residual
+between them is largest the problem is solved in full next, which tells the true error there. For functionals of second
 order the error goes like the square of the residual, and the ratio of the two, the largest that was seen, carries it to
 all other frequencies.
 """
@@ -37,8 +37,8 @@ class Problem(Generic[Solution]):
         difference: relative difference of a solution on the basis and the one in full.
     """
 
-    full: Callable[[float], Solution]
-    reduced: Callable[[float], tuple[Solution, float]]
+    full: Callable[[complex], Solution]
+    reduced: Callable[[complex], tuple[Solution, float]]
     difference: Callable[[Solution, Solution], float]
 
 
@@ -62,17 +62,17 @@ def sweep(problem: Problem[Solution], omegas: np.ndarray, tolerance: float) -> S
 
     Args:
         problem: what to solve.
-        omegas: frequencies, in any order, all different.
+        omegas: frequencies, real or along a line in the complex plane, in any order, all different.
         tolerance: asked relative error of what `Problem.difference` compares.
     """
     if len(omegas) <= FEW:
         return Swept(
-            solutions=[problem.full(float(omega)) for omega in omegas],
+            solutions=[problem.full(complex(omega)) for omega in omegas],
             errors=np.zeros(len(omegas)),
             in_full=[True] * len(omegas),
         )
-    order = [int(place) for place in np.argsort(omegas)]
-    full = {place: problem.full(float(omegas[place])) for place in (order[0], order[len(order) // 2], order[-1])}
+    order = [int(place) for place in np.argsort(np.abs(omegas))]
+    full = {place: problem.full(complex(omegas[place])) for place in (order[0], order[len(order) // 2], order[-1])}
     found: dict[int, tuple[Solution, float]] = {}
     ratio = 0.0
 
@@ -81,11 +81,11 @@ def sweep(problem: Problem[Solution], omegas: np.ndarray, tolerance: float) -> S
 
     for candidates in (order[:: max(len(order) // _CANDIDATES, 1)], order):
         while poor := [place for place in candidates if place not in full and not is_good(place)]:
-            found |= {place: problem.reduced(float(omegas[place])) for place in poor}
+            found |= {place: problem.reduced(complex(omegas[place])) for place in poor}
             worst = max(poor, key=lambda place: found[place][1])
             if is_good(worst):
                 continue
-            full[worst] = problem.full(float(omegas[worst]))
+            full[worst] = problem.full(complex(omegas[worst]))
             difference = problem.difference(found[worst][0], full[worst])
             ratio = max(ratio, difference / max(found[worst][1], np.finfo(float).eps) ** 2)
     errors = np.zeros(len(omegas))

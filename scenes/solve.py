@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from math import ceil, floor, log10
+from math import ceil
 
 import numpy as np
 from mpi4py import MPI
@@ -18,6 +18,7 @@ from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 from hydroelastic.scenes.certainty import FrequencyErrors, frequency_errors, refined
 from hydroelastic.scenes.companion import Companion, solve_companion
+from hydroelastic.scenes.digits import kept_tolerance
 from hydroelastic.scenes.estimates import ends_of_float_motions, expected_tones
 from hydroelastic.scenes.field_model import bring_mesh, build_mesh, moving_surfaces
 from hydroelastic.scenes.field_solution import FieldSolution, Stopwatch, count_is_confirmed, solve_field
@@ -303,13 +304,13 @@ def _reasons(solution: TankSolution) -> tuple[str, ...]:
         reasons.append(
             f"mode {number} has an estimated relative error of {errors.max():.1e}, above the tolerance {tolerance:g}; "
             + (f"rounding alone leaves {solution.rounding:.1e}; " if solution.rounding > 0.5 * tolerance else "")
-            + _kept(float(errors.max()))
+            + kept_tolerance(float(errors.max()))
         )
     if solution.growing_errors.max(initial=0.0) > tolerance:
         error = float(solution.growing_errors.max())
         reasons.append(
             f"a growth rate has an estimated relative error of {error:.1e}, above the tolerance {tolerance:g}; "
-            + _kept(error)
+            + kept_tolerance(error)
         )
     if len(solution.asked) < min(solution.scene.accuracy.modes, _modes_there(solution)):
         asked = solution.scene.accuracy.modes
@@ -324,26 +325,26 @@ def _reasons(solution: TankSolution) -> tuple[str, ...]:
             error = float(solution.relative_errors[tone.tone.index])
             reasons.append(
                 f"the first elastic tone of body {number} has an estimated error of {error:.1e}, above the tolerance "
-                f"{tolerance:g}; {_kept(error)}"
+                f"{tolerance:g}; {kept_tolerance(error)}"
             )
         if tone.pressure_release_error is not None and tone.pressure_release_error > tolerance:
             reasons.append(
                 f"the pressure-release tone of body {number} has an estimated error of "
                 f"{tone.pressure_release_error:.1e}, above the tolerance {tolerance:g}; "
-                + _kept(tone.pressure_release_error)
+                + kept_tolerance(tone.pressure_release_error)
             )
     for mode in solution.float_modes:
         if mode.index is not None and solution.relative_errors[mode.index] > tolerance:
             error = float(solution.relative_errors[mode.index])
             reasons.append(
                 f"the {mode.motion} mode of body {mode.body + 1} has an estimated error of {error:.1e}, above the "
-                f"tolerance {tolerance:g}; {_kept(error)}"
+                f"tolerance {tolerance:g}; {kept_tolerance(error)}"
             )
     if solution.added_mass is not None and solution.added_mass.error > tolerance:
         error = solution.added_mass.error
         reasons.append(
             f"the added mass far above the waves has an estimated error of {error:.1e}, above the tolerance "
-            f"{tolerance:g}; {_kept(error)}"
+            f"{tolerance:g}; {kept_tolerance(error)}"
         )
     return tuple(reasons)
 
@@ -352,11 +353,3 @@ def _modes_there(solution: TankSolution) -> float:
     """How many modes a scene has: no more than rigid motions where no wave travels and nothing bends."""
     count = mode_count(solution.scene)
     return np.inf if count is None else count - len(solution.modes.growing)
-
-
-def _kept(error: float) -> str:
-    """What tolerance an error keeps, in words: the error rounded up."""
-    if error > 0.1:
-        return "no digit is certain"
-    digit = 10.0 ** floor(log10(error))
-    return f"a tolerance of {ceil(error / digit) * digit:.0e} is kept"

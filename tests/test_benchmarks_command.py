@@ -44,6 +44,7 @@ def bench(monkeypatch: pytest.MonkeyPatch, child: Child, *arguments: str) -> Any
     [
         ([], []),
         (["--quick", "--repeats", "2"], ["--quick", "--repeats", "2"]),
+        (["--problem", "circle"], ["--problem", "circle"]),
         (["--no-install", "--out", "my folder"], ["--no-install", "--out", "my folder"]),
     ],
 )
@@ -64,7 +65,9 @@ def test_an_interrupt_ends_both(monkeypatch: pytest.MonkeyPatch) -> None:
     assert child.terminated
 
 
-@pytest.mark.parametrize("arguments", [["--repeats", "0"], ["--repeats", "many"], ["--fast"], ["aquarium"]])
+@pytest.mark.parametrize(
+    "arguments", [["--repeats", "0"], ["--repeats", "many"], ["--fast"], ["aquarium"], ["--problem", "sea"]]
+)
 def test_bad_arguments_are_refused_at_once(monkeypatch: pytest.MonkeyPatch, arguments: list[str]) -> None:
     child = Child(0)
     result = bench(monkeypatch, child, *arguments)
@@ -91,7 +94,7 @@ def test_both_commands_have_the_same_options(tmp_path: Path) -> None:
     inner = process("--help", folder=tmp_path).stdout
     outer = CliRunner().invoke(command_line.main, ["bench", "--help"]).stdout
     options = [word for word in outer.split() if word.startswith("--")]
-    assert {"--out", "--quick", "--repeats", "--no-install"} <= set(options)
+    assert {"--out", "--problem", "--quick", "--repeats", "--no-install"} <= set(options)
     assert all(option in inner for option in options)
     assert "Example:" in inner
     assert "Example:" in outer

@@ -34,7 +34,7 @@ def solver(seconds: float, error: float) -> Solve:
 
     def solve(case: Case) -> tuple[float, Answer]:
         frequencies = tuple(value * (1.0 + error) for value in tank_named(case.tank).frequencies)
-        return seconds, Answer(frequencies=frequencies, unknowns=100, stages={"mesh": seconds}, note="a note")
+        return seconds, Answer(values=frequencies, unknowns=100, stages={"mesh": seconds}, note="a note")
 
     return solve
 

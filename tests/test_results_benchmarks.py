@@ -5,8 +5,10 @@ from pathlib import Path
 
 import pytest
 
+from hydroelastic.benchmarks.circle import CIRCLE, circle_cases
+from hydroelastic.benchmarks.circle_report import CIRCLE_COLUMNS
 from hydroelastic.benchmarks.measure import cases_of
-from hydroelastic.benchmarks.output import NAME
+from hydroelastic.benchmarks.output import CIRCLE_NAME, NAME
 from hydroelastic.benchmarks.report import CSV_COLUMNS
 from hydroelastic.benchmarks.tanks import TANKS
 
@@ -40,3 +42,35 @@ def test_hydroelastic_kept_every_tolerance_asked(rows: list[dict[str, str]]) -> 
 def test_page_and_figure_are_there() -> None:
     assert "Milliseconds at equal error" in (FOLDER / f"{NAME}.md").read_text(encoding="utf-8")
     assert (FOLDER / f"{NAME}.png").stat().st_size > 10_000
+
+
+@pytest.fixture(scope="module")
+def circle_rows() -> list[dict[str, str]]:
+    with (FOLDER / f"{CIRCLE_NAME}.csv").open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_every_case_of_the_circle_was_measured(circle_rows: list[dict[str, str]]) -> None:
+    assert tuple(circle_rows[0]) == CIRCLE_COLUMNS
+    measured = [
+        (
+            *(row["code"], row["frequency"], row["variant"]),
+            *(float(row["length"] or 0.0), int(row["panels"] or 0), float(row["tolerance"] or 0.0)),
+        )
+        for row in circle_rows
+    ]
+    assert measured == [
+        (case.code, case.tank, case.variant, case.length, case.panels, case.tolerance)
+        for frequency in CIRCLE
+        for case in circle_cases(frequency, quick=False)
+    ]
+
+
+def test_hydroelastic_kept_every_tolerance_of_the_circle(circle_rows: list[dict[str, str]]) -> None:
+    own = [row for row in circle_rows if row["code"] == "hydroelastic radiation"]
+    assert all(float(row["error"]) <= float(row["tolerance"]) for row in own)
+
+
+def test_page_and_figure_of_the_circle_are_there() -> None:
+    assert "not a comparison of like with like" in (FOLDER / f"{CIRCLE_NAME}.md").read_text(encoding="utf-8")
+    assert (FOLDER / f"{CIRCLE_NAME}.png").stat().st_size > 10_000

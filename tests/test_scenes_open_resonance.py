@@ -43,7 +43,7 @@ def test_circle(tolerance: float) -> None:
 
 
 def thin_cases() -> list[Any]:
-    fast = {("wedge", "water"), ("parabola", "channel")}
+    fast = {("wedge", "water")}
     return [
         pytest.param(shape, liquids, marks=[] if (shape, liquids) in fast else [SLOW])
         for shape in ("wedge", "parabola", "ellipse")
@@ -72,6 +72,7 @@ def test_what_thickness_does_to_an_ellipse() -> None:
     assert exact.imag / thin.imag - 1.0 == pytest.approx(-3.4e-2, abs=1.5e-3)
 
 
+@SLOW
 def test_angle_of_the_scaling_moves_no_resonance(monkeypatch: pytest.MonkeyPatch) -> None:
     scene = circle(1e-6, "heave")
     base = resonance(scene, count=1).table.omega[0]

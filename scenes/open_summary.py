@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
+from dataclasses import asdict, fields
 from math import isinf, isnan
 from typing import Any
 
 import numpy as np
 from mpi4py import MPI
 
+from hydroelastic.scenes.open_estimates import thin_float_comparisons
 from hydroelastic.scenes.open_results import (
     DIRECTIONS,
     DecayTable,
@@ -33,6 +34,7 @@ def summarize_open(solution: OpenSolution, comm: MPI.Comm, *, import_seconds: fl
     Returns:
         The content of ``summary.json``.
     """
+    comparisons, note = thin_float_comparisons(solution)
     return {
         "scene": solution.scene.model_dump(mode="json"),
         "status": solution.status,
@@ -41,6 +43,7 @@ def summarize_open(solution: OpenSolution, comm: MPI.Comm, *, import_seconds: fl
         "response": [_written(table) for table in solution.response],
         "resonance": [_written(table) for table in solution.resonance],
         "decay": [_written(table) for table in solution.decay],
+        "estimates": {"thin_float": {"rows": [json_ready(asdict(row)) for row in comparisons], "note": note}},
         "size": {**solution.size, "processes": comm.size},
         "timing": {"import": import_seconds, **solution.seconds},
         "memory_peak": memory_of_processes(comm),

@@ -11,7 +11,7 @@ from math import inf, isfinite, pi
 import numpy as np
 from rich.console import Console
 
-from hydroelastic.scenes.digits import with_certain_digits
+from hydroelastic.scenes.digits import number, per_cent, with_certain_digits
 from hydroelastic.scenes.open_results import DecayTable, OpenSolution, RadiationTable, ResonanceTable, ResponseTable
 from hydroelastic.scenes.summary import Summary
 from hydroelastic.scenes.tables import markdown_table, rich_table, status_lines, title_of
@@ -45,7 +45,7 @@ def printed_open(solution: OpenSolution, summary: Summary, *, width: int = 120) 
     console.print(title_of(summary), markup=False)
     for line in status_lines(summary):
         console.print(line, markup=False, style="bold")
-    for section in sections(solution):
+    for section in (*sections(solution), *_estimates(summary)):
         console.print(section.title, markup=False)
         console.print(rich_table(section.headings, section.rows))
         for line in section.lines:
@@ -59,7 +59,7 @@ def markdown_open(solution: OpenSolution, summary: Summary) -> str:
     parts = [f"# {title_of(summary)}", ""]
     complaint = [f"**{line}**" if number == 0 else line for number, line in enumerate(status_lines(summary))]
     parts += [*complaint, ""] if complaint else []
-    for section in sections(solution):
+    for section in (*sections(solution), *_estimates(summary)):
         parts += [f"## {section.title}", "", markdown_table(section.headings, section.rows), ""]
         parts += [line + "\n" for line in section.lines]
     parts.append(cost_line(summary))
@@ -76,6 +76,24 @@ def sections(solution: OpenSolution) -> Iterator[Section]:
         yield _resonance(resonance)
     for decay in solution.decay:
         yield _decay(decay)
+
+
+def _estimates(summary: Summary) -> Iterator[Section]:
+    """The thin-float theory beside the field solution."""
+    estimate = summary["estimates"]["thin_float"]
+    if estimate["rows"]:
+        yield Section(
+            title="The thin-float theory beside the field solution",
+            headings=("quantity", "theory", "field", "difference"),
+            rows=[
+                (row["quantity"], number(row["theory"]), number(row["field"]), per_cent(row["difference"]))
+                for row in estimate["rows"]
+            ],
+            lines=(
+                f"{estimate['note']} Of curves the largest difference is shown, in parts of the largest value, or of "
+                "the displacement at first.",
+            ),
+        )
 
 
 def cost_line(summary: Summary) -> str:
@@ -178,12 +196,12 @@ def _response(table: ResponseTable) -> Iterator[Section]:
 
 def _resonance(table: ResonanceTable) -> Section:
     rows: list[_Row] = []
-    for number, (omega, label, error, residual) in enumerate(
+    for place, (omega, label, error, residual) in enumerate(
         zip(table.omega, table.labels, table.relative_error, table.residuals, strict=True), 1
     ):
         rows.append(
             (
-                str(number),
+                str(place),
                 motion_name(label),
                 _certain(omega.real, float(error)),
                 _certain(omega.imag, float(error) * abs(omega) / abs(omega.imag) if omega.imag else 1.0),

@@ -1,0 +1,70 @@
+"""The thin-float theory stands beside the field solution of open water, and where it is exact both agree."""
+
+from __future__ import annotations
+
+from math import inf
+
+import pytest
+from mpi4py import MPI
+
+from hydroelastic.scenes.model_analyses import Decay, Radiation, Release, Resonance
+from hydroelastic.scenes.model_bodies import Beam, Float
+from hydroelastic.scenes.models import Accuracy, Liquid, Tank, TankScene
+from hydroelastic.scenes.open_estimates import thin_float_comparisons
+from hydroelastic.scenes.open_results import OpenSolution
+from hydroelastic.scenes.open_solve import solve_open
+
+
+def _scene(**changes: object) -> TankScene:
+    keys = {"shape": "parabola", "position": 3.0, "half_width": 0.1, "half_height": 1.0, "boundary": "thin"} | changes
+    return TankScene(
+        tank=Tank(length=6.0, ends="open"),
+        liquid=(Liquid(density=1000.0, depth=inf),),
+        body=(Float.model_validate(keys),),
+        analysis=(
+            Radiation(omega=(2.0, 4.0)),
+            Resonance(),
+            Decay(displacement=Release(heave=0.1), times=(1.0, 5.0, 20.0)),
+        ),
+        accuracy=Accuracy(tolerance=1e-3),
+    )
+
+
+def test_thin_boundary_is_what_the_theory_solves() -> None:
+    rows, note = thin_float_comparisons(solve_open(_scene(), MPI.COMM_SELF, lambda _message: None))
+    assert [row.quantity.split()[0] for row in rows] == ["Re", "γ", "a", "b", "heave"]
+    # The field is asked for 1e-3, and is known to be better by a factor of ten; the theory has twelve digits.
+    assert max(abs(row.difference) for row in rows) < 2e-4
+    assert "thickness" in note
+
+
+def test_exact_contour_differs_by_the_thinness() -> None:
+    rows, _ = thin_float_comparisons(solve_open(_scene(boundary="exact"), MPI.COMM_SELF, lambda _message: None))
+    differences = {row.quantity.split()[0]: abs(row.difference) for row in rows}
+    # τ = 0.1: of first order in a, b and γ, of second order in Re ω.
+    assert 1e-3 < differences["γ"] < 0.15
+    assert differences["Re"] < 0.02
+    assert 1e-3 < max(differences["a"], differences["b"]) < 0.15
+
+
+def test_other_scenes_have_no_such_theory() -> None:
+    heavy = _scene(mass=150.0)
+    beam = heavy.model_copy(
+        update={"body": (Beam(start=1.0, length=2.0, flexural_rigidity=1e4, mass_per_length=50.0),)}
+    )
+    for scene in (heavy, beam):
+        assert thin_float_comparisons(OpenSolution(scene=scene, size={}, seconds={})) == ((), "")
+
+
+def test_blunt_sections_say_why() -> None:
+    scene = _scene(shape="rectangle", boundary="exact")
+    rows, note = thin_float_comparisons(OpenSolution(scene=scene, size={}, seconds={}))
+    assert rows == ()
+    assert note.startswith("The thin-float theory has no value")
+
+
+@pytest.mark.mpi
+def test_two_processes_agree() -> None:
+    solution = solve_open(_scene(), MPI.COMM_WORLD, lambda _message: None)
+    rows, _ = thin_float_comparisons(solution)
+    assert max(abs(row.difference) for row in rows) < 2e-4

@@ -16,7 +16,6 @@ not pay. Smooth weights along one cylinder were no better than two lengths at Ka
 
 from __future__ import annotations
 
-import os
 from importlib.metadata import version
 from math import inf
 
@@ -26,7 +25,6 @@ from numpy.typing import NDArray
 
 from hydroelastic.benchmarks.cases import Answer, Case
 from hydroelastic.benchmarks.circle import DENSITY, GRAVITY, RADIUS, circle_frequency, unit_added_mass
-from hydroelastic.benchmarks.peers import cache_folder
 
 Grid = NDArray[np.float64]
 
@@ -34,7 +32,6 @@ _MOTIONS = ("Heave", "Sway")
 # Length of the panels over the radius, by the number of panels on a quarter of the circle.
 _PANEL_LENGTHS = {4: 1.0, 8: 0.75, 12: 0.5}
 # It reads its table from the cache, or makes it: not timed, and shared by all solutions.
-os.environ.setdefault("CAPYTAINE_CACHE_DIR", str(cache_folder() / "capytaine"))
 _GREEN_FUNCTION = capytaine.Delhommeau()
 
 

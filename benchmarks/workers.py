@@ -14,10 +14,13 @@ from pathlib import Path
 from typing import IO, Any
 
 from hydroelastic.benchmarks.cases import Answer, Case, Code
+from hydroelastic.benchmarks.peers import cache_folder
 
 _ONE_THREAD = dict.fromkeys(
     ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "BLIS_NUM_THREADS", "NGS_NUM_THREADS"), "1"
 )
+# Capytaine writes the table of its Green function there, and looks when it is imported.
+_CAPYTAINE_CACHE = "CAPYTAINE_CACHE_DIR"
 _SECONDS_TO_END = 2
 
 
@@ -93,7 +96,7 @@ def start_worker(code: Code, folder: Path | None) -> Iterator[Worker]:
             stderr=said,
             text=True,
             encoding="utf-8",
-            env=os.environ | _ONE_THREAD,
+            env={_CAPYTAINE_CACHE: str(cache_folder() / "capytaine")} | os.environ | _ONE_THREAD,
         ) as process,
     ):
         try:

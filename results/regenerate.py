@@ -33,6 +33,7 @@ STUDIED = {
 }
 SHOWN_WIDTH = 800
 TABLES = ("summary.json", "summary.md", "modes.csv")
+OPEN_TABLES = ("summary.json", "summary.md")
 
 
 def regenerate(name: str) -> str:
@@ -47,6 +48,12 @@ def regenerate(name: str) -> str:
         kept = SHIPPED / name
         shutil.rmtree(kept, ignore_errors=True)
         kept.mkdir(parents=True)
+        if read_scene(name).is_open:
+            for table in OPEN_TABLES:
+                shutil.copy(outcome.folder / table, kept)
+            for picture in sorted((outcome.folder / "images").iterdir()):
+                _keep_picture(picture, kept / picture.name)
+            return outcome.status
         for table in TABLES:
             shutil.copy(outcome.folder / table, kept)
         _keep_picture(outcome.folder / "images" / "overview.png", kept / "overview.png")
@@ -72,10 +79,11 @@ def shown_modes(summary: Summary) -> dict[int, str]:
 
 
 def _keep_picture(source: Path, target: Path) -> None:
-    """Store a picture at the width that pages show it."""
+    """Store a picture at the width that pages show it, in as many colours as a byte tells apart."""
     with Image.open(source) as picture:
         height = round(picture.height * SHOWN_WIDTH / picture.width)
-        picture.convert("RGB").resize((SHOWN_WIDTH, height), Image.Resampling.LANCZOS).save(target, optimize=True)
+        shown = picture.convert("RGB").resize((SHOWN_WIDTH, height), Image.Resampling.LANCZOS)
+        shown.quantize(256, dither=Image.Dither.NONE).save(target, optimize=True)
 
 
 def main() -> None:

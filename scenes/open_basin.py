@@ -232,8 +232,8 @@ def reach(
     """
     longest, shortest = wavenumbers
     decades = log(1.0 / (_CUT * tolerance))
-    # A wave goes out and comes back. So does what decays by itself, like e^{−κx} with κ > π/(2H), H all the depth between
-    # the bed and a free top: that bound is reached far above the waves.
+    # A wave goes out and comes back. So does what decays by itself, like e^{−κx} with κ > π/(2H), H all the depth
+    # between the bed and a free top: that bound is reached far above the waves.
     farthest = [decades / (2.0 * longest * sin(angle))]
     farthest.append(decades * sum(depth for depth in basin.depths if not isinf(depth)) / (pi * cos(angle)))
     if any(isinf(depth) for depth in basin.depths):

@@ -135,6 +135,10 @@ THIN_LIQUIDS: dict[str, TwoLayers] = {
     "channel": TwoLayers(
         density_below=1000.0, density_above=800.0, depth_below=2.0, depth_above=1.5, gravity=GRAVITY, top="rigid"
     ),
+    "bed": TwoLayers(density_below=1000.0, density_above=800.0, depth_below=3.0, gravity=GRAVITY),
+    "roof": TwoLayers(
+        density_below=1000.0, density_above=800.0, depth_below=math.inf, depth_above=3.0, gravity=GRAVITY, top="rigid"
+    ),
 }
 """Liquids in which thin floats have closed forms; bed and lid of the channel are not at the same distance."""
 
@@ -154,7 +158,7 @@ def slender(
         "position": 5.0,
         "boundary": boundary,
     }
-    more = {"top": "rigid"} if liquids == "channel" else {}
+    more = {"top": "rigid"} if math.isfinite(layers.depth_above) else {}
     liquid = (below, above) if layers.density_above else (below,)
     return open_scene(body, liquids=liquid, analyses=[], accuracy={"tolerance": tolerance}, **more)
 

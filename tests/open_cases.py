@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pytest
 from mpi4py import MPI
 from open_tables import open_scene
 
@@ -34,6 +35,14 @@ def complex_of(values: Any) -> np.ndarray:
     """Return pairs of real and imaginary parts as complex numbers."""
     array = np.array(values)
     return np.asarray(array[..., 0] + 1j * array[..., 1])
+
+
+def half_slow(rows: list[dict[str, Any]]) -> list[Any]:
+    """Return rows as parameters of a test, every other one marked as slow."""
+    return [
+        pytest.param(row, marks=[] if number % 2 else [pytest.mark.slow], id=str(number))
+        for number, row in enumerate(rows, 1)
+    ]
 
 
 def radiation(

@@ -27,7 +27,7 @@ def resonance(scene: TankScene, **asked: Any) -> ResonanceSolution:
     return solve_resonance(MPI.COMM_WORLD, scene, Resonance(**asked), Stopwatch())
 
 
-@pytest.mark.parametrize("tolerance", [1e-4, 1e-6, pytest.param(1e-8, marks=SLOW)])
+@pytest.mark.parametrize("tolerance", [pytest.param(1e-4, marks=SLOW), 1e-6, pytest.param(1e-8, marks=SLOW)])
 def test_circle(tolerance: float) -> None:
     found = resonance(circle(tolerance, "heave"), count=1)
     table = found.table
@@ -82,6 +82,7 @@ def test_angle_of_the_scaling_moves_no_resonance(monkeypatch: pytest.MonkeyPatch
     assert other == pytest.approx(base, rel=1e-6)
 
 
+@SLOW
 def test_resonance_of_a_slender_float_is_a_peak() -> None:
     scene = slender("wedge", "water", 1e-6)
     omega = resonance(scene, count=1).table.omega[0]
@@ -94,7 +95,8 @@ def test_resonance_of_a_slender_float_is_a_peak() -> None:
     assert abs(omega) == pytest.approx(natural, rel=5e-3)
 
 
-@pytest.mark.parametrize("number", [pytest.param(6, marks=SLOW), 7])
+@SLOW
+@pytest.mark.parametrize("number", [6, 7])
 def test_section_rolls_and_heaves(number: int) -> None:
     # A trapezium and a triangle, each of a kind of its own: heave and, where it is stable, roll.
     found = resonance(section(SECTIONS[number], 1e-4), count=2, largest_damping=0.5)

@@ -28,6 +28,8 @@ _LEAST_MARGIN = 0.1
 _MARGIN_IN_RADIANS = 6.0
 # A layer that is deeper than the basin by more than this part of the basin's length goes on in frames.
 _DEEPER = 1.0
+# A bed or a lid that is a little further than a frame ends with it.
+_NEARLY = 1.5
 # What is cut off far away is kept below this part of the tolerance.
 _CUT = 0.03
 
@@ -123,7 +125,12 @@ def open_basin(scene: TankScene, shortest: float) -> OpenBasin:
     length = right - left + 2.0 * margin
     reaches = (margin - low, margin + high)
     depths = [layer.depth for layer in scene.layers]
-    kept = [reach if depth > reach + _DEEPER * length else depth for depth, reach in zip(depths, reaches, strict=False)]
+    # A top that moves, or holds the pressure, is part of the basin.
+    goes_on = (True, isinf(depths[-1]) or scene.top == "rigid")
+    kept = [
+        reach if open_end and depth > reach + _DEEPER * length else depth
+        for depth, reach, open_end in zip(depths, reaches, goes_on, strict=False)
+    ]
     origin = left - margin
     basin = scene.model_copy(
         update={
@@ -191,30 +198,32 @@ class Reach:
     growth: float
     farthest: float
 
-    def frames(self, basin: OpenBasin) -> tuple[Frames, Frames]:
-        """Frames that widen the basin in all open directions, then those that go on sideways."""
+    def stages(self, basin: OpenBasin) -> list[tuple[tuple[str, ...], Frames]]:
+        """Frames one after another, and the sides of the basin, widened by those before, that they extend.
+
+        A bed or a lid is not followed beyond its distance: frames that go on sideways alone would else be thin and long
+        there.
+        """
         count = max(int(np.ceil(log(self.farthest / self.first) / log(self.growth))), 1)
         distances = self.first * (self.farthest / self.first) ** (np.arange(count + 1) / count)
-        further = [depth - layer.depth for depth, layer in zip(basin.depths, basin.tank.layers, strict=True)]
-        deepest = max(further)
-        both = int(np.searchsorted(distances, deepest)) + 1 if deepest else 0
-        inner, outer = distances[:both], distances[both:]
-        # Beyond the first stage distances are counted from the wider basin.
-        start = inner[-1] if both else 0.0
-        below, above = (self._vertical(inner, depth) for depth in (further[0], further[-1]))
-        none = np.zeros(len(outer))
-        return (
-            Frames(sideways=inner, below=below, above=above),
-            Frames(sideways=outer - start, below=none, above=none),
-        )
-
-    def _vertical(self, sideways: np.ndarray, further: float) -> np.ndarray:
-        """As many distances that end at a bed or a lid, each so far beyond the basin; all of an endless liquid."""
-        if isinf(further) or not further:
-            return np.minimum(sideways, further)
-        steps = np.arange(len(sideways)) / (len(sideways) - 1)
-        vertical: np.ndarray = self.first * (further / self.first) ** steps
-        return vertical
+        further = {
+            BOTTOM: basin.depths[0] - basin.tank.layers[0].depth,
+            LID: basin.depths[-1] - basin.tank.layers[-1].depth,
+        }
+        open_sides = {side: further[side] for side in (BOTTOM, LID) if side in basin.sides}
+        stages, start = [], 0.0
+        while len(distances):
+            sides = (LEFT_WALL, RIGHT_WALL, *open_sides)
+            frames = int(np.searchsorted(distances, min(open_sides.values(), default=inf))) + 1
+            sideways, distances = distances[:frames] - start, distances[frames:]
+            ended = {side: end for side, end in open_sides.items() if end <= _NEARLY * (start + sideways[-1])}
+            below, above = (
+                sideways * (ended[side] - start) / sideways[-1] if side in ended else sideways for side in (BOTTOM, LID)
+            )
+            stages.append((sides, Frames(sideways=sideways, below=below, above=above)))
+            open_sides = {side: end for side, end in open_sides.items() if side not in ended}
+            start += float(sideways[-1])
+        return stages
 
 
 def reach(

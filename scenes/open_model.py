@@ -18,7 +18,7 @@ from hydroelastic.fem.open_pencil import OpenPencil, build_open_pencil
 from hydroelastic.fem.spectral_error import cell_errors
 from hydroelastic.fem.wetted_surface import WettedSurface
 from hydroelastic.meshes.distribute import TankMesh
-from hydroelastic.meshes.geometry import FAR_END, LEFT_WALL, RIGHT_WALL
+from hydroelastic.meshes.geometry import FAR_END
 from hydroelastic.meshes.open_sea import extended, with_far_ends
 from hydroelastic.meshes.tagged_mesh import TaggedMesh
 from hydroelastic.modal.travelling_waves import travelling_waves
@@ -266,9 +266,6 @@ def open_mesh(basin: OpenBasin, resolution: Resolution, frames: Reach, *, releas
         ring_ratio=resolution.ring_ratio,
         geometry_degree=resolution.degree if curved else 1,
     )
-    around, sideways = frames.frames(basin)
-    if len(around.sideways):
-        mesh = extended(mesh, basin.sides, around)
-    if len(sideways.sideways):
-        mesh = extended(mesh, (LEFT_WALL, RIGHT_WALL), sideways)
+    for sides, stage in frames.stages(basin):
+        mesh = extended(mesh, sides, stage)
     return with_far_ends(mesh, basin.endless)

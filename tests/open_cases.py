@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pytest
 from mpi4py import MPI
 from open_tables import open_scene
 
@@ -34,6 +35,14 @@ def complex_of(values: Any) -> np.ndarray:
     """Return pairs of real and imaginary parts as complex numbers."""
     array = np.array(values)
     return np.asarray(array[..., 0] + 1j * array[..., 1])
+
+
+def half_slow(rows: list[dict[str, Any]]) -> list[Any]:
+    """Return rows as parameters of a test, every other one marked as slow."""
+    return [
+        pytest.param(row, marks=[] if number % 2 else [pytest.mark.slow], id=str(number))
+        for number, row in enumerate(rows, 1)
+    ]
 
 
 def radiation(
@@ -135,6 +144,10 @@ THIN_LIQUIDS: dict[str, TwoLayers] = {
     "channel": TwoLayers(
         density_below=1000.0, density_above=800.0, depth_below=2.0, depth_above=1.5, gravity=GRAVITY, top="rigid"
     ),
+    "bed": TwoLayers(density_below=1000.0, density_above=800.0, depth_below=3.0, gravity=GRAVITY),
+    "roof": TwoLayers(
+        density_below=1000.0, density_above=800.0, depth_below=math.inf, depth_above=3.0, gravity=GRAVITY, top="rigid"
+    ),
 }
 """Liquids in which thin floats have closed forms; bed and lid of the channel are not at the same distance."""
 
@@ -154,7 +167,7 @@ def slender(
         "position": 5.0,
         "boundary": boundary,
     }
-    more = {"top": "rigid"} if liquids == "channel" else {}
+    more = {"top": "rigid"} if math.isfinite(layers.depth_above) else {}
     liquid = (below, above) if layers.density_above else (below,)
     return open_scene(body, liquids=liquid, analyses=[], accuracy={"tolerance": tolerance}, **more)
 

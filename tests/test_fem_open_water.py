@@ -171,10 +171,17 @@ def test_reduced_basis_meets_what_it_was_given(name: str, request: pytest.Fixtur
 
 
 def test_basis_takes_no_vector_twice(rectangle: OpenModel) -> None:
-    reduced = ReducedPencil(rectangle.pencil)
-    vectors = np.random.default_rng(8).normal(size=(2, len(rectangle.pencil.free))) + 0j
-    reduced.add(vectors)
-    reduced.add(vectors[:1] * 1j + vectors[1:])
+    pencil, squared = rectangle.pencil, 0.3
+    reduced = ReducedPencil(pencil)
+    vectors = np.random.default_rng(8).normal(size=(2, len(pencil.free))) + 0j
+
+    def loads(potentials: np.ndarray) -> np.ndarray:
+        images = [(complex_product(pencil.laplace, one), complex_product(pencil.mass, one)) for one in potentials]
+        return np.array([laplace - squared * mass for laplace, mass in images])
+
+    reduced.add(squared, vectors, loads(vectors))
+    again = vectors[:1] * 1j + vectors[1:]
+    reduced.add(squared, again, loads(again))
     assert reduced.size == 2
 
 

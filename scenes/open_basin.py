@@ -30,8 +30,8 @@ _MARGIN_IN_RADIANS = 6.0
 _DEEPER = 1.0
 # A bed or a lid that is a little further than a frame ends with it.
 _NEARLY = 1.5
-# What is cut off far away is kept below this part of the tolerance.
-_CUT = 0.03
+CUT = 0.03
+"""Part of the tolerance below which is kept what is cut off far away, each of two ends."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -240,11 +240,11 @@ def reach(
         tolerance: asked relative error.
     """
     longest, shortest = wavenumbers
-    decades = log(1.0 / (_CUT * tolerance))
+    decades = log(1.0 / (CUT * tolerance))
     # A wave goes out and comes back. So does what decays by itself, like e^{−κx} with κ > π/(2H), H all the depth
     # between the bed and a free top: that bound is reached far above the waves.
     farthest = [decades / (2.0 * longest * sin(angle))]
     farthest.append(decades * sum(depth for depth in basin.depths if not isinf(depth)) / (pi * cos(angle)))
     if any(isinf(depth) for depth in basin.depths):
-        farthest.append((1.0 + 1.0 / longest) * (_CUT * tolerance) ** -0.5)
+        farthest.append((1.0 + 1.0 / longest) * (CUT * tolerance) ** -0.5)
     return Reach(angle=angle, first=min(first / shortest, 0.5), growth=growth, farthest=max(farthest))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import isfinite, pi
 
@@ -27,7 +27,7 @@ from hydroelastic.scenes.field_model import distributed_mesh, moving_surfaces, w
 from hydroelastic.scenes.field_solution import Stopwatch
 from hydroelastic.scenes.models import TankScene
 from hydroelastic.scenes.motion_scale import MotionScale, motion_scale
-from hydroelastic.scenes.open_basin import OpenBasin, Reach, liquids_of, open_basin, reach
+from hydroelastic.scenes.open_basin import CUT, OpenBasin, Reach, liquids_of, open_basin, reach
 from hydroelastic.scenes.plan import (
     Resolution,
     radians,
@@ -158,8 +158,9 @@ class OpenModel:
         scale = np.maximum(np.abs(responses), np.finfo(float).tiny)
         tank = self.basin.tank
         count = len(responses)
+        cut = 2.0 * CUT * self.basin.scene.accuracy.tolerance
         return FrequencyErrors(
-            liquid=away / scale + boundary_error(self.pencil.liquid.tank, tank),
+            liquid=away / scale + boundary_error(self.pencil.liquid.tank, tank) + cut,
             tips=at_tips / scale,
             truncation=np.zeros(count),
             rounding=np.full(count, 2.0 * rounding_error(self.resolution.degree, min(tank.depth, 1.0))),
@@ -174,19 +175,21 @@ def first_resolution(scene: TankScene, band: Band) -> Resolution:
     length = basin.units.length
     shortest = {wave.branch: wave.wavenumber * length for wave in travelling_waves(layers, band.highest)}
     squared = (band.highest / basin.units.frequency) ** 2
-    wavenumbers = []
+    meshed, flexural = [], []
     for level in tank.levels:
         own = max(shortest.values())
         if level.below == 1 and own * tank.layers[1].depth > _UNFELT:
             own = shortest.get("surface", 0.0)
         for piece in level.pieces:
-            if piece.body is None:
-                wavenumbers.append(own)
-            else:
-                flexural = (moving.wavenumber(squared) for moving in tank.moving_pieces(level, piece))
-                wavenumbers.append(max(own, *flexural) if piece.body in tank.beams else 0.0)
+            bent = max((moving.wavenumber(squared) for moving in tank.moving_pieces(level, piece)), default=0.0)
+            flexural.append(bent if piece.body in tank.beams else 0.0)
+            # What waves scatter under a beam is as short as they are.
+            meshed.append(0.0 if piece.body in tank.floats else max(own, flexural[-1]))
     tolerance = workable_tolerance(scene.accuracy.tolerance, tank.depth)
-    return resolution_for(tank, tolerance, tuple(wavenumbers), exponent=sharpest_exponent(tank, released=False))
+    exponent = sharpest_exponent(tank, released=False)
+    # A beam moves in its own waves, whatever those of the water.
+    shapes = resolution_for(tank, tolerance, tuple(flexural), exponent=exponent).shapes
+    return replace(resolution_for(tank, tolerance, tuple(meshed), exponent=exponent), shapes=shapes)
 
 
 def open_model(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import sqrt, tan
 
 import numpy as np
@@ -10,6 +10,7 @@ from mpi4py import MPI
 from scipy.linalg import eigh
 
 from hydroelastic.fem.resonances import Eigenpair, ResonanceSearch
+from hydroelastic.fem.truncation import truncation_errors
 from hydroelastic.scenes.certainty import FrequencyErrors, boundary_error
 from hydroelastic.scenes.field_solution import Stopwatch
 from hydroelastic.scenes.model_analyses import Resonance
@@ -34,6 +35,11 @@ _BELOW, _ABOVE = 0.3, 1.25
 _PER_TARGET = 8
 # Error of λ over what it moves by a radian of α; measured on a circle and a thin float it is smaller.
 _DRIFT = 0.1
+# Where a resonance lies on the rim of the region it is counted in a part of it.
+_NARROWER = (0.93, 0.85)
+# Shapes of beams that vibrate faster than this times the region take part as if they were rigid, and are left out
+# where resonances are only to be found.
+_STIFF = 4.0
 # The same resonance from two targets.
 _SAME = 1e-6
 # Bodies with a smaller part in a motion rest while the water moves by itself.
@@ -52,23 +58,23 @@ class Region:
         """Whether a frequency lies within."""
         return self.lowest < omega.real < self.highest and -omega.imag < self.damping * omega.real
 
-    def boundary(self, count: int) -> np.ndarray:
-        """Points around it, counterclockwise, denser where it is narrow; the upper side is a little above the axis."""
+    def rim(self, places: np.ndarray) -> np.ndarray:
+        """Points around it at places from 0 to 4, a unit for each side, counterclockwise; the upper side is a little
+        above the axis."""
         corners = [
             self.lowest * (1.0 - 1j * self.damping),
             self.highest * (1.0 - 1j * self.damping),
             self.highest * (1.0 + 0.02j),
             self.lowest * (1.0 + 0.02j),
         ]
-        sides = []
-        for start, end in zip(corners, [*corners[1:], corners[0]], strict=True):
-            steps = np.arange(count) / count
+        points = []
+        for place in places:
+            side, part = int(place) % 4, float(place) % 1.0
+            start, end = corners[side], corners[(side + 1) % 4]
             # Equal ratios along the axis, equal steps across it.
-            along = (
-                start * (end / start) ** steps if abs(end.real - start.real) > 0.0 else start + steps * (end - start)
-            )
-            sides.append(along)
-        return np.concatenate(sides)
+            along = side % 2 == 0
+            points.append(start * (end / start) ** part if along else start + part * (end - start))
+        return np.array(points)
 
     def words(self) -> str:
         """The region in words."""
@@ -135,20 +141,31 @@ def solve_resonance(comm: MPI.Comm, scene: TankScene, asked: Resonance, watch: S
         sharpest_exponent(tank, released=False),
     )
     found = attempt.result
-    closed = _closed_region(region, found, asked)
     with watch.stage("count"):
-        counted = zeros_in(OpenSolver(coarse, watch), closed.boundary)
+        closed, counted = _counted(OpenSolver(coarse, watch), _closed_region(region, found, asked))
+    unit = found.model.basin.units.frequency
+    known = sum(closed.holds(complex(np.sqrt(pair.eigenvalue)) * unit) for pair in found.pairs)
     reasons: tuple[str, ...] = ()
     if counted is None:
         reasons = ("the independent count of the resonances is not certain: one may lie on the rim of its region",)
-    elif counted != len(found.pairs):
-        reasons = (f"an independent count finds {counted} resonances in the region, and {len(found.pairs)} are known",)
+    elif counted != known:
+        reasons = (f"an independent count finds {counted} resonances in the region, and {known} are known",)
     return ResonanceSolution(
         table=_table(found, attempt.causes, counted, closed),
         model=found.model,
         error=attempt.error,
         reasons=reasons,
     )
+
+
+def _counted(solver: OpenSolver, region: Region) -> tuple[Region, int | None]:
+    """Count in a region, or in a narrower one where a resonance lies on its rim (collective)."""
+    for damping in (1.0, *_NARROWER):
+        narrower = replace(region, damping=damping * region.damping)
+        counted = zeros_in(solver, narrower.rim)
+        if counted is not None:
+            return narrower, counted
+    return region, None
 
 
 def expected_frequencies(comm: MPI.Comm, scene: TankScene, watch: Stopwatch) -> list[float]:
@@ -186,7 +203,11 @@ def rough_resonances(
         EigenSolverError: if SLEPc fails.
     """
     rough, band = rough_scene(scene), Band(lowest=region.lowest, highest=region.highest)
-    model = open_model(comm, rough, band, first_resolution(rough, band), watch, angle=ANGLE)
+    resolution = first_resolution(rough, band)
+    # Motions that nothing restores are not among the expected ones.
+    enough = sum(omega < _STIFF * region.highest for omega in expected) + 4
+    resolution = replace(resolution, shapes=tuple(min(count, enough) for count in resolution.shapes))
+    model = open_model(comm, rough, band, resolution, watch, angle=ANGLE)
     targets = [omega for omega in expected if omega < region.highest] or [region.highest]
     with watch.stage("resonances"):
         return model, _search(model, targets, region)
@@ -224,10 +245,13 @@ def resonance_errors(model: OpenModel, pairs: list[Eigenpair]) -> FrequencyError
     norms = np.array([abs(pair.norm) for pair in pairs])
     drifts = np.array([pair.drift for pair in pairs])
     tank = model.basin.tank
+    # Shapes left out hold the same part of the energy as in a mode of that frequency without damping.
+    amplitudes = np.array([np.abs(pair.bodies) / np.sqrt(abs(pair.norm)) for pair in pairs])
+    values = np.array([abs(pair.eigenvalue) for pair in pairs])
     return FrequencyErrors(
         liquid=0.5 * (away / norms + _DRIFT * drifts) + boundary_error(model.pencil.liquid.tank, tank),
         tips=0.5 * tips / norms,
-        truncation=np.zeros(count),
+        truncation=0.5 * truncation_errors(model.pencil.bodies, amplitudes, values),
         rounding=np.full(count, rounding_error(model.resolution.degree, min(tank.depth, 1.0))),
     )
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TypeAlias
 
+import numpy as np
 from mpi4py import MPI
 
 from hydroelastic.scenes.digits import kept_tolerance
@@ -18,6 +19,9 @@ from hydroelastic.scenes.open_resonance import ResonanceSolution, solve_resonanc
 from hydroelastic.scenes.open_response import ResponseSolution, solve_response
 from hydroelastic.scenes.open_results import OpenSolution
 from hydroelastic.scenes.solve import Report
+
+# The power of waves is of first order in the error of the field; measured, it is off by less than the tolerance.
+_POWER = 10.0
 
 _Solution: TypeAlias = RadiationSolution | ResponseSolution | ResonanceSolution | DecaySolution
 
@@ -94,6 +98,13 @@ def _reasons(scene: TankScene, number: int, analysis: Analysis, solution: _Solut
             f"analysis {number} ({analysis.kind}) has an estimated relative error of {solution.error:.1e}, above the "
             f"tolerance {tolerance:g}; {kept_tolerance(solution.error)}"
         )
+    if isinstance(solution, RadiationSolution | ResponseSolution):
+        residual = float(np.nanmax(np.abs(solution.table.energy_residual), initial=0.0))
+        if residual > _POWER * tolerance:
+            reasons.append(
+                f"analysis {number} ({analysis.kind}): the power of the waves that leave is off by {residual:.1e}, "
+                f"more than the tolerance {tolerance:g} allows: the estimated errors cannot be trusted"
+            )
     if isinstance(solution, ResonanceSolution):
         reasons += [f"analysis {number} ({analysis.kind}): {reason}" for reason in solution.reasons]
     return reasons

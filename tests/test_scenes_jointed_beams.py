@@ -276,7 +276,7 @@ MESSAGES = {
     "body.0.joints.1.rotational_stiffness=1e-12": "Allowed: 0 for a hinge, or at least",
     'body.0.ends="guided"': "guided ends are for uniform beams; this one has sections",
     "body.0.sections.1.flexural_rigidity=1e-12": 'key "sections.flexural_rigidity", entry 2 = 1e-12: EI/(ρ g l⁴)',
-    "body.0.sections.0.length=1e-4": "the section is too short beside the tank",
+    "body.0.sections.0.length=1e-4": "the section is too short for one mesh",
     "body.0.sections.0.length=30.0": 'key "sections" = 40.0: the beam is longer than the tank (20 m)',
     "body.0.sections.0.lenght=2.0": 'Did you mean "length"?',
     "body.0.sections=3": "it is not a list of tables",

@@ -323,7 +323,7 @@ def test_ends_farther_away_change_nothing(name: str, monkeypatch: pytest.MonkeyP
     omega = 7.0 if name == "trapezium" else 1.2
     scene = section(SECTIONS[6], 1e-6) if name == "trapezium" else two_liquids(TWO_LIQUIDS[9], 1e-6)
     near = radiation(scene, omega)
-    monkeypatch.setattr(open_basin, "_CUT", 1e-4)
+    monkeypatch.setattr(open_basin, "CUT", 1e-4)
     far = radiation(scene, omega)
     assert near.model is not None
     assert far.model is not None

@@ -24,6 +24,8 @@ from mpi4py import MPI
 
 from hydroelastic.fem.resonances import Eigenpair, ResonanceSearch
 from hydroelastic.scenes.certainty import FrequencyErrors
+from hydroelastic.scenes.errors import Problem as WrongInput
+from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.field_model import whole_bodies
 from hydroelastic.scenes.field_solution import Stopwatch
 from hydroelastic.scenes.model_analyses import Decay
@@ -33,15 +35,17 @@ from hydroelastic.scenes.open_attempts import Attempt, attempted
 from hydroelastic.scenes.open_basin import open_basin
 from hydroelastic.scenes.open_model import Band, OpenModel, first_resolution, open_model
 from hydroelastic.scenes.open_radiation import relative_difference
-from hydroelastic.scenes.open_released import released_added_mass
-from hydroelastic.scenes.open_resonance import ANGLE, Region, expected_frequencies, resonance_errors, rough_resonances
+from hydroelastic.scenes.open_released import ReleasedModel, released_added_mass, released_model
+from hydroelastic.scenes.open_resonance import ANGLE, Region, resonance_errors, rough_resonances
 from hydroelastic.scenes.open_results import DecayTable
 from hydroelastic.scenes.open_solver import OpenSolver
 from hydroelastic.scenes.open_sweep import Problem, sweep
 from hydroelastic.scenes.plan import Resolution, sharpest_exponent, workable_tolerance
 
-# Rays are laid between these angles from the imaginary axis, in the widest gap between resonances; radians.
-_RAYS = (0.12, 0.45)
+# Angles between a ray and the resonances beside it, radians: at least, if there is room, and at most.
+_NARROW, _WIDE = 0.05, 0.12
+# Resonances are looked for up to this angle from the real axis.
+_SEARCHED = 0.54
 # Frequencies of the mesh: so far below 1/t, where H hardly counts, and above the highest resonance.
 _BELOW, _ABOVE = 0.02, 3.0
 # The integral goes on beyond both: there H changes slowly, and little depends on it.
@@ -51,6 +55,8 @@ _LOWER, _HIGHER = 1e-2, 20.0
 _LEAST_WEIGHT = 1e-2
 # The trapezoidal rule in ln r misses e^{−2πd/h} of what is analytic within the angle d: with this part of it 1e-18.
 _STEP = 0.13
+# Resonances faster than a float alone by more than this are those of beams.
+_FAST = 3.0
 # Points of the ray at which the reduced basis is judged.
 _JUDGED = 60
 
@@ -98,11 +104,16 @@ def solve_decay(comm: MPI.Comm, scene: TankScene, asked: Decay, watch: Stopwatch
 
     Raises:
         EigenSolverError: if SLEPc fails.
+        SceneError: if a float would capsize.
     """
-    expected = expected_frequencies(comm, scene, watch)
+    released = released_model(comm, scene, watch)
+    _check_stability(released, asked)
+    # Beams have shapes that vibrate much faster, and bend as if at rest in the motion of the float.
+    fastest = max(released.frequencies(floats=True))
+    expected = [omega for omega in released.frequencies() if omega <= _FAST * fastest]
     times = np.array(asked.times)
     latest = max(float(times.max()), 1.0 / expected[-1])
-    region = Region(lowest=0.2 * expected[0], highest=1.3 * expected[-1], damping=tan(1.2 * _RAYS[1]))
+    region = Region(lowest=0.2 * expected[0], highest=1.3 * expected[-1], damping=tan(_SEARCHED))
     _, resonances = rough_resonances(comm, scene, expected, region, watch)
     ray = _ray(resonances)
     band = Band(lowest=min(_BELOW / latest, expected[0]), highest=_ABOVE * expected[-1])
@@ -113,9 +124,7 @@ def solve_decay(comm: MPI.Comm, scene: TankScene, asked: Decay, watch: Stopwatch
         limit = _limit(comm, scene, resolution, model, watch)
         with watch.stage("resonances"):
             search = ResonanceSearch(model.pencil, model.stiffness, model.mass)
-            poles = [
-                search.refined(model.squared_frequency(omega)) for omega in resonances if -np.angle(omega) < ray.angle
-            ]
+            poles = [search.refined(model.squared_frequency(omega)) for omega in resonances]
         reach = _LOWER * band.lowest, _HIGHER * band.highest
         return _followed(model, asked, limit, poles, ray, reach, watch)
 
@@ -128,6 +137,24 @@ def solve_decay(comm: MPI.Comm, scene: TankScene, asked: Decay, watch: Stopwatch
     return DecaySolution(table=_table(asked, attempt.result), model=attempt.result.model, error=attempt.error)
 
 
+def _check_stability(released: ReleasedModel, asked: Decay) -> None:
+    """Refuse what does not come to rest.
+
+    Raises:
+        SceneError: if a float would capsize, or nothing restores one.
+    """
+    own = np.diag(released.stiffness)[released.of_floats]
+    if np.any(own < 0.0) or not released.frequencies(floats=True):
+        raise SceneError(
+            WrongInput(
+                key='[[analysis]] key "displacement"',
+                wrong=f"the float of body {asked.body} does not come back to where it rests: it is unstable, or "
+                "nothing restores it",
+                remedy="Lower its centre of mass, or ask for radiation and response instead",
+            )
+        )
+
+
 @dataclass(frozen=True, kw_only=True)
 class _Ray:
     """A ray ω = re^{−iδ}: δ, and the angle to the nearest resonance or to the waves' own spectrum."""
@@ -137,15 +164,12 @@ class _Ray:
 
 
 def _ray(resonances: list[complex]) -> _Ray:
-    """The ray in the widest gap."""
+    """The ray nearest to the imaginary axis that keeps off the resonances: further away there may be unknown ones."""
     angles = sorted(float(-np.angle(omega)) for omega in resonances)
-    stops = [0.0, *angles, 0.5 * ANGLE]
-    gaps = []
-    for low, high in pairwise(stops):
-        middle = min(max(0.5 * (low + high), _RAYS[0]), _RAYS[1])
-        gaps.append((min(middle - low, high - middle), middle))
-    gap, angle = max(gaps)
-    return _Ray(angle=angle, gap=gap)
+    stops = [0.0, *(angle for angle in angles if angle < 0.5 * ANGLE), 0.5 * ANGLE]
+    gaps = [(low, min(0.5 * (high - low), _WIDE)) for low, high in pairwise(stops)]
+    low, gap = next((found for found in gaps if found[1] >= _NARROW), max(gaps, key=lambda found: found[1]))
+    return _Ray(angle=low + gap, gap=gap)
 
 
 def _limit(comm: MPI.Comm, scene: TankScene, resolution: Resolution, model: OpenModel, watch: Stopwatch) -> np.ndarray:
@@ -179,8 +203,10 @@ def _followed(
         slowest = solver.hydrodynamics(chosen[:1] ** 2 * turned**2)[0]
         integrand = _integrand(model, limit, initial, radii * turned, added)
         times = np.array(asked.times) * unit
-        values = _summed(times, poles, _residues(model, poles, initial), radii, ray, integrand)
-        start = _summed(np.zeros(1), poles, _residues(model, poles, initial), radii, ray, integrand)[0]
+        passed = [pole for pole in poles if -np.angle(np.sqrt(pole.eigenvalue)) < ray.angle]
+        residues = _residues(model, passed, initial)
+        values = _summed(times, passed, residues, radii, ray, integrand)
+        start = _summed(np.zeros(1), passed, residues, radii, ray, integrand)[0]
     with watch.stage("errors"):
         causes = resonance_errors(model, poles)
     errors = _errors(times, poles, _residues(model, poles, initial), causes, values, start - initial)

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from math import sqrt
 
 import numpy as np
 from mpi4py import MPI
-from scipy.linalg import block_diag
+from scipy.linalg import block_diag, eigh
 
 from hydroelastic.fem.added_mass import body_responses
 from hydroelastic.fem.liquid import compile_form
@@ -23,6 +24,8 @@ from hydroelastic.scenes.scaling import Scales
 # Dry modes of each beam, and tolerance, where frequencies are only to be known roughly.
 _SHAPES = 16
 _ROUGH = 1e-3
+# λ below this part of the largest is rounding of a motion that nothing restores.
+_NOTHING = 1e-12
 # Nothing travels; in units of the basin this is a length like its own.
 _NO_WAVE = 1.0
 
@@ -36,14 +39,25 @@ class ReleasedModel:
         stiffness: K, shape (body unknowns, body unknowns).
         mass: M_b.
         added_mass: a(∞).
-        error: its relative error.
+        of_floats: whether each unknown is a float's.
     """
 
     units: Scales
     stiffness: np.ndarray
     mass: np.ndarray
     added_mass: np.ndarray
-    error: float
+    of_floats: np.ndarray
+
+    def frequencies(self, *, floats: bool = False) -> list[float]:
+        """Frequencies without waves, rad/s, ascending, of those motions that something restores.
+
+        Args:
+            floats: whether the floats alone are to move.
+        """
+        chosen = np.flatnonzero(self.of_floats) if floats else np.arange(len(self.stiffness))
+        own = np.ix_(chosen, chosen)
+        values = eigh(self.stiffness[own], (self.mass + self.added_mass)[own], eigvals_only=True)
+        return [sqrt(value) * self.units.frequency for value in values if value > _NOTHING * np.abs(values).max()]
 
 
 def rough_scene(scene: TankScene) -> TankScene:
@@ -58,14 +72,14 @@ def released_model(comm: MPI.Comm, scene: TankScene, watch: Stopwatch) -> Releas
         _SHAPES + len(basin.tank.beams[index].hinges) if index in basin.tank.beams else 0
         for index in range(len(basin.tank.bodies))
     )
-    added, error = released_added_mass(comm, rough_scene(scene), shapes, watch)
+    added, _ = released_added_mass(comm, rough_scene(scene), shapes, watch)
     bodies = whole_bodies(basin.tank, shapes)
     return ReleasedModel(
         units=basin.units,
         stiffness=np.diag(np.concatenate([body.stiffness for body in bodies])),
         mass=block_diag(*(body.mass for body in bodies)),
         added_mass=added,
-        error=error,
+        of_floats=np.concatenate([np.full(body.size, index in basin.tank.floats) for index, body in enumerate(bodies)]),
     )
 
 

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import sqrt, tan
+from math import tan
 
 import numpy as np
 from mpi4py import MPI
-from scipy.linalg import eigh
 
 from hydroelastic.fem.resonances import Eigenpair, ResonanceSearch
 from hydroelastic.fem.truncation import truncation_errors
 from hydroelastic.scenes.certainty import FrequencyErrors, boundary_error
+from hydroelastic.scenes.field_model import whole_bodies
 from hydroelastic.scenes.field_solution import Stopwatch
 from hydroelastic.scenes.model_analyses import Resonance
 from hydroelastic.scenes.models import TankScene
+from hydroelastic.scenes.motion_scale import motion_scale
 from hydroelastic.scenes.open_attempts import Attempt, attempted
 from hydroelastic.scenes.open_basin import open_basin
 from hydroelastic.scenes.open_count import zeros_in
@@ -87,13 +88,13 @@ class ResonanceSolution:
 
     Attributes:
         table: the numbers.
-        model: the last problem.
+        model: the last problem; ``None`` where nothing restores the bodies.
         error: the largest relative error.
         reasons: why the count is not confirmed; empty if it is.
     """
 
     table: ResonanceTable
-    model: OpenModel
+    model: OpenModel | None
     error: float
     reasons: tuple[str, ...]
 
@@ -118,7 +119,9 @@ def solve_resonance(comm: MPI.Comm, scene: TankScene, asked: Resonance, watch: S
     Raises:
         EigenSolverError: if SLEPc fails.
     """
-    expected = expected_frequencies(comm, scene, watch)
+    expected = released_model(comm, scene, watch).frequencies()
+    if not expected:
+        return _nothing(scene)
     region = _region(expected, asked)
     band = Band(lowest=region.lowest, highest=region.highest)
     tank = open_basin(scene, band.wavenumbers(scene)[1]).tank
@@ -158,6 +161,23 @@ def solve_resonance(comm: MPI.Comm, scene: TankScene, asked: Resonance, watch: S
     )
 
 
+def _nothing(scene: TankScene) -> ResonanceSolution:
+    """Where nothing restores the bodies."""
+    basin = open_basin(scene, 0.0)
+    dofs = motion_scale(basin, whole_bodies(basin.tank, (0,) * len(basin.tank.bodies))).dofs
+    table = ResonanceTable(
+        omega=np.zeros(0, dtype=complex),
+        dofs=dofs,
+        labels=(),
+        body_amplitudes=np.zeros((0, len(dofs)), dtype=complex),
+        residuals=np.zeros(0),
+        relative_error=np.zeros(0),
+        counted=0,
+        region="any ω: nothing restores the bodies",
+    )
+    return ResonanceSolution(table=table, model=None, error=0.0, reasons=())
+
+
 def _counted(solver: OpenSolver, region: Region) -> tuple[Region, int | None]:
     """Count in a region, or in a narrower one where a resonance lies on its rim (collective)."""
     for damping in (1.0, *_NARROWER):
@@ -166,13 +186,6 @@ def _counted(solver: OpenSolver, region: Region) -> tuple[Region, int | None]:
         if counted is not None:
             return narrower, counted
     return region, None
-
-
-def expected_frequencies(comm: MPI.Comm, scene: TankScene, watch: Stopwatch) -> list[float]:
-    """Frequencies with the added mass far above the waves, rad/s, ascending, without those that nothing restores."""
-    limit = released_model(comm, scene, watch)
-    values = eigh(limit.stiffness, limit.mass + limit.added_mass, eigvals_only=True)
-    return [sqrt(value) * limit.units.frequency for value in values if value > 1e-9 * max(values.max(), 1e-300)]
 
 
 def _region(expected: list[float], asked: Resonance) -> Region:

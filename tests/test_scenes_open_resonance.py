@@ -104,3 +104,11 @@ def test_section_rolls_and_heaves(number: int) -> None:
     assert table.counted == len(table.omega) >= 1
     assert np.all(table.omega.imag < 0.0)
     assert set(table.labels) <= {"heave", "roll", "sway"}
+
+
+def test_nothing_to_find_where_nothing_restores() -> None:
+    scene = circle(1e-3).model_copy(update={"body": (circle(1e-3).body[0].model_copy(update={"motions": ("sway",)}),)})
+    found = solve_resonance(MPI.COMM_SELF, scene, Resonance(), Stopwatch())
+    assert len(found.table.omega) == 0
+    assert found.table.counted == 0
+    assert found.reasons == ()

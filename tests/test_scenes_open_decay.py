@@ -1,0 +1,96 @@
+"""Released floats in open water: closed forms of circle and thin float, tails, what is refused."""
+
+from __future__ import annotations
+
+import json
+from math import inf, pi
+from pathlib import Path
+
+import numpy as np
+import pytest
+from mpi4py import MPI
+
+from hydroelastic.modal.float_profiles import float_profile
+from hydroelastic.modal.open_float import released_float
+from hydroelastic.modal.two_layer import TwoLayers
+from hydroelastic.scenes.errors import SceneError
+from hydroelastic.scenes.field_solution import Stopwatch
+from hydroelastic.scenes.model_analyses import Decay, Release
+from hydroelastic.scenes.model_bodies import Float
+from hydroelastic.scenes.models import Accuracy, Liquid, Tank, TankScene
+from hydroelastic.scenes.open_decay import DecaySolution, solve_decay
+
+STORED = json.loads((Path(__file__).parent / "reference" / "open_circle.json").read_text(encoding="utf-8"))["release"]
+G = 9.81
+
+
+def _scene(
+    tolerance: float, *, densities: tuple[float, ...] = (1000.0,), depth: float = inf, **keys: object
+) -> TankScene:
+    given = {"shape": "ellipse", "position": 10.0, "half_width": 1.0, "half_height": 1.0} | keys
+    return TankScene(
+        tank=Tank(length=20.0, ends="open"),
+        liquid=tuple(Liquid(density=density, depth=depth) for density in densities),
+        body=(Float.model_validate(given),),
+        accuracy=Accuracy(tolerance=tolerance),
+    )
+
+
+def _released(scene: TankScene, times: np.ndarray, **release: float) -> DecaySolution:
+    asked = Decay(displacement=Release(**(release or {"heave": 0.1})), times=tuple(float(time) for time in times))
+    return solve_decay(MPI.COMM_WORLD, scene, asked, Stopwatch())
+
+
+@pytest.mark.parametrize("tolerance", [1e-4, pytest.param(1e-6, marks=pytest.mark.slow)])
+def test_circle_in_deep_water(tolerance: float) -> None:
+    times = np.array(STORED["t"]) / np.sqrt(G)
+    found = _released(_scene(tolerance), times)
+    error = np.abs(found.table.displacement[:, 0] / 0.1 - STORED["s"])
+    # In parts of the displacement at first; the reference has 8e-12.
+    assert error.max() < tolerance
+    assert np.all(error < 3.0 * found.table.absolute_error / 0.1)
+    # Ursell: -(4/pi) a/(g t^2) of the displacement; h = lim b/omega is taken at a slow wave, not at none.
+    assert found.table.tail == pytest.approx(-4.0 / pi / G * 0.1, rel=1e-3)
+
+
+@pytest.mark.mpi
+@pytest.mark.parametrize("densities", [(1000.0,), (1000.0, 800.0)])
+def test_thin_float_with_its_tail(densities: tuple[float, ...]) -> None:
+    scene = _scene(1e-3, densities=densities, shape="parabola", half_width=0.1, boundary="thin")
+    layers = TwoLayers(density_below=densities[0], density_above=sum(densities[1:]), depth_below=inf, gravity=G)
+    reduced = G * (densities[0] - sum(densities[1:])) / sum(densities)
+    times = np.array([0.0, 0.5, 3.0, 20.0, 100.0, 5000.0]) / np.sqrt(reduced)
+    found = _released(scene, times)
+    expected = released_float(float_profile("parabola", 0.1, 1.0), layers, times).heave
+    error = np.abs(found.table.displacement[:, 0] / 0.1 - expected)
+    assert error.max() < 1e-3
+    # Long after the oscillation has gone the inverse square is left, with its sign, to a few per mille.
+    assert expected[-1] < 0.0
+    assert error[-1] < 5e-3 * abs(expected[-1])
+    assert found.table.tail == pytest.approx(-4.0 / pi * 0.1 / reduced * 0.1, rel=5e-3)
+
+
+def test_no_such_tail_over_a_bed() -> None:
+    scene = _scene(1e-3, depth=2.0, shape="parabola", half_width=0.1, boundary="thin")
+    layers = TwoLayers(density_below=1000.0, depth_below=2.0, gravity=G)
+    times = np.array([1.0, 5.0, 20.0, 60.0])
+    found = _released(scene, times)
+    expected = released_float(float_profile("parabola", 0.1, 1.0), layers, times).heave
+    assert found.table.displacement[:, 0] / 0.1 == pytest.approx(expected, abs=1e-3)
+    assert found.table.tail is None
+
+
+def test_roll_dies_out_too() -> None:
+    scene = _scene(1e-3, half_width=2.0, motions=("heave", "roll"), centre_of_mass=-0.2)
+    found = _released(scene, np.array([0.0, 2.0, 40.0]), roll=0.05)
+    heave, roll = found.table.displacement.T
+    assert roll[0] == pytest.approx(0.05, abs=5e-5)
+    # A symmetric section rolls without heaving.
+    assert np.abs(heave).max() < 1e-6
+    assert abs(roll[-1]) < abs(roll[1]) < 0.05
+
+
+def test_what_capsizes_is_refused() -> None:
+    scene = _scene(1e-3, motions=("heave", "roll"), centre_of_mass=0.5, unstable="solve")
+    with pytest.raises(SceneError, match="does not come back"):
+        _released(scene, np.array([1.0]))

@@ -18,6 +18,8 @@ from hydroelastic.fem.open_pencil import OpenPencil
 
 # What is left of a vector after the basis is taken out, below which it says nothing new.
 _DEPENDENT = 1e-11
+# Part of the largest response below which one is rounding.
+_NO_RESPONSE = 1e-8
 
 
 class ReducedPencil:
@@ -98,8 +100,10 @@ class ReducedPencil:
         """
         laplace, mass = self._images
         rest = (loads - coordinates @ (laplace - eigenvalue * mass)) * self._weights
-        responses = np.einsum("lv,lv->l", self.project(loads), coordinates)
-        return np.array([self._norm(left) for left in rest]) / np.sqrt(np.abs(responses))
+        responses = np.abs(np.einsum("lv,lv->l", self.project(loads), coordinates))
+        # A load that moves hardly any water is compared with the others.
+        floor = max(_NO_RESPONSE * float(responses.max(initial=0.0)), np.finfo(float).tiny)
+        return np.array([self._norm(left) for left in rest]) / np.sqrt(np.maximum(responses, floor))
 
     def _norm(self, vector: np.ndarray) -> float:
         return float(np.sqrt(self._pencil.comm.allreduce(np.vdot(vector, vector).real, op=MPI.SUM)))

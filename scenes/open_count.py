@@ -51,7 +51,7 @@ def _prepare(solver: OpenSolver, points: np.ndarray) -> None:
     squares = [solver.model.squared_frequency(omega) for omega in points]
     if not solver.basis_size:
         solver.radiation(squares[0])
-    while True:
+    for _ in squares:
         residuals = [solver.hydrodynamic(square)[1] for square in squares]
         worst = int(np.argmax(residuals))
         if residuals[worst] < _RESIDUAL:

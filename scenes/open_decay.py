@@ -55,6 +55,8 @@ _LOWER, _HIGHER = 1e-2, 20.0
 _LEAST_WEIGHT = 1e-2
 # The trapezoidal rule in ln r misses e^{−2πd/h} of what is analytic within the angle d: with this part of it 1e-18.
 _STEP = 0.13
+# A part of the momentum below which it is rounding.
+_PUSHED = 1e-6
 # Resonances faster than a float alone by more than this are those of beams.
 _FAST = 3.0
 # Points of the ray at which the reduced basis is judged.
@@ -104,10 +106,10 @@ def solve_decay(comm: MPI.Comm, scene: TankScene, asked: Decay, watch: Stopwatch
 
     Raises:
         EigenSolverError: if SLEPc fails.
-        SceneError: if a float would capsize.
+        SceneError: if a float would capsize or drift away.
     """
     released = released_model(comm, scene, watch)
-    _check_stability(released, asked)
+    _check_release(released, asked)
     # Beams have shapes that vibrate much faster, and bend as if at rest in the motion of the float.
     fastest = max(released.frequencies(floats=True))
     expected = [omega for omega in released.frequencies() if omega <= _FAST * fastest]
@@ -137,22 +139,27 @@ def solve_decay(comm: MPI.Comm, scene: TankScene, asked: Decay, watch: Stopwatch
     return DecaySolution(table=_table(asked, attempt.result), model=attempt.result.model, error=attempt.error)
 
 
-def _check_stability(released: ReleasedModel, asked: Decay) -> None:
-    """Refuse what does not come to rest.
+def _check_release(released: ReleasedModel, asked: Decay) -> None:
+    """Refuse what does not come back to where it rests.
 
     Raises:
-        SceneError: if a float would capsize, or nothing restores one.
+        SceneError: if a float would capsize, or if what is let go sets a motion going that nothing restores.
     """
-    own = np.diag(released.stiffness)[released.of_floats]
-    if np.any(own < 0.0) or not released.frequencies(floats=True):
-        raise SceneError(
-            WrongInput(
-                key='[[analysis]] key "displacement"',
-                wrong=f"the float of body {asked.body} does not come back to where it rests: it is unstable, or "
-                "nothing restores it",
-                remedy="Lower its centre of mass, or ask for radiation and response instead",
-            )
-        )
+    restoring = np.diag(released.stiffness)
+    if np.any(restoring[released.of_floats] < 0.0):
+        wrong, remedy = "a float is unstable and would capsize", "Lower its centre of mass"
+    else:
+        loose = restoring == 0.0
+        given = {"heave": asked.displacement.heave, "roll": asked.displacement.roll}
+        own = [label if body == asked.body - 1 else "" for body, label in released.motions]
+        initial = np.array([given.get(label, 0.0) for label in own])
+        pushed = (released.mass + released.added_mass) @ initial
+        if not np.any(np.abs(pushed[loose]) > _PUSHED * np.abs(pushed).max()):
+            return
+        names = sorted({released.motions[place][1] for place in np.flatnonzero(loose)})
+        wrong = f"the float would drift away: nothing restores {' and '.join(names)}, which it sets going"
+        remedy = f"Leave {' and '.join(names)} out of motions, or let go of another motion"
+    raise SceneError(WrongInput(key='[[analysis]] key "displacement"', wrong=wrong, remedy=remedy))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -209,7 +216,8 @@ def _followed(
         start = _summed(np.zeros(1), passed, residues, radii, ray, integrand)[0]
     with watch.stage("errors"):
         causes = resonance_errors(model, poles)
-    errors = _errors(times, poles, _residues(model, poles, initial), causes, values, start - initial)
+    fades = not model.basin.tank.beams
+    errors = _errors(times, poles, _residues(model, poles, initial), causes, values, start - initial, fades=fades)
     size = np.abs(initial).max()
     total = FrequencyErrors(
         liquid=np.array([errors.max() / size + swept.errors.max()]),
@@ -258,7 +266,11 @@ def _initial(model: OpenModel, asked: Decay) -> np.ndarray:
 
 
 def _integrand(
-    model: OpenModel, limit: np.ndarray, initial: np.ndarray, omegas: np.ndarray, added: np.ndarray
+    model: OpenModel,
+    limit: np.ndarray,
+    initial: np.ndarray,
+    omegas: np.ndarray,
+    added: np.ndarray,
 ) -> np.ndarray:
     """E at p = conj(−iω), shape (points, body unknowns)."""
     values = []
@@ -308,11 +320,13 @@ def _errors(
     causes: FrequencyErrors,
     values: np.ndarray,
     missed: np.ndarray,
+    *,
+    fades: bool,
 ) -> np.ndarray:
     """Error over time: of the phase and decay of each resonance, of all else in proportion, and what the sum at t = 0
-    misses of the initial displacement, which is of high frequency and fades."""
+    misses of the initial displacement, which is of high frequency, and fades but for the ringing of beams."""
     fastest = max((abs(np.sqrt(pole.eigenvalue)) for pole in poles), default=1.0)
-    total = np.abs(missed).max() / (1.0 + (fastest * times) ** 2)
+    total = np.abs(missed).max() / (1.0 + fades * (fastest * times) ** 2)
     relative = causes.total.max(initial=0.0)
     for pole, residue, error in zip(poles, residues, causes.total, strict=True):
         omega = np.sqrt(pole.eigenvalue)
@@ -341,9 +355,10 @@ def _table(asked: Decay, motion: _Motion) -> DecayTable:
 
 
 def _tail(asked: Decay, motion: _Motion) -> float | None:
-    """T of a ~ T/t² of the motion that was let go; none where the water has a bed."""
+    """T of a ~ T/t² of the motion that was let go; none where the water has a bed, or where two were."""
     model = motion.model
-    if not all(isinf(depth) for depth in model.basin.depths):
+    mixed = asked.displacement.heave != 0.0 and asked.displacement.roll != 0.0
+    if mixed or not all(isinf(depth) for depth in model.basin.depths):
         return None
     initial = _initial(model, asked)
     restored = np.flatnonzero(np.diag(model.stiffness) > 0.0)

@@ -69,7 +69,7 @@ class OpenFrequency:
         """Largest difference between damping and the power of the waves that leave, as a part of |H| (collective)."""
         radiated = self.incidence.powers @ np.abs(self.observed_amplitudes()) ** 2
         diagonal = np.diag(self.hydrodynamic)
-        return float(np.max(np.abs(diagonal.imag - radiated) / np.abs(diagonal), initial=0.0))
+        return float(np.max(np.abs(diagonal.imag - radiated) / self.model.compared(np.abs(diagonal)), initial=0.0))
 
     def haskind_residual(self) -> float:
         """Largest difference between the excitation and X = λ I(φ), with I(φ) of the wave that leaves against the

@@ -52,6 +52,9 @@ GROWTH = 3.0
 # Where only one coordinate is turned the series of ψ in a frame converges more slowly.
 _GROWTH_OVER_A_BED = 2.0
 
+NO_WATER = 1e-6
+"""Added mass below this part of a body's own is not resolved."""
+
 # In the frames ψ oscillates about as fast as it decays, and errors of opposite phase cancel. Measured on circles at Ka
 # from 0.05 to 10 at three tolerances: the energy missed is 9 to 140 times the error.
 _FRAMES = 0.2
@@ -66,7 +69,6 @@ class Band:
     Attributes:
         lowest: smallest |ω|, positive.
         highest: largest |ω|.
-        flexural: up to which ω the waves in beams are resolved.
     """
 
     lowest: float
@@ -147,6 +149,17 @@ class OpenModel:
         outside: np.ndarray = np.any((middles < np.array(low)) | (middles > np.array(high)), axis=1)
         return outside
 
+    @property
+    def cut(self) -> float:
+        """Relative error by what is cut off far away, at both ends."""
+        return 2.0 * CUT * self.basin.scene.accuracy.tolerance
+
+    def compared(self, added: np.ndarray) -> np.ndarray:
+        """What errors of H of each body unknown are compared with: |H|, or a small part of the inertia where there is
+        hardly any water moved, as by a circle that turns about its centre."""
+        own: np.ndarray = np.maximum(added, NO_WATER * np.diag(self.mass))
+        return own
+
     def errors(self, potentials: np.ndarray, responses: np.ndarray) -> FrequencyErrors:
         """Relative errors of H of each body unknown, by cause (collective).
 
@@ -155,12 +168,11 @@ class OpenModel:
             responses: |H| of each, shape (body unknowns,).
         """
         away, at_tips = self.energies_missed(potentials)
-        scale = np.maximum(np.abs(responses), np.finfo(float).tiny)
+        scale = self.compared(np.abs(responses))
         tank = self.basin.tank
         count = len(responses)
-        cut = 2.0 * CUT * self.basin.scene.accuracy.tolerance
         return FrequencyErrors(
-            liquid=away / scale + boundary_error(self.pencil.liquid.tank, tank) + cut,
+            liquid=away / scale + boundary_error(self.pencil.liquid.tank, tank) + self.cut,
             tips=at_tips / scale,
             truncation=np.zeros(count),
             rounding=np.full(count, 2.0 * rounding_error(self.resolution.degree, min(tank.depth, 1.0))),

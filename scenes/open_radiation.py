@@ -275,7 +275,8 @@ def _slow_row(comm: MPI.Comm, scene: TankScene, shapes: tuple[int, ...], waves: 
         for omega, found in zip(omegas, attempt.result.swept.solutions, strict=True)
     )
     slower, slow = first.added_mass, second.added_mass
-    grows = np.abs(slower - slow) > _GROWS * np.abs(np.diag(slow)).max()
+    sizes = np.sqrt(np.abs(np.diag(slow)))
+    grows = np.abs(slower - slow) > _GROWS * np.outer(sizes, sizes)
     return replace(
         first,
         omega=0.0,

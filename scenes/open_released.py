@@ -7,7 +7,7 @@ from math import sqrt
 
 import numpy as np
 from mpi4py import MPI
-from scipy.linalg import block_diag, eigh
+from scipy.linalg import block_diag
 
 from hydroelastic.fem.added_mass import body_responses
 from hydroelastic.fem.liquid import compile_form
@@ -17,15 +17,13 @@ from hydroelastic.scenes.field_solution import Stopwatch
 from hydroelastic.scenes.models import TankScene
 from hydroelastic.scenes.open_attempts import Attempt, attempted
 from hydroelastic.scenes.open_basin import open_basin, reach
-from hydroelastic.scenes.open_model import ANGLE, GROWTH, open_mesh
+from hydroelastic.scenes.open_model import ANGLE, GROWTH, NO_WATER, open_mesh
 from hydroelastic.scenes.plan import Resolution, resolution_for, rounding_error, sharpest_exponent, workable_tolerance
 from hydroelastic.scenes.scaling import Scales
 
 # Dry modes of each beam, and tolerance, where frequencies are only to be known roughly.
 _SHAPES = 16
 _ROUGH = 1e-3
-# λ below this part of the largest is rounding of a motion that nothing restores.
-_NOTHING = 1e-12
 # Nothing travels; in units of the basin this is a length like its own.
 _NO_WAVE = 1.0
 
@@ -40,6 +38,7 @@ class ReleasedModel:
         mass: M_b.
         added_mass: a(∞).
         of_floats: whether each unknown is a float's.
+        motions: index of the body and label of each unknown.
     """
 
     units: Scales
@@ -47,6 +46,7 @@ class ReleasedModel:
     mass: np.ndarray
     added_mass: np.ndarray
     of_floats: np.ndarray
+    motions: tuple[tuple[int, str], ...]
 
     def frequencies(self, *, floats: bool = False) -> list[float]:
         """Frequencies without waves, rad/s, ascending, of those motions that something restores.
@@ -54,10 +54,17 @@ class ReleasedModel:
         Args:
             floats: whether the floats alone are to move.
         """
-        chosen = np.flatnonzero(self.of_floats) if floats else np.arange(len(self.stiffness))
-        own = np.ix_(chosen, chosen)
-        values = eigh(self.stiffness[own], (self.mass + self.added_mass)[own], eigvals_only=True)
-        return [sqrt(value) * self.units.frequency for value in values if value > _NOTHING * np.abs(values).max()]
+        chosen = self.of_floats if floats else np.ones(len(self.stiffness), dtype=bool)
+        restoring, whole = np.diag(self.stiffness), self.mass + self.added_mass
+        restored, loose = np.flatnonzero(chosen & (restoring > 0.0)), np.flatnonzero(chosen & (restoring <= 0.0))
+        if not len(restored):
+            return []
+        # What nothing restores follows at once. Slow motions beside stiff ones keep their digits as the largest 1/λ.
+        coupling = whole[np.ix_(loose, restored)]
+        moving = whole[np.ix_(restored, restored)] - coupling.T @ np.linalg.solve(whole[np.ix_(loose, loose)], coupling)
+        roots = np.sqrt(restoring[restored])
+        inverse = np.linalg.eigvalsh(moving / roots / roots[:, None])[::-1]
+        return [self.units.frequency / sqrt(value) for value in inverse if value > 0.0]
 
 
 def rough_scene(scene: TankScene) -> TankScene:
@@ -79,6 +86,7 @@ def released_model(comm: MPI.Comm, scene: TankScene, watch: Stopwatch) -> Releas
         stiffness=np.diag(np.concatenate([body.stiffness for body in bodies])),
         mass=block_diag(*(body.mass for body in bodies)),
         added_mass=added,
+        motions=tuple((index, label) for index, body in enumerate(bodies) for label in body.labels),
         of_floats=np.concatenate([np.full(body.size, index in basin.tank.floats) for index, body in enumerate(bodies)]),
     )
 
@@ -114,7 +122,8 @@ def released_added_mass(
             pencil = build_field_model(mesh, tank, degree=resolution.degree, shapes=shapes, pressure_release=True)
             matrix, potentials = body_responses(pencil)
             away, tips = energies_missed(pencil.liquid, potentials, tank, resolution, half=False, released=True)
-        scale = np.maximum(np.diag(matrix), np.finfo(float).tiny)
+        inertia = np.concatenate([np.diag(body.mass) for body in pencil.bodies])
+        scale = np.maximum(np.diag(matrix), NO_WATER * inertia)
         causes = FrequencyErrors(
             liquid=away / scale + boundary_error(mesh, tank),
             tips=tips / scale,

@@ -125,8 +125,8 @@ def solve_resonance(comm: MPI.Comm, scene: TankScene, asked: Resonance, watch: S
     region = _region(expected, asked)
     band = Band(lowest=region.lowest, highest=region.highest)
     tank = open_basin(scene, band.wavenumbers(scene)[1]).tank
-    coarse, values = rough_resonances(comm, scene, expected, region, watch)
-    values = values[: asked.count]
+    coarse, known = rough_resonances(comm, scene, expected, region, watch)
+    values = known[: asked.count]
 
     def solve(resolution: Resolution) -> Attempt[_Found]:
         model = open_model(comm, scene, band, resolution, watch, angle=ANGLE)
@@ -146,13 +146,14 @@ def solve_resonance(comm: MPI.Comm, scene: TankScene, asked: Resonance, watch: S
     found = attempt.result
     with watch.stage("count"):
         closed, counted = _counted(OpenSolver(coarse, watch), _closed_region(region, found, asked))
-    unit = found.model.basin.units.frequency
-    known = sum(closed.holds(complex(np.sqrt(pair.eigenvalue)) * unit) for pair in found.pairs)
+    within = sum(map(closed.holds, known))
     reasons: tuple[str, ...] = ()
     if counted is None:
         reasons = ("the independent count of the resonances is not certain: one may lie on the rim of its region",)
-    elif counted != known:
-        reasons = (f"an independent count finds {counted} resonances in the region, and {known} are known",)
+    elif counted != within:
+        reasons = (f"an independent count finds {counted} resonances in the region, and {within} are known",)
+    if np.any(np.diag(found.model.stiffness) < 0.0):
+        reasons += ("a float is unstable: its motion grows, and is none of the resonances",)
     return ResonanceSolution(
         table=_table(found, attempt.causes, counted, closed),
         model=found.model,

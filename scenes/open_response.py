@@ -8,7 +8,7 @@ import numpy as np
 from mpi4py import MPI
 
 from hydroelastic.fem.surfaces import Body
-from hydroelastic.scenes.certainty import FrequencyErrors
+from hydroelastic.scenes.certainty import FrequencyErrors, boundary_error
 from hydroelastic.scenes.field_solution import Stopwatch
 from hydroelastic.scenes.model_analyses import Response
 from hydroelastic.scenes.models import TankScene
@@ -114,7 +114,7 @@ def _errors(solution: OpenResponse) -> FrequencyErrors:
     away, tips = model.energies_missed(solution.scattered)
     count = len(solution.incident)
     return FrequencyErrors(
-        liquid=0.5 * away / powers,
+        liquid=0.5 * away / powers + boundary_error(model.pencil.liquid.tank, model.basin.tank) + model.cut,
         tips=0.5 * tips / powers,
         truncation=np.full(count, max((_truncation(motions, model) for motions in solution.motions), default=0.0)),
         rounding=np.full(count, 2.0 * rounding_error(model.resolution.degree, min(model.basin.tank.depth, 1.0))),

@@ -105,6 +105,13 @@ def _reasons(scene: TankScene, number: int, analysis: Analysis, solution: _Solut
                 f"analysis {number} ({analysis.kind}): the power of the waves that leave is off by {residual:.1e}, "
                 f"more than the tolerance {tolerance:g} allows: the estimated errors cannot be trusted"
             )
+    if isinstance(solution, RadiationSolution):
+        residual = float(np.nanmax(solution.table.haskind_residual, initial=0.0))
+        if residual > _POWER * tolerance:
+            reasons.append(
+                f"analysis {number} ({analysis.kind}): excitation forces and the waves that are radiated disagree by "
+                f"{residual:.1e}, more than the tolerance {tolerance:g} allows"
+            )
     if isinstance(solution, ResonanceSolution):
         reasons += [f"analysis {number} ({analysis.kind}): {reason}" for reason in solution.reasons]
     return reasons

@@ -81,7 +81,7 @@ def test_no_such_tail_over_a_bed() -> None:
 
 
 def test_roll_dies_out_too() -> None:
-    scene = _scene(1e-3, half_width=2.0, motions=("heave", "roll"), centre_of_mass=-0.2)
+    scene = _scene(1e-2, half_width=2.0, motions=("heave", "roll"), centre_of_mass=-0.2)
     found = _released(scene, np.array([0.0, 2.0, 40.0]), roll=0.05)
     heave, roll = found.table.displacement.T
     assert roll[0] == pytest.approx(0.05, abs=5e-5)
@@ -92,5 +92,11 @@ def test_roll_dies_out_too() -> None:
 
 def test_what_capsizes_is_refused() -> None:
     scene = _scene(1e-3, motions=("heave", "roll"), centre_of_mass=0.5, unstable="solve")
-    with pytest.raises(SceneError, match="does not come back"):
+    with pytest.raises(SceneError, match="capsize"):
         _released(scene, np.array([1.0]))
+
+
+def test_what_drifts_away_is_refused() -> None:
+    scene = _scene(1e-3, half_width=2.0, motions=("heave", "sway", "roll"), centre_of_mass=-0.2)
+    with pytest.raises(SceneError, match="nothing restores sway"):
+        _released(scene, np.array([1.0]), roll=0.05)

@@ -13,6 +13,7 @@ from hydroelastic.scenes.model_float_checks import CHECKS_OF_FLOATS_AT_REST, flo
 from hydroelastic.scenes.model_open_checks import (
     beams_in_open_water_are_free,
     bodies_span,
+    frequencies_and_times_can_be_resolved,
     open_water_has_bodies_and_waves,
     tanks_with_walls_end,
     what_decays_is_a_float,
@@ -314,7 +315,7 @@ _Check: TypeAlias = Callable[["TankScene"], Iterator[InitErrorDetails]]
 
 STAGES: tuple[tuple[_Check, ...], ...] = (
     (_densities_are_in_order, _bodies_have_their_level, _meshes_are_those_of_beams, tanks_with_walls_end),
-    (open_water_has_bodies_and_waves, what_decays_is_a_float),
+    (open_water_has_bodies_and_waves, what_decays_is_a_float, frequencies_and_times_can_be_resolved),
     (
         _depths_fit_the_length,
         _beams_are_not_too_short,

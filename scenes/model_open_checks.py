@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import isinf
+from math import inf, isinf, sqrt
 from typing import TYPE_CHECKING
 
 from pydantic_core import InitErrorDetails
@@ -14,6 +14,10 @@ from hydroelastic.scenes.model_problems import misfit
 
 if TYPE_CHECKING:
     from hydroelastic.scenes.models import TankScene
+
+
+SLOWEST, FASTEST = 1e-6, 1e3
+"""Frequencies in √(g/length), with the length that is drawn, between which waves can be meshed beside bodies."""
 
 
 def tanks_with_walls_end(scene: TankScene) -> Iterator[InitErrorDetails]:
@@ -68,6 +72,33 @@ def open_water_has_bodies_and_waves(scene: TankScene) -> Iterator[InitErrorDetai
             remedy='Leave it out; how many resonances are looked for is "count" of an [[analysis]]',
         )
     yield from _nothing_lies_above_an_infinite_liquid(scene)
+
+
+def frequencies_and_times_can_be_resolved(scene: TankScene) -> Iterator[InitErrorDetails]:
+    """Yield analyses whose waves are out of all proportion to what is drawn."""
+    unit = sqrt(scene.tank.gravity / scene.tank.length)
+    slowest, fastest = SLOWEST * unit, FASTEST * unit
+    for index, analysis in enumerate(scene.analysis if scene.is_open else ()):
+        for key, values in (
+            ("omega", getattr(analysis, "omega", ())),
+            ("below", [value for value in [getattr(analysis, "below", None)] if value is not None]),
+        ):
+            wrong = [value for value in values if 0.0 < value < slowest or fastest < value < inf]
+            if wrong:
+                yield misfit(
+                    ("analysis", index, key),
+                    wrong[0],
+                    "its waves are too long or too short beside the length that is drawn for one mesh to show both",
+                    allowed=f"{slowest:.3g} to {fastest:.3g} rad/s",
+                )
+        late = [time for time in getattr(analysis, "times", ()) if time * slowest > 1.0]
+        if late:
+            yield misfit(
+                ("analysis", index, "times"),
+                late[0],
+                "the waves that matter so late are too long beside the length that is drawn",
+                allowed=f"0 to {1.0 / slowest:.3g} s",
+            )
 
 
 def _nothing_lies_above_an_infinite_liquid(scene: TankScene) -> Iterator[InitErrorDetails]:

@@ -21,6 +21,9 @@ import numpy as np
 from hydroelastic.scenes.incident_waves import Incidence
 from hydroelastic.scenes.open_model import OpenModel
 
+# Part of the largest force, in units of the basin, below which one is compared with that.
+_NO_FORCE = 1e-4
+
 
 @dataclass(frozen=True, kw_only=True)
 class OpenFrequency:
@@ -78,7 +81,9 @@ class OpenFrequency:
         by_far_field = self.squared * self.incidence.fluxes_of(self.observed_amplitudes())
         scale = np.abs(direct).max(axis=0)
         differences = np.abs(direct - by_far_field).max(axis=0)
-        return float(np.max(differences / np.where(scale > 0.0, scale, 1.0), initial=0.0))
+        # Waves hardly turn a circle about its centre: what is left of such a force is rounding.
+        floor = max(_NO_FORCE * scale.max(initial=0.0), np.finfo(float).tiny)
+        return float(np.max(differences / np.maximum(scale, floor), initial=0.0))
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -7,7 +7,10 @@ from dataclasses import dataclass
 from typing import Generic, TypeVar
 
 from hydroelastic.scenes.certainty import FrequencyErrors, refined
-from hydroelastic.scenes.plan import Resolution
+from hydroelastic.scenes.models import TankScene
+from hydroelastic.scenes.open_basin import open_basin
+from hydroelastic.scenes.open_model import Band, first_resolution
+from hydroelastic.scenes.plan import Resolution, sharpest_exponent, workable_tolerance
 
 Result = TypeVar("Result")
 
@@ -58,3 +61,20 @@ def attempted(
         resolution = refined(resolution, attempt.causes, tolerance, exponent=exponent, own_mesh=True)
     assert best is not None
     return best
+
+
+def attempted_over(scene: TankScene, band: Band, solve: Callable[[Resolution], Attempt[Result]]) -> Attempt[Result]:
+    """The best of a few attempts over a range of frequencies, from the resolution that it needs (collective).
+
+    Args:
+        scene: with open ends.
+        band: the frequencies.
+        solve: solves at a resolution.
+    """
+    tank = open_basin(scene, band.wavenumbers(scene)[1]).tank
+    return attempted(
+        solve,
+        first_resolution(scene, band),
+        workable_tolerance(scene.accuracy.tolerance, tank.depth),
+        sharpest_exponent(tank, released=False),
+    )

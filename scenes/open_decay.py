@@ -31,16 +31,16 @@ from hydroelastic.scenes.field_solution import Stopwatch
 from hydroelastic.scenes.model_analyses import Decay
 from hydroelastic.scenes.models import TankScene
 from hydroelastic.scenes.motion_scale import motion_scale
-from hydroelastic.scenes.open_attempts import Attempt, attempted
+from hydroelastic.scenes.open_attempts import Attempt, attempted_over
 from hydroelastic.scenes.open_basin import open_basin
-from hydroelastic.scenes.open_model import Band, OpenModel, first_resolution, open_model
+from hydroelastic.scenes.open_model import Band, OpenModel, open_model
 from hydroelastic.scenes.open_radiation import relative_difference
 from hydroelastic.scenes.open_released import ReleasedModel, released_added_mass, released_model
 from hydroelastic.scenes.open_resonance import ANGLE, Region, resonance_errors, rough_resonances
 from hydroelastic.scenes.open_results import DecayTable
 from hydroelastic.scenes.open_solver import OpenSolver
 from hydroelastic.scenes.open_sweep import Problem, sweep
-from hydroelastic.scenes.plan import Resolution, sharpest_exponent, workable_tolerance
+from hydroelastic.scenes.plan import Resolution
 
 # Angles between a ray and the resonances beside it, radians: at least, if there is room, and at most.
 _NARROW, _WIDE = 0.05, 0.12
@@ -119,7 +119,6 @@ def solve_decay(comm: MPI.Comm, scene: TankScene, asked: Decay, watch: Stopwatch
     _, resonances = rough_resonances(comm, scene, expected, region, watch)
     ray = _ray(resonances)
     band = Band(lowest=min(_BELOW / latest, expected[0]), highest=_ABOVE * expected[-1])
-    tank = open_basin(scene, band.wavenumbers(scene)[1]).tank
 
     def solve(resolution: Resolution) -> Attempt[_Motion]:
         model = open_model(comm, scene, band, resolution, watch, angle=ANGLE)
@@ -130,12 +129,7 @@ def solve_decay(comm: MPI.Comm, scene: TankScene, asked: Decay, watch: Stopwatch
         reach = _LOWER * band.lowest, _HIGHER * band.highest
         return _followed(model, asked, limit, poles, ray, reach, watch)
 
-    attempt = attempted(
-        solve,
-        first_resolution(scene, band),
-        workable_tolerance(scene.accuracy.tolerance, tank.depth),
-        sharpest_exponent(tank, released=False),
-    )
+    attempt = attempted_over(scene, band, solve)
     return DecaySolution(table=_table(asked, attempt.result), model=attempt.result.model, error=attempt.error)
 
 

@@ -15,15 +15,15 @@ from hydroelastic.scenes.field_solution import Stopwatch
 from hydroelastic.scenes.model_analyses import Radiation
 from hydroelastic.scenes.models import TankScene
 from hydroelastic.scenes.motion_scale import motion_scale
-from hydroelastic.scenes.open_attempts import Attempt, attempted
+from hydroelastic.scenes.open_attempts import Attempt, attempted_over
 from hydroelastic.scenes.open_basin import liquids_of, open_basin
 from hydroelastic.scenes.open_frequency import OpenFrequency
-from hydroelastic.scenes.open_model import Band, OpenModel, first_resolution, open_model
+from hydroelastic.scenes.open_model import Band, OpenModel, open_model
 from hydroelastic.scenes.open_released import released_added_mass
 from hydroelastic.scenes.open_results import DIRECTIONS, RadiationTable
 from hydroelastic.scenes.open_solver import OpenSolver
 from hydroelastic.scenes.open_sweep import Problem, Swept, sweep
-from hydroelastic.scenes.plan import Resolution, sharpest_exponent, workable_tolerance
+from hydroelastic.scenes.plan import Resolution
 from hydroelastic.scenes.scaled_tank import ScaledTank
 
 # Heave and pitch of a beam, and one more motion for each hinge, come before its elastic shapes.
@@ -108,9 +108,7 @@ def _swept(
             resolution=resolution,
         )
 
-    first = first_resolution(scene, band)
-    tank = open_basin(scene, band.wavenumbers(scene)[1]).tank
-    return attempted(solve, first, workable_tolerance(tolerance, tank.depth), sharpest_exponent(tank, released=False))
+    return attempted_over(scene, band, solve)
 
 
 def _difference(one: OpenFrequency, other: OpenFrequency) -> float:

@@ -16,14 +16,14 @@ from hydroelastic.scenes.field_solution import Stopwatch
 from hydroelastic.scenes.model_analyses import Resonance
 from hydroelastic.scenes.models import TankScene
 from hydroelastic.scenes.motion_scale import motion_scale
-from hydroelastic.scenes.open_attempts import Attempt, attempted
+from hydroelastic.scenes.open_attempts import Attempt, attempted_over
 from hydroelastic.scenes.open_basin import open_basin
 from hydroelastic.scenes.open_count import zeros_in
 from hydroelastic.scenes.open_model import Band, OpenModel, first_resolution, open_model
 from hydroelastic.scenes.open_released import released_model, rough_scene
 from hydroelastic.scenes.open_results import ResonanceTable
 from hydroelastic.scenes.open_solver import OpenSolver
-from hydroelastic.scenes.plan import Resolution, rounding_error, sharpest_exponent, workable_tolerance
+from hydroelastic.scenes.plan import Resolution, rounding_error
 
 ANGLE = 1.3
 """α of the complex scaling: resonances with −Im ω/Re ω below tan(α/2) = 0.76 are uncovered in deep water."""
@@ -124,7 +124,6 @@ def solve_resonance(comm: MPI.Comm, scene: TankScene, asked: Resonance, watch: S
         return _nothing(scene)
     region = _region(expected, asked)
     band = Band(lowest=region.lowest, highest=region.highest)
-    tank = open_basin(scene, band.wavenumbers(scene)[1]).tank
     coarse, known = rough_resonances(comm, scene, expected, region, watch)
     values = known[: asked.count]
 
@@ -137,12 +136,7 @@ def solve_resonance(comm: MPI.Comm, scene: TankScene, asked: Resonance, watch: S
             causes = resonance_errors(model, pairs)
         return Attempt(result=_Found(model=model, pairs=pairs), causes=causes, resolution=resolution)
 
-    attempt = attempted(
-        solve,
-        first_resolution(scene, band),
-        workable_tolerance(scene.accuracy.tolerance, tank.depth),
-        sharpest_exponent(tank, released=False),
-    )
+    attempt = attempted_over(scene, band, solve)
     found = attempt.result
     with watch.stage("count"):
         closed, counted = _counted(OpenSolver(coarse, watch), _closed_region(region, found, asked))

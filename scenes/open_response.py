@@ -12,15 +12,14 @@ from hydroelastic.scenes.certainty import FrequencyErrors, boundary_error
 from hydroelastic.scenes.field_solution import Stopwatch
 from hydroelastic.scenes.model_analyses import Response
 from hydroelastic.scenes.models import TankScene
-from hydroelastic.scenes.open_attempts import Attempt, attempted
-from hydroelastic.scenes.open_basin import open_basin
+from hydroelastic.scenes.open_attempts import Attempt, attempted_over
 from hydroelastic.scenes.open_frequency import OpenResponse
-from hydroelastic.scenes.open_model import Band, OpenModel, first_resolution, open_model
+from hydroelastic.scenes.open_model import Band, OpenModel, open_model
 from hydroelastic.scenes.open_radiation import between, joined_errors, judged_places, relative_difference
 from hydroelastic.scenes.open_results import PlateDeflection, ResponseTable
 from hydroelastic.scenes.open_solver import OpenSolver
 from hydroelastic.scenes.open_sweep import Problem, Swept, sweep
-from hydroelastic.scenes.plan import Resolution, rounding_error, sharpest_exponent, workable_tolerance
+from hydroelastic.scenes.plan import Resolution, rounding_error
 
 # Dry modes of the tail, which the last ones stand for: at the tips their deflections add like Σ n⁻⁵.
 _TAIL = 0.25
@@ -61,7 +60,6 @@ def solve_response(comm: MPI.Comm, scene: TankScene, asked: Response, watch: Sto
     """
     omegas = np.array(asked.omega)
     band = Band(lowest=float(omegas.min()), highest=float(omegas.max()))
-    tank = open_basin(scene, band.wavenumbers(scene)[1]).tank
     tolerance = scene.accuracy.tolerance
 
     def solve(resolution: Resolution) -> Attempt[_Sweep]:
@@ -84,12 +82,7 @@ def solve_response(comm: MPI.Comm, scene: TankScene, asked: Response, watch: Sto
             resolution=resolution,
         )
 
-    attempt = attempted(
-        solve,
-        first_resolution(scene, band),
-        workable_tolerance(tolerance, tank.depth),
-        sharpest_exponent(tank, released=False),
-    )
+    attempt = attempted_over(scene, band, solve)
     return ResponseSolution(table=_table(asked, attempt.result), model=attempt.result.model, error=attempt.error)
 
 

@@ -29,6 +29,7 @@ from hydroelastic.modal.floating_beam import FloatingBeam
 from hydroelastic.modal.grammel import BeamQuotients, QuotientPair, beam_quotients, quotients
 from hydroelastic.modal.grammel_terms import best_term, one_term_root, term_tones
 from hydroelastic.modal.gravity_added_mass import gravity_added_mass, gravity_tones
+from hydroelastic.modal.hanging_string import HangingString
 from hydroelastic.modal.open_float import OpenFloatEstimate, open_float_estimate, released_float
 from hydroelastic.modal.paper_model import ERRATA, Erratum, PrintedAndCorrected
 from hydroelastic.modal.pressure_release import pressure_release_added_mass
@@ -46,12 +47,32 @@ from hydroelastic.modal.rigid_limits import (
     interface_ellipse,
     section_heave_added_mass,
 )
+from hydroelastic.modal.roll import LinearRollPath, Roll, RollMotion, WaveTrain, roll_path, roll_response
+from hydroelastic.modal.roll_decrement import (
+    FroudeCoefficients,
+    damping_from_froude,
+    equivalent_roll_damping,
+    fit_froude,
+    froude_coefficients,
+    linear_decrement,
+    quadratic_decrement,
+    swing_amplitudes,
+)
+from hydroelastic.modal.roll_knots import RollPath
+from hydroelastic.modal.roll_paper import ROLL_ERRATA, RollSlip, paper_roll_angle, printed_roll_constants
+from hydroelastic.modal.roll_quadratic import QuadraticRollPath, quadratic_roll_path
+from hydroelastic.modal.roll_statistics import RollStatistics, roll_statistics
 from hydroelastic.modal.sloshing import (
     deep_sloshing_frequencies,
     guided_cover_frequencies,
     shallow_sloshing_frequencies,
     sloshing_frequencies,
 )
+from hydroelastic.modal.string_motions import Given, Motion, Ramp, Sine, Smooth, Step, sampled, tabulated
+from hydroelastic.modal.string_paper import STRING_ERRATA
+from hydroelastic.modal.string_partial_sum import partial_sum
+from hydroelastic.modal.string_resonance import StringResonance, nearest_resonance, string_resonance
+from hydroelastic.modal.string_response import StringResponse, string_response
 from hydroelastic.modal.thin_float import (
     ThinConstants,
     thin_constants,
@@ -77,6 +98,8 @@ from hydroelastic.modal.two_layer import (
 
 __all__ = [
     "ERRATA",
+    "ROLL_ERRATA",
+    "STRING_ERRATA",
     "THIN_FLOAT_ERRATA",
     "BeamQuotients",
     "Bound",
@@ -91,20 +114,38 @@ __all__ = [
     "FloatingBeam",
     "FreeMotion",
     "FreePole",
+    "FroudeCoefficients",
+    "Given",
+    "HangingString",
     "HeaveRadiation",
     "InterfacePlate",
     "LayerMode",
     "LayerTop",
+    "LinearRollPath",
+    "Motion",
     "NoEstimateError",
     "OpenFloatEstimate",
     "PrintedAndCorrected",
     "Profile",
     "ProfileArc",
+    "QuadraticRollPath",
     "QuotientPair",
+    "Ramp",
     "RigidAddedMass",
+    "Roll",
+    "RollMotion",
+    "RollPath",
+    "RollSlip",
+    "RollStatistics",
+    "Sine",
+    "Smooth",
+    "Step",
+    "StringResonance",
+    "StringResponse",
     "ThinConstants",
     "Tones",
     "TwoLayers",
+    "WaveTrain",
     "added_mass_from_frequency",
     "all_estimates",
     "all_float_estimates",
@@ -115,9 +156,12 @@ __all__ = [
     "channel_resonance",
     "complex_added_mass",
     "crossover_time",
+    "damping_from_froude",
     "deep_open_added_mass",
     "deep_open_constant",
     "deep_sloshing_frequencies",
+    "equivalent_roll_damping",
+    "fit_froude",
     "float_mode",
     "float_profile",
     "free_free_roots",
@@ -126,6 +170,7 @@ __all__ = [
     "free_motion",
     "free_motion_tail",
     "frequency_from_added_mass",
+    "froude_coefficients",
     "gravity_added_mass",
     "gravity_tones",
     "guided_cover_frequencies",
@@ -134,13 +179,20 @@ __all__ = [
     "interface_ellipse",
     "interface_frequencies",
     "lid_added_mass",
+    "linear_decrement",
+    "nearest_resonance",
     "one_term_root",
     "open_float_estimate",
     "paper_equivalent_mass",
+    "paper_roll_angle",
+    "partial_sum",
     "pole_count",
     "pressure_release_added_mass",
     "pressure_release_tones",
     "printed_constants",
+    "printed_roll_constants",
+    "quadratic_decrement",
+    "quadratic_roll_path",
     "quotients",
     "rayleigh",
     "rayleigh_dry_mode",
@@ -150,13 +202,21 @@ __all__ = [
     "released_float",
     "rigid_heave_added_mass",
     "rigid_pitch_added_inertia",
+    "roll_path",
+    "roll_response",
+    "roll_statistics",
+    "sampled",
     "second_pole",
     "section_heave_added_mass",
     "shallow_added_mass",
     "shallow_constant",
     "shallow_sloshing_frequencies",
     "sloshing_frequencies",
+    "string_resonance",
+    "string_response",
     "strip_added_mass",
+    "swing_amplitudes",
+    "tabulated",
     "tank_modes",
     "term_tones",
     "thin_constants",

@@ -1,0 +1,49 @@
+"""Trains of waves, and a way to their motion that shares nothing with the closed form."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from scipy.linalg import expm
+
+from hydroelastic.modal import Roll, WaveTrain
+
+K = math.pi / 6
+TRAIN = WaveTrain([8.2, 7.7, 7.5, 8.5, 7.7], [0.03, -0.05, 0.045, 0.06, 0.02])
+PRINTED = WaveTrain(TRAIN.periods, np.ones(5))
+
+_REFERENCE = json.loads((Path(__file__).parent / "reference" / "string_and_roll.json").read_text(encoding="utf-8"))
+SHIPS: dict[str, Any] = {case["id"]: case for case in _REFERENCE["cases"] if case["paper"] == "004"}
+
+
+def reference_ship(name: str) -> tuple[Roll, WaveTrain, float]:
+    """Return ship, waves and time of a reference case."""
+    inputs = SHIPS[name]["inputs"]
+    train = WaveTrain([float(period) for period in inputs["T"]], [float(slope) for slope in inputs["slope"]])
+    return Roll(float(inputs["k"]), float(inputs["n"])), train, float(inputs["t"])
+
+
+def exponential_motion(
+    roll: Roll, train: WaveTrain, times: npt.ArrayLike, angle: float = 0.0, rate: float = 0.0
+) -> npt.NDArray[np.float64]:
+    """Return φ and φ' at times from 0, shape (2, times), by exponentials of the matrix of (φ, φ', sin ωτ, cos ωτ)."""
+    times = np.atleast_1d(np.asarray(times, float))
+    result = np.empty((2, len(times)))
+    state = np.array([angle, rate, 0.0, 1.0])
+    starts = [0.0, *np.cumsum(train.periods)]
+    for start, end, omega, slope in zip(
+        starts, [*starts[1:], math.inf], [*train.frequencies, 0.0], [*train.slopes, 0.0], strict=True
+    ):
+        k, n = roll.natural_frequency, roll.damping
+        matrix = np.array([[0, 1, 0, 0], [-(k**2), -2 * n, k**2 * slope, 0], [0, 0, 0, omega], [0, 0, -omega, 0]])
+        here = (times >= start) & (times < end)
+        result[:, here] = (expm((times[here] - start)[:, None, None] * matrix) @ state)[:, :2].T
+        if end < math.inf:
+            state = expm((end - start) * matrix) @ state
+            state[2:] = 0.0, 1.0
+    return result

@@ -12,7 +12,24 @@ import numpy as np
 from petsc4py import PETSc
 
 from hydroelastic.fem.complex_scaling import ComplexMatrix
-from hydroelastic.fem.direct import configure_indefinite
+from hydroelastic.fem.direct import configure_indefinite, configure_quasidefinite
+
+
+class DefiniteSolver:
+    """(P + iQ)⁻¹ for one matrix whose real part is positive, so that its factorization needs no pivots.
+
+    Args:
+        matrix: P + iQ, symmetric, P positive definite.
+    """
+
+    def __init__(self, matrix: ComplexMatrix) -> None:
+        """Factorize (collective)."""
+        self._factorization = _Factorization(_real_form(matrix.real, matrix.imaginary), definite=True)
+        self._factorization.compute()
+
+    def solve(self, load: np.ndarray) -> np.ndarray:
+        """Solve for a load, own entries of this process (collective)."""
+        return self._factorization.solve(load)
 
 
 class ShiftedSolver:
@@ -35,29 +52,46 @@ class ShiftedSolver:
             # PETSc does nothing for a factor of zero, and the pattern must hold all parts.
             room = _scaled(part, 0.0)
             self._constant.axpy(1.0, room, structure=PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN)
-        self._matrix = self._constant.copy()
-        self._matrix.setOption(PETSc.Mat.Option.SYMMETRIC, True)
-        self._solver = PETSc.KSP().create(self._matrix.comm)
-        self._solver.setOperators(self._matrix)
-        factor = configure_indefinite(self._solver)
-        # Pivots of an indefinite matrix may need more room than its structure says.
-        factor.setMumpsIcntl(14, 80)
-        self._load, self._answer = self._matrix.createVecs()
-        self._size = self._matrix.getLocalSize()[0] // 2
+        self._factorization = _Factorization(self._constant.copy())
         self.factorizations = 0
 
     def shift(self, eigenvalue: complex) -> None:
         """Factorize A − λM (collective)."""
-        self._constant.copy(self._matrix, structure=PETSc.Mat.Structure.SAME_NONZERO_PATTERN)
+        matrix = self._factorization.matrix
+        self._constant.copy(matrix, structure=PETSc.Mat.Structure.SAME_NONZERO_PATTERN)
         for factor, part in zip((eigenvalue.real, eigenvalue.imag), self._masses, strict=True):
             if factor:
-                self._matrix.axpy(-factor, part, structure=PETSc.Mat.Structure.SUBSET_NONZERO_PATTERN)
-        self._solver.setOperators(self._matrix)
-        self._solver.setUp()
+                matrix.axpy(-factor, part, structure=PETSc.Mat.Structure.SUBSET_NONZERO_PATTERN)
+        self._factorization.compute()
         self.factorizations += 1
 
     def solve(self, load: np.ndarray) -> np.ndarray:
         """Solve for a load, own entries of this process (collective)."""
+        return self._factorization.solve(load)
+
+
+class _Factorization:
+    """LDLᵀ of a real form that may change."""
+
+    def __init__(self, matrix: PETSc.Mat, *, definite: bool = False) -> None:
+        self.matrix = matrix
+        matrix.setOption(PETSc.Mat.Option.SYMMETRIC, True)
+        self._solver = PETSc.KSP().create(matrix.comm)
+        self._solver.setOperators(matrix)
+        if definite:
+            configure_quasidefinite(self._solver)
+        else:
+            factor = configure_indefinite(self._solver)
+            # Pivots of an indefinite matrix may need more room than its structure says.
+            factor.setMumpsIcntl(14, 80)
+        self._load, self._answer = matrix.createVecs()
+        self._size = matrix.getLocalSize()[0] // 2
+
+    def compute(self) -> None:
+        self._solver.setOperators(self.matrix)
+        self._solver.setUp()
+
+    def solve(self, load: np.ndarray) -> np.ndarray:
         self._load.array[: self._size] = load.real
         self._load.array[self._size :] = -load.imag
         self._solver.solve(self._load, self._answer)

@@ -16,8 +16,9 @@ import click
 
 from hydroelastic.meshes.interrupts import interrupts_deferred
 from hydroelastic.scenes.errors import SceneError, UnsolvedError
+from hydroelastic.scenes.kinds import checker_of, comparer_of, runner_of
 from hydroelastic.scenes.output import check_output
-from hydroelastic.scenes.read import read_scene, require_walls, scene_path, shipped_scenes
+from hydroelastic.scenes.read import closed_tank, read_scene, scene_path, shipped_scenes
 
 BAD_INPUT = 2
 NOT_TO_TOLERANCE = 3
@@ -162,10 +163,10 @@ def run(
     start = time.perf_counter()
     # Interrupted half way, the libraries below end in an error of their own, or abort.
     with interrupts_deferred():
-        from hydroelastic.scenes.run import run_scene
+        run_kind = runner_of(checked)
     seconds = time.perf_counter() - start
     with _progress(shown=not quiet and sys.stderr.isatty()) as report:
-        outcome = run_scene(checked, images=not no_images, out=folder, import_seconds=seconds, report=report)
+        outcome = run_kind(checked, images=not no_images, out=folder, import_seconds=seconds, report=report)
     for warning in outcome.warnings:
         click.echo(f"Warning: {warning}", err=True)
     if not quiet:
@@ -188,11 +189,10 @@ def compare(context: click.Context, scene: str, overrides: tuple[str, ...]) -> N
       hydroelastic compare aquarium --set body.0.start=0
     """
     checked = read_scene(scene, overrides)
-    require_walls(checked, "the older theories that are compared are those of closed tanks")
     with interrupts_deferred():
-        from hydroelastic.scenes.compare import compare_scene
+        compare_kind = comparer_of(checked)
     with _progress(shown=sys.stderr.isatty()) as report:
-        comparison = compare_scene(checked, report=report)
+        comparison = compare_kind(checked, report=report)
     click.echo(comparison.table())
     if comparison.status == "unconverged":
         context.exit(NOT_TO_TOLERANCE)
@@ -228,14 +228,14 @@ def study(scene: str, out: Path | None, overrides: tuple[str, ...], **options: s
 
     plan = plan_from_options(options)
     checked = read_scene(scene, overrides)
-    require_walls(checked, "a study measures the errors of frequencies of closed tanks")
+    tank = closed_tank(checked, "a study measures the errors of frequencies of closed tanks")
     folder = out if out is not None else Path("results") / f"{scene_path(scene).stem}_study"
     check_output(folder)
     with interrupts_deferred():
         from hydroelastic.scenes.study import study_scene
         from hydroelastic.scenes.study_report import study_table, write_study
     with _progress(shown=sys.stderr.isatty()) as report:
-        measured = study_scene(checked, plan, report=report)
+        measured = study_scene(tank, plan, report=report)
         if _is_first_rank():
             write_study(measured, folder)
     click.echo(study_table(measured))
@@ -255,9 +255,7 @@ def check(scene: str, overrides: tuple[str, ...]) -> None:
     checked = read_scene(scene, overrides)
     from rich.console import Console
 
-    from hydroelastic.scenes.check import print_check
-
-    print_check(checked, Console())
+    checker_of(checked)(checked, Console())
 
 
 @main.command("list")
@@ -280,10 +278,10 @@ def list_scenes() -> None:
 @main.command()
 @click.option("--out", type=click.Path(path_type=Path), help="Folder; default results/benchmarks.")
 @click.option(
-    "--problem", type=click.Choice(["tanks", "circle"]), multiple=True, help="Only this one; both by default."
+    "--problem", type=click.Choice(["tanks", "circle", "string"]), multiple=True, help="Only this one; all by default."
 )
-@click.option("--quick", is_flag=True, help="One tank, one frequency, every third case.")
-@click.option("--repeats", type=click.IntRange(min=1), help="Rounds that count; default 7, or 3 if quick or circle.")
+@click.option("--quick", is_flag=True, help="One tank, one frequency, one motion, every third case.")
+@click.option("--repeats", type=click.IntRange(min=1), help="Rounds that count; 7 of tanks, else or if quick 3.")
 @click.option("--no-install", is_flag=True, help="Leave out other codes that are not installed.")
 @click.pass_context
 def bench(
@@ -294,10 +292,11 @@ def bench(
     repeats: int | None,
     no_install: bool,
 ) -> None:
-    """Measure error against seconds, beside NGSolve, scikit-fem and a bare lower bound, and beside Capytaine.
+    """Measure error against seconds: tanks beside NGSolve, scikit-fem and a bare lower bound, a circle in open water
+    beside Capytaine, a hanging string by series and as a field.
 
-    The others are installed into the cache if they are missing. Writes speed_against_error and open_circle, each as
-    .csv, .md and .png.
+    The others are installed into the cache if they are missing. Writes speed_against_error, open_circle and
+    hanging_string, each as .csv, .md and .png.
 
     \b
     Example:

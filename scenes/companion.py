@@ -14,9 +14,10 @@ from hydroelastic.fem.liquid import compile_form
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.scenes.certainty import ROUNDING_OF_SPREAD, FrequencyErrors, frequency_errors, refined
 from hydroelastic.scenes.field_model import build_mesh
-from hydroelastic.scenes.field_solution import FieldSolution, Stopwatch, solve_field
+from hydroelastic.scenes.field_solution import FieldSolution, solve_field
 from hydroelastic.scenes.plan import Resolution, sharpest_exponent
 from hydroelastic.scenes.scaled_tank import ScaledTank
+from hydroelastic.scenes.stopwatch import Stopwatch
 from hydroelastic.scenes.tones import ElasticTone, elastic_tone
 
 _MOST_ATTEMPTS = 5

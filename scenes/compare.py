@@ -2,40 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from hydroelastic.scenes.models import TankScene
+from hydroelastic.scenes.outcome import Outcome
 from hydroelastic.scenes.run import solved_scene
-from hydroelastic.scenes.solve import Report
-from hydroelastic.scenes.summary import Summary
+from hydroelastic.scenes.stopwatch import Report
 from hydroelastic.scenes.tables import printed
 
 
-@dataclass(frozen=True, kw_only=True)
-class Comparison:
-    """A solved scene and its estimates.
-
-    Attributes:
-        summary: as in ``summary.json``.
-    """
-
-    summary: Summary
-
-    @property
-    def status(self) -> str:
-        """The word "ok", or "unconverged"."""
-        return str(self.summary["status"])
-
-    def table(self) -> str:
-        """The tables for a terminal, with what each estimate neglects."""
-        return printed(self.summary, notes=True)
-
-
-def compare_scene(scene: TankScene, *, report: Report = lambda _message: None) -> Comparison:
-    """Solve a scene and compare; writes nothing (collective).
+def compare_scene(scene: TankScene, *, report: Report = lambda _message: None) -> Outcome:
+    """Solve a closed tank and compare, with what each estimate neglects; writes nothing (collective).
 
     Raises:
-        SceneError: if the scene's mesh does not fit it.
+        SceneError: if the scene's ends are open, or its mesh does not fit it.
     """
     _, summary = solved_scene(scene, report=report)
-    return Comparison(summary=summary)
+    return Outcome(summary=summary, tables=printed(summary, notes=True))

@@ -228,7 +228,7 @@ def _of_the_scene(scene: TankScene) -> dict[str, Any]:
 
 
 def _said_of(solution: OpenSolution) -> dict[str, str]:
-    from hydroelastic.scenes.summary import versions
+    from hydroelastic.scenes.provenance import versions
 
     said = {
         "title": solution.scene.title,

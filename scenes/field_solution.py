@@ -6,10 +6,7 @@ needs to know how they were found.
 
 from __future__ import annotations
 
-import time
-from collections.abc import Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -22,6 +19,7 @@ from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.scenes.field_model import build_field_model, build_half_models, moving_parities, whole_bodies
 from hydroelastic.scenes.plan import Resolution
 from hydroelastic.scenes.scaled_tank import ScaledTank
+from hydroelastic.scenes.stopwatch import Stopwatch
 from hydroelastic.scenes.symmetry import (
     Parity,
     left_bodies,
@@ -30,22 +28,6 @@ from hydroelastic.scenes.symmetry import (
     shapes_of_twins,
     twin_of,
 )
-
-
-@dataclass
-class Stopwatch:
-    """Seconds by stage, added up."""
-
-    seconds: dict[str, float] = field(default_factory=dict)
-
-    @contextmanager
-    def stage(self, name: str) -> Iterator[None]:
-        """Time a block of code."""
-        start = time.perf_counter()
-        try:
-            yield
-        finally:
-            self.seconds[name] = self.seconds.get(name, 0.0) + time.perf_counter() - start
 
 
 @dataclass(frozen=True, kw_only=True)

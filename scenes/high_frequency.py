@@ -17,10 +17,11 @@ from hydroelastic.fem.surfaces import Body
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.scenes.certainty import FrequencyErrors, boundary_error, energies_missed, refined
 from hydroelastic.scenes.field_model import build_mesh, whole_bodies
-from hydroelastic.scenes.field_solution import Stopwatch, extension, part_models
+from hydroelastic.scenes.field_solution import extension, part_models
 from hydroelastic.scenes.float_body import principal_motions
 from hydroelastic.scenes.plan import Resolution, companion_resolution, rounding_error, sharpest_exponent
 from hydroelastic.scenes.scaled_tank import ScaledTank
+from hydroelastic.scenes.stopwatch import Stopwatch
 from hydroelastic.scenes.symmetry import Parity
 
 _MOST_ATTEMPTS = 5

@@ -27,7 +27,6 @@ from hydroelastic.scenes.certainty import FrequencyErrors
 from hydroelastic.scenes.errors import Problem as WrongInput
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.field_model import whole_bodies
-from hydroelastic.scenes.field_solution import Stopwatch
 from hydroelastic.scenes.model_analyses import Decay
 from hydroelastic.scenes.models import TankScene
 from hydroelastic.scenes.motion_scale import motion_scale
@@ -41,6 +40,7 @@ from hydroelastic.scenes.open_results import DecayTable
 from hydroelastic.scenes.open_solver import OpenSolver
 from hydroelastic.scenes.open_sweep import Problem, sweep
 from hydroelastic.scenes.plan import Resolution
+from hydroelastic.scenes.stopwatch import Stopwatch
 
 # Angles between a ray and the resonances beside it, radians: at least, if there is room, and at most.
 _NARROW, _WIDE = 0.05, 0.12

@@ -2,24 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from hydroelastic.scenes.curve_style import COLOURS, dress, figure_file, plot_curve
 from hydroelastic.scenes.open_results import DecayTable, OpenSolution, RadiationTable, ResonanceTable, ResponseTable
 from hydroelastic.scenes.open_tables import motion_name
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+    pass
 
-# Okabe and Ito's colours, which colour-blind readers tell apart; curves differ in dashes besides.
-_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
-_DASHES = ("-", "--", "-.", ":")
-_GRID = {"which": "major", "color": "#dddddd", "linewidth": 0.6}
 _OTHER = "#555555"
 _MOST_DEFLECTIONS = 6
 
@@ -46,42 +40,6 @@ def draw_open(solution: OpenSolution, folder: Path) -> None:
         _draw_decay(decay, title, folder / f"decay_{number}.png")
 
 
-@contextmanager
-def _figure(title: str, path: Path, *, width: float, height: float = 5.4) -> Iterator[Figure]:
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(width, height), layout="constrained")
-    FigureCanvasAgg(figure)
-    yield figure
-    # A dollar sign would begin a formula.
-    figure.suptitle(title.replace("$", r"\$"))
-    figure.savefig(path, dpi=130)
-
-
-def _dress(axes: Axes, across: str, up: str, *, legend: bool = True) -> None:
-    axes.set_xlabel(across)
-    axes.set_ylabel(up)
-    axes.grid(**_GRID)  # type: ignore[arg-type]
-    axes.spines[["top", "right"]].set_visible(False)
-    if legend:
-        axes.legend(frameon=False, handlelength=3.0, loc="upper center", bbox_to_anchor=(0.5, -0.13), ncols=2)
-
-
-def _plot(axes: Axes, x: np.ndarray, y: np.ndarray, number: int, label: str) -> None:
-    """A curve, with markers where there are few points."""
-    axes.plot(
-        x,
-        y,
-        _DASHES[number // len(_COLOURS) % len(_DASHES)],
-        color=_COLOURS[number % len(_COLOURS)],
-        marker="o" if len(x) <= 20 else None,
-        markersize=4,
-        linewidth=1.6,
-        label=label,
-    )
-
-
 def _draw_radiation(table: RadiationTable, title: str, path: Path) -> None:
     """Diagonals of a and b over finite ω, each over its largest value: motions have different units."""
     order = np.argsort(table.omega)
@@ -89,19 +47,19 @@ def _draw_radiation(table: RadiationTable, title: str, path: Path) -> None:
     if not len(order):
         return
     omega = table.omega[order]
-    with _figure(title, path, width=11.0) as figure:
+    with figure_file(title, path, width=11.0) as figure:
         left, right = figure.subplots(1, 2)
         for number, motion in enumerate(table.dofs):
             mass, damping = (matrix[order, number, number] for matrix in (table.added_mass, table.radiation_damping))
             unit = "kg·m" if motion.endswith("roll") else "kg/m"
             for axes, values, of in ((left, mass, unit), (right, damping, f"{unit}/s")):
                 largest = _largest(values)
-                _plot(axes, omega, values / largest, number, f"{motion_name(motion)} ({largest:.4g} {of})")
+                plot_curve(axes, omega, values / largest, number, f"{motion_name(motion)} ({largest:.4g} {of})")
             if table.infinite_frequency_added_mass is not None:
                 far = table.infinite_frequency_added_mass[number, number] / _largest(mass)
-                left.axhline(far, color=_COLOURS[number % len(_COLOURS)], linewidth=0.7, linestyle=":")
-        _dress(left, "ω, rad/s", "added mass over its largest value (dotted: ω → ∞)")
-        _dress(right, "ω, rad/s", "radiation damping over its largest value")
+                left.axhline(far, color=COLOURS[number % len(COLOURS)], linewidth=0.7, linestyle=":")
+        dress(left, "ω, rad/s", "added mass over its largest value (dotted: ω → ∞)")
+        dress(right, "ω, rad/s", "radiation damping over its largest value")
 
 
 def _largest(values: np.ndarray) -> float:
@@ -112,23 +70,27 @@ def _largest(values: np.ndarray) -> float:
 def _draw_response(table: ResponseTable, title: str, path: Path) -> None:
     order = np.argsort(table.omega)
     omega = table.omega[order]
-    with _figure(title, path, width=11.0) as figure:
+    with figure_file(title, path, width=11.0) as figure:
         left, right = figure.subplots(1, 2)
         number = 0
         for incident, wave in enumerate(table.waves):
             for outgoing, other in enumerate(table.waves):
                 which = f", {wave} to {other}" if len(table.waves) > 1 else ""
-                _plot(left, omega, np.abs(table.reflection[order, incident, outgoing]), number, f"|R|{which}")
-                _plot(left, omega, np.abs(table.transmission[order, incident, outgoing]), number + 1, f"|T|{which}")
+                plot_curve(left, omega, np.abs(table.reflection[order, incident, outgoing]), number, f"|R|{which}")
+                plot_curve(
+                    left, omega, np.abs(table.transmission[order, incident, outgoing]), number + 1, f"|T|{which}"
+                )
                 number += 2
         number = 0
-        for motion, dof in enumerate(table.dofs[: len(_COLOURS)]):
+        for motion, dof in enumerate(table.dofs[: len(COLOURS)]):
             for incident, wave in enumerate(table.waves):
                 which = f", {wave} wave" if len(table.waves) > 1 else ""
-                _plot(right, omega, np.abs(table.amplitudes[order, incident, motion]), number, motion_name(dof) + which)
+                plot_curve(
+                    right, omega, np.abs(table.amplitudes[order, incident, motion]), number, motion_name(dof) + which
+                )
                 number += 1
-        _dress(left, "ω, rad/s", "ratio of elevations")
-        _dress(right, "ω, rad/s", f"|motion| per unit elevation, waves from the {table.waves_from}")
+        dress(left, "ω, rad/s", "ratio of elevations")
+        dress(right, "ω, rad/s", f"|motion| per unit elevation, waves from the {table.waves_from}")
 
 
 def _draw_deflection(table: ResponseTable, place: int, title: str, path: Path) -> None:
@@ -136,28 +98,28 @@ def _draw_deflection(table: ResponseTable, place: int, title: str, path: Path) -
     plate = table.plates[place]
     order = np.argsort(table.omega)
     shown = order[np.unique(np.linspace(0, len(order) - 1, min(len(order), _MOST_DEFLECTIONS)).round().astype(int))]
-    with _figure(title, path, width=7.5 * len(table.waves)) as figure:
+    with figure_file(title, path, width=7.5 * len(table.waves)) as figure:
         panels = figure.subplots(1, len(table.waves), squeeze=False)[0]
         for incident, (axes, wave) in enumerate(zip(panels, table.waves, strict=True)):
             for number, row in enumerate(shown):
                 axes.plot(
                     plate.positions,
                     np.abs(plate.deflection[row, incident]),
-                    color=_COLOURS[number % len(_COLOURS)],
+                    color=COLOURS[number % len(COLOURS)],
                     linewidth=1.6,
                     label=f"ω = {table.omega[row]:.4g} rad/s",
                 )
             which = f", {wave} wave" if len(table.waves) > 1 else ""
-            _dress(axes, "x, m", f"|deflection| of body {plate.body + 1} per unit elevation{which}")
+            dress(axes, "x, m", f"|deflection| of body {plate.body + 1} per unit elevation{which}")
             axes.set_ylim(bottom=0.0)
 
 
 def _draw_resonances(table: ResonanceTable, title: str, path: Path) -> None:
     if not len(table.omega):
         return
-    with _figure(title, path, width=7.5) as figure:
+    with figure_file(title, path, width=7.5) as figure:
         axes = figure.subplots()
-        axes.plot(table.omega.real, table.omega.imag, "o", color=_COLOURS[0], markersize=6)
+        axes.plot(table.omega.real, table.omega.imag, "o", color=COLOURS[0], markersize=6)
         for omega, label in zip(table.omega, table.labels, strict=True):
             axes.annotate(
                 motion_name(label), (omega.real, omega.imag), xytext=(6, 4), textcoords="offset points", fontsize=9
@@ -165,7 +127,7 @@ def _draw_resonances(table: ResonanceTable, title: str, path: Path) -> None:
         # The real axis is where nothing dies out.
         axes.axhline(0.0, color=_OTHER, linewidth=0.9)
         axes.margins(0.15)
-        _dress(axes, "Re ω, rad/s", "Im ω, 1/s", legend=False)
+        dress(axes, "Re ω, rad/s", "Im ω, 1/s", legend=False)
 
 
 def _draw_decay(table: DecayTable, title: str, path: Path) -> None:
@@ -173,19 +135,19 @@ def _draw_decay(table: DecayTable, title: str, path: Path) -> None:
     released = int(np.argmax(np.abs(table.initial)))
     order = np.argsort(table.times)
     times = table.times[order]
-    with _figure(title, path, width=9.0) as figure:
+    with figure_file(title, path, width=9.0) as figure:
         axes = figure.subplots()
         for number, motion in enumerate(table.dofs):
             unit = "rad" if motion.endswith("roll") else "m"
-            _plot(axes, times, table.displacement[order, number], number, f"{motion_name(motion)}, {unit}")
-        _dress(axes, "t, s", "displacement after release", legend=False)
+            plot_curve(axes, times, table.displacement[order, number], number, f"{motion_name(motion)}, {unit}")
+        dress(axes, "t, s", "displacement after release", legend=False)
         axes.legend(frameon=False, handlelength=3.0, loc="lower right")
         later = times > 0.0
         motion = np.abs(table.displacement[order, released])[later]
         if np.count_nonzero(motion) < 2:
             return
         inset = axes.inset_axes((0.55, 0.55, 0.43, 0.42))
-        inset.loglog(times[later], motion, color=_COLOURS[released % len(_COLOURS)], linewidth=1.2)
+        inset.loglog(times[later], motion, color=COLOURS[released % len(COLOURS)], linewidth=1.2)
         inset.loglog(times[later], table.absolute_error[order][later], ":", color=_OTHER, linewidth=1.0)
         if table.tail is not None:
             inset.loglog(times[later], abs(table.tail) / times[later] ** 2, "--", color=_OTHER, linewidth=1.0)

@@ -24,7 +24,6 @@ from hydroelastic.meshes.tagged_mesh import TaggedMesh
 from hydroelastic.modal.travelling_waves import travelling_waves
 from hydroelastic.scenes.certainty import FrequencyErrors, boundary_error
 from hydroelastic.scenes.field_model import distributed_mesh, moving_surfaces, whole_bodies
-from hydroelastic.scenes.field_solution import Stopwatch
 from hydroelastic.scenes.models import TankScene
 from hydroelastic.scenes.motion_scale import MotionScale, motion_scale
 from hydroelastic.scenes.open_basin import CUT, OpenBasin, Reach, liquids_of, open_basin, reach
@@ -36,6 +35,7 @@ from hydroelastic.scenes.plan import (
     sharpest_exponent,
     workable_tolerance,
 )
+from hydroelastic.scenes.stopwatch import Stopwatch
 from hydroelastic.scenes.tank_mesh import graded_outline, tip_points
 from hydroelastic.scenes.tank_outline import grounded_names, layer_names
 

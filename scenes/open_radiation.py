@@ -11,7 +11,6 @@ from scipy.linalg import block_diag
 
 from hydroelastic.scenes.certainty import FrequencyErrors
 from hydroelastic.scenes.field_model import whole_bodies
-from hydroelastic.scenes.field_solution import Stopwatch
 from hydroelastic.scenes.model_analyses import Radiation
 from hydroelastic.scenes.models import TankScene
 from hydroelastic.scenes.motion_scale import motion_scale
@@ -25,6 +24,7 @@ from hydroelastic.scenes.open_solver import OpenSolver
 from hydroelastic.scenes.open_sweep import Problem, Swept, sweep
 from hydroelastic.scenes.plan import Resolution
 from hydroelastic.scenes.scaled_tank import ScaledTank
+from hydroelastic.scenes.stopwatch import Stopwatch
 
 # Heave and pitch of a beam, and one more motion for each hinge, come before its elastic shapes.
 _RIGID = 2

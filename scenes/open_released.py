@@ -13,13 +13,13 @@ from hydroelastic.fem.added_mass import body_responses
 from hydroelastic.fem.liquid import compile_form
 from hydroelastic.scenes.certainty import FrequencyErrors, boundary_error, energies_missed
 from hydroelastic.scenes.field_model import build_field_model, distributed_mesh, whole_bodies
-from hydroelastic.scenes.field_solution import Stopwatch
 from hydroelastic.scenes.models import TankScene
 from hydroelastic.scenes.open_attempts import Attempt, attempted
 from hydroelastic.scenes.open_basin import open_basin, reach
 from hydroelastic.scenes.open_model import ANGLE, GROWTH, NO_WATER, open_mesh
 from hydroelastic.scenes.plan import Resolution, resolution_for, rounding_error, sharpest_exponent, workable_tolerance
 from hydroelastic.scenes.scaling import Scales
+from hydroelastic.scenes.stopwatch import Stopwatch
 
 # Dry modes of each beam, and tolerance, where frequencies are only to be known roughly.
 _SHAPES = 16

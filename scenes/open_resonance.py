@@ -12,7 +12,6 @@ from hydroelastic.fem.resonances import Eigenpair, ResonanceSearch
 from hydroelastic.fem.truncation import truncation_errors
 from hydroelastic.scenes.certainty import FrequencyErrors, boundary_error
 from hydroelastic.scenes.field_model import whole_bodies
-from hydroelastic.scenes.field_solution import Stopwatch
 from hydroelastic.scenes.model_analyses import Resonance
 from hydroelastic.scenes.models import TankScene
 from hydroelastic.scenes.motion_scale import motion_scale
@@ -24,6 +23,7 @@ from hydroelastic.scenes.open_released import released_model, rough_scene
 from hydroelastic.scenes.open_results import ResonanceTable
 from hydroelastic.scenes.open_solver import OpenSolver
 from hydroelastic.scenes.plan import Resolution, rounding_error
+from hydroelastic.scenes.stopwatch import Stopwatch
 
 ANGLE = 1.3
 """α of the complex scaling: resonances with −Im ω/Re ω below tan(α/2) = 0.76 are uncovered in deep water."""

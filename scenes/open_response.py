@@ -9,7 +9,6 @@ from mpi4py import MPI
 
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.scenes.certainty import FrequencyErrors, boundary_error
-from hydroelastic.scenes.field_solution import Stopwatch
 from hydroelastic.scenes.model_analyses import Response
 from hydroelastic.scenes.models import TankScene
 from hydroelastic.scenes.open_attempts import Attempt, attempted_over
@@ -20,6 +19,7 @@ from hydroelastic.scenes.open_results import PlateDeflection, ResponseTable
 from hydroelastic.scenes.open_solver import OpenSolver
 from hydroelastic.scenes.open_sweep import Problem, Swept, sweep
 from hydroelastic.scenes.plan import Resolution, rounding_error
+from hydroelastic.scenes.stopwatch import Stopwatch
 
 # Dry modes of the tail, which the last ones stand for: at the tips their deflections add like Σ n⁻⁵.
 _TAIL = 0.25

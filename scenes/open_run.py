@@ -10,7 +10,6 @@ from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.scenes.dataset import write_dataset
 from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
-from hydroelastic.scenes.field_solution import Stopwatch
 from hydroelastic.scenes.models import TankScene
 from hydroelastic.scenes.open_csv import write_csv
 from hydroelastic.scenes.open_figures import draw_open
@@ -18,9 +17,9 @@ from hydroelastic.scenes.open_results import OpenSolution
 from hydroelastic.scenes.open_solve import solve_open
 from hydroelastic.scenes.open_summary import summarize_open
 from hydroelastic.scenes.open_tables import markdown_open
-from hydroelastic.scenes.output import raise_on_all, result_folder, write_summary
-from hydroelastic.scenes.solve import Report
-from hydroelastic.scenes.summary import Summary
+from hydroelastic.scenes.provenance import Summary
+from hydroelastic.scenes.result_writer import write_results
+from hydroelastic.scenes.stopwatch import Report
 
 
 def solved_open_scene(scene: TankScene, *, import_seconds: float, report: Report) -> tuple[OpenSolution, Summary]:
@@ -43,24 +42,16 @@ def solved_open_scene(scene: TankScene, *, import_seconds: float, report: Report
 
 def write_open(solution: OpenSolution, summary: Summary, out: Path, *, images: bool, report: Report) -> None:
     """Write the result folder on rank 0 (collective)."""
-    comm, watch = MPI.COMM_WORLD, Stopwatch()
-    problem: BaseException | None = None
-    if comm.rank == 0:
-        try:
-            with result_folder(out) as folder:
-                with watch.stage("write"):
-                    report("tables")
-                    write_csv(solution, folder)
-                    write_dataset(solution, folder / "dataset.nc")
-                if images:
-                    with watch.stage("draw"):
-                        report("images")
-                        (folder / "images").mkdir()
-                        draw_open(solution, folder / "images")
-                summary["timing"].update(watch.seconds)
-                (folder / "summary.md").write_text(markdown_open(solution, summary), encoding="utf-8")
-                write_summary(summary, folder)
-        except BaseException as error:
-            # Whatever it is, the other processes wait to hear of it.
-            problem = error
-    raise_on_all(problem, comm)
+
+    def tables(folder: Path) -> None:
+        write_csv(solution, folder)
+        write_dataset(solution, folder / "dataset.nc")
+
+    write_results(
+        out,
+        summary,
+        tables=tables,
+        pictures=(lambda folder: draw_open(solution, folder)) if images else None,
+        text=lambda content: markdown_open(solution, content),
+        report=report,
+    )

@@ -9,7 +9,6 @@ import numpy as np
 from mpi4py import MPI
 
 from hydroelastic.scenes.digits import kept_tolerance
-from hydroelastic.scenes.field_solution import Stopwatch
 from hydroelastic.scenes.model_analyses import Analysis, Decay, Radiation, Response
 from hydroelastic.scenes.models import TankScene
 from hydroelastic.scenes.open_decay import DecaySolution, solve_decay
@@ -18,7 +17,7 @@ from hydroelastic.scenes.open_radiation import RadiationSolution, solve_radiatio
 from hydroelastic.scenes.open_resonance import ResonanceSolution, solve_resonance
 from hydroelastic.scenes.open_response import ResponseSolution, solve_response
 from hydroelastic.scenes.open_results import OpenSolution
-from hydroelastic.scenes.solve import Report
+from hydroelastic.scenes.stopwatch import Report, Stopwatch
 
 # The power of waves is of first order in the error of the field; measured, it is off by less than the tolerance.
 _POWER = 10.0

@@ -6,10 +6,10 @@ import numpy as np
 
 from hydroelastic.fem.complex_direct import ShiftedSolver
 from hydroelastic.fem.reduced_pencil import ReducedPencil
-from hydroelastic.scenes.field_solution import Stopwatch
 from hydroelastic.scenes.incident_waves import Incidence, incidence, planes
 from hydroelastic.scenes.open_frequency import OpenFrequency, OpenResponse
 from hydroelastic.scenes.open_model import OpenModel
+from hydroelastic.scenes.stopwatch import Stopwatch
 
 
 class OpenSolver:

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import asdict, fields
-from math import isinf, isnan
 from typing import Any
 
-import numpy as np
 from mpi4py import MPI
 
+from hydroelastic.scenes.json_values import json_ready
 from hydroelastic.scenes.open_estimates import thin_float_comparisons
 from hydroelastic.scenes.open_results import (
     DIRECTIONS,
@@ -18,7 +17,7 @@ from hydroelastic.scenes.open_results import (
     ResonanceTable,
     ResponseTable,
 )
-from hydroelastic.scenes.summary import Summary, memory_of_processes, versions
+from hydroelastic.scenes.provenance import Summary, memory_of_processes, versions
 
 
 def summarize_open(solution: OpenSolution, comm: MPI.Comm, *, import_seconds: float) -> Summary:
@@ -60,22 +59,3 @@ def _written(table: RadiationTable | ResponseTable | ResonanceTable | DecayTable
             for plate in table.plates
         ]
     return {name: json_ready(value) for name, value in row.items()}
-
-
-def json_ready(value: Any) -> Any:
-    """Return a value in what JSON knows: arrays as lists, complex numbers as pairs, no infinity and no NaN."""
-    if isinstance(value, np.ndarray):
-        return json_ready(value.tolist())
-    if isinstance(value, dict):
-        return {name: json_ready(entry) for name, entry in value.items()}
-    if isinstance(value, list | tuple):
-        return [json_ready(entry) for entry in value]
-    if isinstance(value, np.generic):
-        return json_ready(value.item())
-    if isinstance(value, complex):
-        return [json_ready(value.real), json_ready(value.imag)]
-    if isinstance(value, float) and isnan(value):
-        return None
-    if isinstance(value, float) and isinf(value):
-        return "inf" if value > 0 else "-inf"
-    return value

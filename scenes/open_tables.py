@@ -2,35 +2,21 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import product
 from math import inf, isfinite, pi
 
 import numpy as np
-from rich.console import Console
 
 from hydroelastic.scenes.digits import number, per_cent, with_certain_digits
 from hydroelastic.scenes.open_results import DecayTable, OpenSolution, RadiationTable, ResonanceTable, ResponseTable
-from hydroelastic.scenes.summary import Summary
-from hydroelastic.scenes.tables import markdown_table, rich_table, status_lines, title_of
+from hydroelastic.scenes.provenance import Summary
+from hydroelastic.scenes.sections import Row, Section, markdown_sections, printed_sections
 
 MOST_ROWS = 25
 """Rows of one table that are shown; longer ones are thinned out evenly."""
 
 _MOST_MOTIONS = 4
-_Row = tuple[str, ...]
-
-
-@dataclass(frozen=True, kw_only=True)
-class Section:
-    """A table with a heading and what is said below it."""
-
-    title: str
-    headings: _Row
-    rows: list[_Row]
-    lines: tuple[str, ...] = ()
 
 
 def printed_open(solution: OpenSolution, summary: Summary, *, width: int = 120) -> str:
@@ -41,29 +27,12 @@ def printed_open(solution: OpenSolution, summary: Summary, *, width: int = 120) 
         summary: content of ``summary.json``.
         width: of the text, in characters.
     """
-    console = Console(file=io.StringIO(), width=width, color_system=None, highlight=False)
-    console.print(title_of(summary), markup=False)
-    for line in status_lines(summary):
-        console.print(line, markup=False, style="bold")
-    for section in (*sections(solution), *_estimates(summary)):
-        console.print(section.title, markup=False)
-        console.print(rich_table(section.headings, section.rows))
-        for line in section.lines:
-            console.print(line, markup=False)
-    console.print(cost_line(summary), markup=False)
-    return console.file.getvalue().rstrip()  # type: ignore[attr-defined]
+    return printed_sections(summary, [*sections(solution), *_estimates(summary)], cost_line(summary), width=width)
 
 
 def markdown_open(solution: OpenSolution, summary: Summary) -> str:
     """All tables as Markdown."""
-    parts = [f"# {title_of(summary)}", ""]
-    complaint = [f"**{line}**" if number == 0 else line for number, line in enumerate(status_lines(summary))]
-    parts += [*complaint, ""] if complaint else []
-    for section in (*sections(solution), *_estimates(summary)):
-        parts += [f"## {section.title}", "", markdown_table(section.headings, section.rows), ""]
-        parts += [line + "\n" for line in section.lines]
-    parts.append(cost_line(summary))
-    return "\n".join(parts) + "\n"
+    return markdown_sections(summary, [*sections(solution), *_estimates(summary)], cost_line(summary))
 
 
 def sections(solution: OpenSolution) -> Iterator[Section]:
@@ -195,7 +164,7 @@ def _response(table: ResponseTable) -> Iterator[Section]:
 
 
 def _resonance(table: ResonanceTable) -> Section:
-    rows: list[_Row] = []
+    rows: list[Row] = []
     for place, (omega, label, error, residual) in enumerate(
         zip(table.omega, table.labels, table.relative_error, table.residuals, strict=True), 1
     ):

@@ -17,6 +17,7 @@ from types import FrameType
 from typing import TYPE_CHECKING, Any
 
 from hydroelastic.scenes.errors import Problem, SceneError
+from hydroelastic.scenes.json_values import json_ready
 
 if TYPE_CHECKING:
     from mpi4py import MPI
@@ -137,8 +138,8 @@ def _remove_if_empty(folders: list[Path]) -> None:
 
 
 def write_summary(summary: dict[str, Any], folder: Path) -> None:
-    """Write ``summary.json``, which makes a folder one of ours."""
-    text = json.dumps(summary, indent=1, ensure_ascii=False, allow_nan=False)
+    """Write ``summary.json``, which makes a folder one of ours; infinity is the text "inf", no number is null."""
+    text = json.dumps(json_ready(summary), indent=1, ensure_ascii=False, allow_nan=False)
     (folder / SUMMARY).write_text(text + "\n", encoding="utf-8")
 
 

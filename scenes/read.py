@@ -12,11 +12,15 @@ from typing import Any, TypeAlias
 from pydantic import ValidationError
 
 from hydroelastic.scenes.errors import Problem, SceneError, nearest, proposal, scene_error, shown_value
+from hydroelastic.scenes.model_roll import RollScene
+from hydroelastic.scenes.model_string import StringScene
 from hydroelastic.scenes.models import TankScene
 
 Document: TypeAlias = dict[str, Any]
 
-SCENE_MODELS = {"tank": TankScene}
+Scene: TypeAlias = TankScene | StringScene | RollScene
+
+SCENE_MODELS: dict[str, type[Scene]] = {"tank": TankScene, "string": StringScene, "roll": RollScene}
 """Which model a ``kind`` is read with."""
 
 SHIPPED_FOLDER = Path(__file__).resolve().parent
@@ -67,7 +71,7 @@ def scene_path(scene: str | Path) -> Path:
     raise _unusable(path, "there is no such file and no shipped scene of that name", remedy)
 
 
-def read_scene(path: str | Path, overrides: Iterable[str] = ()) -> TankScene:
+def read_scene(path: str | Path, overrides: Iterable[str] = ()) -> Scene:
     """Read and validate a scene.
 
     Args:
@@ -92,28 +96,31 @@ def read_scene(path: str | Path, overrides: Iterable[str] = ()) -> TankScene:
         scene = model.model_validate(document, context={"folder": file.parent})
     except ValidationError as error:
         raise scene_error(error, model, file=label) from error
-    return _with_mesh_beside(scene, file)
+    return _with_mesh_beside(scene, file) if isinstance(scene, TankScene) else scene
 
 
-def require_walls(scene: TankScene, because: str) -> None:
-    """Refuse a scene with open ends.
+def closed_tank(scene: Scene, because: str) -> TankScene:
+    """Return the scene of a closed tank, and refuse any other.
 
     Args:
         scene: the scene.
-        because: why open ends are of no use here.
+        because: why another scene is of no use here.
 
     Raises:
-        SceneError: if the ends are open.
+        SceneError: if it is of another kind, or the ends of the tank are open.
     """
+    if not isinstance(scene, TankScene):
+        raise SceneError(_misplaced('key "kind"', scene.kind, because, allowed='"tank"', what="this kind"))
     if scene.is_open:
-        problem = Problem(
-            key='[tank], key "ends"',
-            value=shown_value(scene.tank.ends),
-            wrong=because,
-            allowed='"walls"',
-            remedy="The command run takes open ends",
+        raise SceneError(
+            _misplaced('[tank], key "ends"', scene.tank.ends, because, allowed='"walls"', what="open ends")
         )
-        raise SceneError(problem)
+    return scene
+
+
+def _misplaced(key: str, value: str, because: str, *, allowed: str, what: str) -> Problem:
+    remedy = f"The command run takes {what}"
+    return Problem(key=key, value=shown_value(value), wrong=because, allowed=allowed, remedy=remedy)
 
 
 def _unusable(path: Path, wrong: str, remedy: str = "") -> SceneError:
@@ -148,9 +155,10 @@ def _known_kinds() -> str:
     return " or ".join(f'kind = "{kind}"' for kind in SCENE_MODELS)
 
 
-def _model_of(document: Document, label: str) -> type[TankScene]:
+def _model_of(document: Document, label: str) -> type[Scene]:
     if "kind" not in document:
-        near = nearest("kind", [key for key in document if key not in TankScene.model_fields])
+        known = {key for model in SCENE_MODELS.values() for key in model.model_fields}
+        near = nearest("kind", [key for key in document if key not in known])
         remedy = f'Instead there is "{near}"' if near is not None else ""
         missing = Problem(key='key "kind"', wrong="it is missing", allowed=_known_kinds(), remedy=remedy)
         raise SceneError(missing, file=label)

@@ -13,52 +13,28 @@ from hydroelastic.meshes.files import load_mesh
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
 from hydroelastic.scenes.estimates import scene_estimates
-from hydroelastic.scenes.field_solution import Stopwatch
 from hydroelastic.scenes.models import TankScene
 from hydroelastic.scenes.open_results import OpenSolution
 from hydroelastic.scenes.open_tables import printed_open
+from hydroelastic.scenes.outcome import Outcome
 from hydroelastic.scenes.output import raise_on_all, result_folder, write_summary
-from hydroelastic.scenes.read import require_walls
-from hydroelastic.scenes.solve import Report, TankSolution, solve_scene
-from hydroelastic.scenes.summary import Summary, summarize
+from hydroelastic.scenes.provenance import Summary
+from hydroelastic.scenes.read import closed_tank
+from hydroelastic.scenes.solve import TankSolution, solve_scene
+from hydroelastic.scenes.stopwatch import Report, Stopwatch
+from hydroelastic.scenes.summary import summarize
 from hydroelastic.scenes.tables import markdown, mode_csv, printed
 
 
 @dataclass(frozen=True, kw_only=True)
-class Outcome:
-    """What a run gave.
+class TankOutcome(Outcome):
+    """What the run of a tank, or of open water, gave.
 
     Attributes:
         solution: the field solution, or that of a scene with open ends.
-        summary: content of ``summary.json``.
-        folder: where the results were written; ``None`` if nowhere.
-        warnings: what was asked and could not be done, beside the solution.
     """
 
     solution: TankSolution | OpenSolution
-    summary: Summary
-    folder: Path | None
-    warnings: tuple[str, ...] = ()
-
-    @property
-    def status(self) -> str:
-        """The word "ok", or "unconverged"."""
-        return str(self.summary["status"])
-
-    @property
-    def reasons(self) -> tuple[str, ...]:
-        """Why the solution does not keep what was asked; empty if it does."""
-        return self.solution.reasons
-
-    def table(self) -> str:
-        """The tables for a terminal."""
-        if isinstance(self.solution, OpenSolution):
-            lines = [printed_open(self.solution, self.summary)]
-        else:
-            lines = [printed(self.summary)]
-        if self.folder is not None:
-            lines.append(f"Results written to {self.folder}/")
-        return "\n".join(lines)
 
 
 def run_scene(
@@ -68,7 +44,7 @@ def run_scene(
     images: bool = True,
     import_seconds: float = 0.0,
     report: Report = lambda _message: None,
-) -> Outcome:
+) -> TankOutcome:
     """Solve a scene and write its result folder.
 
     Args:
@@ -92,10 +68,10 @@ def run_scene(
         opened, summary = solved_open_scene(scene, import_seconds=import_seconds, report=report)
         if out is not None:
             write_open(opened, summary, out, images=images, report=report)
-        return Outcome(solution=opened, summary=summary, folder=out)
+        return TankOutcome(solution=opened, summary=summary, tables=printed_open(opened, summary), folder=out)
     solution, summary = solved_scene(scene, import_seconds=import_seconds, report=report)
     warnings = _write(solution, summary, out, images, report) if out is not None else ()
-    return Outcome(solution=solution, summary=summary, folder=out, warnings=warnings)
+    return TankOutcome(solution=solution, summary=summary, tables=printed(summary), folder=out, warnings=warnings)
 
 
 def solved_scene(
@@ -107,7 +83,7 @@ def solved_scene(
         SceneError: if the scene's ends are open, or its mesh does not fit it.
         UnsolvedError: if the eigen-solver fails.
     """
-    require_walls(scene, "the estimates of the older theories are those of closed tanks")
+    closed_tank(scene, "the estimates of the older theories are those of closed tanks")
     comm = MPI.COMM_WORLD
     watch = Stopwatch()
     with watch.stage("estimates"):

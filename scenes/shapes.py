@@ -12,10 +12,10 @@ from hydroelastic.fem.liquid import as_functions
 from hydroelastic.fem.modes import Mode
 from hydroelastic.fem.pictures import Canvas, FloatSection, ModePicture, SurfaceCurve, draw_mode, draw_overview
 from hydroelastic.fem.sampling import LiquidSample, SurfaceTrace, sample_liquid
+from hydroelastic.scenes.provenance import Summary
 from hydroelastic.scenes.scaled_tank import StillLevel
 from hydroelastic.scenes.shape_curves import body_shapes, sample_level, sign_of, wave_curves, wave_levels
 from hydroelastic.scenes.solve import TankSolution
-from hydroelastic.scenes.summary import Summary
 from hydroelastic.scenes.symmetry import Parity
 
 

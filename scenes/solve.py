@@ -6,7 +6,6 @@ left out would add, and by rounding. An attempt that misses the tolerance is ref
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import ceil
 
@@ -21,7 +20,7 @@ from hydroelastic.scenes.companion import Companion, solve_companion
 from hydroelastic.scenes.digits import kept_tolerance
 from hydroelastic.scenes.estimates import ends_of_float_motions, expected_tones
 from hydroelastic.scenes.field_model import bring_mesh, build_mesh, moving_surfaces
-from hydroelastic.scenes.field_solution import FieldSolution, Stopwatch, count_is_confirmed, solve_field
+from hydroelastic.scenes.field_solution import FieldSolution, count_is_confirmed, solve_field
 from hydroelastic.scenes.float_modes import FloatMode, float_modes
 from hydroelastic.scenes.high_frequency import HighFrequencyAddedMass, high_frequency_added_mass
 from hydroelastic.scenes.models import TankScene
@@ -36,12 +35,11 @@ from hydroelastic.scenes.plan import (
 from hydroelastic.scenes.rigid_motions import mode_count
 from hydroelastic.scenes.scaled_tank import ScaledTank, scaled_tank
 from hydroelastic.scenes.scaling import Scales, scales
+from hydroelastic.scenes.stopwatch import Report, Stopwatch
 from hydroelastic.scenes.symmetry import is_mirror_image
 from hydroelastic.scenes.tones import ElasticTone, elastic_tone
 
 _MOST_ATTEMPTS = 5
-
-Report = Callable[[str], None]
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -22,12 +22,12 @@ from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.spectral_error import LOWEST_DEGREE
 from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
 from hydroelastic.scenes.field_model import build_mesh
-from hydroelastic.scenes.field_solution import Stopwatch, solve_field
+from hydroelastic.scenes.field_solution import solve_field
 from hydroelastic.scenes.models import TankScene
 from hydroelastic.scenes.plan import HIGHEST_DEGREE, initial_resolution
-from hydroelastic.scenes.read import require_walls
+from hydroelastic.scenes.read import closed_tank
 from hydroelastic.scenes.scaled_tank import scaled_tank
-from hydroelastic.scenes.solve import Report
+from hydroelastic.scenes.stopwatch import Report, Stopwatch
 from hydroelastic.scenes.study_plan import Family, StudyPlan
 from hydroelastic.scenes.study_rates import Gain, Rate, fitted_gain, fitted_rates
 from hydroelastic.scenes.study_reference import Reference, finest_resolution, reference_of
@@ -83,7 +83,7 @@ def study_scene(scene: TankScene, plan: StudyPlan | None = None, *, report: Repo
             that is asked for.
         UnsolvedError: if the eigen-solver fails.
     """
-    require_walls(scene, "a study measures the errors of frequencies of closed tanks")
+    closed_tank(scene, "a study measures the errors of frequencies of closed tanks")
     if scene.mesh is not None:
         raise SceneError(
             Problem(key="[mesh]", wrong="a study makes its own meshes", remedy="Leave [mesh] out of the scene")

@@ -10,11 +10,12 @@ from mpi4py import MPI
 from hydroelastic.scenes.certainty import frequency_errors
 from hydroelastic.scenes.estimates import exact_frequencies
 from hydroelastic.scenes.field_model import build_mesh
-from hydroelastic.scenes.field_solution import Stopwatch, solve_field
+from hydroelastic.scenes.field_solution import solve_field
 from hydroelastic.scenes.models import Accuracy, TankScene
 from hydroelastic.scenes.plan import Resolution, initial_resolution
 from hydroelastic.scenes.scaled_tank import ScaledTank
 from hydroelastic.scenes.scaling import scales
+from hydroelastic.scenes.stopwatch import Stopwatch
 from hydroelastic.scenes.symmetry import Parity
 
 # No row of a study asks for this; dry modes, rings and elements of all of them come from it.

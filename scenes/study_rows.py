@@ -11,13 +11,14 @@ from mpi4py import MPI
 from hydroelastic.fem.spectral_error import LOWEST_DEGREE
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.scenes.certainty import frequency_errors
-from hydroelastic.scenes.field_solution import Stopwatch, solve_field
+from hydroelastic.scenes.field_solution import solve_field
 from hydroelastic.scenes.memory import peak_memory
 from hydroelastic.scenes.models import Accuracy, TankScene
 from hydroelastic.scenes.plan import Resolution, rounding_error
 from hydroelastic.scenes.scaled_tank import ScaledTank
 from hydroelastic.scenes.scaling import scales
 from hydroelastic.scenes.solve import solve_scene
+from hydroelastic.scenes.stopwatch import Stopwatch
 from hydroelastic.scenes.study_plan import Family
 from hydroelastic.scenes.study_reference import Reference
 

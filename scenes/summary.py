@@ -2,30 +2,23 @@
 
 from __future__ import annotations
 
-import platform
-import resource
-from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from mpi4py import MPI
 
 from hydroelastic.modal.estimate import Estimate
 from hydroelastic.scenes.beam_shapes import first_dry_eigenvalue
 from hydroelastic.scenes.differences import difference
 from hydroelastic.scenes.estimates import exact_frequencies
+from hydroelastic.scenes.provenance import Summary, memory_of_processes, versions
 from hydroelastic.scenes.solve import TankSolution, ToneSolution
 from hydroelastic.scenes.tones import bending_fraction, mode_kind
 
 if TYPE_CHECKING:
     from hydroelastic.scenes.float_estimates import EstimatesOfFloat
 
-Summary = dict[str, Any]
-
 # A runner-up above this part of the largest participation makes the tone a shared one.
 SHARED = 0.5
-
-PACKAGES = ("hydroelastic", "fenics-dolfinx", "petsc4py", "slepc4py", "gmsh", "numpy", "scipy", "xarray")
 
 
 def summarize(
@@ -215,19 +208,3 @@ def _bound_holds(solution: TankSolution, estimate: Estimate) -> bool | None:
         return None
     # The field solution is itself an upper bound: its own error may not count against the estimate.
     return bool(estimate.omega >= solution.omega(values[number]) * (1.0 - errors[number] - 1e-9))
-
-
-def versions() -> dict[str, str]:
-    """Return the versions of what a solution rests on."""
-    found = {"python": platform.python_version()}
-    for package in PACKAGES:
-        try:
-            found[package] = version(package)
-        except PackageNotFoundError:
-            found[package] = "unknown"
-    return found
-
-
-def memory_of_processes(comm: MPI.Comm) -> int:
-    """Return the sum of the peak resident memory of all processes, bytes (collective)."""
-    return int(comm.allreduce(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024))

@@ -5,9 +5,7 @@ from __future__ import annotations
 import csv
 import io
 
-from rich import box
 from rich.console import Console
-from rich.table import Table
 
 from hydroelastic.scenes.digits import number, per_cent, with_certain_digits
 from hydroelastic.scenes.float_tables import (
@@ -17,7 +15,8 @@ from hydroelastic.scenes.float_tables import (
     float_lines,
     printed_rows,
 )
-from hydroelastic.scenes.summary import Summary
+from hydroelastic.scenes.provenance import Summary
+from hydroelastic.scenes.sections import markdown_table, rich_table, status_lines, title_of
 
 MODE_COLUMNS = (
     "mode",
@@ -136,14 +135,6 @@ def cost_line(summary: Summary) -> str:
     )
 
 
-def status_lines(summary: Summary) -> list[str]:
-    """A loud word if the answer does not keep what was asked."""
-    if summary["status"] == "ok":
-        return []
-    tolerance = summary["scene"]["accuracy"]["tolerance"]
-    return [f"NOT CONVERGED to the tolerance {tolerance:g}:", *(f"  - {reason}" for reason in summary["reasons"])]
-
-
 def printed(summary: Summary, *, notes: bool = False, width: int = 120) -> str:
     """All tables as text for a terminal.
 
@@ -180,22 +171,6 @@ def printed(summary: Summary, *, notes: bool = False, width: int = 120) -> str:
     return console.file.getvalue().rstrip()  # type: ignore[attr-defined]
 
 
-def title_of(summary: Summary) -> str:
-    """Return the title of a scene."""
-    return summary["scene"]["title"] or "Untitled scene"
-
-
-def rich_table(headings: tuple[str, ...], rows: list[tuple[str, ...]]) -> Table:
-    """Return a table for a terminal."""
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-    for column, heading in enumerate(headings):
-        leftwards = column == 0 or heading in ("kind", "symmetry", "bound")
-        table.add_column(heading, justify="left" if leftwards else "right", no_wrap=True)
-    for row in rows:
-        table.add_row(*row)
-    return table
-
-
 def markdown(summary: Summary) -> str:
     """All tables as Markdown."""
     parts = [f"# {title_of(summary)}", ""]
@@ -217,14 +192,6 @@ def markdown(summary: Summary) -> str:
             parts.append("")
     parts.append(cost_line(summary))
     return "\n".join(parts) + "\n"
-
-
-def markdown_table(headings: tuple[str, ...], rows: list[tuple[str, ...]]) -> str:
-    """Return a table in Markdown."""
-    lines = [headings, tuple("---" for _ in headings), *rows]
-    # A bar in a cell would end it.
-    cells = [[cell.replace("|", r"\|") for cell in line] for line in lines]
-    return "\n".join("| " + " | ".join(line) + " |" for line in cells)
 
 
 def mode_csv(summary: Summary) -> str:

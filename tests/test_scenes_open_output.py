@@ -25,7 +25,6 @@ from hydroelastic.scenes.command_line import main
 from hydroelastic.scenes.compare import compare_scene
 from hydroelastic.scenes.dataset import open_dataset, write_dataset
 from hydroelastic.scenes.errors import SceneError
-from hydroelastic.scenes.field_solution import Stopwatch
 from hydroelastic.scenes.model_analyses import Radiation, Response
 from hydroelastic.scenes.models import TankScene
 from hydroelastic.scenes.open_csv import write_csv
@@ -35,9 +34,10 @@ from hydroelastic.scenes.open_response import solve_response
 from hydroelastic.scenes.open_results import OpenSolution
 from hydroelastic.scenes.open_summary import json_ready, summarize_open
 from hydroelastic.scenes.open_tables import MOST_ROWS, markdown_open, printed_open
+from hydroelastic.scenes.provenance import Summary
 from hydroelastic.scenes.run import run_scene
+from hydroelastic.scenes.stopwatch import Stopwatch
 from hydroelastic.scenes.study import study_scene
-from hydroelastic.scenes.summary import Summary
 
 FROM_BOTH_SIDES: list[dict[str, Any]] = [
     *ANALYSES,

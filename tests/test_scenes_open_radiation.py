@@ -32,9 +32,9 @@ from open_two_liquids import TwoLiquids
 from hydroelastic.modal import float_profile
 from hydroelastic.modal.thin_float_radiation import thin_float_radiation
 from hydroelastic.scenes import open_basin, open_model
-from hydroelastic.scenes.field_solution import Stopwatch
 from hydroelastic.scenes.open_radiation import RadiationSolution
 from hydroelastic.scenes.open_solver import OpenSolver
+from hydroelastic.scenes.stopwatch import Stopwatch
 
 CIRCLE = stored("open_circle.json")["radiation"]
 PUBLISHED = stored("open_water.json")["cylinder"]["rows"]

@@ -12,10 +12,10 @@ from open_cases import GRAVITY, RADIUS, THIN_LIQUIDS, circle, radiation, section
 from hydroelastic.modal import float_profile
 from hydroelastic.modal.open_float import open_float_estimate
 from hydroelastic.scenes import open_resonance
-from hydroelastic.scenes.field_solution import Stopwatch
 from hydroelastic.scenes.model_analyses import Resonance
 from hydroelastic.scenes.models import TankScene
 from hydroelastic.scenes.open_resonance import ResonanceSolution, solve_resonance
+from hydroelastic.scenes.stopwatch import Stopwatch
 
 SLOW = pytest.mark.slow
 CIRCLE = stored("open_circle.json")["resonance"]

@@ -16,7 +16,7 @@ from hydroelastic.modal import Estimate
 from hydroelastic.scenes import shapes as shapes_module
 from hydroelastic.scenes.command_line import main
 from hydroelastic.scenes.compare import compare_scene
-from hydroelastic.scenes.run import Outcome, run_scene
+from hydroelastic.scenes.run import TankOutcome, run_scene
 from hydroelastic.scenes.shapes import ModeShapes, sample_shapes
 from hydroelastic.scenes.summary import summarize
 from hydroelastic.scenes.tables import printed
@@ -43,20 +43,20 @@ MODES = 6
 
 
 @pytest.fixture(scope="module")
-def outcome(tanks: Any, tmp_path_factory: pytest.TempPathFactory) -> Outcome:
+def outcome(tanks: Any, tmp_path_factory: pytest.TempPathFactory) -> TankOutcome:
     """The case base_s0 without images."""
     scene = tanks.scene(tanks.beam(), modes=MODES, tolerance=1e-8)
     return run_scene(scene, out=tmp_path_factory.mktemp("run") / "result", images=False)
 
 
 @pytest.fixture(scope="module")
-def folder(outcome: Outcome) -> Path:
+def folder(outcome: TankOutcome) -> Path:
     assert outcome.folder is not None
     return outcome.folder
 
 
 @pytest.fixture(scope="module")
-def shapes(outcome: Outcome) -> ModeShapes:
+def shapes(outcome: TankOutcome) -> ModeShapes:
     sampled = sample_shapes(outcome.solution)
     assert sampled is not None
     return sampled
@@ -108,7 +108,7 @@ def test_the_summary_has_every_key_of_the_contract(folder: Path) -> None:
     assert summary["reasons"] == []
 
 
-def test_the_summary_keeps_the_scene_with_its_defaults(outcome: Outcome, folder: Path) -> None:
+def test_the_summary_keeps_the_scene_with_its_defaults(outcome: TankOutcome, folder: Path) -> None:
     assert read_summary(folder)["scene"] == outcome.solution.scene.model_dump(mode="json")
 
 

@@ -1,0 +1,103 @@
+"""The motion of a hanging string as files: CSV, a labelled dataset, and a sequence that ParaView plays."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from xml.sax.saxutils import quoteattr
+
+import numpy as np
+
+from hydroelastic.scenes.provenance import versions
+from hydroelastic.scenes.string_results import StringSolution
+
+COLUMNS = ("time", "position", "displacement", "absolute_error")
+
+
+def write_string_files(solution: StringSolution, folder: Path) -> None:
+    """Write ``response.csv``, ``modes.csv``, ``dataset.nc`` and ``fields/`` into an existing folder; SI units."""
+    _write_response(solution, folder / "response.csv")
+    _write_modes(solution, folder / "modes.csv")
+    _write_dataset(solution, folder / "dataset.nc")
+    if solution.scene.output.frames:
+        (folder / "fields").mkdir()
+        _write_sequence(solution, folder / "fields")
+
+
+def frame_numbers(solution: StringSolution) -> list[int]:
+    """Return which times are frames of a sequence, evenly spread over all."""
+    count = min(solution.scene.output.frames, len(solution.times))
+    return sorted({int(place) for place in np.linspace(0, len(solution.times) - 1, count).round()})
+
+
+def _write_response(solution: StringSolution, file: Path) -> None:
+    """One row for each time and position."""
+    times, positions = np.meshgrid(solution.times, solution.positions, indexing="ij")
+    values = (times, positions, solution.displacement.T, solution.absolute_error.T)
+    rows = np.column_stack([value.ravel() for value in values])
+    formats = ["%.12g", "%.12g", "%.17g", "%.3g"]
+    np.savetxt(file, rows, delimiter=",", fmt=formats, header=",".join(COLUMNS), comments="", encoding="utf-8")
+
+
+def _write_modes(solution: StringSolution, file: Path) -> None:
+    motions = solution.motions
+    relative = motions.errors / np.abs(motions.roots)
+    rows = np.column_stack(
+        [np.arange(1, len(relative) + 1), motions.frequencies, motions.roots.real, motions.roots.imag, relative]
+    )
+    formats = ["%d", "%.17g", "%.17g", "%.17g", "%.3g"]
+    header = "mode,omega,real_part,imaginary_part,relative_error"
+    np.savetxt(file, rows, delimiter=",", fmt=formats, header=header, comments="", encoding="utf-8")
+
+
+def _write_dataset(solution: StringSolution, file: Path) -> None:
+    # xarray takes a while to import.
+    import xarray
+
+    motions = solution.motions
+    where = ("position", "time")
+    dataset = xarray.Dataset(
+        {
+            "displacement": (where, solution.displacement, {"units": "m"}),
+            "absolute_error": (where, solution.absolute_error, {"units": "m"}),
+            "beside_front": (where, solution.beside_fronts.astype(np.int8), {"flag_meanings": "no yes"}),
+            "omega": ("mode", motions.frequencies, {"units": "rad/s"}),
+            "root": (("complex", "mode"), np.array([motions.roots.real, motions.roots.imag]), {"units": "1/s"}),
+            "mode_shape": (("mode", "position"), motions.shapes),
+        },
+        {
+            "position": (
+                "position",
+                solution.positions,
+                {"units": "m", "long_name": "height above the free end at rest"},
+            ),
+            "time": ("time", solution.times, {"units": "s"}),
+            "mode": np.arange(1, len(motions.roots) + 1, dtype=np.int32),
+            "complex": ["re", "im"],
+        },
+        {
+            "title": solution.scene.title,
+            "method": solution.scene.method,
+            "hydroelastic_version": versions()["hydroelastic"],
+            "status": "unconverged" if solution.reasons else "ok",
+        },
+    )
+    dataset.to_netcdf(file)
+
+
+def _write_sequence(solution: StringSolution, folder: Path) -> None:
+    """Write the string at each frame as a line in the plane, and ``string.pvd``, which tells the times."""
+    import meshio
+
+    count = len(solution.positions)
+    cells = [("line", np.column_stack([np.arange(count - 1), np.arange(1, count)]))] if count > 1 else []
+    entries = []
+    for number in frame_numbers(solution):
+        name = f"string_{number:06d}.vtu"
+        moved = solution.displacement[:, number]
+        points = np.column_stack([moved, solution.positions, np.zeros(count)])
+        data = {"displacement": moved, "absolute_error": solution.absolute_error[:, number]}
+        meshio.Mesh(points, cells, point_data=data).write(folder / name)
+        entries.append(f'  <DataSet timestep="{solution.times[number]:.12g}" file={quoteattr(name)}/>')
+    text = '<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1">\n <Collection>\n'
+    text += "\n".join(entries) + "\n </Collection>\n</VTKFile>\n"
+    (folder / "string.pvd").write_text(text, encoding="utf-8")

@@ -1,0 +1,31 @@
+"""The scenes that the documentation shows can be read, and shipped scenes of strings and ships are all in its list."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from hydroelastic.scenes.kinds import runner_of
+from hydroelastic.scenes.read import read_scene, shipped_scenes
+
+DOCS = Path(__file__).parent.parent / "docs"
+PAGE = (DOCS / "scenes_strings_and_ships.md").read_text(encoding="utf-8")
+SCENES = [block for block in re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL) if block.startswith("kind")]
+
+
+@pytest.mark.parametrize("text", SCENES, ids=lambda text: text.split('"')[1])
+def test_examples_run(text: str, tmp_path: Path) -> None:
+    file = tmp_path / "example.toml"
+    file.write_text(text, encoding="utf-8")
+    # Coarser than the page asks, to be quick.
+    scene = read_scene(file, ["accuracy.tolerance=1e-3"])
+    assert runner_of(scene)(scene).status == "ok"
+
+
+def test_there_is_an_example_of_each_kind() -> None:
+    assert [text.split('"')[1] for text in SCENES] == ["string", "roll"]
+
+
+def test_all_shipped_scenes_of_these_kinds_are_listed() -> None:
+    names = [scene.name for scene in shipped_scenes() if read_scene(scene.name).kind in ("string", "roll")]
+    assert all(f"`{name}`" in PAGE for name in names)

@@ -14,7 +14,8 @@ import click
 from hydroelastic.benchmarks.cases import Case
 from hydroelastic.benchmarks.circle import CIRCLE, circle_cases
 from hydroelastic.benchmarks.measure import Benchmark, cases_of, run_benchmark
-from hydroelastic.benchmarks.output import OutputError, check_folder, write_circle, write_results
+from hydroelastic.benchmarks.output import OutputError, check_folder, write_circle, write_results, write_strings
+from hydroelastic.benchmarks.strings import MOTIONS, string_cases
 from hydroelastic.benchmarks.tanks import TANKS
 
 BAD_INPUT = 2
@@ -39,10 +40,15 @@ def _circle_cases(quick: bool) -> list[Case]:
     return [case for one in (CIRCLE[:1] if quick else CIRCLE) for case in circle_cases(one, quick=quick)]
 
 
+def _string_cases(quick: bool) -> list[Case]:
+    return [case for motion in (MOTIONS[:1] if quick else MOTIONS) for case in string_cases(motion, quick=quick)]
+
+
 PROBLEMS = {
     "tanks": Problem(cases=_tank_cases, repeats=7, write=write_results),
     # Half a minute for each round of each frequency.
     "circle": Problem(cases=_circle_cases, repeats=3, write=write_circle),
+    "string": Problem(cases=_string_cases, repeats=3, write=write_strings),
 }
 _QUICK_REPEATS = 3
 
@@ -51,12 +57,13 @@ _QUICK_REPEATS = 3
 @click.option(
     "--out", type=click.Path(path_type=Path), default=Path("results/benchmarks"), help="Folder of the results."
 )
-@click.option("--problem", type=click.Choice(list(PROBLEMS)), multiple=True, help="Only this one; both by default.")
-@click.option("--quick", is_flag=True, help="One tank, one frequency, every third case.")
-@click.option("--repeats", type=click.IntRange(min=1), help="Rounds that count; default 7, or 3 if quick or circle.")
+@click.option("--problem", type=click.Choice(list(PROBLEMS)), multiple=True, help="Only this one; all by default.")
+@click.option("--quick", is_flag=True, help="One tank, one frequency, one motion, every third case.")
+@click.option("--repeats", type=click.IntRange(min=1), help="Rounds that count; 7 of tanks, else or if quick 3.")
 @click.option("--no-install", is_flag=True, help="Leave out peers that are not installed.")
 def main(out: Path, problem: tuple[str, ...], quick: bool, repeats: int | None, no_install: bool) -> None:
-    """Measure error against seconds: tanks beside NGSolve, scikit-fem and a lower bound, a circle beside Capytaine.
+    """Measure error against seconds: tanks beside NGSolve, scikit-fem and a lower bound, a circle beside Capytaine, a
+    hanging string by series and as a field.
 
     \b
     Example:

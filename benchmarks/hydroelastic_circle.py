@@ -9,11 +9,11 @@ from mpi4py import MPI
 from hydroelastic.benchmarks.cases import Answer, Case
 from hydroelastic.benchmarks.circle import DENSITY, GRAVITY, RADIUS, circle_frequency, unit_added_mass
 from hydroelastic.benchmarks.hydroelastic_tank import versions as versions
-from hydroelastic.scenes.field_solution import Stopwatch
 from hydroelastic.scenes.model_analyses import Radiation
 from hydroelastic.scenes.model_bodies import Float
 from hydroelastic.scenes.models import Accuracy, Liquid, Tank, TankScene
 from hydroelastic.scenes.open_radiation import solve_radiation
+from hydroelastic.scenes.stopwatch import Stopwatch
 
 _STRETCH = 10.0  # is drawn only; the answers do not depend on it
 

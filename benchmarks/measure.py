@@ -6,7 +6,7 @@ import contextlib
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
-from hydroelastic.benchmarks.cases import CIRCLE_CODES, CODES, Answer, Case, Code, Variant
+from hydroelastic.benchmarks.cases import ALL_CODES, Answer, Case, Code, Variant
 from hydroelastic.benchmarks.peers import PEER_MODULES, PeerError, peer_folder
 from hydroelastic.benchmarks.rows import Row, row_of
 from hydroelastic.benchmarks.tanks import BenchmarkTank
@@ -84,7 +84,7 @@ def _start(
     workers: dict[Code, Worker] = {}
     problems: dict[Code, str] = {}
     asked = {case.code for case in cases}
-    for code in (code for code in (*CODES, *CIRCLE_CODES) if code in asked):
+    for code in (code for code in ALL_CODES if code in asked):
         try:
             folder = peer_folder(code, install=install, report=report) if code in PEER_MODULES else None
             report(f"starting {code}")

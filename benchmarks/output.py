@@ -13,9 +13,12 @@ from hydroelastic.benchmarks.figure import draw_speed
 from hydroelastic.benchmarks.measure import Benchmark
 from hydroelastic.benchmarks.report import speed_csv, speed_markdown
 from hydroelastic.benchmarks.rows import Row
+from hydroelastic.benchmarks.strings_figure import draw_strings
+from hydroelastic.benchmarks.strings_report import strings_csv, strings_markdown
 
 NAME = "speed_against_error"
 CIRCLE_NAME = "open_circle"
+STRING_NAME = "hanging_string"
 
 Text = Callable[[Benchmark], str]
 Draw = Callable[[Sequence[Row], Path], None]
@@ -55,6 +58,15 @@ def write_circle(benchmark: Benchmark, folder: Path) -> None:
         OutputError: if the folder cannot be written.
     """
     _write(benchmark, folder, CIRCLE_NAME, circle_csv, circle_markdown, draw_circle)
+
+
+def write_strings(benchmark: Benchmark, folder: Path) -> None:
+    """Write table, page and figure of the hanging string; other files of the folder stay.
+
+    Raises:
+        OutputError: if the folder cannot be written.
+    """
+    _write(benchmark, folder, STRING_NAME, strings_csv, strings_markdown, draw_strings)
 
 
 def _write(benchmark: Benchmark, folder: Path, name: str, rows: Text, page: Text, draw: Draw) -> None:

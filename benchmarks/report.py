@@ -21,6 +21,9 @@ NAMES: dict[Code, str] = {
     "lower bound": "lower bound",
     "hydroelastic radiation": "hydroelastic",
     "capytaine": "Capytaine",
+    "string field": "field solution",
+    "string series": "series, cut smoothly",
+    "string sum": "series, cut sharply",
 }
 ERRORS = (1e-4, 1e-6, 1e-8, 1e-9, 1e-10)
 COMPARED: tuple[Code, ...] = ("ngsolve", "scikit-fem", "lower bound")

@@ -7,8 +7,9 @@ from statistics import median, quantiles
 
 import numpy as np
 
-from hydroelastic.benchmarks.cases import CIRCLE_CODES, Answer, Case
+from hydroelastic.benchmarks.cases import CIRCLE_CODES, STRING_CODES, Answer, Case
 from hydroelastic.benchmarks.circle import circle_error
+from hydroelastic.benchmarks.strings import string_error
 from hydroelastic.benchmarks.tanks import tank_named
 
 
@@ -18,8 +19,9 @@ class Row:
 
     Attributes:
         case: what was solved.
-        unknowns: of ψ and of the surface, or panels.
-        error: largest relative error of the ten lowest frequencies, or of heave and sway of the circle.
+        unknowns: as the answer says.
+        error: largest relative error of the ten lowest frequencies, of heave and sway of the circle, or of the
+            displacements of the string, relative to the largest one.
         seconds: of each round.
         stages: seconds by stage in the last round.
         note: what else the code says.
@@ -61,4 +63,6 @@ def row_of(case: Case, answer: Answer, seconds: tuple[float, ...]) -> Row:
 def _error(case: Case, answer: Answer) -> float:
     if case.code in CIRCLE_CODES:
         return circle_error(case.tank, answer.values)
+    if case.code in STRING_CODES:
+        return string_error(case.tank, answer.values)
     return float(np.abs(np.array(answer.values) / np.array(tank_named(case.tank).frequencies) - 1.0).max())

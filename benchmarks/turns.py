@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import zip_longest
 
-from hydroelastic.benchmarks.cases import CIRCLE_CODES, CODES, Case
+from hydroelastic.benchmarks.cases import ALL_CODES, Case
 
 
 def take_turns(cases: Sequence[Case], repeats: int) -> Iterator[tuple[int, Case]]:
@@ -18,9 +18,7 @@ def take_turns(cases: Sequence[Case], repeats: int) -> Iterator[tuple[int, Case]
         repeats: rounds that count.
     """
     for tank in dict.fromkeys(case.tank for case in cases):
-        queues = [
-            [case for case in cases if case.tank == tank and case.code == code] for code in (*CODES, *CIRCLE_CODES)
-        ]
+        queues = [[case for case in cases if case.tank == tank and case.code == code] for code in ALL_CODES]
         mixed = [case for turn in zip_longest(*queues) for case in turn if case is not None]
         for number in range(repeats + 1):
             first = number * len(mixed) // (repeats + 1)

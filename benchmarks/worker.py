@@ -29,6 +29,9 @@ MODULES = {
     "lower bound": "lower_bound",
     "hydroelastic radiation": "hydroelastic_circle",
     "capytaine": "capytaine_circle",
+    "string field": "hydroelastic_string",
+    "string series": "hydroelastic_string",
+    "string sum": "hydroelastic_string",
 }
 
 

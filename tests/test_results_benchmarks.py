@@ -8,8 +8,10 @@ import pytest
 from hydroelastic.benchmarks.circle import CIRCLE, circle_cases
 from hydroelastic.benchmarks.circle_report import CIRCLE_COLUMNS
 from hydroelastic.benchmarks.measure import cases_of
-from hydroelastic.benchmarks.output import CIRCLE_NAME, NAME
+from hydroelastic.benchmarks.output import CIRCLE_NAME, NAME, STRING_NAME
 from hydroelastic.benchmarks.report import CSV_COLUMNS
+from hydroelastic.benchmarks.strings import MOTIONS, string_cases
+from hydroelastic.benchmarks.strings_report import STRING_COLUMNS
 from hydroelastic.benchmarks.tanks import TANKS
 
 FOLDER = Path(__file__).parent.parent / "results" / "benchmarks"
@@ -74,3 +76,31 @@ def test_hydroelastic_kept_every_tolerance_of_the_circle(circle_rows: list[dict[
 def test_page_and_figure_of_the_circle_are_there() -> None:
     assert "not a comparison of like with like" in (FOLDER / f"{CIRCLE_NAME}.md").read_text(encoding="utf-8")
     assert (FOLDER / f"{CIRCLE_NAME}.png").stat().st_size > 10_000
+
+
+@pytest.fixture(scope="module")
+def string_rows() -> list[dict[str, str]]:
+    with (FOLDER / f"{STRING_NAME}.csv").open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_every_case_of_the_string_was_measured(string_rows: list[dict[str, str]]) -> None:
+    assert tuple(string_rows[0]) == STRING_COLUMNS
+    measured = [
+        (row["code"], row["motion"], float(row["tolerance"] or 0.0), int(row["terms"] or 0)) for row in string_rows
+    ]
+    assert measured == [
+        (case.code, case.tank, case.tolerance, case.terms)
+        for motion in MOTIONS
+        for case in string_cases(motion, quick=False)
+    ]
+
+
+def test_field_and_series_kept_every_tolerance_of_the_string(string_rows: list[dict[str, str]]) -> None:
+    own = [row for row in string_rows if row["tolerance"]]
+    assert all(float(row["error"]) <= float(row["tolerance"]) for row in own)
+
+
+def test_page_and_figure_of_the_string_are_there() -> None:
+    assert "cut sharply" in (FOLDER / f"{STRING_NAME}.md").read_text(encoding="utf-8")
+    assert (FOLDER / f"{STRING_NAME}.png").stat().st_size > 10_000

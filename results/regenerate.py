@@ -2,8 +2,9 @@
 
     ./hydro python results/regenerate.py [SCENE ...]
 
-Each scene keeps its tables, the sheet of all its modes and the pictures of its first elastic tone and of heave; fields
-stay out, they are large and one command away. Studies of error against cost are made of the scenes in `STUDIED`.
+Each scene of a closed tank keeps its tables, the sheet of all its modes and the pictures of its first elastic tone and
+of heave, any other its summary and its pictures; fields, curves and frames stay out, they are large and one command
+away. Studies of error against cost are made of the scenes in `STUDIED`.
 """
 
 from __future__ import annotations
@@ -15,13 +16,14 @@ from pathlib import Path
 
 from PIL import Image
 
+from hydroelastic.scenes.kinds import runner_of
+from hydroelastic.scenes.models import TankScene
 from hydroelastic.scenes.output import SUMMARY
+from hydroelastic.scenes.provenance import Summary
 from hydroelastic.scenes.read import read_scene, shipped_scenes
-from hydroelastic.scenes.run import run_scene
 from hydroelastic.scenes.study import study_scene
 from hydroelastic.scenes.study_plan import FAMILIES, StudyPlan
 from hydroelastic.scenes.study_report import write_study
-from hydroelastic.scenes.summary import Summary
 
 SHIPPED = Path(__file__).parent / "shipped"
 STUDIED = {
@@ -33,7 +35,7 @@ STUDIED = {
 }
 SHOWN_WIDTH = 800
 TABLES = ("summary.json", "summary.md", "modes.csv")
-OPEN_TABLES = ("summary.json", "summary.md")
+OTHER_TABLES = ("summary.json", "summary.md")
 
 
 def regenerate(name: str) -> str:
@@ -42,26 +44,29 @@ def regenerate(name: str) -> str:
     Returns:
         The status of the run.
     """
+    scene = read_scene(name)
     with tempfile.TemporaryDirectory() as scratch:
-        outcome = run_scene(read_scene(name), out=Path(scratch) / name)
+        outcome = runner_of(scene)(scene, out=Path(scratch) / name)
         assert outcome.folder is not None
         kept = SHIPPED / name
         shutil.rmtree(kept, ignore_errors=True)
         kept.mkdir(parents=True)
-        if read_scene(name).is_open:
-            for table in OPEN_TABLES:
-                shutil.copy(outcome.folder / table, kept)
-            for picture in sorted((outcome.folder / "images").iterdir()):
-                _keep_picture(picture, kept / picture.name)
-            return outcome.status
-        for table in TABLES:
+        pictures = outcome.folder / "images"
+        of_tank = isinstance(scene, TankScene) and not scene.is_open
+        for table in TABLES if of_tank else OTHER_TABLES:
             shutil.copy(outcome.folder / table, kept)
-        _keep_picture(outcome.folder / "images" / "overview.png", kept / "overview.png")
-        for index, picture in shown_modes(outcome.summary).items():
-            _keep_picture(outcome.folder / "images" / f"mode_{index:03d}.png", kept / picture)
+        if of_tank:
+            _keep_picture(pictures / "overview.png", kept / "overview.png")
+            for index, picture in shown_modes(outcome.summary).items():
+                _keep_picture(pictures / f"mode_{index:03d}.png", kept / picture)
+        else:
+            # Frames of an animation lie in a folder of their own and stay out.
+            for drawn in sorted(pictures.glob("*.png")):
+                _keep_picture(drawn, kept / drawn.name)
     if name in STUDIED:
+        assert isinstance(scene, TankScene)
         with tempfile.TemporaryDirectory() as scratch:
-            write_study(study_scene(read_scene(name), STUDIED[name]), Path(scratch) / name)
+            write_study(study_scene(scene, STUDIED[name]), Path(scratch) / name)
             for file in (Path(scratch) / name).iterdir():
                 if file.name != SUMMARY:
                     shutil.copy(file, kept)

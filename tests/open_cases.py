@@ -13,11 +13,11 @@ from mpi4py import MPI
 from open_tables import open_scene
 
 from hydroelastic.modal.two_layer import TwoLayers
-from hydroelastic.scenes.field_solution import Stopwatch
 from hydroelastic.scenes.model_analyses import Radiation, Response
 from hydroelastic.scenes.models import TankScene
 from hydroelastic.scenes.open_radiation import RadiationSolution, solve_radiation
 from hydroelastic.scenes.open_response import ResponseSolution, solve_response
+from hydroelastic.scenes.stopwatch import Stopwatch
 
 FOLDER = Path(__file__).parent / "reference"
 DENSITY = 1000.0

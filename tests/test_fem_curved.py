@@ -27,12 +27,13 @@ from hydroelastic.modal.float_profiles import float_profile
 from hydroelastic.modal.rigid_limits import half_immersed_ellipse, interface_ellipse, section_heave_added_mass
 from hydroelastic.scenes.certainty import boundary_error
 from hydroelastic.scenes.field_model import build_field_model, build_mesh, distributed_mesh
-from hydroelastic.scenes.field_solution import Stopwatch, solve_field
+from hydroelastic.scenes.field_solution import solve_field
 from hydroelastic.scenes.high_frequency import HighFrequencyAddedMass, high_frequency_added_mass
 from hydroelastic.scenes.model_bodies import Beam, Float
 from hydroelastic.scenes.models import TankScene
 from hydroelastic.scenes.plan import companion_resolution, initial_resolution
 from hydroelastic.scenes.scaled_tank import scaled_tank
+from hydroelastic.scenes.stopwatch import Stopwatch
 from hydroelastic.scenes.tank_mesh import graded_outline
 
 FOLDER = Path(__file__).parent / "reference"

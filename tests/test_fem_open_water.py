@@ -13,11 +13,11 @@ from petsc4py import PETSc
 from hydroelastic.fem.complex_direct import ShiftedSolver
 from hydroelastic.fem.complex_scaling import ComplexMatrix, complex_product
 from hydroelastic.fem.reduced_pencil import ReducedPencil
-from hydroelastic.scenes.field_solution import Stopwatch
 from hydroelastic.scenes.incident_waves import incidence, planes
 from hydroelastic.scenes.models import TankScene
 from hydroelastic.scenes.open_model import Band, OpenModel, first_resolution, open_model
 from hydroelastic.scenes.open_solver import OpenSolver
+from hydroelastic.scenes.stopwatch import Stopwatch
 
 SECTION_ROWS = stored("open_sections.json")["cases"]
 TWO_LIQUIDS = stored("open_two_liquids.json")["cases"]

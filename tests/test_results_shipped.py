@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from hydroelastic.scenes.kinds import runner_of
 from hydroelastic.scenes.open_run import solved_open_scene
 from hydroelastic.scenes.read import read_scene, shipped_scenes
 from hydroelastic.scenes.run import solved_scene
@@ -13,8 +14,9 @@ from hydroelastic.scenes.tables import markdown, mode_csv
 
 SHIPPED = Path(__file__).parent.parent / "results" / "shipped"
 ALL_NAMES = [scene.name for scene in shipped_scenes()]
-OPEN_NAMES = [name for name in ALL_NAMES if read_scene(name).is_open]
-NAMES = [name for name in ALL_NAMES if name not in OPEN_NAMES]
+OF_KIND = {kind: [name for name in ALL_NAMES if read_scene(name).kind == kind] for kind in ("tank", "string", "roll")}
+OPEN_NAMES = [name for name in OF_KIND["tank"] if read_scene(name).is_open]
+NAMES = [name for name in OF_KIND["tank"] if name not in OPEN_NAMES]
 
 
 def test_every_shipped_scene_has_its_results_and_no_other() -> None:
@@ -91,3 +93,29 @@ def test_pictures_of_open_water_are_there(name: str) -> None:
     files = {path.name for path in (SHIPPED / name).iterdir()}
     assert {"summary.json", "summary.md"} <= files
     assert {f"{analysis.kind}_1.png" for analysis in read_scene(name).analyses} <= files
+
+
+@pytest.mark.parametrize("name", OF_KIND["string"] + OF_KIND["roll"])
+def test_results_of_strings_and_ships_are_true(name: str) -> None:
+    stored = json.loads((SHIPPED / name / "summary.json").read_text(encoding="utf-8"))
+    scene = read_scene(name)
+    assert stored["scene"] == scene.model_dump(mode="json")
+    assert stored["status"] == "ok"
+    summary = runner_of(scene)(scene).summary
+    old, new = stored["response"], summary["response"]
+    value = "largest_displacement" if scene.kind == "string" else "largest_angle"
+    # Both carry an estimated error.
+    assert old[value] == pytest.approx(new[value], rel=old["relative_error"] + new["relative_error"] + 1e-13)
+    for before, after in zip(stored.get("modes", []), summary.get("modes", []), strict=True):
+        assert before["omega"] == pytest.approx(
+            after["omega"], rel=before["relative_error"] + after["relative_error"] + 1e-13
+        )
+        assert before["kind"] == after["kind"]
+    assert old.get("exceedances") == new.get("exceedances")
+
+
+@pytest.mark.parametrize("name", OF_KIND["string"] + OF_KIND["roll"])
+def test_pictures_of_strings_and_ships_are_there(name: str) -> None:
+    files = {path.name for path in (SHIPPED / name).iterdir()}
+    pictures = {"space_time.png", "shapes.png", "modes.png"} if name in OF_KIND["string"] else {"roll.png"}
+    assert files == {"summary.json", "summary.md"} | pictures

@@ -99,7 +99,7 @@ BAD = {
         GOOD.replace("start = 3.0", 'kind = "flaot"\nstart = 3.0'),
         ['"beam" or "float"', 'mean "float"?'],
     ),
-    "other kind": (GOOD.replace('"tank"', '"string"'), ['Allowed: "tank"']),
+    "other kind": (GOOD.replace('"tank"', '"drum"'), ['Allowed: "tank"']),
     "no kind": (GOOD.replace('kind = "tank"', ""), ['"kind"', "missing"]),
     "outside": (GOOD.replace("start = 3.0", "start = 7.0"), ['[[body]] number 1, key "start" = 7.0', "0 to 6 m"]),
     "overlap": (GOOD + SECOND_BEAM, ["[[body]] number 2", "[[body]] number 1", "overlaps"]),

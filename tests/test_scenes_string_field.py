@@ -28,7 +28,6 @@ def field(scene: StringScene) -> StringSolution:
     return solve_string_field(scene.model_copy(update={"accuracy": accuracy}), MPI.COMM_WORLD)
 
 
-@pytest.mark.mpi
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-5])
 @pytest.mark.parametrize("name", ["string_smooth", "string_ramp", "string_sine"])
 def test_field_and_series_agree_within_the_estimate(name: str, tolerance: float) -> None:
@@ -51,7 +50,6 @@ def test_field_and_series_agree_on_long_responses(name: str) -> None:
     assert np.all(error <= 3.0 * solution.absolute_error[~solution.beside_fronts] + 1e-13)
 
 
-@pytest.mark.mpi
 def test_smooth_motion_to_seven_digits() -> None:
     solution = field(scene_of("string_smooth", SHORT, "accuracy.tolerance=1e-7"))
     exact = solve_series(scene_of("string_smooth", SHORT, "accuracy.tolerance=1e-12"))
@@ -136,6 +134,7 @@ def test_compare_sets_both_side_by_side() -> None:
     assert "no series to compare with" in refused.output
 
 
+@pytest.mark.mpi
 def test_nothing_moves_before_the_front_in_a_field_either() -> None:
     solution = field(scene_of("string_ramp", "output.times=[0.0, 0.1]", "accuracy.tolerance=1e-3"))
     assert solution.reasons == ()

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Sequence
+from typing import Any
 
 from hydroelastic.benchmarks.cases import CIRCLE_CODES
 from hydroelastic.benchmarks.measure import Benchmark
 from hydroelastic.benchmarks.report import NAMES, machine_list, milliseconds, table
+from hydroelastic.benchmarks.row_csv import measured_cells, rows_csv
 from hydroelastic.benchmarks.rows import Row
 
 OWN, PEER = CIRCLE_CODES
@@ -38,20 +38,15 @@ dimensions hydroelastic has no answer at all, and the table says nothing about C
 
 def circle_csv(benchmark: Benchmark) -> str:
     """All rows at full precision."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(CIRCLE_COLUMNS)
-    for row in benchmark.rows:
+
+    def cells(row: Row) -> list[Any]:
         case = row.case
-        writer.writerow(
-            [
-                *(case.code, case.tank, case.variant, case.length or "", case.panels or "", case.tolerance or ""),
-                *(row.unknowns, row.error, row.median, row.spread, min(row.seconds), len(row.seconds)),
-                "; ".join(f"{stage} {seconds:.6f}" for stage, seconds in row.stages.items()),
-                row.note,
-            ]
-        )
-    return text.getvalue()
+        return [
+            *(case.code, case.tank, case.variant, case.length or "", case.panels or "", case.tolerance or ""),
+            *measured_cells(row),
+        ]
+
+    return rows_csv(CIRCLE_COLUMNS, benchmark.rows, cells)
 
 
 def circle_markdown(benchmark: Benchmark) -> str:

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import platform
 from collections.abc import Sequence
 from datetime import date
+from typing import Any
 
 from hydroelastic.benchmarks.cases import CODES, Code
 from hydroelastic.benchmarks.equal_error import points_of, seconds_at, times_slower
 from hydroelastic.benchmarks.machine import cores, processor
 from hydroelastic.benchmarks.measure import Benchmark
+from hydroelastic.benchmarks.row_csv import measured_cells, rows_csv
 from hydroelastic.benchmarks.rows import Row
 
 NAMES: dict[Code, str] = {
@@ -54,21 +54,16 @@ against exact ones, *seconds* the median of the rounds with the distance of thei
 
 def speed_csv(benchmark: Benchmark) -> str:
     """All rows at full precision."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(CSV_COLUMNS)
-    for row in benchmark.rows:
+
+    def cells(row: Row) -> list[Any]:
         case = row.case
-        writer.writerow(
-            [
-                *(case.code, case.tank, case.variant, case.degree or "", case.tolerance or ""),
-                *(row.unknowns, row.error, row.median, row.spread, min(row.seconds), len(row.seconds)),
-                *(_compared(row, benchmark.rows)),
-                "; ".join(f"{stage} {seconds:.6f}" for stage, seconds in row.stages.items()),
-                row.note,
-            ]
-        )
-    return text.getvalue()
+        return [
+            *(case.code, case.tank, case.variant, case.degree or "", case.tolerance or ""),
+            *measured_cells(row),
+            *_compared(row, benchmark.rows),
+        ]
+
+    return rows_csv(CSV_COLUMNS, benchmark.rows, cells)
 
 
 def _compared(row: Row, rows: Sequence[Row]) -> list[float | None]:

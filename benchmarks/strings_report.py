@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Sequence
+from typing import Any
 
 from hydroelastic.benchmarks.measure import Benchmark
 from hydroelastic.benchmarks.report import NAMES, machine_list, milliseconds, table
+from hydroelastic.benchmarks.row_csv import measured_cells, rows_csv
 from hydroelastic.benchmarks.rows import Row
 
 STRING_COLUMNS = (
@@ -33,20 +33,12 @@ its own on one thread; the methods take turns, and neither imports nor the first
 
 def strings_csv(benchmark: Benchmark) -> str:
     """All rows at full precision."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(STRING_COLUMNS)
-    for row in benchmark.rows:
+
+    def cells(row: Row) -> list[Any]:
         case = row.case
-        writer.writerow(
-            [
-                *(case.code, case.tank, case.tolerance or "", case.terms or "", row.unknowns, row.error),
-                *(row.median, row.spread, min(row.seconds), len(row.seconds)),
-                "; ".join(f"{stage} {seconds:.6f}" for stage, seconds in row.stages.items()),
-                row.note,
-            ]
-        )
-    return text.getvalue()
+        return [*(case.code, case.tank, case.tolerance or "", case.terms or ""), *measured_cells(row)]
+
+    return rows_csv(STRING_COLUMNS, benchmark.rows, cells)
 
 
 def strings_markdown(benchmark: Benchmark) -> str:

@@ -49,9 +49,7 @@ def front_errors(
     whole = string.travel_time * string.time_unit
     bottom, slope = string.tension
     speed = np.sqrt(bottom + slope * positions)
-    # 0/0 at the lower end without a tip mass.
-    both = np.maximum(speed + sqrt(bottom), np.finfo(float).tiny)
-    travel = 2.0 * sqrt(string.mass) * positions / both * string.time_unit
+    travel = string.travel_times(positions) * string.time_unit
     damping = string.smallest_damping / string.time_unit
     # At the lower end the tension may vanish: the height is that at the width of the front.
     width = 1.0 / soft.middle / string.time_unit

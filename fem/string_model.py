@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from math import isfinite, sqrt
 
 import numpy as np
+from numpy.typing import NDArray
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -91,8 +92,14 @@ class ScaledString:
     @property
     def travel_time(self) -> float:
         """Of a wave from one end to the other, ∫dx/√(T/m)."""
+        return float(self.travel_times(np.ones(1))[0])
+
+    def travel_times(self, positions: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Of a wave from the lower end to the positions, shape (positions,)."""
         bottom, slope = self.tension
-        return 2.0 * sqrt(self.mass) / (sqrt(bottom) + sqrt(bottom + slope))
+        # 0/0 at the lower end without a tip mass.
+        both = np.maximum(sqrt(bottom) + np.sqrt(bottom + slope * positions), np.finfo(float).tiny)
+        return np.asarray(2.0 * sqrt(self.mass) * positions / both)
 
     @property
     def uniform_damping(self) -> float | None:

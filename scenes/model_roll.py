@@ -7,9 +7,10 @@ from math import pi
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, PrivateAttr, Strict, ValidationError, model_validator
+from pydantic import Field, PrivateAttr, Strict, model_validator
 
 from hydroelastic.scenes.model_bodies import AnyNumber, PositiveNumber, SceneModel
+from hydroelastic.scenes.model_problems import require_fit
 from hydroelastic.scenes.model_roll_checks import STAGES
 from hydroelastic.scenes.model_values import OR_SWEEP, NumberFromZero, Sweep, ascending_values
 from hydroelastic.scenes.number_files import read_columns
@@ -139,8 +140,5 @@ class RollScene(SceneModel):
 
     @model_validator(mode="after")
     def _parts_fit(self) -> RollScene:
-        for checks in STAGES:
-            problems = [found for check in checks for found in check(self)]
-            if problems:
-                raise ValidationError.from_exception_data(type(self).__name__, problems)
+        require_fit(self, STAGES)
         return self

@@ -14,11 +14,11 @@ from pydantic import (
     PrivateAttr,
     Strict,
     Tag,
-    ValidationError,
     model_validator,
 )
 
 from hydroelastic.scenes.model_bodies import AnyNumber, PositiveNumber, SceneModel
+from hydroelastic.scenes.model_problems import require_fit
 from hydroelastic.scenes.model_string_checks import STAGES
 from hydroelastic.scenes.model_values import OR_SWEEP, NumberFromZero, Sweep, ascending_values, kind_of
 from hydroelastic.scenes.number_files import read_columns
@@ -253,8 +253,5 @@ class StringScene(SceneModel):
 
     @model_validator(mode="after")
     def _parts_fit(self) -> StringScene:
-        for checks in STAGES:
-            problems = [found for check in checks for found in check(self)]
-            if problems:
-                raise ValidationError.from_exception_data(type(self).__name__, problems)
+        require_fit(self, STAGES)
         return self

@@ -13,7 +13,6 @@ from pydantic import (
     PrivateAttr,
     SerializerFunctionWrapHandler,
     Strict,
-    ValidationError,
     field_validator,
     model_serializer,
     model_validator,
@@ -24,7 +23,7 @@ from hydroelastic.scenes.model_analyses import Analysis, Resonance
 from hydroelastic.scenes.model_bodies import LARGEST, SMALLEST, Beam, Body, Float, Level, PositiveNumber, SceneModel
 from hydroelastic.scenes.model_checks import ROUND_OFF, STAGES
 from hydroelastic.scenes.model_infinity import PositiveOrInfinite
-from hydroelastic.scenes.model_problems import problem
+from hydroelastic.scenes.model_problems import problem, require_fit
 
 
 class Tank(SceneModel):
@@ -176,10 +175,7 @@ class TankScene(SceneModel):
 
     @model_validator(mode="after")
     def _parts_fit(self) -> TankScene:
-        for checks in STAGES:
-            problems = [found for check in checks for found in check(self)]
-            if problems:
-                raise ValidationError.from_exception_data(type(self).__name__, problems)
+        require_fit(self, STAGES)
         return self
 
 

@@ -50,7 +50,8 @@ def _ship(scene: RollScene) -> Iterator[str]:
             f"k = {number(frequency)} rad/s (T = {number(2.0 * pi / frequency)} s), n = {number(roll.damping)} 1/s = "
             f"{number(roll.damping / frequency)} k: {regime(roll)}."
         )
-        yield f"{len(scene.times(frequency))} times until {number(scene.times(frequency)[-1])} s."
+        times = scene.times(frequency)
+        yield f"{len(times)} times until {number(times[-1])} s."
     if scene.roll.quadratic_damping:
         yield f"d = {number(scene.roll.quadratic_damping)} 1/rad."
     if scene.roll.angle or scene.roll.rate:

@@ -14,6 +14,7 @@ from hydroelastic.modal.roll_quadratic import QuadraticRollPath, quadratic_roll_
 from hydroelastic.modal.roll_statistics import RollStatistics, roll_statistics
 from hydroelastic.scenes.digits import kept_tolerance
 from hydroelastic.scenes.errors import UnsolvedError, scene_error
+from hydroelastic.scenes.model_problems import require_fit
 from hydroelastic.scenes.model_roll import RollScene
 from hydroelastic.scenes.model_roll_checks import motion_can_be_followed, rates_are_comparable
 from hydroelastic.scenes.roll_section_file import solved_section
@@ -124,9 +125,10 @@ def _check_with(scene: RollScene, natural_frequency: float) -> None:
     """
     ship = scene.roll.model_copy(update={"section": None, "natural_frequency": natural_frequency})
     known = scene.model_copy(update={"roll": ship})
-    problems = [*rates_are_comparable(known), *motion_can_be_followed(known)]
-    if problems:
-        raise scene_error(ValidationError.from_exception_data("RollScene", problems), RollScene)
+    try:
+        require_fit(known, [(rates_are_comparable, motion_can_be_followed)])
+    except ValidationError as error:
+        raise scene_error(error, RollScene) from error
 
 
 def _path(scene: RollScene, roll: Roll, train: WaveTrain, end: float) -> RollPath:

@@ -72,7 +72,6 @@ def solve_string_field(scene: StringScene, comm: MPI.Comm, report: Report = lamb
             "dofs": solution.sizes.unknowns,
             "steps": solution.sizes.steps,
         },
-        troubles=(),
         seconds={**watch.seconds, **solution.seconds},
     )
 

@@ -46,7 +46,6 @@ class StringSolution:
         absolute_error: estimated error of each value, m, of the same shape.
         motions: free motions, by ascending magnitude.
         size: cells, dofs, degree and steps of a field solution; terms of a series.
-        troubles: what a method found wrong with its own solution.
         seconds: time by stage.
     """
 
@@ -55,7 +54,6 @@ class StringSolution:
     absolute_error: Floats
     motions: StringMotions
     size: dict[str, int]
-    troubles: tuple[str, ...]
     seconds: dict[str, float]
 
     @cached_property
@@ -110,7 +108,7 @@ class StringSolution:
     def reasons(self) -> tuple[str, ...]:
         """Why the solution does not keep what was asked; empty if it does."""
         tolerance = self.scene.accuracy.tolerance
-        reasons = list(self.troubles)
+        reasons = []
         if self.relative_error > tolerance:
             reasons.append(
                 f"the displacement has an estimated error of {self.relative_error:.1e} of the largest one, above the "

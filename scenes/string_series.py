@@ -44,7 +44,6 @@ def solve_series(scene: StringScene) -> StringSolution:
         absolute_error=response.errors,
         motions=motions,
         size={"terms": response.terms},
-        troubles=(),
         seconds=dict(watch.seconds),
     )
 

@@ -9,6 +9,8 @@ from typing import Any
 from zlib import crc32
 
 _PROCESSOR = Path("/proc/cpuinfo")
+# How long a process waits for another one that compiles the same kernel, s; dolfinx has 10.
+_PATIENCE = 300
 
 
 @cache
@@ -21,9 +23,10 @@ def jit_options() -> dict[str, Any]:
     """
     instructions = _instructions()
     if instructions is None:
-        return {"cffi_extra_compile_args": ["-g0", "-O3"]}
+        return {"cffi_extra_compile_args": ["-g0", "-O3"], "timeout": _PATIENCE}
     name = f"{crc32(instructions.encode()):08x}"
-    return {"cffi_extra_compile_args": ["-g0", "-O3", "-march=native", f"-DINSTRUCTIONS_{name}"]}
+    arguments = ["-g0", "-O3", "-march=native", f"-DINSTRUCTIONS_{name}"]
+    return {"cffi_extra_compile_args": arguments, "timeout": _PATIENCE}
 
 
 def _instructions() -> str | None:

@@ -2,10 +2,12 @@
 # ./hydro test: pytest on everything, then the tests marked mpi again under two MPI ranks; a selection runs once.
 
 run_tests() {
-    local arguments markers flags status=0
+    local arguments markers flags cores=() status=0
     absolute_arguments "$@"
     cd -- "$checkout"
-    inside python -m pytest -o "cache_dir=$forms/pytest" "${arguments[@]}" || status=$?
+    # The whole suite on all cores, a file at a time on each: files share what is solved once. A selection runs plainly.
+    if selects_nothing "$@"; then cores=(-n auto --maxprocesses 4 --dist loadfile); fi
+    inside python -m pytest -o "cache_dir=$forms/pytest" "${cores[@]}" "${arguments[@]}" || status=$?
     if selects_nothing "$@"; then run_mpi_tests "$@" || status=$((status ? status : $?)); fi
     return "$status"
 }

@@ -12,7 +12,7 @@ from itertools import pairwise
 
 import basix.ufl
 import numpy as np
-from dolfinx.mesh import Mesh, create_mesh
+from dolfinx.mesh import GhostMode, Mesh, create_cell_partitioner, create_mesh
 from mpi4py import MPI
 from numpy.typing import NDArray
 
@@ -64,12 +64,13 @@ def graded_nodes(nodes: NDArray[np.float64], bottom: float, slope: float) -> NDA
     return np.concatenate(pieces)
 
 
-def line_mesh(comm: MPI.Comm, nodes: NDArray[np.float64]) -> Mesh:
+def line_mesh(comm: MPI.Comm, nodes: NDArray[np.float64], *, ghosts: bool = False) -> Mesh:
     """Spread a line over the processes.
 
     Args:
         comm: communicator.
         nodes: coordinates, increasing, the same on all processes.
+        ghosts: whether each process knows both elements of its nodes, which integrals over nodes between need.
 
     Returns:
         A mesh of intervals (collective).
@@ -81,4 +82,5 @@ def line_mesh(comm: MPI.Comm, nodes: NDArray[np.float64]) -> Mesh:
         points = np.ascontiguousarray(nodes[:, None])
     else:
         cells, points = np.empty((0, 2), dtype=np.int64), np.empty((0, 1))
-    return create_mesh(comm, cells=cells, x=points, e=element)
+    mode = GhostMode.shared_facet if ghosts else GhostMode.none
+    return create_mesh(comm, cells=cells, x=points, e=element, partitioner=create_cell_partitioner(mode))

@@ -1,0 +1,188 @@
+"""Newton's method for the equations of a thread: limited steps, both the step and the residual must be small."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import ufl
+from dolfinx import fem
+from dolfinx.fem.petsc import assemble_matrix, assemble_vector, create_matrix
+from mpi4py import MPI
+from numpy.typing import NDArray
+from petsc4py import PETSc
+
+from hydroelastic.fem.kernels import jit_options
+
+# Of the thread's length: what a node moves in one step at most.
+STEP_LIMIT = 0.3
+# The last step of a position and the residual, in units of the length and of the characteristic tension.
+STEP_TOLERANCE = 1e-10
+RESIDUAL_TOLERANCE = 1e-9
+# Layers of bending that are far shorter than the thread leave more by rounding: where steps no longer lessen it.
+_ROUNDING = 1e-6
+_MOST_STEPS = 40
+# A step may make the residual grow by this: far from the solution it does so on good ways too.
+_GROWTH = 10.0
+_MOST_HALVINGS = 6
+_ROOM = 200
+_PREFIX = "hydroelastic_thread_"
+
+
+class ThreadSolverError(RuntimeError):
+    """No equilibrium was found; says why."""
+
+
+class NewtonSolver:
+    """F(w) = 0 by PETSc's SNES: Newton's method with derivatives by UFL and a direct solution in each step.
+
+    Args:
+        residual: F, a form with one argument.
+        unknowns: w in the mixed space of a thread whose length is one; its fixed components must have their values.
+        fixed: unknowns that are given, one or more boundary conditions.
+        update: called before each assembly, for what F knows of w besides.
+
+    Attributes:
+        jacobian: matrix of the last linear system.
+    """
+
+    def __init__(self, residual: Any, unknowns: Any, fixed: list[Any], update: Callable[[], None]) -> None:
+        """Compile the forms and make the matrix."""
+        self._residual = fem.form(residual, jit_options=jit_options())
+        self._derivative = fem.form(ufl.derivative(residual, unknowns), jit_options=jit_options())
+        self._unknowns, self._fixed, self._update = unknowns, fixed, update
+        space = unknowns.function_space
+        self._comm = space.mesh.comm
+        self._owned = space.dofmap.index_map.size_local * space.dofmap.index_map_bs
+        held = np.concatenate([_indices(condition) for condition in fixed]) if fixed else np.empty(0, dtype=np.int32)
+        self._held = held[held < self._owned]
+        positions = np.asarray(space.sub(0).collapse()[1])
+        self._positions = positions[positions < self._owned]
+        self.jacobian = create_matrix(self._derivative)
+        self._values = np.zeros(self._owned)
+        # Largest entries of the residual, of that before, and of the last step's positions; whether the residual is
+        # that of w.
+        self._size = self._before = np.inf
+        self._length, self._is_known = 0.0, False
+
+    def solve(self) -> int:
+        """Change w until F vanishes.
+
+        Returns:
+            Number of steps.
+
+        Raises:
+            ThreadSolverError: where the matrix is singular, or the steps do not come to an end.
+        """
+        place, value = self.jacobian.createVecs()
+        place.array[:] = self._unknowns.x.array[: self._owned]
+        self._length, self._is_known = 0.0, False
+        solver = self._solver(value)
+        try:
+            solver.solve(None, place)
+            reason, count = solver.getConvergedReason(), solver.getIterationNumber()
+        except PETSc.Error as error:
+            raise ThreadSolverError(f"a linear system of Newton's method could not be solved: {error}") from error
+        finally:
+            # It knows this object, and this object it: nothing else would free them.
+            for part in (solver, place, value):
+                part.destroy()
+        if reason <= 0:
+            raise ThreadSolverError(self._words(reason, count))
+        return int(count)
+
+    def _solver(self, value: PETSc.Vec) -> PETSc.SNES:
+        solver = PETSc.SNES().create(self._comm)
+        solver.setType("newtonls")
+        # The step is limited before it is taken, by `_limit`; there is no further search along it.
+        solver.setOptionsPrefix(_PREFIX)
+        PETSc.Options(_PREFIX)["snes_linesearch_type"] = "basic"
+        solver.setFromOptions()
+        solver.setFunction(self._function, value)
+        solver.setJacobian(self._derive, self.jacobian)
+        solver.setLineSearchPreCheck(self._limit)
+        solver.setConvergenceTest(self._test)
+        solver.setTolerances(max_it=_MOST_STEPS)
+        linear = solver.getKSP()
+        linear.setType("preonly")
+        factors = linear.getPC()
+        factors.setType("lu")
+        factors.setFactorSolverType("mumps")
+        linear.setOperators(self.jacobian)
+        factors.setFactorSetUpSolverType()
+        # Room for pivots, in per cent: much of the diagonal is zero.
+        factors.getFactorMatrix().setMumpsIcntl(14, _ROOM)
+        return solver
+
+    def _function(self, _: PETSc.SNES, place: PETSc.Vec, value: PETSc.Vec) -> None:
+        if not self._is_known:
+            self._move(place.array_r)
+        self._is_known = False
+        value.array[:] = self._values
+
+    def _derive(self, _: PETSc.SNES, __: PETSc.Vec, matrix: PETSc.Mat, ___: PETSc.Mat) -> None:
+        # The residual was found last, and at the same place.
+        matrix.zeroEntries()
+        assemble_matrix(matrix, self._derivative, self._fixed)
+        matrix.assemble()
+
+    def _limit(self, place: PETSc.Vec, step: PETSc.Vec) -> bool:
+        """Shorten a step that moves the thread far or makes the residual grow; True if it is shorter."""
+        start, direction, self._before = place.array_r, step.array.copy(), self._size
+        self._length = self._largest(direction[self._positions])
+        part = min(1.0, STEP_LIMIT / max(self._length, STEP_LIMIT))
+        for _ in range(_MOST_HALVINGS + 1):
+            self._move(start - part * direction)
+            if self._size < _GROWTH * max(self._before, RESIDUAL_TOLERANCE):
+                break
+            part *= 0.5
+        else:
+            part *= 2.0
+        self._is_known = True
+        step.array[:] = part * direction
+        return part < 1.0
+
+    def _test(self, _: PETSc.SNES, count: int, __: tuple[float, float, float]) -> int:
+        reasons = PETSc.SNES.ConvergedReason
+        if not np.isfinite(self._size):
+            return int(reasons.DIVERGED_FNORM_NAN)
+        allowed = _ROUNDING if self._size > 0.25 * self._before else RESIDUAL_TOLERANCE
+        done = count > 0 and self._length < STEP_TOLERANCE and self._size < allowed
+        return int(reasons.CONVERGED_FNORM_ABS if done else reasons.ITERATING)
+
+    def _move(self, values: NDArray[np.float64]) -> None:
+        """Give w its values and find the residual there."""
+        self._unknowns.x.array[: self._owned] = values
+        self._unknowns.x.scatter_forward()
+        self._update()
+        vector = assemble_vector(self._residual)
+        vector.ghostUpdate(addv=PETSc.InsertMode.ADD, mode=PETSc.ScatterMode.REVERSE)
+        self._values = vector.array.copy()
+        vector.destroy()
+        self._values[self._held] = 0.0
+        self._size = self._largest(self._values)
+
+    def _words(self, reason: int, count: int) -> str:
+        """Why SNES stopped."""
+        reasons = PETSc.SNES.ConvergedReason
+        if reason == reasons.DIVERGED_LINEAR_SOLVE or not np.isfinite(self._length):
+            return f"the linear system of Newton's step {count + 1} is singular"
+        if not np.isfinite(self._size):
+            place = "along a step of Newton's method" if self._length > 0.0 else "at the start"
+            return f"the equations have no finite value {place}"
+        return (
+            f"Newton's method did not come to an end in {count} steps: the last one moved the thread by "
+            f"{self._length:.1e} of its length, with a residual of {self._size:.1e} of the characteristic tension"
+        )
+
+    def _largest(self, values: NDArray[np.float64]) -> float:
+        local = float(np.max(np.abs(values))) if len(values) else 0.0
+        # MPI's maximum may lose what is not a number.
+        local = local if np.isfinite(local) else np.inf
+        return float(self._comm.allreduce(local, op=MPI.MAX))
+
+
+def _indices(condition: Any) -> NDArray[np.int32]:
+    indices: NDArray[np.int32] = condition.dof_indices()[0]
+    return indices

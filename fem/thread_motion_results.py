@@ -1,0 +1,160 @@
+"""What a motion of a thread leaves: the thread at the output times, and numbers of every step."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True, kw_only=True)
+class StepHistory:
+    """Numbers of all steps, SI; n steps.
+
+    Attributes:
+        ends: times at which steps end, with that of the start before them, s, shape (n + 1,).
+        energies: kinetic, potential (weight and dead forces), elastic and bending at `ends`, J, shape (n + 1, 4);
+            without the liquid.
+        work: of drag, of the liquid's inertia, of changes of the dead forces, of the held ends, J, shape (n, 4).
+        reactions: forces on the held ends at `ends`, N, shape (n + 1, 2, dimension).
+        tensions: at the nodes at `ends`, N, shape (n + 1, nodes); as the reactions just after breaks.
+        solutions: linear systems of each step, shape (n,).
+    """
+
+    ends: NDArray[np.float64]
+    energies: NDArray[np.float64]
+    work: NDArray[np.float64]
+    reactions: NDArray[np.float64]
+    tensions: NDArray[np.float64]
+    solutions: NDArray[np.int64]
+
+    @property
+    def imbalance(self) -> NDArray[np.float64]:
+        """Growth of the energy less the work of all forces, in each step, J, shape (n,).
+
+        By the midpoint rule it is rounding.
+        """
+        growth: NDArray[np.float64] = np.diff(self.energies.sum(axis=1)) - self.work.sum(axis=1)
+        return growth
+
+
+@dataclass(frozen=True, kw_only=True)
+class Slack:
+    """A time in which a part of the thread is in compression, which a thread that does not bend cannot take.
+
+    Attributes:
+        start: first end of a step with compression, s.
+        end: last one, s.
+        where: s of the node with the lowest tension, m.
+        tension: the lowest one, N.
+    """
+
+    start: float
+    end: float
+    where: float
+    tension: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class ThreadMotion:
+    """A motion of a thread, SI.
+
+    Attributes:
+        times: of the output that was reached, s, shape (times,).
+        nodes: s of the nodes, m, shape (nodes,).
+        positions: shape (times, nodes, dimension).
+        velocities: shape (times, nodes, dimension).
+        tensions: at breaks just after them, shape (times, nodes).
+        history: numbers of all steps.
+        moved: how far the given positions were moved to be those of a thread, m.
+        jerked: by how much given velocities were changed, at the start and at breaks, m/s, at most.
+        refused: steps that were tried again, shorter.
+        slack: times in compression.
+        still: time at which the thread was still, if that was asked for and reached, s.
+    """
+
+    times: NDArray[np.float64]
+    nodes: NDArray[np.float64]
+    positions: NDArray[np.float64]
+    velocities: NDArray[np.float64]
+    tensions: NDArray[np.float64]
+    history: StepHistory
+    moved: float
+    jerked: float
+    refused: int
+    slack: tuple[Slack, ...]
+    still: float | None
+
+
+# Of the characteristic force: compression below it is rounding, or an end without force.
+_SLACK = 1e-8
+
+
+def find_slack(
+    times: NDArray[np.float64], nodes: NDArray[np.float64], tensions: NDArray[np.float64], force: float
+) -> tuple[Slack, ...]:
+    """Times in which the lowest tension is below zero.
+
+    Args:
+        times: shape (n,).
+        nodes: s, shape (nodes,).
+        tensions: shape (n, nodes).
+        force: a characteristic one.
+    """
+    lowest = tensions.min(axis=1)
+    loose = lowest < -_SLACK * force
+    changes = np.flatnonzero(np.diff(np.concatenate([[False], loose, [False]]).astype(int)))
+    found = []
+    for first, beyond in changes.reshape(-1, 2):
+        worst = first + int(np.argmin(lowest[first:beyond]))
+        where = float(nodes[np.argmin(tensions[worst])])
+        found.append(
+            Slack(start=float(times[first]), end=float(times[beyond - 1]), where=where, tension=float(lowest[worst]))
+        )
+    return tuple(found)
+
+
+def at_step_ends(
+    ends: NDArray[np.float64],
+    middles: NDArray[np.float64],
+    starts: dict[int, NDArray[np.float64] | None],
+    part: float = 0.5,
+) -> NDArray[np.float64]:
+    """Forces at the ends of steps from those in their middles, just after where breaks are.
+
+    The midpoint rule leaves an error of the first order in forces of constraint whose sign changes from step to step:
+    the mean of two neighbours is free of it, and belongs to the end between them.
+
+    Args:
+        ends: times, shape (n + 1,).
+        middles: forces in the middles of the steps, shape (n, ...).
+        starts: by the number of an end, forces at the start and just after breaks, where they are known.
+        part: of a step, at which its forces belong.
+
+    Returns:
+        Shape (n + 1, ...); where a piece ends, linear from the ends before.
+    """
+    count = len(middles)
+    result = np.empty((count + 1, *middles.shape[1:]))
+    lengths = np.diff(ends)
+    bounds = [*sorted(starts), count]
+    for first, last in pairwise(bounds):
+        for end in range(first + 1, last):
+            before, after = (1.0 - part) * lengths[end - 1], part * lengths[end]
+            result[end] = (after * middles[end - 1] + before * middles[end]) / (before + after)
+        known = starts[first]
+        result[first] = middles[first] if known is None else known
+        if known is None and last - first > 2:
+            result[first] = _beyond(ends, result, first, first + 1, first + 2)
+        result[last] = middles[last - 1]
+        if last - first > 1:
+            result[last] = _beyond(ends, result, last, last - 1, max(last - 2, first))
+    return result
+
+
+def _beyond(ends: NDArray[np.float64], values: NDArray[np.float64], at: int, near: int, far: int) -> Any:
+    ratio = (ends[at] - ends[near]) / (ends[near] - ends[far])
+    return values[near] + ratio * (values[near] - values[far])

@@ -5,11 +5,12 @@ from __future__ import annotations
 from functools import cached_property
 from math import pi
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
-from pydantic import Field, PrivateAttr, Strict, model_validator
+from pydantic import Field, Strict, model_validator
 
 from hydroelastic.scenes.model_bodies import AnyNumber, PositiveNumber, SceneModel
+from hydroelastic.scenes.model_folder import SceneInFolder
 from hydroelastic.scenes.model_problems import require_fit
 from hydroelastic.scenes.model_roll_checks import STAGES
 from hydroelastic.scenes.model_values import OR_SWEEP, NumberFromZero, Sweep, ascending_values
@@ -74,7 +75,7 @@ class RollAccuracy(SceneModel):
     )
 
 
-class RollScene(SceneModel):
+class RollScene(SceneInFolder):
     """A ship that rolls on a swell.
 
     Raises:
@@ -88,13 +89,6 @@ class RollScene(SceneModel):
     train: SwellTable | None = Field(default=None, description="the waves, from a table")
     output: RollOutput = Field(default=RollOutput(), description="when the motion is reported")
     accuracy: RollAccuracy = Field(default=RollAccuracy(), description="what is asked of the answer")
-
-    _folder: Path = PrivateAttr(default=Path())
-
-    def model_post_init(self, context: Any) -> None:
-        """Keep the folder of the scene file, from which tables and sections are found."""
-        if context is not None:
-            self._folder = context["folder"]
 
     @property
     def section_file(self) -> Path | None:

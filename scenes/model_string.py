@@ -11,13 +11,13 @@ from pydantic import (
     BeforeValidator,
     Discriminator,
     Field,
-    PrivateAttr,
     Strict,
     Tag,
     model_validator,
 )
 
 from hydroelastic.scenes.model_bodies import AnyNumber, PositiveNumber, SceneModel
+from hydroelastic.scenes.model_folder import SceneInFolder
 from hydroelastic.scenes.model_problems import require_fit
 from hydroelastic.scenes.model_string_checks import STAGES
 from hydroelastic.scenes.model_values import OR_SWEEP, NumberFromZero, Sweep, ascending_values, kind_of
@@ -187,7 +187,7 @@ class StringAccuracy(SceneModel):
     )
 
 
-class StringScene(SceneModel):
+class StringScene(SceneInFolder):
     """A heavy string that hangs in a resisting medium while its upper end is moved.
 
     Raises:
@@ -200,18 +200,6 @@ class StringScene(SceneModel):
     motion: Motion = Field(description="how the upper end moves")
     output: StringOutput = Field(default=StringOutput(), description="where and when the displacement is reported")
     accuracy: StringAccuracy = Field(default=StringAccuracy(), description="what is asked of the answer")
-
-    _folder: Path = PrivateAttr(default=Path())
-
-    def model_post_init(self, context: Any) -> None:
-        """Keep the folder of the scene file, from which the table of a motion is found."""
-        if context is not None:
-            self._folder = context["folder"]
-
-    @property
-    def folder(self) -> Path:
-        """The folder of the scene file, or the current one."""
-        return self._folder
 
     @property
     def positions(self) -> tuple[float, ...]:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 _SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")
 _LONGEST_SHOWN = 40
-_WORDS = {2: "two", 3: "three"}
+_WORDS = {2: "two", 3: "three", 4: "four"}
 
 
 def read_columns(file: Path, columns: int) -> list[tuple[float, ...]]:

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from hydroelastic.scenes.curve_style import COLOURS, GRID, dress, figure_file
-from hydroelastic.scenes.string_files import frame_numbers
+from hydroelastic.scenes.line_sequence import frame_numbers
 from hydroelastic.scenes.string_fronts import travel_times
 from hydroelastic.scenes.string_results import StringSolution
 
@@ -99,7 +99,7 @@ def _draw_frames(solution: StringSolution, folder: Path) -> None:
     (end,) = axes.plot([], [], "s", color="black", markersize=6)
     dress(axes, "displacement U, m", "height above the free end, m", legend=False)
     title = axes.set_title(" ")
-    for place, column in enumerate(frame_numbers(solution)):
+    for place, column in enumerate(frame_numbers(solution.scene.output.frames, len(solution.times))):
         line.set_data(solution.displacement[:, column], solution.positions)
         end.set_data([solution.displacement[-1, column]], [solution.positions[-1]])
         title.set_text(f"t = {solution.times[column]:.4g} s")

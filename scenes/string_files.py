@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
-from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
+from hydroelastic.scenes.line_sequence import Frame, frame_numbers, write_sequence
 from hydroelastic.scenes.provenance import versions
 from hydroelastic.scenes.string_results import StringSolution
 
@@ -20,13 +21,7 @@ def write_string_files(solution: StringSolution, folder: Path) -> None:
     _write_dataset(solution, folder / "dataset.nc")
     if solution.scene.output.frames:
         (folder / "fields").mkdir()
-        _write_sequence(solution, folder / "fields")
-
-
-def frame_numbers(solution: StringSolution) -> list[int]:
-    """Return which times are frames of a sequence, evenly spread over all."""
-    count = min(solution.scene.output.frames, len(solution.times))
-    return sorted({int(place) for place in np.linspace(0, len(solution.times) - 1, count).round()})
+        write_sequence(folder / "fields", "string", _frames(solution))
 
 
 def _write_response(solution: StringSolution, file: Path) -> None:
@@ -84,20 +79,10 @@ def _write_dataset(solution: StringSolution, file: Path) -> None:
     dataset.to_netcdf(file)
 
 
-def _write_sequence(solution: StringSolution, folder: Path) -> None:
-    """Write the string at each frame as a line in the plane, and ``string.pvd``, which tells the times."""
-    import meshio
-
-    count = len(solution.positions)
-    cells = [("line", np.column_stack([np.arange(count - 1), np.arange(1, count)]))] if count > 1 else []
-    entries = []
-    for number in frame_numbers(solution):
-        name = f"string_{number:06d}.vtu"
+def _frames(solution: StringSolution) -> Iterator[Frame]:
+    """The string at each frame as a line in the plane."""
+    for number in frame_numbers(solution.scene.output.frames, len(solution.times)):
         moved = solution.displacement[:, number]
-        points = np.column_stack([moved, solution.positions, np.zeros(count)])
+        points = np.column_stack([moved, solution.positions, np.zeros(len(moved))])
         data = {"displacement": moved, "absolute_error": solution.absolute_error[:, number]}
-        meshio.Mesh(points, cells, point_data=data).write(folder / name)
-        entries.append(f'  <DataSet timestep="{solution.times[number]:.12g}" file={quoteattr(name)}/>')
-    text = '<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1">\n <Collection>\n'
-    text += "\n".join(entries) + "\n </Collection>\n</VTKFile>\n"
-    (folder / "string.pvd").write_text(text, encoding="utf-8")
+        yield float(solution.times[number]), points, data

@@ -1,0 +1,52 @@
+"""A line in motion as files that ParaView plays: a VTU file for each frame, and a PVD file that tells the times."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from xml.sax.saxutils import quoteattr
+
+import numpy as np
+from numpy.typing import NDArray
+
+Frame = tuple[float, NDArray[np.float64], dict[str, NDArray[np.float64]]]
+"""Time, s; points of the line, m, shape (n, 3); data at them by name."""
+
+
+def frame_numbers(frames: int, times: int) -> list[int]:
+    """Return which of so many times are frames of a sequence, evenly spread over all."""
+    count = min(frames, times)
+    return sorted({int(place) for place in np.linspace(0, times - 1, count).round()})
+
+
+def write_line(file: Path, points: NDArray[np.float64], data: dict[str, NDArray[np.float64]]) -> None:
+    """Write one line as VTU.
+
+    Args:
+        file: to write.
+        points: m, shape (n, 3).
+        data: at the points, by name.
+    """
+    import meshio
+
+    count = len(points)
+    cells = [("line", np.column_stack([np.arange(count - 1), np.arange(1, count)]))] if count > 1 else []
+    meshio.Mesh(points, cells, point_data=data).write(file)
+
+
+def write_sequence(folder: Path, name: str, frames: Iterable[Frame]) -> None:
+    """Write ``<name>_000000.vtu`` and so on, and ``<name>.pvd``.
+
+    Args:
+        folder: an existing folder.
+        name: of the files.
+        frames: in the order of time.
+    """
+    entries = []
+    for number, (time, points, data) in enumerate(frames):
+        file = f"{name}_{number:06d}.vtu"
+        write_line(folder / file, points, data)
+        entries.append(f'  <DataSet timestep="{time:.12g}" file={quoteattr(file)}/>')
+    text = '<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1">\n <Collection>\n'
+    text += "\n".join(entries) + "\n </Collection>\n</VTKFile>\n"
+    (folder / f"{name}.pvd").write_text(text, encoding="utf-8")

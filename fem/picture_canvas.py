@@ -66,7 +66,7 @@ class Canvas:
         import pyvista
 
         self._font = _font_file()
-        with _quiet_vtk():
+        with quiet_vtk():
             self._plotter = pyvista.Plotter(off_screen=True, lighting="none")
             self._window = self._plotter.render_window
             _require_renderer(self._window.GetClassName())
@@ -125,7 +125,7 @@ class Canvas:
         self._window.SetSize(width, height)
         self._look_at_page(width, height)
         values = vtkUnsignedCharArray()
-        with _quiet_vtk():
+        with quiet_vtk():
             self._window.Render()
             self._window.GetPixelData(0, 0, width - 1, height - 1, 0, values, 0)
         upwards: NDArray[np.uint8] = vtk_to_numpy(values).reshape(height, width, 3)
@@ -190,7 +190,7 @@ def _font_file() -> str:
 
 
 @contextmanager
-def _quiet_vtk() -> Iterator[None]:
+def quiet_vtk() -> Iterator[None]:
     """Hold back warnings: VTK tries X, EGL and OSMesa in turn and reports each that is absent."""
     from vtkmodules.vtkCommonCore import vtkLogger
 

@@ -278,9 +278,12 @@ def list_scenes() -> None:
 @main.command()
 @click.option("--out", type=click.Path(path_type=Path), help="Folder; default results/benchmarks.")
 @click.option(
-    "--problem", type=click.Choice(["tanks", "circle", "string"]), multiple=True, help="Only this one; all by default."
+    "--problem",
+    type=click.Choice(["tanks", "circle", "string", "thread"]),
+    multiple=True,
+    help="Only this one; all by default.",
 )
-@click.option("--quick", is_flag=True, help="One tank, one frequency, one motion, every third case.")
+@click.option("--quick", is_flag=True, help="One tank, frequency, motion and thread, every third case.")
 @click.option("--repeats", type=click.IntRange(min=1), help="Rounds that count; 7 of tanks, else or if quick 3.")
 @click.option("--no-install", is_flag=True, help="Leave out other codes that are not installed.")
 @click.pass_context
@@ -293,10 +296,10 @@ def bench(
     no_install: bool,
 ) -> None:
     """Measure error against seconds: tanks beside NGSolve, scikit-fem and a bare lower bound, a circle in open water
-    beside Capytaine, a hanging string by series and as a field.
+    beside Capytaine, a hanging string by series and as a field, flexible threads beside MoorPy and MoorDyn.
 
-    The others are installed into the cache if they are missing. Writes speed_against_error, open_circle and
-    hanging_string, each as .csv, .md and .png.
+    The others are installed into the cache if they are missing. Writes speed_against_error, open_circle,
+    hanging_string and threads, each as .csv, .md and .png.
 
     \b
     Example:

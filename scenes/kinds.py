@@ -7,6 +7,7 @@ from typing import Any
 
 from hydroelastic.scenes.errors import Problem, SceneError, shown_value
 from hydroelastic.scenes.model_string import StringScene
+from hydroelastic.scenes.model_thread import ThreadScene
 from hydroelastic.scenes.models import TankScene
 from hydroelastic.scenes.outcome import Outcome
 from hydroelastic.scenes.read import Scene, closed_tank
@@ -22,6 +23,10 @@ def runner_of(scene: Scene) -> Callable[..., Outcome]:
         from hydroelastic.scenes.string_run import run_string
 
         return run_string
+    if isinstance(scene, ThreadScene):
+        from hydroelastic.scenes.thread_run import run_thread
+
+        return run_thread
     from hydroelastic.scenes.roll_run import run_roll
 
     return run_roll
@@ -42,12 +47,16 @@ def comparer_of(scene: Scene) -> Callable[..., Outcome]:
         from hydroelastic.scenes.string_compare import compare_string
 
         return compare_string
+    if isinstance(scene, ThreadScene):
+        from hydroelastic.scenes.thread_compare import compare_thread
+
+        return compare_thread
     raise SceneError(
         Problem(
             key='key "kind"',
             value=shown_value(scene.kind),
             wrong="the roll of a ship is a closed form, with no field solution to set beside it",
-            allowed='"tank" or "string"',
+            allowed='"tank", "string" or "thread"',
             remedy="The command run takes this kind",
         )
     )
@@ -63,6 +72,10 @@ def checker_of(scene: Scene) -> Callable[[Any, Any], None]:
         from hydroelastic.scenes.string_check import print_string_check
 
         return print_string_check
+    if isinstance(scene, ThreadScene):
+        from hydroelastic.scenes.thread_check import print_thread_check
+
+        return print_thread_check
     from hydroelastic.scenes.roll_check import print_roll_check
 
     return print_roll_check

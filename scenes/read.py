@@ -14,13 +14,19 @@ from pydantic import ValidationError
 from hydroelastic.scenes.errors import Problem, SceneError, nearest, proposal, scene_error, shown_value
 from hydroelastic.scenes.model_roll import RollScene
 from hydroelastic.scenes.model_string import StringScene
+from hydroelastic.scenes.model_thread import ThreadScene
 from hydroelastic.scenes.models import TankScene
 
 Document: TypeAlias = dict[str, Any]
 
-Scene: TypeAlias = TankScene | StringScene | RollScene
+Scene: TypeAlias = TankScene | StringScene | ThreadScene | RollScene
 
-SCENE_MODELS: dict[str, type[Scene]] = {"tank": TankScene, "string": StringScene, "roll": RollScene}
+SCENE_MODELS: dict[str, type[Scene]] = {
+    "tank": TankScene,
+    "string": StringScene,
+    "thread": ThreadScene,
+    "roll": RollScene,
+}
 """Which model a ``kind`` is read with."""
 
 SHIPPED_FOLDER = Path(__file__).resolve().parent

@@ -1,0 +1,37 @@
+"""The field solution of a thread in a stream beside asymptotic solutions and closed forms."""
+
+from __future__ import annotations
+
+from mpi4py import MPI
+
+from hydroelastic.scenes.model_thread import ThreadScene
+from hydroelastic.scenes.outcome import Outcome
+from hydroelastic.scenes.sections import printed_sections
+from hydroelastic.scenes.stopwatch import Report
+from hydroelastic.scenes.thread_compared import comparison_sections
+from hydroelastic.scenes.thread_differences import thread_differences
+from hydroelastic.scenes.thread_estimates import thread_estimates
+from hydroelastic.scenes.thread_solve import solve_thread_scene
+from hydroelastic.scenes.thread_summary import summarize_thread
+from hydroelastic.scenes.thread_tables import thread_cost, thread_sections
+
+
+def compare_thread(scene: ThreadScene, *, report: Report = lambda _message: None) -> Outcome:
+    """Solve a scene and set all estimates that fit it beside the solution; writes nothing (collective).
+
+    Args:
+        scene: the scene; its motions in time are left out, of which there is no estimate.
+        report: told what is being done.
+
+    Raises:
+        UnsolvedError: if the field solution fails.
+    """
+    comm = MPI.COMM_WORLD
+    at_rest = scene.model_copy(update={"analysis": tuple(asked for asked in scene.analysis if asked.kind != "motion")})
+    solution = solve_thread_scene(at_rest, comm, report)
+    report("estimates")
+    estimates = thread_estimates(at_rest, comm)
+    summary = summarize_thread(solution, comm, import_seconds=0.0)
+    summary["comparison"] = thread_differences(solution, estimates)
+    sections = [*thread_sections(summary), *comparison_sections(summary["comparison"])]
+    return Outcome(summary=summary, tables=printed_sections(summary, sections, thread_cost(summary)))

@@ -14,7 +14,9 @@ from hydroelastic.scenes.tables import markdown, mode_csv
 
 SHIPPED = Path(__file__).parent.parent / "results" / "shipped"
 ALL_NAMES = [scene.name for scene in shipped_scenes()]
-OF_KIND = {kind: [name for name in ALL_NAMES if read_scene(name).kind == kind] for kind in ("tank", "string", "roll")}
+OF_KIND = {
+    kind: [name for name in ALL_NAMES if read_scene(name).kind == kind] for kind in ("tank", "string", "thread", "roll")
+}
 OPEN_NAMES = [name for name in OF_KIND["tank"] if read_scene(name).is_open]
 NAMES = [name for name in OF_KIND["tank"] if name not in OPEN_NAMES]
 
@@ -118,4 +120,40 @@ def test_results_of_strings_and_ships_are_true(name: str) -> None:
 def test_pictures_of_strings_and_ships_are_there(name: str) -> None:
     files = {path.name for path in (SHIPPED / name).iterdir()}
     pictures = {"space_time.png", "shapes.png", "modes.png"} if name in OF_KIND["string"] else {"roll.png"}
+    assert files == {"summary.json", "summary.md"} | pictures
+
+
+@pytest.mark.parametrize("name", OF_KIND["thread"])
+def test_results_of_threads_are_true(name: str) -> None:
+    stored = json.loads((SHIPPED / name / "summary.json").read_text(encoding="utf-8"))
+    scene = read_scene(name)
+    assert stored["scene"] == scene.model_dump(mode="json")
+    assert stored["status"] == "ok"
+    summary = runner_of(scene)(scene).summary
+    old, new = stored["equilibrium"], summary["equilibrium"]
+    # Both carry estimated errors; the second terms are rounding.
+    length = scene.thread.length
+    allowed = old["position_error"] + new["position_error"] + 1e-12 * length
+    assert np.array(old["end_positions"]) == pytest.approx(np.array(new["end_positions"]), abs=allowed)
+    allowed = old["tension_error"] + new["tension_error"] + 1e-12 * max(abs(old["largest_tension"]), 1.0)
+    assert old["end_tensions"] == pytest.approx(new["end_tensions"], abs=allowed)
+    for before, after in zip(stored["modes"], summary["modes"], strict=True):
+        for one, other in zip(before["oscillating"], after["oscillating"], strict=True):
+            allowed = one["relative_error"] + other["relative_error"] + 1e-12
+            assert one["damped_omega"] == pytest.approx(other["damped_omega"], abs=allowed * other["omega"])
+    for before, after in zip(stored["stability"], summary["stability"], strict=True):
+        for one, other in zip(before["thresholds"], after["thresholds"], strict=True):
+            assert one["kind"] == other["kind"]
+            assert one["factor"] == pytest.approx(other["factor"], rel=one["relative_error"] + other["relative_error"])
+    for before, after in zip(stored["motion"], summary["motion"], strict=True):
+        allowed = before["tension_error"] + after["tension_error"]
+        assert before["largest_tension"] == pytest.approx(after["largest_tension"], abs=allowed)
+
+
+@pytest.mark.parametrize("name", OF_KIND["thread"])
+def test_pictures_of_threads_are_there(name: str) -> None:
+    files = {path.name for path in (SHIPPED / name).iterdir()}
+    pictures = {"equilibrium.png", "tension.png"}
+    for analysis in read_scene(name).analysis:
+        pictures |= {"motion.png", "tension_in_time.png"} if analysis.kind == "motion" else {f"{analysis.kind}.png"}
     assert files == {"summary.json", "summary.md"} | pictures

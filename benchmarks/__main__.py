@@ -14,9 +14,17 @@ import click
 from hydroelastic.benchmarks.cases import Case
 from hydroelastic.benchmarks.circle import CIRCLE, circle_cases
 from hydroelastic.benchmarks.measure import Benchmark, cases_of, run_benchmark
-from hydroelastic.benchmarks.output import OutputError, check_folder, write_circle, write_results, write_strings
+from hydroelastic.benchmarks.output import (
+    OutputError,
+    check_folder,
+    write_circle,
+    write_results,
+    write_strings,
+    write_threads,
+)
 from hydroelastic.benchmarks.strings import MOTIONS, string_cases
 from hydroelastic.benchmarks.tanks import TANKS
+from hydroelastic.benchmarks.threads import THREADS, thread_cases
 
 BAD_INPUT = 2
 NOTHING_MEASURED = 3
@@ -44,11 +52,16 @@ def _string_cases(quick: bool) -> list[Case]:
     return [case for motion in (MOTIONS[:1] if quick else MOTIONS) for case in string_cases(motion, quick=quick)]
 
 
+def _thread_cases(quick: bool) -> list[Case]:
+    return [case for thread in (THREADS[:1] if quick else THREADS) for case in thread_cases(thread, quick=quick)]
+
+
 PROBLEMS = {
     "tanks": Problem(cases=_tank_cases, repeats=7, write=write_results),
     # Half a minute for each round of each frequency.
     "circle": Problem(cases=_circle_cases, repeats=3, write=write_circle),
     "string": Problem(cases=_string_cases, repeats=3, write=write_strings),
+    "thread": Problem(cases=_thread_cases, repeats=3, write=write_threads),
 }
 _QUICK_REPEATS = 3
 
@@ -58,12 +71,12 @@ _QUICK_REPEATS = 3
     "--out", type=click.Path(path_type=Path), default=Path("results/benchmarks"), help="Folder of the results."
 )
 @click.option("--problem", type=click.Choice(list(PROBLEMS)), multiple=True, help="Only this one; all by default.")
-@click.option("--quick", is_flag=True, help="One tank, one frequency, one motion, every third case.")
+@click.option("--quick", is_flag=True, help="One tank, frequency, motion and thread, every third case.")
 @click.option("--repeats", type=click.IntRange(min=1), help="Rounds that count; 7 of tanks, else or if quick 3.")
 @click.option("--no-install", is_flag=True, help="Leave out peers that are not installed.")
 def main(out: Path, problem: tuple[str, ...], quick: bool, repeats: int | None, no_install: bool) -> None:
     """Measure error against seconds: tanks beside NGSolve, scikit-fem and a lower bound, a circle beside Capytaine, a
-    hanging string by series and as a field.
+    hanging string by series and as a field, flexible threads beside MoorPy and MoorDyn.
 
     \b
     Example:

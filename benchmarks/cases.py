@@ -15,8 +15,26 @@ Code = Literal[
     "string field",
     "string series",
     "string sum",
+    "thread field",
+    "thread catenary",
+    "moorpy",
+    "moordyn",
 ]
-Variant = Literal["certified", "whole", "halves", "bare", "one length", "two lengths", "cut sharply"]
+Variant = Literal[
+    "certified",
+    "whole",
+    "halves",
+    "bare",
+    "one length",
+    "two lengths",
+    "cut sharply",
+    "one run",
+    "closed form",
+    "catenaries",
+    "lumped",
+    "relaxed",
+    "relaxed in motion",
+]
 
 CODES: tuple[Code, ...] = ("hydroelastic", "ngsolve", "scikit-fem", "lower bound")
 """Those that solve the tanks."""
@@ -24,7 +42,9 @@ CIRCLE_CODES: tuple[Code, ...] = ("hydroelastic radiation", "capytaine")
 """Those that solve the circle in open water."""
 STRING_CODES: tuple[Code, ...] = ("string field", "string series", "string sum")
 """Those that move the hanging string."""
-ALL_CODES = (*CODES, *CIRCLE_CODES, *STRING_CODES)
+THREAD_CODES: tuple[Code, ...] = ("thread field", "thread catenary", "moorpy", "moordyn")
+"""Those that bring flexible threads to rest, or move them."""
+ALL_CODES = (*CODES, *CIRCLE_CODES, *STRING_CODES, *THREAD_CODES)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,15 +53,19 @@ class Case:
 
     Attributes:
         code: by which code.
-        tank: name of the tank, of the frequency of the circle, or of the motion of the string.
+        tank: name of the tank, of the frequency of the circle, of the motion of the string, or of the thread.
         variant: ``certified`` with estimate, count and companion; ``whole`` tank or its two ``halves`` without them;
             ``bare`` factorization and solutions alone; a cylinder of ``one length``, or ``two lengths`` and their
-            difference; a series ``cut sharply``.
+            difference; a series ``cut sharply``; a thread moved in ``one run`` at a chosen resolution, at rest by a
+            ``closed form`` or as several ``catenaries`` in a row, or ``lumped`` into point masses, at
+            rest ``relaxed`` or ``relaxed in motion``.
         degree: polynomial degree, where it is chosen; else 0.
         tolerance: asked relative error, where it is chosen; else 0.
         panels: along a quarter of the circle, where they are chosen; else 0.
         length: of the cylinder over its radius, of the longer one of two, which is twice the other; else 0.
         terms: of a series that is cut sharply; else 0.
+        segments: or elements, or catenaries, of a thread, where they are chosen; else 0.
+        step: in time, s, where it is chosen; else 0.
     """
 
     code: Code
@@ -52,6 +76,8 @@ class Case:
     panels: int = 0
     length: float = 0.0
     terms: int = 0
+    segments: int = 0
+    step: float = 0.0
 
     @property
     def resolution(self) -> str:
@@ -63,7 +89,15 @@ class Case:
             return f"length {lengths}, {self.panels} panels"
         if self.terms:
             return f"{self.terms} terms"
-        return f"degree {self.degree}" if self.degree else f"tolerance {self.tolerance:.0e}"
+        if self.step:
+            return f"{self.segments} elements, steps of {self.step:g} s"
+        if self.segments:
+            if self.variant == "catenaries":
+                return "1 catenary" if self.segments == 1 else f"{self.segments} catenaries"
+            return f"{self.segments} segments"
+        if self.degree:
+            return f"degree {self.degree}"
+        return f"tolerance {self.tolerance:.0e}" if self.tolerance else "exact"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,8 +106,9 @@ class Answer:
 
     Attributes:
         values: the lowest ω of a tank, rad/s, ascending; a', b' of heave and a', b' of sway of the circle;
-            displacements of the string at its points.
-        unknowns: of ψ and of the surface, panels, unknowns of a string, or terms.
+            displacements of the string at its points; forces on the ends of a thread, tensions, or places.
+        unknowns: of ψ and of the surface, panels, unknowns of a string or a thread at rest, terms, or nodes of a
+            thread that moves.
         stages: seconds by stage, as far as the code tells them.
         note: what else is to be said of it.
     """

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from hydroelastic.benchmarks.cases import CIRCLE_CODES
+from hydroelastic.benchmarks.equal_error import best_of, fastest_as_good
 from hydroelastic.benchmarks.measure import Benchmark
 from hydroelastic.benchmarks.report import NAMES, machine_list, milliseconds, table
 from hydroelastic.benchmarks.row_csv import measured_cells, rows_csv
@@ -73,21 +74,12 @@ def circle_markdown(benchmark: Benchmark) -> str:
     return "\n\n".join(parts) + "\n"
 
 
-def best_of_peer(rows: Sequence[Row], name: str) -> list[Row]:
-    """Capytaine's rows of a frequency that no other of its rows beats in both seconds and error."""
-    kept: list[Row] = []
-    for row in sorted((row for row in rows if (row.case.code, row.case.tank) == (PEER, name)), key=lambda r: r.median):
-        if not kept or row.error < kept[-1].error:
-            kept.append(row)
-    return kept
-
-
 def _front_table(names: Sequence[str], rows: Sequence[Row]) -> str:
     head = ["frequency", "Capytaine", "error", "milliseconds", "hydroelastic", "error", "milliseconds", "Capytaine ÷"]
     lines = []
     for name in names:
-        for row in best_of_peer(rows, name):
-            own = fastest_as_good(rows, row)
+        for row in best_of(rows, PEER, name):
+            own = fastest_as_good(rows, row, OWN)
             lines.append(
                 [
                     *(name, f"{row.case.variant}, {row.case.resolution}", f"{row.error:.1e}", milliseconds(row.median)),
@@ -95,12 +87,6 @@ def _front_table(names: Sequence[str], rows: Sequence[Row]) -> str:
                 ]
             )
     return table(head, lines)
-
-
-def fastest_as_good(rows: Sequence[Row], peer: Row) -> Row | None:
-    """The fastest of hydroelastic's rows with no larger error than a row of the peer, if any."""
-    good = [r for r in rows if (r.case.code, r.case.tank) == (OWN, peer.case.tank) and r.error <= peer.error]
-    return min(good, key=lambda r: r.median, default=None)
 
 
 def _own_cells(own: Row, peer: Row) -> tuple[str, str, str, str]:

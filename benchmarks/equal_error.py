@@ -49,3 +49,18 @@ def times_slower(row: Row, rows: Iterable[Row], code: Code) -> float | None:
     """Seconds of a row over those in which a code reaches the row's error, if it does."""
     seconds = seconds_at(points_of(rows, code, row.case.tank), row.error)
     return None if seconds is None else row.median / seconds
+
+
+def best_of(rows: Iterable[Row], code: Code, tank: str) -> list[Row]:
+    """The rows of a code on a tank that no other of them beats in both seconds and error, the fastest one first."""
+    kept: list[Row] = []
+    for row in sorted((row for row in rows if (row.case.code, row.case.tank) == (code, tank)), key=lambda r: r.median):
+        if not kept or row.error < kept[-1].error:
+            kept.append(row)
+    return kept
+
+
+def fastest_as_good(rows: Iterable[Row], peer: Row, *own: Code) -> Row | None:
+    """The fastest row of given codes with no larger error than a row of a peer on the same tank, if any."""
+    good = [r for r in rows if r.case.code in own and r.case.tank == peer.case.tank and r.error <= peer.error]
+    return min(good, key=lambda r: r.median, default=None)

@@ -15,10 +15,13 @@ from hydroelastic.benchmarks.report import speed_csv, speed_markdown
 from hydroelastic.benchmarks.rows import Row
 from hydroelastic.benchmarks.strings_figure import draw_strings
 from hydroelastic.benchmarks.strings_report import strings_csv, strings_markdown
+from hydroelastic.benchmarks.threads_figure import draw_threads
+from hydroelastic.benchmarks.threads_report import threads_csv, threads_markdown
 
 NAME = "speed_against_error"
 CIRCLE_NAME = "open_circle"
 STRING_NAME = "hanging_string"
+THREAD_NAME = "threads"
 
 Text = Callable[[Benchmark], str]
 Draw = Callable[[Sequence[Row], Path], None]
@@ -67,6 +70,15 @@ def write_strings(benchmark: Benchmark, folder: Path) -> None:
         OutputError: if the folder cannot be written.
     """
     _write(benchmark, folder, STRING_NAME, strings_csv, strings_markdown, draw_strings)
+
+
+def write_threads(benchmark: Benchmark, folder: Path) -> None:
+    """Write table, page and figure of the flexible threads; other files of the folder stay.
+
+    Raises:
+        OutputError: if the folder cannot be written.
+    """
+    _write(benchmark, folder, THREAD_NAME, threads_csv, threads_markdown, draw_threads)
 
 
 def _write(benchmark: Benchmark, folder: Path, name: str, rows: Text, page: Text, draw: Draw) -> None:

@@ -21,7 +21,13 @@ from pathlib import Path
 
 from hydroelastic.benchmarks.cases import Code
 
-PEER_MODULES: dict[Code, str] = {"ngsolve": "ngsolve", "scikit-fem": "skfem", "capytaine": "capytaine"}
+PEER_MODULES: dict[Code, str] = {
+    "ngsolve": "ngsolve",
+    "scikit-fem": "skfem",
+    "capytaine": "capytaine",
+    "moorpy": "moorpy",
+    "moordyn": "moordyn",
+}
 EXTRA = "bench"
 _KEPT = ("numpy", "scipy")
 _MOST_SECONDS = 1800

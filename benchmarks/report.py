@@ -24,6 +24,10 @@ NAMES: dict[Code, str] = {
     "string field": "field solution",
     "string series": "series, cut smoothly",
     "string sum": "series, cut sharply",
+    "thread field": "hydroelastic, field",
+    "thread catenary": "hydroelastic, closed form",
+    "moorpy": "MoorPy",
+    "moordyn": "MoorDyn",
 }
 ERRORS = (1e-4, 1e-6, 1e-8, 1e-9, 1e-10)
 COMPARED: tuple[Code, ...] = ("ngsolve", "scikit-fem", "lower bound")

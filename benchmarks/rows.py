@@ -7,10 +7,11 @@ from statistics import median, quantiles
 
 import numpy as np
 
-from hydroelastic.benchmarks.cases import CIRCLE_CODES, STRING_CODES, Answer, Case
+from hydroelastic.benchmarks.cases import CIRCLE_CODES, STRING_CODES, THREAD_CODES, Answer, Case
 from hydroelastic.benchmarks.circle import circle_error
 from hydroelastic.benchmarks.strings import string_error
 from hydroelastic.benchmarks.tanks import tank_named
+from hydroelastic.benchmarks.threads import thread_error
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -20,8 +21,8 @@ class Row:
     Attributes:
         case: what was solved.
         unknowns: as the answer says.
-        error: largest relative error of the ten lowest frequencies, of heave and sway of the circle, or of the
-            displacements of the string, relative to the largest one.
+        error: largest relative error of the ten lowest frequencies, of heave and sway of the circle, of the
+            displacements of the string relative to the largest one, or that of a thread that `thread_error` tells.
         seconds: of each round.
         stages: seconds by stage in the last round.
         note: what else the code says.
@@ -65,4 +66,6 @@ def _error(case: Case, answer: Answer) -> float:
         return circle_error(case.tank, answer.values)
     if case.code in STRING_CODES:
         return string_error(case.tank, answer.values)
+    if case.code in THREAD_CODES:
+        return thread_error(case.tank, answer.values)
     return float(np.abs(np.array(answer.values) / np.array(tank_named(case.tank).frequencies) - 1.0).max())

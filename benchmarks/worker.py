@@ -32,6 +32,10 @@ MODULES = {
     "string field": "hydroelastic_string",
     "string series": "hydroelastic_string",
     "string sum": "hydroelastic_string",
+    "thread field": "hydroelastic_thread",
+    "thread catenary": "hydroelastic_thread",
+    "moorpy": "moorpy_thread",
+    "moordyn": "moordyn_thread",
 }
 
 

@@ -12,13 +12,8 @@ from open_circle import radiation
 from hydroelastic.benchmarks import hydroelastic_circle
 from hydroelastic.benchmarks.cases import Case, Variant
 from hydroelastic.benchmarks.circle import CIRCLE, circle_cases, circle_error
-from hydroelastic.benchmarks.circle_report import (
-    CIRCLE_COLUMNS,
-    best_of_peer,
-    circle_csv,
-    circle_markdown,
-    fastest_as_good,
-)
+from hydroelastic.benchmarks.circle_report import CIRCLE_COLUMNS, OWN, PEER, circle_csv, circle_markdown
+from hydroelastic.benchmarks.equal_error import best_of, fastest_as_good
 from hydroelastic.benchmarks.measure import Benchmark
 from hydroelastic.benchmarks.output import CIRCLE_NAME, write_circle
 from hydroelastic.benchmarks.peers import PeerError, peer_folder
@@ -89,11 +84,11 @@ def test_capytaine_comes_near_and_two_lengths_come_nearer() -> None:
 
 
 def test_what_is_chosen_of_the_peer_and_what_is_set_beside_it() -> None:
-    best = best_of_peer(ROWS, NAME)
+    best = best_of(ROWS, PEER, NAME)
     assert [row.error for row in best] == [5e-2, 1e-2, 5e-6]
-    own = [fastest_as_good(ROWS, row) for row in best]
+    own = [fastest_as_good(ROWS, row, OWN) for row in best]
     assert [row.median for row in own if row] == [0.2, 0.2, 0.3]
-    assert fastest_as_good(ROWS, peer_row(80.0, "two lengths", 9.0, 1e-7)) is None
+    assert fastest_as_good(ROWS, peer_row(80.0, "two lengths", 9.0, 1e-7), OWN) is None
 
 
 def test_what_is_written(tmp_path: Path) -> None:

@@ -80,7 +80,14 @@ def test_without_installation_the_cache_is_not_touched(empty_cache: Path) -> Non
 
 
 @pytest.mark.parametrize(
-    ("code", "declared"), [("ngsolve", "ngsolve>="), ("scikit-fem", "scikit-fem>="), ("capytaine", "capytaine>=")]
+    ("code", "declared"),
+    [
+        ("ngsolve", "ngsolve>="),
+        ("scikit-fem", "scikit-fem>="),
+        ("capytaine", "capytaine>="),
+        ("moorpy", "moorpy>="),
+        ("moordyn", "moordyn>="),
+    ],
 )
 def test_pip_gets_the_declared_range_and_keeps_numpy(
     code: Code, declared: str, empty_cache: Path, monkeypatch: pytest.MonkeyPatch
@@ -128,7 +135,7 @@ def test_a_cache_that_cannot_be_written_is_told(empty_cache: Path) -> None:
 def test_no_other_folder_imports_the_benchmark_or_its_peers() -> None:
     program = (
         "import sys, hydroelastic.scenes.command_line, hydroelastic.modal\n"
-        "names = ('ngsolve', 'netgen', 'skfem', 'capytaine', 'hydroelastic.benchmarks')\n"
+        "names = ('ngsolve', 'netgen', 'skfem', 'capytaine', 'moorpy', 'moordyn', 'hydroelastic.benchmarks')\n"
         "wrong = [n for n in sys.modules if n.startswith(names)]\n"
         "print(*wrong)\n"
     )

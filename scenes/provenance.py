@@ -1,11 +1,12 @@
-"""What a summary says of how its numbers came about: versions and memory."""
+"""What a summary says of how its numbers came about: status, size, seconds, versions and memory."""
 
 from __future__ import annotations
 
 import platform
 import resource
+from collections.abc import Sequence
 from importlib.metadata import PackageNotFoundError, version
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 if TYPE_CHECKING:
     from mpi4py import MPI
@@ -35,3 +36,46 @@ def memory_of_processes(comm: MPI.Comm) -> int:
 def memory_of_process() -> int:
     """Return the peak resident memory of this process, bytes."""
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
+
+
+class Solved(Protocol):
+    """What the solution of any scene tells of itself."""
+
+    @property
+    def scene(self) -> Any:
+        """The scene."""
+
+    @property
+    def reasons(self) -> Sequence[str]:
+        """Why it does not keep what was asked; empty if it does."""
+
+    @property
+    def seconds(self) -> dict[str, float]:
+        """Time by stage."""
+
+
+def framed_summary(
+    solution: Solved, content: Summary, size: dict[str, int], comm: MPI.Comm, import_seconds: float
+) -> Summary:
+    """Put what every summary has about the content of one (collective: peak memory is summed over processes).
+
+    Args:
+        solution: of the scene.
+        content: what the kind of the scene has of its own.
+        size: of the problem that was solved.
+        comm: the processes.
+        import_seconds: time spent importing libraries.
+
+    Returns:
+        The content of ``summary.json``.
+    """
+    return {
+        "scene": solution.scene.model_dump(mode="json"),
+        "status": "unconverged" if solution.reasons else "ok",
+        "reasons": list(solution.reasons),
+        **content,
+        "size": {**size, "processes": comm.size},
+        "timing": {"import": import_seconds, **solution.seconds},
+        "memory_peak": memory_of_processes(comm),
+        "versions": versions(),
+    }

@@ -7,7 +7,7 @@ from math import degrees, exp, pi
 from typing import TYPE_CHECKING, Any
 
 from hydroelastic.modal.roll import Roll
-from hydroelastic.scenes.provenance import Summary, memory_of_processes, versions
+from hydroelastic.scenes.provenance import Summary, framed_summary
 from hydroelastic.scenes.roll_solve import RollSolution
 
 if TYPE_CHECKING:
@@ -27,10 +27,7 @@ def summarize_roll(solution: RollSolution, comm: MPI.Comm, *, import_seconds: fl
     """
     statistics, levels = solution.statistics, solution.scene.output.levels
     largest = abs(statistics.largest_angle)
-    return {
-        "scene": solution.scene.model_dump(mode="json"),
-        "status": "unconverged" if solution.reasons else "ok",
-        "reasons": list(solution.reasons),
+    content = {
         "ship": _ship(solution),
         "free_decay": free_decay(solution.roll),
         "section": asdict(solution.section) if solution.section is not None else None,
@@ -48,11 +45,14 @@ def summarize_roll(solution: RollSolution, comm: MPI.Comm, *, import_seconds: fl
             "significant_angle": statistics.significant_angle,
             "exceedances": [{"level": level, "swings": statistics.swings_above(level)} for level in levels],
         },
-        "size": {"times": len(solution.motion.times), "waves": len(solution.train.periods), "processes": comm.size},
-        "timing": {"import": import_seconds, **solution.seconds},
-        "memory_peak": memory_of_processes(comm),
-        "versions": versions(),
     }
+    return framed_summary(
+        solution,
+        content,
+        {"times": len(solution.motion.times), "waves": len(solution.train.periods)},
+        comm,
+        import_seconds,
+    )
 
 
 def _ship(solution: RollSolution) -> dict[str, Any]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from hydroelastic.modal.string_resonance import nearest_resonance
 from hydroelastic.scenes.model_string import SineMotion
-from hydroelastic.scenes.provenance import Summary, memory_of_processes, versions
+from hydroelastic.scenes.provenance import Summary, framed_summary
 from hydroelastic.scenes.string_fronts import BESIDE
 from hydroelastic.scenes.string_results import StringMotions, StringSolution
 from hydroelastic.scenes.string_series import closed_form
@@ -30,20 +30,14 @@ def summarize_string(solution: StringSolution, comm: MPI.Comm, *, import_seconds
         The content of ``summary.json``.
     """
     scene = solution.scene
-    return {
-        "scene": scene.model_dump(mode="json"),
-        "status": "unconverged" if solution.reasons else "ok",
-        "reasons": list(solution.reasons),
+    content = {
         "method": scene.method,
         "string": _string(solution),
         "modes": modes(solution.motions),
         "response": _response(solution),
         "steady": _steady(solution),
-        "size": {**solution.size, "processes": comm.size},
-        "timing": {"import": import_seconds, **solution.seconds},
-        "memory_peak": memory_of_processes(comm),
-        "versions": versions(),
     }
+    return framed_summary(solution, content, solution.size, comm, import_seconds)
 
 
 def _string(solution: StringSolution) -> dict[str, Any]:

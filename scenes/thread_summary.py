@@ -9,7 +9,7 @@ import numpy as np
 
 from hydroelastic.fem.thread_modes import Roots, ThreadModes
 from hydroelastic.fem.thread_stability import Stability
-from hydroelastic.scenes.provenance import Summary, memory_of_processes, versions
+from hydroelastic.scenes.provenance import Summary, framed_summary
 from hydroelastic.scenes.thread_results import FollowedMotion, ThreadSolutionOfScene
 
 if TYPE_CHECKING:
@@ -28,10 +28,7 @@ def summarize_thread(solution: ThreadSolutionOfScene, comm: MPI.Comm, *, import_
         The content of ``summary.json``.
     """
     scene = solution.scene
-    return {
-        "scene": scene.model_dump(mode="json"),
-        "status": "unconverged" if solution.reasons else "ok",
-        "reasons": list(solution.reasons),
+    content = {
         "thread": {
             "weight": scene.weight,
             "normal_drag": scene.normal_drag,
@@ -43,11 +40,8 @@ def summarize_thread(solution: ThreadSolutionOfScene, comm: MPI.Comm, *, import_
         "modes": [_modes(modes) for modes in solution.modes],
         "stability": [_stability(sweep) for sweep in solution.stability],
         "motion": [_motion(motion) for motion in solution.motions],
-        "size": {**solution.size, "processes": comm.size},
-        "timing": {"import": import_seconds, **solution.seconds},
-        "memory_peak": memory_of_processes(comm),
-        "versions": versions(),
     }
+    return framed_summary(solution, content, solution.size, comm, import_seconds)
 
 
 def _equilibrium(solution: ThreadSolutionOfScene) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 import json
 import xml.etree.ElementTree as ElementTree
+from dataclasses import replace
 from math import cos, sin
 from pathlib import Path
 from typing import Any
@@ -200,6 +201,16 @@ def test_slack_in_a_motion_is_said_loudly() -> None:
     assert outcome.status == "unconverged"
     assert "compression" in " ".join(outcome.reasons)
     assert "SLACK" in outcome.tables
+
+
+def test_a_motion_of_unknown_tensions_is_said_to_be_so() -> None:
+    overrides = ("output.frames=0", 'analysis=[{kind = "motion", times = [0.0, 0.1], step = 0.05, tolerance = 0.1}]')
+    solution = solve(thread_scene("released_chain", *overrides))
+    (motion,) = solution.motions
+    assert solution.reasons == ()
+    unknown = replace(motion, tension_error=0.11 * float(np.max(motion.tensions)))
+    (reason,) = replace(solution, motions=(unknown,)).reasons
+    assert "estimated error of tensions" in reason
 
 
 def test_stream_that_starts_ends_in_the_equilibrium() -> None:

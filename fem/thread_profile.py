@@ -93,12 +93,11 @@ class ThreadProfile:
     def reactions(self) -> NDArray[np.float64]:
         """Forces on the thread by what holds its ends A and B, N, shape (2, dimension); zero where nothing is held."""
         ends = self.position_table.at(self.nodes[[0, -1]])
-        axes = [0, 2] if self.model.dimension == 2 else [0, 1, 2]
         pulls = np.array([-self.force[0, 0], self.force[-1, 1]])
         for index, end in enumerate(self.model.ends):
             carried = end.load.force
             if end.load.drag > 0.0 and self.model.stream is not None:
-                velocity = self.model.stream.velocity_at(in_space(ends[[index]]))[0, axes]
+                velocity = _velocity(self.model, ends[[index]])[0]
                 carried = carried + end.load.drag * np.linalg.norm(velocity) * velocity
             pulls[index] = np.where(end.held, pulls[index] - carried, 0.0)
         return pulls

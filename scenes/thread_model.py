@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from math import inf
 from typing import Any
 
@@ -26,12 +27,16 @@ class _StreamInFrame:
     stream: Stream
     frame: Frame
 
+    @cached_property
+    def _axes(self) -> Array:
+        return Frame(self.frame.direction, 3).axes
+
     def velocity_at(self, points: Array) -> Array:
-        axes = Frame(self.frame.direction, 3).axes
+        axes = self._axes
         return np.asarray(self.stream.velocity_at(points @ axes) @ axes.T)
 
     def gradient_at(self, points: Array) -> Array:
-        axes = Frame(self.frame.direction, 3).axes
+        axes = self._axes
         return np.asarray(axes @ self.stream.gradient_at(points @ axes) @ axes.T)
 
 

@@ -9,6 +9,7 @@ from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.thread_equilibrium import Equilibrium, Start
 from hydroelastic.fem.thread_hyperbolicity import IllPosedError
 from hydroelastic.fem.thread_modes import ThreadModes, thread_modes
+from hydroelastic.fem.thread_motion_errors import halved
 from hydroelastic.fem.thread_newton import ThreadSolverError
 from hydroelastic.fem.thread_profile import start_from, thread_profile
 from hydroelastic.fem.thread_refinement import ThreadSolution
@@ -48,7 +49,7 @@ def modes_of(
             worst = float(np.max(found.oscillating.errors / np.abs(found.oscillating.values), initial=0.0))
             if worst <= scene.accuracy.tolerance or halving == _MOST_HALVINGS:
                 break
-            nodes = np.sort(np.concatenate([nodes, 0.5 * (nodes[1:] + nodes[:-1])]))
+            nodes = halved(nodes)
             coarse, fine = fine, equilibrium_on(comm, scene, frame, nodes, start, degree)
     except IllPosedError as error:
         raise UnsolvedError(f"the modes are ill-posed: {error}") from error

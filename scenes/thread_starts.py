@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf
 from typing import Protocol
 
@@ -13,7 +13,6 @@ from scipy.optimize import brentq
 
 from hydroelastic.modal.dry_modes import FloatArray
 from hydroelastic.modal.thread_catenary import catenary_between, elastic_catenary
-from hydroelastic.modal.thread_load import ThreadLoad
 from hydroelastic.modal.thread_march import Force, MarchedThread, march_back, march_tail
 from hydroelastic.modal.thread_shape import NoTensionError, ThreadShape
 from hydroelastic.modal.thread_taut import taut_thread
@@ -101,14 +100,7 @@ def _between(scene: ThreadScene) -> Iterator[tuple[str, Callable[[], _ShapeAt]]]
 def _drag_on_chord(scene: ThreadScene, a: FloatArray, b: FloatArray) -> FloatArray:
     """Drag by length of a straight thread between the ends, at their middle."""
     chord = b - a
-    load = load_of(scene)
-    drag = ThreadLoad(
-        weight=0.0,
-        normal_drag=load.normal_drag,
-        tangential_drag=load.tangential_drag,
-        viscous_drag=load.viscous_drag,
-        stream=load.stream,
-    )
+    drag = replace(load_of(scene), weight=0.0)
     return drag.load((a + b)[None] / 2.0, (chord / max(float(np.linalg.norm(chord)), 1e-300))[None])[0]
 
 

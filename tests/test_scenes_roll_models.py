@@ -4,21 +4,19 @@ from math import pi
 from pathlib import Path
 
 import pytest
+from scene_files import read_written
 
 from hydroelastic.modal.roll_quadratic import LEAST_TOLERANCE
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.model_roll import RollScene
 from hydroelastic.scenes.model_roll_checks import LEAST_QUADRATIC_TOLERANCE
-from hydroelastic.scenes.read import read_scene
 
 SHIP = 'kind = "roll"\n[roll]\nnatural_period = 12.0\n'
 WAVE = "[[wave]]\nperiod = 8.0\nslope = 0.1\n"
 
 
 def read(tmp_path: Path, text: str) -> RollScene:
-    file = tmp_path / "scene.toml"
-    file.write_text(text, encoding="utf-8")
-    scene = read_scene(file)
+    scene = read_written(tmp_path, text)
     assert isinstance(scene, RollScene)
     return scene
 

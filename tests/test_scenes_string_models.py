@@ -3,10 +3,10 @@
 from pathlib import Path
 
 import pytest
+from scene_files import read_written
 
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.model_string import StringScene
-from hydroelastic.scenes.read import read_scene
 
 STRING = """kind = "string"
 [string]
@@ -17,9 +17,7 @@ SINE = STRING + '[motion]\nkind = "sine"\namplitude = 0.1\nomega = 3.0\n'
 
 
 def read(tmp_path: Path, text: str) -> StringScene:
-    file = tmp_path / "scene.toml"
-    file.write_text(text, encoding="utf-8")
-    scene = read_scene(file)
+    scene = read_written(tmp_path, text)
     assert isinstance(scene, StringScene)
     return scene
 

@@ -3,11 +3,11 @@
 from pathlib import Path
 
 import pytest
+from scene_files import read_written
 
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.model_thread import ThreadScene
 from hydroelastic.scenes.model_thread_checks import MOST_LOADS
-from hydroelastic.scenes.read import read_scene
 
 HEAD = 'kind = "thread"\n'
 THREAD = "[thread]\nlength = 2.0\nweight = 1.0\n"
@@ -21,9 +21,7 @@ LIMP = "axial_rigidity = 1e6"
 
 
 def read(tmp_path: Path, *parts: str) -> ThreadScene:
-    file = tmp_path / "scene.toml"
-    file.write_text(HEAD + "".join(parts), encoding="utf-8")
-    scene = read_scene(file)
+    scene = read_written(tmp_path, HEAD + "".join(parts))
     assert isinstance(scene, ThreadScene)
     return scene
 

@@ -5,7 +5,7 @@ building='' # the unfinished folder, if any
 
 open_lock() {
     if ! { mkdir -p -- "$cache" && : >>"$cache/lock"; } 2>/dev/null; then
-        fail "cannot write to the cache $cache; set HYDROELASTIC_CACHE to a folder with 4 GB of room"
+        fail "cannot write to the cache $cache; set HYDROELASTIC_CACHE to a folder with 5 GB of room"
     fi
     exec 9>>"$cache/lock"
 }

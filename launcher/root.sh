@@ -5,10 +5,10 @@ source "$checkout/launcher/mirror.sh"
 
 make_root() {
     install_what_root_needs
-    need_room 4000
+    need_room 4500
     find_mirror
     new_building
-    timed "a private Debian root ($suite, 2.4 GB, about two minutes) in $root" run_mmdebstrap
+    timed "a private Debian root ($suite, 2.9 GB, about two minutes) in $root" run_mmdebstrap
     # What `inside` binds must exist, because the root is bound read-only.
     mkdir -p -- "$building"/etc/ssl "$building"/{tmp,proc,sys,dev,var/tmp}
     touch -- "$building"/etc/{resolv.conf,hosts,passwd,group,pip.conf}

@@ -6,7 +6,7 @@ make_venv() {
     new_building
     local above="the private root" file
     if [[ $way == active ]]; then above="$python_executable with dolfinx $dolfinx_version"; fi
-    timed "the Python packages above $above (0.8 GB, about a minute) in $venv" build_venv
+    timed "the Python packages above $above (1.1 GB, about a minute) in $venv" build_venv
     # Scripts name the folder in which they were installed; it is about to get its lasting name.
     for file in "$building"/bin/* "$building"/pyvenv.cfg; do
         if [[ -f $file && ! -L $file ]] && grep -qIF -- "$building" "$file"; then

@@ -13,8 +13,8 @@ from __future__ import annotations
 import numpy as np
 from mpi4py import MPI
 
-from hydroelastic.fem.complex_scaling import complex_product
-from hydroelastic.fem.open_pencil import OpenPencil
+from hydroelastic.fem.open_water.complex_scaling import complex_product
+from hydroelastic.fem.open_water.pencil import OpenPencil
 
 # What is left of a vector after the basis is taken out, below which it says nothing new.
 _DEPENDENT = 1e-11

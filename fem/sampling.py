@@ -63,20 +63,29 @@ class SurfaceTrace:
         )
 
 
-def sample_liquid(liquid: LiquidSpace, functions: list[fem.Function]) -> LiquidSample | None:
+def sample_liquid(
+    liquid: LiquidSpace, functions: list[fem.Function], chosen: NDArray[np.int32] | None = None
+) -> LiquidSample | None:
     """Evaluate ψ and ∇ψ on a subdivision of each cell, finer in larger cells.
+
+    Args:
+        liquid: the space of ψ.
+        functions: ψ of each mode.
+        chosen: cells that this process owns; all of them by default.
 
     Returns:
         The sample on rank 0, ``None`` elsewhere (collective).
     """
     mesh = liquid.tank.mesh
-    corners = cell_corners(mesh, owned_cells(mesh))
+    if chosen is None:
+        chosen = owned_cells(mesh)
+    corners = cell_corners(mesh, chosen)
     size = np.sqrt(np.abs(np.linalg.det(corners[:, 1:] - corners[:, :1])))
     largest = mesh.comm.allreduce(size.max(initial=0.0), op=MPI.MAX)
     levels = np.select([size > 0.25 * largest, size > 0.05 * largest, size > 0.01 * largest], [10, 6, 4], 2)
     pieces = []
     for level in np.unique(levels):
-        cells = np.flatnonzero(levels == level)
+        cells = chosen[levels == level]
         pieces.append(_sample_cells(liquid, functions, cells, int(level)))
     gathered = mesh.comm.gather(pieces, root=0)
     if gathered is None:

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from typing import Any
 
+from dolfinx.mesh import GhostMode, create_cell_partitioner
+
 try:  # dolfinx >= 0.10
     from dolfinx.io import distribute_entity_data
 except ImportError:
     from dolfinx.io.utils import distribute_entity_data
 
-__all__ = ["coordinate_degree", "distribute_entity_data", "geometry_dofmap"]
+__all__ = ["cell_partitioner", "coordinate_degree", "distribute_entity_data", "geometry_dofmap"]
 
 
 def geometry_dofmap(mesh: Any) -> Any:
@@ -23,3 +25,11 @@ def coordinate_degree(mesh: Any) -> int:
     cmaps = getattr(mesh.geometry, "cmaps", None)
     cmap = mesh.geometry.cmap if cmaps is None or callable(cmaps) else cmaps[0]
     return int(cmap.degree)
+
+
+def cell_partitioner(mode: GhostMode) -> Any:
+    """What hands the cells of a mesh to processes; from 0.11 on it must be told how many cells a facet may have."""
+    try:
+        return create_cell_partitioner(mode)
+    except TypeError:
+        return create_cell_partitioner(mode, 2)

@@ -12,9 +12,11 @@ from itertools import pairwise
 
 import basix.ufl
 import numpy as np
-from dolfinx.mesh import GhostMode, Mesh, create_cell_partitioner, create_mesh
+from dolfinx.mesh import GhostMode, Mesh, create_mesh
 from mpi4py import MPI
 from numpy.typing import NDArray
+
+from hydroelastic.meshes.compat import cell_partitioner
 
 # By which c² changes over an element at most, unless it vanishes at one end: a polynomial of degree n on an element
 # from d to 4d away from a logarithm converges like 3^{−n}.
@@ -83,4 +85,4 @@ def line_mesh(comm: MPI.Comm, nodes: NDArray[np.float64], *, ghosts: bool = Fals
     else:
         cells, points = np.empty((0, 2), dtype=np.int64), np.empty((0, 1))
     mode = GhostMode.shared_facet if ghosts else GhostMode.none
-    return create_mesh(comm, cells=cells, x=points, e=element, partitioner=create_cell_partitioner(mode))
+    return create_mesh(comm, cells=cells, x=points, e=element, partitioner=cell_partitioner(mode))

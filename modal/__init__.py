@@ -1,6 +1,6 @@
 """Closed forms and estimates of the older theories: NumPy and SciPy only."""
 
-from hydroelastic.modal.added_mass import (
+from hydroelastic.modal.beam.added_mass import (
     deep_open_added_mass,
     deep_open_constant,
     lid_added_mass,
@@ -10,8 +10,23 @@ from hydroelastic.modal.added_mass import (
     shallow_constant,
     strip_added_mass,
 )
-from hydroelastic.modal.channel_motion import channel_free_motion, channel_resonance
-from hydroelastic.modal.dry_modes import free_free_roots, free_free_shape, free_free_wavenumber
+from hydroelastic.modal.beam.dry_modes import free_free_roots, free_free_shape, free_free_wavenumber
+from hydroelastic.modal.beam.estimates import all_estimates
+from hydroelastic.modal.beam.floating_beam import FloatingBeam
+from hydroelastic.modal.beam.grammel import BeamQuotients, QuotientPair, beam_quotients, quotients
+from hydroelastic.modal.beam.grammel_terms import best_term, one_term_root, term_tones
+from hydroelastic.modal.beam.gravity_added_mass import gravity_added_mass, gravity_tones
+from hydroelastic.modal.beam.paper_model import ERRATA, Erratum, PrintedAndCorrected
+from hydroelastic.modal.beam.pressure_release import pressure_release_added_mass
+from hydroelastic.modal.beam.rayleigh import (
+    pressure_release_tones,
+    rayleigh,
+    rayleigh_dry_mode,
+    rayleigh_lid,
+    rayleigh_pressure_release,
+    rayleigh_pressure_release_dry_mode,
+)
+from hydroelastic.modal.beam.tone_pencil import Tones
 from hydroelastic.modal.estimate import (
     Bound,
     Estimate,
@@ -20,35 +35,46 @@ from hydroelastic.modal.estimate import (
     frequency_from_added_mass,
     paper_equivalent_mass,
 )
-from hydroelastic.modal.estimates import all_estimates
-from hydroelastic.modal.float_box import BoxModes, FloatMode, box_modes, float_mode
-from hydroelastic.modal.float_estimates import FloatEstimate, all_float_estimates
-from hydroelastic.modal.float_in_tank import FloatInTank
-from hydroelastic.modal.float_profiles import FloatShape, Profile, ProfileArc, float_profile
-from hydroelastic.modal.floating_beam import FloatingBeam
-from hydroelastic.modal.grammel import BeamQuotients, QuotientPair, beam_quotients, quotients
-from hydroelastic.modal.grammel_terms import best_term, one_term_root, term_tones
-from hydroelastic.modal.gravity_added_mass import gravity_added_mass, gravity_tones
-from hydroelastic.modal.hanging_string import HangingString
-from hydroelastic.modal.open_float import OpenFloatEstimate, open_float_estimate, released_float
-from hydroelastic.modal.paper_model import ERRATA, Erratum, PrintedAndCorrected
-from hydroelastic.modal.pressure_release import pressure_release_added_mass
-from hydroelastic.modal.rayleigh import (
-    pressure_release_tones,
-    rayleigh,
-    rayleigh_dry_mode,
-    rayleigh_lid,
-    rayleigh_pressure_release,
-    rayleigh_pressure_release_dry_mode,
-)
-from hydroelastic.modal.rigid_limits import (
+from hydroelastic.modal.floats.box import BoxModes, FloatMode, box_modes, float_mode
+from hydroelastic.modal.floats.channel_motion import channel_free_motion, channel_resonance
+from hydroelastic.modal.floats.estimates import FloatEstimate, all_float_estimates
+from hydroelastic.modal.floats.in_tank import FloatInTank
+from hydroelastic.modal.floats.open_float import OpenFloatEstimate, open_float_estimate, released_float
+from hydroelastic.modal.floats.profiles import FloatShape, Profile, ProfileArc, float_profile
+from hydroelastic.modal.floats.rigid_limits import (
     RigidAddedMass,
     half_immersed_ellipse,
     interface_ellipse,
     section_heave_added_mass,
 )
-from hydroelastic.modal.roll import LinearRollPath, Roll, RollMotion, WaveTrain, roll_path, roll_response
-from hydroelastic.modal.roll_decrement import (
+from hydroelastic.modal.floats.thin_float import (
+    ThinConstants,
+    thin_constants,
+    thin_float_added_mass,
+    thin_float_frequency,
+    thin_float_mass,
+    thin_float_stiffness,
+)
+from hydroelastic.modal.floats.thin_float_decay import FreeMotion, crossover_time, free_motion, free_motion_tail
+from hydroelastic.modal.floats.thin_float_paper import THIN_FLOAT_ERRATA, printed_constants
+from hydroelastic.modal.floats.thin_float_radiation import HeaveRadiation, complex_added_mass, thin_float_radiation
+from hydroelastic.modal.floats.thin_float_resonance import FreePole, heave_pole, pole_count, second_pole
+from hydroelastic.modal.liquid.sloshing import (
+    deep_sloshing_frequencies,
+    guided_cover_frequencies,
+    shallow_sloshing_frequencies,
+    sloshing_frequencies,
+)
+from hydroelastic.modal.liquid.two_layer import (
+    Branch,
+    InterfacePlate,
+    LayerMode,
+    LayerTop,
+    TwoLayers,
+    interface_frequencies,
+    tank_modes,
+)
+from hydroelastic.modal.roll.decrement import (
     FroudeCoefficients,
     damping_from_froude,
     equivalent_roll_damping,
@@ -58,43 +84,17 @@ from hydroelastic.modal.roll_decrement import (
     quadratic_decrement,
     swing_amplitudes,
 )
-from hydroelastic.modal.roll_knots import RollPath
-from hydroelastic.modal.roll_paper import ROLL_ERRATA, RollSlip, paper_roll_angle, printed_roll_constants
-from hydroelastic.modal.roll_quadratic import QuadraticRollPath, quadratic_roll_path
-from hydroelastic.modal.roll_statistics import RollStatistics, roll_statistics
-from hydroelastic.modal.sloshing import (
-    deep_sloshing_frequencies,
-    guided_cover_frequencies,
-    shallow_sloshing_frequencies,
-    sloshing_frequencies,
-)
-from hydroelastic.modal.string_motions import Given, Motion, Ramp, Sine, Smooth, Step, sampled, tabulated
-from hydroelastic.modal.string_paper import STRING_ERRATA
-from hydroelastic.modal.string_partial_sum import partial_sum
-from hydroelastic.modal.string_resonance import StringResonance, nearest_resonance, string_resonance
-from hydroelastic.modal.string_response import StringResponse, string_response
-from hydroelastic.modal.thin_float import (
-    ThinConstants,
-    thin_constants,
-    thin_float_added_mass,
-    thin_float_frequency,
-    thin_float_mass,
-    thin_float_stiffness,
-)
-from hydroelastic.modal.thin_float_decay import FreeMotion, crossover_time, free_motion, free_motion_tail
-from hydroelastic.modal.thin_float_paper import THIN_FLOAT_ERRATA, printed_constants
-from hydroelastic.modal.thin_float_radiation import HeaveRadiation, complex_added_mass, thin_float_radiation
-from hydroelastic.modal.thin_float_resonance import FreePole, heave_pole, pole_count, second_pole
-from hydroelastic.modal.tone_pencil import Tones
-from hydroelastic.modal.two_layer import (
-    Branch,
-    InterfacePlate,
-    LayerMode,
-    LayerTop,
-    TwoLayers,
-    interface_frequencies,
-    tank_modes,
-)
+from hydroelastic.modal.roll.knots import RollPath
+from hydroelastic.modal.roll.motion import LinearRollPath, Roll, RollMotion, WaveTrain, roll_path, roll_response
+from hydroelastic.modal.roll.paper import ROLL_ERRATA, RollSlip, paper_roll_angle, printed_roll_constants
+from hydroelastic.modal.roll.quadratic import QuadraticRollPath, quadratic_roll_path
+from hydroelastic.modal.roll.statistics import RollStatistics, roll_statistics
+from hydroelastic.modal.string.hanging_string import HangingString
+from hydroelastic.modal.string.motions import Given, Motion, Ramp, Sine, Smooth, Step, sampled, tabulated
+from hydroelastic.modal.string.paper import STRING_ERRATA
+from hydroelastic.modal.string.partial_sum import partial_sum
+from hydroelastic.modal.string.resonance import StringResonance, nearest_resonance, string_resonance
+from hydroelastic.modal.string.response import StringResponse, string_response
 
 __all__ = [
     "ERRATA",

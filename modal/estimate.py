@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
-from hydroelastic.modal.floating_beam import FloatingBeam
+from hydroelastic.modal.beam.floating_beam import FloatingBeam
 
 Bound = Literal["above_mode_index", "above_pressure_release_tone", "none"]
 """``above_mode_index``: not below the exact frequency number ``mode_index`` (zero modes not counted);

@@ -1,0 +1,1 @@
+"""Waves that leave: complex scaling, resonances, the far field."""

@@ -1,0 +1,98 @@
+"""The amplitudes of outgoing waves, from ψ in a band between the bodies and the sides of the basin.
+
+For a solution φ of Laplace's equation that keeps every condition of the undisturbed liquids, like an incident wave, the
+integral
+
+    I(φ) = ∫ρ (φ ∂ψ/∂n − ψ ∂φ/∂n)
+
+is the same over all surfaces around the bodies. With a function χ that is 1 at the bodies and 0 at the basin's sides it
+becomes an integral over the band in which χ falls, I(φ) = ∫ρ ∇χ·(φ∇ψ − ψ∇φ), to which only the field there
+contributes. χ is linear in the cells, and the integral converges as fast as energies do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import basix
+import numpy as np
+from mpi4py import MPI
+
+from hydroelastic.fem.cells import CURVED_QUADRATURE, cell_corners, cell_jacobians, cell_positions, owned_cells
+from hydroelastic.fem.liquid import as_functions
+from hydroelastic.fem.open_water.pencil import OpenPencil
+
+Field = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
+"""From points (..., gdim) and the layer of each (...) to a complex φ (...) and its gradient (..., gdim)."""
+
+
+class FarField:
+    """Fluxes I(φ) of solutions ψ.
+
+    Args:
+        pencil: the problem.
+        low: lower bounds of the basin, one for each axis; −∞ where it ends at a bed.
+        high: upper bounds; ∞ where it ends at a top.
+    """
+
+    def __init__(self, pencil: OpenPencil, low: tuple[float, ...], high: tuple[float, ...]) -> None:
+        """Find the cells of the band (collective)."""
+        liquid, mesh = pencil.liquid, pencil.liquid.tank.mesh
+        cells = owned_cells(mesh)
+        corners = cell_corners(mesh, cells)
+        inside = np.all((corners > np.array(low)) & (corners < np.array(high)), axis=2)
+        middle = corners.mean(axis=1)
+        within = np.all((middle > np.array(low)) & (middle < np.array(high)), axis=1)
+        band = within & inside.any(axis=1) & ~inside.all(axis=1)
+        self._pencil = pencil
+        self._cells = cells[band]
+        element = liquid.space.element.basix_element
+        points, self._weights = basix.make_quadrature(element.cell_type, 2 * liquid.degree + CURVED_QUADRATURE)
+        table = element.tabulate(1, points)[..., 0]
+        self._basis, self._slopes = table[0], table[1:]
+        self._points = cell_positions(mesh, self._cells, points)
+        jacobians = cell_jacobians(mesh, self._cells, points)
+        self._inverse = np.broadcast_to(np.linalg.inv(jacobians), (*self._points.shape[:2], *jacobians.shape[2:]))
+        self._measure = np.abs(np.linalg.det(jacobians))
+        # The corners of straight cells; those at the basin's sides lie on straight ones.
+        reference = basix.geometry(element.cell_type)
+        linear = np.vstack([np.ones(len(reference)), reference.T])
+        gradients = np.linalg.inv(linear)[:, 1:]
+        chi = np.einsum("cv,vd->cd", inside[band].astype(float), gradients)
+        self._chi = np.einsum("cqde,cd->cqe", self._inverse, chi)
+        self._layers = liquid.layer_of[liquid.space.dofmap.list[self._cells, 0]]
+        self._densities = np.array([layer.density for layer in liquid.layers])[self._layers]
+
+    def fluxes(self, potentials: np.ndarray, fields: list[Field]) -> np.ndarray:
+        """I(φ) of every ψ.
+
+        Args:
+            potentials: ψ on the own free unknowns, shape (potentials, unknowns).
+            fields: the functions φ.
+
+        Returns:
+            Shape (fields, potentials) (collective).
+        """
+        total = np.zeros((len(fields), len(potentials)), dtype=complex)
+        values = [self._values(potential) for potential in potentials]
+        layers = np.broadcast_to(self._layers[:, None], self._points.shape[:2])
+        weights = self._measure * self._weights * self._densities[:, None]
+        for row, field in enumerate(fields):
+            phi, gradient = field(self._points, layers)
+            for column, (psi, slope) in enumerate(values):
+                flux = (self._chi * (phi[..., None] * slope - psi[..., None] * gradient)).sum(axis=2)
+                total[row, column] = np.sum(weights * flux)
+        self._pencil.comm.Allreduce(MPI.IN_PLACE, total)
+        return total
+
+    def _values(self, potential: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """ψ and ∇ψ at the points of the band."""
+        local = self._with_ghosts(potential)[self._pencil.liquid.space.dofmap.list[self._cells]]
+        reference = np.einsum("dqn,cn->cqd", self._slopes, local, optimize=True)
+        return local @ self._basis.T, np.einsum("cqde,cqd->cqe", self._inverse, reference, optimize=True)
+
+    def _with_ghosts(self, potential: np.ndarray) -> np.ndarray:
+        parts = [self._pencil.vector(part) for part in (potential.real, potential.imag)]
+        real, imaginary = (function.x.array for function in as_functions(self._pencil.liquid, parts))
+        whole: np.ndarray = real + 1j * imaginary
+        return whole

@@ -1,0 +1,1 @@
+"""The field solution of a hanging string."""

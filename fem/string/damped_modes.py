@@ -1,0 +1,162 @@
+"""Free motions e^{pt} of the hanging string with resistance.
+
+    (p² M + p C + K) φ = 0
+
+Where the drag is everywhere in proportion to the mass, C = 2αM, the shapes are those without resistance and
+p² + 2αp + ω² = 0 gives the roots, also near a double one. Elsewhere SLEPc solves the quadratic eigenvalue problem by
+its two-level orthogonal Arnoldi method, inverted at zero.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from mpi4py import MPI
+from numpy.typing import NDArray
+from petsc4py import PETSc
+from slepc4py import SLEPc
+
+from hydroelastic.fem.direct import configure_direct
+from hydroelastic.fem.modes import EigenSolverError
+from hydroelastic.fem.string.model import StringModel, scaled_string
+from hydroelastic.fem.string.modes import MODE_DEGREE, StringModes, mode_pencils, rounding, string_modes
+from hydroelastic.fem.string.pencil import StringPencil
+from hydroelastic.fem.string.probe import StringProbe
+from hydroelastic.meshes.interrupts import interrupts_deferred
+
+_RESIDUAL = 1e-12
+
+
+@dataclass(frozen=True, kw_only=True)
+class DampedModes:
+    """Free motions e^{pt}, oscillating and aperiodic ones.
+
+    Attributes:
+        roots: p, 1/s, by ascending magnitude; of a conjugate pair the one above the real axis; shape (modes,).
+        errors: estimate of their absolute errors, 1/s, shape (modes,).
+        shapes: φ at the positions asked, ∫m |φ|² + M |φ(0)|² = ρl, real and above zero at the lower end, shape
+            (modes, positions).
+    """
+
+    roots: NDArray[np.complex128]
+    errors: NDArray[np.float64]
+    shapes: NDArray[np.complex128]
+
+
+def damped_modes(
+    comm: MPI.Comm,
+    model: StringModel,
+    count: int,
+    positions: NDArray[np.float64],
+    *,
+    elements: int | None = None,
+    degree: int = MODE_DEGREE,
+    quadratic: bool = False,
+) -> DampedModes:
+    """The roots of smallest magnitude.
+
+    Args:
+        comm: communicator.
+        model: the string.
+        count: how many roots, a conjugate pair being one; the two real roots of an aperiodic motion are two, and the
+            fast one may lie far from zero.
+        positions: x of the shapes, m, from 0 to the length, shape (positions,).
+        elements: of equal travel time; by default enough for about thirteen digits.
+        degree: of the polynomials.
+        quadratic: solve the quadratic problem even where the drag is in proportion to the mass. Near a double root it
+            can tell p to half of the digits only.
+
+    Returns:
+        The motions (collective).
+
+    Raises:
+        EigenSolverError: if SLEPc does not deliver them.
+    """
+    string = scaled_string(model)
+    if string.uniform_damping is not None and not quadratic:
+        undamped = string_modes(comm, model, count, positions, elements=elements, degree=degree)
+        return _from_undamped(undamped, string.uniform_damping / string.time_unit)
+    pencil, richer = mode_pencils(comm, string, count, elements, degree)
+    roots, vectors = _quadratic_pairs(pencil, count)
+    closer, _ = _quadratic_pairs(richer, count)
+    probe = StringProbe(pencil, np.asarray(positions, float) / model.length)
+    tip = StringProbe(pencil, np.zeros(1))
+    differences = np.min(np.abs(roots[:, None] - closer), axis=1)
+    rounded = np.array([_rounding(pencil, root, *parts) for root, parts in zip(roots, vectors, strict=True)])
+    shapes = []
+    for parts in vectors:
+        at_end, shape = (p.values(parts[0]) + 1j * p.values(parts[1]) for p in (tip, probe))
+        norm = sum(_product(pencil.mass, part, part) for part in parts)
+        shapes.append(shape * np.conj(at_end[0]) / abs(at_end[0]) / np.sqrt(norm))
+    return DampedModes(
+        roots=roots / string.time_unit,
+        errors=(differences + rounded + _RESIDUAL * np.abs(roots)) / string.time_unit,
+        shapes=np.array(shapes),
+    )
+
+
+def _from_undamped(modes: StringModes, damping: float) -> DampedModes:
+    """Both roots of p² + 2αp + ω² = 0 of each mode; −α + σ would lose the slow one to cancellation."""
+    frequencies = modes.frequencies
+    root = np.sqrt((frequencies - damping) * (frequencies + damping) + 0j)
+    over = root.imag != 0.0
+    fast = -(damping + root.imag)
+    first = np.where(over, frequencies**2 / np.where(over, fast, 1.0), -damping + 1j * root.real)
+    roots = np.concatenate([first, fast[over]])
+    numbers = np.concatenate([np.arange(len(frequencies)), np.flatnonzero(over)])
+    # 2(p + α) dp = −2ω dω, and next to a double root dp² = −2ω dω.
+    change = 2.0 * frequencies[numbers] * modes.errors[numbers]
+    errors = np.minimum(np.sqrt(change), change / np.maximum(2.0 * np.abs(roots + damping), np.finfo(float).tiny))
+    order = np.argsort(np.abs(roots), kind="stable")[: len(frequencies)]
+    return DampedModes(roots=roots[order], errors=errors[order], shapes=modes.shapes[numbers[order]].astype(complex))
+
+
+def _quadratic_pairs(
+    pencil: StringPencil, count: int
+) -> tuple[NDArray[np.complex128], list[tuple[PETSc.Vec, PETSc.Vec]]]:
+    """Roots on and above the real axis, and the real and imaginary parts of their vectors (collective)."""
+    solver = SLEPc.PEP().create(pencil.comm)
+    solver.setOperators([pencil.stiffness, pencil.resistance, pencil.mass])
+    solver.setProblemType(SLEPc.PEP.ProblemType.HERMITIAN)
+    solver.setType(SLEPc.PEP.Type.TOAR)
+    solver.setWhichEigenpairs(SLEPc.PEP.Which.TARGET_MAGNITUDE)
+    solver.setTarget(0.0)
+    # Each complex one comes with its conjugate.
+    wanted = min(2 * count, 2 * pencil.size)
+    solver.setDimensions(wanted, min(2 * wanted + 20, 2 * pencil.size))
+    solver.setTolerances(_RESIDUAL, 200)
+    transformation = solver.getST()
+    transformation.setType(SLEPc.ST.Type.SINVERT)
+    pencil.stiffness.setOption(PETSc.Mat.Option.SPD, True)
+    configure_direct(transformation.getKSP())
+    with interrupts_deferred():
+        solver.solve()
+    roots, vectors = [], []
+    for number in range(solver.getConverged()):
+        real, imaginary = pencil.zeros(), pencil.zeros()
+        root = solver.getEigenpair(number, real, imaginary)
+        if root.imag >= 0.0:
+            roots.append(root)
+            vectors.append((real, imaginary))
+    if len(roots) < count:
+        raise EigenSolverError(f"{len(roots)} of {count} roots converged")
+    order = np.argsort(np.abs(roots), kind="stable")[:count]
+    return np.array(roots)[order], [vectors[number] for number in order]
+
+
+def _rounding(pencil: StringPencil, root: complex, real: PETSc.Vec, imaginary: PETSc.Vec) -> float:
+    """What rounding of K may change p by: φᵀδKφ over φᵀ(2pM + C)φ, the root of it next to a double root."""
+    change = rounding(pencil.stiffness, real) + rounding(pencil.stiffness, imaginary)
+    mass, resistance = (
+        _product(matrix, real, real) - _product(matrix, imaginary, imaginary) + 2j * _product(matrix, real, imaginary)
+        for matrix in (pencil.mass, pencil.resistance)
+    )
+    slope = abs(2.0 * root * mass + resistance)
+    return float(min(np.sqrt(change / abs(mass)), change / max(slope, np.finfo(float).tiny)))
+
+
+def _product(matrix: PETSc.Mat, left: PETSc.Vec, right: PETSc.Vec) -> float:
+    image = left.duplicate()
+    matrix.mult(right, image)
+    return float(left.dot(image))

@@ -1,0 +1,136 @@
+"""Natural modes of the hanging string without resistance, by SLEPc.
+
+K φ = ω² M φ        by shift-and-invert at zero, with a Cholesky factorization
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from mpi4py import MPI
+from numpy.typing import NDArray
+from petsc4py import PETSc
+from slepc4py import SLEPc
+
+from hydroelastic.fem.direct import configure_direct
+from hydroelastic.fem.modes import EigenSolverError
+from hydroelastic.fem.string.model import ScaledString, StringModel, scaled_string
+from hydroelastic.fem.string.pencil import StringPencil, build_string_pencil, string_nodes
+from hydroelastic.fem.string.probe import StringProbe
+from hydroelastic.meshes.interrupts import interrupts_deferred
+
+MODE_DEGREE = 10
+"""Of the polynomials on which modes are sought."""
+
+# Polynomials of two degrees more are so much closer that what they change is the error.
+_RICHER = 2
+_RESIDUAL = 1e-12
+
+
+@dataclass(frozen=True, kw_only=True)
+class StringModes:
+    """Undamped modes in ascending order.
+
+    Attributes:
+        frequencies: ω, rad/s, shape (modes,).
+        errors: estimate of their absolute errors, rad/s, from polynomials of a higher degree, and rounding.
+        shapes: φ at the positions asked, ∫m φ² + M φ(0)² = ρl, above zero at the lower end, shape (modes, positions).
+    """
+
+    frequencies: NDArray[np.float64]
+    errors: NDArray[np.float64]
+    shapes: NDArray[np.float64]
+
+
+def string_modes(
+    comm: MPI.Comm,
+    model: StringModel,
+    count: int,
+    positions: NDArray[np.float64],
+    *,
+    elements: int | None = None,
+    degree: int = MODE_DEGREE,
+) -> StringModes:
+    """Lowest modes without resistance.
+
+    Args:
+        comm: communicator.
+        model: the string.
+        count: how many modes.
+        positions: x of the shapes, m, from 0 to the length, shape (positions,).
+        elements: of equal travel time; by default enough for about fourteen digits.
+        degree: of the polynomials.
+
+    Returns:
+        The modes (collective).
+
+    Raises:
+        EigenSolverError: if SLEPc does not deliver them.
+    """
+    string = scaled_string(model)
+    pencil, richer = mode_pencils(comm, string, count, elements, degree)
+    squares, vectors = undamped_pairs(pencil, count)
+    closer, _ = undamped_pairs(richer, count)
+    frequencies, better = np.sqrt(squares), np.sqrt(closer)
+    rounded = [0.5 * rounding(pencil.stiffness, vector) for vector in vectors] / frequencies
+    probe = StringProbe(pencil, np.asarray(positions, float) / model.length)
+    tip = StringProbe(pencil, np.zeros(1))
+    shapes = [probe.values(vector) * np.sign(tip.values(vector)[0]) for vector in vectors]
+    last_place = 4.0 * np.finfo(float).eps * frequencies
+    return StringModes(
+        frequencies=frequencies / string.time_unit,
+        errors=(np.abs(frequencies - better) + rounded + last_place) / string.time_unit,
+        shapes=np.array(shapes),
+    )
+
+
+def mode_pencils(
+    comm: MPI.Comm, string: ScaledString, count: int, elements: int | None, degree: int
+) -> tuple[StringPencil, StringPencil]:
+    """Matrices on one mesh with polynomials of a degree, and of a higher one to judge it by (collective)."""
+    # With degree 10, one and a half half-waves in an element leave thirteen digits.
+    nodes = string_nodes(string, elements or 3 + (2 * count) // 3)
+    return (
+        build_string_pencil(comm, string, degree, nodes),
+        build_string_pencil(comm, string, degree + _RICHER, nodes),
+    )
+
+
+def undamped_pairs(pencil: StringPencil, count: int) -> tuple[NDArray[np.float64], list[PETSc.Vec]]:
+    """The lowest ω² of Kφ = ω²Mφ without dimensions, and φ with φᵀMφ = 1 (collective)."""
+    if not 1 <= count <= pencil.size:
+        raise EigenSolverError(f"{count} modes are asked of {pencil.size} unknowns")
+    solver = SLEPc.EPS().create(pencil.comm)
+    solver.setOperators(pencil.stiffness, pencil.mass)
+    solver.setProblemType(SLEPc.EPS.ProblemType.GHEP)
+    solver.setWhichEigenpairs(SLEPc.EPS.Which.TARGET_MAGNITUDE)
+    solver.setTarget(0.0)
+    solver.setDimensions(count, min(2 * count + 12, pencil.size))
+    solver.setTolerances(_RESIDUAL, 200)
+    transformation = solver.getST()
+    transformation.setType(SLEPc.ST.Type.SINVERT)
+    pencil.stiffness.setOption(PETSc.Mat.Option.SPD, True)
+    configure_direct(transformation.getKSP())
+    with interrupts_deferred():
+        solver.solve()
+    if solver.getConverged() < count:
+        raise EigenSolverError(f"{solver.getConverged()} of {count} modes converged")
+    vectors = []
+    for number in range(count):
+        vector = pencil.zeros()
+        solver.getEigenvector(number, vector)
+        vectors.append(vector)
+    return np.array([solver.getEigenvalue(number).real for number in range(count)]), vectors
+
+
+def rounding(stiffness: PETSc.Mat, vector: PETSc.Vec) -> float:
+    """By how much rounding of the entries of K may change φᵀKφ, their errors taken as independent (collective).
+
+    Measured against Bessel's zeros on 40 to 450 unknowns: the lowest frequencies are off by up to 3.6 times what the
+    diagonal alone makes with half a unit in the last place.
+    """
+    diagonal = stiffness.getDiagonal()
+    terms = diagonal.array_r * vector.array_r**2
+    total = stiffness.comm.tompi4py().allreduce(float(terms @ terms), op=MPI.SUM)
+    return float(4.0 * np.finfo(float).eps * np.sqrt(total))

@@ -1,0 +1,139 @@
+"""The matrices of the hanging string on polynomials of one degree, its upper end held.
+
+    M = ∫m u v + M_tip u v|₀,    C = ∫2λ u v,    K = ∫T u_x v_x
+
+K is positive also where T vanishes at the free end, for u = 0 at the upper one; that condition is built in by leaving
+its unknown out.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import ufl
+from dolfinx import fem
+from mpi4py import MPI
+from numpy.typing import NDArray
+from petsc4py import PETSc
+
+from hydroelastic.fem.kernels import jit_options
+from hydroelastic.fem.liquid import assembled
+from hydroelastic.fem.string.model import ScaledString
+from hydroelastic.meshes.line import graded_nodes, line_mesh, travel_nodes
+
+
+@dataclass(frozen=True, kw_only=True)
+class StringPencil:
+    """The string as matrices on its free unknowns.
+
+    Attributes:
+        string: what hangs, without dimensions.
+        space: polynomials on the line, the unknown of the upper end included.
+        degree: of the polynomials.
+        free: owned unknowns but that of the upper end.
+        mass: M.
+        resistance: C.
+        stiffness: K.
+        mass_load: own entries of M·1, the inertia of the string that follows its upper end.
+        resistance_load: own entries of C·1.
+    """
+
+    string: ScaledString
+    space: fem.FunctionSpace
+    degree: int
+    free: NDArray[np.int32]
+    mass: PETSc.Mat
+    resistance: PETSc.Mat
+    stiffness: PETSc.Mat
+    mass_load: NDArray[np.float64]
+    resistance_load: NDArray[np.float64]
+
+    @property
+    def comm(self) -> MPI.Comm:
+        """Communicator of the mesh."""
+        return self.space.mesh.comm
+
+    @property
+    def size(self) -> int:
+        """Number of free unknowns."""
+        return int(self.mass.getSize()[0])
+
+    @property
+    def cell_count(self) -> int:
+        """Number of elements over all processes."""
+        return int(self.space.mesh.topology.index_map(1).size_global)
+
+    def zeros(self) -> PETSc.Vec:
+        """A vector of free unknowns (collective)."""
+        return self.mass.createVecRight()
+
+
+def string_nodes(string: ScaledString, elements: int) -> NDArray[np.float64]:
+    """Nodes with equal travel times, and more towards the end next to a zero of the tension outside the string."""
+    return graded_nodes(travel_nodes(elements, *string.tension), *string.tension)
+
+
+def build_string_pencil(comm: MPI.Comm, string: ScaledString, degree: int, nodes: NDArray[np.float64]) -> StringPencil:
+    """Assemble the matrices (collective).
+
+    Args:
+        comm: communicator.
+        string: what hangs.
+        degree: of the polynomials.
+        nodes: of the mesh, from 0 to 1.
+    """
+    space = fem.functionspace(line_mesh(comm, nodes), ("Lagrange", degree))
+    owned = space.dofmap.index_map.size_local
+    places = space.tabulate_dof_coordinates()[:owned, 0]
+    lowest, highest = np.flatnonzero(places == nodes[0]), np.flatnonzero(places == nodes[-1])
+    kernel = _Kernel(space, degree)
+    mass = kernel.matrix(mass=(string.mass, 0.0))
+    first = mass.getOwnershipRange()[0]
+    for tip in lowest:
+        mass.setValue(tip + first, tip + first, string.tip_mass, addv=PETSc.InsertMode.ADD_VALUES)
+    mass.assemble()
+    resistance = kernel.matrix(mass=string.resistance)
+    free = np.setdiff1d(np.arange(owned, dtype=np.int32), highest).astype(np.int32)
+    rows = PETSc.IS().createGeneral((free + first).astype(PETSc.IntType), comm=mass.comm)
+
+    def restricted(matrix: PETSc.Mat) -> PETSc.Mat:
+        block = matrix.createSubMatrix(rows, rows)
+        block.setOption(PETSc.Mat.Option.SYMMETRIC, True)
+        return block
+
+    return StringPencil(
+        string=string,
+        space=space,
+        degree=degree,
+        free=free,
+        mass=restricted(mass),
+        resistance=restricted(resistance),
+        stiffness=restricted(kernel.matrix(stiffness=string.tension)),
+        mass_load=_row_sums(mass)[free],
+        resistance_load=_row_sums(resistance)[free],
+    )
+
+
+class _Kernel:
+    """∫(a + bx) u v + ∫(c + dx) u_x v_x, compiled once for a degree and whatever coefficients."""
+
+    def __init__(self, space: fem.FunctionSpace, degree: int) -> None:
+        mesh = space.mesh
+        self._mass, self._stiffness = (fem.Constant(mesh, np.zeros(2)) for _ in range(2))
+        u, v = ufl.TrialFunction(space), ufl.TestFunction(space)
+        x = ufl.SpatialCoordinate(mesh)[0]
+        dx = ufl.Measure("dx", domain=mesh, metadata={"quadrature_degree": 2 * degree + 1})
+        energy = (self._stiffness[0] + self._stiffness[1] * x) * u.dx(0) * v.dx(0)
+        self._form = fem.form(((self._mass[0] + self._mass[1] * x) * u * v + energy) * dx, jit_options=jit_options())
+
+    def matrix(self, mass: tuple[float, float] = (0.0, 0.0), stiffness: tuple[float, float] = (0.0, 0.0)) -> PETSc.Mat:
+        self._mass.value[:], self._stiffness.value[:] = mass, stiffness
+        return assembled(self._form)
+
+
+def _row_sums(matrix: PETSc.Mat) -> NDArray[np.float64]:
+    ones, sums = matrix.createVecs()
+    ones.set(1.0)
+    matrix.mult(ones, sums)
+    return np.array(sums.array_r)

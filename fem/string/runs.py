@@ -1,0 +1,155 @@
+"""Motions of a string at chosen resolutions of its waves."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import inf, log, log10
+from time import perf_counter
+
+import numpy as np
+from mpi4py import MPI
+from numpy.typing import NDArray
+
+from hydroelastic.fem.string.end_motion import EndMotion
+from hydroelastic.fem.string.fronts import front_errors
+from hydroelastic.fem.string.march import March, Pace, march, schedule
+from hydroelastic.fem.string.model import StringModel, scaled_string
+from hydroelastic.fem.string.pencil import StringPencil, build_string_pencil, string_nodes
+from hydroelastic.fem.string.probe import StringProbe
+from hydroelastic.fem.string.soft_motion import SoftMotion
+
+DEGREE = 10
+"""Of the polynomials."""
+# Errors of a wave grow with the way it goes, in its own lengths, and fall with a power of the radians in an element
+# (twice the degree) or a step (twice the stages): the same errors at shorter waves take a little less of both.
+_ELEMENT_ORDER = 2 * DEGREE
+_STEP_ORDER = 8
+
+
+@dataclass(frozen=True, kw_only=True)
+class Resolution:
+    """Of waves as fast as the softened motion makes.
+
+    Attributes:
+        reach: of the softening, s.
+        element: radians of the fastest waves in an element.
+        step: radians in a step.
+    """
+
+    reach: float
+    element: float = 8.0
+    step: float = 1.2
+
+    def closer(self, ratio: float) -> Resolution:
+        """Of waves shorter by a ratio, as well as these."""
+        return replace(
+            self,
+            reach=ratio * self.reach,
+            element=ratio ** (1.0 / _ELEMENT_ORDER) * self.element,
+            step=ratio ** (1.0 / _STEP_ORDER) * self.step,
+        )
+
+    def suited(self, space: float, time: float, share: float) -> Resolution:
+        """With elements and steps whose errors, now known, will be about a thirtieth of what is allowed."""
+        target = share / 30.0
+        element = (target / max(space, 1e-3 * target)) ** (1.0 / _ELEMENT_ORDER)
+        step = (target / max(time, 1e-3 * target)) ** (1.0 / _STEP_ORDER)
+        return replace(self, element=self.element * element, step=self.step * step)
+
+    def tighter(self, ratio: float, *, space: bool, time: bool) -> Resolution:
+        """With shorter elements or steps."""
+        return replace(
+            self, element=self.element * (ratio if space else 1.0), step=self.step * (ratio if time else 1.0)
+        )
+
+
+class StringRuns:
+    """One motion of one string at chosen resolutions.
+
+    Args:
+        comm: communicator.
+        model: the string.
+        motion: of its upper end.
+        positions: x, m, shape (positions,).
+        times: s, increasing, shape (times,).
+        tolerance: absolute, m, which sets the digits of the softening.
+    """
+
+    def __init__(
+        self,
+        comm: MPI.Comm,
+        model: StringModel,
+        motion: EndMotion,
+        positions: NDArray[np.float64],
+        times: NDArray[np.float64],
+        tolerance: float,
+    ) -> None:
+        """Take the dimensions out of the string."""
+        self._comm, self._motion, self._times = comm, motion, times
+        self.string = scaled_string(model)
+        self._positions: NDArray[np.float64] = np.asarray(positions / model.length, dtype=np.float64)
+        sample = np.concatenate([times, np.linspace(times[0], times[-1], 64)])
+        largest = max(tolerance, float(np.max(np.abs(np.asarray(motion.value(sample))))))
+        self._digits = float(np.clip(log10(largest / tolerance) + 2.5, 3.0, 13.0))
+        self._cut = largest * 10.0**-self._digits
+        self._soft: dict[float, SoftMotion] = {}
+        self._meshes: dict[int, tuple[StringPencil, StringProbe]] = {}
+        self.seconds = {"mesh": 0.0, "motion": 0.0}
+        self.marches = 0
+
+    @property
+    def travel_time(self) -> float:
+        """Of a wave along the string, s."""
+        return self.string.travel_time * self.string.time_unit
+
+    def soft(self, resolution: Resolution) -> SoftMotion:
+        """The motion as softly as a resolution wants it."""
+        if resolution.reach not in self._soft:
+            self._soft[resolution.reach] = SoftMotion(self._motion, resolution.reach, self._digits)
+        return self._soft[resolution.reach]
+
+    def elements(self, resolution: Resolution) -> int:
+        """Of equal travel time."""
+        return int(np.ceil(self.soft(resolution).highest * self.travel_time / resolution.element))
+
+    def pace(self, resolution: Resolution) -> Pace:
+        """Of the steps: waves decay like e^{−αt} at the least, α the smallest damping along the string."""
+        damping = self.string.smallest_damping / self.string.time_unit
+        quiet = self._digits * log(10.0) / damping if damping > 0.0 else inf
+        return Pace(longest=resolution.step / self.soft(resolution).highest, quiet=quiet)
+
+    def steps(self, resolution: Resolution) -> int:
+        """Of time."""
+        return sum(count for _, _, count in schedule(self.soft(resolution), self._times, self.pace(resolution)))
+
+    def move(self, resolution: Resolution, elements: int | None = None) -> March:
+        """Compute the motion (collective).
+
+        Args:
+            resolution: of its waves.
+            elements: instead of those of the resolution.
+        """
+        started = perf_counter()
+        pencil, probe = self._on_mesh(elements or self.elements(resolution))
+        meshed = perf_counter()
+        result = march(pencil, probe, self.soft(resolution), self._times, self.pace(resolution))
+        self.seconds["mesh"] += meshed - started
+        self.seconds["motion"] += perf_counter() - meshed
+        self.marches += 1
+        return result
+
+    def _on_mesh(self, elements: int) -> tuple[StringPencil, StringProbe]:
+        if elements not in self._meshes:
+            pencil = build_string_pencil(self._comm, self.string, DEGREE, string_nodes(self.string, elements))
+            self._meshes[elements] = pencil, StringProbe(pencil, self._positions)
+        return self._meshes[elements]
+
+    def front_errors(self, resolution: Resolution) -> NDArray[np.float64]:
+        """Of the values next to fronts, m, shape (positions, times)."""
+        fronts = front_errors(self.string, self._motion, self.soft(resolution), self._positions, self._times)
+        # What is beyond the digits of the softening is the same whatever its reach.
+        return fronts + self._cut
+
+    def pencil(self, resolution: Resolution) -> StringPencil:
+        """The string on the mesh of a resolution (collective)."""
+        return self._on_mesh(self.elements(resolution))[0]

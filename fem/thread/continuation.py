@@ -1,0 +1,256 @@
+"""A thread at rest by steps, where Newton's method fails at once: clamps turn, or drag or a stiffness grow to what they
+are.
+
+Of a thread that bends the equations on a mesh have solutions besides those of the thread, in which its direction turns
+by two right angles at a node. There κ lies along the thread, does not turn it either way, and grows without bound as
+elements get smaller. Newton's method finds them where a start is far from the direction of a clamp.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from math import inf
+
+import numpy as np
+from mpi4py import MPI
+from numpy.typing import NDArray
+
+from hydroelastic.fem.thread.equilibrium import Equilibrium, Start, natural_units, solve_on_mesh
+from hydroelastic.fem.thread.model import PointLoad, ThreadModel
+from hydroelastic.fem.thread.newton import ThreadSolverError
+from hydroelastic.fem.thread.nodes import first_nodes
+from hydroelastic.fem.thread.profile import start_from, thread_profile
+from hydroelastic.fem.thread.table import line_table
+
+# Where a ramp begins; the smallest and the first step on it.
+_FIRST = 1e-3
+_SMALLEST_STEP = 1e-2
+_STEP = 0.25
+_GROWTH = 1.5
+# A thread that stretches may fold within an element, where its length passes through zero.
+_CRUSHED = 0.5
+_INNER = (np.arange(12) + 0.5) / 12.0
+_MOST_STEPS = 60
+# Of the length: between such places the direction of a start is taken.
+_NEAR = 1e-4
+# Directions whose cosine is below this are opposite: no plane is given in which one turns to the other.
+_OPPOSITE = -1.0 + 1e-4
+
+# Places at which a start is looked at.
+_LOOKS = 33
+# Flexural rigidities by force and length², one after the other.
+_FADING = (1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5)
+
+
+class FoldError(ThreadSolverError):
+    """The direction of the thread jumps at a node."""
+
+
+@dataclass(frozen=True)
+class RampedEquilibrium:
+    """An equilibrium and the way to it.
+
+    Attributes:
+        equilibrium: of the thread itself.
+        ramp: what changed: nothing, the clamp, the drag, the stiffness, or the flexural rigidity.
+        steps: equilibria on the way, failures included.
+    """
+
+    equilibrium: Equilibrium
+    ramp: str
+    steps: int
+
+
+def solve_with_ramps(
+    comm: MPI.Comm, model: ThreadModel, nodes: NDArray[np.float64], start: Start, *, degree: int
+) -> RampedEquilibrium:
+    """Solve on one mesh: at once, else with turning clamps, growing drag, growing stiffness or rigidity.
+
+    Args:
+        comm: communicator.
+        model: the thread, SI.
+        nodes: s of the nodes, m.
+        start: where Newton's method begins.
+        degree: of the positions.
+
+    Returns:
+        The equilibrium (collective).
+
+    Raises:
+        ThreadSolverError: where all fail; says how each of them did.
+    """
+    reasons = []
+    try:
+        return RampedEquilibrium(_solve_unfolded(comm, model, nodes, start, degree), "", 0)
+    except ThreadSolverError as error:
+        reasons.append(f"at once: {error}")
+    ramps: dict[str, Callable[[float], ThreadModel]] = {}
+    if any(end.clamp is not None for end in model.ends):
+        ramps["turning clamps"] = lambda part: with_turned_clamps(model, part, start)
+    if model.drags and model.stream is not None:
+        ramps["growing drag"] = lambda part: with_drag(model, part)
+    if model.bends:
+        ramps["growing rigidity"] = lambda part: replace(model, flexural_rigidity=part * model.flexural_rigidity)
+    else:
+        force = natural_units(model, start, nodes).force
+        ramps["growing stiffness"] = lambda part: with_stiffness(model, part, force)
+    for name, at in ramps.items():
+        try:
+            return _ramped(comm, at, nodes, start, degree, name)
+        except ThreadSolverError as error:
+            reasons.append(f"with {name}: {error}")
+    raise ThreadSolverError("; ".join(reasons))
+
+
+def start_with_fading_rigidity(comm: MPI.Comm, model: ThreadModel, start: Start, *, degree: int) -> Start:
+    """The shape of a slack thread that resists bending less and less: near that without, hooks of it included.
+
+    Args:
+        comm: communicator.
+        model: the thread, SI, without flexural rigidity.
+        start: where Newton's method begins with the largest rigidity.
+        degree: of the positions.
+
+    Returns:
+        Positions and tensions with the smallest rigidity (collective).
+
+    Raises:
+        ThreadSolverError: where one of the solutions is not found.
+    """
+    force = natural_units(model, start, np.arange(_LOOKS) * model.length / (_LOOKS - 1)).force
+    for part in _FADING:
+        bent = replace(model, flexural_rigidity=part * force * model.length**2)
+        found = _solve_unfolded(comm, bent, first_nodes(bent, start), start, degree)
+        profile = thread_profile(found)
+        start = start_from(profile)
+    return Start(position=profile.position, force=profile.tension_at)
+
+
+def with_drag(model: ThreadModel, part: float) -> ThreadModel:
+    """The thread with a part of all its drags.
+
+    Args:
+        model: the thread.
+        part: from 0 to 1.
+    """
+
+    def load(of: PointLoad) -> PointLoad:
+        return replace(of, drag=part * of.drag)
+
+    first, second = model.ends
+    return replace(
+        model,
+        normal_drag=part * model.normal_drag,
+        tangential_drag=part * model.tangential_drag,
+        viscous_drag=part * model.viscous_drag,
+        ends=(replace(first, load=load(first.load)), replace(second, load=load(second.load))),
+        loads={s: load(of) for s, of in model.loads.items()},
+    )
+
+
+def with_stiffness(model: ThreadModel, part: float, force: float) -> ThreadModel:
+    """The thread with more stretch: 1/EA is that of the thread and (1 − part)/force.
+
+    Args:
+        model: the thread.
+        part: from 0 to 1.
+        force: that would double the length of the softest thread, N.
+    """
+    compliance = 1.0 / model.axial_rigidity + (1.0 - part) / force
+    return replace(model, axial_rigidity=1.0 / compliance if compliance > 0.0 else inf)
+
+
+def with_turned_clamps(model: ThreadModel, part: float, start: Start) -> ThreadModel:
+    """The thread with clamps turned by a part of the angle from the direction of a start to their own.
+
+    Args:
+        model: the thread.
+        part: from 0 to 1.
+        start: SI, as the thread is.
+    """
+    steps = np.array([0.0, _NEAR, 1.0 - _NEAR, 1.0]) * model.length
+    places = start.position(steps)
+    chord = places[-1] - places[0]
+    ends = []
+    for end, way in zip(model.ends, (places[1] - places[0], places[3] - places[2]), strict=True):
+        clamp = end.clamp
+        ends.append(
+            end if clamp is None else replace(end, clamp=_turned(way / np.linalg.norm(way), clamp, chord, part))
+        )
+    return replace(model, ends=(ends[0], ends[1]))
+
+
+def _turned(
+    first: NDArray[np.float64], last: NDArray[np.float64], chord: NDArray[np.float64], part: float
+) -> NDArray[np.float64]:
+    """A direction between two; by way of the chord, or any other, where they are opposite."""
+    cosine = float(first @ last)
+    towards = last - cosine * first
+    if cosine < _OPPOSITE:
+        # The axis that is farthest from both, unless the chord is away from them.
+        other = np.eye(len(first))[int(np.argmin(np.abs(first)))]
+        towards = next(
+            way
+            for way in (chord - (chord @ first) * first, other - (other @ first) * first)
+            if np.linalg.norm(way) > _NEAR * np.linalg.norm(chord)
+        )
+    size = float(np.linalg.norm(towards))
+    if size == 0.0 or part == 1.0:
+        return last
+    angle = part * float(np.arctan2(size, cosine) if cosine >= _OPPOSITE else np.pi)
+    turned: NDArray[np.float64] = np.cos(angle) * first + np.sin(angle) * towards / size
+    return turned
+
+
+def _solve_unfolded(
+    comm: MPI.Comm, model: ThreadModel, nodes: NDArray[np.float64], start: Start, degree: int
+) -> Equilibrium:
+    equilibrium = solve_on_mesh(comm, model, nodes, start, degree=degree)
+    if model.bends:
+        _refuse_fold(equilibrium)
+    return equilibrium
+
+
+def _refuse_fold(equilibrium: Equilibrium) -> None:
+    nodes, model = equilibrium.space.nodes, equilibrium.model
+    position = line_table(equilibrium.solution, nodes, 0)
+    inner = (nodes[:-1, None] + np.diff(nodes)[:, None] * _INNER).ravel()
+    lengths = np.linalg.norm(position.at(inner, 1), axis=1)
+    if np.min(lengths) < _CRUSHED:
+        s = float(inner[np.argmin(lengths)]) * model.length
+        raise FoldError(f"the thread is folded at s = {s:.6g} m: it is crushed to {np.min(lengths):.2g} of its length")
+    tangents = position.at_ends(derivative=1)
+    pairs = [
+        (s, before, after) for s, before, after in zip(nodes[1:-1], tangents[:-1, 1], tangents[1:, 0], strict=True)
+    ]
+    outer = zip(nodes[[0, -1]], (tangents[0, 0], tangents[-1, 1]), model.ends, strict=True)
+    pairs += [(s, tangent, end.clamp) for s, tangent, end in outer if end.clamp is not None]
+    for s, before, after in pairs:
+        if before @ after < 0.0:
+            raise FoldError(f"the thread is folded at s = {s * model.length:.6g} m: its direction jumps there")
+
+
+def _ramped(
+    comm: MPI.Comm,
+    at: Callable[[float], ThreadModel],
+    nodes: NDArray[np.float64],
+    start: Start,
+    degree: int,
+    name: str,
+) -> RampedEquilibrium:
+    done, step = _FIRST, _STEP
+    equilibrium = _solve_unfolded(comm, at(done), nodes, start, degree)
+    for count in range(2, _MOST_STEPS + 1):
+        part = min(1.0, done + step)
+        try:
+            equilibrium = _solve_unfolded(comm, at(part), nodes, start_from(thread_profile(equilibrium)), degree)
+        except ThreadSolverError as error:
+            step *= 0.5
+            if step < _SMALLEST_STEP:
+                raise ThreadSolverError(f"stopped at {done:.4g} of it: {error}") from error
+            continue
+        done, step = part, _GROWTH * step
+        if done == 1.0:
+            return RampedEquilibrium(equilibrium, name, count)
+    raise ThreadSolverError(f"only {done:.4g} of it after {_MOST_STEPS} steps")

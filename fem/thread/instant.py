@@ -1,0 +1,125 @@
+"""A moving thread at one instant: positions and velocities that its constraints allow, accelerations, axial force.
+
+Given positions r* are moved, and given velocities v* changed, as little as possible in the mean: with forces P
+
+    ∫ η·(r − r*) + ∫ P τ·η_s = 0,  ∫ μ (|r_s| − 1) = 0,      ∫ η·M (v − v*) + ∫ P τ·η_s = 0,  ∫ μ τ·v_s = 0,
+
+the second being the impulse that acts where an end is jerked. Accelerations a and the axial force S follow from the
+equations of motion with the second derivative of |r_s| = 1, τ·a_s + |P v_s|²/|r_s| = 0, or with the law of stretch.
+"""
+
+from __future__ import annotations
+
+from math import inf
+from typing import Any
+
+import numpy as np
+import ufl
+from numpy.typing import NDArray
+
+from hydroelastic.fem.thread.forms import ThreadState, tangent
+from hydroelastic.fem.thread.step import ThreadStep
+from hydroelastic.fem.thread.step_solver import HeldUnknowns, StepSolver
+
+# Of the unit of time. Velocities and accelerations count for convergence by how far they move the thread in it.
+_BLINK = 1e-4
+
+
+class ThreadInstant:
+    """Systems for the state of a thread at one instant.
+
+    Args:
+        step: whose `before` and `speed` are the state; its `unknown` is used.
+    """
+
+    def __init__(self, step: ThreadStep) -> None:
+        """Nothing is compiled before it is needed."""
+        self._step, self._forms = step, step.forms
+        self._tests = ufl.TestFunctions(step.forms.space.mixed)
+        self._unknown = step.unknown
+        self._solvers: dict[str, StepSolver] = {}
+
+    @property
+    def reaction(self) -> NDArray[np.float64]:
+        """Forces on the thread where it is held, by the last accelerations."""
+        return self._solvers["accelerate"].reaction
+
+    def place(self, held: HeldUnknowns) -> bool:
+        """Solve for the positions that are nearest to `before`; the result is in the unknown."""
+        self._unknown.x.array[:] = self._step.before.x.array
+        return self._solve("place", held, self._placing, 1.0)
+
+    def start(self, held: HeldUnknowns) -> bool:
+        """Solve for the velocities that are nearest to `speed`; the result is in the unknown."""
+        self._unknown.x.array[:] = 0.0
+        return self._solve("start", held, self._starting, _BLINK)
+
+    def accelerate(self, held: HeldUnknowns) -> bool:
+        """Solve for accelerations, axial force and curvature; the result is in the unknown."""
+        self._unknown.x.array[:] = 0.0
+        return self._solve("accelerate", held, self._accelerating, _BLINK**2)
+
+    def _solve(self, name: str, held: HeldUnknowns, equations: Any, step: float) -> bool:
+        if name not in self._solvers:
+            stream = self._forms.stream
+            position = ufl.split(self._step.before)[0]
+
+            def update() -> None:
+                if stream is not None:
+                    stream.update(position)
+
+            self._solvers[name] = StepSolver(equations(), self._unknown, update)
+        return self._solvers[name].solve(held, step) is not None
+
+    def _parts(self) -> tuple[Any, Any]:
+        return ufl.split(self._unknown)[0], ufl.split(self._unknown)[1]
+
+    def _placing(self) -> Any:
+        old = ufl.split(self._step.before)[0]
+        position, force = self._parts()
+        form = ufl.inner(position - old, self._tests[0]) + force * ufl.inner(tangent(position), self._tests[0].dx(0))
+        form *= self._forms.space.dx
+        return (
+            form + self._forms.stretch(ThreadState(position, force), ThreadState(None, self._tests[1])) + self._rest()
+        )
+
+    def _starting(self) -> Any:
+        forms = self._forms
+        position, speed = ufl.split(self._step.before)[0], ufl.split(self._step.speed)[0]
+        velocity, impulse = self._parts()
+        tau = tangent(position)
+        form = forms.inertia(position, velocity - speed, self._tests[0])
+        form += impulse * ufl.inner(tau, self._tests[0].dx(0)) * forms.space.dx
+        if forms.model.axial_rigidity < inf:
+            # What stretches takes no jerk.
+            form += impulse * self._tests[1] * forms.space.dx
+        else:
+            form += self._tests[1] * ufl.inner(tau, velocity.dx(0)) * forms.space.dx
+        return form + self._rest()
+
+    def _rest(self) -> Any:
+        """No curvature is asked for here."""
+        if not self._forms.model.bends:
+            return 0
+        return ufl.inner(ufl.split(self._unknown)[2], self._tests[2]) * self._forms.space.dx
+
+    def _accelerating(self) -> Any:
+        step, forms = self._step, self._forms
+        position, speed = ufl.split(step.before)[0], ufl.split(step.speed)[0]
+        acceleration, force = self._parts()
+        curvature = ufl.split(self._unknown)[2] if forms.model.bends else None
+        state = ThreadState(position, force, curvature)
+        test = ThreadState(*self._tests)
+        form = forms.contact_work(state, test) + forms.inertia(position, acceleration, test.position)
+        form -= forms.load_work(position, speed, test.position)
+        if forms.model.axial_rigidity < inf:
+            form += forms.stretch(state, test)
+        else:
+            tau, slope = tangent(position), position.dx(0)
+            turning = speed.dx(0) - ufl.inner(speed.dx(0), tau) * tau
+            rate = ufl.inner(tau, acceleration.dx(0)) + ufl.inner(turning, turning) / ufl.sqrt(ufl.inner(slope, slope))
+            form += test.force * rate * forms.space.dx
+        reactive = forms.reactive_work(position, speed, test.position)
+        if reactive is not None:
+            form -= reactive
+        return form + forms.bending(state, test) if forms.model.bends else form

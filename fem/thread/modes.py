@@ -1,0 +1,219 @@
+"""Vibration modes of a thread about an equilibrium: roots λ of (λ² M + λ C + K) y = 0, with errors and shapes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from mpi4py import MPI
+from numpy.typing import NDArray
+from petsc4py import PETSc
+
+from hydroelastic.fem.modes import EigenSolverError
+from hydroelastic.fem.thread.eigenpairs import Eigenpair, eigenpairs, is_oscillating
+from hydroelastic.fem.thread.equilibrium import Equilibrium
+from hydroelastic.fem.thread.equivalent_damping import QuadraticDecay
+from hydroelastic.fem.thread.hyperbolicity import require_real_wave_speeds
+from hydroelastic.fem.thread.operators import ThreadOperators, thread_operators
+from hydroelastic.fem.thread.table import line_table
+
+# Beside its extent: a thread is planar, or straight, if it leaves a plane, or a line, by less.
+_FLAT = 1e-8
+# Relative change of a root that convergence of the iteration may leave.
+_CONVERGED = 1e-12
+
+
+@dataclass(frozen=True, kw_only=True)
+class Roots:
+    """Motions e^{λt} of one kind, by ascending magnitude.
+
+    Attributes:
+        values: λ, 1/s, Im λ ≥ 0, shape (modes,).
+        errors: estimate of their absolute errors, 1/s, shape (modes,).
+        residuals: backward errors of the algebraic problem, shape (modes,).
+        shapes: displacements y at the nodes, y*My = (m + ma) L + Σ (M_k + M_a,k), the largest component real and
+            positive, shape (modes, nodes, dimension).
+        out_of_plane: share of y*My that leaves the plane of the equilibrium, from 0 to 1; NaN in two dimensions, for a
+            straight thread and for one that lies in no plane, shape (modes,).
+    """
+
+    values: NDArray[np.complex128]
+    errors: NDArray[np.float64]
+    residuals: NDArray[np.float64]
+    shapes: NDArray[np.complex128]
+    out_of_plane: NDArray[np.float64]
+
+    @property
+    def damping_ratios(self) -> NDArray[np.float64]:
+        """−Re λ/|λ|; negative for a motion that grows."""
+        ratios: NDArray[np.float64] = -self.values.real / np.abs(self.values)
+        return ratios
+
+
+@dataclass(frozen=True, kw_only=True)
+class ThreadModes:
+    """The motions of smallest |λ|.
+
+    Attributes:
+        nodes: s of the shapes, m, shape (nodes,).
+        oscillating: as many as were asked for, one of each conjugate pair; ω = Im λ.
+        aperiodic: all with real λ up to the magnitude of the last oscillating one; in a stream often the slowest.
+        quadratic_decay: rates at which the amplitudes asked for begin to decay by quadratic drag in a liquid at rest,
+            1/s, shape (oscillating,); an estimate, besides −Re λ.
+    """
+
+    nodes: NDArray[np.float64]
+    oscillating: Roots
+    aperiodic: Roots
+    quadratic_decay: NDArray[np.float64] | None = None
+
+    @property
+    def frequencies(self) -> NDArray[np.float64]:
+        """Circular frequencies Im λ of the oscillating motions, rad/s."""
+        return self.oscillating.values.imag
+
+    @property
+    def is_stable(self) -> bool:
+        """Whether none of the motions grows by more than the error of its root."""
+        parts = (self.oscillating, self.aperiodic)
+        return not any(np.any(part.values.real > part.errors) for part in parts)
+
+
+def thread_modes(
+    equilibrium: Equilibrium,
+    coarser: Equilibrium,
+    count: int,
+    *,
+    velocity_damping: bool = True,
+    amplitude: float | None = None,
+    ill_posed_too: bool = False,
+) -> ThreadModes:
+    """The slowest motions of a thread about an equilibrium.
+
+    Args:
+        equilibrium: about which it moves.
+        coarser: the same on a coarser mesh, or of a lower degree; the difference of roots estimates the errors.
+        count: how many oscillating motions.
+        velocity_damping: whether forces in proportion to the velocity act; the stream enters K in both cases.
+        amplitude: largest displacement in each mode, m, for which the decay by quadratic drag is estimated.
+        ill_posed_too: solve on this mesh even where the roots do not converge as the mesh is refined.
+
+    Returns:
+        The motions (collective).
+
+    Raises:
+        EigenSolverError: if there are fewer on the meshes.
+        IllPosedError: where the thread is in compression, or too slack for the stream along it, and does not bend.
+        ValueError: if `count` is less than 1, nothing has a mass, or an amplitude is given in a stream.
+    """
+    if not ill_posed_too:
+        require_real_wave_speeds(equilibrium)
+    operators = thread_operators(equilibrium, velocity_damping=velocity_damping)
+    pairs = eigenpairs(operators, count)
+    rough = thread_operators(coarser, velocity_damping=velocity_damping)
+    compared = np.array([pair.root for pair in eigenpairs(rough, count)], dtype=np.complex128) / rough.time_unit
+    normal = _plane_normal(equilibrium)
+    modes = [_Mode(operators, pair, compared, normal) for pair in pairs]
+    oscillating = np.array([is_oscillating(pair.root) for pair in pairs])
+    decay = None
+    if amplitude is not None:
+        quadratic = QuadraticDecay(operators)
+        decay = np.array([quadratic.rate(pair, amplitude) for pair in pairs if is_oscillating(pair.root)])
+    return ThreadModes(
+        nodes=equilibrium.space.nodes * equilibrium.units.length,
+        oscillating=_roots(equilibrium, modes, oscillating),
+        aperiodic=_roots(equilibrium, modes, ~oscillating),
+        quadratic_decay=decay,
+    )
+
+
+class _Mode:
+    """What is told of one eigenpair."""
+
+    def __init__(
+        self,
+        operators: ThreadOperators,
+        pair: Eigenpair,
+        compared: NDArray[np.complex128],
+        normal: NDArray[np.float64] | None,
+    ) -> None:
+        parts = (pair.real, pair.imaginary)
+        generalized_mass = sum(_product(operators.mass, part, part) for part in parts)
+        if not generalized_mass > 0.0:
+            raise EigenSolverError(f"the motion with λ = {pair.root:g} has no mass")
+        self.value = pair.root / operators.time_unit
+        rounded = sum(_rounding(operators.stiffness, part) for part in parts) / (
+            2.0 * generalized_mass * abs(pair.root)
+        )
+        distance = float(np.min(np.abs(compared - self.value)))
+        self.error = distance + rounded / operators.time_unit + _CONVERGED * abs(self.value)
+        self.residual = pair.residual
+        total = _total_mass(operators)
+        self.shape = _shape(operators, pair) * np.sqrt(total / generalized_mass)
+        self.out_of_plane = np.nan
+        if normal is not None:
+            out = sum(_product(operators.mass, out, out) for out in (_along(operators, part, normal) for part in parts))
+            self.out_of_plane = out / generalized_mass
+
+
+def _roots(equilibrium: Equilibrium, modes: list[_Mode], chosen: NDArray[np.bool_]) -> Roots:
+    parts = [mode for mode, included in zip(modes, chosen, strict=True) if included]
+    size = (len(parts), len(equilibrium.space.nodes), equilibrium.space.dimension)
+    return Roots(
+        values=np.array([mode.value for mode in parts], dtype=np.complex128),
+        errors=np.array([mode.error for mode in parts], dtype=np.float64),
+        residuals=np.array([mode.residual for mode in parts], dtype=np.float64),
+        shapes=np.array([mode.shape for mode in parts], dtype=np.complex128).reshape(size),
+        out_of_plane=np.array([mode.out_of_plane for mode in parts], dtype=np.float64),
+    )
+
+
+def _total_mass(operators: ThreadOperators) -> float:
+    """(m + ma) L + Σ (M_k + M_a,k) in the units of the matrix M."""
+    model = operators.equilibrium.forms.model
+    loads = [*model.loads.values(), *(end.load for end in model.ends)]
+    total = (model.mass + model.added_mass) * model.length + sum(load.mass + load.added_mass for load in loads)
+    return float(total * (operators.equilibrium.units.time / operators.time_unit) ** 2)
+
+
+def _shape(operators: ThreadOperators, pair: Eigenpair) -> NDArray[np.complex128]:
+    nodes = operators.equilibrium.space.nodes
+    real, imaginary = (line_table(operators.function(part), nodes, 0).at(nodes) for part in (pair.real, pair.imaginary))
+    shape = real + 1j * imaginary
+    largest = shape.flat[int(np.argmax(np.abs(shape)))]
+    return np.asarray(shape * np.conj(largest) / abs(largest))
+
+
+def _along(operators: ThreadOperators, vector: PETSc.Vec, normal: NDArray[np.float64]) -> PETSc.Vec:
+    """The part of a motion in one direction."""
+    function = operators.function(vector)
+    _, places = function.function_space.sub(0).collapse()
+    displacement = function.x.array[places].reshape(-1, len(normal))
+    function.x.array[:] = 0.0
+    function.x.array[places] = np.outer(displacement @ normal, normal).ravel()
+    result = operators.zeros()
+    result.array[:] = function.x.array[operators.free]
+    return result
+
+
+def _plane_normal(equilibrium: Equilibrium) -> NDArray[np.float64] | None:
+    """Of the only plane in which the thread lies, or nothing (collective)."""
+    if equilibrium.space.dimension == 2:
+        return None
+    points = line_table(equilibrium.solution, equilibrium.space.nodes, 0).values.reshape(-1, 3)
+    _, extents, axes = np.linalg.svd(points - points.mean(axis=0), full_matrices=False)
+    flat = extents < _FLAT * extents[0]
+    return axes[2] if flat[2] and not flat[1] else None
+
+
+def _product(matrix: PETSc.Mat, left: PETSc.Vec, right: PETSc.Vec) -> float:
+    image = left.duplicate()
+    matrix.mult(right, image)
+    return float(left.dot(image))
+
+
+def _rounding(stiffness: PETSc.Mat, vector: PETSc.Vec) -> float:
+    """By how much rounding of the entries of K may change yᵀKy, their errors taken as independent (collective)."""
+    terms = stiffness.getDiagonal().array_r * vector.array_r**2
+    total = stiffness.comm.tompi4py().allreduce(float(terms @ terms), op=MPI.SUM)
+    return float(4.0 * np.finfo(float).eps * np.sqrt(total))

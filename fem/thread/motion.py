@@ -1,0 +1,340 @@
+"""The motion of a thread in a stream, in time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from math import inf
+from typing import Any
+
+import numpy as np
+from dolfinx import fem
+from mpi4py import MPI
+from numpy.typing import NDArray
+
+from hydroelastic.fem.thread.equilibrium import Along, Equilibrium
+from hydroelastic.fem.thread.forms import ThreadForms
+from hydroelastic.fem.thread.model import Stream, ThreadModel, Units
+from hydroelastic.fem.thread.motion_plan import EndCourse, MotionPlan, ThreadMotionError, VectorOfTime
+from hydroelastic.fem.thread.motion_results import StepHistory, ThreadMotion, at_step_ends, find_slack
+from hydroelastic.fem.thread.mover import Guidance, ThreadMover
+from hydroelastic.fem.thread.pace import Pace
+from hydroelastic.fem.thread.shedding import SheddingLoad
+from hydroelastic.fem.thread.space import ThreadSpace
+from hydroelastic.fem.thread.step import GeneralisedAlpha
+
+
+@dataclass(frozen=True, kw_only=True)
+class MovingStart:
+    """Positions and velocities at the beginning.
+
+    Attributes:
+        position: r in m at s of shape (n,) in m, shape (n, dimension); moved a little where the thread would be
+            stretched that cannot be.
+        velocity: r_t in m/s, likewise; a thread at rest without it.
+    """
+
+    position: Along
+    velocity: Along | None = None
+
+
+@dataclass
+class _TimedStream:
+    """A stream times a factor that changes."""
+
+    stream: Stream
+    factor: float = 1.0
+
+    def set_factor(self, factor: float) -> None:
+        self.factor = factor
+
+    def velocity_at(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        return self.factor * self.stream.velocity_at(points)
+
+    def gradient_at(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        return self.factor * self.stream.gradient_at(points)
+
+
+def motion_units(model: ThreadModel) -> Units:
+    """The thread's length, its weight and loads as a force, and the time of a transverse wave under them.
+
+    Without any force, the drag at the speed at which the stream is at z = 0; without that too, 1 N.
+    """
+    bodies = (*model.loads.values(), *(end.load for end in model.ends))
+    force = abs(model.weight) * model.length + sum(float(np.linalg.norm(body.force)) for body in bodies)
+    if force == 0.0 and model.stream is not None:
+        speed = float(np.linalg.norm(model.stream.velocity_at(np.zeros((1, 3)))))
+        force = model.normal_drag * speed**2 * model.length
+    force = force or 1.0
+    inertia = (model.mass + model.added_mass) * model.length + sum(body.mass + body.added_mass for body in bodies)
+    return Units(length=model.length, force=force, time=float(np.sqrt(inertia * model.length / force)))
+
+
+def move_thread(
+    comm: MPI.Comm,
+    model: ThreadModel,
+    nodes: NDArray[np.float64],
+    start: MovingStart,
+    plan: MotionPlan,
+    *,
+    degree: int = 2,
+) -> ThreadMotion:
+    """Follow a thread from given positions and velocities.
+
+    Args:
+        comm: communicator.
+        model: the thread, SI.
+        nodes: s of the nodes in m from 0 to the length, increasing; all points of `model.loads` are among them.
+        start: positions and velocities.
+        plan: what is asked.
+        degree: of the positions.
+
+    Returns:
+        The motion (collective).
+
+    Raises:
+        ValueError: where the plan does not fit the thread.
+        ThreadMotionError: where a step fails however short it is.
+    """
+    units = motion_units(model)
+    space = ThreadSpace(comm, np.asarray(nodes / model.length, dtype=np.float64), degree, model.dimension, model.bends)
+    mover = _make_mover(model, units, space, plan)
+    _interpolate(mover.step.before, start.position, units.length, units.length)
+    if start.velocity is not None:
+        _interpolate(mover.step.speed, start.velocity, units.length, units.length / units.time)
+    return _Run(mover, units, plan, model.length).go(place=True)
+
+
+def move_from_rest(equilibrium: Equilibrium, plan: MotionPlan) -> ThreadMotion:
+    """Follow a thread from where it is at rest.
+
+    Args:
+        equilibrium: the thread at rest; its model may hang in another stream than the plan's factor gives.
+        plan: what is asked.
+
+    Returns:
+        The motion on the mesh of the equilibrium (collective).
+
+    Raises:
+        ValueError: where the plan does not fit the thread.
+        ThreadMotionError: where a step fails however short it is.
+    """
+    model = equilibrium.model
+    units = replace(equilibrium.units, time=motion_units(model).time)
+    mover = _make_mover(model, units, equilibrium.space, plan)
+    mover.step.before.x.array[:] = equilibrium.solution.x.array
+    return _Run(mover, units, plan, model.length).go(place=False)
+
+
+def _make_mover(model: ThreadModel, units: Units, space: ThreadSpace, plan: MotionPlan) -> ThreadMover:
+    plan.check(model)
+    scaled = units.scaled(model)
+    set_factor: Callable[[float], None] = lambda factor: None  # noqa: E731
+    if scaled.stream is not None and plan.stream_factor is not None:
+        stream = _TimedStream(scaled.stream)
+        scaled, set_factor = replace(scaled, stream=stream), stream.set_factor
+    forms = ThreadForms(scaled, space)
+    factor = plan.stream_factor
+    guidance = Guidance(
+        ends=(_scaled_course(plan.ends[0], units), _scaled_course(plan.ends[1], units)),
+        stream=None if factor is None else lambda time: factor(time * units.time),
+        set_stream=set_factor,
+    )
+    shedding = None
+    if plan.shedding is not None:
+        lift = plan.shedding.lift * units.length**3 / (units.force * units.time**2)
+        given = replace(plan.shedding, lift=lift, wave_number=plan.shedding.wave_number * units.length)
+        shedding = SheddingLoad(forms, given)
+    alpha = None if plan.dissipation is None else GeneralisedAlpha(plan.dissipation)
+    return ThreadMover(forms, guidance, alpha=alpha, shedding=shedding)
+
+
+def _scaled_course(course: EndCourse, units: Units) -> EndCourse:
+    def scaled(function: VectorOfTime | None, unit: float) -> VectorOfTime | None:
+        if function is None:
+            return None
+        given = function
+
+        def at(time: float) -> NDArray[np.float64]:
+            return np.asarray(np.asarray(given(time * units.time)) / unit, dtype=np.float64)
+
+        return at
+
+    release = None if course.release is None else tuple(time / units.time for time in course.release)
+    return EndCourse(
+        position=scaled(course.position, units.length), force=scaled(course.force, units.force), release=release
+    )
+
+
+def _interpolate(function: Any, along: Along, length: float, unit: float) -> None:
+    space, places = function.function_space.sub(0).collapse()
+    part = fem.Function(space)
+    part.interpolate(lambda x: np.asarray(along(x[0] * length)).T / unit)
+    function.x.array[np.asarray(places)] = part.x.array
+
+
+@dataclass
+class _Record:
+    """What steps leave, in the units of the forms."""
+
+    ends: list[float] = field(default_factory=list)
+    energies: list[NDArray[np.float64]] = field(default_factory=list)
+    work: list[NDArray[np.float64]] = field(default_factory=list)
+    reactions: list[NDArray[np.float64]] = field(default_factory=list)
+    tensions: list[NDArray[np.float64]] = field(default_factory=list)
+    solutions: list[int] = field(default_factory=list)
+    # Tensions and reactions at the start and just after breaks, where they are known, by the number of steps before.
+    starts: dict[int, tuple[NDArray[np.float64], NDArray[np.float64]] | None] = field(default_factory=dict)
+    # Number of steps before, positions, velocities.
+    output: list[tuple[int, NDArray[np.float64], NDArray[np.float64]]] = field(default_factory=list)
+
+
+class _Run:
+    """One motion: from stop to stop, each step as long as its pace allows."""
+
+    def __init__(self, mover: ThreadMover, units: Units, plan: MotionPlan, length: float) -> None:
+        self._mover, self._units, self._plan, self._length = mover, units, plan, length
+        self._record = _Record()
+        self._pace = Pace(plan.step / units.time, plan.tolerance if plan.grid is None else None)
+        self._jerked, self._refused = 0.0, 0
+        self._rate_age = 0.0
+
+    def go(self, *, place: bool) -> ThreadMotion:
+        mover, unit = self._mover, self._units.time
+        stops, breaks = self._plan.stops()
+        wanted = {float(time) for time in self._plan.times}
+        mover.time = float(self._plan.times[0]) / unit
+        moved = mover.place() if place else 0.0
+        if moved is None:
+            self._fail(
+                "there is no thread near the given positions, or its tension is undetermined; give positions with "
+                "|r_s| = 1 nearby, and more thread than the distance of its held ends"
+            )
+        self._begin(jerk=True)
+        self._record.ends.append(mover.time)
+        self._record.energies.append(mover.energies())
+        self._output()
+        still = None
+        for stop in stops:
+            still = self._reach(stop / unit)
+            if stop in breaks and still is None:
+                self._begin(jerk=stop in self._plan.breaks)
+            if stop in wanted or still is not None:
+                self._output()
+            if still is not None:
+                break
+        return self._result(moved * self._length if moved else 0.0, still)
+
+    def _begin(self, *, jerk: bool) -> None:
+        """Velocities, accelerations and tensions at the start, or after a break."""
+        mover = self._mover
+        if jerk:
+            jerked = mover.start()
+            if jerked is None:
+                self._fail("no impulse of the ends gives the thread the velocities asked for")
+            else:
+                self._jerked = max(self._jerked, jerked)
+        tensions = mover.accelerate()
+        if tensions is None:
+            self._fail("the accelerations are undetermined; is the thread straight between two held ends?")
+        else:
+            # The rate of Lighthill's momentum is more than the acceleration's part of it.
+            known = mover.forms.model.reactive != "lighthill"
+            steps = len(self._record.work)
+            self._record.starts[steps] = (tensions, mover.start_reactions()) if known else None
+        self._pace.restart()
+        self._rate_age = 0.0
+
+    def _reach(self, stop: float) -> float | None:
+        """Go on to a time; to an earlier one where the thread is still."""
+        mover, plan = self._mover, self._plan
+        while stop - mover.time > 1e-9 * self._pace.longest:
+            length = self._take(self._next(stop))
+            if stop - mover.time < 1e-9 * length:
+                mover.time = stop
+            self._record.ends[-1] = mover.time
+            if plan.still_speed is not None and mover.speed() * self._length / self._units.time < plan.still_speed:
+                return mover.time
+        return None
+
+    def _next(self, stop: float) -> float:
+        """Length of the next step."""
+        now, grid = self._mover.time, self._plan.grid
+        if grid is None:
+            return self._pace.next(stop - now)
+        beyond = grid[grid / self._units.time > now + 1e-9 * self._pace.longest]
+        return min(stop, float(beyond[0]) / self._units.time if len(beyond) else stop) - now
+
+    def _take(self, length: float) -> float:
+        """One step, shorter where it must be."""
+        mover, pace, record = self._mover, self._pace, self._record
+        while True:
+            solutions = mover.attempt(length)
+            error = inf if solutions is None else mover.roughness(length, self._rate_age) if pace.adaptive else 0.0
+            if solutions is not None and pace.accepts(error):
+                break
+            self._refused += 1
+            length = pace.shorter(length, error)
+            if pace.exhausted(length):
+                self._fail(
+                    "Newton's method did not converge in steps however short; look for slack or a fold before this "
+                    "time, give the thread flexural rigidity, or refine the mesh"
+                )
+        tensions, (reactions, end_powers) = mover.tensions(), mover.reactions()
+        work = length * np.append(mover.powers(), end_powers.sum())
+        mover.accept(length)
+        self._rate_age = 0.5 * length
+        record.ends.append(mover.time)
+        record.energies.append(mover.energies())
+        record.work.append(work)
+        record.reactions.append(reactions)
+        record.tensions.append(tensions)
+        record.solutions.append(solutions or 0)
+        pace.done(length, error)
+        return length
+
+    def _output(self) -> None:
+        self._record.output.append((len(self._record.work), *self._mover.state()))
+
+    def _fail(self, cause: str) -> None:
+        time = self._mover.time * self._units.time
+        raise ThreadMotionError(f"the motion cannot be followed beyond t = {time:.6g} s: {cause}")
+
+    def _result(self, moved: float, still: float | None) -> ThreadMotion:
+        units, record, length = self._units, self._record, self._length
+        speed, work = length / units.time, units.force * length
+        nodes = self._mover.forms.space.nodes * length
+        ends = np.array(record.ends)
+        tensions, reactions = (
+            at_step_ends(
+                ends,
+                np.array(middles),
+                {step: None if known is None else known[part] for step, known in record.starts.items()},
+                self._mover.force_part,
+            )
+            for part, middles in enumerate((record.tensions, record.reactions))
+        )
+        history = StepHistory(
+            ends=ends * units.time,
+            energies=np.array(record.energies) * work,
+            work=np.array(record.work) * work,
+            reactions=reactions * units.force,
+            tensions=tensions * units.force,
+            solutions=np.array(record.solutions),
+        )
+        rows = [steps for steps, _, _ in record.output]
+        return ThreadMotion(
+            times=history.ends[rows],
+            nodes=nodes,
+            positions=np.array([positions for _, positions, _ in record.output]) * length,
+            velocities=np.array([velocities for _, _, velocities in record.output]) * speed,
+            tensions=history.tensions[rows],
+            history=history,
+            moved=moved,
+            jerked=self._jerked * speed,
+            refused=self._refused,
+            slack=()
+            if self._mover.forms.model.bends
+            else find_slack(history.ends, nodes, history.tensions, units.force),
+            still=None if still is None else still * units.time,
+        )

@@ -1,0 +1,118 @@
+"""How far a motion of a thread may be from the exact one: the same motion with every step, or every element, in two."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydroelastic.fem.thread.motion_plan import MotionPlan
+from hydroelastic.fem.thread.motion_results import ThreadMotion
+
+Run = Callable[[MotionPlan, int], ThreadMotion]
+
+
+@dataclass(frozen=True, kw_only=True)
+class MotionDifference:
+    """The largest differences of two motions at the nodes and the output times.
+
+    Attributes:
+        positions: distance, m.
+        velocities: m/s.
+        tensions: N.
+    """
+
+    positions: float
+    velocities: float
+    tensions: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class MeasuredMotion:
+    """A motion and its errors.
+
+    Attributes:
+        motion: that of the halved steps on the mesh as given.
+        steps: difference from that of the whole steps; the error that is left is a third of it while steps are of
+            second order.
+        mesh: difference from that of halved elements with the whole steps, if it was asked for.
+        ends: times at which the whole steps end, s, shape (n,).
+        tension_changes: largest difference of a tension at each of them, by halving steps and, if that was asked for,
+            elements, N, shape (n,).
+    """
+
+    motion: ThreadMotion
+    steps: MotionDifference
+    mesh: MotionDifference | None
+    ends: NDArray[np.float64]
+    tension_changes: NDArray[np.float64]
+
+    def tension_change(self, start: float, end: float) -> float:
+        """The largest of `tension_changes` between two times and at the whole steps' ends around them, N."""
+        first = max(int(np.searchsorted(self.ends, start, side="right")) - 1, 0)
+        last = int(np.searchsorted(self.ends, end))
+        return float(self.tension_changes[first : last + 1].max())
+
+
+def halved(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Increasing numbers and the middles between them."""
+    result = np.empty(2 * len(values) - 1)
+    result[::2], result[1::2] = values, 0.5 * (values[1:] + values[:-1])
+    return result
+
+
+def motion_difference(first: ThreadMotion, second: ThreadMotion, every: int = 1) -> MotionDifference:
+    """How far two motions are from each other.
+
+    Args:
+        first: a motion.
+        second: one at the same times, up to where the shorter one ends.
+        every: which nodes of the second are those of the first.
+    """
+    count = min(len(first.times), len(second.times))
+
+    def largest(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
+        change = a[:count] - b[:count, ::every]
+        return float(np.max(np.linalg.norm(change, axis=-1) if change.ndim == 3 else np.abs(change)))
+
+    return MotionDifference(
+        positions=largest(first.positions, second.positions),
+        velocities=largest(first.velocities, second.velocities),
+        tensions=largest(first.tensions, second.tensions),
+    )
+
+
+def measure_motion(run: Run, plan: MotionPlan, *, mesh: bool = False) -> MeasuredMotion:
+    """Follow a motion twice, with steps as planned and with all of them halved; and on halved elements if asked.
+
+    Args:
+        run: follows a plan on a mesh whose elements are cut in so many parts (collective).
+        plan: what is asked.
+        mesh: whether to look at the mesh too.
+
+    Returns:
+        The motion of halved steps, with the differences (collective).
+    """
+    whole = run(plan, 1)
+    grid = whole.history.ends
+    finer = run(replace(plan, grid=halved(grid)), 1)
+    changes = _tension_changes(whole, finer)
+    cut = None
+    if mesh:
+        parted = run(replace(plan, grid=grid), 2)
+        cut = motion_difference(whole, parted, every=2)
+        changes = changes + _tension_changes(whole, parted, every=2)
+    return MeasuredMotion(
+        motion=finer, steps=motion_difference(whole, finer), mesh=cut, ends=grid, tension_changes=changes
+    )
+
+
+def _tension_changes(first: ThreadMotion, second: ThreadMotion, every: int = 1) -> NDArray[np.float64]:
+    """Largest difference of a tension at each end of the first motion's steps, where the second one has steps that end
+    too, but for rounding."""
+    ends = second.history.ends
+    places = np.searchsorted(0.5 * (ends[1:] + ends[:-1]), first.history.ends)
+    changes: NDArray[np.float64] = np.abs(first.history.tensions - second.history.tensions[places, ::every]).max(axis=1)
+    return changes

@@ -1,0 +1,120 @@
+"""What is asked of the motion of a thread: output times, steps, how its ends are led, when they are let go."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import isfinite
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydroelastic.fem.thread.model import ThreadModel
+from hydroelastic.fem.thread.shedding import Shedding
+
+VectorOfTime = Callable[[float], NDArray[np.float64]]
+
+
+class ThreadMotionError(RuntimeError):
+    """The motion could not be followed; says when, why, and what to do."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class EndCourse:
+    """How an end is led in time.
+
+    Attributes:
+        position: of the end in m by the time in s, shape (dimension,), of which the held components are asked; the
+            model's position without it.
+        force: the dead force on the end in N by the time, shape (dimension,), in place of the model's.
+        release: when each held component is let go, s, shape (dimension,); infinite for never. A clamp is let go with
+            the last component.
+    """
+
+    position: VectorOfTime | None = None
+    force: VectorOfTime | None = None
+    release: tuple[float, ...] | None = None
+
+    def held(self, held: tuple[bool, ...], time: float) -> tuple[bool, ...]:
+        """Which components are still held just after a time, of those held at first."""
+        if self.release is None:
+            return held
+        return tuple(kept and time < let_go for kept, let_go in zip(held, self.release, strict=True))
+
+
+@dataclass(frozen=True, kw_only=True)
+class MotionPlan:
+    """What is asked of a motion.
+
+    Attributes:
+        times: of the output, s, increasing; the first is that of the start.
+        step: the longest step, s; that of all steps without `tolerance`, up to landing on output times.
+        tolerance: of the error of positions that a step adds, of the thread's length; steps then follow it.
+        ends: how A and B are led.
+        stream_factor: by the time in s, times the model's stream; the pressure gradient of a stream that changes is
+            not in the equations, so it must change slowly.
+        breaks: times at which velocities or accelerations of the ends, forces, or the stream's rate jump.
+        dissipation: spectral radius at infinite frequency of generalised alpha, which damps what steps do not resolve;
+            the midpoint rule, which keeps the energy, without it.
+        shedding: of vortices.
+        grid: times at which steps end, s, increasing, in place of `step` and `tolerance`.
+        still_speed: m/s; the motion ends once no component of a velocity is larger, after at least one step. Long steps
+            get there with `dissipation` only: the midpoint rule rings.
+    """
+
+    times: NDArray[np.float64]
+    step: float
+    tolerance: float | None = None
+    ends: tuple[EndCourse, EndCourse] = (EndCourse(), EndCourse())
+    stream_factor: Callable[[float], float] | None = None
+    breaks: tuple[float, ...] = ()
+    dissipation: float | None = None
+    shedding: Shedding | None = None
+    grid: NDArray[np.float64] | None = None
+    still_speed: float | None = None
+
+    def __post_init__(self) -> None:
+        """Refuse what cannot be followed."""
+        times = np.asarray(self.times, dtype=np.float64)
+        if times.ndim != 1 or len(times) < 2 or not np.all(np.isfinite(times)) or np.any(np.diff(times) <= 0.0):
+            raise ValueError(f"times are {self.times}: at least two are needed, finite and increasing")
+        if not (isfinite(self.step) and self.step > 0.0):
+            raise ValueError(f"step is {self.step}: it must be finite and positive")
+        if self.tolerance is not None and not 0.0 < self.tolerance < 1.0:
+            raise ValueError(f"tolerance is {self.tolerance}: it must be between 0 and 1")
+        if self.dissipation is not None and not 0.0 <= self.dissipation < 1.0:
+            raise ValueError(
+                f"dissipation is {self.dissipation}: it must be at least 0 and below 1; at 1 stiff stretching grows "
+                "without bound, 0.5 to 0.7 is usual"
+            )
+        if self.still_speed is not None and not self.still_speed > 0.0:
+            raise ValueError(f"still_speed is {self.still_speed}: it must be positive")
+
+    def check(self, model: ThreadModel) -> None:
+        """Refuse what does not fit a thread.
+
+        Raises:
+            ValueError: with what does not fit.
+        """
+        if not model.mass > 0.0:
+            raise ValueError(f"mass is {model.mass}: the motion of a thread needs a positive one, however small")
+        if self.dissipation is not None and model.reactive == "lighthill":
+            raise ValueError('dissipation: reactive "lighthill" needs the midpoint rule, leave dissipation out')
+        if self.shedding is not None and (model.dimension == 2 or model.normal_drag == 0.0):
+            raise ValueError("shedding: its force is across the plane of the thread, and needs dimension 3 and drag")
+        if model.reactive != "none" and any(course.release is not None for course in self.ends):
+            raise ValueError(
+                f'release: not with reactive "{model.reactive}", whose terms at an end that is let go are new'
+            )
+        for name, course in zip("AB", self.ends, strict=True):
+            if course.release is not None and len(course.release) != model.dimension:
+                raise ValueError(
+                    f"release of end {name} has {len(course.release)} times: there must be {model.dimension}"
+                )
+
+    def stops(self) -> tuple[list[float], list[float]]:
+        """Times at which steps end, and those among them where the motion breaks, after the start."""
+        first, last = float(self.times[0]), float(self.times[-1])
+        releases = [time for course in self.ends for time in course.release or ()]
+        breaks = sorted({float(time) for time in (*self.breaks, *releases) if first < time < last})
+        return sorted({*map(float, self.times[1:]), *breaks}), breaks

@@ -1,0 +1,328 @@
+"""The state of a moving thread on one mesh and how a step changes it, in the units of its forms."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from math import inf
+from typing import Any
+
+import numpy as np
+import ufl
+from dolfinx import fem
+from dolfinx.fem.petsc import assemble_vector
+from mpi4py import MPI
+from numpy.typing import NDArray
+from petsc4py import PETSc
+
+from hydroelastic.fem.kernels import jit_options
+from hydroelastic.fem.thread.forms import ThreadForms
+from hydroelastic.fem.thread.instant import ThreadInstant
+from hydroelastic.fem.thread.motion_plan import EndCourse
+from hydroelastic.fem.thread.shedding import SheddingLoad
+from hydroelastic.fem.thread.step import GeneralisedAlpha, ThreadStep, midpoint_weights
+from hydroelastic.fem.thread.step_solver import HeldUnknowns, StepSolver
+from hydroelastic.fem.thread.table import gather_elements
+
+_ENDS = np.array([[0.0], [1.0]])
+# Of the unit of time, for one-sided differences of how an end is led.
+_DIFFERENCE = 1e-4
+
+
+@dataclass(frozen=True)
+class Guidance:
+    """What acts on a thread from outside by the time, in the units of its forms.
+
+    Attributes:
+        ends: how A and B are led.
+        stream: factor of the stream by the time, nothing for a steady one.
+        set_stream: takes the factor.
+    """
+
+    ends: tuple[EndCourse, EndCourse]
+    stream: Callable[[float], float] | None
+    set_stream: Callable[[float], None]
+
+
+class ThreadMover:
+    """A thread that moves.
+
+    Args:
+        forms: of the thread.
+        guidance: what acts on it by the time.
+        alpha: generalised alpha, or nothing for the midpoint rule.
+        shedding: the force of vortices.
+
+    Attributes:
+        time: of the state.
+        step: the equations of a step, with the state in `before` and `speed`.
+        force_part: of a step, at which its forces belong.
+    """
+
+    def __init__(
+        self,
+        forms: ThreadForms,
+        guidance: Guidance,
+        *,
+        alpha: GeneralisedAlpha | None = None,
+        shedding: SheddingLoad | None = None,
+    ) -> None:
+        """Compile the forms."""
+        self.forms, self._guidance, self._alpha, self._shedding = forms, guidance, alpha, shedding
+        self.time = 0.0
+        self.force_part = 0.5 if alpha is None else 1.0 - alpha.force_shift
+        self.step = ThreadStep(forms, conservative=alpha is None, extra=shedding)
+        self._solver = StepSolver(self.step.residual, self.step.unknown, self._look_up_stream)
+        self._instant = ThreadInstant(self.step)
+        space = forms.space
+        self._places = np.asarray(space.mixed.sub(0).collapse()[1])
+        self._force_places = np.asarray(space.mixed.sub(1).collapse()[1])
+        self._dimension = forms.model.dimension
+        self._facets = [space.end_tags.find(tag) for tag in (1, 2)]
+        self._end_places = [self._places_of_end(facets) for facets in self._facets]
+        tests = [ufl.TestFunction(fem.functionspace(space.mesh, ("DG", 0, (count,)))) for count in (4, 3)]
+        self._energies = fem.form(self.step.energies(tests[0]), jit_options=jit_options())
+        self._powers = fem.form(self.step.powers(tests[1]), jit_options=jit_options())
+        state = [*ufl.split(self.step.before)[0], *ufl.split(self.step.speed)[0]]
+        self._sample = fem.Expression(ufl.as_vector(state), _ENDS, jit_options=jit_options())
+        self._tension = fem.Expression(self.step.tension, _ENDS, jit_options=jit_options())
+        self._cells = np.arange(space.mesh.topology.index_map(1).size_local, dtype=np.int32)
+        self._held = self._hold()
+
+    def _places_of_end(self, facets: NDArray[np.int32]) -> list[NDArray[np.int32]]:
+        mixed = self.forms.space.mixed
+        return [fem.locate_dofs_topological(mixed.sub(0).sub(axis), 0, facets) for axis in range(self._dimension)]
+
+    def _hold(self) -> HeldUnknowns:
+        """Components that are held just after the present time."""
+        model = self.forms.model
+        held, straight, self._led = [], [], []
+        for index, (end, course) in enumerate(zip(model.ends, self._guidance.ends, strict=True)):
+            kept = course.held(end.held, self.time)
+            for axis in (axis for axis in range(self._dimension) if kept[axis]):
+                held.append((0, axis, self._facets[index]))
+                self._led.append((index, axis))
+            let_go = any(end.held) and not any(kept)
+            if model.bends and (end.clamp is None or let_go):
+                straight += [(2, axis, self._facets[index]) for axis in range(self._dimension)]
+        return HeldUnknowns(self.forms.space.mixed, held + straight)
+
+    def _lead(self, component: Callable[[Callable[[float], float]], float]) -> None:
+        """Give the held components a value each, from the component of the end's position by the time."""
+        # The values of the curvature follow those of the ends and stay zero.
+        values = iter(self._held.values)
+        for index, axis in self._led:
+            next(values).value = component(partial(self._end_position, index, axis))
+
+    def _end_position(self, index: int, axis: int, time: float) -> float:
+        course = self._guidance.ends[index]
+        position = self.forms.model.ends[index].position if course.position is None else course.position(time)
+        return float(position[axis])
+
+    def _look_up_stream(self) -> None:
+        if self.forms.stream is not None:
+            self.forms.stream.update(self.step.position)
+
+    def _act(self, time: float) -> None:
+        """Forces and stream at a time."""
+        if self._guidance.stream is not None:
+            self._guidance.set_stream(self._guidance.stream(time))
+        for index, course in enumerate(self._guidance.ends):
+            if course.force is not None:
+                vectors = self.forms.space.vectors
+                nodes = fem.locate_dofs_topological(vectors, 0, self._facets[index])
+                self.forms.point_force.x.array.reshape(-1, self._dimension)[nodes] = course.force(time)
+
+    def place(self) -> float | None:
+        """Move the positions to where the thread is not stretched, if it cannot be, and its held ends are.
+
+        Returns:
+            The largest change, nothing where there is no such place (collective).
+        """
+        self._lead(lambda position: position(self.time))
+        before = self.step.before.x.array
+        if self.forms.model.axial_rigidity < inf:
+            self._held.set(before)
+            return 0.0
+        if not self._instant.place(self._held):
+            return None
+        return self._replace(before, self.step.unknown.x.array)
+
+    def start(self) -> float | None:
+        """Change the velocities to what the held ends and a thread that cannot stretch allow, as a jerk does.
+
+        Returns:
+            The largest change, nothing where the impulse has no solution (collective).
+        """
+        self._lead(lambda position: _slope(position, self.time))
+        if not self._instant.start(self._held):
+            return None
+        return self._replace(self.step.speed.x.array, self.step.unknown.x.array)
+
+    def _replace(self, old: NDArray[np.float64], new: NDArray[np.float64]) -> float:
+        change = np.max(np.abs(new[self._places] - old[self._places]), initial=0.0)
+        old[self._places] = new[self._places]
+        return float(self.forms.space.mesh.comm.allreduce(float(change), op=MPI.MAX))
+
+    def accelerate(self) -> NDArray[np.float64] | None:
+        """Find accelerations, axial force and curvature of the present state.
+
+        Returns:
+            Tension at the nodes, nothing where there is no solution (collective).
+        """
+        self._held = self._hold()
+        self._act(self.time)
+        self._lead(lambda position: _curvature(position, self.time))
+        if not self._instant.accelerate(self._held):
+            return None
+        self._keep_rate(self.step.unknown.x.array)
+        before = self.step.before.x.array
+        others = np.setdiff1d(np.arange(len(before)), self._places)
+        before[others] = self.step.unknown.x.array[others]
+        return self.tensions()
+
+    def _keep_rate(self, values: NDArray[np.float64]) -> None:
+        self.step.rate.x.array[self._places] = values[self._places]
+
+    def attempt(self, length: float) -> int | None:
+        """Solve the equations of a step from the present state.
+
+        Args:
+            length: of the step.
+
+        Returns:
+            Number of linear systems, nothing where Newton's method fails (collective).
+        """
+        alpha = self._alpha
+        weights = midpoint_weights(length) if alpha is None else alpha.weights(length)
+        self.step.set_weights(weights, length)
+        if self._shedding is not None:
+            self._shedding.set_step(length)
+        self._act(self.time + self.force_part * length)
+        start, end = self.time, self.time + length
+        self._lead(lambda position: (position(end) - position(start)) / length)
+        places, unknown = self._places, self.step.unknown.x.array
+        old = unknown.copy()
+        unknown[places] = self.step.speed.x.array[places] + 0.5 * length * self.step.rate.x.array[places]
+        solutions = self._solver.solve(self._held, length)
+        if solutions is None:
+            unknown[:] = old
+        return solutions
+
+    def roughness(self, length: float, rate_age: float) -> float:
+        """Error of the positions that the attempted step adds, Δt³ |r_ttt|/12, by how much the acceleration changed.
+
+        Args:
+            length: of the step.
+            rate_age: time between the acceleration that is known and the beginning of the step.
+        """
+        change = np.max(np.abs(self._new_rate(length) - self.step.rate.x.array)[self._places], initial=0.0)
+        # Between middles of steps by the midpoint rule, between ends by generalised alpha.
+        between = rate_age + 0.5 * length if self._alpha is None else length
+        local = length**3 / 12.0 * float(change) / between
+        return float(self.forms.space.mesh.comm.allreduce(local, op=MPI.MAX))
+
+    def _new_rate(self, length: float) -> NDArray[np.float64]:
+        mean, speed, rate = self.step.unknown.x.array, self.step.speed.x.array, self.step.rate.x.array
+        if self._alpha is None:
+            new: NDArray[np.float64] = 2.0 * (mean - speed) / length
+            return new
+        return _combine(self._alpha.end_acceleration(length), (mean, speed, rate))
+
+    def accept(self, length: float) -> None:
+        """Take the attempted step."""
+        places, before = self._places, self.step.before.x.array
+        mean, speed, rate = self.step.unknown.x.array, self.step.speed.x.array, self.step.rate.x.array
+        if self._shedding is not None:
+            self._shedding.advance()
+        new_rate = self._new_rate(length)
+        last = 2.0 * mean - speed
+        if self._alpha is not None:
+            last = _combine(self._alpha.end_velocity(length), (mean, speed, rate))
+        before[places] += length * mean[places]
+        speed[places] = last[places]
+        self._keep_rate(new_rate)
+        others = self._force_places
+        stretches = self._alpha is None and self.forms.model.axial_rigidity < inf
+        before[others] = 2.0 * mean[others] - before[others] if stretches else mean[others]
+        if self.forms.model.bends:
+            rest = np.setdiff1d(np.arange(len(before)), np.concatenate([places, others]))
+            before[rest] = mean[rest]
+        self.time += length
+
+    def energies(self) -> NDArray[np.float64]:
+        """Kinetic, potential, elastic and bending energy (collective)."""
+        return self._sum(self._energies, 4)
+
+    def powers(self) -> NDArray[np.float64]:
+        """Mean powers of drag, of the liquid's inertia, of changes of dead forces in the step (collective)."""
+        return self._sum(self._powers, 3)
+
+    def _sum(self, form: Any, count: int) -> NDArray[np.float64]:
+        vector = assemble_vector(form)
+        vector.ghostUpdate(addv=PETSc.InsertMode.ADD, mode=PETSc.ScatterMode.REVERSE)
+        local = vector.array.reshape(-1, count).sum(axis=0)
+        vector.destroy()
+        total: NDArray[np.float64] = self.forms.space.mesh.comm.allreduce(local, op=MPI.SUM)
+        return total
+
+    def reactions(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Forces on the held ends in the step, shape (2, dimension), and their powers, shape (2,) (collective)."""
+        return self._reactions(self._solver.reaction)
+
+    def start_reactions(self) -> NDArray[np.float64]:
+        """Forces on the held ends by the accelerations that were found last, shape (2, dimension) (collective)."""
+        return self._reactions(self._instant.reaction)[0]
+
+    def _reactions(self, reaction: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        forces, powers = np.zeros((2, self._dimension)), np.zeros(2)
+        mean = self.step.unknown.x.array
+        for index, axis in self._led:
+            for place in self._end_places[index][axis]:
+                if place < len(reaction):
+                    forces[index, axis] = reaction[place]
+                    powers[index] += reaction[place] * mean[place]
+        comm = self.forms.space.mesh.comm
+        return comm.allreduce(forces, op=MPI.SUM), comm.allreduce(powers, op=MPI.SUM)
+
+    def state(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Positions and velocities at the nodes, shape (nodes, dimension) each (collective)."""
+        values = self._at_nodes(self._sample, 2 * self._dimension)
+        return values[:, : self._dimension], values[:, self._dimension :]
+
+    def tensions(self) -> NDArray[np.float64]:
+        """T of the unknown at the nodes, the mean of both sides, shape (nodes,) (collective)."""
+        return self._at_nodes(self._tension, 1)[:, 0]
+
+    def speed(self) -> float:
+        """The largest component of the velocities (collective)."""
+        local = float(np.max(np.abs(self.step.speed.x.array[self._places]), initial=0.0))
+        return float(self.forms.space.mesh.comm.allreduce(local, op=MPI.MAX))
+
+    def _at_nodes(self, expression: Any, count: int) -> NDArray[np.float64]:
+        mesh = self.forms.space.mesh
+        local = expression.eval(mesh, self._cells).reshape(-1, 2, count)
+        ends = gather_elements(mesh, local, _ENDS)
+        inner = 0.5 * (ends[:-1, 1] + ends[1:, 0])
+        values: NDArray[np.float64] = np.concatenate([ends[:1, 0], inner, ends[-1:, 1]])
+        return values
+
+
+def _combine(weights: tuple[float, ...], values: tuple[NDArray[np.float64], ...]) -> NDArray[np.float64]:
+    total: NDArray[np.float64] = sum(weight * value for weight, value in zip(weights, values, strict=True))  # type: ignore[assignment]
+    return total
+
+
+def _slope(function: Callable[[float], float], time: float) -> float:
+    """First derivative just after a time."""
+    h = _DIFFERENCE
+    values = [function(time + index * h) for index in range(5)]
+    return float(np.dot([-25.0, 48.0, -36.0, 16.0, -3.0], values)) / (12.0 * h)
+
+
+def _curvature(function: Callable[[float], float], time: float) -> float:
+    """Second derivative just after a time."""
+    h = 10.0 * _DIFFERENCE
+    values = [function(time + index * h) for index in range(4)]
+    return float(np.dot([2.0, -5.0, 4.0, -1.0], values)) / h**2

@@ -1,0 +1,241 @@
+"""The thread at rest to a tolerance: two solutions, on a mesh and on its halves, tell each other's error."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from mpi4py import MPI
+from numpy.typing import NDArray
+
+from hydroelastic.fem.thread.continuation import solve_with_ramps
+from hydroelastic.fem.thread.equilibrium import Equilibrium, Start
+from hydroelastic.fem.thread.model import ThreadModel
+from hydroelastic.fem.thread.newton import ThreadSolverError
+from hydroelastic.fem.thread.nodes import first_nodes
+from hydroelastic.fem.thread.profile import ThreadProfile, start_from, thread_profile
+
+# Of the characteristic tension: what of compression is rounding.
+COMPRESSION = 1e-8
+# Rounding of a solution, relative: measured 1e-13 for straight threads, whose discrete solution is exact.
+ROUNDING = 1e-12
+# Of the largest tension: what is not for want of elements.
+_FOLDED = 0.05
+# Inner places of an element at which two solutions are compared.
+_PLACES = np.arange(1, 8) / 8.0
+_MOST_ROUNDS = 12
+_MOST_PARTS = 8
+_MOST_ELEMENTS = 4_000
+# The part of the tolerance that elements are cut for.
+_AIM = 0.3
+
+
+class CompressionError(ThreadSolverError):
+    """The thread would be in compression, which it cannot bear."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ThreadErrors:
+    """Bounds of errors, estimated, SI.
+
+    Attributes:
+        position: of the whole thread, m.
+        tension: of the whole thread, N.
+        reaction: N.
+        moment: of the ends, N m.
+        relative: the largest of these, of positions by the length, of forces by the largest contact force or the
+            characteristic tension if that is larger, of moments by the largest one or by that which bends the thread by
+            a radian along its length.
+    """
+
+    position: float
+    tension: float
+    reaction: float
+    moment: float
+    relative: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class ThreadSolution:
+    """A thread at rest, of known accuracy.
+
+    Attributes:
+        equilibrium: the finer one of the last two field solutions.
+        profile: its tables.
+        errors: the difference of the two, which bounds the error of the finer one.
+        elements: numbers of elements of all meshes, in order.
+        newton_steps: on each of them.
+        ramps: what had to grow where Newton's method failed at once, and in how many steps.
+    """
+
+    equilibrium: Equilibrium
+    profile: ThreadProfile
+    errors: ThreadErrors
+    elements: tuple[int, ...]
+    newton_steps: tuple[int, ...]
+    ramps: tuple[tuple[str, int], ...]
+
+
+def solve_thread(
+    comm: MPI.Comm, model: ThreadModel, start: Start, *, tolerance: float = 1e-6, degree: int = 5
+) -> ThreadSolution:
+    """Solve a thread at rest until positions, tensions, reactions and moments are within a tolerance.
+
+    Args:
+        comm: communicator.
+        model: the thread, SI.
+        start: where Newton's method begins.
+        tolerance: relative to length, largest contact force and largest moment; at least 1e-11.
+        degree: of the positions, at least 2.
+
+    Returns:
+        The solution (collective).
+
+    Raises:
+        CompressionError: where the solution has compression.
+        ThreadSolverError: where Newton's method fails, with growing drag or stiffness too, or the tolerance is out
+            of reach.
+        ValueError: where an argument is none.
+    """
+    if not 1e-11 <= tolerance <= 0.1:
+        raise ValueError(f"tolerance is {tolerance}: it must be between 1e-11 and 0.1")
+    if degree < 2:
+        raise ValueError(f"degree is {degree}: it must be at least 2")
+    nodes = first_nodes(model, start)
+    elements: list[int] = []
+    steps: list[int] = []
+    ramps: list[tuple[str, int]] = []
+
+    def solve() -> tuple[Equilibrium, ThreadProfile]:
+        ramped = solve_with_ramps(comm, model, nodes, start, degree=degree)
+        elements.append(len(nodes) - 1)
+        steps.append(ramped.equilibrium.newton_steps)
+        if ramped.ramp:
+            ramps.append((ramped.ramp, ramped.steps))
+        return ramped.equilibrium, thread_profile(ramped.equilibrium)
+
+    _, coarse = solve()
+    for _ in range(_MOST_ROUNDS):
+        start, nodes = start_from(coarse), _cut(nodes, np.full(len(nodes) - 1, 2))
+        if len(elements) > 1 and len(nodes) > 2 * _MOST_ELEMENTS:
+            break
+        equilibrium, fine = solve()
+        # Folds depend on the mesh: to refine them leads nowhere.
+        _refuse_compression(fine, _FOLDED * float(np.max(np.abs(fine.tension))))
+        comparison = _Comparison(coarse, fine, equilibrium.units.force)
+        errors = comparison.errors()
+        if errors.relative <= tolerance:
+            _refuse_compression(fine, COMPRESSION * equilibrium.units.force)
+            return ThreadSolution(
+                equilibrium=equilibrium,
+                profile=fine,
+                errors=errors,
+                elements=tuple(elements),
+                newton_steps=tuple(steps),
+                ramps=tuple(ramps),
+            )
+        start, parts = start_from(fine), comparison.parts(tolerance, degree)
+        if np.all(parts == 2):
+            coarse = fine
+            continue
+        nodes = _cut(coarse.nodes, parts)
+        if len(nodes) > _MOST_ELEMENTS:
+            break
+        _, coarse = solve()
+    raise ThreadSolverError(
+        f"the error is still {errors.relative:.1e} with {elements[-1]} elements, which is more than {tolerance:.1e}"
+    )
+
+
+class _Comparison:
+    """Differences of a solution to that on the halves of its elements."""
+
+    def __init__(self, coarse: ThreadProfile, fine: ThreadProfile, characteristic: float) -> None:
+        """Take the differences; `characteristic` is the characteristic tension, N."""
+        self.coarse, self.fine = coarse, fine
+        starts, sizes = coarse.nodes[:-1], np.diff(coarse.nodes)
+        places = (starts[:, None] + sizes[:, None] * _PLACES).ravel()
+        shape = (len(starts), len(_PLACES))
+        self._inner = (fine.position(places) - coarse.position(places)).reshape(*shape, -1)
+        self._nodal = fine.position(coarse.nodes) - coarse.position(coarse.nodes)
+        self._tension = np.abs(fine.tension_at(places) - coarse.tension_at(places)).reshape(shape)
+        self._force = np.stack(
+            [fine.force[::2, 0] - coarse.force[:, 0], fine.force[1::2, 1] - coarse.force[:, 1]], axis=1
+        )
+        self._nodal_tension = np.abs(
+            np.stack(
+                [fine.tension[::2, 0] - coarse.tension[:, 0], fine.tension[1::2, 1] - coarse.tension[:, 1]], axis=1
+            )
+        )
+        self.length = coarse.model.length
+        self.largest = max(float(np.max(np.linalg.norm(fine.force, axis=2))), characteristic)
+
+    def errors(self) -> ThreadErrors:
+        """What is stated."""
+        position = max(_size(self._inner), _size(self._nodal)) + ROUNDING * self.length
+        # With a kink of the load two errors of its integral may agree by chance: what a polynomial misses counts too.
+        missed = float(np.sum(_tail(self.fine))) + ROUNDING * self.largest
+        tension = float(max(np.max(self._tension), np.max(self._nodal_tension))) + missed
+        reaction = _size(self.fine.reactions() - self.coarse.reactions()) + missed
+        moment, moments = 0.0, self._largest_moment()
+        if moments > 0.0:
+            moment = float(np.max(np.abs(self.fine.end_moments() - self.coarse.end_moments()))) + ROUNDING * moments
+        parts = [position / self.length, moment / (moments or 1.0)]
+        if self.largest > 0.0:
+            parts += [tension / self.largest, reaction / self.largest]
+        return ThreadErrors(position=position, tension=tension, reaction=reaction, moment=moment, relative=max(parts))
+
+    def parts(self, tolerance: float, degree: int) -> NDArray[np.int64]:
+        """Into how many each element is to be cut.
+
+        The shape of an element between its nodes is its own, of order p + 1; so is the change of the contact force
+        along it, where the load has kinks; where the thread bends its tension, N along a tangent of order p, too. If
+        they do not tell, all elements are halved.
+        """
+        linear = (1.0 - _PLACES[:, None]) * self._nodal[:-1, None] + _PLACES[:, None] * self._nodal[1:, None]
+        shape = np.max(np.linalg.norm(self._inner - linear, axis=2), axis=1) / self.length
+        change = np.linalg.norm(self._force[:, 1] - self._force[:, 0], axis=1) / (self.largest or 1.0)
+        own = np.maximum(shape, np.maximum(change, _tail(self.fine).reshape(-1, 2).sum(axis=1) / (self.largest or 1.0)))
+        wanted = (own / (_AIM * tolerance)) ** (1.0 / (degree + 1))
+        if self.fine.model.bends:
+            tension = np.max(self._tension, axis=1) / (self.largest or 1.0)
+            wanted = np.maximum(wanted, (tension / (_AIM * tolerance)) ** (1.0 / degree))
+        parts = np.clip(np.ceil(wanted - 1e-9), 1, _MOST_PARTS).astype(np.int64)
+        return parts if np.any(parts > 1) else np.full(len(parts), 2)
+
+    def _largest_moment(self) -> float:
+        table = self.fine.curvature_table
+        if table is None:
+            return 0.0
+        rigidity = self.fine.model.flexural_rigidity
+        return rigidity * max(_size(table.values), 1.0 / self.length)
+
+
+def _tail(profile: ThreadProfile) -> NDArray[np.float64]:
+    """Part of the change of N on each element by the last two terms of the load, N."""
+    tail: NDArray[np.float64] = np.sum(np.linalg.norm(profile.balance[:, -2:], axis=2), axis=1)
+    return tail
+
+
+def _size(vectors: NDArray[np.float64]) -> float:
+    return float(np.max(np.linalg.norm(vectors, axis=-1)))
+
+
+def _cut(nodes: NDArray[np.float64], parts: NDArray[np.int64]) -> NDArray[np.float64]:
+    pieces = [
+        np.linspace(first, last, count, endpoint=False)
+        for first, last, count in zip(nodes[:-1], nodes[1:], parts, strict=True)
+    ]
+    return np.concatenate([*pieces, nodes[-1:]])
+
+
+def _refuse_compression(profile: ThreadProfile, limit: float) -> None:
+    # A thread that bends bears some.
+    if profile.model.bends:
+        return
+    smallest, place = profile.smallest_tension()
+    if smallest < -limit:
+        raise CompressionError(
+            f"the thread would be in compression: its tension is {smallest:.3e} N at s = {place:.6g} m "
+            f"of {profile.model.length:.6g} m"
+        )

@@ -1,0 +1,84 @@
+"""The force of vortices that a thread sheds, across the stream and the thread.
+
+    f = c |u_n|² b sin(2π n ∫ |u_n| dt + ψ),    b = τ × u_n/|u_n|,    c = ρ d C_L/2,    n = St/d,
+
+with the relative velocity u_n across the thread and a phase at each point of its own.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import isfinite, pi
+from typing import Any
+
+import basix.ufl
+import ufl
+from dolfinx import fem
+
+from hydroelastic.fem.kernels import jit_options
+from hydroelastic.fem.thread.forms import ThreadForms, tangent
+
+
+@dataclass(frozen=True, kw_only=True)
+class Shedding:
+    """Vortices of a thread.
+
+    Attributes:
+        lift: c = ρ d C_L/2, kg/m².
+        wave_number: n = St/d, cycles per metre of the liquid's way, 1/m.
+        phase: ψ.
+    """
+
+    lift: float
+    wave_number: float
+    phase: float = 0.0
+
+    def __post_init__(self) -> None:
+        """Refuse what is no number."""
+        for name in ("lift", "wave_number", "phase"):
+            if not isfinite(getattr(self, name)):
+                raise ValueError(f"{name} is {getattr(self, name)}: it must be finite")
+
+
+class SheddingLoad:
+    """The force of vortices in the middle of a step, with the ways |u_n| dt of all points of the quadrature.
+
+    Args:
+        forms: of the thread.
+        shedding: in the units of the forms.
+    """
+
+    def __init__(self, forms: ThreadForms, shedding: Shedding) -> None:
+        """Make the ways, zero at first."""
+        mesh, degree = forms.space.mesh, forms.space.quadrature_degree
+        self._forms, self._shedding = forms, shedding
+        element = basix.ufl.quadrature_element("interval", degree=degree)
+        self._way = fem.Function(fem.functionspace(mesh, element))
+        self._half_step = fem.Constant(mesh, 0.0)
+        self._points = element.custom_quadrature()[0]
+        self._next: Any = None
+
+    def _across(self, position: Any, velocity: Any) -> Any:
+        tau = tangent(position)
+        stream = self._forms.stream
+        relative = -velocity if stream is None else stream.along(position) - velocity
+        return relative - ufl.inner(relative, tau) * tau
+
+    def __call__(self, position: Any, velocity: Any) -> Any:
+        """The force per length, as an expression of position and velocity in the middle of the step."""
+        across = self._across(position, velocity)
+        speed = ufl.sqrt(ufl.inner(across, across) + 1e-16)
+        turns = self._forms.constant(self._shedding.wave_number) * (self._way + self._half_step * speed)
+        after = self._way + 2.0 * self._half_step * speed
+        self._next = fem.Expression(after, self._points, jit_options=jit_options())
+        size = self._forms.constant(self._shedding.lift) * speed
+        size *= ufl.sin(2.0 * pi * turns + self._forms.constant(self._shedding.phase))
+        return size * ufl.cross(tangent(position), across)
+
+    def set_step(self, step: float) -> None:
+        """Take another step."""
+        self._half_step.value = 0.5 * step
+
+    def advance(self) -> None:
+        """Go on to the end of the step."""
+        self._way.interpolate(self._next)

@@ -1,0 +1,1 @@
+"""Floating beams: dry modes, Rayleigh, Grammel, strip theory."""

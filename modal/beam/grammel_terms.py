@@ -1,0 +1,158 @@
+"""The paper's Grammel-style estimates: a potential of one cosine, or of N cosines."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from scipy.linalg import eigh
+
+from hydroelastic.modal.beam.cosine_moments import cosine_moments
+from hydroelastic.modal.beam.dry_modes import FloatArray
+from hydroelastic.modal.beam.floating_beam import FloatingBeam
+from hydroelastic.modal.beam.tone_pencil import TonePencil, Tones, solve_tones
+
+_DECOUPLED = 1e-20
+_RANK = 1e-14
+
+
+def one_term_root(beam: FloatingBeam, number: int) -> float:
+    """Return the frequency of the one-term estimate ψ = A cos k_n x: the root of
+
+        F_n(λ) = T_nn − (λ/g) S_nn − λ ρ R_nn(λ)
+
+    below its first pole. F_n decreases strictly between the poles, which are the dry frequencies that couple with the
+    cosine, so there is exactly one root there; poles that decouple (by symmetry) are skipped. The dynamic compliance
+    R_nn = Σ c_j²/(l (K_j − m λ)) is summed over dry shapes: nothing overflows and no resonance is removable.
+
+    Args:
+        beam: the problem.
+        number: n of the cosine, at least 1.
+
+    Returns:
+        Angular frequency, rad/s.
+
+    Raises:
+        ValueError: if ``number`` is below 1.
+
+    Source: the one-term formula of the paper, corrected; theory of the aquarium, docs, § 1.2.
+    """
+    if number < 1:
+        raise ValueError(f"number is {number}; cosines are numbered from 1")
+    scaled = beam.dimensionless()
+    poles, weights, rigid = _compliance(scaled, number)
+    k = number * np.pi / scaled.tank_length
+    constant = k * math.tanh(k * scaled.depth) * scaled.tank_length / 2 + rigid
+    surface = float(_surface_overlap(scaled, np.array([k]))[0, 0])
+
+    if len(poles) == 0:
+        return beam.frequency_unit * math.sqrt(constant / surface)
+    first = float(poles.min())
+    others = poles > first
+    weight = float(weights[~others].sum())
+
+    def cleared(squared: float) -> float:
+        """F_n times (first pole − λ), finite at that pole."""
+        regular = constant - squared * surface - squared * np.sum(weights[others] / (poles[others] - squared))
+        return float(regular * (first - squared) - squared * weight)
+
+    from scipy.optimize import brentq  # slow to import, so only when used
+
+    root = brentq(cleared, 0.0, first, xtol=1e-300, rtol=1e-14)
+    return beam.frequency_unit * math.sqrt(root)
+
+
+def _compliance(scaled: FloatingBeam, number: int) -> tuple[FloatArray, FloatArray, float]:
+    """Return coupled poles λ_j, their weights c_j²/m, and the constant of motions without stiffness."""
+    k = np.array([number * np.pi / scaled.tank_length])
+    count = 40 + math.ceil(2 * number / scaled.tank_length)
+    moments = np.array([cosine_moments(scaled, index, k)[0] for index in range(count)])
+    weights = moments**2 / scaled.mass_per_length
+    poles = scaled.dry_stiffnesses(count) / scaled.mass_per_length
+    free = poles == 0
+    coupled = ~free & (moments**2 > _DECOUPLED)
+    return poles[coupled], weights[coupled], float(weights[free].sum())
+
+
+def best_term(beam: FloatingBeam) -> int:
+    """Return the cosine that projects most on dry mode 1: the largest c_n²/T_nn, T_nn = k_n tanh(k_n H) L/2."""
+    scaled = beam.dimensionless()
+    most = 8 + math.ceil(4 * scaled.tank_length)
+    k = np.arange(1, most + 1) * np.pi / scaled.tank_length
+    return int(np.argmax(cosine_moments(scaled, 2, k) ** 2 / (k * np.tanh(k * scaled.depth)))) + 1
+
+
+def term_tones(beam: FloatingBeam, terms: int, *, volume_term: bool = True) -> Tones:
+    """Return the tones of the N-term potential ψ = Σ A_i cos k_i x as a linear pencil.
+
+    With η = Σ a_i cos k_i x on the water, the beam in dry shapes and T⁺ the inverse of T on i ≥ 1,
+
+        λ {[S T⁺ S, S T⁺ Cᵀ; C T⁺ S, C T⁺ Cᵀ + (m/ρ) G]} (a; q) = {diag(g S, K_q/ρ)} (a; q),   S₀·a + C₀·q = 0,
+
+    reduced to the range of the overlap S. With the volume term i = 0 it is a Ritz method: every tone decreases to the
+    exact one, with an error O(N⁻²). Without it (the paper's set) the limit is wrong.
+
+    Args:
+        beam: the problem.
+        terms: N, the last cosine, at least 1.
+        volume_term: whether i = 0 is kept.
+
+    Returns:
+        The tones, λ in rad²/s².
+
+    Raises:
+        ValueError: if ``terms`` is below 1.
+
+    Source: the N-term form of the paper's method; theory of the aquarium, docs, § 1.2.
+    """
+    if terms < 1:
+        raise ValueError(f"terms is {terms}; at least one cosine is needed")
+    scaled = beam.dimensionless()
+    first = 0 if volume_term else 1
+    k = np.arange(first, terms + 1) * np.pi / scaled.tank_length
+    shapes = 28 + math.ceil(1.2 * terms / scaled.tank_length)
+    moments = np.array([cosine_moments(scaled, index, k) for index in range(shapes)])
+    surface = _range_factor(_surface_overlap(scaled, k))
+    rows = np.vstack([surface.T, moments])
+    waves = k > 0
+    own = k[waves] * np.tanh(k[waves] * scaled.depth) * scaled.tank_length / 2
+    mass = (rows[:, waves] / own) @ rows[:, waves].T
+    mass[-shapes:, -shapes:] += scaled.mass_per_length * np.eye(shapes)
+    tones = solve_tones(
+        TonePencil(
+            stiffness=np.concatenate([np.ones(surface.shape[1]), scaled.dry_stiffnesses(shapes)]),
+            mass=mass,
+            volume=rows[:, 0] if volume_term else None,
+            elastic=surface.shape[1] + 2,
+        )
+    )
+    return Tones(
+        squared_frequencies=beam.frequency_unit**2 * tones.squared_frequencies,
+        participation=tones.participation,
+        elastic_index=tones.elastic_index,
+    )
+
+
+def _surface_overlap(beam: FloatingBeam, k: FloatArray) -> FloatArray:
+    """Return S_ij = ∫ cos k_i x cos k_j x dx over the free surface."""
+
+    def integral(wavenumber: FloatArray, low: float, high: float) -> FloatArray:
+        # ∫ cos kx dx = (high − low) cos(k mid) sinc, which has no cancellation at k = 0.
+        half = (high - low) / 2
+        value: FloatArray = 2 * half * np.cos(wavenumber * (low + high) / 2) * np.sinc(wavenumber * half / np.pi)
+        return value
+
+    total, difference = k[:, None] + k[None, :], k[:, None] - k[None, :]
+    pieces = [(0.0, beam.left_gap), (beam.tank_length - beam.right_gap, beam.tank_length)]
+    overlap = np.zeros_like(total)
+    for low, high in pieces:
+        overlap += (integral(difference, low, high) + integral(total, low, high)) / 2
+    return overlap
+
+
+def _range_factor(overlap: FloatArray) -> FloatArray:
+    """Return U √σ with U √σ √σ Uᵀ = S on the numerical range of S, shape (cosines, rank)."""
+    values, vectors = eigh(overlap)
+    kept = values > _RANK * len(overlap)
+    factor: FloatArray = vectors[:, kept] * np.sqrt(values[kept])
+    return factor

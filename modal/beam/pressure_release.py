@@ -1,0 +1,138 @@
+"""Added mass with ψ = 0 on the water around the beam: the limit of frequencies far above the gravity waves."""
+
+from __future__ import annotations
+
+import functools
+import math
+
+import numpy as np
+from numpy.polynomial.legendre import leggauss
+
+from hydroelastic.modal.beam.dry_modes import FloatArray, free_free_shape
+from hydroelastic.modal.beam.floating_beam import FloatingBeam
+from hydroelastic.modal.estimate import NoEstimateError
+
+MOST_TERMS = 420
+"""Above this length of the expansion the gap or the depth is refused as too small against the beam."""
+
+_DIGITS = 34.0
+_MOST_DEPTH_TERMS = 40_000
+
+
+def pressure_release_added_mass(beam: FloatingBeam, count: int, terms: int | None = None) -> FloatArray:
+    """Return the added-mass matrix of dry shapes when ψ = 0 on the free surface (`ChebPsi0`).
+
+    With x = x_c + a t and ψ = Σ c_j √(1−t²) U_j(t) under the beam,
+
+        m = ρ bᵀ G⁻¹ b / l,   b_ji = a ∫ W_i √(1−t²) U_j dt,
+        G_ij = (j+1)(π/2) δ_ij + a² ∫∫ ψ_i [ −(π/4L²)(1/sin²(u/2) − 4/u² + 1/sin²(v/2))
+                                           + (2/L) Σ k (tanh kH − 1) cos kx cos kx' ] ψ_j,
+
+    u = π(x−x')/L, v = π(x+x')/L. It converges exponentially. A beam that touches a wall is half of a symmetric beam
+    across that wall, so only even j are kept on the doubled interval; a slope at the wall is then a kink, the error
+    falls like terms⁻⁴ only, and one Richardson step (terms, 2·terms) removes it.
+
+    Args:
+        beam: the problem; some surface must be free.
+        count: number of shapes of `free_free_shape`, heave and pitch included.
+        terms: length of the expansion; chosen from the gaps, the depth and ``count`` if ``None``.
+
+    Returns:
+        Added mass per length for ∫W² dz = l, kg/m², shape (count, count), symmetric positive definite.
+
+    Raises:
+        NoEstimateError: if the beam covers the tank, or a gap or the depth is so small against the beam that more than
+            `MOST_TERMS` terms would be needed.
+
+    Source: theory of the aquarium, docs, § 2 (psi0) and § 3 (method D).
+    """
+    if beam.covers_tank:
+        raise NoEstimateError("no surface is free where the pressure could be released")
+    wanted = _terms_needed(beam, count) if terms is None else terms
+    touching = beam.left_gap == 0 or beam.right_gap == 0
+    longest = 2 * wanted if touching else wanted
+    if longest > MOST_TERMS:
+        raise NoEstimateError(
+            f"{longest} terms would be needed for the gap or the depth; at most {MOST_TERMS} are used"
+        )
+    if _depth_terms(beam) > _MOST_DEPTH_TERMS:
+        raise NoEstimateError("the water is too shallow against the length of the tank for the cosine series")
+    added = _dimensionless_added_mass(beam.dimensionless(), count, wanted)
+    if touching:
+        finer = _dimensionless_added_mass(beam.dimensionless(), count, 2 * wanted)
+        added = finer + (finer - added) / 15
+    return beam.density * beam.length * added
+
+
+def _terms_needed(beam: FloatingBeam, count: int) -> int:
+    """Bernstein-ellipse estimate: the nearest singularities are the depth image and the wall image of the beam."""
+    touching = beam.left_gap == 0 or beam.right_gap == 0
+    half = beam.length if touching else beam.length / 2
+    gaps = [gap for gap in (beam.left_gap, beam.right_gap) if gap > 0]
+    image = 2 * min(gaps) / half
+    rate = min(math.asinh(2 * beam.depth / half), math.acosh(1 + image))
+    return math.ceil(_DIGITS / (2 * rate) + 12 + 1.7 * count) + (32 if touching else 0)
+
+
+def _depth_terms(beam: FloatingBeam) -> int:
+    """Return after how many cosines 1 − tanh k_n H is below rounding."""
+    return math.ceil(20 * beam.tank_length / (math.pi * beam.depth)) + 1
+
+
+def _mirrored(beam: FloatingBeam) -> tuple[float, float, bool]:
+    """Return centre and half-width of the expansion interval, and whether it is doubled across a wall at x = 0."""
+    if beam.left_gap == 0 or beam.right_gap == 0:
+        return 0.0, beam.length, True
+    return beam.start + beam.length / 2, beam.length / 2, False
+
+
+@functools.lru_cache(maxsize=4)
+def _dimensionless_added_mass(beam: FloatingBeam, count: int, terms: int) -> FloatArray:
+    centre, half, doubled = _mirrored(beam)
+    orders = np.arange(0, 2 * terms, 2) if doubled else np.arange(terms)
+    points = int(orders[-1]) + 33
+    angle = np.arange(1, points + 1) * np.pi / (points + 1)
+    # √(1−t²) U_j = sin (j+1)φ, and dt = sin φ dφ: the Gauss rule of the second kind.
+    expansion = np.sin(np.outer(orders + 1, angle)) * np.sin(angle) * (np.pi / (points + 1))
+    share = 0.5 if doubled else 1.0
+    kernel = _regular_kernel(beam, centre + half * np.cos(angle), doubled)
+    system = share * np.diag((orders + 1) * np.pi / 2) + (share * half) ** 2 * expansion @ kernel @ expansion.T
+    load = half * _loads(beam, count, orders, doubled)
+    added = load.T @ np.linalg.solve(system, load)
+    return (added + added.T) / 2
+
+
+def _loads(beam: FloatingBeam, count: int, orders: np.ndarray, doubled: bool) -> FloatArray:
+    """Return ∫ W_i √(1−t²) U_j dt over the beam, shape (terms, count), by Gauss–Legendre points in the angle."""
+    nodes, weights = leggauss(2 * len(orders) + 2 * count + 32)
+    top = np.pi / 2 if doubled else np.pi
+    angle = top * (nodes + 1) / 2
+    t = np.cos(angle)
+    from_wall = t if beam.left_gap == 0 else 1 - t
+    s = from_wall if doubled else (1 + t) / 2
+    shapes = np.array([free_free_shape(index, s) for index in range(count)])
+    loads: FloatArray = (np.sin(np.outer(orders + 1, angle)) * np.sin(angle) * weights * top / 2) @ shapes.T
+    return loads
+
+
+def _regular_kernel(beam: FloatingBeam, x: FloatArray, doubled: bool) -> FloatArray:
+    length = beam.tank_length
+    u = np.pi * (x[:, None] - x[None, :]) / length
+    kernel = _inverse_square_difference(u)
+    image = kernel if doubled else 1 / np.sin(np.pi * (x[:, None] + x[None, :]) / (2 * length)) ** 2
+    kernel = kernel + image
+    kernel = -np.pi / (4 * length**2) * kernel
+    wavenumbers = np.arange(1, _depth_terms(beam) + 1) * np.pi / length
+    factors = 2 / length * wavenumbers * (-2) / (np.exp(np.minimum(2 * wavenumbers * beam.depth, 700.0)) + 1)
+    waves = np.cos(np.outer(x, wavenumbers))
+    regular: FloatArray = kernel + (waves * factors) @ waves.T
+    return regular
+
+
+def _inverse_square_difference(u: FloatArray) -> FloatArray:
+    """Return 1/sin²(u/2) − 4/u², by its series where the two cancel."""
+    small = np.abs(u) < 0.05
+    safe = np.where(small, 1.0, u)
+    series = 1 / 3 + u**2 / 60 + u**4 / 1512 + u**6 / 43200
+    difference: FloatArray = np.where(small, series, 1 / np.sin(safe / 2) ** 2 - 4 / safe**2)
+    return difference

@@ -1,0 +1,1 @@
+"""Rigid floats: thin floats, closed boxes, channels, sections."""

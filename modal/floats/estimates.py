@@ -1,0 +1,115 @@
+"""All older estimates of the heave of a float, side by side."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from hydroelastic.modal.estimate import NoEstimateError
+from hydroelastic.modal.floats.box import float_mode
+from hydroelastic.modal.floats.in_tank import FloatInTank
+from hydroelastic.modal.floats.rigid_limits import section_heave_added_mass
+from hydroelastic.modal.floats.thin_float import thin_float_added_mass
+
+
+@dataclass(frozen=True, kw_only=True)
+class FloatEstimate:
+    """One estimate of the heave of a float; none of them bounds an exact frequency.
+
+    Attributes:
+        omega: angular frequency, rad/s, or ``None`` where the method has no meaning.
+        added_mass: c/ω² − m, kg/m, c the hydrostatic stiffness without walls, or ``None``.
+        note: what the method neglects, or why there is no number.
+    """
+
+    omega: float | None
+    added_mass: float | None
+    note: str
+
+    def __post_init__(self) -> None:
+        """Refuse a number that is not one."""
+        for name in ("omega", "added_mass"):
+            value = getattr(self, name)
+            if value is not None and not math.isfinite(value):
+                raise ValueError(f"{name} is {value}; leave it None where it has no meaning")
+
+
+def all_float_estimates(body: FloatInTank) -> dict[str, FloatEstimate]:
+    """Return every estimate of the heave of a float by its name; a method without meaning says so in its note.
+
+    Args:
+        body: the problem.
+
+    Returns:
+        ``hydrostatic`` (no added mass), ``high_frequency`` (exact added mass of the section without waves and walls),
+        ``thin_float`` (the thin-float theory without walls), ``thin_float_printed`` (with its printed constants),
+        ``thin_float_box`` (thin boundary condition, walls and waves).
+    """
+    methods: dict[str, Callable[[FloatInTank], FloatEstimate]] = {
+        "hydrostatic": _hydrostatic,
+        "high_frequency": _high_frequency,
+        "thin_float": _thin_float,
+        "thin_float_printed": _thin_float_printed,
+        "thin_float_box": _thin_float_box,
+    }
+    return {name: _guarded(name, method, body) for name, method in methods.items()}
+
+
+def _guarded(name: str, method: Callable[[FloatInTank], FloatEstimate], body: FloatInTank) -> FloatEstimate:
+    try:
+        return method(body)
+    except NoEstimateError as reason:
+        return FloatEstimate(omega=None, added_mass=None, note=f"Method {name}. No value: {reason}.")
+
+
+def _hydrostatic(body: FloatInTank) -> FloatEstimate:
+    return _from_added_mass(body, 0.0, "Hydrostatic stiffness and the float's own mass: neglects the liquids' inertia.")
+
+
+def _high_frequency(body: FloatInTank) -> FloatEstimate:
+    layers = body.layers
+    added_mass = section_heave_added_mass(body.section(), layers.density_below, layers.density_above)
+    return _from_added_mass(
+        body, added_mass, "Exact section in unbounded liquids, frequency far above the waves: neglects waves and walls."
+    )
+
+
+def _thin_float(body: FloatInTank) -> FloatEstimate:
+    return _from_added_mass(
+        body,
+        _thin_added_mass(body),
+        "Thin float in unbounded liquids, frequency far above the waves: neglects the float's thickness, waves and "
+        "walls.",
+    )
+
+
+def _thin_float_printed(body: FloatInTank) -> FloatEstimate:
+    profile = body.section()
+    if profile.shape != "exponential":
+        raise NoEstimateError(f"the paper prints no constants for the {profile.shape}")
+    return _from_added_mass(
+        body,
+        _thin_added_mass(body) / 2,
+        "Thin float with the constants as printed, J = l²/2 for l²: erroneous, the added mass is half of what the "
+        "same theory gives.",
+    )
+
+
+def _thin_float_box(body: FloatInTank) -> FloatEstimate:
+    mode = float_mode(body)
+    return FloatEstimate(
+        omega=mode.omega,
+        added_mass=body.stiffness / mode.omega**2 - body.mass,
+        note=f"Thin float between walls, with waves; symmetric mode {mode.index}, which holds "
+        f"{100 * mode.participation:.0f} % of the heave: neglects the float's thickness. The mean level beside the "
+        "float rises as it sinks, which stiffens it and counts here as less added mass.",
+    )
+
+
+def _thin_added_mass(body: FloatInTank) -> float:
+    return thin_float_added_mass(body.section(), body.layers.density_below, body.layers.density_above)
+
+
+def _from_added_mass(body: FloatInTank, added_mass: float, note: str) -> FloatEstimate:
+    return FloatEstimate(omega=math.sqrt(body.stiffness / (body.mass + added_mass)), added_mass=added_mass, note=note)

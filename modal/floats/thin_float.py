@@ -1,0 +1,99 @@
+"""Heave of a thin float at the interface of two unbounded liquids: its constants, corrected."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from hydroelastic.modal.floats.profiles import Profile
+from hydroelastic.modal.floats.thin_shapes import area_factor, inertia_factor
+
+
+@dataclass(frozen=True, kw_only=True)
+class ThinConstants:
+    """Dimensionless constants of a thin float in unbounded liquids; lengths in h, time in √(h/g*).
+
+    g* = g (ρ₂ − ρ₁)/(ρ₂ + ρ₁). Neither the densities nor the mass, which is that of the displaced liquids, enter.
+
+    Attributes:
+        slenderness: τ = b/h, half-width over half-height, to which the theory is an expansion.
+        area_factor: S = ∫ω dy/(b h) over the upper half.
+        inertia_factor: J/b².
+        frequency_squared: Ω² h/g* = 1/(S + τJ/(πb²)).
+        coupling: ε = (2τ/π) Ω² h/g*, the strength of the waves that the float makes.
+    """
+
+    slenderness: float
+    area_factor: float
+    inertia_factor: float
+    frequency_squared: float
+    coupling: float
+
+
+def thin_constants(profile: Profile) -> ThinConstants:
+    """Return the dimensionless constants of a thin float.
+
+    Raises:
+        NoEstimateError: for a blunt section.
+    """
+    slenderness = profile.half_width / profile.half_height
+    area, inertia = area_factor(profile), inertia_factor(profile)
+    frequency_squared = 1 / (area + slenderness * inertia / math.pi)
+    return ThinConstants(
+        slenderness=slenderness,
+        area_factor=area,
+        inertia_factor=inertia,
+        frequency_squared=frequency_squared,
+        coupling=2 * slenderness / math.pi * frequency_squared,
+    )
+
+
+def thin_float_mass(profile: Profile, density_below: float, density_above: float) -> float:
+    """Return m = (ρ₁ + ρ₂) 2bhS, kg/m, with which the float rests with its level y = 0 at the interface.
+
+    Args:
+        profile: the section.
+        density_below: ρ₂, kg/m³.
+        density_above: ρ₁, kg/m³; 0 for a single liquid.
+
+    Raises:
+        NoEstimateError: for a blunt section.
+    """
+    area = 2 * profile.half_width * profile.half_height * area_factor(profile)
+    return (density_below + density_above) * area
+
+
+def thin_float_added_mass(profile: Profile, density_below: float, density_above: float) -> float:
+    """Return a_∞ = (2/π)(ρ₁ + ρ₂) J, kg/m, the added mass in heave far above the frequencies of the waves.
+
+    Arguments as in `thin_float_mass`.
+
+    Raises:
+        NoEstimateError: for a blunt section, for which J diverges.
+    """
+    inertia = profile.half_width**2 * inertia_factor(profile)
+    return 2 / math.pi * (density_below + density_above) * inertia
+
+
+def thin_float_stiffness(profile: Profile, density_below: float, density_above: float, gravity: float) -> float:
+    """Return c = 2b (ρ₂ − ρ₁) g, N/m², the hydrostatic stiffness in heave between levels of unlimited length.
+
+    Args:
+        profile: the section.
+        density_below: ρ₂, kg/m³.
+        density_above: ρ₁, kg/m³.
+        gravity: g, m/s².
+    """
+    return 2 * profile.half_width * (density_below - density_above) * gravity
+
+
+def thin_float_frequency(profile: Profile, density_below: float, density_above: float, gravity: float) -> float:
+    """Return Ω = √(c/(m + a_∞)), rad/s, of the float with the mass of the displaced liquids.
+
+    Arguments as in `thin_float_stiffness`. Waves damp the motion, and shift its frequency in the second order of τ.
+
+    Raises:
+        NoEstimateError: for a blunt section.
+    """
+    reduced_gravity = gravity * (density_below - density_above) / (density_below + density_above)
+    return math.sqrt(thin_constants(profile).frequency_squared * reduced_gravity / profile.half_height)

@@ -1,0 +1,1 @@
+"""Waves of one liquid and of two, without bodies."""

@@ -1,0 +1,1 @@
+"""Rolling on trains of waves, in closed form."""

@@ -1,0 +1,147 @@
+"""The forced part of a string's motion: functions of x times functions of t, in closed form up to the upper end."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydroelastic.modal.string.divided_exponential import divided_exponential, divided_exponential_bound
+from hydroelastic.modal.string.forcing import Forcing
+from hydroelastic.modal.string.hanging_string import HangingString, bessel_ratio, participations
+
+# A mode is taken out of h(x, s) where ζ = R√(−s² − 2αs) is nearer than this to its μ_k (zeros are 3.1 apart) …
+NEAR_A_POLE = 0.5
+# … and what is left is its mean over a circle of ζ: half a unit at least from μ_k, the next pole 2.6 from the centre.
+CIRCLE_RADIUS = 1.0
+CIRCLE_POINTS = 40
+# Rounding of a term that takes a few operations, and how much less a phase is rounded, which takes one or two.
+ROUNDING = 4 * float(np.finfo(float).eps)
+PHASE_SHARE = 4
+
+
+@dataclass(frozen=True, kw_only=True)
+class Exponential:
+    """One exponential c e^{st} of the motion of the upper end.
+
+    Attributes:
+        rate: s, 1/s.
+        weight: c, m.
+        argument: ζ = R√(−s² − 2αs), from 0 in its real part: h = J₀(ζr)/J₀(ζ) has poles at μ_k.
+        mode: number of the mode that is taken out of h, or 0.
+    """
+
+    rate: complex
+    weight: complex
+    argument: complex
+    mode: int
+
+
+def exponentials(string: HangingString, forcing: Forcing) -> list[Exponential]:
+    """Return the exponentials of a motion, each with the mode it nearly meets."""
+    found = []
+    for rate, weight in zip(forcing.rates, forcing.weights, strict=True):
+        argument = complex(string.travel_time * np.sqrt(-rate * (rate + 2 * string.damping)))
+        # μ_k = π(k − 1/4) + 1/(8πk) …, so that rounding gives the nearest one.
+        nearest = max(1, round(argument.real / np.pi + 0.25))
+        close = abs(argument - string.zeros(nearest)[-1]) < NEAR_A_POLE
+        found.append(Exponential(rate=rate, weight=weight, argument=argument, mode=nearest if close else 0))
+    return found
+
+
+def forced_part(
+    string: HangingString,
+    forcing: Forcing,
+    ratios: NDArray[np.float64],
+    times: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the forced part of the motion, with the whole motion of the modes that are taken out of it.
+
+    Args:
+        string: the string.
+        forcing: the motion of the upper end.
+        ratios: r = √(x/l), shape (positions,).
+        times: s, shape (times,).
+
+    Returns:
+        Values and estimates of their rounding errors, m, of shape (positions, times).
+    """
+    left, right, size_left, size_right = _polynomial_part(string, forcing, ratios, times)
+    for exponential in exponentials(string, forcing):
+        shape = participations(string.zeros(exponential.mode)[-1:], ratios)
+        static = _regular_transfer(string, exponential, ratios, shape)
+        motion = exponential.weight * np.exp(exponential.rate * times)
+        left += [static.real, -static.imag]
+        right += [motion.real, motion.imag]
+        size_left += [(1 + abs(exponential.argument)) * np.abs(static), np.abs(static)]
+        size_right += [np.abs(motion), (1 + abs(exponential.rate) * times / PHASE_SHARE) * np.abs(motion)]
+        if exponential.mode:
+            coordinate, size = _met_mode(string, exponential, times)
+            left.append(shape[:, 0])
+            right.append(coordinate)
+            size_left.append(np.abs(shape[:, 0]))
+            size_right.append(size)
+    values = np.stack(left, axis=1) @ np.stack(right)
+    return values, ROUNDING * (np.stack(size_left, axis=1) @ np.stack(size_right))
+
+
+Factors = list[NDArray[np.float64]]
+
+
+def _polynomial_part(
+    string: HangingString, forcing: Forcing, ratios: NDArray[np.float64], times: NDArray[np.float64]
+) -> tuple[Factors, Factors, Factors, Factors]:
+    """Return Σ h_n(x) (D² + 2αD)ⁿ f, h = Σ h_n σⁿ, as factors of x and of t, and their sizes."""
+    drag = 2 * string.damping
+    value, slope, curvature, third = (forcing.polynomial(order, times) for order in range(4))
+    terms = [
+        [value],
+        [curvature, drag * slope],
+        [drag**2 * curvature, 2 * drag * third],
+        [drag**3 * third],
+    ]
+    right = [np.asarray(sum(parts)) for parts in terms]
+    sizes = [np.asarray(sum(np.abs(part) for part in parts)) for parts in terms]
+    left = static_terms(string, ratios)
+    return list(left), right, [np.abs(term) for term in left], sizes
+
+
+def static_terms(string: HangingString, ratios: NDArray[np.float64]) -> list[NDArray[np.float64]]:
+    """Return h_0 … h_3 of h = I₀(2√(xσ/g))/I₀(2√(lσ/g)) = Σ h_n(x) σⁿ, polynomials in x, each of shape (positions,)."""
+    # All vanish at the upper end: its factor is not left to a difference of rounded terms.
+    height, fall = ratios**2, (ratios - 1) * (ratios + 1)
+    second = (height + 1) / 4 - 1
+    third = (height**2 + height + 1) / 36 - 1 / 4 - second
+    terms = [np.ones_like(height), fall, fall * second, fall * third]
+    return [term * (string.length / string.gravity) ** order for order, term in enumerate(terms)]
+
+
+def _regular_transfer(
+    string: HangingString, exponential: Exponential, ratios: NDArray[np.float64], shape: NDArray[np.float64]
+) -> NDArray[np.complex128]:
+    """Return h(x, s), or h − B_m μ_m²/(μ_m² − ζ²) where mode m is taken out."""
+    if not exponential.mode:
+        return _transfer(np.array([exponential.argument]), ratios)[:, 0]
+    angles = 2 * np.pi * (np.arange(CIRCLE_POINTS) + 0.5) / CIRCLE_POINTS
+    circle = exponential.argument + CIRCLE_RADIUS * np.exp(1j * angles)
+    zero = string.zeros(exponential.mode)[-1]
+    pole = zero**2 / ((zero - circle) * (zero + circle))
+    return np.asarray((_transfer(circle, ratios) - shape * pole).mean(axis=1))
+
+
+def _transfer(arguments: NDArray[np.complex128], ratios: NDArray[np.float64]) -> NDArray[np.complex128]:
+    """Return J₀(ζr)/J₀(ζ) = I₀(zr)/I₀(z) with z = iζ, or −iζ, whichever has a real part from 0."""
+    return bessel_ratio(np.where(arguments.imag > 0, -1j, 1j) * arguments, ratios)
+
+
+def _met_mode(
+    string: HangingString, exponential: Exponential, times: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the whole motion u'' + 2αu' + Ω²u = Ω² Re(c e^{st}) of the mode from rest, and its size for rounding."""
+    frequency = float(string.frequencies(exponential.mode)[-1])
+    nodes = (exponential.rate, *string.roots(exponential.mode)[-1])
+    values = exponential.weight * divided_exponential(nodes, times)
+    bound = abs(exponential.weight) * divided_exponential_bound(nodes, times)
+    phase = 2 + (abs(exponential.rate) + frequency) * times / PHASE_SHARE
+    return frequency**2 * values.real, frequency**2 * phase * bound

@@ -1,0 +1,259 @@
+"""The motion of a hanging string under any motion of its upper end.
+
+    U(x, t) = forced part + Σ_k w_k B_k(x) q_k(t)
+
+The forced part (`modal/string/quasistatic.py`) is closed in x, so that the sum converges up to the upper end; the free
+motions q_k (`modal/string/modes.py`) are cut smoothly by w_k, which converges exponentially away from the fronts
+(`modal/string/truncation.py`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from hydroelastic.modal.string.forcing import Forcing
+from hydroelastic.modal.string.hanging_string import HangingString, participations
+from hydroelastic.modal.string.modes import free_coordinates, launches
+from hydroelastic.modal.string.quasistatic import Exponential, exponentials, forced_part
+from hydroelastic.modal.string.rounding import Rounding
+from hydroelastic.modal.string.truncation import Truncation, fewest_terms, weights
+
+EPS = float(np.finfo(float).eps)
+FEWEST_TERMS = 128
+# Positions and times of a tile: all that is held at once are its modes.
+TILE = 1024
+# Positions whose times are summed in one product of matrices.
+STRIP = 16
+# Bessel functions and free motions of one tile (6e-8 s each) if left to choose: 4096 modes for the largest one …
+WORK = 2**22
+# … and no fewer for long tables, nor more than 65536 for single points, enough at 7e-4 R from a front: powers of 2.
+LEAST_OF_MOST_TERMS, LARGEST_OF_MOST_TERMS = 12, 16
+
+
+class UpperEnd(Protocol):
+    """A motion of the upper end: those of `modal/string/motions.py`."""
+
+    @property
+    def forcing(self) -> Forcing:
+        """The motion as pieces of polynomials and exponentials."""
+
+    @property
+    def end(self) -> float:
+        """Last time at which it is known, s; or infinity."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class StringResponse:
+    """Displacements of a string.
+
+    Attributes:
+        values: U(x, t), m, shape (positions, times).
+        errors: estimates of their absolute errors, m: what the cut sum loses next to a front, and rounding.
+        terms: the largest number of modes that was used.
+    """
+
+    values: NDArray[np.float64]
+    errors: NDArray[np.float64]
+    terms: int
+
+
+def string_response(
+    string: HangingString,
+    motion: UpperEnd,
+    positions: ArrayLike,
+    times: ArrayLike,
+    *,
+    tolerance: float = 1e-13,
+    most_terms: int | None = None,
+) -> StringResponse:
+    """Return the displacement U(x, t) of a string that is at rest before its upper end moves.
+
+    Args:
+        string: the string.
+        motion: f(t) of its upper end, from `modal/string/motions.py`.
+        positions: x above the free lower end, m, shape (positions,) or one.
+        times: t, s, not negative, shape (times,) or one, in any order.
+        tolerance: aim of the error of the cut sum, in units of the largest |f| until then. Next to fronts it
+            may be missed; the errors returned tell.
+        most_terms: modes at the most; by default 65536 for a few points, and fewer, from 4096, for large grids and
+            long tables.
+
+    Returns:
+        Values, their errors and the number of modes. Exactly 0 before the front, f(t) at the upper end.
+
+    Raises:
+        ValueError: if a position is not on the string, a time is negative or after the end of the motion, or the
+            tolerance or most_terms is not allowed.
+    """
+    positions, times = np.atleast_1d(np.asarray(positions, float)), np.atleast_1d(np.asarray(times, float))
+    _check(motion, times, tolerance, most_terms)
+    ratios = string.relative_roots(positions)
+    across, along = np.argsort(ratios, kind="stable"), np.argsort(times, kind="stable")
+    values = np.zeros((len(positions), len(times)))
+    errors = np.zeros_like(values)
+    forcing, terms = motion.forcing, 0
+    scale = _size(forcing, times)
+    for rows in _portions(across):
+        for columns in _portions(along):
+            parts = exponentials(string, forcing)
+            needed = fewest_terms(string, parts, times[columns])
+            problem = _Tile(
+                string=string,
+                forcing=forcing,
+                parts=parts,
+                ratios=ratios[rows],
+                times=times[columns],
+                tolerance=tolerance * scale,
+                needed=needed,
+                most_terms=most_terms or _affordable(len(rows) + len(columns) + len(forcing.starts), needed.max()),
+            )
+            part = problem.response()
+            values[np.ix_(rows, columns)], errors[np.ix_(rows, columns)] = part.values, part.errors
+            terms = max(terms, part.terms)
+    return StringResponse(values=values, errors=errors, terms=terms)
+
+
+def _check(motion: UpperEnd, times: NDArray[np.float64], tolerance: float, most_terms: int | None) -> None:
+    if not (np.isfinite(times) & (times >= 0)).all():
+        raise ValueError(f"times has {times[~(np.isfinite(times) & (times >= 0))][0]}: finite times from 0 are allowed")
+    if times.size and times.max() > motion.end:
+        raise ValueError(f"times goes to {times.max()} s: the motion of the upper end is known up to {motion.end} s")
+    if not tolerance > 0:
+        raise ValueError(f"tolerance is {tolerance}: it must be positive")
+    if most_terms is not None and most_terms < FEWEST_TERMS:
+        raise ValueError(f"most_terms is {most_terms}: at least {FEWEST_TERMS} is allowed")
+
+
+def _size(forcing: Forcing, times: NDArray[np.float64]) -> float:
+    """Return a size of f until the last time, m: that of its exponentials, and of its polynomials at rows and times."""
+    starts = forcing.starts[forcing.starts <= times.max(initial=0.0)]
+    values = forcing.polynomial(0, np.concatenate([starts, times]))
+    return float(np.abs(values).max() + np.abs(forcing.weights).sum())
+
+
+def _portions(order: NDArray[np.int_]) -> Iterator[NDArray[np.int_]]:
+    for start in range(0, len(order), TILE):
+        yield order[start : start + TILE]
+
+
+def _affordable(series: int, needed: float) -> int:
+    """Return the modes at the most for a tile of so many positions, times and pieces; four times as many if needed."""
+    power = max((WORK // series).bit_length(), LEAST_OF_MOST_TERMS)
+    extra = max(0, min(2, math.ceil(math.log2(max(needed, 1))) - power))
+    return 1 << min(power + extra, LARGEST_OF_MOST_TERMS)
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Octave:
+    """Modes from one number to twice that: shapes at all positions, motions at the times that need them.
+
+    Attributes:
+        numbers: k, shape (modes,).
+        shapes: B_k, shape (positions, modes).
+        coordinates: q_k, shape (modes, times).
+    """
+
+    numbers: NDArray[np.int_]
+    shapes: NDArray[np.float64]
+    coordinates: NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Tile:
+    """A grid of rising positions and times that is small enough to be computed at once.
+
+    Attributes:
+        string: the string.
+        forcing: the motion of its upper end.
+        parts: its exponentials.
+        ratios: r, rising, shape (positions,).
+        times: s, rising, shape (times,).
+        tolerance: aim of the error of the cut sum, m.
+        needed: the fewest modes at each time, shape (times,).
+        most_terms: modes at the most.
+    """
+
+    string: HangingString
+    forcing: Forcing
+    parts: Sequence[Exponential]
+    ratios: NDArray[np.float64]
+    times: NDArray[np.float64]
+    tolerance: float
+    needed: NDArray[np.float64]
+    most_terms: int
+
+    def response(self) -> StringResponse:
+        """Return values and errors on the grid."""
+        moved = self.times > self.string.travel_time * (1 - self.ratios)[:, None]
+        values, errors, terms = self._sum(moved)
+        ends = self.ratios == 1
+        values[ends] = self.forcing.derivative(0, self.times)
+        errors[ends] = 4 * EPS * np.abs(values[ends])
+        at_rest = ~(moved | ends[:, None])
+        values[at_rest], errors[at_rest] = 0.0, 0.0
+        return StringResponse(values=values, errors=errors, terms=terms)
+
+    def _sum(self, pending: NDArray[np.bool_]) -> tuple[NDArray[np.float64], NDArray[np.float64], int]:
+        """Return forced part and sum of modes where something has arrived, by levels of twice as many modes each."""
+        truncation = Truncation(
+            string=self.string, forcing=self.forcing, parts=self.parts, ratios=self.ratios, times=self.times
+        )
+        values, errors = forced_part(self.string, self.forcing, self.ratios, self.times)
+        octaves: list[_Octave] = []
+        rounding = Rounding(string=self.string, starts=self.forcing.starts, ratios=self.ratios, times=self.times)
+        terms = 0
+        while pending.any():
+            octaves.append(self._octave(terms, max(FEWEST_TERMS, 2 * terms), pending, rounding))
+            terms = max(FEWEST_TERMS, 2 * terms)
+            last = 2 * terms > self.most_terms
+            rows, columns = np.nonzero(pending & ((self.needed <= terms) | last))
+            lost = truncation.errors(terms, rows, columns)
+            done = (lost <= self.tolerance) | last
+            rows, columns, lost = rows[done], columns[done], lost[done]
+            ready = np.zeros_like(pending)
+            ready[rows, columns] = True
+            cut = [octave.shapes * weights(octave.numbers, terms) for octave in octaves]
+            values += _sum_where(ready, cut, octaves)
+            errors[rows, columns] += lost + rounding.at(rows, columns)
+            if last:
+                # Not even the highest octave is of the tail there: it may be what the next ones are.
+                short = ready & (self.needed > terms)
+                errors += np.abs(_sum_where(short, [octaves[-1].shapes], octaves[-1:]))
+            pending = pending & ~ready
+        return values, errors, terms
+
+    def _octave(self, start: int, stop: int, pending: NDArray[np.bool_], rounding: Rounding) -> _Octave:
+        """Return modes start + 1 … stop at all positions, and at the times that are pending (zero at the others)."""
+        zeros = self.string.zeros(stop)[start:]
+        frequencies = np.divide(zeros, self.string.travel_time)
+        jumps = launches(self.string, self.forcing, self.parts, frequencies, start + 1)
+        shapes = participations(zeros, self.ratios)
+        wanted = pending.any(axis=0)
+        coordinates = np.zeros((len(zeros), len(self.times)))
+        coordinates[:, wanted] = free_coordinates(
+            frequencies, self.string.damping, self.forcing.starts, jumps, self.times[wanted]
+        )
+        rounding.add(frequencies, jumps, shapes)
+        return _Octave(numbers=np.arange(start + 1, stop + 1), shapes=shapes, coordinates=coordinates)
+
+
+def _sum_where(
+    ready: NDArray[np.bool_], shapes: Sequence[NDArray[np.float64]], octaves: Sequence[_Octave]
+) -> NDArray[np.float64]:
+    """Return the sum over octaves of shapes times coordinates at the points that are ready, 0 at the others."""
+    values = np.zeros(ready.shape)
+    for start in range(0, len(ready), STRIP):
+        strip = slice(start, start + STRIP)
+        columns = np.nonzero(ready[strip].any(axis=0))[0]
+        if columns.size:
+            total = sum(
+                shape[strip] @ octave.coordinates[:, columns] for shape, octave in zip(shapes, octaves, strict=True)
+            )
+            values[strip, columns] = np.where(ready[strip, columns], total, 0.0)
+    return values

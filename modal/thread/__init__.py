@@ -1,0 +1,1 @@
+"""Threads in closed and asymptotic form."""

@@ -1,0 +1,31 @@
+"""What the asymptotic solutions of a thread have in common."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from hydroelastic.modal.thread.shape import ThreadShape
+
+
+class NoAsymptoticError(ValueError):
+    """The conditions of an asymptotic solution do not hold."""
+
+
+@dataclass(frozen=True)
+class AsymptoticThread:
+    """An asymptotic solution, and how much it leaves out.
+
+    Attributes:
+        shape: positions and contact forces.
+        order: of the last terms that are kept.
+        small: the small parameter of the expansion.
+        position_left_out: estimate of the largest error of a position, m: the next term, or the last one times the
+            small parameter.
+        force_left_out: the same of a contact force, N.
+    """
+
+    shape: ThreadShape
+    order: int
+    small: float
+    position_left_out: float
+    force_left_out: float

@@ -1,0 +1,209 @@
+"""Threads near the critical line, along which the load of a stream is tangential."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.optimize import brentq
+
+from hydroelastic.modal.beam.dry_modes import FloatArray
+from hydroelastic.modal.thread.asymptotics import NoAsymptoticError
+from hydroelastic.modal.thread.load import UP, ThreadLoad
+from hydroelastic.modal.thread.panel_quadrature import PanelQuadrature
+from hydroelastic.modal.thread.shape import NoTensionError, ThreadShape
+from hydroelastic.modal.thread.stream_profiles import UniformStream
+
+_DIRECTIONS = 361
+# Of the stream: changes above it are not small.
+_LARGEST = 0.5
+
+
+def critical_direction(load: ThreadLoad, point: ArrayLike) -> tuple[FloatArray, float]:
+    """Return the direction τ in which the load is tangential, P q = 0, and pulls away from the thread, q·τ > 0.
+
+    It is the direction of a free tail. The load is that at ``point``; τ lies in the plane of stream and vertical.
+
+    Args:
+        load: q.
+        point: position, m, shape (3,).
+
+    Returns:
+        τ, shape (3,), and q·τ, N/m.
+
+    Raises:
+        NoTensionError: if nothing pulls in any direction.
+    """
+    place = np.asarray(point, dtype=float)[None, :]
+    stream = np.zeros(3) if load.stream is None else load.stream.velocity_at(place)[0]
+    level = np.hypot(stream[0], stream[1])
+    along = np.array([stream[0], stream[1], 0.0]) / level if level > 0 else np.array([1.0, 0.0, 0.0])
+
+    def tangents(angles: FloatArray) -> FloatArray:
+        return np.outer(np.cos(angles), along) + np.outer(np.sin(angles), UP)
+
+    def normal_load(angles: FloatArray) -> FloatArray:
+        tau = tangents(angles)
+        normals = np.outer(-np.sin(angles), along) + np.outer(np.cos(angles), UP)
+        return np.asarray(np.sum(load.load(np.repeat(place, len(tau), axis=0), tau) * normals, axis=1))
+
+    # A direction and its opposite have the same load: half a turn is enough.
+    angles = np.linspace(-np.pi / 2, np.pi / 2, _DIRECTIONS)
+    values = normal_load(angles)
+    values[np.abs(values) < 1e-15 * np.abs(values).max()] = 0.0
+    roots = list(angles[values == 0])
+    for index in np.flatnonzero(values[1:] * values[:-1] < 0):
+        roots.append(brentq(lambda f: normal_load(np.array([f]))[0], angles[index], angles[index + 1], xtol=1e-15))
+    tau = tangents(np.array(roots))
+    pulls = np.sum(load.load(np.repeat(place, len(tau), axis=0), tau) * tau, axis=1)
+    if not np.abs(pulls).max(initial=0.0) > 0:
+        raise NoTensionError("nothing pulls at the free tail: there is no weight, and no friction along the stream")
+    strongest = int(np.argmax(np.abs(pulls)))
+    return tau[strongest] * np.sign(pulls[strongest]), float(abs(pulls[strongest]))
+
+
+def critical_angle(weight: float, normal_load: float) -> float:
+    """Return f_c below the stream at which a heavy towed thread is straight: cos f_c = √(1 + a²) − a, a = w/(2Rₙ).
+
+    Args:
+        weight: w, N/m; of a buoyant thread the angle is above the stream.
+        normal_load: Rₙ = kₙ U², N/m, not negative.
+
+    Raises:
+        ValueError: if there is no load, or the drag is negative.
+    """
+    if not normal_load >= 0:
+        raise ValueError(f"normal_load is {normal_load}: it must not be negative")
+    if weight == 0 and normal_load == 0:
+        raise ValueError("weight and normal_load are 0: there is no critical angle without a load")
+    # cos = Rₙ/(√(Rₙ² + w²/4) + |w|/2); the half angle of it is exact when the angle is small.
+    cosine = normal_load / (math.hypot(normal_load, 0.5 * weight) + 0.5 * abs(weight))
+    sine_squared = abs(weight) * cosine / normal_load if normal_load else 1.0
+    return math.atan2(math.sqrt(sine_squared), cosine)
+
+
+def critical_line(load: ThreadLoad, length: float, s: ArrayLike, start: ArrayLike = (0.0, 0.0, 0.0)) -> ThreadShape:
+    """Return the straight thread with a free tail in a uniform stream, T = (q·τ)(L − s): exact.
+
+    Args:
+        load: q, of a uniform stream or none.
+        length: L, m.
+        s: places, m, shape (n,).
+        start: position of A, m.
+
+    Raises:
+        NoAsymptoticError: if the stream is not uniform.
+        NoTensionError: if nothing pulls at the tail.
+    """
+    if load.stream is not None and not isinstance(load.stream, UniformStream):
+        raise NoAsymptoticError("the line of a free tail is straight in a uniform stream only")
+    direction, pull = critical_direction(load, start)
+    places = np.asarray(s, dtype=float)
+    return ThreadShape(
+        s=places,
+        positions=np.asarray(start, dtype=float) + np.outer(places, direction),
+        forces=np.outer(pull * (length - places), direction),
+    )
+
+
+def towed_body_exponent(weight: float, normal_load: float, tangential_load: float) -> float:
+    """Return k of f + f_c = C Tᵏ(1 + …), by which a thread comes to the critical line away from a body at its end.
+
+    k = −(w sin f_c + 2Rₙ sin f_c cos f_c)/(w sin f_c + Rₜ cos² f_c). The layer at the body is T_B/|q| thick.
+
+    Args:
+        weight: w, N/m; its sign does not matter.
+        normal_load: Rₙ = kₙ U², N/m.
+        tangential_load: Rₜ = kₜ U², N/m.
+
+    Raises:
+        ValueError: if there is no load.
+        NoAsymptoticError: if nothing pulls along the critical line.
+    """
+    angle = critical_angle(weight, normal_load)
+    pull = abs(weight) * math.sin(angle) + tangential_load * math.cos(angle) ** 2
+    if not pull > 0:
+        raise NoAsymptoticError("nothing pulls along the critical line: there is neither weight nor friction")
+    return -math.sin(angle) * (abs(weight) + 2 * normal_load * math.cos(angle)) / pull
+
+
+@dataclass(frozen=True)
+class NearlyCriticalTail:
+    """A thread with a free tail in a nearly uniform stream, at heights ζ from its tail towards its held end.
+
+    Attributes:
+        angles: below the stream, −f, rad, shape (n,).
+        tensions: T, N.
+        across: how far upstream of the tail, m.
+        lengths: arc length from the tail, m.
+        small: largest change of the stream, of it.
+        angle_left_out: estimate of the error of the angles: their change times the change of the stream.
+    """
+
+    angles: FloatArray
+    tensions: FloatArray
+    across: FloatArray
+    lengths: FloatArray
+    small: float
+    angle_left_out: float
+
+
+def nearly_critical_tail(
+    weight: float,
+    normal_load: float,
+    tangential_load: float,
+    changes: Sequence[float],
+    heights: ArrayLike,
+) -> NearlyCriticalTail:
+    """Return the free tail in U = U₀(1 + Σ δₖ ζᵏ), to first order in δ.
+
+    a = w sin f − Rₜ cos² f and b = −w sin f − 2Rₙ sin f cos f at f = −f_c, κ = b/a < 0:
+    f = −f_c + Σ pₖ ζᵏ, pₖ = −2Rₙ sin² f δₖ/(a(k − κ)),
+    T = aζ/sin f + Σ [Rₜ(2 cos f + cos³ f/sin² f) pₖ − 2Rₜ cos² f δₖ/sin f] ζᵏ⁺¹/(k + 1).
+
+    Args:
+        weight: w, N/m; of a buoyant thread heights are depths below the tail.
+        normal_load: Rₙ = kₙ U₀², N/m, at the tail.
+        tangential_load: Rₜ = kₜ U₀², N/m.
+        changes: δ₁, δ₂, …, m⁻ᵏ.
+        heights: ζ, m, increasing from 0 or more, shape (n,).
+
+    Raises:
+        ValueError: if there is no load.
+        NoAsymptoticError: if there is no weight, without which the critical line is level, or no drag, or the stream
+            changes by more than half.
+    """
+    if weight == 0 or not normal_load > 0:
+        raise NoAsymptoticError("the critical line is not inclined: there must be weight and normal drag")
+    zeta, size = np.asarray(heights, dtype=float), abs(weight)
+    powers = np.arange(1, len(changes) + 1)
+    delta = np.asarray(changes, dtype=float)
+    small = float(np.abs(zeta[:, None] ** powers @ delta).max(initial=0.0))
+    if not small < _LARGEST:
+        raise NoAsymptoticError(f"the stream changes by {small:.3g} of itself: it must be below {_LARGEST}")
+    angle = critical_angle(weight, normal_load)
+    sine, cosine = -math.sin(angle), math.cos(angle)
+    pull = size * sine - tangential_load * cosine**2
+    exponent = sine * (-size - 2 * normal_load * cosine) / pull
+    turns = -2 * normal_load * sine**2 * delta / (pull * (powers - exponent))
+    grows = tangential_load * ((2 * cosine + cosine**3 / sine**2) * turns - 2 * cosine**2 * delta / sine)
+
+    def angles(at: FloatArray) -> FloatArray:
+        return np.asarray(-angle + at[:, None] ** powers @ turns)
+
+    rule = PanelQuadrature(np.unique(np.concatenate([[0.0], zeta])))
+    inside = angles(rule.nodes)
+    _, sums = rule.running(np.stack([-1 / np.tan(inside), -1 / np.sin(inside)], axis=1))
+    chosen = np.searchsorted(rule.knots, zeta)
+    change = angles(zeta) + angle
+    return NearlyCriticalTail(
+        angles=angle - change,
+        tensions=pull / sine * zeta + zeta[:, None] ** (powers + 1) @ (grows / (powers + 1)),
+        across=sums[chosen, 0],
+        lengths=sums[chosen, 1],
+        small=small,
+        angle_left_out=small * float(np.abs(change).max(initial=0.0)),
+    )

@@ -1,0 +1,38 @@
+"""Shape of a thread at rest: positions and contact force along it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hydroelastic.modal.beam.dry_modes import FloatArray
+
+
+class NoTensionError(RuntimeError):
+    """A thread without bending stiffness has no such equilibrium: its tension would vanish somewhere."""
+
+
+@dataclass(frozen=True)
+class ThreadShape:
+    """A thread at places along it.
+
+    Attributes:
+        s: unstretched arc length from end A, m, increasing, shape (n,).
+        positions: r, m, shape (n, 3).
+        forces: contact force N of the part beyond s on the part before it, N, shape (n, 3).
+    """
+
+    s: FloatArray
+    positions: FloatArray
+    forces: FloatArray
+
+    @property
+    def tensions(self) -> FloatArray:
+        """T = |N|, N, shape (n,)."""
+        return np.asarray(np.linalg.norm(self.forces, axis=1))
+
+    @property
+    def tangents(self) -> FloatArray:
+        """τ = N/T, shape (n, 3)."""
+        return self.forces / self.tensions[:, None]

@@ -1,0 +1,233 @@
+"""Steady streams u(z): uniform, linearly sheared, veering, tabulated. z is up."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal, Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.interpolate import PchipInterpolator
+
+from hydroelastic.modal.beam.dry_modes import FloatArray
+
+Vector = tuple[float, float, float]
+
+# Places between two rows of a table at which its speed is looked at.
+_PLACES_PER_ROW = 16
+
+
+class Stream(Protocol):
+    """A steady stream that depends on the height only."""
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Heights at which some derivative of the profile jumps, m, increasing."""
+
+    def profile(self, levels: ArrayLike) -> FloatArray:
+        """Return u, m/s, at heights, m, shape (n,); shape (n, 3)."""
+
+    def slope(self, levels: ArrayLike) -> FloatArray:
+        """Return du/dz, 1/s, at heights, m, shape (n,); shape (n, 3)."""
+
+    def velocity_at(self, points: ArrayLike) -> FloatArray:
+        """Return u, m/s, at points, m, shape (n, 3); shape (n, 3)."""
+
+    def gradient_at(self, points: ArrayLike) -> FloatArray:
+        """Return ∂uᵢ/∂xⱼ, 1/s, at points, m, shape (n, 3); shape (n, 3, 3)."""
+
+    def largest_speed(self, low: float, high: float) -> float:
+        """Return the largest |u|, m/s, at heights from ``low`` to ``high``, m."""
+
+
+class _OfHeight:
+    """Fields in space from a profile in z."""
+
+    breaks: tuple[float, ...] = ()
+
+    def velocity_at(self: Stream, points: ArrayLike) -> FloatArray:
+        """Return u, m/s, at points, m, shape (n, 3); shape (n, 3)."""
+        return self.profile(np.asarray(points, dtype=float)[:, 2])
+
+    def gradient_at(self: Stream, points: ArrayLike) -> FloatArray:
+        """Return ∂uᵢ/∂xⱼ, 1/s, at points, m, shape (n, 3); shape (n, 3, 3)."""
+        places = np.asarray(points, dtype=float)
+        gradient = np.zeros((len(places), 3, 3))
+        gradient[:, :, 2] = self.slope(places[:, 2])
+        return gradient
+
+
+def _vector(values: Sequence[float], name: str) -> Vector:
+    vector = tuple(float(value) for value in values)
+    if len(vector) != 3 or not all(map(math.isfinite, vector)):
+        raise ValueError(f"{name} is {values}: it must have three finite components, x, y and z")
+    return vector
+
+
+def _finite(value: float, name: str) -> None:
+    if not math.isfinite(value):
+        raise ValueError(f"{name} is {value}: it must be finite")
+
+
+@dataclass(frozen=True)
+class UniformStream(_OfHeight):
+    """u = U.
+
+    Attributes:
+        velocity: U, m/s, three components.
+    """
+
+    velocity: Vector
+
+    def __post_init__(self) -> None:
+        """Refuse what is no vector."""
+        object.__setattr__(self, "velocity", _vector(self.velocity, "velocity"))
+
+    def profile(self, levels: ArrayLike) -> FloatArray:
+        """Return u, m/s, at heights, m, shape (n,); shape (n, 3)."""
+        return np.tile(self.velocity, (np.size(levels), 1))
+
+    def slope(self, levels: ArrayLike) -> FloatArray:
+        """Return du/dz = 0 at heights, shape (n,); shape (n, 3)."""
+        return np.zeros((np.size(levels), 3))
+
+    def largest_speed(self, low: float, high: float) -> float:
+        """Return |U|, m/s."""
+        return math.hypot(*self.velocity)
+
+
+@dataclass(frozen=True)
+class ShearedStream(_OfHeight):
+    """u = U + G (z − z₀).
+
+    Attributes:
+        velocity: U, m/s, three components.
+        gradient: G, 1/s, three components.
+        level: z₀, m, where u = U.
+    """
+
+    velocity: Vector
+    gradient: Vector
+    level: float = 0.0
+
+    def __post_init__(self) -> None:
+        """Refuse what is no vector."""
+        object.__setattr__(self, "velocity", _vector(self.velocity, "velocity"))
+        object.__setattr__(self, "gradient", _vector(self.gradient, "gradient"))
+        _finite(self.level, "level")
+
+    def profile(self, levels: ArrayLike) -> FloatArray:
+        """Return u, m/s, at heights, m, shape (n,); shape (n, 3)."""
+        heights = np.asarray(levels, dtype=float)
+        return np.asarray(self.velocity) + np.multiply.outer(heights - self.level, self.gradient)
+
+    def slope(self, levels: ArrayLike) -> FloatArray:
+        """Return du/dz, 1/s, at heights, shape (n,); shape (n, 3)."""
+        return np.tile(self.gradient, (np.size(levels), 1))
+
+    def largest_speed(self, low: float, high: float) -> float:
+        """Return the largest |u|, m/s, between two heights, m: |u| is convex, so that it is at one of them."""
+        return float(np.linalg.norm(self.profile([low, high]), axis=1).max())
+
+
+@dataclass(frozen=True)
+class VeeringStream(_OfHeight):
+    """u = U (cos κz, sin κz, 0).
+
+    Attributes:
+        speed: U, m/s.
+        rate: κ, rad/m.
+    """
+
+    speed: float
+    rate: float
+
+    def __post_init__(self) -> None:
+        """Refuse what is no number."""
+        _finite(self.speed, "speed")
+        _finite(self.rate, "rate")
+
+    def profile(self, levels: ArrayLike) -> FloatArray:
+        """Return u, m/s, at heights, m, shape (n,); shape (n, 3)."""
+        angles = self.rate * np.asarray(levels, dtype=float)
+        return self.speed * np.stack([np.cos(angles), np.sin(angles), np.zeros_like(angles)], axis=-1)
+
+    def slope(self, levels: ArrayLike) -> FloatArray:
+        """Return du/dz, 1/s, at heights, m, shape (n,); shape (n, 3)."""
+        angles = self.rate * np.asarray(levels, dtype=float)
+        return self.speed * self.rate * np.stack([-np.sin(angles), np.cos(angles), np.zeros_like(angles)], axis=-1)
+
+    def largest_speed(self, low: float, high: float) -> float:
+        """Return |U|, m/s."""
+        return abs(self.speed)
+
+
+@dataclass(frozen=True)
+class TabulatedStream(_OfHeight):
+    """u between the rows of a table, constant above the highest and below the lowest.
+
+    Attributes:
+        levels: heights of the rows, m, increasing.
+        velocities: u of each row, m/s, three components each.
+        interpolation: ``"linear"``, or ``"cubic"``: each component a monotone cubic between rows (SciPy's
+            PCHIP), continuous with its first derivative.
+    """
+
+    levels: tuple[float, ...]
+    velocities: tuple[Vector, ...]
+    interpolation: Literal["linear", "cubic"] = "linear"
+
+    def __post_init__(self) -> None:
+        """Refuse tables that are none."""
+        levels = tuple(float(level) for level in self.levels)
+        velocities = tuple(_vector(row, "velocities") for row in self.velocities)
+        if len(levels) < 2 or not np.isfinite(levels).all() or (np.diff(levels) <= 0).any():
+            raise ValueError(f"levels is {levels}: it must be two or more increasing heights")
+        if len(velocities) != len(levels):
+            raise ValueError(
+                f"velocities has {len(velocities)} rows: there must be one for each of {len(levels)} levels"
+            )
+        if self.interpolation not in ("linear", "cubic"):
+            raise ValueError(f"interpolation is {self.interpolation!r}: it must be 'linear' or 'cubic'")
+        object.__setattr__(self, "levels", levels)
+        object.__setattr__(self, "velocities", velocities)
+
+    @property
+    def breaks(self) -> tuple[float, ...]:  # type: ignore[override]
+        """The rows: the first derivative jumps there, of a cubic the second."""
+        return self.levels
+
+    @cached_property
+    def _cubic(self) -> PchipInterpolator:
+        return PchipInterpolator(self.levels, np.asarray(self.velocities))
+
+    def _held(self, levels: ArrayLike) -> FloatArray:
+        return np.clip(np.asarray(levels, dtype=float), self.levels[0], self.levels[-1])
+
+    def profile(self, levels: ArrayLike) -> FloatArray:
+        """Return u, m/s, at heights, m, shape (n,); shape (n, 3)."""
+        heights = self._held(levels)
+        if self.interpolation == "cubic":
+            return np.asarray(self._cubic(heights))
+        return np.stack([np.interp(heights, self.levels, column) for column in np.transpose(self.velocities)], axis=-1)
+
+    def slope(self, levels: ArrayLike) -> FloatArray:
+        """Return du/dz, 1/s, at heights, m, shape (n,); shape (n, 3); at a break from above."""
+        heights = np.asarray(levels, dtype=float)
+        if self.interpolation == "cubic":
+            inside = np.asarray(self._cubic(self._held(heights), 1))
+        else:
+            rows = np.clip(np.searchsorted(self.levels, heights, side="right") - 1, 0, len(self.levels) - 2)
+            inside = (np.diff(self.velocities, axis=0) / np.diff(self.levels)[:, None])[rows]
+        within = (heights >= self.levels[0]) & (heights < self.levels[-1])
+        return np.where(within[..., None], inside, 0.0)
+
+    def largest_speed(self, low: float, high: float) -> float:
+        """Return the largest |u|, m/s, between two heights, m; of a cubic at 16 places between rows."""
+        rows = np.asarray(self.levels)
+        fine = (rows[:-1, None] + np.diff(rows)[:, None] * np.linspace(0, 1, _PLACES_PER_ROW)).ravel()
+        heights = np.concatenate([[low, high], fine[(fine > low) & (fine < high)]])
+        return float(np.linalg.norm(self.profile(heights), axis=1).max())

@@ -1,0 +1,140 @@
+"""A thread whose tension is much larger than the load on it: ε = ∫|q|/T."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from hydroelastic.modal.beam.dry_modes import FloatArray
+from hydroelastic.modal.thread.asymptotics import AsymptoticThread, NoAsymptoticError
+from hydroelastic.modal.thread.load import ThreadLoad
+from hydroelastic.modal.thread.panel_quadrature import PanelQuadrature
+from hydroelastic.modal.thread.shape import ThreadShape
+
+# Above it no order is any better than the one before.
+_LARGEST = 0.5
+_PANELS = 16
+
+
+def tension_dominated(
+    load: ThreadLoad,
+    length: float,
+    end_force: ArrayLike,
+    s: ArrayLike,
+    *,
+    order: int = 2,
+    axial_rigidity: float = math.inf,
+    start: ArrayLike = (0.0, 0.0, 0.0),
+) -> AsymptoticThread:
+    """Return the shape of a thread that is held at A and pulled at B by a large constant force F, by quadrature.
+
+    T₀ = |F|, e = F/T₀, P = I − eeᵀ, q₀(s) = q(r_A + e s, e):
+    order 1: N₁ = ∫ₛᴸ q₀, b₁ = P N₁/T₀, a₁ = e·N₁/T₀, r₁ = ∫₀ˢ (b₁ + F/EA);
+    order 2: N₂ = ∫ₛᴸ (q_r r₁ + q_τ b₁), τ₂ = P N₂/T₀ − a₁b₁ − |b₁|²e/2, r₂ = ∫₀ˢ (τ₂ + N₁/EA);
+    r = r_A + e s + r₁ + r₂ + O(ε³), N = F + N₁ + N₂ + O(ε³ T₀). T₀/EA counts as ε.
+
+    Args:
+        load: q.
+        length: L, m.
+        end_force: F, N, shape (3,).
+        s: places, m, increasing, shape (n,).
+        order: 0, 1 or 2.
+        axial_rigidity: EA, N; infinite if the thread does not stretch.
+        start: position of A, m.
+
+    Returns:
+        The shape at s, with ε and what is left out; for order 2 that is ε times its own term.
+
+    Raises:
+        ValueError: if ``order`` is none of the three.
+        NoAsymptoticError: if there is no force, or ε is above 0.5.
+    """
+    if order not in (0, 1, 2):
+        raise ValueError(f"order is {order}: it must be 0, 1 or 2")
+    force, begin = np.asarray(end_force, dtype=float), np.asarray(start, dtype=float)
+    pull, places = float(np.linalg.norm(force)), np.asarray(s, dtype=float)
+    if pull == 0:
+        raise NoAsymptoticError("no force pulls at the end")
+    direction = force / pull
+    rule = PanelQuadrature(_knots(load, length, direction, begin, places))
+    at, tangents = begin + np.outer(rule.nodes, direction), np.tile(direction, (len(rule.nodes), 1))
+    across = np.eye(3) - np.outer(direction, direction)
+
+    loads = load.load(at, tangents)
+    small = _small(rule, loads, pull) + pull / axial_rigidity
+    if not small < _LARGEST:
+        raise NoAsymptoticError(f"the load is {small:.3g} of the tension: it must be below {_LARGEST}")
+    first, first_at_knots = _to_end(rule, loads)
+    turn = first @ across / pull
+    moved, moved_at_knots = rule.running(turn + force / axial_rigidity)
+
+    change = np.einsum("nij,nj->ni", load.load_by_position(at, tangents), moved)
+    change += np.einsum("nij,nj->ni", load.load_by_tangent(at, tangents), turn)
+    second, second_at_knots = _to_end(rule, change)
+    bend = second @ across / pull - (first @ direction / pull)[:, None] * turn
+    bend -= 0.5 * np.outer(np.sum(turn**2, axis=1), direction)
+    _, bent_at_knots = rule.running(bend + first / axial_rigidity)
+
+    position_terms = [np.outer(rule.knots, direction), moved_at_knots, bent_at_knots]
+    force_terms = [np.tile(force, (len(rule.knots), 1)), first_at_knots, second_at_knots]
+    chosen = np.searchsorted(rule.knots, places)
+    return AsymptoticThread(
+        shape=ThreadShape(
+            s=places,
+            positions=begin + np.sum(position_terms[: order + 1], axis=0)[chosen],
+            forces=np.sum(force_terms[: order + 1], axis=0)[chosen],
+        ),
+        order=order,
+        small=small,
+        position_left_out=_left_out(position_terms, order, small),
+        force_left_out=_left_out(force_terms, order, small),
+    )
+
+
+def _knots(load: ThreadLoad, length: float, direction: FloatArray, begin: FloatArray, places: FloatArray) -> FloatArray:
+    """Return what is asked for, where the straight thread meets breaks of the stream, and places between."""
+    breaks = np.array(load.stream.breaks if load.stream is not None else (), dtype=float)
+    crossings = (breaks - begin[2]) / direction[2] if direction[2] != 0 else np.empty(0)
+    inside = crossings[(crossings > 0) & (crossings < length)]
+    return np.unique(np.concatenate([np.linspace(0, length, _PANELS + 1), places, inside]))
+
+
+def _small(rule: PanelQuadrature, loads: FloatArray, pull: float) -> float:
+    return float(rule.running(np.linalg.norm(loads, axis=1, keepdims=True))[1][-1, 0]) / pull
+
+
+def _to_end(rule: PanelQuadrature, values: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the integrals from the nodes, and from the knots, to the end."""
+    at_nodes, at_knots = rule.running(values)
+    return at_knots[-1] - at_nodes, at_knots[-1] - at_knots
+
+
+def _left_out(terms: list[FloatArray], order: int, small: float) -> float:
+    following = terms[order + 1] if order < 2 else small * terms[2]
+    return float(np.linalg.norm(following, axis=1).max())
+
+
+def pulled_up_in_uniform_stream(
+    weight: float, normal_load: float, length: float, pull: float
+) -> tuple[FloatArray, FloatArray]:
+    """Return the place of B, and N at A, of a thread that is pulled straight up by a large force in a uniform stream.
+
+    x_B = Rₙ L²/(2B) + w Rₙ L³/(3B²) + O(B⁻³), z_B = L − Rₙ² L³/(6B²) + O(B⁻³),
+    N_A = (Rₙ L, B − wL − Rₙ² L²/(2B)) + O(B⁻²), without tangential drag.
+
+    Args:
+        weight: w, N/m.
+        normal_load: Rₙ = kₙ U|U|, N/m, along x.
+        length: L, m.
+        pull: B, N.
+
+    Raises:
+        NoAsymptoticError: if the load is above half of the pull.
+    """
+    if not math.hypot(weight, normal_load) * length < _LARGEST * pull:
+        raise NoAsymptoticError(f"the load on the length is not below {_LARGEST} of the pull, {pull} N")
+    first, second = normal_load * length / pull, weight * length / pull
+    place = length * np.array([first / 2 + second * first / 3, 0.0, 1 - first**2 / 6])
+    return place, pull * np.array([first, 0.0, 1 - second - first**2 / 2])

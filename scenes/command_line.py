@@ -14,11 +14,24 @@ from typing import IO, Any
 
 import click
 
+from hydroelastic.fem.pictures.options import DEFAULT_PICTURES, CurveFormat
 from hydroelastic.meshes.interrupts import interrupts_deferred
+from hydroelastic.scenes.command_options import (
+    animate_option,
+    dpi_option,
+    format_option,
+    picture_options,
+    scale_option,
+    scene_argument,
+    set_option,
+    width_option,
+)
 from hydroelastic.scenes.errors import SceneError, UnsolvedError
 from hydroelastic.scenes.kinds import checker_of, comparer_of, runner_of
-from hydroelastic.scenes.output import check_output
-from hydroelastic.scenes.read import closed_tank, read_scene, scene_path, shipped_scenes
+from hydroelastic.scenes.output.folder import check_output, holds_result
+from hydroelastic.scenes.program import PROGRAM
+from hydroelastic.scenes.read import Scene, closed_tank, read_scene, scene_path, shipped_scenes
+from hydroelastic.scenes.run import page_writer
 
 BAD_INPUT = 2
 NOT_TO_TOLERANCE = 3
@@ -56,7 +69,7 @@ class _Commands(click.Group):
 
     def main(self, *arguments: Any, **settings: Any) -> Any:
         with _printing_on_one_rank():
-            return super().main(*arguments, **settings)
+            return super().main(*arguments, **{"prog_name": PROGRAM} | settings)
 
     def invoke(self, ctx: click.Context) -> Any:
         try:
@@ -70,15 +83,24 @@ class _Commands(click.Group):
 
 
 @contextlib.contextmanager
-def _progress(*, shown: bool) -> Iterator[Callable[[str], None]]:
-    """A line on the terminal that says what is being done; nothing where there is no terminal."""
+def _progress(title: str, *, shown: bool) -> Iterator[Callable[[str], None]]:
+    """A line on the terminal that says of what scene what is being done; nothing where there is no terminal."""
     if not shown:
         yield lambda _message: None
         return
     from rich.console import Console
+    from rich.text import Text
 
-    with Console(stderr=True).status("starting") as status:
-        yield status.update
+    def line(message: str) -> Text:
+        # Text, not str: a title may hold brackets, which rich would read as markup.
+        return Text(f"{message} – {title}", no_wrap=True, overflow="ellipsis")
+
+    with Console(stderr=True).status(line("libraries")) as status:
+        yield lambda message: status.update(line(message))
+
+
+def _title(scene: Scene) -> str:
+    return scene.title or "Untitled scene"
 
 
 def _is_first_rank() -> bool:
@@ -129,25 +151,28 @@ def main() -> None:
         sys.stdout.reconfigure(errors="replace")
 
 
-_scene_argument = click.argument("scene", metavar="SCENE")
-_set_option = click.option(
-    "--set",
-    "overrides",
-    multiple=True,
-    metavar="KEY=VALUE",
-    help="Replace a value of the scene, e.g. body.0.start=2.5 (entries count from 0). May be repeated.",
-)
-
-
 @main.command()
-@_scene_argument
+@scene_argument
 @click.option("--out", type=click.Path(path_type=Path), help="Result folder; default results/<scene name>.")
-@_set_option
+@set_option
 @click.option("--no-images", is_flag=True, help="Write no images.")
+@format_option
+@dpi_option
+@scale_option
+@width_option
+@animate_option
+@click.option("--report", "page", is_flag=True, help="Write report.html too: all of it in one page.")
 @click.option("--quiet", is_flag=True, help="Print nothing but errors.")
 @click.pass_context
 def run(
-    context: click.Context, scene: str, out: Path | None, overrides: tuple[str, ...], no_images: bool, quiet: bool
+    context: click.Context,
+    scene: str,
+    out: Path | None,
+    overrides: tuple[str, ...],
+    no_images: bool,
+    page: bool,
+    quiet: bool,
+    **of_pictures: Any,
 ) -> None:
     """Solve SCENE, print its tables and write the result folder.
 
@@ -157,16 +182,27 @@ def run(
     Example:
       hydroelastic run aquarium --set accuracy.tolerance=1e-8 --out results/fine
     """
+    options = picture_options(**of_pictures)
+    if no_images and options != DEFAULT_PICTURES:
+        raise click.UsageError("--no-images leaves nothing for the other options of images to do: drop it, or them.")
     checked = read_scene(scene, overrides)
     folder = out if out is not None else Path("results") / scene_path(scene).stem
     check_output(folder)
-    start = time.perf_counter()
-    # Interrupted half way, the libraries below end in an error of their own, or abort.
-    with interrupts_deferred():
-        run_kind = runner_of(checked)
-    seconds = time.perf_counter() - start
-    with _progress(shown=not quiet and sys.stderr.isatty()) as report:
-        outcome = run_kind(checked, images=not no_images, out=folder, import_seconds=seconds, report=report)
+    with _progress(_title(checked), shown=not quiet and sys.stderr.isatty()) as report:
+        start = time.perf_counter()
+        # Interrupted half way, the libraries below end in an error of their own, or abort.
+        with interrupts_deferred():
+            run_kind = runner_of(checked)
+            write_page = page_writer(checked) if page else None
+        seconds = time.perf_counter() - start
+        outcome = run_kind(
+            checked,
+            images=None if no_images else options,
+            page=write_page,
+            out=folder,
+            import_seconds=seconds,
+            report=report,
+        )
     for warning in outcome.warnings:
         click.echo(f"Warning: {warning}", err=True)
     if not quiet:
@@ -178,8 +214,8 @@ def run(
 
 
 @main.command()
-@_scene_argument
-@_set_option
+@scene_argument
+@set_option
 @click.pass_context
 def compare(context: click.Context, scene: str, overrides: tuple[str, ...]) -> None:
     """Solve SCENE and print the field solution beside the estimates of the older theories.
@@ -189,9 +225,9 @@ def compare(context: click.Context, scene: str, overrides: tuple[str, ...]) -> N
       hydroelastic compare aquarium --set body.0.start=0
     """
     checked = read_scene(scene, overrides)
-    with interrupts_deferred():
-        compare_kind = comparer_of(checked)
-    with _progress(shown=sys.stderr.isatty()) as report:
+    with _progress(_title(checked), shown=sys.stderr.isatty()) as report:
+        with interrupts_deferred():
+            compare_kind = comparer_of(checked)
         comparison = compare_kind(checked, report=report)
     click.echo(comparison.table())
     if comparison.status == "unconverged":
@@ -199,9 +235,9 @@ def compare(context: click.Context, scene: str, overrides: tuple[str, ...]) -> N
 
 
 @main.command()
-@_scene_argument
+@scene_argument
 @click.option("--out", type=click.Path(path_type=Path), help="Folder; default results/<scene name>_study.")
-@_set_option
+@set_option
 @click.option(
     "--families", metavar="LIST", help="Of uniform, algebraic, geometric, tolerance: all by default; or thinness."
 )
@@ -211,7 +247,16 @@ def compare(context: click.Context, scene: str, overrides: tuple[str, ...]) -> N
 @click.option("--halvings", metavar="NUMBER", help="How often elements are halved, at most; default 4.")
 @click.option("--most-unknowns", metavar="NUMBER", help="No uniform or algebraic mesh has more; default 250000.")
 @click.option("--width-halvings", metavar="NUMBER", help="In thinness: how often the float's width is; default 6.")
-def study(scene: str, out: Path | None, overrides: tuple[str, ...], **options: str | None) -> None:
+@format_option
+@dpi_option
+def study(
+    scene: str,
+    out: Path | None,
+    overrides: tuple[str, ...],
+    formats: tuple[CurveFormat, ...],
+    dpi: int | None,
+    **options: str | None,
+) -> None:
     """Measure error against cost: uniform and graded meshes, degrees, tolerances.
 
     Prints tables with the observed rates of convergence beside those of theory, and writes study.csv, study.txt,
@@ -224,27 +269,28 @@ def study(scene: str, out: Path | None, overrides: tuple[str, ...], **options: s
     Example:
       hydroelastic study sloshing --families uniform --degrees 1-8 --set accuracy.modes=5
     """
-    from hydroelastic.scenes.study_options import plan_from_options
+    from hydroelastic.scenes.study.options import plan_from_options
 
     plan = plan_from_options(options)
     checked = read_scene(scene, overrides)
     tank = closed_tank(checked, "a study measures the errors of frequencies of closed tanks")
     folder = out if out is not None else Path("results") / f"{scene_path(scene).stem}_study"
     check_output(folder)
-    with interrupts_deferred():
-        from hydroelastic.scenes.study import study_scene
-        from hydroelastic.scenes.study_report import study_table, write_study
-    with _progress(shown=sys.stderr.isatty()) as report:
+    replaces = holds_result(folder)
+    with _progress(_title(checked), shown=sys.stderr.isatty()) as report:
+        with interrupts_deferred():
+            from hydroelastic.scenes.study.report import study_table, write_study
+            from hydroelastic.scenes.study.run import study_scene
         measured = study_scene(tank, plan, report=report)
         if _is_first_rank():
-            write_study(measured, folder)
+            write_study(measured, folder, picture_options(formats, dpi=dpi))
     click.echo(study_table(measured))
-    click.echo(f"Written to {folder}/")
+    click.echo(f"Written to {folder}/{' (replacing earlier ones)' if replaces else ''}")
 
 
 @main.command()
-@_scene_argument
-@_set_option
+@scene_argument
+@set_option
 def check(scene: str, overrides: tuple[str, ...]) -> None:
     """Validate SCENE and say what will be modelled; solve nothing.
 
@@ -255,7 +301,10 @@ def check(scene: str, overrides: tuple[str, ...]) -> None:
     checked = read_scene(scene, overrides)
     from rich.console import Console
 
-    checker_of(checked)(checked, Console())
+    from hydroelastic.scenes.output.check_text import print_check
+
+    # All of it first: what is refused half way leaves nothing on the output.
+    print_check(checked.title, tuple(checker_of(checked)(checked)), Console())
 
 
 @main.command("list")
@@ -321,6 +370,10 @@ def bench(
             process.terminate()
         code = INTERRUPTED
     context.exit(code if code >= 0 else 128 - code)
+
+
+for _command in (main, *main.commands.values()):
+    _command.help = (_command.help or "").replace("\n  hydroelastic ", f"\n  {PROGRAM} ")
 
 
 if __name__ == "__main__":

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-import difflib
 import json
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeAlias, get_args, get_origin
 
-from pydantic import BaseModel, ValidationError
+from pydantic import BaseModel, BeforeValidator, ValidationError
 from pydantic.fields import FieldInfo
+
+from hydroelastic.scenes.number_texts import how_to_write
+from hydroelastic.scenes.words import nearest, proposal
 
 Location: TypeAlias = tuple[str | int, ...]
 """The way to a value as the reader of the file sees it: ``("body", 0, "start")``."""
@@ -86,19 +88,6 @@ def shown_value(value: object) -> str:
         # Python refuses to write whole numbers of thousands of digits in decimal.
         text = hex(value) if isinstance(value, int) and abs(value) > LARGEST_DECIMAL_SHOWN else str(value)
     return text if len(text) <= LONGEST_VALUE_SHOWN else text[:LONGEST_VALUE_SHOWN] + "…"
-
-
-def nearest(word: str, known: Iterable[str]) -> str | None:
-    """Return the known word that is most like ``word``, or None where none is near."""
-    by_lower_case = {name.lower(): name for name in known}
-    found = difflib.get_close_matches(word.lower(), by_lower_case, n=1, cutoff=0.6)
-    return by_lower_case[found[0]] if found else None
-
-
-def proposal(word: str, known: Iterable[str]) -> str:
-    """Return ``Did you mean "length"?`` for the nearest known word, or an empty text."""
-    near = nearest(word, known)
-    return f'Did you mean "{near}"?' if near is not None else ""
 
 
 def readable_key(location: Location, *, table: Literal["", "one", "many"] = "") -> str:
@@ -195,7 +184,14 @@ def _wrong(detail: Any, value: object, place: _Place) -> str:
         return "it is too large"  # a whole number beyond the range of floats
     if detail["type"] == "tuple_type" and not _table(place.field):
         return "it is not a list"
+    if detail["type"] == "model_type" and _takes_a_number(place.field):
+        return "it is neither a number nor a table"
     return _WRONG.get(detail["type"], str(detail["msg"]))
+
+
+def _takes_a_number(field: FieldInfo | None) -> bool:
+    """Whether a number may stand for the table of a field."""
+    return field is not None and any(isinstance(part, BeforeValidator) for part in field.metadata)
 
 
 def _missing(place: _Place) -> Problem:
@@ -248,8 +244,9 @@ def _remedy(kind: str, place: _Place, value: object) -> str:
     if kind == "literal_error" and place.field is not None:
         return proposal(str(value), map(str, get_args(_value_type(place.field)[0])))
     if kind in ("float_type", "int_type", "bool_type") and isinstance(value, str):
-        return "Write it without quotes"
-    if kind in ("model_type", "tuple_type") and _table(place.field):
+        description = place.field.description if place.field is not None else None
+        return how_to_write(value, description or "") or "Write it without quotes"
+    if kind in ("model_type", "tuple_type") and _table(place.field) and len(place.location) == 1:
         return f"Write it as {readable_key(place.location[:1], table=_table(place.field))}"
     return ""
 

@@ -2,32 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 from hydroelastic.scenes.errors import Problem, SceneError, shown_value
-from hydroelastic.scenes.model_string import StringScene
-from hydroelastic.scenes.model_thread import ThreadScene
-from hydroelastic.scenes.models import TankScene
-from hydroelastic.scenes.outcome import Outcome
+from hydroelastic.scenes.models.string import StringScene
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.models.thread import ThreadScene
+from hydroelastic.scenes.output.outcome import Outcome
+from hydroelastic.scenes.output.sections import Section
 from hydroelastic.scenes.read import Scene, closed_tank
 
 
 def runner_of(scene: Scene) -> Callable[..., Outcome]:
-    """Return what runs a scene: ``run(scene, out=…, images=…, import_seconds=…, report=…)``."""
+    """Return what runs a scene: ``run(scene, out=…, images=…, page=…, import_seconds=…, report=…)``."""
     if isinstance(scene, TankScene):
-        from hydroelastic.scenes.run import run_scene
+        if scene.is_open:
+            from hydroelastic.scenes.open_water.run import run_open
 
-        return run_scene
+            return run_open
+        from hydroelastic.scenes.tank.run import run_tank
+
+        return run_tank
     if isinstance(scene, StringScene):
-        from hydroelastic.scenes.string_run import run_string
+        from hydroelastic.scenes.string.run import run_string
 
         return run_string
     if isinstance(scene, ThreadScene):
-        from hydroelastic.scenes.thread_run import run_thread
+        from hydroelastic.scenes.thread.run import run_thread
 
         return run_thread
-    from hydroelastic.scenes.roll_run import run_roll
+    from hydroelastic.scenes.roll.run import run_roll
 
     return run_roll
 
@@ -40,15 +45,15 @@ def comparer_of(scene: Scene) -> Callable[..., Outcome]:
     """
     if isinstance(scene, TankScene):
         closed_tank(scene, "the older theories that are compared are those of closed tanks")
-        from hydroelastic.scenes.compare import compare_scene
+        from hydroelastic.scenes.tank.compare import compare_tank
 
-        return compare_scene
+        return compare_tank
     if isinstance(scene, StringScene):
-        from hydroelastic.scenes.string_compare import compare_string
+        from hydroelastic.scenes.string.compare import compare_string
 
         return compare_string
     if isinstance(scene, ThreadScene):
-        from hydroelastic.scenes.thread_compare import compare_thread
+        from hydroelastic.scenes.thread.compare import compare_thread
 
         return compare_thread
     raise SceneError(
@@ -62,20 +67,24 @@ def comparer_of(scene: Scene) -> Callable[..., Outcome]:
     )
 
 
-def checker_of(scene: Scene) -> Callable[[Any, Any], None]:
-    """Return what says how a scene will be modelled: ``check(scene, console)``."""
+def checker_of(scene: Scene) -> Callable[[Any], Iterator[Section]]:
+    """Return what says how a scene will be modelled, in tables and lines: ``check(scene)``."""
     if isinstance(scene, TankScene):
-        from hydroelastic.scenes.check import print_check
+        if scene.is_open:
+            from hydroelastic.scenes.open_water.check import check_open
 
-        return print_check
+            return check_open
+        from hydroelastic.scenes.tank.check import check_tank
+
+        return check_tank
     if isinstance(scene, StringScene):
-        from hydroelastic.scenes.string_check import print_string_check
+        from hydroelastic.scenes.string.check import check_string
 
-        return print_string_check
+        return check_string
     if isinstance(scene, ThreadScene):
-        from hydroelastic.scenes.thread_check import print_thread_check
+        from hydroelastic.scenes.thread.check import check_thread
 
-        return print_thread_check
-    from hydroelastic.scenes.roll_check import print_roll_check
+        return check_thread
+    from hydroelastic.scenes.roll.check import check_roll
 
-    return print_roll_check
+    return check_roll

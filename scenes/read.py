@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 import tomllib
 from collections.abc import Iterable
@@ -11,11 +12,14 @@ from typing import Any, TypeAlias
 
 from pydantic import ValidationError
 
-from hydroelastic.scenes.errors import Problem, SceneError, nearest, proposal, scene_error, shown_value
-from hydroelastic.scenes.model_roll import RollScene
-from hydroelastic.scenes.model_string import StringScene
-from hydroelastic.scenes.model_thread import ThreadScene
-from hydroelastic.scenes.models import TankScene
+from hydroelastic.scenes.errors import Problem, SceneError, scene_error, shown_value
+from hydroelastic.scenes.models.roll import RollScene
+from hydroelastic.scenes.models.string import StringScene
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.models.thread import ThreadScene
+from hydroelastic.scenes.number_texts import how_to_write, how_to_write_line
+from hydroelastic.scenes.program import PROGRAM
+from hydroelastic.scenes.words import nearest, proposal
 
 Document: TypeAlias = dict[str, Any]
 
@@ -72,9 +76,16 @@ def scene_path(scene: str | Path) -> Path:
         raise _unusable(path, "it is a folder", "Name a scene file (*.toml) in it")
     if exists:
         raise _unusable(path, "it is not a regular file", "Save the scene in a file")
+    raise _unusable(path, "there is no such file and no shipped scene of that name", _proposed_scene(path))
+
+
+def _proposed_scene(path: Path) -> str:
+    with_ending = path.with_name(f"{path.name}.toml")
+    with contextlib.suppress(OSError):
+        if with_ending.is_file():
+            return f'Did you mean "{with_ending}"?'
     names = [file.stem for file in SHIPPED_FOLDER.glob("*.toml")]
-    remedy = proposal(path.stem, names) or "See the shipped scenes with `hydroelastic list`"
-    raise _unusable(path, "there is no such file and no shipped scene of that name", remedy)
+    return proposal(path.stem, names) or f"See the shipped scenes with `{PROGRAM} list`"
 
 
 def read_scene(path: str | Path, overrides: Iterable[str] = ()) -> Scene:
@@ -99,7 +110,7 @@ def read_scene(path: str | Path, overrides: Iterable[str] = ()) -> Scene:
     label = f"{file} with {' '.join(f'--set {change}' for change in changes)}" if changes else str(file)
     model = _model_of(document, label)
     try:
-        scene = model.model_validate(document, context={"folder": file.parent})
+        scene = model.model_validate(document, context={"folder": file.parent, "source": label})
     except ValidationError as error:
         raise scene_error(error, model, file=label) from error
     return _with_mesh_beside(scene, file) if isinstance(scene, TankScene) else scene
@@ -147,10 +158,17 @@ def _parse(file: Path) -> Document:
     except RecursionError as error:
         raise _unusable(file, "it is not a scene: its lists are nested too deeply") from error
     except ValueError as error:  # TOMLDecodeError, or a number of thousands of digits
-        raise _unusable(file, f"it is not TOML: {_uncapitalised(str(error))}") from error
+        wrong = f"it is not TOML: {_uncapitalised(str(error))}"
+        raise _unusable(file, wrong, _mended_line(content.decode("utf-8-sig"), str(error))) from error
     if not document:
         raise _unusable(file, "it is empty", f"A scene begins with {_known_kinds()}")
     return document
+
+
+def _mended_line(text: str, error: str) -> str:
+    """How to write the number in the line that an error of TOML names, if that is what is wrong."""
+    named = re.search(r"at line (\d+)", error)
+    return how_to_write_line(text.split("\n")[int(named[1]) - 1]) if named else ""
 
 
 def _uncapitalised(text: str) -> str:
@@ -189,14 +207,15 @@ def _override(document: Document, change: str, file: Path) -> None:
     if not equals or not all(names):
         raise _bad_override(change, "it is not of the form key=value", "For example --set accuracy.tolerance=1e-8")
     holder: Any = document
-    for name in names[:-1]:
-        index = _index_in(holder, name, change)
+    for place in range(len(names) - 1):
+        index = _index_in(holder, names, place, change)
         holder = holder.setdefault(index, {}) if isinstance(holder, dict) else holder[index]
-    holder[_index_in(holder, names[-1], change)] = _override_value(change, text.strip())
+    holder[_index_in(holder, names, len(names) - 1, change)] = _override_value(change, text.strip())
 
 
-def _index_in(holder: Any, name: str, change: str) -> Any:
-    """Return what selects ``name`` in a table (the key) or in a list (the number of the entry)."""
+def _index_in(holder: Any, names: list[str], place: int, change: str) -> Any:
+    """Return what selects the name at a place in a table (the key) or in a list (the number of the entry)."""
+    name = names[place]
     if isinstance(holder, dict) and not name.isdigit():
         return name
     if not isinstance(holder, list):
@@ -204,7 +223,10 @@ def _index_in(holder: Any, name: str, change: str) -> Any:
     numbers = {str(number): number for number in range(len(holder))}
     if name not in numbers:
         entries = ", ".join(numbers) or "none, the list is empty"
-        raise _bad_override(change, f'"{name}" is not an entry of the list', allowed=entries)
+        remedy = "Entries count from 0"
+        if numbers and not name.lstrip("+-").isdigit():
+            remedy += f": write {'.'.join((*names[:place], '0', *names[place:]))} for the first"
+        raise _bad_override(change, f'"{name}" is not an entry of the list', remedy, allowed=entries)
     return numbers[name]
 
 
@@ -217,7 +239,8 @@ def _override_value(change: str, text: str) -> Any:
         if list(parsed) == ["value"]:  # a line break in the text would start another key
             return parsed["value"]
     except (ValueError, RecursionError):
-        if _BARE_TEXT.fullmatch(text):
+        # What is nearly a number is refused later, where it is known what may stand there.
+        if _BARE_TEXT.fullmatch(text) or how_to_write(text):
             return text
     raise _bad_override(change, "the value is not TOML", "Put a text in quotes")
 

@@ -1,0 +1,25 @@
+"""Typed, frozen, validated scenes."""
+
+from hydroelastic.scenes.models.bodies import Beam, Float
+from hydroelastic.scenes.models.open_analyses import Decay, Radiation, Resonance, Response
+from hydroelastic.scenes.models.roll import RollScene
+from hydroelastic.scenes.models.string import StringScene
+from hydroelastic.scenes.models.tank import Accuracy, Liquid, MeshFile, Tank, TankScene
+from hydroelastic.scenes.models.thread import ThreadScene
+
+__all__ = [
+    "Accuracy",
+    "Beam",
+    "Decay",
+    "Float",
+    "Liquid",
+    "MeshFile",
+    "Radiation",
+    "Resonance",
+    "Response",
+    "RollScene",
+    "StringScene",
+    "Tank",
+    "TankScene",
+    "ThreadScene",
+]

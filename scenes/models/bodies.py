@@ -1,0 +1,296 @@
+"""Bodies of a scene as frozen values: elastic beams and rigid floats. SI units, per metre of width."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Annotated, Any, Literal, TypeAlias
+
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Discriminator,
+    Field,
+    SerializerFunctionWrapHandler,
+    Strict,
+    Tag,
+    ValidationError,
+    model_serializer,
+    model_validator,
+)
+from pydantic_core import InitErrorDetails
+
+from hydroelastic.scenes.models.problems import misfit
+
+SMALLEST, LARGEST = 1e-30, 1e30
+"""Range of any positive quantity in SI: no product of a few of them overflows."""
+
+MOST_VERTICES = 100
+"""Corners of a polygon: the mesh is graded towards each, and what has more is rather an outline."""
+
+Level: TypeAlias = Literal["interface", "surface"]
+Shape: TypeAlias = Literal["exponential", "parabola", "ellipse", "wedge", "rectangle", "polygon", "outline"]
+Motion: TypeAlias = Literal["heave", "sway", "roll"]
+
+PositiveNumber: TypeAlias = Annotated[float, Strict(), Field(ge=SMALLEST, le=LARGEST)]
+AnyNumber: TypeAlias = Annotated[float, Strict(), Field(ge=-LARGEST, le=LARGEST)]
+Place: TypeAlias = Annotated[float, Strict(), Field(ge=0, le=LARGEST)]
+
+
+class SceneModel(BaseModel):
+    """Base of all parts of a scene: immutable, no unknown keys, no NaN or infinity."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+
+class BeamSection(SceneModel):
+    """A uniform part of a stepped beam."""
+
+    length: PositiveNumber = Field(description="length of the section, m")
+    flexural_rigidity: PositiveNumber = Field(description="EI of the section per metre of width, N·m")
+    mass_per_length: PositiveNumber = Field(description="mass of the section per length and metre of width, kg/m²")
+
+
+class BeamJoint(SceneModel):
+    """A place at which the slope of a beam may jump."""
+
+    at: PositiveNumber = Field(description="distance from the left end of the beam, m")
+    rotational_stiffness: Annotated[float, Strict(), Field(ge=0, le=LARGEST)] = Field(
+        description="moment by a radian of the jump of the slope, per metre of width, N·m/rad; 0 is a hinge"
+    )
+
+
+UNIFORM_KEYS = ("length", "flexural_rigidity", "mass_per_length")
+"""What a beam without sections is given by."""
+
+
+class Beam(SceneModel):
+    """An Euler–Bernoulli beam without draught that floats on a liquid: uniform, or of uniform sections.
+
+    Of a beam of sections the length is their sum, the mass per length their mean, and the flexural rigidity that of the
+    uniform beam as flexible on the whole, l/EI = Σ lᵢ/EIᵢ: enough for what only needs to know about how stiff it is.
+
+    Raises:
+        ValidationError: (a ValueError) if sections stand beside the keys of a uniform beam.
+    """
+
+    kind: Literal["beam"] = Field(default="beam", description="kind of the body")
+    at: Level | None = Field(
+        default=None,
+        description="where it floats: at the interface of two liquids, which is the default with two, or at the top",
+    )
+    start: Place = Field(description="distance of the left end from the left wall, m")
+    length: PositiveNumber = Field(description="length, m; not beside sections")
+    flexural_rigidity: PositiveNumber = Field(description="EI per metre of width, N·m; not beside sections")
+    mass_per_length: PositiveNumber = Field(
+        description="mass per length and metre of width, kg/m²; not beside sections"
+    )
+    hydrostatic: Annotated[bool, Strict()] = Field(
+        default=True, description="whether the hydrostatic restoring Δρ g w acts on the beam"
+    )
+    ends: Literal["free", "guided"] = Field(
+        default="free",
+        description="free (no moment, no shear force) or guided (no slope, no shear force; only wall to wall)",
+    )
+    sections: tuple[BeamSection, ...] = Field(
+        default=(), description="sections from left to right, instead of length, flexural_rigidity, mass_per_length"
+    )
+    joints: tuple[BeamJoint, ...] = Field(default=(), description="joints and hinges, from left to right")
+
+    @property
+    def end(self) -> float:
+        """Distance of the right end from the left wall, m."""
+        return self.start + self.length
+
+    @property
+    def is_uniform(self) -> bool:
+        """Whether it has neither sections nor joints."""
+        return not self.sections and not self.joints
+
+    @property
+    def parts(self) -> tuple[BeamSection, ...]:
+        """Its sections, from left to right: one of a uniform beam."""
+        return self.sections or (BeamSection(**{key: getattr(self, key) for key in UNIFORM_KEYS}),)
+
+    @property
+    def hinges(self) -> tuple[float, ...]:
+        """Where the joints without stiffness lie, m from the left end."""
+        return tuple(joint.at for joint in self.joints if joint.rotational_stiffness == 0.0)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _of_sections(cls, given: Any) -> Any:
+        """Complete a beam of sections by what it is on the whole."""
+        if not isinstance(given, dict) or not given.get("sections"):
+            return given
+        problems = [
+            misfit(
+                (key,),
+                given[key],
+                "it is given beside sections, which have their own",
+                remedy="Leave it out, or the sections",
+            )
+            for key in UNIFORM_KEYS
+            if key in given
+        ]
+        if problems:
+            raise ValidationError.from_exception_data(cls.__name__, problems)
+        return given | _on_the_whole(given["sections"])
+
+    @model_serializer(mode="wrap")
+    def _as_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        """Write a beam as it may be read again."""
+        left_out = UNIFORM_KEYS if self.sections else ()
+        empty = tuple(key for key in ("sections", "joints") if not getattr(self, key))
+        return {key: value for key, value in write(self).items() if key not in (*left_out, *empty)}
+
+
+def _on_the_whole(sections: Any) -> dict[str, float]:
+    """Length, mean flexural rigidity and mean mass of sections; of what are none, anything: they are refused."""
+    try:
+        parts = [part if isinstance(part, BeamSection) else BeamSection.model_validate(part) for part in sections]
+    except (TypeError, ValidationError):
+        return dict.fromkeys(UNIFORM_KEYS, 1.0)
+    length = math.fsum(part.length for part in parts)
+    return {
+        "length": length,
+        "flexural_rigidity": length / math.fsum(part.length / part.flexural_rigidity for part in parts),
+        "mass_per_length": math.fsum(part.length * part.mass_per_length for part in parts) / length,
+    }
+
+
+class Float(SceneModel):
+    """A rigid body that floats at a still level. Its frame: x from ``position``, y up from its reference level.
+
+    Raises:
+        ValidationError: (a ValueError) if the keys do not belong to the shape.
+    """
+
+    kind: Literal["float"] = Field(default="float", description="kind of the body")
+    at: Level | None = Field(
+        default=None,
+        description="where it floats: at the interface of two liquids, which is the default with two, or at the top",
+    )
+    shape: Shape = Field(description="shape of the section")
+    position: Place = Field(description="distance of the shape's x = 0 from the left wall, m")
+    half_width: PositiveNumber | None = Field(
+        default=None, description="half the width at the reference level, m; of all shapes but polygons and outlines"
+    )
+    half_height: PositiveNumber | None = Field(
+        default=None,
+        description="half the height, m, of the same shapes; of the exponential one its length of decay 1/μ",
+    )
+    tail: Annotated[float, Strict(), Field(ge=1e-9, le=0.5)] | None = Field(
+        default=None,
+        description="part of the half width at which the exponential shape is brought to a point; by default 0.001",
+    )
+    vertices: tuple[tuple[AnyNumber, AnyNumber], ...] | None = Field(
+        default=None,
+        min_length=3,
+        max_length=MOST_VERTICES,
+        description=f"3 to {MOST_VERTICES} corners [x, y] of a polygon in the float's frame, m, in either sense",
+    )
+    file: Path | None = Field(
+        default=None,
+        description="text file with two columns, x and y in m, of the points of an outline in the float's frame; "
+        "relative to the folder of the scene",
+    )
+    corner_angle: Annotated[float, Strict(), Field(ge=1, le=180)] | None = Field(
+        default=None, description="angle, degrees; where the outline turns more sharply it has a corner; by default 30"
+    )
+    mass: PositiveNumber | None = Field(
+        default=None,
+        description="mass, kg/m, by which it is immersed; by default the reference level lies at the still level",
+    )
+    centre_of_mass: AnyNumber | None = Field(
+        default=None,
+        description="height of the centre of mass above the reference level, m; by default that of the area",
+    )
+    radius_of_gyration: PositiveNumber | None = Field(
+        default=None,
+        description="radius of gyration about the centre of mass, m; by default that of the homogeneous section",
+    )
+    motions: tuple[Motion, ...] = Field(
+        default=("heave",), min_length=1, max_length=3, description="how it may move, each motion once"
+    )
+    boundary: Literal["exact", "thin"] = Field(
+        default="exact", description="conditions on the contour itself, or those of a thin float on its middle line"
+    )
+    unstable: Literal["refuse", "solve"] = Field(
+        default="refuse",
+        description="what becomes of a float that would capsize: refused, or its roll solved all the same",
+    )
+
+    @property
+    def shape_key(self) -> str:
+        """The key that says most about the section."""
+        return {"polygon": "vertices", "outline": "file"}.get(self.shape, "half_width")
+
+    @model_validator(mode="after")
+    def _keys_fit(self) -> Float:
+        problems = [*_keys_of_the_shape(self), *_motions_differ(self), *_thin_floats(self)]
+        if problems:
+            raise ValidationError.from_exception_data(type(self).__name__, problems)
+        return self
+
+
+_PROFILE = ("half_width", "half_height")
+NEEDED_KEYS: dict[Shape, tuple[str, ...]] = {
+    "exponential": _PROFILE,
+    "parabola": _PROFILE,
+    "ellipse": _PROFILE,
+    "wedge": _PROFILE,
+    "rectangle": _PROFILE,
+    "polygon": ("vertices",),
+    "outline": ("file",),
+}
+FURTHER_KEYS: dict[Shape, tuple[str, ...]] = {"exponential": ("tail",), "outline": ("corner_angle",)}
+_SHAPE_KEYS = (*_PROFILE, "vertices", "file", "tail", "corner_angle")
+
+THIN_SHAPES: tuple[Shape, ...] = ("exponential", "parabola", "ellipse", "wedge")
+"""Shapes whose half-width is a function of height that ends with zero, as the thin condition needs."""
+
+
+def _keys_of_the_shape(body: Float) -> Iterator[InitErrorDetails]:
+    needed, further = NEEDED_KEYS[body.shape], FURTHER_KEYS.get(body.shape, ())
+    for key in _SHAPE_KEYS:
+        value = getattr(body, key)
+        if key in needed and value is None:
+            description = Float.model_fields[key].description
+            yield misfit((key,), None, f'it is missing, and shape = "{body.shape}" needs it', allowed=f"{description}")
+        elif value is not None and key not in (*needed, *further):
+            owners = [shape for shape in NEEDED_KEYS if key in (*NEEDED_KEYS[shape], *FURTHER_KEYS.get(shape, ()))]
+            yield misfit(
+                (key,),
+                value,
+                f'it does not belong to shape = "{body.shape}", which takes {" and ".join((*needed, *further))}',
+                remedy=f"Leave it out; it belongs to {' or '.join(owners)}",
+            )
+
+
+def _motions_differ(body: Float) -> Iterator[InitErrorDetails]:
+    if len(set(body.motions)) < len(body.motions):
+        yield misfit(("motions",), ", ".join(body.motions), "a motion is named twice", remedy="Name each once")
+
+
+def _thin_floats(body: Float) -> Iterator[InitErrorDetails]:
+    if body.boundary == "exact":
+        return
+    if body.shape not in THIN_SHAPES:
+        yield misfit(
+            ("boundary",),
+            body.boundary,
+            f'a thin float ends in a point or a rounding above and below, shape = "{body.shape}" need not',
+            allowed=f'"exact", or shape = {" or ".join(THIN_SHAPES)}',
+        )
+
+
+def _kind_of(body: Any) -> str:
+    """Which model a body is read with; what is no table is left to the beam's model to refuse."""
+    kind = body.get("kind", "beam") if isinstance(body, dict) else getattr(body, "kind", "beam")
+    return str(kind)
+
+
+Body: TypeAlias = Annotated[Annotated[Beam, Tag("beam")] | Annotated[Float, Tag("float")], Discriminator(_kind_of)]
+"""Any body: the key ``kind`` tells which, a beam where it is left out."""

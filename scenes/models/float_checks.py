@@ -1,0 +1,332 @@
+"""What must hold of the floats of a scene: sections, sizes, equilibrium, room and stability."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import combinations
+from typing import TYPE_CHECKING, TypeAlias
+
+from pydantic_core import InitErrorDetails
+
+from hydroelastic.scenes.models.bodies import THIN_SHAPES, Beam, Float
+from hydroelastic.scenes.models.open_checks import bodies_span
+from hydroelastic.scenes.models.problems import misfit
+
+# Contours need NumPy and SciPy, which take a while to import: functions that are called for floats import them.
+if TYPE_CHECKING:
+    from hydroelastic.meshes.contours import Contour
+    from hydroelastic.scenes.models.tank import TankScene
+
+SLENDERNESS = {"exact": (1e-3, 1e3), "thin": (1e-9, 1e3)}
+"""Width over height of a section: one mesh follows both, but for thin floats, whose width is not meshed."""
+
+SMALLEST_FLOAT = 1e-4
+"""Part of the tank's length: with a smaller float, by width and height, the lengths of one mesh lie too far apart."""
+
+SHORTEST_SIDE = 1e-5
+"""Part of the section's size: the mesh is graded towards both ends of each side."""
+
+SMALLEST_GAP = 1e-3
+"""Part of the section's size that stays between it and what is around it: elements in a gap are as wide as it."""
+
+SMALLEST_PART = 1e-6
+"""Part of the section's height on either side of the still level: with less a float hardly floats."""
+
+LONGEST_ARM = 1e3
+"""Sizes of the section: a centre of mass or a radius of gyration beyond it leaves nothing of the section's own."""
+
+_Box: TypeAlias = tuple[float, float, float, float]
+
+
+def floats_float_in_the_tank(scene: TankScene) -> Iterator[InitErrorDetails]:
+    """Yield the first problem of each float, alone in the tank: its section, its equilibrium, its place."""
+    for index, body in scene.floats:
+        found = next(_problems_of(scene, index, body), None)
+        if found is not None:
+            yield found
+
+
+def _problems_of(scene: TankScene, index: int, body: Float) -> Iterator[InitErrorDetails]:
+    from hydroelastic.scenes.models.floats import float_contour, placed_float, still_level
+
+    if body.vertices is not None:
+        yield from _vertices_make_a_polygon(index, body.vertices)
+    shape = ("body", index, body.shape_key)
+    try:
+        contour = float_contour(body, scene.folder)
+    except ValueError as error:
+        yield misfit(
+            shape,
+            str(body.file),
+            str(error),
+            allowed="a text file with two columns, x and y in metres, of points all around the section; "
+            "close enough to be joined smoothly, and three in a line for a straight side",
+        )
+        return
+    yield from _section_is_simple(shape, contour)
+    yield from _sizes_fit(scene, index, body, contour)
+    densities = scene.densities_at(scene.level_of(body))
+    try:
+        level = still_level(contour, body.mass, densities)
+    except ValueError:
+        yield _floats_elsewhere(index, body, contour.moments().area, densities)
+        return
+    yield from _parts_on_both_sides(index, body, contour, level)
+    try:
+        placed = placed_float(scene, index)
+    except ValueError as error:
+        yield misfit(
+            ("body", index, "mass" if body.mass is not None else body.shape_key),
+            body.mass,
+            f"{error}; that level is y = {level:g} m in the float's frame",
+            allowed="a section that the still level cuts once, into one part below and one above",
+        )
+        return
+    yield from _has_room(scene, index, body, placed.contour.bounds)
+    yield from _arms_fit(index, body, placed.contour.bounds)
+
+
+def _vertices_make_a_polygon(index: int, vertices: tuple[tuple[float, float], ...]) -> Iterator[InitErrorDetails]:
+    from hydroelastic.meshes.point_contours import shortest_side
+
+    location = ("body", index, "vertices")
+    length, size, number = shortest_side(vertices)
+    if length <= SHORTEST_SIDE * size:
+        yield misfit(
+            location,
+            None,
+            f"the side that begins with vertex {number + 1} is {length:g} m long, too short beside the section",
+            allowed=f"at least {SHORTEST_SIDE * size:g} m; the first vertex is not repeated at the end",
+        )
+
+
+def _section_is_simple(location: tuple[str | int, ...], contour: Contour) -> Iterator[InitErrorDetails]:
+    from hydroelastic.meshes.point_contours import self_crossing
+
+    if location[-1] not in ("vertices", "file"):
+        return
+    crossing = self_crossing(contour)
+    if crossing is not None:
+        x, y = crossing
+        yield misfit(
+            location,
+            None,
+            f"the contour crosses, touches or folds back on itself near ({x:g}, {y:g})",
+            allowed="points in their order around the section, in either sense",
+        )
+
+
+def _sizes_fit(scene: TankScene, index: int, body: Float, contour: Contour) -> Iterator[InitErrorDetails]:
+    width, height = _extents(contour.bounds)
+    least, most = SLENDERNESS[body.boundary]
+    if not least <= width / height <= most:
+        yield misfit(
+            ("body", index, body.shape_key),
+            body.half_width,
+            f"the section is {width:g} m wide and {height:g} m high, too "
+            f"{'slender' if width < height else 'flat'} for one mesh to show both",
+            allowed=f"a width of {least:g} to {most:g} heights",
+            remedy=_other_models(body) if width < height else "A beam is flat",
+        )
+    smallest = SMALLEST_FLOAT * bodies_span(scene)
+    beside, of_what = (
+        ("the other bodies", "the length they take up") if scene.is_open else ("the tank", "the tank's length")
+    )
+    if max(width, height) < smallest:
+        yield misfit(
+            ("body", index, body.shape_key),
+            body.half_width,
+            f"the float is too small beside {beside} for one mesh to show both",
+            allowed=f"a width or height of at least {smallest:g} m ({SMALLEST_FLOAT:g} of {of_what})",
+        )
+
+
+def _other_models(body: Float) -> str:
+    return 'boundary = "thin" takes it' if body.boundary == "exact" and body.shape in THIN_SHAPES else ""
+
+
+def _floats_elsewhere(index: int, body: Float, area: float, densities: tuple[float, float]) -> InitErrorDetails:
+    below, above = densities
+    heavy = (body.mass or 0.0) >= below * area
+    return misfit(
+        ("body", index, "mass"),
+        body.mass,
+        f"with a section of {area:g} m² it {'sinks' if heavy else 'rises to the top of the upper liquid'}",
+        allowed=f"between {above * area:g} and {below * area:g} kg/m (Archimedes)",
+        remedy="Leave it out for the mass that floats with the reference level at the still level",
+    )
+
+
+def _parts_on_both_sides(index: int, body: Float, contour: Contour, level: float) -> Iterator[InitErrorDetails]:
+    _, _, low, high = contour.bounds
+    least = SMALLEST_PART * (high - low)
+    if body.mass is not None and not low + least <= level <= high - least:
+        yield misfit(
+            ("body", index, "mass"),
+            body.mass,
+            f"only {min(level - low, high - level):.3g} m of its height of {high - low:g} m lie "
+            f"{'below' if level < low + least else 'above'} the still level",
+            allowed=f"a mass that leaves {least:g} m on either side",
+        )
+
+
+def _has_room(scene: TankScene, index: int, body: Float, bounds: _Box) -> Iterator[InitErrorDetails]:
+    left, right, low, high = bounds
+    gap = SMALLEST_GAP * max(_extents(bounds))
+    length = scene.tank.length
+    if scene.is_open:
+        yield from _lies_in_the_stretch(scene, index, body)
+    elif right - left > length - 2 * gap:
+        yield misfit(
+            ("body", index, body.shape_key),
+            body.half_width,
+            f"the float is {right - left:g} m wide, and the tank {length:g} m long",
+            allowed=f"{gap:g} m of liquid on either side",
+        )
+    elif left < gap or right > length - gap:
+        yield misfit(
+            ("body", index, "position"),
+            body.position,
+            f"the float reaches from {left:g} to {right:g} m, and touches or leaves a wall of the tank",
+            allowed=f"{body.position - left + gap:g} to {length - gap - right + body.position:g} m for this float",
+        )
+    floor, ceiling = _limits(scene, body)
+    location = ("body", index, "half_height" if body.shape_key == "half_width" else body.shape_key)
+    if low < floor + gap:
+        yield misfit(
+            location,
+            body.half_height,
+            f"the float reaches down to y = {low:g} m, and the liquid below it ends at y = {floor:g} m",
+            allowed=f"a draught that leaves {gap:g} m",
+            remedy="Make the liquid deeper, the float lower or its mass smaller",
+        )
+    elif ceiling is not None and high > ceiling - gap:
+        yield misfit(
+            location,
+            body.half_height,
+            f"the float reaches up to y = {high:g} m, and the layer above its level ends at y = {ceiling:g} m",
+            allowed=f"a height that leaves {gap:g} m",
+            remedy="Make that layer deeper, the float lower or its mass greater",
+        )
+
+
+def _lies_in_the_stretch(scene: TankScene, index: int, body: Float) -> Iterator[InitErrorDetails]:
+    """There are no walls that a float might touch."""
+    if body.position > scene.tank.length:
+        yield misfit(
+            ("body", index, "position"),
+            body.position,
+            f"the float lies outside the stretch that is drawn, of {scene.tank.length:g} m",
+            allowed=f"0 to {scene.tank.length:g} m",
+        )
+
+
+def _limits(scene: TankScene, body: Float) -> tuple[float, float | None]:
+    """Ordinates between which a float must stay, m: the layers on either side of its level, air included."""
+    if len(scene.layers) == 2 and scene.level_of(body) == "surface":
+        return 0.0, None
+    return -scene.liquid[0].depth, scene.liquid[1].depth if len(scene.liquid) == 2 else None
+
+
+def _arms_fit(index: int, body: Float, bounds: _Box) -> Iterator[InitErrorDetails]:
+    longest = LONGEST_ARM * max(_extents(bounds))
+    for key, least in (("centre_of_mass", 0.0), ("radius_of_gyration", longest * 1e-9)):
+        value = getattr(body, key)
+        if value is not None and not least <= abs(value) <= longest:
+            yield misfit(
+                ("body", index, key),
+                value,
+                "it is beyond what double precision can tell from zero or from the section's own size",
+                allowed=f"{least if least else -longest:g} to {longest:g} m for this section",
+            )
+
+
+def _bodies_keep_apart(scene: TankScene) -> Iterator[InitErrorDetails]:
+    boxes = [_box(scene, index, body) for index, body in enumerate(scene.body)]
+    for first, second in combinations(range(len(boxes)), 2):
+        if not any(isinstance(scene.body[index], Float) for index in (first, second)):
+            continue
+        gap = SMALLEST_GAP * max(max(_extents(boxes[index])) for index in (first, second) if _is_float(scene, index))
+        if _nearer_than(gap, boxes[first], boxes[second]):
+            later = scene.body[second]
+            left, right, _, _ = boxes[first]
+            yield misfit(
+                ("body", second, "position" if isinstance(later, Float) else "start"),
+                later.position if isinstance(later, Float) else later.start,
+                f"the body overlaps or touches [[body]] number {first + 1}, which reaches from {left:g} to {right:g} m",
+                remedy=f"Leave a gap of at least {gap:g} m between them",
+            )
+
+
+def _is_float(scene: TankScene, index: int) -> bool:
+    return isinstance(scene.body[index], Float)
+
+
+def _box(scene: TankScene, index: int, body: Beam | Float) -> _Box:
+    if isinstance(body, Beam):
+        height = scene.height_of(scene.level_of(body))
+        return body.start, body.end, height, height
+    from hydroelastic.scenes.models.floats import placed_float
+
+    return placed_float(scene, index).contour.bounds
+
+
+def _nearer_than(gap: float, one: _Box, other: _Box) -> bool:
+    """Whether two boxes overlap or come nearer than a gap, in both directions."""
+    beside = max(one[0], other[0]) - min(one[1], other[1])
+    over = max(one[2], other[2]) - min(one[3], other[3])
+    return beside < gap and over < gap
+
+
+def _extents(bounds: _Box) -> tuple[float, float]:
+    left, right, low, high = bounds
+    return right - left, high - low
+
+
+def _floats_are_stable(scene: TankScene) -> Iterator[InitErrorDetails]:
+    for index, body in scene.floats:
+        from hydroelastic.scenes.models.floats import placed_float
+        from hydroelastic.scenes.models.rigid_motions import roll_stiffness
+
+        at_rest = placed_float(scene, index).hydrostatics
+        stiffness = roll_stiffness(body, at_rest)
+        if "roll" not in body.motions or body.unstable == "solve" or stiffness >= 0.0:
+            continue
+        # Where the centre of mass would make the float neutral.
+        arm = stiffness / (at_rest.mass * scene.tank.gravity)
+        metacentre = at_rest.centre_of_mass[1] - at_rest.reference_level + arm
+        height = at_rest.centre_of_mass[1] - at_rest.reference_level
+        given = body.centre_of_mass is not None
+        yield misfit(
+            ("body", index, "centre_of_mass" if given else "motions"),
+            body.centre_of_mass if given else ", ".join(body.motions),
+            f"the float capsizes: its centre of mass lies {height:g} m above its reference level, and the metacentre "
+            f"{height - metacentre:.3g} m lower",
+            allowed=f"a centre_of_mass of at most {metacentre:g} m",
+            remedy='Leave roll out of the motions, or set unstable = "solve"',
+        )
+
+
+def _thin_floats_have_free_liquid(scene: TankScene) -> Iterator[InitErrorDetails]:
+    """The liquid of a thin float is split by the vertical through it, which must not meet another section."""
+    for index, body in scene.floats:
+        for other, section in scene.floats:
+            if body.boundary == "exact" or section.boundary == "thin" or other == index:
+                continue
+            # SciPy takes a while to import, and most scenes have no float.
+            from hydroelastic.scenes.models.floats import placed_float
+
+            left, right = placed_float(scene, other).contour.bounds[:2]
+            if left < body.position < right:
+                yield misfit(
+                    ("body", index, "position"),
+                    body.position,
+                    f"the thin float lies straight above or below [[body]] number {other + 1}, which reaches from "
+                    f"{left:g} to {right:g} m",
+                    allowed=f"below {left:g} or above {right:g} m",
+                    remedy='Move it, or set boundary = "exact"',
+                )
+
+
+CHECKS_OF_FLOATS_AT_REST = (_bodies_keep_apart, _thin_floats_have_free_liquid, _floats_are_stable)
+"""What asks where the floats rest, when that is known to be in the tank."""

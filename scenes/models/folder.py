@@ -1,0 +1,33 @@
+"""Scenes that name files beside their own."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from pydantic import PrivateAttr
+
+from hydroelastic.scenes.models.bodies import SceneModel
+
+
+class SceneInFolder(SceneModel):
+    """A scene that keeps its file, in whose folder it finds tables and other scenes."""
+
+    _folder: Path = PrivateAttr(default=Path())
+    _source: str | None = PrivateAttr(default=None)
+
+    def model_post_init(self, context: Any) -> None:
+        """Keep what the reader of a scene file gives: its folder, and how messages name it."""
+        if context is not None:
+            self._folder = context["folder"]
+            self._source = context.get("source")
+
+    @property
+    def folder(self) -> Path:
+        """The folder of the scene file, or the current one."""
+        return self._folder
+
+    @property
+    def source(self) -> str | None:
+        """How messages name the scene file, with what was overridden; ``None`` if there is none."""
+        return self._source

@@ -1,0 +1,98 @@
+"""Analyses of open water as frozen values: radiation, response to waves, resonances, decay after release. SI units."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal, TypeAlias
+
+from pydantic import (
+    BeforeValidator,
+    Discriminator,
+    Field,
+    Strict,
+    Tag,
+    model_validator,
+)
+
+from hydroelastic.scenes.models.bodies import AnyNumber, PositiveNumber, SceneModel
+from hydroelastic.scenes.models.infinity import ZeroOrMoreOrInfinite
+from hydroelastic.scenes.models.problems import problem
+from hydroelastic.scenes.models.values import DISTINCT, MOST_VALUES, OR_SWEEP, NumberFromZero, kind_of
+
+
+class Radiation(SceneModel):
+    """Added mass, radiation damping and excitation forces."""
+
+    kind: Literal["radiation"] = Field(default="radiation", description="kind of the analysis")
+    omega: Annotated[tuple[ZeroOrMoreOrInfinite, ...], *DISTINCT] = Field(
+        description=f"frequencies, rad/s, {OR_SWEEP}; 0 for very long waves, inf for the limit far above the waves"
+    )
+    elastic_modes: Annotated[int, Strict(), Field(ge=0, le=200)] = Field(
+        default=4, description="how many elastic shapes of each beam are reported"
+    )
+
+
+class Response(SceneModel):
+    """Motions, reflection and transmission in incident waves."""
+
+    kind: Literal["response"] = Field(default="response", description="kind of the analysis")
+    omega: Annotated[tuple[PositiveNumber, ...], *DISTINCT] = Field(description=f"frequencies, rad/s, {OR_SWEEP}")
+    waves_from: Literal["left", "right"] = Field(default="left", description="the side from which waves come")
+    positions: Annotated[int, Strict(), Field(ge=2, le=MOST_VALUES)] = Field(
+        default=101, description="points along each beam at which its deflection is reported"
+    )
+
+
+class Resonance(SceneModel):
+    """Complex frequencies of motions that die out by themselves."""
+
+    kind: Literal["resonance"] = Field(default="resonance", description="kind of the analysis")
+    count: Annotated[int, Strict(), Field(ge=1, le=200)] = Field(
+        default=4, description="how many, from the smallest |ω|; of those below a frequency, if one is given, at most"
+    )
+    below: PositiveNumber | None = Field(
+        default=None, description="frequency, rad/s; all whose Re ω is below it are asked for"
+    )
+    largest_damping: Annotated[float, Strict(), Field(ge=1e-6, le=1)] = Field(
+        default=0.5, description="largest −Im ω/Re ω that is looked for"
+    )
+
+
+class Release(SceneModel):
+    """Where a float is let go, at rest."""
+
+    heave: AnyNumber = Field(default=0.0, description="upwards, m")
+    roll: AnyNumber = Field(default=0.0, description="anticlockwise, rad")
+
+    @model_validator(mode="after")
+    def _is_somewhere(self) -> Release:
+        if self.heave == self.roll == 0.0:
+            raise problem("the float is let go where it rests", allowed="a heave or a roll other than 0")
+        return self
+
+
+def _as_heave(value: Any) -> Any:
+    """A bare number is a heave."""
+    return {"heave": value} if not isinstance(value, dict | Release) else value
+
+
+class Decay(SceneModel):
+    """The motion of a float that is let go."""
+
+    kind: Literal["decay"] = Field(default="decay", description="kind of the analysis")
+    displacement: Annotated[Release, BeforeValidator(_as_heave)] = Field(
+        description="where the float is let go: heave in m, or a table {heave, roll} in m and rad"
+    )
+    body: Annotated[int, Strict(), Field(ge=1, le=1000)] = Field(
+        default=1, description="number of the float among the bodies, from 1"
+    )
+    times: Annotated[tuple[NumberFromZero, ...], *DISTINCT] = Field(description=f"times, s, {OR_SWEEP}")
+
+
+Analysis: TypeAlias = Annotated[
+    Annotated[Radiation, Tag("radiation")]
+    | Annotated[Response, Tag("response")]
+    | Annotated[Resonance, Tag("resonance")]
+    | Annotated[Decay, Tag("decay")],
+    Discriminator(kind_of),
+]
+"""Any analysis: the key ``kind`` tells which."""

@@ -1,0 +1,172 @@
+"""What must hold of a scene with open ends, and what only such a scene may hold."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import inf, isinf, sqrt
+from typing import TYPE_CHECKING
+
+from pydantic_core import InitErrorDetails
+
+from hydroelastic.scenes.models.bodies import Float
+from hydroelastic.scenes.models.open_analyses import Decay
+from hydroelastic.scenes.models.problems import misfit
+
+if TYPE_CHECKING:
+    from hydroelastic.scenes.models.tank import TankScene
+
+
+SLOWEST, FASTEST = 1e-6, 1e3
+"""Frequencies in √(g/length), with the length that is drawn, between which waves can be meshed beside bodies."""
+
+
+def tanks_with_walls_end(scene: TankScene) -> Iterator[InitErrorDetails]:
+    """Yield what only open water has."""
+    if scene.is_open:
+        return
+    for index, liquid in enumerate(scene.liquid):
+        if isinf(liquid.depth):
+            yield misfit(
+                ("liquid", index, "depth"),
+                liquid.depth,
+                "a tank with walls is not infinitely deep",
+                allowed="a finite depth",
+                remedy='Waves that leave need ends = "open" in [tank]',
+            )
+    if scene.analysis:
+        yield misfit(
+            ("analysis",),
+            None,
+            "of a tank with walls the modes are found, and no other analysis is known",
+            remedy='Leave it out, or set ends = "open" in [tank]',
+        )
+
+
+def open_water_has_bodies_and_waves(scene: TankScene) -> Iterator[InitErrorDetails]:
+    """Yield what open water lacks, and keys that have no effect there."""
+    if not scene.is_open:
+        return
+    if not scene.body:
+        yield misfit(("body",), None, "open water without a body does not oscillate by itself", remedy="Add a [[body]]")
+    if scene.mesh is not None:
+        yield misfit(
+            ("mesh", "file"),
+            str(scene.mesh.file),
+            "a mesh of your own ends somewhere, and open water does not",
+            remedy="Leave [mesh] out",
+        )
+    if len(scene.layers) == 1 and scene.top != "free":
+        yield misfit(
+            ("tank", "top"),
+            scene.top,
+            "without a free surface or an interface no wave leaves",
+            allowed='"free"',
+            remedy='Set ends = "walls", or add a second [[liquid]]',
+        )
+    # A default that is written out, as summaries do, is no wish.
+    if scene.accuracy.modes != type(scene.accuracy).model_fields["modes"].default:
+        yield misfit(
+            ("accuracy", "modes"),
+            scene.accuracy.modes,
+            "open water has no modes, so this has no effect",
+            remedy='Leave it out; how many resonances are looked for is "count" of an [[analysis]]',
+        )
+    yield from _nothing_lies_above_an_infinite_liquid(scene)
+
+
+def frequencies_and_times_can_be_resolved(scene: TankScene) -> Iterator[InitErrorDetails]:
+    """Yield analyses whose waves are out of all proportion to what is drawn."""
+    unit = sqrt(scene.tank.gravity / scene.tank.length)
+    slowest, fastest = SLOWEST * unit, FASTEST * unit
+    for index, analysis in enumerate(scene.analysis if scene.is_open else ()):
+        for key, values in (
+            ("omega", getattr(analysis, "omega", ())),
+            ("below", [value for value in [getattr(analysis, "below", None)] if value is not None]),
+        ):
+            wrong = [value for value in values if 0.0 < value < slowest or fastest < value < inf]
+            if wrong:
+                yield misfit(
+                    ("analysis", index, key),
+                    wrong[0],
+                    "its waves are too long or too short beside the length that is drawn for one mesh to show both",
+                    allowed=f"{slowest:.3g} to {fastest:.3g} rad/s",
+                )
+        late = [time for time in getattr(analysis, "times", ()) if time * slowest > 1.0]
+        if late:
+            yield misfit(
+                ("analysis", index, "times"),
+                late[0],
+                "the waves that matter so late are too long beside the length that is drawn",
+                allowed=f"0 to {1.0 / slowest:.3g} s",
+            )
+
+
+def _nothing_lies_above_an_infinite_liquid(scene: TankScene) -> Iterator[InitErrorDetails]:
+    if len(scene.layers) < 2 or not isinf(scene.layers[1].depth):
+        return
+    if scene.tank.top != "free":
+        yield misfit(
+            ("tank", "top"),
+            scene.tank.top,
+            "the upper liquid goes on upwards without end, so this has no effect",
+            remedy="Leave it out, or give the upper liquid a finite depth",
+        )
+    for index, body in enumerate(scene.body):
+        if body.at == "surface":
+            yield misfit(
+                ("body", index, "at"),
+                body.at,
+                "the upper liquid goes on upwards without end, so it has no surface",
+                allowed='"interface"',
+            )
+
+
+def beams_in_open_water_are_free(scene: TankScene) -> Iterator[InitErrorDetails]:
+    """Yield the beams that walls would have to guide."""
+    for index, beam in scene.beams:
+        if scene.is_open and beam.ends == "guided":
+            yield misfit(
+                ("body", index, "ends"),
+                beam.ends,
+                "ends are guided by walls, and open water has none",
+                allowed='"free"',
+            )
+
+
+def what_decays_is_a_float(scene: TankScene) -> Iterator[InitErrorDetails]:
+    """Yield the decay analyses of what is no float or may not move so."""
+    for index, analysis in enumerate(scene.analysis):
+        if not isinstance(analysis, Decay):
+            continue
+        numbers = [str(number + 1) for number, _ in scene.floats]
+        body = scene.body[analysis.body - 1] if analysis.body <= len(scene.body) else None
+        if not isinstance(body, Float):
+            what = "there is no body of that number" if body is None else "it is a beam, and a float is let go"
+            yield misfit(
+                ("analysis", index, "body"),
+                analysis.body,
+                what,
+                allowed=" or ".join(numbers) if numbers else "none: this scene has no float",
+            )
+            continue
+        for motion in ("heave", "roll"):
+            value = getattr(analysis.displacement, motion)
+            if value != 0.0 and motion not in body.motions:
+                yield misfit(
+                    ("analysis", index, "displacement", motion),
+                    value,
+                    f"[[body]] number {analysis.body} does not move so: its motions are {', '.join(body.motions)}",
+                    remedy=f'Add "{motion}" to its motions, or let it go from another displacement',
+                )
+
+
+def bodies_span(scene: TankScene) -> float:
+    """Return the length beside which no body may be too small, m: of the tank, or over which bodies in open water lie.
+
+    Floats count by their position.
+    """
+    if not scene.is_open:
+        return scene.tank.length
+    starts = [beam.start for _, beam in scene.beams] + [body.position for _, body in scene.floats]
+    ends = [beam.end for _, beam in scene.beams] + [body.position for _, body in scene.floats]
+    return max(ends) - min(starts)

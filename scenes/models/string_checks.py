@@ -1,0 +1,156 @@
+"""What must fit together in the scene of a hanging string."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+from pydantic_core import InitErrorDetails
+
+from hydroelastic.scenes.models.problems import misfit
+
+if TYPE_CHECKING:
+    from hydroelastic.scenes.models.string import StringScene
+
+MOST_POINTS = 1_000_000
+"""Places times times of one response."""
+
+MOST_TABLE_ROWS = 20_000
+
+FASTEST = 3000.0
+"""Largest ωR, βR and αR: the series of a faster motion, or of more damping, has more terms than are worth it."""
+
+FASTEST_FIELD = 300.0
+"""Largest ωR and βR of a field solution, whose elements follow the waves."""
+
+LONGEST = {"series": 1e4, "field": 200.0}
+"""Largest time of a response in travel times of a wave along the string, by method."""
+
+
+def liquid_lets_the_string_hang(scene: StringScene) -> Iterator[InitErrorDetails]:
+    """A string that is lighter than the liquid it displaces would rise."""
+    string = scene.string
+    if string.displaced_mass >= string.linear_density:
+        yield misfit(
+            ("string", "displaced_mass"),
+            string.displaced_mass,
+            "the string would float up",
+            allowed=f"less than linear_density = {string.linear_density:g} kg/m",
+        )
+    if string.tip_displaced_mass >= string.tip_mass > 0.0 or string.tip_displaced_mass > string.tip_mass:
+        yield misfit(
+            ("string", "tip_displaced_mass"),
+            string.tip_displaced_mass,
+            "the body on the free end would float up",
+            allowed=f"less than tip_mass = {string.tip_mass:g} kg",
+        )
+
+
+def method_is_there(scene: StringScene) -> Iterator[InitErrorDetails]:
+    """The series needs a uniform resistance and a free lower end."""
+    if scene.accuracy.method == "series" and not scene.string.has_closed_form:
+        yield misfit(
+            ("accuracy", "method"),
+            "series",
+            "there is no series with a tip mass or a resistance that varies",
+            allowed='"auto" or "field"',
+        )
+
+
+def table_can_be_followed(scene: StringScene) -> Iterator[InitErrorDetails]:
+    """A motion by a table has one table, whose times go up from 0."""
+    motion = scene.motion
+    if motion.kind != "table":
+        return
+    written = motion.times is not None or motion.values is not None
+    if (motion.file is not None) == written:
+        wrong = "it stands beside times and values" if written else "it is missing"
+        value = str(motion.file) if written else None
+        yield misfit(("motion", "file"), value, wrong, allowed="either file, or times and values")
+        return
+    if motion.file is None and len(motion.times or ()) != len(motion.values or ()):
+        numbers = f"{len(motion.times or ())} times, {len(motion.values or ())} values"
+        yield misfit(("motion", "values"), None, f"there are {numbers}", allowed="as many values as times")
+        return
+    key = ("motion", "times" if motion.file is None else "file")
+    value = None if motion.file is None else str(motion.file)
+    try:
+        table = scene.table
+    except ValueError as error:
+        yield misfit(key, value, str(error))
+        return
+    assert table is not None
+    least = 4 if motion.interpolation == "cubic" else 2
+    if not least <= len(table) <= MOST_TABLE_ROWS:
+        allowed = f"{least} to {MOST_TABLE_ROWS} rows"
+        yield misfit(key, value, f"it holds {len(table)} rows", allowed=allowed)
+        return
+    if table[0][0] != 0.0:
+        yield misfit(key, value, f"its first time is {table[0][0]:g}", allowed="a table that begins at t = 0")
+    for row, (before, after) in enumerate(pairwise(table), start=2):
+        if after[0] <= before[0]:
+            wrong = f"the time of row {row} is not greater than that before it"
+            yield misfit(key, value, wrong, allowed="times that go up")
+            return
+
+
+def output_lies_within(scene: StringScene) -> Iterator[InitErrorDetails]:
+    """Places lie on the string, times within the table of the motion; and there are not too many of both."""
+    length, times = scene.string.length, scene.times
+    if scene.positions[-1] > length:
+        yield misfit(
+            ("output", "positions"),
+            scene.positions[-1],
+            "it lies above the upper end",
+            allowed=f"0 to length = {length:g} m",
+        )
+    table = scene.table
+    if table is not None and times[-1] > table[-1][0]:
+        yield misfit(
+            ("output", "times"),
+            times[-1],
+            "the table of the motion ends before",
+            allowed=f"up to {table[-1][0]:g} s",
+        )
+    number = LONGEST[scene.method]
+    longest = number * scene.string.travel_time
+    if times[-1] > longest:
+        yield misfit(
+            ("output", "times"),
+            times[-1],
+            f"it is more than {number:g} travel times of a wave",
+            allowed=f"up to {longest:g} s",
+        )
+    if len(scene.positions) * len(times) > MOST_POINTS:
+        yield misfit(
+            ("output", "times"),
+            len(times),
+            f"with {len(scene.positions)} positions there are too many points",
+            allowed=f"positions times times up to {MOST_POINTS}",
+        )
+
+
+def motion_is_not_too_fast(scene: StringScene) -> Iterator[InitErrorDetails]:
+    """Rates lie within what terms or elements can follow."""
+    travel, motion = scene.string.travel_time, scene.motion
+    limit = (FASTEST if scene.method == "series" else FASTEST_FIELD) / travel
+    rates: list[tuple[tuple[str, str], float]] = []
+    if motion.kind == "sine":
+        rates.append((("motion", "omega"), motion.omega))
+    if motion.kind == "smooth":
+        rates.append((("motion", "rate"), motion.rate))
+    for place, rate in rates:
+        if rate > limit:
+            yield misfit(place, rate, "it is too fast for waves on this string", allowed=f"up to {limit:g} 1/s here")
+    heaviest = max(scene.string.resistance.bottom, scene.string.resistance.top)
+    most = FASTEST / travel * scene.string.inertia
+    if heaviest > most:
+        yield misfit(("string", "resistance"), heaviest, "it is too large", allowed=f"up to {most:g} kg/(m·s) here")
+
+
+STAGES = (
+    (liquid_lets_the_string_hang, table_can_be_followed),
+    (method_is_there, output_lies_within, motion_is_not_too_fast),
+)
+"""Checks in stages: a later one needs what the earlier ones have found in order."""

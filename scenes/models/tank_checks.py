@@ -1,0 +1,333 @@
+"""What must fit together in a scene: liquids, lengths and bodies. Each check yields the problems it finds."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from itertools import pairwise
+from typing import TYPE_CHECKING, TypeAlias
+
+from pydantic_core import InitErrorDetails
+
+from hydroelastic.scenes.models.bodies import Beam
+from hydroelastic.scenes.models.float_checks import CHECKS_OF_FLOATS_AT_REST, floats_float_in_the_tank
+from hydroelastic.scenes.models.open_checks import (
+    beams_in_open_water_are_free,
+    bodies_span,
+    frequencies_and_times_can_be_resolved,
+    open_water_has_bodies_and_waves,
+    tanks_with_walls_end,
+    what_decays_is_a_float,
+)
+from hydroelastic.scenes.models.problems import misfit
+
+if TYPE_CHECKING:
+    from hydroelastic.scenes.models.tank import TankScene
+
+ROUND_OFF = 1e-9
+"""Lengths below this part of the tank's length count as zero: decimal input is not exact."""
+
+DEPTH_TO_LENGTH = (1e-4, 1e3)
+"""Below it a layer is too thin for cells that follow it along the tank; above it no motion reaches
+its end (it decays as e^{-πy/L}), and the depth only adds cells and rounding."""
+
+LIGHTEST = 1e-6
+"""ρ₁/ρ₂ of two liquids: below it the upper one is lost in the rounding of the lower one."""
+
+SMALLEST_DIFFERENCE = 1e-9
+"""(ρ₂ − ρ₁)/ρ₂ of two liquids: decimal densities do not tell less apart."""
+
+SHORTEST_BEAM = 1e-4
+"""Part of the tank's length: with a shorter beam the lengths of one mesh lie too far apart."""
+
+STIFFNESS_GROUP = (1e-15, 1e15)
+"""EI/(Δρ g l⁴): beyond this, bending or gravity is lost in the rounding of the other."""
+
+SOFTEST_JOINT = 1e-15
+"""k/(Δρ g l³) of a joint: below this it is lost in the rounding of gravity."""
+
+MASS_GROUP = (1e-12, 1e12)
+"""m/(ρ l): beyond this, the beam or the liquid is lost in the rounding of the other."""
+
+
+def _densities_are_in_order(scene: TankScene) -> Iterator[InitErrorDetails]:
+    lower = scene.liquid[0].density
+    if lower == 0.0:
+        yield misfit(
+            ("liquid", 0, "density"),
+            lower,
+            "it must be a liquid; only the upper one of two may be air, with density 0",
+            allowed="a positive number",
+        )
+    elif len(scene.layers) == 2:
+        upper = scene.liquid[1].density
+        if upper >= lower:
+            yield misfit(
+                ("liquid", 1, "density"),
+                upper,
+                f"it floats on a liquid of {lower:g} kg/m³: with the lighter liquid below, the interface overturns at "
+                "every wavelength",
+                allowed=f"less than {lower:g}, or 0 for air",
+                remedy="List the liquids from the bottom up",
+            )
+        elif upper / lower < LIGHTEST:
+            yield misfit(
+                ("liquid", 1, "density"),
+                upper,
+                f"ρ₁/ρ₂ = {upper / lower:g}: the upper liquid is lost in the rounding of the lower one",
+                allowed=f"0, for air, or at least {LIGHTEST * lower:g} kg/m³ over this lower liquid",
+            )
+        elif (lower - upper) / lower < SMALLEST_DIFFERENCE:
+            yield misfit(
+                ("liquid", 1, "density"),
+                upper,
+                f"(ρ₂ − ρ₁)/ρ₂ = {(lower - upper) / lower:.3g}: what carries the waves is lost in rounding",
+                allowed=f"{SMALLEST_DIFFERENCE * lower:g} kg/m³ less than the lower liquid, at least",
+            )
+
+
+def _bodies_have_their_level(scene: TankScene) -> Iterator[InitErrorDetails]:
+    for index, body in enumerate(scene.body):
+        if body.at == "interface" and len(scene.liquid) == 1:
+            yield misfit(
+                ("body", index, "at"),
+                body.at,
+                "there is only one liquid, so there is no interface",
+                allowed='"surface"',
+                remedy="Leave it out, or add a second [[liquid]] above the first",
+            )
+        elif body.at == "surface" and len(scene.layers) < len(scene.liquid):
+            yield misfit(
+                ("body", index, "at"),
+                body.at,
+                "above the lower liquid there is air, and nothing floats on top of it",
+                allowed='"interface", the free surface of the lower liquid',
+            )
+
+
+def _meshes_are_those_of_beams(scene: TankScene) -> Iterator[InitErrorDetails]:
+    if scene.mesh is None or scene.is_open or (len(scene.layers) == 1 and not scene.floats):
+        return
+    because = "two liquids" if len(scene.layers) == 2 else "a float"
+    yield misfit(
+        ("mesh", "file"),
+        str(scene.mesh.file),
+        f"a mesh of your own is for one liquid with or without beams; this scene has {because}",
+        remedy="Leave [mesh] out: the built-in mesh follows the interface and the floats",
+    )
+
+
+def _depths_fit_the_length(scene: TankScene) -> Iterator[InitErrorDetails]:
+    if scene.is_open:
+        yield from _depths_fit_the_bodies(scene)
+        return
+    length = scene.tank.length
+    least, most = DEPTH_TO_LENGTH
+    for index, layer in enumerate(scene.layers):
+        depth = layer.depth
+        if not least <= depth / length <= most:
+            yield misfit(
+                ("liquid", index, "depth"),
+                depth,
+                f"it is {depth / length:g} of the tank's length, too {'thin' if depth < length else 'deep'} to mesh",
+                allowed=f"{least * length:g} to {most * length:g} m ({least:g} to {most:g} tank lengths)",
+            )
+
+
+def _depths_fit_the_bodies(scene: TankScene) -> Iterator[InitErrorDetails]:
+    """Frames of cells reach as far down as they are needed: open water may be deep."""
+    least = DEPTH_TO_LENGTH[0] * bodies_span(scene)
+    for index, layer in enumerate(scene.layers):
+        if layer.depth < least:
+            yield misfit(
+                ("liquid", index, "depth"),
+                layer.depth,
+                "the layer is too thin to mesh beside the length that the bodies take up",
+                allowed=f"at least {least:g} m",
+            )
+
+
+def _beams_lie_in_the_tank(scene: TankScene) -> Iterator[InitErrorDetails]:
+    length = scene.tank.length
+    place = "stretch that is drawn" if scene.is_open else "tank"
+    for index, beam in scene.beams:
+        if beam.length > length * (1 + ROUND_OFF):
+            key = "sections" if beam.sections else "length"
+            yield misfit(("body", index, key), beam.length, f"the beam is longer than the {place} ({length:g} m)")
+        elif beam.end > length * (1 + ROUND_OFF):
+            yield misfit(
+                ("body", index, "start"),
+                beam.start,
+                f"the beam ends at {beam.end:g} m, outside the {place}, of {length:g} m",
+                allowed=f"0 to {length - beam.length:g} m for this beam",
+            )
+
+
+def _beams_keep_apart(scene: TankScene) -> Iterator[InitErrorDetails]:
+    for level in ("interface", "surface"):
+        beams = [(index, beam) for index, beam in scene.beams if scene.level_of(beam) == level]
+        ordered = sorted(beams, key=lambda numbered: numbered[1].start)
+        for (first, left), (second, right) in pairwise(ordered):
+            if right.start - left.end <= ROUND_OFF * scene.tank.length:
+                yield misfit(
+                    ("body", second, "start"),
+                    right.start,
+                    f"the beam overlaps or touches [[body]] number {first + 1}, which ends at {left.end:g} m",
+                    remedy="Leave a gap between them",
+                )
+
+
+def _beams_are_not_too_short(scene: TankScene) -> Iterator[InitErrorDetails]:
+    shortest = SHORTEST_BEAM * bodies_span(scene)
+    others = "the others" if scene.is_open else "the tank"
+    for index, beam in scene.beams:
+        if beam.length < shortest:
+            yield misfit(
+                ("body", index, "length"),
+                beam.length,
+                f"the beam is too short beside {others} for one mesh to show both",
+                allowed=f"at least {shortest:g} m ({SHORTEST_BEAM:g} of {_span_name(scene)})",
+            )
+
+
+def _span_name(scene: TankScene) -> str:
+    return "the length that the bodies take up" if scene.is_open else "the tank's length"
+
+
+def _groups_are_in_range(scene: TankScene) -> Iterator[InitErrorDetails]:
+    for index, beam in scene.beams:
+        for number, part in enumerate(beam.parts):
+            where: tuple[str | int, ...] = ("body", index, "sections", number) if beam.sections else ("body", index)
+            for key, formula, scale, (least, most) in _groups(scene, beam):
+                value = getattr(part, key)
+                if not least <= value / scale <= most:
+                    yield misfit(
+                        (*where, key),
+                        value,
+                        f"{formula} = {value / scale:g} is beyond what double precision can tell apart",
+                        allowed=f"{least * scale:.3g} to {most * scale:.3g} for this beam and liquid",
+                    )
+        yield from _joints_are_in_range(scene, index, beam)
+
+
+def _joints_are_in_range(scene: TankScene, index: int, beam: Beam) -> Iterator[InitErrorDetails]:
+    below, above = scene.densities_at(scene.level_of(beam))
+    least = SOFTEST_JOINT * (below - above) * scene.tank.gravity * beam.length**3
+    for number, joint in enumerate(beam.joints):
+        if 0.0 < joint.rotational_stiffness < least:
+            yield misfit(
+                ("body", index, "joints", number, "rotational_stiffness"),
+                joint.rotational_stiffness,
+                "it is too small for double precision to tell it from none",
+                allowed=f"0 for a hinge, or at least {least:.3g} for this beam and liquid",
+            )
+
+
+def _joints_lie_in_their_beams(scene: TankScene) -> Iterator[InitErrorDetails]:
+    negligible, nearest = ROUND_OFF * scene.tank.length, SHORTEST_BEAM * bodies_span(scene)
+    for index, beam in scene.beams:
+        steps = [sum(part.length for part in beam.parts[:number]) for number in range(1, len(beam.parts))]
+        for number, joint in enumerate(beam.joints):
+            where = ("body", index, "joints", number, "at")
+            others = [other.at for other in beam.joints[:number]]
+            if not negligible < joint.at < beam.length - negligible:
+                yield misfit(
+                    where,
+                    joint.at,
+                    f"a joint lies within its beam of {beam.length:g} m, and not at an end: both are free",
+                    allowed=f"more than 0 and less than {beam.length:g} m from its left end",
+                )
+            elif any(abs(joint.at - other) <= negligible for other in others):
+                yield misfit(where, joint.at, "there is another joint at this place", remedy="Leave one of them out")
+            elif any(negligible < abs(joint.at - other) < nearest for other in (0.0, beam.length, *steps, *others)):
+                yield misfit(
+                    where,
+                    joint.at,
+                    "it is too close to an end, to a step of the beam or to another joint for one mesh to show both",
+                    allowed=f"at least {nearest:g} m between them ({SHORTEST_BEAM:g} of {_span_name(scene)})",
+                )
+
+
+def _sections_are_not_too_short(scene: TankScene) -> Iterator[InitErrorDetails]:
+    shortest = SHORTEST_BEAM * bodies_span(scene)
+    for index, beam in scene.beams:
+        for number, part in enumerate(beam.sections):
+            if part.length < shortest:
+                yield misfit(
+                    ("body", index, "sections", number, "length"),
+                    part.length,
+                    "the section is too short for one mesh to show it and all the rest",
+                    allowed=f"at least {shortest:g} m ({SHORTEST_BEAM:g} of {_span_name(scene)})",
+                )
+
+
+def _groups(scene: TankScene, beam: Beam) -> tuple[tuple[str, str, float, tuple[float, float]], ...]:
+    below, above = scene.densities_at(scene.level_of(beam))
+    jump = "(ρ₂ − ρ₁)" if above else "ρ"
+    weight = (below - above) * scene.tank.gravity
+    return (
+        ("flexural_rigidity", f"EI/({jump} g l⁴)", weight * beam.length**4, STIFFNESS_GROUP),
+        ("mass_per_length", "m/(ρ l)", below * beam.length, MASS_GROUP),
+    )
+
+
+def _guided_beams_cover_the_tank(scene: TankScene) -> Iterator[InitErrorDetails]:
+    negligible = ROUND_OFF * scene.tank.length
+    for index, beam in scene.beams:
+        covers = beam.start <= negligible and beam.end >= scene.tank.length - negligible
+        if beam.ends == "guided" and not beam.is_uniform:
+            yield misfit(
+                ("body", index, "ends"),
+                beam.ends,
+                f"guided ends are for uniform beams; this one has {'sections' if beam.sections else 'joints'}",
+                allowed='"free"',
+            )
+        elif beam.ends == "guided" and not covers and not scene.is_open:
+            yield misfit(
+                ("body", index, "ends"),
+                beam.ends,
+                "ends are guided by the walls, but this beam does not reach from wall to wall",
+                allowed=f'"free", or start = 0 and length = {scene.tank.length:g}',
+            )
+
+
+def _something_moves(scene: TankScene) -> Iterator[InitErrorDetails]:
+    from hydroelastic.scenes.models.rigid_motions import mode_count
+
+    if scene.is_open or mode_count(scene) != 0:
+        return
+    if not scene.body:
+        yield misfit(
+            ("tank", "top"),
+            scene.top,
+            "without a body and without a free surface nothing oscillates",
+            remedy='Set top = "free" for sloshing, or add a [[body]]',
+        )
+    else:
+        yield misfit(
+            ("tank", "top"),
+            scene.top,
+            "nothing oscillates: the floats have no motion that has stiffness and that the volume of the liquid allows",
+            allowed='"free", or further motions of the floats',
+        )
+
+
+_Check: TypeAlias = Callable[["TankScene"], Iterator[InitErrorDetails]]
+
+STAGES: tuple[tuple[_Check, ...], ...] = (
+    (_densities_are_in_order, _bodies_have_their_level, _meshes_are_those_of_beams, tanks_with_walls_end),
+    (open_water_has_bodies_and_waves, what_decays_is_a_float, frequencies_and_times_can_be_resolved),
+    (
+        _depths_fit_the_length,
+        _beams_are_not_too_short,
+        _beams_lie_in_the_tank,
+        _beams_keep_apart,
+        _guided_beams_cover_the_tank,
+        beams_in_open_water_are_free,
+        _sections_are_not_too_short,
+        _joints_lie_in_their_beams,
+        floats_float_in_the_tank,
+    ),
+    (_groups_are_in_range, *CHECKS_OF_FLOATS_AT_REST),
+    (_something_moves,),
+)
+"""Each stage is made when those before found nothing, so that one wrong length is one message."""

@@ -1,0 +1,303 @@
+"""What must fit together in the scene of a thread, as far as it shows before anything is solved."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+from math import dist, hypot
+from typing import TYPE_CHECKING
+
+from pydantic_core import InitErrorDetails
+
+from hydroelastic.scenes.models.problems import misfit
+from hydroelastic.scenes.models.thread_analyses import ThreadMotion, ThreadStability
+from hydroelastic.scenes.models.thread_motion_checks import motion_can_be_followed
+from hydroelastic.scenes.models.thread_parts import CarriedBody, FixedEnd
+
+if TYPE_CHECKING:
+    from hydroelastic.scenes.models.thread import ThreadScene
+
+MOST_PROFILE_ROWS = 10_000
+MOST_LOADS = 100
+LEAST_DISTANCE = 1e-6
+"""Of the length: bodies that are closer are at one place."""
+
+_WAYS = "velocity (and shear), veer, profile or file"
+
+
+def stream_is_given_once(scene: ThreadScene) -> Iterator[InitErrorDetails]:
+    """One way of saying how the liquid streams, and a profile that can be read."""
+    stream = scene.stream
+    if stream is None:
+        return
+    ways = [name for name in ("velocity", "veer", "profile", "file") if getattr(stream, name) is not None]
+    if len(ways) > 1:
+        yield misfit(("stream", ways[1]), None, f"it stands beside {ways[0]}", allowed=f"one of {_WAYS}")
+        return
+    if stream.shear is not None and stream.velocity is None:
+        yield misfit(
+            ("stream", "shear"), None, "there is no velocity that it adds to", remedy="Give velocity, if only [0, 0]"
+        )
+    if not ways or ways[0] not in ("profile", "file"):
+        return
+    key, value = ("stream", ways[0]), str(stream.file) if stream.file is not None else None
+    try:
+        rows = scene.profile
+    except ValueError as error:
+        yield misfit(key, value, str(error))
+        return
+    assert rows is not None
+    if not 2 <= len(rows) <= MOST_PROFILE_ROWS:
+        yield misfit(key, value, f"it holds {len(rows)} rows", allowed=f"2 to {MOST_PROFILE_ROWS} rows")
+    for number, (below, above) in enumerate(pairwise(rows), start=2):
+        if above[0] <= below[0]:
+            yield misfit(key, value, f"row {number} does not lie above that before it", allowed="heights that go up")
+            return
+
+
+def liquid_acts_on_something(scene: ThreadScene) -> Iterator[InitErrorDetails]:
+    """Coefficients of the liquid need a liquid and a diameter."""
+    thread = scene.thread
+    if thread.viscous_drag > 0.0 and scene.stream is None:
+        yield misfit(("thread", "viscous_drag"), thread.viscous_drag, "there is no liquid", remedy="Give [stream]")
+    for name in ("normal_drag", "tangential_drag", "added_mass"):
+        value = getattr(thread, name)
+        if value == 0.0:
+            continue
+        if scene.stream is None:
+            yield misfit(
+                ("thread", name), value, "there is no liquid", remedy="Give [stream] with its density, or leave it out"
+            )
+        elif thread.diameter is None:
+            yield misfit(("thread", "diameter"), None, f"it is missing, and {name} needs it", allowed="a diameter in m")
+    bodies: list[tuple[tuple[str | int, ...], CarriedBody]] = []
+    bodies += [(("load", place), body) for place, body in enumerate(scene.load)]
+    bodies += [(("ends", name), end) for name, end in (("a", scene.ends.a), ("b", scene.ends.b)) if end.kind != "fixed"]
+    for where, body in bodies:
+        for name in ("drag_area", "added_mass"):
+            if getattr(body, name) > 0.0 and scene.stream is None:
+                yield misfit((*where, name), getattr(body, name), "there is no liquid", remedy="Give [stream]")
+    if thread.reactive != "none" and (thread.added_mass == 0.0 or not scene.streams):
+        yield misfit(
+            ("thread", "reactive"),
+            thread.reactive,
+            "it takes a stream and an added mass",
+            allowed='"none", or a stream and added_mass > 0',
+        )
+    if thread.stretch_drag == "volume" and thread.axial_rigidity is None:
+        yield misfit(
+            ("thread", "stretch_drag"), thread.stretch_drag, "the thread does not stretch", allowed='"none" here'
+        )
+
+
+def bodies_lie_on_the_thread(scene: ThreadScene) -> Iterator[InitErrorDetails]:
+    """Bodies and places of the report lie on the thread, bodies at places of their own."""
+    length = scene.thread.length
+    places = [load.at for load in scene.load]
+    for number, place in enumerate(places):
+        if place >= length:
+            yield misfit(
+                ("load", number, "at"),
+                place,
+                "it does not lie between the ends",
+                allowed=f"less than length = {length:g} m",
+                remedy="What hangs on an end belongs to [ends]",
+            )
+        elif min(place, length - place) < LEAST_DISTANCE * length:
+            yield misfit(
+                ("load", number, "at"),
+                place,
+                "it is as good as at an end",
+                allowed=f"{LEAST_DISTANCE:g} of the length from the ends at least",
+                remedy="What hangs on an end belongs to [ends]",
+            )
+        elif any(abs(place - other) < LEAST_DISTANCE * length for other in places[:number]):
+            yield misfit(("load", number, "at"), place, "another body is there", remedy="Add the two up")
+    if len(places) > MOST_LOADS:
+        yield misfit(("load",), len(places), "there are too many", allowed=f"up to {MOST_LOADS} bodies")
+    if scene.positions[-1] > length:
+        yield misfit(
+            ("output", "positions"),
+            scene.positions[-1],
+            "it lies beyond end B",
+            allowed=f"0 to length = {length:g} m",
+        )
+
+
+def clamps_need_rigidity(scene: ThreadScene) -> Iterator[InitErrorDetails]:
+    """A thread that does not resist bending cannot be clamped."""
+    for name, end in (("a", scene.ends.a), ("b", scene.ends.b)):
+        if end.kind != "fixed" or end.clamp is None:
+            continue
+        if scene.thread.flexural_rigidity == 0.0:
+            yield misfit(
+                ("ends", name, "clamp"),
+                None,
+                "a thread without flexural rigidity turns freely at its ends",
+                remedy="Give flexural_rigidity, or leave the clamp out",
+            )
+        elif hypot(*end.clamp) == 0.0:
+            yield misfit(("ends", name, "clamp"), None, "it has no direction", allowed="a vector other than 0")
+
+
+def something_is_held(scene: ThreadScene) -> Iterator[InitErrorDetails]:
+    """Without a fixed end nothing keeps the thread from drifting off."""
+    if scene.ends.a.kind != "fixed" and scene.ends.b.kind != "fixed":
+        yield misfit(
+            ("ends", "a"),
+            None,
+            "neither end is fixed: the thread drifts off and has no equilibrium",
+            allowed='kind = "fixed" for one end at least',
+        )
+
+
+def tension_is_determined(scene: ThreadScene) -> Iterator[InitErrorDetails]:
+    """Two fixed ends of a thread that does not stretch must leave it longer than their distance."""
+    a, b = scene.ends.a, scene.ends.b
+    if a.kind != "fixed" or b.kind != "fixed" or scene.thread.axial_rigidity is not None:
+        return
+    chord, length = dist(a.position, b.position), scene.thread.length
+    if scene.thread.tension is not None and abs(length - chord) <= 1e-10 * chord:
+        return
+    if length < chord * (1.0 - 1e-12):
+        yield misfit(
+            ("thread", "length"),
+            length,
+            f"the ends are {chord:g} m apart and the thread does not stretch",
+            allowed=f"more than {chord:g} m, or axial_rigidity",
+        )
+    elif length <= chord * (1.0 + 1e-9):
+        yield misfit(
+            ("thread", "length"),
+            length,
+            "a straight thread between fixed ends that does not stretch has no determined tension",
+            allowed=f"more than {chord:g} m, or axial_rigidity, or the key tension",
+        )
+
+
+def given_tension_is_needed(scene: ThreadScene) -> Iterator[InitErrorDetails]:
+    """A tension is given only where nothing else tells it, and where the thread does not leave that state."""
+    given = scene.thread.tension
+    if given is None:
+        return
+    a, b = scene.ends.a, scene.ends.b
+    straight = (
+        isinstance(a, FixedEnd)
+        and isinstance(b, FixedEnd)
+        and scene.thread.axial_rigidity is None
+        and abs(dist(a.position, b.position) - scene.thread.length) <= 1e-10 * scene.thread.length
+    )
+    if not straight:
+        yield misfit(
+            ("thread", "tension"),
+            given,
+            "the equilibrium tells the tension",
+            allowed="a thread between fixed ends, as far apart as it is long, without axial_rigidity",
+        )
+    elif scene.motions:
+        yield misfit(
+            ("thread", "tension"),
+            given,
+            "in a large motion of a straight thread that does not stretch no tension is determined",
+            allowed='analyses "modes" and "stability", or axial_rigidity',
+        )
+
+
+def something_pulls(scene: ThreadScene) -> Iterator[InitErrorDetails]:
+    """A slack thread without flexural rigidity takes a shape by its load alone."""
+    if scene.thread.flexural_rigidity > 0.0:
+        return
+    dragged = scene.streams and scene.normal_drag + scene.tangential_drag + scene.thread.viscous_drag > 0.0
+    if scene.weight != 0.0 or dragged or any(_pulls(scene, load) for load in scene.load):
+        yield from _slack_along_a_line(scene)
+        return
+    a, b = scene.ends.a, scene.ends.b
+    if isinstance(a, FixedEnd) and isinstance(b, FixedEnd):
+        if dist(a.position, b.position) < scene.thread.length:
+            yield misfit(
+                ("thread", "weight"),
+                scene.weight,
+                "nothing loads the thread, and between its ends it is slack: any shape would do",
+                remedy="Give weight, a stream that drags, a shorter length or flexural_rigidity",
+            )
+        return
+    for name, end in (("a", a), ("b", b)):
+        if not isinstance(end, FixedEnd) and not _pulls(scene, end) and not any(end.force):
+            yield misfit(
+                ("ends", name),
+                None,
+                "nothing pulls at this end or along the thread: any shape would do",
+                remedy="Give a force or a weight",
+            )
+
+
+def _pulls(scene: ThreadScene, body: object) -> bool:
+    weight, area = getattr(body, "weight", 0.0), getattr(body, "drag_area", 0.0)
+    return bool(weight != 0.0 or (area > 0.0 and scene.streams))
+
+
+def _slack_along_a_line(scene: ThreadScene) -> Iterator[InitErrorDetails]:
+    """A slack thread whose whole load acts along the chord folds: part of it has no tension, and no shape."""
+    a, b = scene.ends.a, scene.ends.b
+    if not isinstance(a, FixedEnd) or not isinstance(b, FixedEnd) or scene.load:
+        return
+    if dist(a.position, b.position) >= scene.thread.length:
+        return
+    x, y, z = (last - first for first, last in zip(a.position, b.position, strict=True))
+    stream = scene.stream
+    if stream is not None and stream.velocity is not None and stream.shear is None and scene.weight == 0.0:
+        if z == 0.0 and stream.velocity[0] * y == stream.velocity[1] * x:
+            yield misfit(
+                ("thread", "length"),
+                scene.thread.length,
+                "the stream runs along the line between the ends, and the downstream part of a slack thread without "
+                "weight has no tension there: its shape is indeterminate",
+                remedy="Give weight, flexural_rigidity, a stream at an angle, or a length below the ends' distance",
+            )
+    elif not scene.streams and x == y == 0.0:
+        yield misfit(
+            ("thread", "length"),
+            scene.thread.length,
+            "both ends lie on one vertical, and the thread folds at its lowest point with no tension there",
+            remedy="Give flexural_rigidity, or set the ends apart",
+        )
+
+
+def reactive_tail_is_stiff(scene: ThreadScene) -> Iterator[InitErrorDetails]:
+    """A tail without tension in a stream along it has a reactive model only if it resists bending."""
+    if scene.thread.reactive == "none" or scene.thread.flexural_rigidity > 0.0:
+        return
+    for name, end in (("a", scene.ends.a), ("b", scene.ends.b)):
+        if end.kind == "free" and not _pulls(scene, end) and not any(end.force):
+            yield misfit(
+                ("thread", "reactive"),
+                scene.thread.reactive,
+                f"near the free end {name.upper()} the tension falls below that which the moving liquid takes: without "
+                "flexural rigidity the problem is ill-posed",
+                allowed='"none", or flexural_rigidity > 0, or a force on the end',
+            )
+
+
+def analyses_can_be_done(scene: ThreadScene) -> Iterator[InitErrorDetails]:
+    """Motions need mass, stability a stream."""
+    for number, analysis in enumerate(scene.analysis):
+        if isinstance(analysis, ThreadStability) and not scene.streams:
+            yield misfit(
+                ("analysis", number, "kind"), analysis.kind, "there is no stream", allowed='"modes" or "motion"'
+            )
+        if isinstance(analysis, ThreadStability) and len(analysis.factors) < 2:
+            yield misfit(
+                ("analysis", number, "factors"), analysis.factors[0], "there is one", allowed="two or more factors"
+            )
+        if isinstance(analysis, ThreadMotion):
+            yield from motion_can_be_followed(scene, analysis, ("analysis", number))
+    if scene.analysis and scene.thread.mass == 0.0:
+        yield misfit(("thread", "mass"), 0.0, f"the analysis {scene.analysis[0].kind} needs it", allowed="> 0")
+
+
+STAGES = (
+    (stream_is_given_once, bodies_lie_on_the_thread),
+    (liquid_acts_on_something, clamps_need_rigidity, something_is_held),
+    (tension_is_determined, given_tension_is_needed, something_pulls, reactive_tail_is_stiff, analyses_can_be_done),
+)
+"""Checks in stages: a later one needs what the earlier ones have found in order."""

@@ -1,0 +1,107 @@
+"""Lists of numbers in a scene, written out or as a sweep."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Annotated, Any, Literal, TypeAlias
+
+from pydantic import AfterValidator, BeforeValidator, Field, Strict, ValidationError, model_validator
+
+from hydroelastic.scenes.errors import scene_error
+from hydroelastic.scenes.models.bodies import LARGEST, SceneModel
+from hydroelastic.scenes.models.problems import misfit, problem
+
+MOST_VALUES = 10000
+"""Frequencies or times of one analysis."""
+
+MOST_SWEPT = 1_000_000
+"""Values of any sweep."""
+
+
+NumberFromZero: TypeAlias = Annotated[float, Strict(), Field(ge=0, le=LARGEST)]
+
+
+class Sweep(SceneModel):
+    """Values from a first to a last one."""
+
+    start: NumberFromZero = Field(description="first value")
+    stop: NumberFromZero = Field(description="last value, greater than the first")
+    number: Annotated[int, Strict(), Field(ge=2, le=MOST_SWEPT)] = Field(description="how many values, with both ends")
+    spacing: Literal["linear", "logarithmic"] = Field(default="linear", description="equal differences or ratios")
+
+    @model_validator(mode="after")
+    def _goes_up(self) -> Sweep:
+        problems = []
+        if self.stop <= self.start:
+            problems.append(misfit(("stop",), self.stop, "it is not greater than start", allowed=f"> {self.start:g}"))
+        elif self.start == 0.0 and self.spacing == "logarithmic":
+            problems.append(
+                misfit(("start",), self.start, "equal ratios cannot begin with 0", allowed='> 0, or spacing = "linear"')
+            )
+        if problems:
+            raise ValidationError.from_exception_data(type(self).__name__, problems)
+        return self
+
+    @property
+    def values(self) -> tuple[float, ...]:
+        """The values themselves; of equal differences those that are meant, 0.3 rather than 0.30000000000000004."""
+        steps = [place / (self.number - 1) for place in range(self.number)]
+        if self.spacing == "linear":
+            inner = [_shortest(self.start + step * (self.stop - self.start)) for step in steps]
+        else:
+            inner = [self.start * (self.stop / self.start) ** step for step in steps]
+        return (self.start, *inner[1:-1], self.stop)
+
+
+def _shortest(value: float) -> float:
+    """The number of 15 digits next to a value, all that rounding leaves of a sum."""
+    return float(f"{value:.15g}")
+
+
+def _expanded(value: Any) -> Any:
+    """Write the table of a sweep out as a list."""
+    if not isinstance(value, dict):
+        return value
+    try:
+        return Sweep.model_validate(value).values
+    except ValidationError as error:
+        first = scene_error(error, Sweep).problems[0]
+        subject = f"{first.key} = {first.value}" if first.value else first.key
+        raise problem(f"in its table, {subject}: {first.wrong}", allowed=first.allowed, remedy=first.remedy) from error
+
+
+def _all_different(values: tuple[float, ...]) -> tuple[float, ...]:
+    if len(set(values)) < len(values):
+        twice = next(value for value in values if values.count(value) > 1)
+        raise problem(f"{twice:g} is named twice", remedy="Name each once")
+    return values
+
+
+def _going_up(values: tuple[float, ...]) -> tuple[float, ...]:
+    for before, after in pairwise(values):
+        if after <= before:
+            raise problem(
+                f"{after:g} does not lie above {before:g}, which comes before it", remedy="Write them in order"
+            )
+    return values
+
+
+DISTINCT = (
+    BeforeValidator(_expanded),
+    AfterValidator(_all_different),
+    Field(min_length=1, max_length=MOST_VALUES),
+)
+"""What a list of frequencies or times of an analysis is made with."""
+
+OR_SWEEP = "or a table {start, stop, number, spacing} of them"
+
+
+def ascending_values(most: int) -> tuple[Any, ...]:
+    """Return what a list of places or times that go up is made with, of ``most`` values."""
+    return BeforeValidator(_expanded), AfterValidator(_going_up), Field(min_length=1, max_length=most)
+
+
+def kind_of(entry: Any) -> str:
+    """Return the kind of a table of several kinds, by which its model is chosen."""
+    kind = entry.get("kind", "") if isinstance(entry, dict) else getattr(entry, "kind", "")
+    return str(kind)

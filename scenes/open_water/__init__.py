@@ -1,0 +1,1 @@
+"""Bodies in open water: radiation, response, resonances, decay."""

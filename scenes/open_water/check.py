@@ -1,0 +1,83 @@
+"""What will be asked of open water, and which waves leave, said before anything is solved."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import isfinite, pi
+
+from hydroelastic.modal.liquid.travelling_waves import travelling_waves
+from hydroelastic.scenes.models.open_analyses import Analysis, Decay, Radiation, Resonance, Response
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.open_water.basin import liquids_of
+from hydroelastic.scenes.output.sections import Section
+from hydroelastic.scenes.tank.check import modelled_tank
+
+
+def check_open(scene: TankScene) -> Iterator[Section]:
+    """Yield what open water is modelled as, what is asked of it, and which waves leave; nothing is meshed.
+
+    Args:
+        scene: a validated scene.
+    """
+    waves = Section(title="Waves that leave", lines=tuple(open_waves(scene)))
+    return modelled_tank(scene, requests=open_requests(scene), scale=waves)
+
+
+def open_requests(scene: TankScene) -> Iterator[str]:
+    """Yield a line for each analysis of a scene with open ends."""
+    yield f"Open water, to a relative error of {scene.accuracy.tolerance:g}:"
+    for number, analysis in enumerate(scene.analyses, 1):
+        yield f"  {number}. {_request(scene, analysis)}"
+
+
+def _request(scene: TankScene, analysis: Analysis) -> str:
+    if isinstance(analysis, Radiation):
+        shapes = f"; of beams in heave, pitch and {analysis.elastic_modes} elastic shapes" if scene.beams else ""
+        return (
+            f"radiation: added mass, radiation damping and excitation forces at {_span(analysis.omega, 'frequency')} "
+            f"rad/s{shapes}"
+        )
+    if isinstance(analysis, Response):
+        return (
+            f"response: motions, reflection and transmission in waves from the {analysis.waves_from} at "
+            f"{_span(analysis.omega, 'frequency')} rad/s"
+        )
+    if isinstance(analysis, Decay):
+        let_go = analysis.displacement
+        motions = [
+            f"{value:g} {unit} in {name}"
+            for name, value, unit in (("heave", let_go.heave, "m"), ("roll", let_go.roll, "rad"))
+            if value
+        ]
+        return f"decay: float {analysis.body} is let go at {' and '.join(motions)}; {_span(analysis.times, 'time')} s"
+    return _resonances(analysis)
+
+
+def _resonances(analysis: Resonance) -> str:
+    which = f"at most {analysis.count} with Re ω below {analysis.below:g} rad/s" if analysis.below else "the lowest"
+    how_many = "" if analysis.below else f" {analysis.count}"
+    return f"resonance: {which}{how_many}, with −Im ω up to {analysis.largest_damping:g} Re ω"
+
+
+def _span(values: tuple[float, ...], what: str) -> str:
+    if len(values) == 1:
+        return f"one {what}, {values[0]:g}"
+    plural = {"frequency": "frequencies", "time": "times"}[what]
+    return f"{len(values)} {plural} from {min(values):g} to {max(values):g}"
+
+
+def open_waves(scene: TankScene) -> Iterator[str]:
+    """Yield the lengths of the waves that leave, at the lowest and the highest frequency asked for."""
+    asked = [
+        omega
+        for analysis in scene.analyses
+        if isinstance(analysis, Radiation | Response)
+        for omega in analysis.omega
+        if omega > 0.0 and isfinite(omega)
+    ]
+    for omega in sorted({min(asked), max(asked)}) if asked else ():
+        lengths = [
+            f"{wave.branch} {2.0 * pi / wave.wavenumber:.4g} m" for wave in travelling_waves(liquids_of(scene), omega)
+        ]
+        yield f"Lengths of the waves that leave at {omega:g} rad/s: {', '.join(lengths)}."
+    yield "The length of the tank is that of the stretch that is drawn: answers do not depend on it."

@@ -1,0 +1,203 @@
+"""Fields of open water as plain arrays in SI units on one process: what is drawn, and what is written for ParaView."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from hydroelastic.fem.cells import cell_corners, owned_cells
+from hydroelastic.fem.liquid import as_functions
+from hydroelastic.fem.pictures.mode import Beyond, ModePicture
+from hydroelastic.fem.pictures.wave import WavePicture
+from hydroelastic.fem.sampling import LiquidSample, SurfaceTrace, sample_liquid
+from hydroelastic.meshes.geometry import BOTTOM, LID
+from hydroelastic.scenes.open_water.fields import OpenField
+from hydroelastic.scenes.open_water.model import OpenModel
+from hydroelastic.scenes.tank.body_file import displacement_of, write_bodies
+from hydroelastic.scenes.tank.scaled_tank import ScaledTank, StillLevel
+from hydroelastic.scenes.tank.shape_curves import body_shapes, sample_level, wave_curves, wave_levels
+
+
+@dataclass(frozen=True, kw_only=True)
+class SampledField:
+    """A motion e^{−iωt}, in SI units.
+
+    Attributes:
+        name: of its files.
+        points: m in the coordinates of the scene, shape (points, 2).
+        triangles: shape (triangles, 3).
+        liquid: of each triangle: 1 is the lowest, shape (triangles,).
+        potential: displacement potential ψ, m², complex, shape (points,).
+        displacement: ∇ψ, m, complex, shape (points, 2).
+        pressure: ρω²ψ, Pa, complex, shape (points,).
+        picture: what is drawn; its x begins at the left end of what is drawn.
+        omega: ω, rad/s; with a negative imaginary part where the motion dies out.
+    """
+
+    name: str
+    points: np.ndarray
+    triangles: np.ndarray
+    liquid: np.ndarray
+    potential: np.ndarray
+    displacement: np.ndarray
+    pressure: np.ndarray
+    picture: WavePicture
+    omega: complex
+
+
+def sample_field(field: OpenField) -> SampledField | None:
+    """Sample a field where coordinates are real.
+
+    Returns:
+        The field on rank 0, ``None`` elsewhere (collective).
+    """
+    model, tank = field.model, field.model.basin.tank
+    pencil, liquid = model.pencil, model.pencil.liquid
+    functions = as_functions(liquid, [pencil.vector(part) for part in (field.potential.real, field.potential.imag)])
+    sample = sample_liquid(liquid, functions, _in_basin(model))
+    traces = [(level, sample_level(tank, level, liquid, functions)) for level in wave_levels(tank)]
+    if sample is None:
+        return None
+    potential, displacement = _with_incident(field, sample)
+    levels = [(level, _elevations(field, tank, level, trace)) for level, trace in traces if trace is not None]
+    length, metres = model.basin.units.length, field.metres
+    potential, displacement = metres * length * potential, metres * displacement
+    omega = complex(np.sqrt(field.squared)) * model.basin.units.frequency
+    densities = np.array([layer.density for layer in model.basin.scene.layers])
+    return SampledField(
+        name=field.name,
+        points=length * sample.points + [model.basin.origin, 0.0],
+        triangles=sample.triangles,
+        liquid=sample.liquid,
+        potential=potential,
+        displacement=displacement,
+        pressure=densities[_layers(sample)] * omega**2 * potential,
+        picture=WavePicture(
+            real=_picture(field, sample, levels, potential.real, displacement.real, 0),
+            imaginary=_picture(field, sample, levels, potential.imag, displacement.imag, 1),
+        ),
+        omega=omega,
+    )
+
+
+def write_fields(fields: tuple[SampledField, ...], folder: Path) -> None:
+    """Write each field into a new folder: real parts, imaginary parts, magnitudes; for ParaView.
+
+    ``<name>.vtu`` is of the liquids, ``<name>_bodies.vtu`` of surfaces, beams and floats.
+    """
+    if fields:
+        folder.mkdir()
+    for field in fields:
+        _write_field(field, folder)
+        _write_bodies(field, folder)
+
+
+def _write_field(field: SampledField, folder: Path) -> None:
+    import meshio
+
+    moved = np.column_stack([field.displacement, np.zeros(len(field.displacement))])
+    data = _parts("potential", field.potential) | _parts("pressure", field.pressure) | _parts("displacement", moved)
+    points = np.column_stack([field.points, np.zeros(len(field.points))])
+    mesh = meshio.Mesh(points, [("triangle", field.triangles)], point_data=data, cell_data={"liquid": [field.liquid]})
+    meshio.write(folder / f"{field.name}.vtu", mesh)
+
+
+def _write_bodies(field: SampledField, folder: Path) -> None:
+    real, imaginary = field.picture.real, field.picture.imaginary
+    moved = displacement_of(real.surfaces, real.floats) + 1j * displacement_of(imaginary.surfaces, imaginary.floats)
+    path = folder / f"{field.name}_bodies.vtu"
+    write_bodies(path, real.surfaces, real.floats, _parts("displacement", moved), start=real.start)
+
+
+def _parts(name: str, values: np.ndarray) -> dict[str, np.ndarray]:
+    """What ParaView, which has no complex numbers, is given of them."""
+    size = np.abs(values) if values.ndim == 1 else np.linalg.norm(values, axis=1)
+    return {f"{name}_real": values.real, f"{name}_imaginary": values.imag, f"{name}_magnitude": size}
+
+
+def _in_basin(model: OpenModel) -> np.ndarray:
+    """Cells of this process where no coordinate is turned."""
+    mesh = model.pencil.liquid.tank.mesh
+    cells = owned_cells(mesh)
+    middles = cell_corners(mesh, cells).mean(axis=1)
+    tank = model.basin.tank
+    low, high = [0.0, tank.layers[0].floor], [1.0, tank.layers[-1].ceiling]
+    inside = np.all((middles > low) & (middles < high), axis=1)
+    return np.asarray(cells[inside])
+
+
+def _layers(sample: LiquidSample) -> np.ndarray:
+    """The layer of each point, 0 for the lowest."""
+    layers = np.zeros(len(sample.points), dtype=np.int64)
+    layers[sample.triangles] = sample.liquid[:, None] - 1
+    return layers
+
+
+def _with_incident(field: OpenField, sample: LiquidSample) -> tuple[np.ndarray, np.ndarray]:
+    """ψ and ∇ψ, complex, of the whole field."""
+    potential = sample.potential[0] + 1j * sample.potential[1]
+    displacement = sample.displacement[0] + 1j * sample.displacement[1]
+    if field.incident is not None:
+        plane, amplitude = field.incident
+        value, gradient = plane.field(sample.points, _layers(sample))
+        potential, displacement = potential + amplitude * value, displacement + amplitude * gradient
+    return potential, displacement
+
+
+def _elevations(field: OpenField, tank: ScaledTank, level: StillLevel, trace: SurfaceTrace) -> SurfaceTrace:
+    """Real and imaginary part of the elevation of a still level, in units of the basin."""
+    pressure = trace.potential[0] + 1j * trace.potential[1]
+    if field.incident is not None:
+        plane, amplitude = field.incident
+        points = np.stack([trace.x, np.full_like(trace.x, level.height)], axis=-1)
+        for sign, layer in ((1.0, level.below), (-1.0, level.above)):
+            if layer is not None:
+                value, _ = plane.field(points, np.full(trace.x.shape, layer))
+                pressure = pressure + sign * amplitude * tank.layers[layer].density / level.jump * value
+    elevation = field.squared * pressure
+    return SurfaceTrace(x=trace.x, potential=np.array([elevation.real, elevation.imag]))
+
+
+def _picture(
+    field: OpenField,
+    sample: LiquidSample,
+    levels: list[tuple[StillLevel, SurfaceTrace]],
+    potential: np.ndarray,
+    displacement: np.ndarray,
+    part: int,
+) -> ModePicture:
+    """The real part (0) or the imaginary part (1) of a field."""
+    basin, tank = field.model.basin, field.model.basin.tank
+    length = basin.units.length
+    bodies = body_shapes(tank, field.model.pencil.bodies, (field.bodies.real, field.bodies.imag)[part])
+    waves = [wave for level, trace in levels for wave in wave_curves(level, trace, part, 1.0)]
+    two, beyond, top = len(tank.layers) > 1, _beyond(basin.sides), tank.levels[-1]
+    lid = [piece for piece in top.pieces if top.kind == "rigid" and piece.body is None and "top" not in beyond]
+    return ModePicture(
+        points=length * sample.points,
+        triangles=sample.triangles,
+        potential=potential,
+        displacement=displacement,
+        surfaces=tuple(curve.scaled(length, field.metres) for curve in (*bodies.beams, *waves)),
+        floats=tuple(section.scaled(length, field.metres) for section in bodies.floats),
+        title=field.title,
+        length=length,
+        depth=length * tank.layers[0].depth,
+        upper_depth=length * tank.layers[1].depth if two else 0.0,
+        densities=tuple(layer.density for layer in basin.scene.layers) if two else (),
+        lid=tuple((length * piece.start, length * piece.end) for piece in lid),
+        goes_on=beyond,
+        start=basin.origin,
+        amplitude=field.amplitude,
+    )
+
+
+def _beyond(sides: tuple[str, ...]) -> frozenset[Beyond]:
+    found: set[Beyond] = {"sides"}
+    if BOTTOM in sides:
+        found.add("bottom")
+    if LID in sides:
+        found.add("top")
+    return frozenset(found)

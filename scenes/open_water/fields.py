@@ -1,0 +1,222 @@
+"""The waves of open water: for each analysis, the field of the motion that its reader wants to see.
+
+Forces and motions need a basin close around the bodies; what is drawn needs all of the stretch that the scene names.
+So each field is solved for once more, in a basin of that length, to the accuracy of a picture. The frequencies are
+those of the tables:
+
+    radiation    for each motion of a body, where its damping is largest
+    response     where a body moves most, for the wave that moves it most
+    resonance    each of the slowest resonances
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from math import log
+
+import numpy as np
+from mpi4py import MPI
+
+from hydroelastic.fem.modes import EigenSolverError
+from hydroelastic.fem.open_water.resonances import Eigenpair, ResonanceSearch
+from hydroelastic.scenes.open_water.incident_waves import Plane
+from hydroelastic.scenes.open_water.model import Band, OpenModel, first_resolution, open_model
+from hydroelastic.scenes.open_water.released import rough_scene
+from hydroelastic.scenes.open_water.resonance import ANGLE
+from hydroelastic.scenes.open_water.results import OpenSolution, RadiationTable, ResonanceTable, ResponseTable
+from hydroelastic.scenes.open_water.solver import OpenSolver
+from hydroelastic.scenes.open_water.tables import motion_name
+from hydroelastic.scenes.output.stopwatch import Stopwatch
+
+# Motions and resonances of one analysis that are shown.
+_MOST_FIELDS = 4
+# What is drawn goes on to each side for so many radians of the shortest wave at most: more would show nothing.
+_RADIANS = 75.0
+# Waves of a resonance grow outwards by this factor at most.
+_GROWTH = 12.0
+# Of λ: a field belongs to a resonance of the table that it differs from by less.
+_SAME = 1e-2
+
+
+@dataclass(frozen=True, kw_only=True)
+class OpenField:
+    """A motion e^{−iωt} of open water, distributed over the processes, in units of the basin.
+
+    Attributes:
+        name: of its files.
+        title: one line of text.
+        amplitude: what the scale of the motion is.
+        model: the problem.
+        squared: λ.
+        potential: ψ of all that the bodies send away, own free unknowns.
+        bodies: body unknowns.
+        metres: metres of displacement of a displacement by a length of the basin.
+        incident: the wave that comes and its c, which belongs to the field as well.
+    """
+
+    name: str
+    title: str
+    amplitude: str
+    model: OpenModel
+    squared: complex
+    potential: np.ndarray
+    bodies: np.ndarray
+    metres: float
+    incident: tuple[Plane, complex] | None = None
+
+
+def open_fields(solution: OpenSolution, comm: MPI.Comm, watch: Stopwatch) -> Iterator[tuple[str, Iterator[OpenField]]]:
+    """Yield each analysis by its name with its fields, which are solved for one after the other (collective).
+
+    Args:
+        solution: what the tables say.
+        comm: MPI communicator.
+        watch: told the time.
+
+    Raises:
+        MeshError: by the fields, if no mesh can be made.
+    """
+    problem = _Problem(solution=solution, comm=comm, watch=watch)
+    for number, radiation in enumerate(solution.radiation, 1):
+        yield f"radiation {number}", _radiated(problem, radiation, number)
+    for number, response in enumerate(solution.response, 1):
+        yield f"response {number}", _responding(problem, response, number)
+    for number, resonance in enumerate(solution.resonance, 1):
+        yield f"resonance {number}", _resonant(problem, resonance, number)
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Problem:
+    """A scene whose fields are asked for."""
+
+    solution: OpenSolution
+    comm: MPI.Comm
+    watch: Stopwatch
+
+    def model(
+        self, lowest: float, highest: float, *, motions: int, radians: float = _RADIANS, angle: float | None = None
+    ) -> OpenModel:
+        """Water as wide as it is drawn, for a range of |ω|; beams move in so many ways at least (collective)."""
+        scene, band = rough_scene(self.solution.scene), Band(lowest=lowest, highest=highest)
+        resolution = first_resolution(scene, band, drawn=radians)
+        shapes = tuple(max(count, motions) if count else 0 for count in resolution.shapes)
+        resolution = replace(resolution, shapes=shapes)
+        return open_model(self.comm, scene, band, resolution, self.watch, angle=angle, drawn=radians)
+
+
+def _radiated(problem: _Problem, table: RadiationTable, number: int) -> Iterator[OpenField]:
+    """Motions of 1 m or 1 rad at the frequencies of largest damping."""
+    waves = np.isfinite(table.omega) & (table.omega > 0.0)
+    damping = np.where(waves[:, None], np.diagonal(table.radiation_damping, axis1=1, axis2=2), 0.0)
+    shown = [place for place in range(len(table.dofs)) if damping[:, place].max(initial=0.0) > 0.0][:_MOST_FIELDS]
+    if not shown:
+        return
+    peaks = {place: float(table.omega[np.argmax(damping[:, place])]) for place in shown}
+    model = problem.model(min(peaks.values()), max(peaks.values()), motions=max(shown) + 1)
+    solver = OpenSolver(model, problem.watch)
+    for place, omega in peaks.items():
+        squared, dof = model.squared_frequency(omega), table.dofs[place]
+        # Beams have more shapes here than the table may report.
+        own = model.scale.dofs.index(dof)
+        bodies = np.linalg.inv(model.scale.turn)[:, own].astype(complex)
+        yield OpenField(
+            name=f"radiation_{number}_{dof.replace(' ', '_')}",
+            title=f"Radiation by {motion_name(dof)} at ω = {omega:.5g} rad/s{_why('damping is largest', table)}",
+            amplitude=_unit_motion(model, own),
+            model=model,
+            squared=squared,
+            potential=bodies @ solver.radiation(squared),
+            bodies=bodies,
+            metres=_metres(model, own),
+        )
+
+
+def _responding(problem: _Problem, table: ResponseTable, number: int) -> Iterator[OpenField]:
+    """The waves that come and all that they set in motion, per metre of their elevation."""
+    row, wave = _largest_response(problem.solution, table)
+    omega = float(table.omega[row])
+    model = problem.model(omega, omega, motions=0)
+    solver = OpenSolver(model, problem.watch)
+    count = len(table.waves)
+    place = wave + (0 if table.waves_from == "left" else count)
+    found = solver.response(omega, [place])
+    incidence = found.incidence
+    # The crest of the wave that comes passes x = 0 of the scene at t = 0.
+    unit = 1.0 / (incidence.elevations[place] * np.exp(1j * incidence.scene_phases(model.basin)[place]))
+    kind = f"{table.waves[wave]} waves" if count > 1 else "waves"
+    why = _why("motion is largest", table)
+    yield OpenField(
+        name=f"response_{number}",
+        title=f"Response to {kind} from the {table.waves_from} at ω = {omega:.5g} rad/s{why}",
+        amplitude="incident wave of 1 m",
+        model=model,
+        squared=found.squared,
+        potential=unit * found.scattered[0],
+        bodies=unit * found.motions[0],
+        metres=1.0,
+        incident=(incidence.planes[place], complex(unit)),
+    )
+
+
+def _largest_response(solution: OpenSolution, table: ResponseTable) -> tuple[int, int]:
+    """Places of the frequency and of the wave that move a body most, turns at a distance of half the drawn length."""
+    arms = np.array([0.5 * solution.scene.tank.length if dof.endswith("roll") else 1.0 for dof in table.dofs])
+    sizes = (np.abs(table.amplitudes) * arms).max(axis=2)
+    row, wave = np.unravel_index(int(np.argmax(sizes)), sizes.shape)
+    return int(row), int(wave)
+
+
+def _resonant(problem: _Problem, table: ResonanceTable, number: int) -> Iterator[OpenField]:
+    """The slowest resonances, each with its dominant motion of 1 m or 1 rad; one that is not found again has none."""
+    omegas = [complex(omega) for omega in table.omega[:_MOST_FIELDS]]
+    if not omegas:
+        return
+    sizes = [abs(omega) for omega in omegas]
+    motions = 1 + max(table.dofs.index(label) for label in table.labels[:_MOST_FIELDS])
+    # Of a wave k ~ ω²: its imaginary part is twice that of ω, relative to the real one.
+    fastest = max(-2.0 * omega.imag / omega.real for omega in omegas)
+    radians = min(_RADIANS, log(_GROWTH) / fastest)
+    model = problem.model(min(sizes), max(sizes), motions=motions, radians=radians, angle=ANGLE)
+    search = ResonanceSearch(model.pencil, model.stiffness, model.mass)
+    for place, (omega, label) in enumerate(zip(omegas, table.labels, strict=False), 1):
+        pair = _found_again(search, model.squared_frequency(omega), problem.watch)
+        if pair is None:
+            continue
+        own = model.scale.dofs.index(label)
+        unit = 1.0 / (model.scale.turn @ pair.bodies)[own]
+        yield OpenField(
+            name=f"resonance_{number}_{place:03d}",
+            title=f"Resonance {place}: ω = {omega.real:.5g} − {-omega.imag:.3g}i rad/s, {motion_name(label)}",
+            amplitude=_unit_motion(model, own),
+            model=model,
+            squared=pair.eigenvalue,
+            potential=unit * pair.potential,
+            bodies=unit * pair.bodies,
+            metres=_metres(model, own),
+        )
+
+
+def _found_again(search: ResonanceSearch, squared: complex, watch: Stopwatch) -> Eigenpair | None:
+    """The resonance of a λ in another basin (collective)."""
+    try:
+        with watch.stage("resonances"):
+            pair = search.refined(squared)
+    except EigenSolverError:
+        return None
+    return pair if abs(pair.eigenvalue / squared - 1.0) <= _SAME else None
+
+
+def _why(reason: str, table: RadiationTable | ResponseTable) -> str:
+    """Why a frequency is shown, if there are others."""
+    return f", where {reason}" if len(table.omega) > 1 else ""
+
+
+def _metres(model: OpenModel, motion: int) -> float:
+    """Displacements by a motion of 1 m or 1 rad, that in units of the basin is 1."""
+    return float(model.basin.units.length / model.scale.lengths[motion])
+
+
+def _unit_motion(model: OpenModel, motion: int) -> str:
+    name = model.scale.dofs[motion]
+    return f"{motion_name(name)} of 1 {'rad' if name.endswith('roll') else 'm'}"

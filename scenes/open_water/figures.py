@@ -1,0 +1,248 @@
+"""Curves of a solution of open water as pictures."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from hydroelastic.fem.pictures.options import PictureOptions
+from hydroelastic.scenes.open_water.results import (
+    DecayTable,
+    OpenSolution,
+    RadiationTable,
+    ResonanceTable,
+    ResponseTable,
+)
+from hydroelastic.scenes.open_water.tables import motion_name
+from hydroelastic.scenes.output.curve_style import BLUE, COLOURS, GREY, Sheets, dress, plot_curve, sequence_colours
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+_MOST_DEFLECTIONS = 6
+_MOST_CURVES = 8
+_MOST_MOTIONS = 12
+# Of forces each wave has a curve: a legend of more would leave them no room.
+_MOST_FORCES = 6
+# Times whose steps differ so much are spread logarithmically.
+_SPREAD = 5.0
+_FREQUENCY = "angular frequency ω, rad/s"
+
+
+def draw_open(solution: OpenSolution, folder: Path, options: PictureOptions) -> None:
+    """Draw what the solution holds: one figure for each analysis, and one for each beam in waves.
+
+    Args:
+        solution: the solution.
+        folder: an existing folder, for ``radiation_1.png``, ``response_1.png``, ``deflection_1_body_1.png``,
+            ``resonance_1.png``, ``decay_1.png`` and so on.
+        options: how to draw.
+    """
+    sheets = Sheets(folder=folder, title=solution.scene.title, options=options)
+    for number, radiation in enumerate(solution.radiation, 1):
+        _draw_radiation(radiation, sheets, f"radiation_{number}")
+    for number, response in enumerate(solution.response, 1):
+        _draw_response(response, sheets, f"response_{number}")
+        for place, plate in enumerate(response.plates):
+            _draw_deflection(response, place, sheets, f"deflection_{number}_body_{plate.body + 1}")
+    for number, resonance in enumerate(solution.resonance, 1):
+        _draw_resonances(resonance, sheets, f"resonance_{number}")
+    for number, decay in enumerate(solution.decay, 1):
+        _draw_decay(decay, sheets, f"decay_{number}")
+
+
+def _by_unit(dofs: tuple[str, ...]) -> list[tuple[bool, list[int]]]:
+    """Places of the motions that are rotations, rad, and of the others, m; those first that come first."""
+    turns = [motion.endswith("roll") for motion in dofs]
+    return [(kind, [place for place, turn in enumerate(turns) if turn == kind]) for kind in dict.fromkeys(turns)]
+
+
+def _draw_radiation(table: RadiationTable, sheets: Sheets, name: str) -> None:
+    """Diagonals of a and b and the force of waves over finite ω: a row for displacements, and one for rotations."""
+    order = np.argsort(table.omega)
+    order = order[np.isfinite(table.omega[order])]
+    if not len(order):
+        return
+    omega = table.omega[order]
+    rows = _by_unit(table.dofs)
+    heading = "added mass, radiation damping, force per metre of waves from the left"
+    with sheets.sheet(name, heading, width=15.0, height=0.9 + 4.9 * len(rows)) as figure:
+        panels = figure.subplots(len(rows), 3, squeeze=False)
+        for (left, right, last), (turns, places) in zip(panels, rows, strict=True):
+            far = table.infinite_frequency_added_mass
+            for number in places[:_MOST_MOTIONS]:
+                mass, damping = (
+                    matrix[order, number, number] for matrix in (table.added_mass, table.radiation_damping)
+                )
+                plot_curve(
+                    left, omega, np.where(np.isfinite(mass), mass, np.nan), number, motion_name(table.dofs[number])
+                )
+                plot_curve(right, omega, damping, number, motion_name(table.dofs[number]))
+                if far is not None:
+                    left.axhline(
+                        far[number, number], color=COLOURS[number % len(COLOURS)], linewidth=0.9, linestyle=":"
+                    )
+            _plot_forces(last, table, order, places)
+            if far is not None:
+                left.plot([], [], ":", color=GREY, linewidth=0.9, label="limit for ω → ∞")
+            if len(places) > _MOST_MOTIONS:
+                left.set_title(f"the first {_MOST_MOTIONS} of {len(places)} motions")
+            mass_name, unit = ("added inertia", "kg·m") if turns else ("added mass", "kg/m")
+            dress(left, _FREQUENCY, f"{mass_name} a, {unit}")
+            dress(right, _FREQUENCY, f"radiation damping b, {unit}/s")
+            dress(last, _FREQUENCY, "excitation moment |f|, N/m" if turns else "excitation force |f|, N/m²")
+
+
+def _plot_forces(axes: Axes, table: RadiationTable, order: np.ndarray, places: list[int]) -> None:
+    """The sizes of the forces of waves from the left on some motions, of each wave a curve."""
+    for number in places[: max(_MOST_FORCES // len(table.waves), 1)]:
+        for incident, which in enumerate(_incident(table)):
+            force = np.abs(table.excitation_force[order, incident, 0, number])
+            place = number + incident * len(table.dofs)
+            plot_curve(axes, table.omega[order], force, place, motion_name(table.dofs[number]) + which)
+
+
+def _draw_response(table: ResponseTable, sheets: Sheets, name: str) -> None:
+    """Waves that leave, and motions: displacements and rotations, whose units differ."""
+    order = np.argsort(table.omega)
+    largest = np.argsort(-np.abs(table.amplitudes).max(axis=(0, 1)), kind="stable")
+    largest = largest[: max(_MOST_CURVES // len(table.waves), 1)]
+    groups = [(turns, [place for place in places if place in largest]) for turns, places in _by_unit(table.dofs)]
+    groups = [(turns, places) for turns, places in groups if places]
+    heading = f"answer per metre of waves from the {table.waves_from}"
+    with sheets.sheet(name, heading, width=5.5 * (1 + len(groups)), height=6.0) as figure:
+        first, *others = figure.subplots(1, 1 + len(groups))
+        _plot_waves(first, table, order)
+        number = 0
+        for axes, (turns, places) in zip(others, groups, strict=True):
+            for motion in places:
+                for incident, which in enumerate(_incident(table)):
+                    size = np.abs(table.amplitudes[order, incident, motion])
+                    plot_curve(axes, table.omega[order], size, number, motion_name(table.dofs[motion]) + which)
+                    number += 1
+            dress(axes, _FREQUENCY, "size of rotation, rad/m" if turns else "size of motion, m/m")
+            if len(largest) < len(table.dofs):
+                axes.set_title(f"the {len(largest)} largest of {len(table.dofs)} motions")
+
+
+def _plot_waves(axes: Axes, table: ResponseTable, order: np.ndarray) -> None:
+    number = 0
+    for incident, wave in enumerate(table.waves):
+        for outgoing, other in enumerate(table.waves):
+            which = f", {wave} to {other}" if len(table.waves) > 1 else ""
+            for ratio, label in ((table.reflection, "reflection |R|"), (table.transmission, "transmission |T|")):
+                plot_curve(axes, table.omega[order], np.abs(ratio[order, incident, outgoing]), number, label + which)
+                number += 1
+    dress(axes, _FREQUENCY, "size of elevation, m/m")
+
+
+def _incident(table: RadiationTable | ResponseTable) -> list[str]:
+    """What tells incident waves apart where there are several."""
+    return [f", {wave} wave" if len(table.waves) > 1 else "" for wave in table.waves]
+
+
+def _draw_deflection(table: ResponseTable, place: int, sheets: Sheets, name: str) -> None:
+    """|w| along a beam at a few frequencies, one panel for each wave that comes."""
+    plate = table.plates[place]
+    order = np.argsort(table.omega)
+    shown = order[np.unique(np.linspace(0, len(order) - 1, min(len(order), _MOST_DEFLECTIONS)).round().astype(int))]
+    heading = f"deflection of body {plate.body + 1} per metre of waves from the {table.waves_from}"
+    with sheets.sheet(name, heading, width=7.5 * len(table.waves)) as figure:
+        panels = figure.subplots(1, len(table.waves), squeeze=False)[0]
+        for incident, (axes, which) in enumerate(zip(panels, _incident(table), strict=True)):
+            for row, colour in zip(shown, sequence_colours(len(shown)), strict=True):
+                size = np.abs(plate.deflection[row, incident])
+                axes.plot(plate.positions, size, color=colour, label=f"ω = {table.omega[row]:.4g} rad/s")
+            dress(axes, "x, m", f"size of deflection, m/m{which}")
+            axes.set_ylim(bottom=0.0)
+
+
+def _draw_resonances(table: ResonanceTable, sheets: Sheets, name: str) -> None:
+    if not len(table.omega):
+        return
+    with sheets.sheet(name, "resonances, free motions exp(−iωt)", width=8.0) as figure:
+        axes = figure.subplots()
+        # The real axis is where nothing dies out.
+        axes.axhline(0.0, color=GREY, linewidth=0.9)
+        axes.plot(table.omega.real, table.omega.imag, "o", color=BLUE, markersize=7)
+        for omega, label in zip(table.omega, table.labels, strict=True):
+            # On the left of points at the right edge, so that the words stay inside.
+            left = omega.real > 0.5 * (table.omega.real.min() + table.omega.real.max())
+            # Above points at the lower edge, below others, for the same reason.
+            above = omega.imag < 0.5 * table.omega.imag.min()
+            axes.annotate(
+                "\n".join(_resonance_words(omega, label)),
+                (omega.real, omega.imag),
+                xytext=(-8 if left else 8, 4 if above else -4),
+                textcoords="offset points",
+                va="bottom" if above else "top",
+                ha="right" if left else "left",
+                fontsize=9,
+            )
+        axes.margins(0.2)
+        dress(axes, "Re ω, rad/s", "Im ω, 1/s: decay below 0", legend="")
+
+
+def _resonance_words(omega: complex, label: str) -> Iterator[str]:
+    """Its motion, its place, its period and how fast it dies out."""
+    yield motion_name(label)
+    yield f"{omega.real:.4g} {_signed(omega.imag)}i"
+    if omega.real:
+        yield f"period {2.0 * np.pi / omega.real:.4g} s"
+        if omega.imag < 0.0:
+            # e^(Im ω T) of the amplitude is left after a period T.
+            yield f"{100.0 * np.exp(2.0 * np.pi * omega.imag / omega.real):.3g} % left after one"
+
+
+def _signed(value: float) -> str:
+    return f"{'−' if value < 0.0 else '+'} {abs(value):.4g}"
+
+
+def _draw_decay(table: DecayTable, sheets: Sheets, name: str) -> None:
+    """The motions over time, and the one let go on logarithmic axes, where an algebraic tail is straight."""
+    released = int(np.argmax(np.abs(table.initial)))
+    order = np.argsort(table.times)
+    times, displacement = table.times[order], table.displacement[order]
+    groups = [(turns, _moving(displacement, places, table)) for turns, places in _by_unit(table.dofs)]
+    groups = [(turns, places) for turns, places in groups if places]
+    heading = f"free motion after release in {motion_name(table.dofs[released])}"
+    with sheets.sheet(name, heading, width=6.0 * (1 + len(groups))) as figure:
+        *panels, last = figure.subplots(1, 1 + len(groups))
+        for axes, (turns, places) in zip(panels, groups, strict=True):
+            for number in places:
+                plot_curve(axes, times, displacement[:, number], number, motion_name(table.dofs[number]))
+            dress(axes, "time t, s", f"{'rotation, rad' if turns else 'displacement, m'}")
+            steps = np.diff(times[times > 0.0])
+            if len(steps) and steps.max() > _SPREAD * steps.min():
+                # On an even axis late times would be too sparse to follow the motion.
+                axes.set_xscale("log")
+        _draw_tail(last, table, released)
+
+
+def _moving(displacement: np.ndarray, places: list[int], table: DecayTable) -> list[int]:
+    """Motions of one unit that differ from zero by more than their error: others would be a line at zero."""
+    released = int(np.argmax(np.abs(table.initial)))
+    error = float(table.absolute_error.max())
+    return [place for place in places if place == released or np.abs(displacement[:, place]).max() > error]
+
+
+def _draw_tail(axes: Axes, table: DecayTable, released: int) -> None:
+    """The size of the motion let go, its error, and the algebraic tail that waves give it."""
+    order = np.argsort(table.times)
+    order = order[table.times[order] > 0.0]
+    times, motion = table.times[order], np.abs(table.displacement[order, released])
+    if np.count_nonzero(motion) < 2:
+        axes.set_axis_off()
+        return
+    unit, name = "rad" if table.dofs[released].endswith("roll") else "m", motion_name(table.dofs[released])
+    axes.loglog(times, motion, ".-", markersize=4, color=COLOURS[released % len(COLOURS)], label=f"|{name}|")
+    axes.loglog(times, table.absolute_error[order], ":", color=GREY, label="estimated error")
+    if table.tail is not None:
+        tail = abs(table.tail)
+        axes.loglog(times, tail / times**2, "--", color=GREY, label=f"tail {tail:.3g} {unit}·s²/t²")
+        low = max(0.1 * float(motion[motion > 0.0].min()), 1e-16)
+        axes.set_ylim(low, 10.0 * float(motion.max()))
+    dress(axes, "time t, s", f"size of the displacement, {unit}")

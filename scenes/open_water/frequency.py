@@ -1,0 +1,123 @@
+"""Open water at one frequency: radiation and diffraction, in units of the basin.
+
+With the operator T = A − λM of the liquid, radiation ψⱼ = T⁻¹Fⱼ and diffraction φ_D = −T⁻¹g of an incident φ:
+
+    H = FᵀT⁻¹F = a + i b/ω                    hydrodynamic matrix
+    X = λ (∫ρφ φᵢ + Fᵀφ_D)                    excitation, for an incident wave of unit φ
+
+and bodies that move freely, with all that is scattered, ψ = φ_D + Σaⱼψⱼ:
+
+    (K − λ(M_b + H)) a = X.
+
+Amplitudes of what leaves are those of `incident_waves`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hydroelastic.scenes.open_water.incident_waves import Incidence
+from hydroelastic.scenes.open_water.model import OpenModel
+
+# Part of the largest force, in units of the basin, below which one is compared with that.
+_NO_FORCE = 1e-4
+
+
+@dataclass(frozen=True, kw_only=True)
+class OpenFrequency:
+    """The solution at one λ.
+
+    Attributes:
+        model: the problem.
+        squared: λ.
+        incidence: the travelling waves, first those to the right, then those to the left.
+        radiated: ψ of a unit of each body unknown, shape (body unknowns, free unknowns).
+        diffracted: φ_D of each incident wave, shape (waves, free unknowns).
+        hydrodynamic: H, shape (body unknowns, body unknowns).
+    """
+
+    model: OpenModel
+    squared: complex
+    incidence: Incidence
+    radiated: np.ndarray
+    diffracted: np.ndarray
+    hydrodynamic: np.ndarray
+
+    @property
+    def diffraction_force(self) -> np.ndarray:
+        """λFᵀφ_D for each incident wave, shape (waves, body unknowns) (collective)."""
+        return self.squared * self.model.pencil.products(self.diffracted, self.model.pencil.loads.astype(complex))
+
+    @property
+    def froude_krylov_force(self) -> np.ndarray:
+        """λ∫ρφ φᵢ for each incident wave, shape (waves, body unknowns)."""
+        return self.squared * self.incidence.pressures
+
+    def radiated_amplitudes(self) -> np.ndarray:
+        """c of the waves that leave with a unit of each body unknown, shape (waves, body unknowns) (collective).
+
+        From the bodies' surfaces, so that c− and the excitation by φ+ agree by themselves.
+        """
+        fluxes = self.incidence.pressures - self.model.pencil.products(self.incidence.fluxes, self.radiated)
+        return self.incidence.amplitudes(fluxes)
+
+    def observed_amplitudes(self) -> np.ndarray:
+        """The same from the field at some distance from the bodies, by `fem.far_field` (collective)."""
+        fluxes = self.model.far_field.fluxes(self.radiated, [plane.field for plane in self.incidence.planes])
+        return self.incidence.amplitudes(fluxes)
+
+    def energy_residual(self) -> float:
+        """Largest difference between damping and the power of the waves that leave, as a part of |H| (collective)."""
+        radiated = self.incidence.powers @ np.abs(self.observed_amplitudes()) ** 2
+        diagonal = np.diag(self.hydrodynamic)
+        return float(np.max(np.abs(diagonal.imag - radiated) / self.model.compared(np.abs(diagonal)), initial=0.0))
+
+    def haskind_residual(self) -> float:
+        """Largest difference between the excitation and X = λ I(φ), with I(φ) of the wave that leaves against the
+        incident one in the far field of the radiated waves, as a part of the largest force (collective)."""
+        direct = self.froude_krylov_force + self.diffraction_force
+        by_far_field = self.squared * self.incidence.fluxes_of(self.observed_amplitudes())
+        scale = np.abs(direct).max(axis=0)
+        differences = np.abs(direct - by_far_field).max(axis=0)
+        # Waves hardly turn a circle about its centre: what is left of such a force is rounding.
+        floor = max(_NO_FORCE * scale.max(initial=0.0), np.finfo(float).tiny)
+        return float(np.max(differences / np.maximum(scale, floor), initial=0.0))
+
+
+@dataclass(frozen=True, kw_only=True)
+class OpenResponse:
+    """Bodies that move freely in waves, at one λ.
+
+    Attributes:
+        model: the problem.
+        squared: λ.
+        incidence: the travelling waves, first those to the right, then those to the left.
+        incident: places of the waves that come.
+        scattered: ψ of all that each of them sends away, shape (incident, free unknowns).
+        motions: body unknowns, shape (incident, body unknowns).
+    """
+
+    model: OpenModel
+    squared: complex
+    incidence: Incidence
+    incident: list[int]
+    scattered: np.ndarray
+    motions: np.ndarray
+
+    def outgoing(self) -> np.ndarray:
+        """c of all waves that leave, the incident one included, shape (waves that leave, incident) (collective)."""
+        incidence = self.incidence
+        fluxes = (
+            incidence.pressures @ self.motions.T
+            - incidence.own[:, self.incident]
+            - self.model.pencil.products(incidence.fluxes, self.scattered)
+        )
+        return incidence.amplitudes(fluxes) + np.eye(len(incidence.planes))[:, self.incident]
+
+    def energy_residual(self) -> np.ndarray:
+        """Power that leaves over power that comes, less one, shape (incident,) (collective)."""
+        powers = self.incidence.powers
+        residual: np.ndarray = powers @ np.abs(self.outgoing()) ** 2 / powers[self.incident] - 1.0
+        return residual

@@ -1,0 +1,116 @@
+"""Incident waves: what they press against the bodies, and the far field of what the bodies send back.
+
+A wave φ± = e^{±ikx} Z(y) travels to the right or to the left. With the fluxes I(φ) of `fem.far_field` an outgoing
+ψ ~ c± e^{±ikx} Z has
+
+    c± = i I(φ∓)/(2kN),    N = ∫ρZ² dy,
+
+and by Green's theorem on the bodies, with g = ∫ρ (∂φ/∂n) q and ∂ψ/∂n = ζ there,
+
+    I(φ) = ∫ρφ ζ − gᵀψ.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hydroelastic.modal.liquid.travelling_waves import TravellingWave
+from hydroelastic.scenes.open_water.basin import OpenBasin
+from hydroelastic.scenes.open_water.model import OpenModel
+
+RIGHTWARD, LEFTWARD = 1, -1
+
+
+@dataclass(frozen=True, kw_only=True)
+class Plane:
+    """A wave that travels to one side, in units of the basin."""
+
+    wave: TravellingWave
+    direction: int
+
+    def field(self, points: np.ndarray, layers: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """φ and ∇φ at points (..., 2) of the layers (...), 0 for the lower one."""
+        x, y = points[..., 0], points[..., 1]
+        value, slope = self.wave.profile(y, above=layers > 0)
+        phase = np.exp(1j * self.direction * self.wave.wavenumber * x)
+        along = 1j * self.direction * self.wave.wavenumber * value
+        return phase * value, np.stack([phase * along, phase * slope], axis=-1)
+
+    @property
+    def elevation(self) -> float:
+        """Elevation at the surface on which the wave travels, over the ψ to which Z is scaled."""
+        return self.wave.top_elevation if self.wave.on_top else self.wave.elevation
+
+
+def planes(waves: tuple[TravellingWave, ...]) -> list[Plane]:
+    """Each wave to the right, then each to the left."""
+    return [Plane(wave=wave, direction=direction) for direction in (RIGHTWARD, LEFTWARD) for wave in waves]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Incidence:
+    """What some waves do to the bodies.
+
+    Attributes:
+        planes: the waves.
+        fluxes: g = ∫ρ (∂φ/∂n) q, shape (waves, free unknowns), complex.
+        pressures: ∫ρ φ φᵢ over the bodies' surfaces, shape (waves, body unknowns).
+        own: ∫ρ φ ∂φ'/∂n over the bodies' surfaces, shape (waves φ, waves φ').
+    """
+
+    planes: list[Plane]
+    fluxes: np.ndarray
+    pressures: np.ndarray
+    own: np.ndarray
+
+    @property
+    def reversed(self) -> np.ndarray:
+        """Places of the waves that run the other way."""
+        count = len(self.planes)
+        return np.roll(np.arange(count), count // 2)
+
+    @property
+    def powers(self) -> np.ndarray:
+        """kN of each wave: its power over ½ω³|c|²."""
+        return np.array([plane.wave.wavenumber * plane.wave.energy for plane in self.planes])
+
+    @property
+    def elevations(self) -> np.ndarray:
+        """Elevation of each wave over its c."""
+        return np.array([plane.elevation for plane in self.planes])
+
+    def scene_phases(self, basin: OpenBasin) -> np.ndarray:
+        """Phase of each wave at the basin's left side if it is zero at x = 0 of the scene, with the other sign.
+
+        A wave e^{±ikx} of the scene is e^{±ikx₀} times that of the basin, whose x begins at x₀.
+        """
+        origin = basin.origin / basin.units.length
+        return np.array([-plane.direction * plane.wave.wavenumber * origin for plane in self.planes])
+
+    def amplitudes(self, fluxes: np.ndarray) -> np.ndarray:
+        """c of the waves that leave, from I(φ) of each wave φ, shape (waves, …)."""
+        amplitudes: np.ndarray = 0.5j / self.powers[:, None] * fluxes[self.reversed]
+        return amplitudes
+
+    def fluxes_of(self, amplitudes: np.ndarray) -> np.ndarray:
+        """I(φ) of each wave φ, from c of the waves that leave."""
+        fluxes: np.ndarray = (-2j * self.powers[:, None] * amplitudes)[self.reversed]
+        return fluxes
+
+
+def incidence(model: OpenModel, waves: list[Plane]) -> Incidence:
+    """Integrate waves over the bodies' surfaces (collective)."""
+    pencil = model.pencil
+    fluxes = np.zeros((len(waves), len(pencil.free)), dtype=complex)
+    own = np.zeros((len(waves), len(waves)), dtype=complex)
+    pressures = [np.zeros((len(waves), 0), dtype=complex)]
+    for surface in model.wetted:
+        fields = [plane.field(surface.points, surface.layers) for plane in waves]
+        values = np.array([value for value, _ in fields])
+        flux = np.array([(gradient * surface.normals).sum(axis=1) for _, gradient in fields])
+        fluxes += surface.loads(flux)[:, pencil.free]
+        own += surface.integrals(values, flux)
+        pressures.append(surface.integrals(values, surface.shapes))
+    return Incidence(planes=waves, fluxes=fluxes, pressures=np.hstack(pressures), own=own)

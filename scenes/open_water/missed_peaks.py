@@ -1,0 +1,101 @@
+"""Peaks of a response that lie between its frequencies, where its curve does not show them.
+
+Bodies and liquid on the reduced basis of a sweep are a small linear pencil in ω²; its eigenvalues near the real axis
+are the frequencies at which the response may change faster than the curve tells. The response there, on the same basis,
+is set beside the straight line between the two neighbours on the curve.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from itertools import pairwise
+from typing import TypeAlias
+
+import numpy as np
+
+from hydroelastic.scenes.open_water.results import Complexes, Floats, MissedPeak, ResponseTable
+
+# Of the largest on the curve: by what a peak must differ from the line between its neighbours.
+_DIFFERS = 0.1
+
+# Name of a quantity, its magnitudes on the curve and at the peaks, and what is large for it.
+_Curve: TypeAlias = tuple[str, Floats, Floats, float]
+
+
+def missed_peaks(
+    table: ResponseTable, resonances: Complexes, between: Callable[[Floats], ResponseTable]
+) -> tuple[MissedPeak, ...]:
+    """Return the largest of the peaks between each two frequencies, by ascending frequency.
+
+    Args:
+        table: the response that was asked for.
+        resonances: ω of bodies and liquid together, rad/s; those that no wave excites show nothing.
+        between: the response at other frequencies.
+    """
+    omegas = np.sort(table.omega)
+    probed = np.array(list(_narrow(omegas, resonances)))
+    if not probed.size:
+        return ()
+    peaks = between(probed)
+    # Where a motion tells, waves need not.
+    worst = _worst(probed, table.omega, _ratios(table, peaks)) | _worst(probed, table.omega, _motions(table, peaks))
+    return tuple(worst[below] for below in sorted(worst))
+
+
+def _worst(probed: Floats, omegas: Floats, curves: Iterator[_Curve]) -> dict[float, MissedPeak]:
+    """What changes most between each two frequencies, by the lower one."""
+    order = np.argsort(omegas)
+    ordered = omegas[order]
+    changes: dict[float, float] = {}
+    worst: dict[float, MissedPeak] = {}
+    for quantity, shown, found, scale in curves:
+        drawn = np.interp(probed, ordered, shown[order])
+        for omega, value, line in zip(probed, found, drawn, strict=True):
+            place = int(np.searchsorted(ordered, omega))
+            below, above = float(ordered[place - 1]), float(ordered[place])
+            change = abs(value - line) / max(scale, value)
+            if change > changes.get(below, _DIFFERS):
+                changes[below] = change
+                worst[below] = MissedPeak(
+                    below=below,
+                    above=above,
+                    omega=float(omega),
+                    quantity=quantity,
+                    value=float(value),
+                    drawn=float(line),
+                )
+    return worst
+
+
+def _narrow(omegas: Floats, resonances: Complexes) -> Iterator[float]:
+    """Frequencies of resonances that are narrower than the distance of their neighbours on the curve."""
+    for below, above in pairwise(omegas):
+        inside = (resonances.real > below) & (resonances.real < above) & (np.abs(resonances.imag) < above - below)
+        yield from np.unique(resonances.real[inside])
+
+
+def _motions(table: ResponseTable, peaks: ResponseTable) -> Iterator[_Curve]:
+    turns = np.array([dof.endswith("roll") for dof in table.dofs], dtype=bool)
+    sizes = np.abs(table.amplitudes)
+    for incident, wave in enumerate(table.waves):
+        for place, dof in enumerate(table.dofs):
+            # A small motion beside a large one of its unit is none that is missed.
+            scale = float(sizes[:, incident, turns == turns[place]].max())
+            found = np.abs(peaks.amplitudes[:, incident, place])
+            yield dof + _of(table, wave), sizes[:, incident, place], found, scale
+
+
+def _ratios(table: ResponseTable, peaks: ResponseTable) -> Iterator[_Curve]:
+    for name, shown, found in (
+        ("|R|", np.abs(table.reflection), np.abs(peaks.reflection)),
+        ("|T|", np.abs(table.transmission), np.abs(peaks.transmission)),
+    ):
+        for incident, wave in enumerate(table.waves):
+            for outgoing, left in enumerate(table.waves):
+                label = f"{name} {left}{_of(table, wave)}" if len(table.waves) > 1 else name
+                curve = shown[:, incident, outgoing]
+                yield label, curve, found[:, incident, outgoing], float(curve.max())
+
+
+def _of(table: ResponseTable, wave: str) -> str:
+    return f" in {wave} waves" if len(table.waves) > 1 else ""

@@ -1,0 +1,286 @@
+"""Added mass, damping and excitation over the frequency, in SI units."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import isfinite, nan
+
+import numpy as np
+from mpi4py import MPI
+from scipy.linalg import block_diag
+
+from hydroelastic.scenes.models.open_analyses import Radiation
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.open_water.attempts import Attempt, attempted_over
+from hydroelastic.scenes.open_water.basin import liquids_of, open_basin
+from hydroelastic.scenes.open_water.frequency import OpenFrequency
+from hydroelastic.scenes.open_water.model import Band, OpenModel, open_model
+from hydroelastic.scenes.open_water.motion_scale import motion_scale
+from hydroelastic.scenes.open_water.released import released_added_mass
+from hydroelastic.scenes.open_water.results import DIRECTIONS, RadiationTable
+from hydroelastic.scenes.open_water.solver import OpenSolver
+from hydroelastic.scenes.open_water.sweep import Problem, Swept, sweep
+from hydroelastic.scenes.output.stopwatch import Stopwatch
+from hydroelastic.scenes.tank.certainty import FrequencyErrors
+from hydroelastic.scenes.tank.field_model import whole_bodies
+from hydroelastic.scenes.tank.plan import Resolution
+from hydroelastic.scenes.tank.scaled_tank import ScaledTank
+
+# Heave and pitch of a beam, and one more motion for each hinge, come before its elastic shapes.
+_RIGID = 2
+# Parts of √(g/length) that stand for ω = 0, where added mass differs from its limit like their squares; slower waves
+# leave too few digits. Between the two −ln ω grows by more than this.
+_SLOW = (1e-3, 3e-3)
+_GROWS = 1e-3
+# The error of a sweep is looked at so often; between two of these frequencies the larger one is taken.
+_JUDGED = 5
+
+
+@dataclass(frozen=True, kw_only=True)
+class RadiationSolution:
+    """What a radiation analysis found.
+
+    Attributes:
+        table: the numbers.
+        model: the last problem; ``None`` where only the limit above the waves was asked.
+        error: the largest relative error.
+    """
+
+    table: RadiationTable
+    model: OpenModel | None
+    error: float
+
+
+def solve_radiation(comm: MPI.Comm, scene: TankScene, asked: Radiation, watch: Stopwatch) -> RadiationSolution:
+    """Solve for added mass, damping and excitation to the scene's tolerance (collective).
+
+    Args:
+        comm: MPI communicator.
+        scene: with open ends.
+        asked: the analysis.
+        watch: told the time.
+    """
+    omegas = np.array([omega for omega in asked.omega if isfinite(omega) and omega > 0.0])
+    shapes = _reported_shapes(open_basin(scene, 0.0).tank, asked.elastic_modes)
+    attempt = _swept(comm, scene, omegas, shapes, watch) if len(omegas) else None
+    return _tabulated(comm, scene, asked, shapes, attempt, watch)
+
+
+def _reported_shapes(tank: ScaledTank, elastic: int) -> tuple[int, ...]:
+    return tuple(
+        _RIGID + len(tank.beams[index].hinges) + elastic if index in tank.beams else 0
+        for index in range(len(tank.bodies))
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Sweep:
+    """A sweep at one resolution."""
+
+    model: OpenModel
+    swept: Swept[OpenFrequency]
+    errors: np.ndarray
+    factorizations: int
+
+
+def _swept(
+    comm: MPI.Comm, scene: TankScene, omegas: np.ndarray, shapes: tuple[int, ...], watch: Stopwatch
+) -> Attempt[_Sweep]:
+    band = Band(lowest=float(omegas.min()), highest=float(omegas.max()))
+    tolerance = scene.accuracy.tolerance
+
+    def solve(resolution: Resolution) -> Attempt[_Sweep]:
+        model = open_model(comm, scene, band, replace(resolution, shapes=shapes), watch)
+        solver = OpenSolver(model, watch)
+        problem = Problem(
+            full=lambda omega: solver.frequency(omega.real),
+            reduced=lambda omega: solver.frequency_between(omega.real),
+            difference=_difference,
+        )
+        swept = sweep(problem, omegas, tolerance)
+        with watch.stage("errors"):
+            places = judged_places(omegas)
+            causes = [_causes(swept.solutions[place]) for place in places]
+        errors = between(omegas, places, np.array([cause.total.max() for cause in causes])) + swept.errors
+        return Attempt(
+            result=_Sweep(model=model, swept=swept, errors=errors, factorizations=solver.factorizations),
+            causes=joined_errors(causes, float(swept.errors.max())),
+            resolution=resolution,
+        )
+
+    return attempted_over(scene, band, solve)
+
+
+def _difference(one: OpenFrequency, other: OpenFrequency) -> float:
+    """Of hydrodynamic matrices and forces, relative to the largest of each."""
+    return max(
+        relative_difference(one.hydrodynamic, other.hydrodynamic),
+        relative_difference(one.diffraction_force, other.diffraction_force),
+    )
+
+
+def relative_difference(one: np.ndarray, other: np.ndarray) -> float:
+    """Largest difference of two arrays over the largest entry."""
+    scale = np.abs(other).max(initial=0.0)
+    return float(np.abs(one - other).max() / scale) if scale else 0.0
+
+
+def _causes(solution: OpenFrequency) -> FrequencyErrors:
+    return solution.model.errors(solution.radiated, np.abs(np.diag(solution.hydrodynamic)))
+
+
+def judged_places(omegas: np.ndarray) -> list[int]:
+    """Places of a few frequencies spread over all of them."""
+    order = np.argsort(omegas)
+    chosen = np.unique(np.linspace(0, len(order) - 1, min(_JUDGED, len(order))).round().astype(int))
+    return [int(order[place]) for place in chosen]
+
+
+def between(omegas: np.ndarray, places: list[int], values: np.ndarray) -> np.ndarray:
+    """Values at all frequencies from those at a few of them: the larger one of both sides."""
+    known = omegas[places]
+    below = np.clip(np.searchsorted(known, omegas, side="right") - 1, 0, len(known) - 1)
+    above = np.clip(np.searchsorted(known, omegas, side="left"), 0, len(known) - 1)
+    larger: np.ndarray = np.maximum(values[below], values[above])
+    return larger
+
+
+def joined_errors(causes: list[FrequencyErrors], reduced: float) -> FrequencyErrors:
+    """Errors at several frequencies as one; that of a reduced basis counts as one of the liquid's."""
+    return FrequencyErrors(
+        liquid=np.concatenate([cause.liquid for cause in causes]) + reduced,
+        tips=np.concatenate([cause.tips for cause in causes]),
+        truncation=np.concatenate([cause.truncation for cause in causes]),
+        rounding=np.concatenate([cause.rounding for cause in causes]),
+    )
+
+
+def _tabulated(
+    comm: MPI.Comm,
+    scene: TankScene,
+    asked: Radiation,
+    shapes: tuple[int, ...],
+    attempt: Attempt[_Sweep] | None,
+    watch: Stopwatch,
+) -> RadiationSolution:
+    long = open_basin(scene, 0.0)
+    bodies = whole_bodies(long.tank, shapes)
+    scale = motion_scale(long, bodies)
+    waves = liquids_of(scene).branches
+    rows: dict[float, _Row] = {}
+    errors = [0.0]
+    if attempt is not None:
+        errors.append(attempt.error)
+        swept, in_full = attempt.result.swept.solutions, attempt.result.swept.in_full
+        rows |= {row.omega: row for row in map(_row, _finite(asked), swept, attempt.result.errors, in_full)}
+    if np.inf in asked.omega:
+        matrix, error = released_added_mass(comm, scene, shapes, watch)
+        errors.append(error)
+        rows[np.inf] = _limit_row(np.inf, scale.masses(matrix), len(waves), error)
+    if 0.0 in asked.omega:
+        rows[0.0] = _slow_row(comm, scene, shapes, len(waves), watch)
+        errors.append(rows[0.0].relative_error)
+    ordered = [rows[omega] for omega in asked.omega]
+    table = RadiationTable(
+        omega=np.array(asked.omega),
+        dofs=scale.dofs,
+        waves=waves,
+        wavenumbers=np.array([row.wavenumbers for row in ordered]),
+        added_mass=np.array([row.added_mass for row in ordered]),
+        radiation_damping=np.array([row.radiation_damping for row in ordered]),
+        excitation_force=np.array([row.froude_krylov_force + row.diffraction_force for row in ordered]),
+        froude_krylov_force=np.array([row.froude_krylov_force for row in ordered]),
+        diffraction_force=np.array([row.diffraction_force for row in ordered]),
+        relative_error=np.array([row.relative_error for row in ordered]),
+        energy_residual=np.array([row.energy_residual for row in ordered]),
+        haskind_residual=np.array([row.haskind_residual for row in ordered]),
+        inertia=scale.masses(block_diag(*(body.mass for body in bodies))),
+        stiffness=scale.stiffnesses(np.diag(np.concatenate([body.stiffness for body in bodies]))),
+        infinite_frequency_added_mass=rows[np.inf].added_mass if np.inf in rows else None,
+        factorizations=attempt.result.factorizations if attempt else 0,
+    )
+    return RadiationSolution(table=table, model=attempt.result.model if attempt else None, error=max(errors))
+
+
+def _finite(asked: Radiation) -> list[float]:
+    return [omega for omega in asked.omega if isfinite(omega) and omega > 0.0]
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Row:
+    """One frequency of a table, in its units; see `RadiationTable`."""
+
+    omega: float
+    wavenumbers: np.ndarray
+    added_mass: np.ndarray
+    radiation_damping: np.ndarray
+    froude_krylov_force: np.ndarray
+    diffraction_force: np.ndarray
+    relative_error: float
+    energy_residual: float
+    haskind_residual: float
+
+
+def _row(omega: float, found: OpenFrequency, error: float, in_full: bool) -> _Row:
+    model, waves = found.model, found.incidence
+    masses = model.scale.masses(found.hydrodynamic)
+    shift = np.exp(-1j * waves.scene_phases(model.basin))
+    count = len(waves.planes) // 2
+
+    def forces(values: np.ndarray) -> np.ndarray:
+        per_metre = model.scale.forces(values * (shift / waves.elevations)[:, None])
+        # From (direction, wave) to (wave, direction).
+        moved: np.ndarray = per_metre.reshape(len(DIRECTIONS), count, -1).swapaxes(0, 1)
+        return moved
+
+    return _Row(
+        omega=omega,
+        wavenumbers=np.array([plane.wave.wavenumber for plane in waves.planes[:count]]) / model.basin.units.length,
+        added_mass=masses.real,
+        radiation_damping=omega * masses.imag,
+        froude_krylov_force=forces(found.froude_krylov_force),
+        diffraction_force=forces(found.diffraction_force),
+        relative_error=float(error),
+        # On a reduced basis the field is less accurate than the forces, and says nothing of them.
+        energy_residual=found.energy_residual() if in_full else nan,
+        haskind_residual=found.haskind_residual() if in_full else nan,
+    )
+
+
+def _limit_row(omega: float, added_mass: np.ndarray, waves: int, error: float) -> _Row:
+    """Where no wave travels, or none moves a body."""
+    nothing = np.zeros((waves, len(DIRECTIONS), len(added_mass)), dtype=complex)
+    return _Row(
+        omega=omega,
+        wavenumbers=np.full(waves, omega),
+        added_mass=added_mass,
+        radiation_damping=np.zeros_like(added_mass),
+        froude_krylov_force=nothing,
+        diffraction_force=nothing,
+        relative_error=error,
+        energy_residual=0.0,
+        haskind_residual=0.0,
+    )
+
+
+def _slow_row(comm: MPI.Comm, scene: TankScene, shapes: tuple[int, ...], waves: int, watch: Stopwatch) -> _Row:
+    """The limit of long waves: added mass that still grows there, like −ln ω in deep water, is infinite."""
+    unit = open_basin(scene, 0.0).units.frequency
+    omegas = np.array([factor * unit for factor in _SLOW])
+    attempt = _swept(comm, scene, omegas, shapes, watch)
+    first, second = (
+        _row(omega, found, attempt.error, True)
+        for omega, found in zip(omegas, attempt.result.swept.solutions, strict=True)
+    )
+    slower, slow = first.added_mass, second.added_mass
+    sizes = np.sqrt(np.abs(np.diag(slow)))
+    grows = np.abs(slower - slow) > _GROWS * np.outer(sizes, sizes)
+    return replace(
+        first,
+        omega=0.0,
+        relative_error=attempt.error + _SLOW[0] ** 2,
+        wavenumbers=np.zeros(waves),
+        added_mass=np.where(grows, np.copysign(np.inf, slower), slower),
+        # b/ω may have a limit, b is zero.
+        radiation_damping=np.zeros_like(slower),
+    )

@@ -1,0 +1,142 @@
+"""Added mass in open water far above the waves: ψ = 0 on an open top, liquids that move as one, no damping."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import sqrt
+
+import numpy as np
+from mpi4py import MPI
+from scipy.linalg import block_diag
+
+from hydroelastic.fem.added_mass import body_responses
+from hydroelastic.fem.liquid import compile_form
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.open_water.attempts import Attempt, attempted
+from hydroelastic.scenes.open_water.basin import open_basin, reach
+from hydroelastic.scenes.open_water.model import ANGLE, GROWTH, NO_WATER, open_mesh
+from hydroelastic.scenes.output.stopwatch import Stopwatch
+from hydroelastic.scenes.tank.certainty import FrequencyErrors, boundary_error, energies_missed
+from hydroelastic.scenes.tank.field_model import build_field_model, distributed_mesh, whole_bodies
+from hydroelastic.scenes.tank.plan import (
+    Resolution,
+    resolution_for,
+    rounding_error,
+    sharpest_exponent,
+    workable_tolerance,
+)
+from hydroelastic.scenes.tank.scaling import Scales
+
+# Dry modes of each beam, and tolerance, where frequencies are only to be known roughly.
+_SHAPES = 16
+_ROUGH = 1e-3
+# Nothing travels; in units of the basin this is a length like its own.
+_NO_WAVE = 1.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReleasedModel:
+    """The bodies with their added mass far above the waves, dimensionless.
+
+    Attributes:
+        units: of length and frequency.
+        stiffness: K, shape (body unknowns, body unknowns).
+        mass: M_b.
+        added_mass: a(∞).
+        of_floats: whether each unknown is a float's.
+        motions: index of the body and label of each unknown.
+    """
+
+    units: Scales
+    stiffness: np.ndarray
+    mass: np.ndarray
+    added_mass: np.ndarray
+    of_floats: np.ndarray
+    motions: tuple[tuple[int, str], ...]
+
+    def frequencies(self, *, floats: bool = False) -> list[float]:
+        """Frequencies without waves, rad/s, ascending, of those motions that something restores.
+
+        Args:
+            floats: whether the floats alone are to move.
+        """
+        chosen = self.of_floats if floats else np.ones(len(self.stiffness), dtype=bool)
+        restoring, whole = np.diag(self.stiffness), self.mass + self.added_mass
+        restored, loose = np.flatnonzero(chosen & (restoring > 0.0)), np.flatnonzero(chosen & (restoring <= 0.0))
+        if not len(restored):
+            return []
+        # What nothing restores follows at once. Slow motions beside stiff ones keep their digits as the largest 1/λ.
+        coupling = whole[np.ix_(loose, restored)]
+        moving = whole[np.ix_(restored, restored)] - coupling.T @ np.linalg.solve(whole[np.ix_(loose, loose)], coupling)
+        roots = np.sqrt(restoring[restored])
+        inverse = np.linalg.eigvalsh(moving / roots / roots[:, None])[::-1]
+        return [self.units.frequency / sqrt(value) for value in inverse if value > 0.0]
+
+
+def rough_scene(scene: TankScene) -> TankScene:
+    """The same scene with little accuracy, for what only has to be found."""
+    return scene.model_copy(update={"accuracy": scene.accuracy.model_copy(update={"tolerance": _ROUGH})})
+
+
+def released_model(comm: MPI.Comm, scene: TankScene, watch: Stopwatch) -> ReleasedModel:
+    """The bodies in as many shapes as a first look at their frequencies needs (collective)."""
+    basin = open_basin(scene, 0.0)
+    shapes = tuple(
+        _SHAPES + len(basin.tank.beams[index].hinges) if index in basin.tank.beams else 0
+        for index in range(len(basin.tank.bodies))
+    )
+    added, _ = released_added_mass(comm, rough_scene(scene), shapes, watch)
+    bodies = whole_bodies(basin.tank, shapes)
+    return ReleasedModel(
+        units=basin.units,
+        stiffness=np.diag(np.concatenate([body.stiffness for body in bodies])),
+        mass=block_diag(*(body.mass for body in bodies)),
+        added_mass=added,
+        motions=tuple((index, label) for index, body in enumerate(bodies) for label in body.labels),
+        of_floats=np.concatenate([np.full(body.size, index in basin.tank.floats) for index, body in enumerate(bodies)]),
+    )
+
+
+def released_added_mass(
+    comm: MPI.Comm, scene: TankScene, shapes: tuple[int, ...], watch: Stopwatch
+) -> tuple[np.ndarray, float]:
+    """Solve to the scene's tolerance.
+
+    Args:
+        comm: MPI communicator.
+        scene: with open ends.
+        shapes: number of dry modes of each beam, 0 for floats.
+        watch: told the time.
+
+    Returns:
+        a(∞) in the bodies' unknowns and in units of a basin as long as that of long waves, and its relative error
+        (collective).
+    """
+    basin = open_basin(scene, 0.0)
+    tank = basin.tank
+    tolerance = workable_tolerance(scene.accuracy.tolerance, tank.depth)
+    exponent = sharpest_exponent(tank, released=True)
+    first = resolution_for(tank, tolerance, (0.0,) * len(tank.pieces), exponent=exponent)
+
+    def solve(resolution: Resolution) -> Attempt[np.ndarray]:
+        frames = reach(basin, (_NO_WAVE, _NO_WAVE), first=0.5, growth=GROWTH, angle=ANGLE, tolerance=tolerance)
+        with watch.stage("mesh"):
+            mesh = distributed_mesh(comm, lambda: open_mesh(basin, resolution, frames, released=True))
+        with watch.stage("forms"):
+            compile_form(mesh, resolution.degree, glued=tank.moves_as_one)
+        with watch.stage("added mass"):
+            pencil = build_field_model(mesh, tank, degree=resolution.degree, shapes=shapes, pressure_release=True)
+            matrix, potentials = body_responses(pencil)
+            away, tips = energies_missed(pencil.liquid, potentials, tank, resolution, half=False, released=True)
+        inertia = np.concatenate([np.diag(body.mass) for body in pencil.bodies])
+        scale = np.maximum(np.diag(matrix), NO_WATER * inertia)
+        causes = FrequencyErrors(
+            liquid=away / scale + boundary_error(mesh, tank),
+            tips=tips / scale,
+            truncation=np.zeros(len(scale)),
+            rounding=np.full(len(scale), 2.0 * rounding_error(resolution.degree, min(tank.depth, 1.0))),
+        )
+        return Attempt(result=matrix, causes=causes, resolution=resolution)
+
+    best = attempted(solve, replace(first, shapes=shapes), tolerance, exponent)
+    return best.result, best.error

@@ -1,0 +1,285 @@
+"""Complex resonances: where the bodies in open water oscillate by themselves and die out, ω − iγ."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import tan
+
+import numpy as np
+from mpi4py import MPI
+
+from hydroelastic.fem.open_water.resonances import Eigenpair, ResonanceSearch
+from hydroelastic.fem.truncation import truncation_errors
+from hydroelastic.scenes.models.open_analyses import Resonance
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.open_water.attempts import Attempt, attempted_over
+from hydroelastic.scenes.open_water.basin import open_basin
+from hydroelastic.scenes.open_water.count import zeros_in
+from hydroelastic.scenes.open_water.model import Band, OpenModel, first_resolution, open_model
+from hydroelastic.scenes.open_water.motion_scale import motion_scale
+from hydroelastic.scenes.open_water.released import released_model, rough_scene
+from hydroelastic.scenes.open_water.results import ResonanceTable
+from hydroelastic.scenes.open_water.solver import OpenSolver
+from hydroelastic.scenes.output.stopwatch import Stopwatch
+from hydroelastic.scenes.tank.certainty import FrequencyErrors, boundary_error
+from hydroelastic.scenes.tank.field_model import whole_bodies
+from hydroelastic.scenes.tank.plan import Resolution, rounding_error
+
+ANGLE = 1.3
+"""α of the complex scaling: resonances with −Im ω/Re ω below tan(α/2) = 0.76 are uncovered in deep water."""
+
+# A resonance does not move with α; what the search takes for one moves less than this.
+_STILL = 1e-2
+# The region searched goes beyond the expected frequencies by these factors.
+_BELOW, _ABOVE = 0.3, 1.25
+# Eigenvalues asked for near each target: a few resonances and the waves that leave around them.
+_PER_TARGET = 8
+# Error of λ over what it moves by a radian of α; measured on a circle and a thin float it is smaller.
+_DRIFT = 0.1
+# Where a resonance lies on the rim of the region it is counted in a part of it.
+_NARROWER = (0.93, 0.85)
+# Shapes of beams that vibrate faster than this times the region take part as if they were rigid, and are left out
+# where resonances are only to be found.
+_STIFF = 4.0
+# The same resonance from two targets.
+_SAME = 1e-6
+# Bodies with a smaller part in a motion rest while the water moves by itself.
+_AT_REST = 1e-8
+
+
+@dataclass(frozen=True, kw_only=True)
+class Region:
+    """Where resonances are looked for: lowest < Re ω < highest, −Im ω < damping · Re ω, in rad/s."""
+
+    lowest: float
+    highest: float
+    damping: float
+
+    def holds(self, omega: complex) -> bool:
+        """Whether a frequency lies within."""
+        return self.lowest < omega.real < self.highest and -omega.imag < self.damping * omega.real
+
+    def rim(self, places: np.ndarray) -> np.ndarray:
+        """Points around it at places from 0 to 4, a unit for each side, counterclockwise; the upper side is a little
+        above the axis."""
+        corners = [
+            self.lowest * (1.0 - 1j * self.damping),
+            self.highest * (1.0 - 1j * self.damping),
+            self.highest * (1.0 + 0.02j),
+            self.lowest * (1.0 + 0.02j),
+        ]
+        points = []
+        for place in places:
+            side, part = int(place) % 4, float(place) % 1.0
+            start, end = corners[side], corners[(side + 1) % 4]
+            # Equal ratios along the axis, equal steps across it.
+            along = side % 2 == 0
+            points.append(start * (end / start) ** part if along else start + part * (end - start))
+        return np.array(points)
+
+    def words(self) -> str:
+        """The region in words."""
+        return f"{self.lowest:.4g} < Re ω < {self.highest:.4g} rad/s, −Im ω < {self.damping:g} Re ω"
+
+
+@dataclass(frozen=True, kw_only=True)
+class ResonanceSolution:
+    """What a resonance analysis found.
+
+    Attributes:
+        table: the numbers.
+        model: the last problem; ``None`` where nothing restores the bodies.
+        error: the largest relative error.
+        reasons: why the count is not confirmed; empty if it is.
+    """
+
+    table: ResonanceTable
+    model: OpenModel | None
+    error: float
+    reasons: tuple[str, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Found:
+    """Resonances at one resolution."""
+
+    model: OpenModel
+    pairs: list[Eigenpair]
+
+
+def solve_resonance(comm: MPI.Comm, scene: TankScene, asked: Resonance, watch: Stopwatch) -> ResonanceSolution:
+    """Find resonances to the scene's tolerance, and count them independently (collective).
+
+    Args:
+        comm: MPI communicator.
+        scene: with open ends.
+        asked: the analysis.
+        watch: told the time.
+
+    Raises:
+        EigenSolverError: if SLEPc fails.
+    """
+    expected = released_model(comm, scene, watch).frequencies()
+    if not expected:
+        return _nothing(scene)
+    region = _region(expected, asked)
+    band = Band(lowest=region.lowest, highest=region.highest)
+    coarse, known = rough_resonances(comm, scene, expected, region, watch)
+    values = known[: asked.count]
+
+    def solve(resolution: Resolution) -> Attempt[_Found]:
+        model = open_model(comm, scene, band, resolution, watch, angle=ANGLE)
+        with watch.stage("resonances"):
+            search = ResonanceSearch(model.pencil, model.stiffness, model.mass)
+            pairs = [search.refined(model.squared_frequency(omega)) for omega in values]
+        with watch.stage("errors"):
+            causes = resonance_errors(model, pairs)
+        return Attempt(result=_Found(model=model, pairs=pairs), causes=causes, resolution=resolution)
+
+    attempt = attempted_over(scene, band, solve)
+    found = attempt.result
+    with watch.stage("count"):
+        closed, counted = _counted(OpenSolver(coarse, watch), _closed_region(region, found, asked))
+    within = sum(map(closed.holds, known))
+    reasons: tuple[str, ...] = ()
+    if counted is None:
+        reasons = ("the independent count of the resonances is not certain: one may lie on the rim of its region",)
+    elif counted != within:
+        reasons = (f"an independent count finds {counted} resonances in the region, and {within} are known",)
+    if np.any(np.diag(found.model.stiffness) < 0.0):
+        reasons += ("a float is unstable: its motion grows, and is none of the resonances",)
+    return ResonanceSolution(
+        table=_table(found, attempt.causes, counted, closed),
+        model=found.model,
+        error=attempt.error,
+        reasons=reasons,
+    )
+
+
+def _nothing(scene: TankScene) -> ResonanceSolution:
+    """Where nothing restores the bodies."""
+    basin = open_basin(scene, 0.0)
+    dofs = motion_scale(basin, whole_bodies(basin.tank, (0,) * len(basin.tank.bodies))).dofs
+    table = ResonanceTable(
+        omega=np.zeros(0, dtype=complex),
+        dofs=dofs,
+        labels=(),
+        body_amplitudes=np.zeros((0, len(dofs)), dtype=complex),
+        residuals=np.zeros(0),
+        relative_error=np.zeros(0),
+        counted=0,
+        region="any ω: nothing restores the bodies",
+    )
+    return ResonanceSolution(table=table, model=None, error=0.0, reasons=())
+
+
+def _counted(solver: OpenSolver, region: Region) -> tuple[Region, int | None]:
+    """Count in a region, or in a narrower one where a resonance lies on its rim (collective)."""
+    for damping in (1.0, *_NARROWER):
+        narrower = replace(region, damping=damping * region.damping)
+        counted = zeros_in(solver, narrower.rim)
+        if counted is not None:
+            return narrower, counted
+    return region, None
+
+
+def _region(expected: list[float], asked: Resonance) -> Region:
+    highest = asked.below if asked.below is not None else _ABOVE * expected[min(asked.count, len(expected)) - 1]
+    return Region(
+        lowest=_BELOW * min(expected[0], highest),
+        highest=highest,
+        damping=min(asked.largest_damping, 0.95 * tan(0.5 * ANGLE)),
+    )
+
+
+def rough_resonances(
+    comm: MPI.Comm, scene: TankScene, expected: list[float], region: Region, watch: Stopwatch
+) -> tuple[OpenModel, list[complex]]:
+    """Find the resonances of a region in which bodies move, with little accuracy.
+
+    Args:
+        comm: MPI communicator.
+        scene: with open ends.
+        expected: frequencies near which to look, rad/s.
+        region: where.
+        watch: told the time.
+
+    Returns:
+        The model, and ω by ascending |ω|, rad/s (collective).
+
+    Raises:
+        EigenSolverError: if SLEPc fails.
+    """
+    rough, band = rough_scene(scene), Band(lowest=region.lowest, highest=region.highest)
+    resolution = first_resolution(rough, band)
+    # Motions that nothing restores are not among the expected ones.
+    enough = sum(omega < _STIFF * region.highest for omega in expected) + 4
+    resolution = replace(resolution, shapes=tuple(min(count, enough) for count in resolution.shapes))
+    model = open_model(comm, rough, band, resolution, watch, angle=ANGLE)
+    targets = [omega for omega in expected if omega < region.highest] or [region.highest]
+    with watch.stage("resonances"):
+        return model, _search(model, targets, region)
+
+
+def _search(model: OpenModel, targets: list[float], region: Region) -> list[complex]:
+    """ω of the resonances in a region in which bodies move, rad/s, by ascending |ω| (collective)."""
+    unit = model.basin.units.frequency
+    search = ResonanceSearch(model.pencil, model.stiffness, model.mass)
+    found: list[complex] = []
+    for target in targets:
+        # Beside the axis, on which the waves' own spectrum begins.
+        for pair in search.near(model.squared_frequency(target * (1.0 - 0.05j)), _PER_TARGET):
+            omega = complex(np.sqrt(pair.eigenvalue)) * unit
+            known = any(abs(omega - other) <= _SAME * abs(omega) for other in found)
+            if not known and pair.drift < _STILL and pair.participation > _AT_REST and region.holds(omega):
+                found.append(omega)
+    return sorted(found, key=abs)
+
+
+def _closed_region(region: Region, found: _Found, asked: Resonance) -> Region:
+    """The region of those that are reported: it ends halfway to where the next may be."""
+    if asked.below is not None or len(found.pairs) < asked.count:
+        return region
+    last = max(np.sqrt(pair.eigenvalue).real for pair in found.pairs) * found.model.basin.units.frequency
+    return Region(lowest=region.lowest, highest=min(region.highest, 1.02 * last), damping=region.damping)
+
+
+def resonance_errors(model: OpenModel, pairs: list[Eigenpair]) -> FrequencyErrors:
+    """Errors of ω, half of those of λ: the energy missed over xᵀT'x, and how λ moves with α (collective)."""
+    count = len(pairs)
+    if not pairs:
+        return FrequencyErrors(liquid=np.zeros(0), tips=np.zeros(0), truncation=np.zeros(0), rounding=np.zeros(0))
+    away, tips = model.energies_missed(np.array([pair.potential for pair in pairs]))
+    norms = np.array([abs(pair.norm) for pair in pairs])
+    drifts = np.array([pair.drift for pair in pairs])
+    tank = model.basin.tank
+    # Shapes left out hold the same part of the energy as in a mode of that frequency without damping.
+    amplitudes = np.array([np.abs(pair.bodies) / np.sqrt(abs(pair.norm)) for pair in pairs])
+    values = np.array([abs(pair.eigenvalue) for pair in pairs])
+    return FrequencyErrors(
+        liquid=0.5 * (away / norms + _DRIFT * drifts) + boundary_error(model.pencil.liquid.tank, tank),
+        tips=0.5 * tips / norms,
+        truncation=0.5 * truncation_errors(model.pencil.bodies, amplitudes, values),
+        rounding=np.full(count, rounding_error(model.resolution.degree, min(tank.depth, 1.0))),
+    )
+
+
+def _table(found: _Found, causes: FrequencyErrors, counted: int | None, region: Region) -> ResonanceTable:
+    model, pairs = found.model, found.pairs
+    scale = model.scale
+    bodies = np.array([pair.bodies for pair in pairs]).reshape(len(pairs), len(scale.dofs))
+    motions = scale.amplitudes(bodies)
+    # Motions of different kinds are compared by their kinetic energy.
+    weights = np.sqrt(np.abs(np.diag(scale.masses(model.mass))))
+    strongest = np.argmax(np.abs(motions) * weights, axis=1) if len(pairs) else np.zeros(0, int)
+    largest = motions[np.arange(len(pairs)), strongest][:, None]
+    return ResonanceTable(
+        omega=np.sqrt(np.array([pair.eigenvalue for pair in pairs], dtype=complex)) * model.basin.units.frequency,
+        dofs=scale.dofs,
+        labels=tuple(scale.dofs[place] for place in strongest),
+        body_amplitudes=motions / largest,
+        residuals=np.array([pair.residual for pair in pairs]),
+        relative_error=causes.total,
+        counted=counted,
+        region=region.words(),
+    )

@@ -1,0 +1,214 @@
+"""Bodies in waves: motions, deflection of beams, reflection and transmission over the frequency, in SI units."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import nan
+
+import numpy as np
+from mpi4py import MPI
+
+from hydroelastic.fem.surfaces import Body
+from hydroelastic.scenes.models.open_analyses import Response
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.open_water.attempts import Attempt, attempted_over
+from hydroelastic.scenes.open_water.frequency import OpenResponse
+from hydroelastic.scenes.open_water.missed_peaks import missed_peaks
+from hydroelastic.scenes.open_water.model import Band, OpenModel, open_model
+from hydroelastic.scenes.open_water.radiation import between, joined_errors, judged_places, relative_difference
+from hydroelastic.scenes.open_water.results import MissedPeak, PlateDeflection, ResponseTable
+from hydroelastic.scenes.open_water.solver import OpenSolver
+from hydroelastic.scenes.open_water.sweep import FEW, Problem, Swept, sweep
+from hydroelastic.scenes.output.stopwatch import Stopwatch
+from hydroelastic.scenes.tank.certainty import FrequencyErrors, boundary_error
+from hydroelastic.scenes.tank.plan import Resolution, rounding_error
+
+# Dry modes of the tail, which the last ones stand for: at the tips their deflections add like Σ n⁻⁵.
+_TAIL = 0.25
+
+
+@dataclass(frozen=True, kw_only=True)
+class ResponseSolution:
+    """What a response analysis found.
+
+    Attributes:
+        table: the numbers.
+        model: the last problem.
+        error: the largest relative error.
+    """
+
+    table: ResponseTable
+    model: OpenModel
+    error: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Sweep:
+    """A sweep at one resolution."""
+
+    solver: OpenSolver
+    swept: Swept[OpenResponse]
+    errors: np.ndarray
+
+
+def solve_response(comm: MPI.Comm, scene: TankScene, asked: Response, watch: Stopwatch) -> ResponseSolution:
+    """Solve for the motion in waves to the scene's tolerance (collective).
+
+    Args:
+        comm: MPI communicator.
+        scene: with open ends.
+        asked: the analysis.
+        watch: told the time.
+    """
+    omegas = np.array(asked.omega)
+    band = Band(lowest=float(omegas.min()), highest=float(omegas.max()))
+    tolerance = scene.accuracy.tolerance
+
+    def solve(resolution: Resolution) -> Attempt[_Sweep]:
+        model = open_model(comm, scene, band, resolution, watch)
+        solver = OpenSolver(model, watch)
+        incident = _incident(model, asked)
+        problem = Problem(
+            full=lambda omega: solver.response(omega.real, incident),
+            reduced=lambda omega: solver.response_between(omega.real, incident),
+            difference=lambda one, other: relative_difference(_outcome(one), _outcome(other)),
+        )
+        swept = sweep(problem, omegas, tolerance)
+        with watch.stage("errors"):
+            places = judged_places(omegas)
+            causes = [_errors(swept.solutions[place]) for place in places]
+        errors = between(omegas, places, np.array([cause.total.max() for cause in causes])) + swept.errors
+        return Attempt(
+            result=_Sweep(solver=solver, swept=swept, errors=errors),
+            causes=joined_errors(causes, float(swept.errors.max())),
+            resolution=resolution,
+        )
+
+    attempt = attempted_over(scene, band, solve)
+    found = attempt.result
+    model = found.solver.model
+    table = _table(asked, model, omegas, found.swept.solutions, found.errors)
+    if len(omegas) > FEW:
+        table = replace(table, missed_peaks=_missed(asked, found.solver, table))
+    return ResponseSolution(table=table, model=model, error=attempt.error)
+
+
+def _missed(asked: Response, solver: OpenSolver, table: ResponseTable) -> tuple[MissedPeak, ...]:
+    """Peaks between the frequencies, by the reduced basis of the sweep (collective)."""
+    incident = _incident(solver.model, asked)
+
+    def between(omegas: np.ndarray) -> ResponseTable:
+        solutions = [solver.response_between(float(omega), incident)[0] for omega in omegas]
+        return _table(asked, solver.model, omegas, solutions, np.full(len(omegas), nan))
+
+    return missed_peaks(table, solver.resonances_between(), between)
+
+
+def _incident(model: OpenModel, asked: Response) -> list[int]:
+    """Places of the waves that come: those to the right are first."""
+    count = len(model.basin.scaled_layers.branches)
+    return list(range(count)) if asked.waves_from == "left" else list(range(count, 2 * count))
+
+
+def _outcome(solution: OpenResponse) -> np.ndarray:
+    """What the accuracy is asked of: elevations of the waves that leave, and motions, per incident elevation."""
+    elevations = solution.incidence.elevations
+    incident = elevations[solution.incident]
+    waves = solution.outgoing() * elevations[:, None] / incident
+    return np.vstack([waves, (solution.motions / incident[:, None]).T])
+
+
+def _errors(solution: OpenResponse) -> FrequencyErrors:
+    """Errors relative to the incident wave: the energy that the scattered field misses over the flux of that wave,
+    and dry modes left out over the largest deflection (collective)."""
+    model, powers = solution.model, solution.incidence.powers[solution.incident]
+    away, tips = model.energies_missed(solution.scattered)
+    count = len(solution.incident)
+    return FrequencyErrors(
+        liquid=0.5 * away / powers + boundary_error(model.pencil.liquid.tank, model.basin.tank) + model.cut,
+        tips=0.5 * tips / powers,
+        truncation=np.full(count, max((_truncation(motions, model) for motions in solution.motions), default=0.0)),
+        rounding=np.full(count, 2.0 * rounding_error(model.resolution.degree, min(model.basin.tank.depth, 1.0))),
+    )
+
+
+def _truncation(motions: np.ndarray, model: OpenModel) -> float:
+    """Deflection in the dry modes left out, as a part of the largest motion."""
+    largest = np.abs(motions).max()
+    if not largest:
+        return 0.0
+    worst, first = 0.0, 0
+    for index, body in enumerate(model.pencil.bodies):
+        own = np.abs(motions[first : first + body.size])
+        first += body.size
+        if index in model.basin.tank.beams:
+            worst = max(worst, _TAIL * body.size * float(own[-2:].max()))
+    return worst / float(largest)
+
+
+def _table(
+    asked: Response, model: OpenModel, omegas: np.ndarray, solutions: list[OpenResponse], errors: np.ndarray
+) -> ResponseTable:
+    first = solutions[0]
+    count = len(first.incident)
+    waves = np.array([_waves(solution) for solution in solutions])
+    forward = first.incident
+    back = [int(first.incidence.reversed[place]) for place in forward]
+    motions = np.array([_motions(solution) for solution in solutions])
+    return ResponseTable(
+        omega=omegas,
+        waves=tuple(plane.wave.branch for plane in first.incidence.planes[:count]),
+        wavenumbers=np.array([[plane.wave.wavenumber for plane in one.incidence.planes[:count]] for one in solutions])
+        / model.basin.units.length,
+        dofs=model.scale.dofs,
+        waves_from=asked.waves_from,
+        amplitudes=model.scale.amplitudes(motions),
+        reflection=waves[:, :, back],
+        transmission=waves[:, :, forward],
+        energy_residual=np.array([solution.energy_residual() for solution in solutions]),
+        relative_error=errors,
+        plates=tuple(_plates(asked, model, motions)),
+    )
+
+
+def _waves(solution: OpenResponse) -> np.ndarray:
+    """Elevations of the waves that leave per incident elevation, both with the phases of the scene, shape (incident,
+    waves)."""
+    incidence = solution.incidence
+    # A wave of the basin has the scene's phase e^{±ikx₀} at the basin's side.
+    phases = np.exp(1j * incidence.scene_phases(solution.model.basin))
+    scaled = incidence.elevations * phases
+    ratios: np.ndarray = (solution.outgoing() * scaled[:, None] / scaled[solution.incident]).T
+    return ratios
+
+
+def _motions(solution: OpenResponse) -> np.ndarray:
+    """Body unknowns per elevation of a unit of length of the scene's wave, shape (incident, body unknowns)."""
+    incidence = solution.incidence
+    phases = np.exp(1j * incidence.scene_phases(solution.model.basin))
+    motions: np.ndarray = solution.motions / (incidence.elevations * phases)[solution.incident][:, None]
+    return motions
+
+
+def _plates(asked: Response, model: OpenModel, motions: np.ndarray) -> list[PlateDeflection]:
+    plates, first = [], 0
+    for index, body in enumerate(model.pencil.bodies):
+        own = motions[..., first : first + body.size]
+        first += body.size
+        if index in model.basin.tank.beams:
+            piece, length = model.basin.tank.piece_of(index), model.basin.units.length
+            x = np.linspace(piece.start, piece.end, asked.positions)
+            plates.append(
+                PlateDeflection(
+                    body=index,
+                    positions=model.basin.origin + length * x,
+                    deflection=own @ _shapes(body, x),
+                )
+            )
+    return plates
+
+
+def _shapes(body: Body, x: np.ndarray) -> np.ndarray:
+    """Deflections of a beam in each of its shapes, shape (shapes, points)."""
+    points, upwards = np.vstack([x, np.zeros_like(x)]), np.vstack([np.zeros_like(x), np.ones_like(x)])
+    return np.array([body.shapes(points, upwards, number) for number in range(body.size)])

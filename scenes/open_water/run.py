@@ -1,0 +1,92 @@
+"""Run a scene with open ends: solve, tabulate, write and draw."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from mpi4py import MPI
+
+from hydroelastic.fem.modes import EigenSolverError
+from hydroelastic.fem.pictures.options import OF_CURVES, OF_FIELDS, OF_MOTIONS, PictureOptions
+from hydroelastic.meshes.tagged_mesh import MeshError
+from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.open_water.csv import write_csv
+from hydroelastic.scenes.open_water.dataset import OPEN_NAMES, open_dataset
+from hydroelastic.scenes.open_water.field_pictures import draw_fields
+from hydroelastic.scenes.open_water.field_samples import SampledField, sample_field, write_fields
+from hydroelastic.scenes.open_water.fields import open_fields
+from hydroelastic.scenes.open_water.figures import draw_open
+from hydroelastic.scenes.open_water.results import OpenSolution
+from hydroelastic.scenes.open_water.solve import solve_open
+from hydroelastic.scenes.open_water.summary import summarize_open
+from hydroelastic.scenes.open_water.tables import open_cost, open_sections
+from hydroelastic.scenes.output.dataset import LabelledResults
+from hydroelastic.scenes.output.provenance import Summary
+from hydroelastic.scenes.output.staged_run import StagedRun
+from hydroelastic.scenes.output.stopwatch import Report, Stopwatch
+
+
+def _solve(scene: TankScene, comm: MPI.Comm, report: Report) -> OpenSolution:
+    try:
+        return solve_open(scene, comm, report)
+    except MeshError as error:
+        problem = Problem(wrong=f"no mesh could be made: {error}", remedy="Please report this scene")
+        raise SceneError(problem) from error
+    except EigenSolverError as error:
+        raise UnsolvedError(f"the eigen-solver failed: {error}") from error
+
+
+@dataclass(frozen=True, kw_only=True)
+class SampledWater:
+    """What is written and drawn of a solution.
+
+    Attributes:
+        solution: the tables.
+        fields: of the waves, on rank 0.
+        missing: which fields there are not, and why.
+    """
+
+    solution: OpenSolution
+    fields: tuple[SampledField, ...]
+    missing: tuple[str, ...]
+
+
+def _sample(solution: OpenSolution, _summary: Summary) -> SampledWater:
+    sampled, missing = [], []
+    for name, fields in open_fields(solution, MPI.COMM_WORLD, Stopwatch()):
+        try:
+            # One field after the other: each comes with a mesh and matrices of its own.
+            sampled += [sample_field(field) for field in fields]
+        except (MeshError, EigenSolverError) as error:
+            # The numbers are there whatever their picture does.
+            missing.append(f"no field of {name}: {error}")
+    fields_here = tuple(field for field in sampled if field is not None)
+    return SampledWater(solution=solution, fields=fields_here, missing=tuple(missing))
+
+
+def _write(water: SampledWater, folder: Path) -> None:
+    write_csv(water.solution, folder)
+    write_fields(water.fields, folder / "fields")
+
+
+def _draw(water: SampledWater, folder: Path, options: PictureOptions, report: Report) -> None:
+    report("pictures of curves")
+    draw_open(water.solution, folder, options)
+    report("pictures of fields")
+    draw_fields(water.fields, folder, options)
+
+
+run_open = StagedRun(
+    solve=_solve,
+    summarize=summarize_open,
+    sections=open_sections,
+    cost=open_cost,
+    sample=_sample,
+    unsampled=lambda water: water.missing,
+    write=_write,
+    dataset=LabelledResults(arrays=lambda water: open_dataset(water.solution), names=OPEN_NAMES),
+    draw=_draw,
+    heeds=OF_CURVES | OF_FIELDS | OF_MOTIONS,
+)

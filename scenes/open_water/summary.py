@@ -1,0 +1,62 @@
+"""The answer to a scene with open ends as one JSON-ready value: tables with their errors, and what they cost."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, fields
+from typing import Any
+
+from mpi4py import MPI
+
+from hydroelastic.scenes.open_water.estimates import thin_float_comparisons
+from hydroelastic.scenes.open_water.results import (
+    DIRECTIONS,
+    DecayTable,
+    OpenSolution,
+    RadiationTable,
+    ResonanceTable,
+    ResponseTable,
+)
+from hydroelastic.scenes.output.json_values import json_ready
+from hydroelastic.scenes.output.provenance import Summary, memory_of_processes, versions
+
+
+def summarize_open(solution: OpenSolution, comm: MPI.Comm, *, import_seconds: float) -> Summary:
+    """Build the summary of a solved scene with open ends (collective: peak memory is summed over processes).
+
+    Complex numbers are pairs [real part, imaginary part], infinity is the text "inf", what was not computed is null.
+
+    Args:
+        solution: the solution.
+        comm: the processes.
+        import_seconds: time spent importing libraries.
+
+    Returns:
+        The content of ``summary.json``.
+    """
+    comparisons, note = thin_float_comparisons(solution)
+    return {
+        "scene": solution.scene.model_dump(mode="json"),
+        "status": solution.status,
+        "reasons": list(solution.reasons),
+        "radiation": [_written(table) | {"wave_direction": list(DIRECTIONS)} for table in solution.radiation],
+        "response": [_written(table) for table in solution.response],
+        "resonance": [_written(table) for table in solution.resonance],
+        "decay": [_written(table) for table in solution.decay],
+        "estimates": {"thin_float": {"rows": [json_ready(asdict(row)) for row in comparisons], "note": note}},
+        "size": {**solution.size, "processes": comm.size},
+        "timing": {"import": import_seconds, **solution.seconds},
+        "memory_peak": memory_of_processes(comm),
+        "versions": versions(),
+    }
+
+
+def _written(table: RadiationTable | ResponseTable | ResonanceTable | DecayTable) -> dict[str, Any]:
+    """A table by the names of its fields; `body` counts from 1 here, as everywhere that a person reads."""
+    row = {field.name: getattr(table, field.name) for field in fields(table)}
+    if isinstance(table, ResponseTable):
+        row["plates"] = [
+            {"body": plate.body + 1, "positions": plate.positions, "deflection": plate.deflection}
+            for plate in table.plates
+        ]
+        row["missed_peaks"] = [asdict(peak) for peak in table.missed_peaks]
+    return {name: json_ready(value) for name, value in row.items()}

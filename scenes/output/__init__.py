@@ -1,0 +1,1 @@
+"""What all kinds of scenes share of their results: tables, folders, curves, provenance."""

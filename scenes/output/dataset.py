@@ -1,0 +1,102 @@
+"""All that is known of a scene as one labelled dataset, `dataset.nc`: arrays of its kind and the whole summary."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from hydroelastic.scenes.output.json_values import json_ready
+from hydroelastic.scenes.output.provenance import Summary
+from hydroelastic.scenes.output.summary_variables import SummaryNames, summary_variables
+
+if TYPE_CHECKING:
+    import xarray
+
+DATASET = "dataset.nc"
+SUMMARY_TEXT = "summary"
+"""The variable that holds the summary as the text of ``summary.json``."""
+
+# Keys of summaries whose variables come last: how it was solved, and what that took.
+_BOOKKEEPING = ("reasons", "solver", "size", "timing", "memory_peak", "versions")
+
+
+@dataclass(frozen=True, kw_only=True)
+class LabelledResults:
+    """What the datasets of one kind of scene are made of.
+
+    Attributes:
+        arrays: gives the labelled arrays of what was solved; they may be complex.
+        names: of what the summary holds.
+    """
+
+    arrays: Callable[[Any], xarray.Dataset]
+    names: SummaryNames
+
+
+def with_summary(arrays: xarray.Dataset, summary: Summary, names: SummaryNames) -> xarray.Dataset:
+    """Return labelled arrays with all that the summary says beside them: as variables, and as it is, as text.
+
+    Args:
+        arrays: of the kind of scene.
+        summary: content of ``summary.json``.
+        names: of its tables.
+    """
+    import xarray
+
+    content = json_ready(summary)
+    # The scene, a tree without numbers that one would plot, is in the text alone.
+    told = {key: value for key, value in content.items() if key not in ("scene", "status")}
+    told |= {key: told.pop(key) for key in _BOOKKEEPING if key in told}
+    text = xarray.Variable((), json.dumps(content, ensure_ascii=False), {"long_name": "content of summary.json"})
+    dataset = xarray.merge([arrays, summary_variables(told, names)], join="exact", compat="no_conflicts")
+    return dataset.assign({SUMMARY_TEXT: text}).assign_attrs(
+        Conventions="CF-1.8",
+        title=content["scene"]["title"],
+        source=f"hydroelastic {content['versions']['hydroelastic']}",
+        status=content["status"],
+        **arrays.attrs,
+    )
+
+
+def write_dataset(dataset: xarray.Dataset, path: Path) -> None:
+    """Write a dataset as NetCDF 3, which every reader of NetCDF knows and SciPy alone can read and write, in its order.
+
+    Complex numbers become a leading dimension `complex` of "re" and "im", as Capytaine writes them.
+    """
+    _without_complex_numbers(dataset).to_netcdf(path, engine="scipy", format="NETCDF3_64BIT")
+
+
+def read_dataset(path: Path) -> tuple[xarray.Dataset, Summary]:
+    """Read a ``dataset.nc``.
+
+    Args:
+        path: the file.
+
+    Returns:
+        The dataset, and the summary as ``summary.json`` has it.
+
+    Raises:
+        FileNotFoundError: if there is no such file.
+        KeyError: if it holds no summary.
+    """
+    import xarray
+
+    dataset = xarray.load_dataset(path, engine="scipy")
+    return dataset, json.loads(str(dataset[SUMMARY_TEXT].values))
+
+
+def _without_complex_numbers(dataset: xarray.Dataset) -> xarray.Dataset:
+    import xarray
+
+    separated = dataset.copy()
+    for name, values in dataset.data_vars.items():
+        if np.iscomplexobj(values):
+            # What was not computed has no imaginary part either.
+            parts = xarray.concat([values.real, values.imag], dim="complex").where(values.notnull())
+            separated[name] = parts.assign_coords(complex=["re", "im"]).assign_attrs(values.attrs)
+    return separated

@@ -1,0 +1,58 @@
+"""What the run of any scene gives."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from hydroelastic.scenes.output.provenance import Summary
+from hydroelastic.scenes.output.sections import Section, printed_sections
+
+
+@dataclass(frozen=True, kw_only=True)
+class Outcome:
+    """What a run gave.
+
+    Attributes:
+        solution: what was solved, a value of its own for each kind of scene.
+        summary: content of ``summary.json``.
+        sections: the tables that a person reads.
+        cost: a line that says what the result took.
+        notes: whether the notes of the tables are printed.
+        folder: where the results were written; ``None`` if nowhere.
+        replaces: whether results of an earlier run were there, and are gone.
+        warnings: what was asked and could not be done, beside the solution.
+    """
+
+    solution: Any
+    summary: Summary
+    sections: tuple[Section, ...]
+    cost: str
+    notes: bool = False
+    folder: Path | None = None
+    replaces: bool = False
+    warnings: tuple[str, ...] = ()
+
+    @property
+    def status(self) -> str:
+        """The word "ok", or "unconverged"."""
+        return str(self.summary["status"])
+
+    @property
+    def reasons(self) -> tuple[str, ...]:
+        """Why the solution does not keep what was asked; empty if it does."""
+        return tuple(self.summary["reasons"])
+
+    @cached_property
+    def tables(self) -> str:
+        """The tables for a terminal."""
+        return printed_sections(self.summary, self.sections, self.cost, notes=self.notes)
+
+    def table(self) -> str:
+        """The tables for a terminal, and where the results are."""
+        if self.folder is None:
+            return self.tables
+        earlier = " (replacing earlier ones)" if self.replaces else ""
+        return f"{self.tables}\nResults written to {self.folder}/{earlier}"

@@ -1,0 +1,85 @@
+"""Write what was solved: on the first process, whole or not at all."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from mpi4py import MPI
+
+from hydroelastic.fem.pictures.canvas import NoRendererError
+from hydroelastic.scenes.output.dataset import DATASET, with_summary, write_dataset
+from hydroelastic.scenes.output.folder import raise_on_all, result_folder, write_summary
+from hydroelastic.scenes.output.provenance import Summary
+from hydroelastic.scenes.output.stopwatch import Report, Stopwatch
+from hydroelastic.scenes.output.summary_variables import SummaryNames
+
+if TYPE_CHECKING:
+    import xarray
+
+
+def write_results(
+    out: Path,
+    summary: Summary,
+    *,
+    tables: Callable[[Path], None],
+    arrays: Callable[[], xarray.Dataset],
+    names: SummaryNames,
+    pictures: Callable[[Path], None] | None,
+    text: Callable[[Summary], str],
+    page: Callable[[Path, tuple[str, ...]], None] | None,
+    report: Report,
+) -> tuple[str, ...]:
+    """Write a result folder on rank 0 (collective).
+
+    Args:
+        out: the folder, made whole or not at all.
+        summary: content of ``summary.json``; the seconds that writing takes are added.
+        tables: writes files of numbers into a folder.
+        arrays: gives the labelled arrays of ``dataset.nc``.
+        names: of what the summary adds to them.
+        pictures: draws into a folder; ``None`` draws nothing.
+        text: gives the content of ``summary.md``.
+        page: writes a page about all the rest, and the warnings, into the folder; ``None`` writes none.
+        report: told what is being done.
+
+    Returns:
+        Warnings: what could not be drawn, and why.
+
+    Raises:
+        SceneError: if the folder cannot be written.
+    """
+    comm, watch = MPI.COMM_WORLD, Stopwatch()
+    problem: BaseException | None = None
+    warnings: list[str] = []
+    if comm.rank == 0:
+        try:
+            with result_folder(out) as folder:
+                with watch.stage("write"):
+                    report("tables")
+                    tables(folder)
+                    labelled = arrays()
+                if pictures is not None:
+                    with watch.stage("draw"):
+                        report("pictures")
+                        (folder / "images").mkdir()
+                        try:
+                            pictures(folder / "images")
+                        except NoRendererError as error:
+                            shutil.rmtree(folder / "images")
+                            warnings.append(f"no images: {error}")
+                summary["timing"].update(watch.seconds)
+                (folder / "summary.md").write_text(text(summary), encoding="utf-8")
+                write_summary(summary, folder)
+                # It holds the same summary, which knows all seconds by now but those that its own writing takes.
+                write_dataset(with_summary(labelled, summary, names), folder / DATASET)
+                if page is not None:
+                    report("page")
+                    page(folder, tuple(warnings))
+        except BaseException as error:
+            # Whatever it is, the other processes wait to hear of it.
+            problem = error
+    raise_on_all(problem, comm)
+    return tuple(warnings)

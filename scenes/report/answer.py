@@ -1,0 +1,142 @@
+"""The answer of a run in a few numbers, each with its estimated error: what a reader looks for first."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import hypot, inf
+from typing import TypeAlias
+
+from hydroelastic.scenes.open_water.tables import motion_name
+from hydroelastic.scenes.output.digits import with_certain_digits
+from hydroelastic.scenes.output.provenance import Summary
+from hydroelastic.scenes.output.sections import Row, Section
+
+# Frequencies of one analysis; the others stand in its table.
+_MOST_MODES = 3
+_ROUNDING = 1e-13
+# As JSON has it: a number, or "inf", or nothing.
+_Error: TypeAlias = float | str | None
+
+
+def answer(summary: Summary) -> Section:
+    """Return the numbers that stand for a result, with their relative errors.
+
+    Args:
+        summary: content of ``summary.json``.
+    """
+    scene = summary["scene"]
+    rows = {"tank": _tank, "string": _string, "thread": _thread, "roll": _roll}[scene["kind"]]
+    if scene["kind"] == "tank" and scene["tank"]["ends"] == "open":
+        rows = _open_water
+    return Section(title="", headings=("quantity", "value", "estimated relative error"), rows=list(rows(summary)))
+
+
+def _row(quantity: str, value: float, relative_error: _Error) -> Row:
+    if not isinstance(relative_error, float):
+        return quantity, f"{value:.4g}", "unknown"
+    error = max(relative_error, _ROUNDING)
+    return quantity, with_certain_digits(value, error), f"{error:.1e}"
+
+
+def _of_absolute(quantity: str, value: float, error: _Error) -> Row:
+    """A value whose error is known in its own unit."""
+    if not isinstance(error, float):
+        return _row(quantity, value, None)
+    if abs(value) <= error:
+        return quantity, "0", f"{error:.1e} absolute"
+    return _row(quantity, value, error / abs(value))
+
+
+def _tank(summary: Summary) -> Iterator[Row]:
+    """Motions that grow, the lowest frequencies, and those that belong to a body."""
+    for growing in summary["growing"][:1]:
+        yield _row("fastest growth of an unstable motion, 1/s", growing["growth_rate"], growing["relative_error"])
+    for number, mode in enumerate(summary["modes"][:_MOST_MODES], 1):
+        yield _row(f"ω of mode {number} ({mode['kind']}), rad/s", mode["omega"], mode["relative_error"])
+    for elastic in summary["first_elastic_by_body"]:
+        if elastic["omega"] is None:
+            continue
+        name = f"ω of the first mode of beam {elastic['body']}, mode {elastic['index']}, rad/s"
+        yield _row(name, elastic["omega"], elastic["relative_error"])
+    for body in summary["floats"]:
+        for mode in body["modes"]:
+            if mode["omega"] is None:
+                continue
+            name = f"ω of {mode['motion']} of float {body['body']}, mode {mode['index']}, rad/s"
+            yield _row(name, mode["omega"], mode["relative_error"])
+
+
+def _open_water(summary: Summary) -> Iterator[Row]:
+    """Of each analysis what is largest, and the slowest resonances."""
+    for table in summary["radiation"]:
+        yield from _largest_damping(table)
+    for table in summary["response"]:
+        for wave, name in enumerate(table["waves"]):
+            sizes = [hypot(*row[wave][wave]) for row in table["reflection"]]
+            place = sizes.index(max(sizes))
+            which = f" of {name} waves" if len(table["waves"]) > 1 else ""
+            quantity = f"largest reflection |R|{which}, at ω = {table['omega'][place]:.4g} rad/s"
+            yield _of_absolute(quantity, sizes[place], table["relative_error"][place])
+    for table in summary["resonance"]:
+        found = zip(table["omega"], table["relative_error"], strict=True)
+        for number, ((frequency, growth), error) in enumerate(list(found)[:_MOST_MODES], 1):
+            # The error is that of |ω|, and so of each part.
+            absolute = error * hypot(frequency, growth) if isinstance(error, float) else error
+            yield _of_absolute(f"frequency of resonance {number}, Re ω, rad/s", frequency, absolute)
+            yield _of_absolute(f"decay of resonance {number}, −Im ω, 1/s", -growth, absolute)
+    for table in summary["decay"]:
+        released = max(range(len(table["dofs"])), key=lambda place: abs(table["initial"][place]))
+        # At late times next to nothing is left: how far it swings to the other side says more.
+        sign = -1.0 if table["initial"][released] > 0.0 else 1.0
+        back = max(range(len(table["times"])), key=lambda place: sign * table["displacement"][place][released])
+        motion, unit = motion_name(table["dofs"][released]), _unit(table["dofs"][released], "rad", "m")
+        name = f"{motion} furthest to the other side after release, at t = {table['times'][back]:.4g} s, {unit}"
+        yield _of_absolute(name, table["displacement"][back][released], table["absolute_error"][back])
+
+
+def _largest_damping(table: Summary) -> Iterator[Row]:
+    """Of each motion of a rigid body, at finite frequencies."""
+    finite = [place for place, omega in enumerate(table["omega"]) if omega != "inf"]
+    for motion, dof in enumerate(table["dofs"][:_MOST_MODES] if finite else ()):
+        damping = [table["radiation_damping"][place][motion][motion] or -inf for place in finite]
+        place = finite[damping.index(max(damping))]
+        quantity = f"largest radiation damping of {motion_name(dof)}, at ω = {table['omega'][place]:.4g} rad/s"
+        yield _row(f"{quantity}, {_unit(dof, 'kg·m/s', 'kg/m/s')}", max(damping), table["relative_error"][place])
+
+
+def _unit(dof: str, of_rotation: str, of_displacement: str) -> str:
+    return of_rotation if dof.endswith("roll") else of_displacement
+
+
+def _string(summary: Summary) -> Iterator[Row]:
+    for number, mode in enumerate(summary["modes"][:_MOST_MODES], 1):
+        if mode["kind"] == "oscillating":
+            yield _row(f"ω of free motion {number}, rad/s", mode["omega"], mode["relative_error"])
+    response = summary["response"]
+    name = f"largest displacement, {response['at_time']:.4g} s, {response['at_position']:.4g} m above the free end, m"
+    yield _of_absolute(name, response["largest_displacement"], response["absolute_error"])
+
+
+def _thread(summary: Summary) -> Iterator[Row]:
+    rest = summary["equilibrium"]
+    for end, tension in zip("AB", rest["end_tensions"], strict=True):
+        yield _of_absolute(f"tension at end {end} at rest, N", tension, rest["tension_error"])
+    for modes in summary["modes"]:
+        for number, mode in enumerate(modes["oscillating"][:_MOST_MODES], 1):
+            yield _row(f"Im λ of free motion {number}, rad/s", mode["damped_omega"], mode["relative_error"])
+    for sweep in summary["stability"]:
+        for threshold in sweep["thresholds"][:1]:
+            yield _row(
+                f"{threshold['kind']} begins at times the stream", threshold["factor"], threshold["relative_error"]
+            )
+    for motion in summary["motion"]:
+        name = f"largest tension in motion, at {motion['largest_tension_at'][0]:.4g} s, N"
+        yield _of_absolute(name, motion["largest_tension"], motion["tension_error"])
+
+
+def _roll(summary: Summary) -> Iterator[Row]:
+    response = summary["response"]
+    angle, time = response["largest_angle"], response["time_of_largest_angle"]
+    yield _of_absolute(f"largest angle, at {time:.4g} s, rad", angle, response["absolute_error"])
+    degrees = response["absolute_error"] * response["largest_angle_degrees"] / angle if angle else 0.0
+    yield _of_absolute("the same in degrees", response["largest_angle_degrees"], abs(degrees))

@@ -1,0 +1,81 @@
+"""What the pictures of a result folder show, by their names."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import TypeAlias
+
+from hydroelastic.scenes.output.digits import with_certain_digits
+from hydroelastic.scenes.output.provenance import Summary
+
+_Caption: TypeAlias = str | Callable[[Summary, int], str]
+
+
+def _mode(summary: Summary, number: int) -> str:
+    mode = summary["modes"][number - 1]
+    omega = with_certain_digits(mode["omega"], mode["relative_error"])
+    symmetry = f", {mode['symmetry']}" if mode["symmetry"] else ""
+    return f"Mode {number}: ω = {omega} rad/s, {mode['kind']}{symmetry}"
+
+
+def _oscillation(_summary: Summary, number: int) -> str:
+    return f"Free motion {number} over a period"
+
+
+def _growing(summary: Summary, number: int) -> str:
+    return f"Motion that grows, number {number}: {summary['growing'][number - 1]['kind']}"
+
+
+_CAPTIONS: tuple[tuple[str, _Caption], ...] = (
+    ("overview", "All modes on one sheet"),
+    ("mode", _mode),
+    ("growing", _growing),
+    ("radiation", "Added mass, radiation damping and force of waves over frequency"),
+    ("response", "Reflection, transmission and motions over frequency"),
+    ("deflection", "Deflection along the body in waves"),
+    ("resonance", "Resonances in the complex plane"),
+    ("decay", "Motion after release"),
+    ("waves_radiation", "The waves that a motion makes"),
+    ("waves_response", "The waves that come, pass and are sent back"),
+    ("waves_resonance", "The field of a resonance"),
+    ("space_time", "Displacement over height and time"),
+    ("shapes", "Shapes at a few times"),
+    ("equilibrium", "The thread at rest, its tension as colour"),
+    ("tension", "Tension along the thread at rest"),
+    ("modes", "Shapes of the free motions"),
+    ("oscillation", _oscillation),
+    ("stability", "Roots against the stream: growth and frequency"),
+    ("motion", "Shapes of the thread at a few times"),
+    ("tension_in_time", "Tensions over time"),
+    ("roll", "Angle of roll, slope of the waves and rate over time"),
+)
+"""By what comes before the number in a name, in the order in which a report shows them."""
+
+_PLACES = {name: place for place, (name, _) in enumerate(_CAPTIONS)}
+_NAME = re.compile(r"(?P<name>.+?)(?:_(?P<number>\d+)(?P<rest>.*))?")
+
+
+def place_and_caption(stem: str, summary: Summary) -> tuple[tuple[int, int, str], str]:
+    """Return where among the pictures one stands, and what it shows.
+
+    Args:
+        stem: name of its file, without the ending.
+        summary: content of ``summary.json``.
+    """
+    parts = _NAME.fullmatch(stem)
+    assert parts is not None
+    name, number, rest = parts["name"], int(parts["number"] or 0), parts["rest"] or ""
+    place = _PLACES.get(name, len(_CAPTIONS))
+    order = (place, number, rest)
+    if place == len(_CAPTIONS):
+        return order, stem.replace("_", " ").capitalize()
+    caption, numbered = _CAPTIONS[place][1], f"analysis {number}" if number else ""
+    if callable(caption):
+        caption, numbered = caption(summary, number), ""
+        rest = re.sub(r"^_(\d+)$", r"_analysis_\1", rest)
+    words = " ".join(rest.replace("_", " ").split())
+    # What has a number within its analysis is a resonance.
+    words = re.sub(r"\b0*(\d+)$", r"resonance \1", words) if name == "waves_resonance" else words
+    further = ", ".join(word for word in (numbered, words) if word)
+    return order, caption + (f" ({further})" if further else "")

@@ -1,0 +1,82 @@
+"""What a report sets beside a solution: estimates of older theories, the other method, printed formulas."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from mpi4py import MPI
+
+from hydroelastic.scenes.models.string import StringScene
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.models.thread import ThreadScene
+from hydroelastic.scenes.output.outcome import Outcome
+from hydroelastic.scenes.output.sections import Section
+from hydroelastic.scenes.read import Scene
+
+if TYPE_CHECKING:
+    from hydroelastic.scenes.roll.solve import RollSolution
+
+
+def comparison_of(scene: Scene, outcome: Outcome) -> tuple[Section, ...] | str:
+    """Return the tables of what a solution is compared with; where there is nothing, why, on this process alone.
+
+    Args:
+        scene: the scene.
+        outcome: of its run.
+    """
+    if isinstance(scene, TankScene):
+        return _tank(scene, outcome)
+    if isinstance(scene, StringScene):
+        return _string(scene, outcome)
+    if isinstance(scene, ThreadScene):
+        return tuple(_thread(scene, outcome))
+    return _roll(outcome.solution)
+
+
+def _tank(scene: TankScene, outcome: Outcome) -> tuple[Section, ...] | str:
+    """The run has them already."""
+    found = tuple(section for section in outcome.sections if section.compares)
+    if found:
+        return found
+    if scene.is_open:
+        return "No older theory stands beside this: that of thin floats does not fit these bodies and analyses."
+    if outcome.summary["exact"]:
+        return "The modes have an exact solution; how far they are from it is said below their table."
+    return (
+        "No older theory stands beside this: those at hand know a beam with free ends beside free water, and the heave "
+        "of floats."
+    )
+
+
+def _string(scene: StringScene, outcome: Outcome) -> tuple[Section, ...] | str:
+    if not scene.string.has_closed_form:
+        return "With a tip mass or a resistance that varies there is no series to compare with."
+    if scene.method == "series":
+        return (
+            "This is the closed form; the field solution beside it, which takes far longer than all of this report, is "
+            "given by the command hydroelastic compare."
+        )
+    from hydroelastic.scenes.string.compare import compared, comparison_section
+    from hydroelastic.scenes.string.series import solve_series
+
+    return (comparison_section(compared(outcome.solution, solve_series(scene))),)
+
+
+def _thread(scene: ThreadScene, outcome: Outcome) -> Iterator[Section]:
+    from hydroelastic.scenes.thread.compared import comparison_sections
+    from hydroelastic.scenes.thread.differences import thread_differences
+    from hydroelastic.scenes.thread.estimates import thread_estimates
+
+    # The other processes wait for the report: what is solved here is solved on this one alone.
+    estimates = thread_estimates(scene, MPI.COMM_SELF)
+    yield from comparison_sections(thread_differences(outcome.solution, estimates))
+
+
+def _roll(solution: RollSolution) -> tuple[Section, ...] | str:
+    from hydroelastic.scenes.roll.compare import paper_section, untreated_by_paper
+
+    untreated = untreated_by_paper(solution)
+    if untreated:
+        return f"The solution is a closed form; the paper's formulas do not treat this motion: {untreated}."
+    return (paper_section(solution),)

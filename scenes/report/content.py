@@ -1,0 +1,78 @@
+"""What a report says of a run, in its order: answer, results, comparison, pictures, model, scene, cost."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from hydroelastic.scenes.kinds import checker_of
+from hydroelastic.scenes.output.outcome import Outcome
+from hydroelastic.scenes.output.sections import title_of
+from hydroelastic.scenes.read import Scene
+from hydroelastic.scenes.report.answer import answer
+from hydroelastic.scenes.report.comparison import comparison_of
+from hydroelastic.scenes.report.cost import cost_sections
+from hydroelastic.scenes.report.page import Part, Picture, ReportPage, kind_of
+from hydroelastic.scenes.report.pictures import pictures_of
+from hydroelastic.scenes.report.resolved import resolved
+from hydroelastic.scenes.report.scene_text import scene_text
+
+
+def report_page(scene: Scene, outcome: Outcome, folder: Path) -> ReportPage:
+    """Return the report of a run, on this process alone.
+
+    Args:
+        scene: the scene.
+        outcome: of its run.
+        folder: of its results, where the pictures are.
+    """
+    summary = outcome.summary
+    return ReportPage(
+        title=title_of(summary),
+        kind=kind_of(summary),
+        tolerance=summary["scene"]["accuracy"]["tolerance"],
+        reasons=outcome.reasons,
+        warnings=outcome.warnings,
+        version=summary["versions"]["hydroelastic"],
+        parts=tuple(_parts(scene, outcome, folder / "images")),
+    )
+
+
+def _parts(scene: Scene, outcome: Outcome, images: Path) -> Iterator[Part]:
+    """What was found first, then how, and what it took."""
+    summary = outcome.summary
+    shown, left_out = pictures_of(images, summary)
+    compared = comparison_of(scene, outcome)
+    first = [picture for picture in shown if not picture.moving][:1]
+    yield Part(anchor="answer", title="Answer", sections=(answer(summary),), pictures=tuple(first))
+    yield Part(
+        anchor="results",
+        title="Results",
+        lines=(compared,) if isinstance(compared, str) else (),
+        sections=tuple(section for section in outcome.sections if not section.compares),
+    )
+    if not isinstance(compared, str):
+        yield Part(anchor="comparison", title="Beside estimates and closed forms", sections=compared)
+    further = tuple(picture for picture in shown if picture not in first)
+    if further or left_out:
+        yield _pictures(further, left_out)
+    yield Part(
+        anchor="model",
+        title="What was modelled, and why",
+        sections=(*checker_of(scene)(scene), resolved(summary)),
+    )
+    yield Part(
+        anchor="scene",
+        title="Scene",
+        lines=("In SI units. What was not given holds by default, and is marked so.",),
+        text=scene_text(scene),
+    )
+    yield Part(anchor="cost", title="Cost", sections=tuple(cost_sections(summary)))
+
+
+def _pictures(shown: tuple[Picture, ...], left_out: tuple[str, ...]) -> Part:
+    lines: tuple[str, ...] = ()
+    if left_out:
+        names = ", ".join(left_out)
+        lines = (f"In the result folder, but not here, for want of room or in a format that no page shows: {names}.",)
+    return Part(anchor="pictures", title="Pictures", lines=lines, pictures=shown)

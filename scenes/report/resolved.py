@@ -1,0 +1,73 @@
+"""How the tolerance led to the mesh, the degree or the number of terms that an answer was found with."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from hydroelastic.scenes.output.provenance import Summary
+from hydroelastic.scenes.output.sections import Section
+
+
+def resolved(summary: Summary) -> Section:
+    """Return what was refined until the answer kept the tolerance, and why.
+
+    Args:
+        summary: content of ``summary.json``.
+    """
+    scene = summary["scene"]
+    lines = {"tank": _tank, "string": _string, "thread": _thread, "roll": _roll}[scene["kind"]]
+    if scene["kind"] == "tank" and scene["tank"]["ends"] == "open":
+        lines = _open_water
+    return Section(title="How the answer was found", lines=tuple(lines(summary)))
+
+
+def _tank(summary: Summary) -> Iterator[str]:
+    solver, size = summary["solver"], summary["size"]
+    attempts = solver["attempts"]
+    if attempts == 1:
+        yield "One attempt: its estimated errors left nothing to refine." if not summary["reasons"] else "One attempt."
+    else:
+        yield f"{attempts} attempts: after each one, what had the largest part in the estimated error was refined."
+    half = " in half the tank, for the scene is its own mirror image" if size["halves"] else ""
+    yield f"{size['cells']} cells of degree {size['degree']}{half}; {size['dofs']} unknowns of ψ."
+    if solver["count_confirmed_by_inertia"]:
+        yield "An independent count, by the inertia of the matrices, confirms that no mode is missing."
+    yield f"Largest residual of the modes: {solver['largest_residual']:.1e}."
+
+
+def _open_water(summary: Summary) -> Iterator[str]:
+    size = summary["size"]
+    yield (
+        "Each analysis starts from the elements that its shortest wave asks for; its answer is judged by its estimated "
+        "error, and refined where that comes from."
+    )
+    yield f"In the end: {size['cells']} cells of degree {size['degree']}, {size['dofs']} unknowns."
+
+
+def _string(summary: Summary) -> Iterator[str]:
+    size = summary["size"]
+    if summary["method"] == "series":
+        yield f"{size['terms']} terms of the series: the rest is a hundredth of the tolerance, or rounding."
+        return
+    yield (
+        f"{size['cells']} elements of degree {size['degree']}, {size['steps']} steps in time: both were refined until "
+        "the estimated errors, away from fronts, kept the tolerance."
+    )
+
+
+def _thread(summary: Summary) -> Iterator[str]:
+    size, rest = summary["size"], summary["equilibrium"]
+    if rest["newton_steps"]:
+        meshes = len(rest["newton_steps"])
+        yield (
+            f"{meshes} {'mesh' if meshes == 1 else 'meshes'}, each finer than the one before: what differs between the "
+            "last two estimates the error."
+        )
+    yield f"{size['cells']} cells of degree {size['degree']}, {size['dofs']} unknowns."
+
+
+def _roll(summary: Summary) -> Iterator[str]:
+    if summary["ship"]["quadratic_damping"]:
+        yield "Integrated at two tolerances: what differs between them estimates the error."
+    else:
+        yield "The closed form is exact: its error is that of rounding, and of the field solution of a section if any."

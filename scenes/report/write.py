@@ -1,0 +1,41 @@
+"""Write ``report.html``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from markupsafe import Markup
+
+from hydroelastic.scenes.output.outcome import Outcome
+from hydroelastic.scenes.read import Scene
+from hydroelastic.scenes.report.content import report_page
+from hydroelastic.scenes.report.page import ReportPage, is_loud, is_numeric
+
+REPORT = "report.html"
+_HERE = Path(__file__).resolve().parent
+
+
+def write_report(scene: Scene, outcome: Outcome, folder: Path) -> None:
+    """Write a page about a run that needs no other file, on this process alone.
+
+    Args:
+        scene: the scene.
+        outcome: of its run.
+        folder: of its results, complete but for the page.
+    """
+    (folder / REPORT).write_text(rendered(report_page(scene, outcome, folder)), encoding="utf-8")
+
+
+def rendered(page: ReportPage) -> str:
+    """Return a report as HTML; whatever its texts hold is shown as text."""
+    environment = Environment(
+        loader=FileSystemLoader(_HERE),
+        autoescape=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        undefined=StrictUndefined,
+    )
+    environment.tests |= {"loud": is_loud, "numeric": is_numeric}
+    style = Markup((_HERE / "page.css").read_text(encoding="utf-8"))
+    return environment.get_template("page.html.jinja").render(page=page, style=style)

@@ -1,0 +1,86 @@
+"""What the scene of a rolling ship will be modelled as, said before anything is solved."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import pi
+
+from hydroelastic.modal.roll.motion import Roll
+from hydroelastic.scenes.models.roll import RollScene
+from hydroelastic.scenes.output.digits import number
+from hydroelastic.scenes.output.sections import Row, Section
+from hydroelastic.scenes.roll.section_file import section_scene
+from hydroelastic.scenes.roll.summary import regime
+
+
+def check_roll(scene: RollScene) -> Iterator[Section]:
+    """Yield the equation, its constants, what is unknown, the waves and the method.
+
+    Args:
+        scene: a validated scene; nothing is solved.
+
+    Raises:
+        SceneError: if the scene of a section cannot be read.
+    """
+    yield Section(title="Equation", lines=tuple(_ship(scene)))
+    yield Section(title="Unknown fields", headings=("field", "where", "why"), rows=tuple(_unknowns(scene)))
+    yield Section(title="Waves", lines=tuple(_waves(scene)))
+    yield Section(title="Method", lines=tuple(_method(scene)))
+
+
+def _unknowns(scene: RollScene) -> Iterator[Row]:
+    yield "φ", "ship", "angle of roll, small, so that what restores it is linear"
+    if scene.natural_frequency is None:
+        yield "ψ", "liquid around the section", "gives k, and in open water n by the waves that leave; solved for first"
+    else:
+        yield "liquid: none", "around the ship", "it acts by k and n, which are given, and by the slope of its waves"
+
+
+def _ship(scene: RollScene) -> Iterator[str]:
+    quadratic = " + d|φ'|φ'" if scene.roll.quadratic_damping else ""
+    yield f"φ'' + 2nφ'{quadratic} + k²φ = k² × slope of the waves."
+    frequency = scene.natural_frequency
+    if frequency is None:
+        section = section_scene(scene)
+        where = (
+            "open water, n by the waves that it makes" if section.is_open else "a closed tank, which takes no energy"
+        )
+        yield f"k from the field solution of the section “{section.title or scene.section_file}” in {where}."
+        given = scene.roll.damping or scene.roll.damping_ratio
+        if given:
+            unit = "1/s" if scene.roll.damping is not None else "k"
+            yield f"n on top of that: {number(given)} {unit}."
+    else:
+        roll = Roll(frequency, scene.damping(frequency) or 0.0)
+        yield (
+            f"k = {number(frequency)} rad/s (T = {number(2.0 * pi / frequency)} s), n = {number(roll.damping)} 1/s = "
+            f"{number(roll.damping / frequency)} k: {regime(roll)}."
+        )
+        times = scene.times(frequency)
+        yield f"{len(times)} times until {number(times[-1])} s."
+    if scene.roll.quadratic_damping:
+        yield f"d = {number(scene.roll.quadratic_damping)} 1/rad."
+    if scene.roll.angle or scene.roll.rate:
+        yield f"At t = 0, φ = {number(scene.roll.angle)} rad and φ' = {number(scene.roll.rate)} rad/s."
+
+
+def _waves(scene: RollScene) -> Iterator[str]:
+    waves = scene.waves
+    if not waves:
+        yield "No waves: the ship is let go."
+        return
+    periods, slopes = [wave[0] for wave in waves], [abs(wave[1]) for wave in waves]
+    if len(waves) == 1:
+        yield f"1 wave: period {number(periods[0])} s, slope {number(slopes[0])} rad."
+        return
+    yield (
+        f"{len(waves)} waves in {number(sum(periods))} s: periods {number(min(periods))} to {number(max(periods))} s, "
+        f"slopes {number(min(slopes))} to {number(max(slopes))} rad."
+    )
+
+
+def _method(scene: RollScene) -> Iterator[str]:
+    if scene.roll.quadratic_damping:
+        yield "Integrated in time (DOP853), anew at each wave and each turn of the rate, until two tolerances agree."
+    else:
+        yield "Closed form from wave to wave, in every regime of damping and in resonance."

@@ -1,0 +1,38 @@
+"""The motion of a rolling ship as labelled arrays."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from hydroelastic.scenes.output.summary_variables import SummaryNames
+from hydroelastic.scenes.roll.solve import RollSolution
+
+if TYPE_CHECKING:
+    import xarray
+
+ROLL_NAMES = SummaryNames(
+    dimensions={"response.exceedances": ("exceedance",), "section.followers": ("follower",)},
+    prefixes={"response.exceedances": "exceedance"},
+    units={"response.absolute_error": "rad"},
+)
+
+
+def roll_dataset(solution: RollSolution) -> xarray.Dataset:
+    """Return the slope of the waves and the angle of the ship with its derivatives, SI units."""
+    # xarray takes a while to import.
+    import xarray
+
+    motion = solution.motion
+    return xarray.Dataset(
+        {
+            "wave_slope": (
+                "time",
+                solution.train.slope(motion.times),
+                {"units": "rad", "long_name": "slope of the waves"},
+            ),
+            "angle": ("time", motion.angle, {"units": "rad", "long_name": "angle of roll"}),
+            "rate": ("time", motion.rate, {"units": "rad/s", "long_name": "rate of roll"}),
+            "acceleration": ("time", motion.acceleration, {"units": "rad/s^2", "long_name": "acceleration of roll"}),
+        },
+        {"time": ("time", motion.times, {"units": "s", "long_name": "time"})},
+    )

@@ -1,0 +1,24 @@
+"""Run the scene of a rolling ship: solve, tabulate, write and draw."""
+
+from __future__ import annotations
+
+from hydroelastic.fem.pictures.options import OF_CURVES
+from hydroelastic.scenes.output.dataset import LabelledResults
+from hydroelastic.scenes.output.staged_run import StagedRun
+from hydroelastic.scenes.roll.dataset import ROLL_NAMES, roll_dataset
+from hydroelastic.scenes.roll.figure import draw_roll
+from hydroelastic.scenes.roll.files import write_roll_files
+from hydroelastic.scenes.roll.solve import solve_roll
+from hydroelastic.scenes.roll.summary import summarize_roll
+from hydroelastic.scenes.roll.tables import roll_cost, roll_sections
+
+run_roll = StagedRun(
+    solve=solve_roll,
+    summarize=summarize_roll,
+    write=write_roll_files,
+    dataset=LabelledResults(arrays=roll_dataset, names=ROLL_NAMES),
+    draw=lambda solution, folder, options, _report: draw_roll(solution, folder, options),
+    heeds=OF_CURVES,
+    sections=lambda _solution, summary: roll_sections(summary),
+    cost=roll_cost,
+)

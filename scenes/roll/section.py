@@ -1,0 +1,169 @@
+"""Natural frequency, added inertia and wave damping of the roll of a section, from the field solution of its scene.
+
+In open water, with motions ∝ e^{−iωt}, other motions that the section may make follow without force:
+
+    Z(ω) = Z_rr − Z_ro Z_oo⁻¹ Z_or,   Z = K − ω²(M + a) − iωb,
+
+and the equation of roll is that of a single oscillator at its natural frequency k, where Re Z(k) = 0:
+
+    I + a = C/k²,   b = −Im Z(k)/k,   n = b/2(I + a),
+
+with C the stiffness of roll where other motions follow at rest. The search for k begins at the complex frequency of the
+roll. In a closed tank k is the frequency of the mode of roll, and no waves leave.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from mpi4py import MPI
+from scipy.optimize import root_scalar
+
+from hydroelastic.fem.modes import EigenSolverError
+from hydroelastic.scenes.errors import UnsolvedError
+from hydroelastic.scenes.models.floats import placed_float
+from hydroelastic.scenes.models.open_analyses import Radiation, Resonance
+from hydroelastic.scenes.models.rigid_motions import roll_stiffness
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.open_water.radiation import solve_radiation
+from hydroelastic.scenes.open_water.resonance import solve_resonance
+from hydroelastic.scenes.open_water.results import RadiationTable
+from hydroelastic.scenes.output.stopwatch import Report, Stopwatch
+from hydroelastic.scenes.tank.float_summary import float_rows
+from hydroelastic.scenes.tank.solve import solve_scene
+
+# Of the tolerance asked: a step of the root finder that changes k by less is the last.
+_STEP = 0.1
+_FIRST_STEP = 1e-3
+
+
+@dataclass(frozen=True, kw_only=True)
+class SectionRoll:
+    """The roll of a section, per metre of its length.
+
+    Attributes:
+        title: of its scene.
+        natural_frequency: k, rad/s.
+        relative_error: estimated, of k and of the added inertia and damping as parts of the whole inertia.
+        damping: n, 1/s; ``None`` in a closed tank.
+        stiffness: C, N.
+        inertia: I of the body, kg·m.
+        added_inertia: a at k, kg·m.
+        wave_damping: b at k, kg·m/s; ``None`` in a closed tank.
+        followers: motions that follow the roll.
+    """
+
+    title: str
+    natural_frequency: float
+    relative_error: float
+    damping: float | None
+    stiffness: float
+    inertia: float
+    added_inertia: float
+    wave_damping: float | None
+    followers: tuple[str, ...]
+
+
+def section_roll(scene: TankScene, comm: MPI.Comm, watch: Stopwatch, report: Report) -> SectionRoll:
+    """Solve the scene of a section for its roll (collective).
+
+    Args:
+        scene: a tank or open water with one body, a float that may roll.
+        comm: MPI communicator.
+        watch: told the time.
+        report: told what is being done.
+
+    Raises:
+        UnsolvedError: if gravity does not restore the roll, or the field solution does not keep its tolerance or shows
+            no roll of its own.
+    """
+    report("section")
+    return _in_open_water(scene, comm, watch) if scene.is_open else _in_a_tank(scene, comm, watch, report)
+
+
+def _in_a_tank(scene: TankScene, comm: MPI.Comm, watch: Stopwatch, report: Report) -> SectionRoll:
+    with watch.stage("section"):
+        solution = solve_scene(scene, comm=comm, report=report)
+    if solution.reasons:
+        raise UnsolvedError(f"the section was not solved to its tolerance: {'; '.join(solution.reasons)}")
+    (row,) = float_rows(solution, {})
+    mode = next((mode for mode in row["modes"] if mode["motion"] == "roll"), None)
+    if mode is None or mode["omega"] is None:
+        raise UnsolvedError(f"the section has no mode of roll{'' if mode is None else ': ' + mode['note']}")
+    return SectionRoll(
+        title=scene.title,
+        natural_frequency=mode["omega"],
+        relative_error=mode["relative_error"],
+        damping=None,
+        stiffness=mode["omega"] ** 2 * (row["moment_of_inertia"] + mode["added_mass"]),
+        inertia=row["moment_of_inertia"],
+        added_inertia=mode["added_mass"],
+        wave_damping=None,
+        followers=tuple(motion for motion in row["motions"] if motion != "roll"),
+    )
+
+
+def _in_open_water(scene: TankScene, comm: MPI.Comm, watch: Stopwatch) -> SectionRoll:
+    body = scene.floats[0][1]
+    at_rest = placed_float(scene, 0).hydrostatics
+    stiffness, inertia = roll_stiffness(body, at_rest), at_rest.mass * at_rest.radius_of_gyration**2
+    if stiffness <= 0.0:
+        raise UnsolvedError(f"nothing restores the section's roll: its stiffness is {stiffness:g} N")
+
+    def radiation(omega: float) -> tuple[RadiationTable, float]:
+        with watch.stage("section"):
+            solution = solve_radiation(comm, scene, Radiation(omega=(omega,)), Stopwatch())
+        return solution.table, solution.error
+
+    with watch.stage("section"):
+        resonance = _resonance(comm, scene)
+    # k differs from the modulus of the complex frequency as far as added inertia and damping change between the two.
+    found = root_scalar(
+        lambda omega: float(_impedance(radiation(float(omega))[0]).real),
+        method="secant",
+        x0=abs(resonance),
+        x1=abs(resonance) * (1.0 + _FIRST_STEP),
+        rtol=_STEP * scene.accuracy.tolerance,
+    )
+    if not found.converged:
+        raise UnsolvedError(f"no natural frequency of the section's roll was found near {abs(resonance):.4g} rad/s")
+    natural = float(found.root)
+    table, error = radiation(natural)
+    if error > scene.accuracy.tolerance:
+        raise UnsolvedError(f"the section was not solved to its tolerance: its estimated relative error is {error:.1e}")
+    whole = stiffness / natural**2
+    wave_damping = -float(_impedance(table).imag) / natural
+    return SectionRoll(
+        title=scene.title,
+        natural_frequency=natural,
+        relative_error=error,
+        damping=0.5 * wave_damping / whole,
+        stiffness=stiffness,
+        inertia=inertia,
+        added_inertia=whole - inertia,
+        wave_damping=wave_damping,
+        followers=tuple(dof for dof in table.dofs if dof != "roll"),
+    )
+
+
+def _resonance(comm: MPI.Comm, scene: TankScene) -> complex:
+    """Complex frequency of the roll, rad/s."""
+    asked = Resonance(count=len(scene.floats[0][1].motions))
+    try:
+        table = solve_resonance(comm, scene, asked, Stopwatch()).table
+    except EigenSolverError as error:
+        raise UnsolvedError(f"no resonance of the section was found: {error}") from error
+    if "roll" not in table.labels:
+        raise UnsolvedError("the section has no resonance in which it rolls: its roll may be damped too much")
+    return complex(table.omega[table.labels.index("roll")])
+
+
+def _impedance(table: RadiationTable) -> complex:
+    """Z of roll at the first frequency, N, other motions following without force."""
+    omega = table.omega[0]
+    whole = table.stiffness - omega**2 * (table.inertia + table.added_mass[0]) - 1j * omega * table.radiation_damping[0]
+    roll = table.dofs.index("roll")
+    others = [place for place in range(len(table.dofs)) if place != roll]
+    follow = np.linalg.solve(whole[np.ix_(others, others)], whole[others, roll])
+    return complex(whole[roll, roll] - whole[roll, others] @ follow)

@@ -1,0 +1,61 @@
+"""The scene of a ship's section, read and solved. Ships without one need neither this nor dolfinx."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from hydroelastic.scenes.errors import Problem, SceneError
+from hydroelastic.scenes.models.bodies import Float
+from hydroelastic.scenes.models.roll import RollScene
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.output.stopwatch import Report, Stopwatch
+
+if TYPE_CHECKING:
+    from mpi4py import MPI
+
+    from hydroelastic.scenes.roll.section import SectionRoll
+
+
+def section_scene(scene: RollScene) -> TankScene:
+    """Return the scene of the section: a tank or open water with one body, a float that may roll.
+
+    Raises:
+        SceneError: if it cannot be read, or is another scene; it names the ship's file and key.
+    """
+    # The reader of scenes knows all kinds, this one too.
+    from hydroelastic.scenes.read import read_scene
+
+    file = scene.section_file
+    assert file is not None
+    try:
+        section = read_scene(file)
+    except SceneError as error:
+        raise _unusable(scene, f"that scene cannot be used: {error}") from error
+    if not isinstance(section, TankScene):
+        raise _unusable(scene, f'it is a scene of kind = "{section.kind}"', 'the scene of a float, kind = "tank"')
+    body = section.body[0] if len(section.body) == 1 else None
+    if not isinstance(body, Float) or "roll" not in body.motions:
+        raise _unusable(
+            scene,
+            "that scene cannot be the section of a rolling ship",
+            'a scene with one body, kind = "float", with "roll" among its motions',
+        )
+    return section
+
+
+def _unusable(scene: RollScene, wrong: str, allowed: str = "") -> SceneError:
+    problem = Problem(key='[roll], key "section"', value=f'"{scene.roll.section}"', wrong=wrong, allowed=allowed)
+    return SceneError(problem, file=scene.source)
+
+
+def solved_section(scene: RollScene, comm: MPI.Comm, watch: Stopwatch, report: Report) -> SectionRoll:
+    """Read and solve the section (collective).
+
+    Raises:
+        SceneError: if its scene cannot be used.
+        UnsolvedError: if it cannot be solved to its tolerance.
+    """
+    section = section_scene(scene)
+    with watch.stage("import"):
+        from hydroelastic.scenes.roll.section import section_roll
+    return section_roll(section, comm, watch, report)

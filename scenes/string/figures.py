@@ -1,0 +1,136 @@
+"""The motion of a hanging string as PNG files: over height and time, its shapes, its modes, frames of an animation."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+
+from hydroelastic.fem.pictures.options import PictureOptions
+from hydroelastic.scenes.output.curve_style import (
+    COLOURS,
+    DASHES,
+    GREY,
+    Sheets,
+    diverging_colours,
+    dress,
+    sequence_colours,
+)
+from hydroelastic.scenes.output.line_sequence import frame_numbers
+from hydroelastic.scenes.string.drawn import as_drawn, columns_of
+from hydroelastic.scenes.string.frames import HEIGHT, animate_string, draw_frames
+from hydroelastic.scenes.string.fronts import travel_times
+from hydroelastic.scenes.string.results import Floats, StringSolution
+
+_SHOWN_SHAPES = 9
+_SHOWN_MODES = 5
+# Above this quantile of |U| a few peaks at focuses would leave the rest without colour.
+_QUANTILE = 0.995
+# Times this quantile a value is a peak.
+_PEAK = 1.5
+_EXTENDED: dict[tuple[bool, bool], Literal["neither", "min", "max", "both"]] = {
+    (False, False): "neither",
+    (True, False): "min",
+    (False, True): "max",
+    (True, True): "both",
+}
+_FEW_POSITIONS = 20
+
+
+def draw_string(solution: StringSolution, folder: Path, options: PictureOptions) -> None:
+    """Draw ``space_time.png``, ``shapes.png``, ``modes.png``, and frames in ``frames/``, into an existing folder.
+
+    ``motion.gif`` is drawn if asked.
+    """
+    sheets = Sheets(folder=folder, title=solution.scene.title, options=options)
+    drawn = as_drawn(solution)
+    if len(drawn.positions) > 1 and len(drawn.times) > 1:
+        _draw_space_time(drawn, sheets)
+        _draw_modes(drawn, sheets)
+    _draw_shapes(drawn, solution.times, sheets)
+    if solution.scene.output.frames:
+        (folder / "frames").mkdir()
+        numbers = frame_numbers(solution.scene.output.frames, len(solution.times))
+        draw_frames(drawn, columns_of(drawn, solution.times[numbers]), folder / "frames", options)
+    if options.animate:
+        animate_string(drawn, folder / "motion.gif", options)
+
+
+def _draw_space_time(solution: StringSolution, sheets: Sheets) -> None:
+    """U over time and height; blue to red, white at rest; the first front dashed."""
+    displacement = _across_fronts(solution)
+    low, high = _colour_limits(displacement)
+    limit = max(-low, high)
+    beyond = (bool(displacement.min() < low), bool(displacement.max() > high))
+    with sheets.sheet("space_time", "displacement over time and height", width=10.0, height=6.0) as figure:
+        axes = figure.subplots()
+        picture = axes.pcolormesh(
+            solution.times,
+            solution.positions,
+            displacement,
+            cmap=diverging_colours(low / limit, high / limit),
+            vmin=low,
+            vmax=high,
+            shading="gouraud",
+            rasterized=True,
+        )
+        figure.colorbar(picture, ax=axes, label="displacement U, m", extend=_EXTENDED[beyond])
+        string = solution.scene.string
+        arrival = string.travel_time - travel_times(string, solution.positions)
+        axes.plot(arrival, solution.positions, "--", color="black", linewidth=1.0, label="first wave front")
+        axes.grid(visible=False)
+        axes.set_xlim(solution.times[0], solution.times[-1])
+        dress(axes, "time t, s", HEIGHT)
+
+
+def _colour_limits(displacement: Floats) -> tuple[float, float]:
+    """The least and largest U that have colours of their own, zero between them; a few peaks may lie beyond."""
+    sizes = np.abs(displacement)
+    usual, largest = float(np.quantile(sizes, _QUANTILE)), float(sizes.max())
+    limit = (largest if largest < _PEAK * usual else usual) or largest
+    low, high = max(float(displacement.min()), -limit), min(float(displacement.max()), limit)
+    # A string at rest is white.
+    return (min(low, 0.0), max(high, 0.0)) if limit else (-1.0, 1.0)
+
+
+def _across_fronts(solution: StringSolution) -> Floats:
+    """U, with what cannot be trusted beside a front replaced by what lies between the values before and after it.
+
+    At a front U jumps, or grows without bound: a few values taken there by chance would look like spots.
+    """
+    displacement = solution.displacement.copy()
+    for row, trusted in zip(displacement, solution.trusted, strict=True):
+        if trusted.any():
+            row[~trusted] = np.interp(solution.times[~trusted], solution.times[trusted], row[trusted])
+    return displacement
+
+
+def _draw_shapes(solution: StringSolution, times: Floats, sheets: Sheets) -> None:
+    """The string at a few of some times, from light to dark; open where a front is."""
+    places = columns_of(solution, times[frame_numbers(_SHOWN_SHAPES, len(times))])
+    displacement = np.where(solution.trusted, solution.displacement, np.nan)
+    with sheets.sheet("shapes", "shapes at some times", width=6.5, height=7.5) as figure:
+        axes = figure.subplots()
+        for column, colour in zip(places, sequence_colours(len(places)), strict=True):
+            label = f"{solution.times[column]:.4g} s"
+            axes.plot(displacement[:, column], solution.positions, **_drawn(solution), color=colour, label=label)
+        dress(axes, "displacement U, m", HEIGHT, legend="beside", heading="time t")
+
+
+def _draw_modes(solution: StringSolution, sheets: Sheets) -> None:
+    motions = solution.motions
+    with sheets.sheet("modes", "free motions", width=6.5, height=7.5) as figure:
+        axes = figure.subplots()
+        axes.axvline(0.0, color=GREY, linewidth=0.8)
+        for number, (shape, root) in enumerate(zip(motions.shapes[:_SHOWN_MODES], motions.roots, strict=False)):
+            oscillation = f"ω = {root.imag:.5g} rad/s" if root.imag else "aperiodic"
+            decay = f", decay {-root.real:.4g} 1/s" if root.real else ""
+            style = {"color": COLOURS[number], "linestyle": DASHES[number % len(DASHES)]} | _drawn(solution)
+            axes.plot(shape, solution.positions, **style, label=f"{number + 1}: {oscillation}{decay}")
+        dress(axes, "displacement over the largest one", HEIGHT)
+
+
+def _drawn(solution: StringSolution) -> dict[str, Any]:
+    """Curves through few points show them."""
+    return {"marker": "o" if len(solution.positions) <= _FEW_POSITIONS else None}

@@ -1,0 +1,98 @@
+"""The tables of a hanging string that a person reads."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from hydroelastic.scenes.output.digits import number, with_certain_digits
+from hydroelastic.scenes.output.provenance import Summary
+from hydroelastic.scenes.output.sections import Row, Section
+
+
+def string_sections(summary: Summary) -> Iterator[Section]:
+    """Yield the tables of free motions and of the response."""
+    yield _modes(summary)
+    yield _response(summary)
+
+
+def _modes(summary: Summary) -> Section:
+    rows = [
+        (
+            str(place),
+            with_certain_digits(mode["omega"], max(mode["relative_error"], 1e-12)),
+            f"{mode['frequency_hz']:.6g}",
+            number(mode["damped_omega"]),
+            number(mode["decay"]),
+            mode["kind"],
+            f"{mode['relative_error']:.1e}",
+        )
+        for place, mode in enumerate(summary["modes"], 1)
+    ]
+    headings = ("motion", "|p|, rad/s", "f, Hz", "Im p, rad/s", "−Re p, 1/s", "kind", "relative error")
+    return Section(title="Free motions", headings=headings, rows=rows, lines=tuple(_criterion(summary["string"])))
+
+
+def _criterion(string: Summary) -> Iterator[str]:
+    yield f"A wave takes R = {number(string['travel_time'])} s along the string; α = {number(string['damping'])} 1/s."
+    if string["first_oscillating_mode"] is None:
+        return
+    critical = f"critical λ of the first mode {number(string['critical_resistance'])} kg/(m·s)"
+    first = string["first_oscillating_mode"]
+    if first == 1:
+        yield f"All modes oscillate ({critical})."
+    else:
+        yield f"Modes below number {first} are aperiodic ({critical}); all above oscillate."
+
+
+def _response(summary: Summary) -> Section:
+    response = summary["response"]
+    error = max(response["relative_error"], 1e-13)
+    rows: list[Row] = [
+        (
+            "largest displacement at the heights and times asked, m",
+            with_certain_digits(response["largest_displacement"], error),
+        ),
+        ("at the height, m", number(response["at_position"])),
+        ("at, s", number(response["at_time"])),
+        ("values", str(response["points"])),
+        ("estimated error, of the largest", f"{response['relative_error']:.1e}"),
+    ]
+    if summary["steady"] is not None:
+        rows += _steady(summary["steady"])
+    beside = response["beside_fronts"]
+    line = (
+        f"{beside['points']} values lie within {100 * beside['within']:g} % of R from a wave front, where the motion "
+        f"or a derivative of it jumps; there the error is up to {beside['absolute_error']:.1e} m."
+    )
+    how = "by series" if summary["method"] == "series" else "field solution"
+    return Section(
+        title=f"Response until {response['until']:.6g} s, {how}",
+        headings=("quantity", "value"),
+        rows=rows,
+        lines=(line,) if beside["points"] else (),
+    )
+
+
+def _steady(steady: Summary) -> Iterator[Row]:
+    """What remains of a sine's response when the free motions have died away."""
+    amplitude, peak = steady["amplitude"][0], steady["nearest_resonance"]
+    yield f"amplitude of the forced motion at the height {steady['positions'][0]:g} m, m", _or_infinite(amplitude)
+    if peak["omega"] is not None:
+        yield f"largest one at the free end near mode {peak['mode']}, m", _or_infinite(peak["amplitude"])
+        yield "at ω, rad/s", number(peak["omega"])
+
+
+def _or_infinite(value: float | None) -> str:
+    return "infinite" if value is None else number(value)
+
+
+def string_cost(summary: Summary) -> str:
+    """Return size and cost of the solution."""
+    size = summary["size"]
+    what = (
+        f"{size['terms']} terms"
+        if "terms" in size
+        else f"{size['cells']} cells, degree {size['degree']}, {size['dofs']} unknowns, {size['steps']} steps"
+    )
+    seconds = ", ".join(f"{stage} {value:.3f}" for stage, value in summary["timing"].items() if value >= 0.0005)
+    return f"{what}; seconds: {seconds}; peak memory {summary['memory_peak'] / 2**20:.0f} MiB."

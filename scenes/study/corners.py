@@ -1,0 +1,105 @@
+"""How sharply ψ is singular at the corners of a scene, for all modes or for those of one symmetry.
+
+In a sector of angle θ between walls, bodies and mirror planes ψ ~ r^α with α = π/θ, and α = π/(2θ) where ψ = 0 on one
+side; whole α bring r^α ln r, from loads that do not fit together. In a tank that is its own mirror image the middle
+plane is a wall for symmetric modes and has ψ = 0 for antisymmetric ones: at the ends of a thin float in the middle α is
+1 for the former and 1/2 for the latter. The load of a thin ellipse, ω′ ~ r^{-1/2}, brings r^{1/2} to both.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import inf
+
+from hydroelastic.meshes.geometry import LEFT_WALL, RIGHT_WALL, SYMMETRY_PLANE
+from hydroelastic.meshes.outline import Outline, Point
+from hydroelastic.scenes.tank.corners import singular_points
+from hydroelastic.scenes.tank.outline import Sizes, grounded_names, tank_outline
+from hydroelastic.scenes.tank.scaled_tank import MIDDLE, ScaledTank
+from hydroelastic.scenes.tank.symmetry import PARITIES, Parity, is_mirror_image
+
+# Names of curves that are no mirrors to `singular_points`: it judges all modes at once, and meshes for the worst.
+_WALL, _PLANE = "wall", "plane"
+
+
+def plain_outline(tank: ScaledTank, size: float = inf, *, half: bool) -> Outline:
+    """The outline of a tank, or of its left half, with elements of one size along levels and floats, without rings."""
+    sizes = Sizes(pieces=(size,) * len(tank.pieces), contours=dict.fromkeys(tank.floats, size))
+    return tank_outline(tank, sizes, half=half)
+
+
+def has_curved_contours(tank: ScaledTank) -> bool:
+    """Whether a float's contour, which the mesh follows, is curved."""
+    return any(curve.path is not None for curve in plain_outline(tank, half=False).curves)
+
+
+def corner_exponents(tank: ScaledTank, parity: Parity | None = None) -> dict[Point, float]:
+    """α at every corner where ψ is singular, in the left half of a tank that is its own mirror image.
+
+    Args:
+        tank: the scene.
+        parity: of the modes; ``None`` is the sharper of both.
+    """
+    if not tank.bodies:
+        return {}
+    if not is_mirror_image(tank):
+        return _exponents(tank, None)
+    if parity is not None:
+        return _exponents(tank, parity)
+    one, other = (_exponents(tank, parity) for parity in PARITIES)
+    return {point: min(one[point], other[point]) for point in one}
+
+
+def sharpest_of(tank: ScaledTank, parity: Parity | None = None) -> float | None:
+    """α of the worst corner; ``None`` where ψ is smooth."""
+    return min(corner_exponents(tank, parity).values(), default=None)
+
+
+def symmetries_apart(tank: ScaledTank) -> tuple[Parity, ...]:
+    """Both symmetries if their worst corners differ, so that their modes converge at different orders; else none."""
+    if not is_mirror_image(tank):
+        return ()
+    one, other = (sharpest_of(tank, parity) for parity in PARITIES)
+    return () if one == other else PARITIES
+
+
+def _exponents(tank: ScaledTank, parity: Parity | None) -> dict[Point, float]:
+    outline = plain_outline(tank, half=parity is not None)
+    grounded = grounded_names(tank, released=False)
+    # Only what is singular to some mode: smooth contours cross the middle plane at right angles.
+    singular = {point.point for point in singular_points(outline, grounded=grounded, glued=False)}
+    unmirrored = replace(
+        outline, curves=tuple(replace(curve, name=_unmirrored(curve.name)) for curve in outline.curves)
+    )
+    plane = (_PLANE,) if parity == "antisymmetric" else ()
+    found = singular_points(unmirrored, grounded=grounded + plane, glued=False)
+    smooth = _ends_of_guided_beams(tank)
+    blunt = _ends_of_thin_ellipses(tank)
+    return {
+        point.point: min(point.exponent, 0.5) if point.point in blunt else point.exponent
+        for point in found
+        if point.point in singular and point.point not in smooth
+    }
+
+
+def _unmirrored(name: str) -> str:
+    return {LEFT_WALL: _WALL, RIGHT_WALL: _WALL, SYMMETRY_PLANE: _PLANE}.get(name, name)
+
+
+def _ends_of_guided_beams(tank: ScaledTank) -> set[Point]:
+    """Guided ends at walls: beyond a wall, beam and liquid go on as their images, smoothly."""
+    return {
+        (x, tank.level_of(index).height)
+        for index, beam in tank.beams.items()
+        if beam.ends == "guided"
+        for x in (0.0, MIDDLE, 1.0)
+    }
+
+
+def _ends_of_thin_ellipses(tank: ScaledTank) -> set[Point]:
+    return {
+        (body.waterplane[0], y)
+        for body in tank.floats.values()
+        if body.is_thin and body.given.shape == "ellipse"
+        for y in body.slit
+    }

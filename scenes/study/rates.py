@@ -1,0 +1,185 @@
+"""Observed rates of convergence, fitted, with the error of the fit and beside what theory expects."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import groupby
+from math import exp, inf, log
+
+import numpy as np
+
+from hydroelastic.meshes.grading import Grading
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.study.corners import sharpest_of, symmetries_apart
+from hydroelastic.scenes.study.plan import Family
+from hydroelastic.scenes.study.rows import StudyRow
+from hydroelastic.scenes.study.theory import expected_order, expected_remainders, gain_along_a_ray
+from hydroelastic.scenes.tank.scaled_tank import scaled_tank
+from hydroelastic.scenes.tank.symmetry import Parity
+
+DIFFERENCE = 0.1
+"""An order that differs from theory by more than this part of it is flagged: not yet asymptotic."""
+
+GAIN_FACTOR = 1.4
+"""The same for a gain per degree that is more than this many times that of theory, or less than its part."""
+
+# Frequencies that are further out than this have not seen the mesh yet.
+_COARSE = 0.05
+# How many rows a fit takes: the finest above rounding, for coarser ones lie before the asymptotic range.
+_POINTS = 3
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rate:
+    """An observed order q, error ~ hᵠ, of one degree on meshes of one kind.
+
+    Attributes:
+        family: the kind of mesh.
+        degree: of ψ.
+        grading: β; 1 on uniform meshes.
+        symmetry: of the modes among which the one below is chosen; ``None`` where all have the same order.
+        mode: whose frequency, counted from 1: the lowest whose error stays above rounding on the finest mesh.
+        sizes: elements of the meshes that the fit used, in tank lengths.
+        observed: q.
+        deviation: standard error of the fit.
+        expected: q of theory.
+    """
+
+    family: Family
+    degree: int
+    grading: float
+    symmetry: Parity | None
+    mode: int
+    sizes: tuple[float, ...]
+    observed: float
+    deviation: float
+    expected: float
+
+    @property
+    def agrees(self) -> bool:
+        """Whether it differs by at most `DIFFERENCE` from theory."""
+        return abs(self.observed - self.expected) <= DIFFERENCE * self.expected
+
+
+@dataclass(frozen=True, kw_only=True)
+class Gain:
+    """By which factor each degree lowers the error on geometric rings.
+
+    Attributes:
+        degrees: that the fit used.
+        symmetry: of the modes that the sharpest corner slows down; ``None`` where it does so to all of them.
+        mode: whose frequency, counted from 1; chosen as for a rate.
+        observed: the factor.
+        deviation: standard error of its logarithm.
+        expected: what the best polynomials of these degrees gain on one ring; ``None`` where ψ is smooth, so that the
+            rings are not what limits.
+        along_a_ray: ((1 + √σ)/(1 − √σ))², what they would gain on sectors of no angle.
+    """
+
+    degrees: tuple[int, ...]
+    symmetry: Parity | None
+    mode: int
+    observed: float
+    deviation: float
+    expected: float | None
+    along_a_ray: float
+
+    @property
+    def agrees(self) -> bool:
+        """Whether it differs by at most `GAIN_FACTOR` from theory, where there is one."""
+        return self.expected is None or abs(log(self.observed / self.expected)) <= log(GAIN_FACTOR)
+
+
+def fitted_rates(scene: TankScene, rows: Sequence[StudyRow], parities: Sequence[Parity | None]) -> tuple[Rate, ...]:
+    """Fit the order of every degree on uniform and algebraic meshes that has three meshes above rounding.
+
+    Where symmetric and antisymmetric modes meet different singularities each kind has its own order.
+
+    Args:
+        scene: the scene.
+        rows: of its study.
+        parities: symmetry of each mode.
+    """
+    series = [row for row in rows if row.family in ("uniform", "algebraic")]
+    symmetries = symmetries_apart(scaled_tank(scene)) or (None,)
+    rates = []
+    for (family, degree), group in groupby(series, key=lambda row: (row.family, row.degree)):
+        meshes = list(group)
+        for symmetry in symmetries:
+            used = _asymptotic(meshes, _of(symmetry, parities, meshes))
+            if used is not None:
+                rates.append(_rate(scene, family, degree, symmetry, *used))
+    return tuple(rates)
+
+
+def _rate(
+    scene: TankScene, family: Family, degree: int, symmetry: Parity | None, mode: int, meshes: list[StudyRow]
+) -> Rate:
+    sizes = [row.element_size for row in meshes]
+    slope, deviation = fitted_slope(np.log(sizes), np.log([abs(row.errors[mode]) for row in meshes]))
+    grading = meshes[-1].grading or 1.0
+    return Rate(
+        family=family,
+        degree=degree,
+        grading=grading,
+        symmetry=symmetry,
+        mode=mode + 1,
+        sizes=tuple(sizes),
+        observed=slope,
+        deviation=deviation,
+        expected=expected_order(scene, degree, grading, symmetry),
+    )
+
+
+def fitted_gain(scene: TankScene, rows: Sequence[StudyRow], parities: Sequence[Parity | None]) -> Gain | None:
+    """Fit the gain per degree on geometric rings; ``None`` with fewer than three degrees above rounding."""
+    tank = scaled_tank(scene)
+    symmetry = min(symmetries_apart(tank), key=lambda parity: sharpest_of(tank, parity) or inf, default=None)
+    series = [row for row in rows if row.family == "geometric"]
+    used = _asymptotic(series, _of(symmetry, parities, series))
+    if used is None:
+        return None
+    mode, fitted = used
+    degrees = [row.degree for row in fitted]
+    x = np.array(degrees, dtype=float)
+    slope, deviation = fitted_slope(x, np.log([abs(row.errors[mode]) for row in fitted]))
+    left = expected_remainders(scene, degrees, symmetry)
+    return Gain(
+        degrees=tuple(degrees),
+        symmetry=symmetry,
+        mode=mode + 1,
+        observed=exp(-slope),
+        deviation=deviation,
+        expected=None if left is None else exp(-fitted_slope(x, np.log(left))[0]),
+        along_a_ray=gain_along_a_ray(Grading.ring_ratio),
+    )
+
+
+def _is_used(row: StudyRow, mode: int) -> bool:
+    return row.floor < abs(row.errors[mode]) < _COARSE
+
+
+def _of(symmetry: Parity | None, parities: Sequence[Parity | None], series: list[StudyRow]) -> list[int]:
+    """Indices of the modes of one symmetry, or of all, that every row has."""
+    shared = min((len(row.errors) for row in series), default=0)
+    return [mode for mode in range(shared) if symmetry is None or parities[mode] == symmetry]
+
+
+def _asymptotic(series: list[StudyRow], modes: list[int]) -> tuple[int, list[StudyRow]] | None:
+    """The lowest mode whose error stays above rounding as far along a series as any, and the last rows it has there."""
+    best: tuple[int, int, list[StudyRow]] | None = None
+    for mode in modes:
+        places = [place for place, row in enumerate(series) if _is_used(row, mode)][-_POINTS:]
+        is_unbroken = len(places) == _POINTS and places[-1] - places[0] == _POINTS - 1
+        if is_unbroken and (best is None or places[-1] > best[0]):
+            best = places[-1], mode, [series[place] for place in places]
+    return None if best is None else best[1:]
+
+
+def fitted_slope(x: np.ndarray, y: np.ndarray) -> tuple[float, float]:
+    """Slope of the straight line of least squares through three points or more, and its standard error."""
+    slope, start = np.polyfit(x, y, 1)
+    misfit = y - start - slope * x
+    deviation = np.sqrt(misfit @ misfit / (len(x) - 2) / np.square(x - x.mean()).sum())
+    return float(slope), float(deviation)

@@ -1,0 +1,276 @@
+"""What a study leaves: tables, a CSV file, a figure and a summary."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import asdict
+from math import inf
+from pathlib import Path
+
+from rich import box
+from rich.console import Console
+from rich.table import Table
+
+from hydroelastic.fem.pictures.options import DEFAULT_PICTURES, PictureOptions
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.output.curve_style import Sheets
+from hydroelastic.scenes.output.folder import SUMMARY, result_folder
+from hydroelastic.scenes.study.corners import has_curved_contours, sharpest_of, symmetries_apart
+from hydroelastic.scenes.study.figure import draw_study
+from hydroelastic.scenes.study.plan import ERROR_FAMILIES, Family
+from hydroelastic.scenes.study.rates import DIFFERENCE, GAIN_FACTOR, Gain
+from hydroelastic.scenes.study.reference import Reference
+from hydroelastic.scenes.study.rows import StudyRow
+from hydroelastic.scenes.study.run import Study
+from hydroelastic.scenes.study.thinness import fitted_thinness
+from hydroelastic.scenes.study.thinness_figure import draw_thinness
+from hydroelastic.scenes.study.thinness_report import print_thinness, thinness_csv
+from hydroelastic.scenes.tank.scaled_tank import scaled_tank
+from hydroelastic.scenes.tank.symmetry import Parity
+
+STAGES = ("plan", "mesh", "forms", "assemble", "solve", "count", "errors", "pressure release")
+"""Stages of a solution in their order; others that the solver may time follow them."""
+
+_SHORT = {"pressure release": "ψ=0", "added mass": "m_a"}
+# Where all modes have one order nothing is said of their symmetry.
+_SYMMETRIES: dict[Parity | None, str] = {None: "", "symmetric": " sym.", "antisymmetric": " antisym."}
+_WIDTH = 120
+
+TITLES: dict[Family, str] = {
+    "uniform": "Uniform meshes, every element halved from one to the next",
+    "algebraic": "The same meshes drawn towards tips and corners, rᵢ = R (i/n)^β at the sharpest",
+    "geometric": "One mesh, with geometric rings around tips and corners, degree by degree",
+    "tolerance": "What the solver makes of an asked tolerance",
+    "thinness": "Thin against exact boundary, the float's width halved from one to the next",
+}
+
+Cell = Callable[[StudyRow], str]
+
+_COLUMNS: dict[str, Cell] = {
+    "asked": lambda row: "" if row.tolerance is None else f"{row.tolerance:.0e}",
+    "degree": lambda row: str(row.degree),
+    "β": lambda row: "" if row.grading is None else f"{row.grading:.3g}",
+    "element/L": lambda row: f"{row.element_size:.4g}",
+    "tries": lambda row: str(row.attempts),
+    "unknowns": lambda row: str(row.unknowns),
+    "error": lambda row: _above(row, row.error),
+    "lowest": lambda row: _above(row, row.lowest_error),
+    "estimate": lambda row: "" if row.estimate is None else f"{row.estimate:.1e}",
+    "ratio": lambda row: _ratio(row),
+}
+# Columns that say the same in every row of a family are left out of its table.
+_SHOWN: dict[Family, tuple[str, ...]] = {
+    "uniform": ("degree", "element/L", "unknowns", "error", "lowest"),
+    "algebraic": ("degree", "β", "element/L", "unknowns", "error", "lowest"),
+    "geometric": ("degree", "unknowns", "error", "lowest", "estimate", "ratio"),
+    "tolerance": ("asked", "degree", "tries", "unknowns", "error", "lowest", "estimate", "ratio"),
+}
+
+
+def study_table(study: Study) -> str:
+    """All rows, family by family, and the observed rates beside those of theory, as text."""
+    console = Console(file=io.StringIO(), width=_WIDTH, color_system=None, highlight=False)
+    if study.reference is not None:
+        _print_errors(console, study, study.reference)
+    if "thinness" in study.plan.families:
+        console.print(TITLES["thinness"], markup=False)
+        print_thinness(console, study.thinness)
+    text: str = console.file.getvalue()  # type: ignore[attr-defined]
+    return "\n".join(line.rstrip() for line in text.splitlines())
+
+
+def _print_errors(console: Console, study: Study, reference: Reference) -> None:
+    modes = study.scene.accuracy.modes
+    certain = f", estimated error {reference.uncertainty:.1e}" if reference.uncertainty else ", exact"
+    halves = (
+        "The tank is its own mirror image: every row solves it as two halves, and counts the unknowns of both."
+        if study.halves
+        else "The tank is not its own mirror image: every row solves all of it."
+    )
+    for line in (
+        f"{study.scene.title or 'Untitled scene'}: error against cost",
+        f"Reference: {reference.name}{certain}.",
+        halves,
+        *_symmetry_lines(study.scene),
+        f"error: largest relative error of {modes} frequencies; lowest: of the lowest; ratio: estimate over error.",
+        "Seconds by stage, without compiling (ψ=0: pressure-release tone; m_a: added mass); MB: highest resident",
+        "memory, above what was held before.",
+        "",
+    ):
+        console.print(line, markup=False)
+    for family in ERROR_FAMILIES:
+        if family not in study.plan.families:
+            continue
+        rows = study.rows_of(family)
+        console.print(TITLES[family], markup=False)
+        if rows:
+            console.print(_rows_table(family, rows))
+        else:
+            console.print(f"  None: {_why_none(study.scene, family)}.\n", markup=False)
+    if study.rates:
+        console.print("Orders q, error ~ (element size)^q, fitted to the finest three meshes above rounding")
+        console.print(_rates_table(study))
+    if study.gain is not None:
+        console.print(_gain_line(study.gain), markup=False)
+    if "tolerance" in study.plan.families:
+        console.print(_tolerance_line(study), markup=False)
+    if "thinness" in study.plan.families:
+        console.print()
+
+
+def _symmetry_lines(scene: TankScene) -> Iterator[str]:
+    """What the error over all modes follows where their orders differ."""
+    tank = scaled_tank(scene)
+    found = [f"{(sharpest_of(tank, parity) or inf):.3g} ({parity} modes)" for parity in symmetries_apart(tank)]
+    if found:
+        yield f"At the worst corner ψ ~ r^α, α = {' or '.join(found)}: the error of all follows the smaller."
+
+
+def _why_none(scene: TankScene, family: Family) -> str:
+    if family in ("uniform", "algebraic") and has_curved_contours(scaled_tank(scene)):
+        return "the contour of a float is curved, and these meshes are halved along straight boundaries only"
+    return "ψ is smooth, or no mesh has so few unknowns"
+
+
+def _rows_table(family: Family, rows: Sequence[StudyRow]) -> Table:
+    # Planning takes a thousandth of a second and stands in the CSV file alone.
+    stages = [stage for stage in _stages(rows) if stage != "plan" and any(stage in row.seconds for row in rows)]
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=0)
+    for heading in (*_SHOWN[family], *stages, "total", "MB"):
+        table.add_column(_SHORT.get(heading, heading), justify="right", no_wrap=True)
+    for row in rows:
+        table.add_row(
+            *(_COLUMNS[column](row) for column in _SHOWN[family]),
+            *(f"{row.seconds.get(stage, 0.0):.3f}" for stage in stages),
+            f"{row.total_seconds:.3f}",
+            "" if row.memory is None else f"{row.memory / 1e6:.3g}",
+        )
+    return table
+
+
+def _above(row: StudyRow, error: float) -> str:
+    """An error; where it is rounding, or that of the reference, what it is below."""
+    return f"{error:.1e}" if error > row.floor else f"<{row.floor:.0e}"
+
+
+def _ratio(row: StudyRow) -> str:
+    return "" if row.estimate is None or row.error <= row.floor else f"{row.estimate / row.error:.1f}"
+
+
+def _rates_table(study: Study) -> Table:
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0))
+    for heading in ("meshes", "degree", "β", "observed", "expected", "mode", "elements/L", ""):
+        table.add_column(heading, justify="left" if heading in ("meshes", "elements/L", "") else "right", no_wrap=True)
+    for rate in study.rates:
+        table.add_row(
+            rate.family,
+            str(rate.degree),
+            f"{rate.grading:.3g}",
+            f"{rate.observed:.3f} ± {rate.deviation:.3f}",
+            f"{rate.expected:.4g}",
+            f"{rate.mode}{_SYMMETRIES[rate.symmetry]}",
+            ", ".join(f"{size:.3g}" for size in rate.sizes),
+            "" if rate.agrees else f"> {100 * DIFFERENCE:.0f} % off: not yet asymptotic",
+        )
+    return table
+
+
+def _gain_line(gain: Gain) -> str:
+    theory = (
+        "ψ is smooth, so no fixed factor is expected"
+        if gain.expected is None
+        else f"expected {gain.expected:.1f} on such triangles ({gain.along_a_ray:.1f} along a ray)"
+    )
+    flag = ""
+    if not gain.agrees and gain.expected is not None:
+        why = "other elements still gain more" if gain.observed > gain.expected else "slower than theory"
+        flag = f"; off by more than a factor of {GAIN_FACTOR:g}: {why}"
+    return (
+        f"Gain per degree on geometric rings, mode {gain.mode}, degrees {gain.degrees[0]} to {gain.degrees[-1]}: "
+        f"observed {gain.observed:.1f} ± {gain.observed * gain.deviation:.1f}, {theory}{flag}"
+    )
+
+
+def _tolerance_line(study: Study) -> str:
+    asked = study.rows_of("tolerance")
+    told = [row.estimate / row.error for row in asked if row.estimate is not None and row.error > row.floor]
+    between = f"estimate over error from {min(told):.1f} to {max(told):.1f}" if told else "all errors are rounding"
+    kept = "not all kept: " + "; ".join(study.reasons) if study.reasons else "all kept"
+    return f"Tolerances: {kept}; {between}."
+
+
+def _stages(rows: Sequence[StudyRow]) -> tuple[str, ...]:
+    """The known stages, then others in the order in which they appear."""
+    return tuple(dict.fromkeys([*STAGES, *(stage for row in rows for stage in row.seconds)]))
+
+
+def csv_columns(study: Study) -> tuple[str, ...]:
+    """Headings of the CSV file: seconds of every stage among them."""
+    stages = (f"{stage.replace(' ', '_')}_seconds" for stage in _stages(study.rows))
+    return (
+        *("family", "degree", "element_size", "grading", "tolerance", "attempts", "halves", "unknowns"),
+        *("error", "lowest_error", "floor", "estimate", "seconds", *stages, "memory"),
+    )
+
+
+def study_csv(study: Study) -> str:
+    """All rows at full precision; what a family does not have is empty."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(csv_columns(study))
+    for row in study.rows:
+        what = (row.family, row.degree, row.element_size, row.grading, row.tolerance, row.attempts, int(study.halves))
+        found = (row.unknowns, row.error, row.lowest_error, row.floor, row.estimate)
+        seconds = (row.seconds.get(stage, 0.0) for stage in _stages(study.rows))
+        writer.writerow([*what, *found, row.total_seconds, *seconds, row.memory])
+    return text.getvalue()
+
+
+def write_study(study: Study, folder: Path, options: PictureOptions = DEFAULT_PICTURES) -> None:
+    """Write tables, rows, figure and summary into a result folder, whole or not at all.
+
+    Args:
+        study: what was found.
+        folder: made whole or not at all.
+        options: how the figures are drawn.
+
+    Raises:
+        SceneError: if the folder cannot be written.
+    """
+    with result_folder(folder) as inside:
+        sheets = Sheets(folder=inside, title=study.scene.title, options=options)
+        (inside / "study.txt").write_text(study_table(study) + "\n", encoding="utf-8")
+        if study.reference is not None:
+            (inside / "study.csv").write_text(study_csv(study), encoding="utf-8")
+            draw_study(study, sheets)
+        if study.thinness:
+            (inside / "thinness.csv").write_text(thinness_csv(study.thinness), encoding="utf-8")
+            draw_thinness(study.thinness, sheets)
+        summary = {
+            "scene": study.scene.model_dump(mode="json"),
+            "status": "unconverged" if study.reasons else "ok",
+            "reasons": study.reasons,
+            "plan": asdict(study.plan),
+            "reference": _reference_row(study.reference),
+            "halves": study.halves,
+            "rates": [asdict(rate) | {"agrees": rate.agrees} for rate in study.rates],
+            "gain": None if study.gain is None else asdict(study.gain) | {"agrees": study.gain.agrees},
+            "rows": [asdict(row) for row in study.rows],
+            "thinness": [asdict(row) for row in study.thinness],
+            "thinness_rates": [asdict(rate) | {"agrees": rate.agrees} for rate in fitted_thinness(study.thinness)],
+        }
+        (inside / SUMMARY).write_text(json.dumps(summary, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+
+
+def _reference_row(reference: Reference | None) -> dict[str, object] | None:
+    if reference is None:
+        return None
+    return {
+        "name": reference.name,
+        "omega": reference.omega.tolist(),
+        "relative_error": reference.uncertainty,
+        "symmetry": list(reference.parities),
+    }

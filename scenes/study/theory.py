@@ -1,0 +1,87 @@
+"""What theory expects of the error of a frequency, from the singularity of ψ at ends of beams and corners.
+
+With ψ ~ r^α, or r^α ln r, at the worst point, polynomials of degree p on n elements along each length give a relative
+error of order (1/n)^q with
+
+    q = min(2p, 2αβ)        on meshes graded like r_i = R (i/n)^β; β = 1 is a uniform mesh,
+
+so that β > p/α brings the full order 2p. On geometric rings of ratio σ the error falls by a factor with each degree.
+Along a ray it is ((1 + √σ)/(1 − √σ))²: r^α on σ < r < 1 is analytic but at r = 0, which lies on the Bernstein ellipse
+of sum of half axes (1 + √σ)/(1 − √σ), and the error of a frequency is the square of that of ψ (W. Gui and I. Babuška,
+Numer. Math. 49 (1986) 577). On triangles of a certain angle it is less, and falls slowly with the degree; what the best
+polynomials leave on one ring says how much. See docs, theory of the aquarium, § 5.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import ceil, pi, sqrt
+
+import numpy as np
+
+from hydroelastic.fem.ring_approximation import remaining_energy
+from hydroelastic.meshes.grading import Grading
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.study.corners import sharpest_of
+from hydroelastic.scenes.study.meshes import full_order
+from hydroelastic.scenes.tank.scaled_tank import scaled_tank
+from hydroelastic.scenes.tank.symmetry import Parity
+
+# Rings are cut into sectors of at most this.
+_WIDEST_SECTOR = pi / 3.0
+
+
+def singular_exponent(scene: TankScene, parity: Parity | None = None) -> float | None:
+    """α of the worst point of a scene; ``None`` where ψ is smooth.
+
+    1 at a tip beside water with waves or a lid, 1/2 where ψ = 0 on the water, 2 where a free end meets a wall; π/θ at
+    the corner of a float with the liquid's angle θ.
+
+    Args:
+        scene: the scene.
+        parity: symmetry of the modes in a tank that is its own mirror image; ``None`` is the sharper of both.
+    """
+    return sharpest_of(scaled_tank(scene), parity)
+
+
+def expected_order(scene: TankScene, degree: int, grading: float = 1.0, parity: Parity | None = None) -> float:
+    """Order q of the frequencies with degree p on meshes graded with β; 1 is a uniform mesh.
+
+    Where corners differ β is that of the sharpest, and the others are graded for the same order.
+    """
+    alpha = singular_exponent(scene, parity if grading == 1.0 else None)
+    return 2.0 * degree if alpha is None else min(2.0 * degree, 2.0 * alpha * grading)
+
+
+def full_order_grading(scene: TankScene, degree: int) -> float:
+    """β > p/α that brings the full order 2p.
+
+    Raises:
+        ValueError: where ψ is smooth: no grading is needed.
+    """
+    alpha = singular_exponent(scene)
+    if alpha is None:
+        raise ValueError("ψ is smooth: uniform meshes have the full order")
+    return full_order(degree, alpha)
+
+
+def gain_along_a_ray(ring_ratio: float) -> float:
+    """Factor by which each degree lowers the error of a frequency on rings of ratio σ: ((1 + √σ)/(1 − √σ))²."""
+    root = sqrt(ring_ratio)
+    return ((1.0 + root) / (1.0 - root)) ** 2
+
+
+def expected_remainders(scene: TankScene, degrees: Sequence[int], parity: Parity | None = None) -> np.ndarray | None:
+    """Relative errors of a frequency, up to a factor, that the geometric rings of our meshes leave with some degrees.
+
+    Returns:
+        One for each degree; ``None`` where ψ is smooth and rings are not what limits.
+    """
+    alpha = singular_exponent(scene, parity)
+    if alpha is None:
+        return None
+    # Of the liquid's angle π/α; where ψ = 0 on one side it is half of that, and the sectors are nearly as wide.
+    angle = pi / alpha
+    sector = angle / ceil(angle / _WIDEST_SECTOR - 1e-6)
+    left: np.ndarray = remaining_energy(Grading.ring_ratio, sector, alpha, max(degrees))[list(degrees)]
+    return left

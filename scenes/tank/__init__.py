@@ -1,0 +1,1 @@
+"""Closed tanks: beams and floats, their modes and estimates."""

@@ -1,0 +1,145 @@
+"""The shapes in which a beam of a scaled scene moves: dry modes in closed form where it is uniform, else computed ones.
+
+All are orthogonal in the bending energy and in plain ∫wᵢwⱼ, so that the hydrostatic restoring stays diagonal: those of
+a stepped or jointed beam are its dry modes with an even mass. Only the mass of one whose sections differ in it couples
+them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydroelastic.modal.beam.dry_modes import free_free_shape, free_free_wavenumber
+from hydroelastic.modal.beam.guided_modes import guided_shape, guided_wavenumber
+from hydroelastic.modal.beam.jointed_beam import Joint, JointedBeam, Section
+from hydroelastic.modal.beam.jointed_modes import JointedModes, jointed_modes
+from hydroelastic.scenes.models.bodies import Beam
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class BeamShapes:
+    """The first shapes of a beam, ∫wᵢwⱼ = l δᵢⱼ.
+
+    Attributes:
+        labels: "heave", "pitch", "hinge 1" …, "elastic 1" …
+        parities: +1 or −1: the mirror image of a shape about the middle of its beam is ± a shape of the mirrored beam.
+        deflection: number of the shape and distances from the left end → w.
+        bending: twice the strain energy of each.
+        mass: ∫m wᵢwⱼ.
+        wavenumber: the largest among them.
+    """
+
+    labels: tuple[str, ...]
+    parities: tuple[int, ...]
+    deflection: Callable[[int, Array], Array]
+    bending: Array
+    mass: Array
+    wavenumber: float
+
+
+def beam_shapes(beam: Beam, count: int) -> BeamShapes:
+    """Return the first shapes of a beam, rigid ones included."""
+    return _closed_shapes(beam, count) if beam.is_uniform else _computed_shapes(beam, count)
+
+
+def _closed_shapes(beam: Beam, count: int) -> BeamShapes:
+    guided, length = beam.ends == "guided", beam.length
+    wavenumber = guided_wavenumber if guided else free_free_wavenumber
+    roots = np.array([wavenumber(number) for number in range(count)])
+    rigid = ("heave",) if guided else ("heave", "pitch")
+
+    def deflection(number: int, x: Array) -> Array:
+        values = guided_shape(number, x / length) if guided else free_free_shape(number, x / length)
+        return np.asarray(values, dtype=np.float64)
+
+    return BeamShapes(
+        labels=(*rigid, *(f"elastic {number + 1}" for number in range(count - len(rigid))))[:count],
+        parities=tuple(1 - 2 * (number % 2) for number in range(count)),
+        deflection=deflection,
+        bending=beam.flexural_rigidity * (roots / length) ** 4 * length,
+        mass=np.diag(np.full(count, beam.mass_per_length * length)),
+        wavenumber=float(roots.max(initial=0.0)) / length,
+    )
+
+
+def _computed_shapes(beam: Beam, count: int) -> BeamShapes:
+    modes = even_modes(beam, count)
+    length, masses = beam.length, np.array([part.mass_per_length for part in jointed_beam(beam).spans])
+    # Exactly diagonal where it is so.
+    mass = modes.products(masses) if np.any(masses != masses[0]) else masses[0] * np.eye(len(modes.labels))
+    scale = float(np.sqrt(length))
+    return BeamShapes(
+        labels=modes.labels,
+        parities=modes.parities,
+        deflection=_AllAtOnce(modes, scale),
+        bending=modes.squared_frequencies * length,
+        mass=mass * length,
+        wavenumber=float(modes.wavenumbers.max()),
+    )
+
+
+class _AllAtOnce:
+    """Evaluates all shapes at some points for the first of them: one is asked for after the other."""
+
+    def __init__(self, modes: JointedModes, scale: float) -> None:
+        self._modes, self._scale = modes, scale
+        self._points: Array = np.empty(0)
+        self._values: Array = np.empty((0, 0))
+
+    def __call__(self, number: int, x: Array) -> Array:
+        if not np.array_equal(x, self._points):
+            # Lengths in units of the tank end within rounding of each other.
+            self._values = self._scale * self._modes.shapes(np.minimum(x, self._modes.beam.length))
+            self._points = x.copy()
+        values: Array = self._values[number]
+        return values
+
+
+def jointed_beam(beam: Beam, *, even: bool = False) -> JointedBeam:
+    """A beam as its dry modes take it.
+
+    Args:
+        beam: the beam.
+        even: whether its mass is to be 1 everywhere.
+    """
+    return JointedBeam(
+        sections=tuple(
+            Section(
+                length=part.length,
+                flexural_rigidity=part.flexural_rigidity,
+                mass_per_length=1.0 if even else part.mass_per_length,
+            )
+            for part in beam.parts
+        ),
+        joints=tuple(
+            Joint(at=joint.at, rotational_stiffness=joint.rotational_stiffness)
+            for joint in sorted(beam.joints, key=lambda joint: joint.at)
+        ),
+    )
+
+
+def even_modes(beam: Beam, count: int) -> JointedModes:
+    """Dry modes of a stepped or jointed beam as if its mass were 1 everywhere."""
+    return jointed_modes(jointed_beam(beam, even=True), count)
+
+
+def first_dry_eigenvalue(beam: Beam) -> float:
+    """λ of the first elastic mode of a beam in vacuum."""
+    if not beam.is_uniform:
+        rigid = 2 + len(beam.hinges)
+        return float(jointed_modes(jointed_beam(beam), rigid + 1).squared_frequencies[rigid])
+    shapes = beam_shapes(beam, 3)
+    first = shapes.labels.index("elastic 1")
+    return float(shapes.bending[first] / shapes.mass[first, first])
+
+
+def first_bending(beam: Beam) -> float:
+    """Twice the strain energy of the first elastic shape over ∫w²: EI κ⁴ of a uniform beam."""
+    shapes = beam_shapes(beam, 3 + len(beam.hinges))
+    return float(shapes.bending[shapes.labels.index("elastic 1")] / beam.length)

@@ -1,0 +1,161 @@
+"""How far a frequency may lie from the exact one, by cause, and what to refine when that is too far."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from math import ceil, log
+
+import numpy as np
+from mpi4py import MPI
+from petsc4py import PETSc
+
+from hydroelastic.fem.cells import cells_at
+from hydroelastic.fem.liquid import LiquidSpace
+from hydroelastic.fem.modes import EigenSolverError, Mode
+from hydroelastic.fem.spectral_error import cell_errors
+from hydroelastic.fem.truncation import truncation_errors
+from hydroelastic.meshes.distribute import TankMesh
+from hydroelastic.scenes.tank.field_solution import FieldSolution
+from hydroelastic.scenes.tank.mesh import tip_points
+from hydroelastic.scenes.tank.plan import HIGHEST_DEGREE, Resolution, rounding_error
+from hydroelastic.scenes.tank.scaled_tank import ScaledTank
+
+ROUNDING_OF_SPREAD = 1e-15
+"""Lanczos leaves a few units of the last place of the largest 1/λ in each."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class FrequencyErrors:
+    """Estimated relative errors of some frequencies ω, by cause; each has shape (modes,).
+
+    Attributes:
+        liquid: elements away from the tips, and curved boundaries that they follow in polynomials only.
+        tips: the innermost elements at the tips.
+        truncation: dry modes left out.
+        rounding: double precision.
+    """
+
+    liquid: np.ndarray
+    tips: np.ndarray
+    truncation: np.ndarray
+    rounding: np.ndarray
+
+    @property
+    def total(self) -> np.ndarray:
+        """All causes together."""
+        return self.liquid + self.tips + self.truncation + self.rounding
+
+    def largest(self, cause: str) -> float:
+        """The largest over the modes of one cause."""
+        return float(getattr(self, cause).max(initial=0.0))
+
+
+def frequency_errors(
+    solution: FieldSolution,
+    modes: list[Mode],
+    parts: list[int],
+    resolution: Resolution,
+    tank: ScaledTank,
+    *,
+    released: bool = False,
+) -> FrequencyErrors:
+    """Estimate the errors of some modes (collective).
+
+    Args:
+        solution: the modes at one resolution.
+        modes: the modes to judge, with their ψ.
+        parts: which of the solution's parts each belongs to.
+        resolution: that resolution.
+        tank: the scene.
+        released: whether it is the limit of high frequency.
+    """
+    liquid, tips = np.empty(len(modes)), np.empty(len(modes))
+    for number, part in enumerate(solution.parts):
+        own = [place for place, owner in enumerate(parts) if owner == number]
+        potentials = [modes[place].potential for place in own]
+        liquid[own], tips[own] = energies_missed(
+            part.pencil.liquid, potentials, tank, resolution, half=solution.half, released=released
+        )
+    values = np.array([mode.eigenvalue for mode in modes])
+    unknowns = sum(body.size for body in solution.bodies)
+    amplitudes = np.array([mode.body_amplitudes for mode in modes]).reshape(len(modes), unknowns)
+    truncation = truncation_errors(solution.bodies, amplitudes, values)
+    lowest = solution.modes.eigenvalues[0] if len(solution.modes.eigenvalues) else np.inf
+    # An error of λ is twice that of ω.
+    return FrequencyErrors(
+        liquid=0.5 * liquid + boundary_error(solution.mesh, tank),
+        tips=0.5 * tips,
+        truncation=0.5 * truncation,
+        rounding=rounding_error(resolution.degree, tank.depth) + ROUNDING_OF_SPREAD * np.abs(values) / lowest,
+    )
+
+
+def energies_missed(
+    liquid: LiquidSpace,
+    potentials: list[PETSc.Vec],
+    tank: ScaledTank,
+    resolution: Resolution,
+    *,
+    half: bool,
+    released: bool,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Estimate the kinetic energy that some ψ lack, away from the tips and at them, each of shape (potentials,)
+    (collective)."""
+    mesh = liquid.tank.mesh
+    # Without rings no element is made for the tips.
+    corners = np.empty((0, 2))
+    if resolution.tip_size is not None:
+        corners = tip_points(tank, half=half, released=released)
+    cells = cell_errors(liquid, potentials)
+    at_tips = mesh.comm.allreduce(cells[:, cells_at(mesh, corners)].sum(axis=1), op=MPI.SUM)
+    whole = mesh.comm.allreduce(cells.sum(axis=1), op=MPI.SUM)
+    if not np.all(np.isfinite(whole)):
+        # Comparisons with a tolerance would let it pass.
+        raise EigenSolverError("the error of a mode cannot be told: its energy is not a number")
+    return whole - at_tips, at_tips
+
+
+def boundary_error(mesh: TankMesh, tank: ScaledTank) -> float:
+    """Relative error of frequencies from cells that miss a float's contour by δ, an upper estimate.
+
+    Between nodes the boundary lies now on one side of the contour, now on the other, and most of it cancels. Measured
+    on circles, ellipses 10:1 and 1:10 and parabolas, degrees 2 to 8: 0.05 to 0.8 times 10 (δ/s)^{3/2}, less above it,
+    with the smallest extent s of the contour.
+    """
+    sizes = [body.smallest_extent for body in tank.floats.values() if not body.is_thin]
+    return 10.0 * (mesh.deviation / min(sizes)) ** 1.5 if sizes else 0.0
+
+
+def refined(
+    resolution: Resolution, errors: FrequencyErrors, tolerance: float, *, exponent: float, own_mesh: bool
+) -> Resolution | None:
+    """What to solve next, so that each cause keeps its part of the tolerance.
+
+    Args:
+        resolution: the last one.
+        errors: what it gave.
+        tolerance: of the frequencies.
+        exponent: α of ψ ~ r^α at the sharpest tips.
+        own_mesh: whether the mesh is ours to change.
+
+    Returns:
+        The next resolution; ``None`` where rounding alone exceeds the tolerance, or all is at its limit.
+    """
+    if errors.largest("rounding") > tolerance:
+        return None
+    share = tolerance / (len(fields(errors)) - 1)
+    finer = resolution
+    truncation, tips, liquid = (errors.largest(cause) / share for cause in ("truncation", "tips", "liquid"))
+    if truncation > 1.0:
+        # The tail falls like N⁻⁷.
+        finer = finer.with_shapes(min(max(1.1 * truncation ** (1.0 / 7.0), 1.1), 3.0))
+    if tips > 1.0 and own_mesh:
+        finer = finer.with_tips(max(0.3 * tips ** (-0.5 / exponent), 1e-6))
+    if liquid > 1.0 or finer == resolution:
+        # Each degree gains a factor of five or more.
+        wanted = min(max(ceil(log(max(liquid, 1.0)) / log(5.0)), 1), 3)
+        if resolution.degree < HIGHEST_DEGREE:
+            finer = finer.with_degree(wanted)
+        elif own_mesh:
+            finer = finer.with_smaller_elements()
+    return None if finer == resolution else finer

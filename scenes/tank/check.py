@@ -1,0 +1,113 @@
+"""What a scene will be modelled as, said before anything is solved."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.output.sections import Section
+from hydroelastic.scenes.tank.check_hints import hints
+from hydroelastic.scenes.tank.check_tables import boundary_table, group_table, hydrostatics_table, unknown_table
+from hydroelastic.scenes.tank.estimates import ends_of_float_motions, expected_tones
+from hydroelastic.scenes.tank.plan import (
+    Resolution,
+    companion_resolution,
+    initial_resolution,
+    workable_tolerance,
+)
+from hydroelastic.scenes.tank.scaled_tank import ScaledTank, scaled_tank
+from hydroelastic.scenes.tank.symmetry import is_mirror_image
+
+
+def check_tank(scene: TankScene) -> Iterator[Section]:
+    """Yield what a closed tank is modelled as, how large it is, and what to expect; only the built-in meshes are made.
+
+    Args:
+        scene: a validated scene.
+    """
+    return modelled_tank(scene, requests=(_request(scene),), scale=Section(title="Size", lines=tuple(_sizes(scene))))
+
+
+def modelled_tank(scene: TankScene, *, requests: Iterable[str], scale: Section) -> Iterator[Section]:
+    """Yield the surfaces, the unknown fields, the dimensionless groups, how floats rest, and hints.
+
+    Args:
+        scene: a validated scene, closed or open.
+        requests: lines that say what is asked.
+        scale: how large the model is, or how long its waves are.
+    """
+    yield Section(title="What is asked", lines=tuple(requests))
+    yield boundary_table(scene)
+    yield unknown_table(scene)
+    yield group_table(scene)
+    if scene.floats:
+        yield hydrostatics_table(scene)
+    yield scale
+    expected = hints(scene)
+    if expected:
+        yield Section(title="What to expect", notes=expected)
+
+
+def _sizes(scene: TankScene) -> Iterator[str]:
+    """What the first attempt is, and why it should be enough; the built-in meshes are made to count them."""
+    tank = scaled_tank(scene)
+    tolerance = scene.accuracy.tolerance
+    tones = expected_tones(tank)
+    motions = ends_of_float_motions(tank)
+    resolution = initial_resolution(scene, modes=scene.accuracy.modes, tones=tones, motions=motions)
+    half = scene.mesh is None and is_mirror_image(tank)
+    yield f"First attempt: {_size(scene, tank, resolution, half=half)}."
+    if resolution.modes > scene.accuracy.modes:
+        what = (
+            "where the energy of the first elastic tone gathers" if tank.beams else "in which mode a float moves most"
+        )
+        yield f"  {resolution.modes} modes are looked at, to see {what}."
+    dry_modes = "dry modes reach past that wave until their energy has died out, " if tank.beams else ""
+    where = "tips" if not tank.floats else "tips, corners and contact points"
+    yield (
+        f"  Enough for {tolerance:g}: elements follow the shortest wave of the modes reported and the degree, "
+        f"{dry_modes}and the rings end where the singularity at the {where} no longer counts. "
+        "The solution judges itself, and what falls short is refined."
+    )
+    workable = workable_tolerance(tolerance, tank.depth)
+    if workable > tolerance:
+        yield f"  Double precision will not keep {tolerance:g} here: {workable:.0e} is worked towards instead."
+    limits = [
+        *(
+            ["the first elastic tone"]
+            if tank.beams and any(level.moves and level.is_open for level in tank.levels)
+            else []
+        ),
+        *(["the added mass of the floats"] if tank.floats and tank.has_high_frequency_limit else []),
+    ]
+    if limits:
+        limit = companion_resolution(tank, tolerance, tones) if scene.mesh is None else resolution
+        size = _size(scene, tank, limit, half=half, released=scene.mesh is None)
+        where = "with ψ = 0 on the water" if len(tank.layers) == 1 else "far above the waves, the liquids moving as one"
+        yield f"Beside it {' and '.join(limits)} {where}: {size}."
+        yield "  It has no waves to resolve, but a stronger singularity at the tips."
+
+
+def _size(scene: TankScene, tank: ScaledTank, resolution: Resolution, *, half: bool, released: bool = False) -> str:
+    parts = [f"degree {resolution.degree}"]
+    if scene.mesh is None:
+        from hydroelastic.scenes.tank.mesh import make_mesh, unknown_count
+
+        mesh = make_mesh(tank, resolution, half=half, released=released)
+        where = " in half the tank" if half else ""
+        twice = ", for symmetric and for antisymmetric modes" if half else ""
+        parts.append(f"{len(mesh.cells)} triangles{where}")
+        layers = 1 if released else len(tank.layers)
+        unknowns = unknown_count(len(mesh.points), len(mesh.cells), resolution.degree, parts=layers)
+        parts.append(f"{unknowns} unknowns of ψ{twice}")
+    if tank.beams:
+        parts.append(f"{' + '.join(str(resolution.shapes[index]) for index in tank.beams)} dry modes")
+    return ", ".join(parts)
+
+
+def _request(scene: TankScene) -> str:
+    source = "built-in mesh" if scene.mesh is None else f"mesh {scene.mesh.file}"
+    return (
+        f"The lowest {scene.accuracy.modes} modes to a relative error of {scene.accuracy.tolerance:g} "
+        f"in frequency; {source}."
+    )

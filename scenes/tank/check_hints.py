@@ -1,0 +1,185 @@
+"""What to expect of the answer of a scene, in a sentence or two each."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import TypeAlias
+
+from hydroelastic.scenes.models.floats import placed_float
+from hydroelastic.scenes.models.rigid_motions import (
+    has_open,
+    levels_of,
+    loose_motions,
+    mode_count,
+    roll_stiffness,
+    zero_mode_count,
+)
+from hydroelastic.scenes.models.tank import TankScene, level_segments
+from hydroelastic.scenes.tank.beam_shapes import first_bending
+from hydroelastic.scenes.tank.estimates import expected_tones
+from hydroelastic.scenes.tank.scaled_tank import scaled_tank
+from hydroelastic.scenes.tank.symmetry import is_mirror_image
+
+# Half width over half height from which the conditions of a thin float are off by more than some per cent.
+_THICK = 0.1
+
+# Draught of a beam over its length, or over the depth below it, from which leaving it out counts.
+_DEEP = 0.05
+
+
+def hints(scene: TankScene) -> tuple[str, ...]:
+    """Return what to expect of the answer, one sentence or two each."""
+    return tuple(hint for find in (_HINTS_OF_OPEN_WATER if scene.is_open else _HINTS) for hint in find(scene))
+
+
+def _air(scene: TankScene) -> Iterator[str]:
+    if len(scene.layers) < len(scene.liquid):
+        yield (
+            "The upper layer has density 0: it is air, which is not modelled. The interface is an ordinary free "
+            f'surface, and top = "{scene.tank.top}" has no effect.'
+        )
+
+
+def _symmetry(scene: TankScene) -> Iterator[str]:
+    if is_mirror_image(scaled_tank(scene)):
+        yield (
+            "The scene is its own mirror image: modes are symmetric (∂ψ/∂x = 0 in the middle) or antisymmetric "
+            "(ψ = 0 there), and half the tank holds either kind."
+        )
+
+
+def _zero_modes(scene: TankScene) -> Iterator[str]:
+    count = zero_mode_count(scene)
+    if count == 0:
+        return
+    loose = loose_motions(scene)
+    names = ", ".join(f"{motion.name} of {scene.body[motion.body].kind} {motion.body + 1}" for motion in loose)
+    held = len(loose) - count
+    but = f"; the volume of the liquid forbids {held} of these or of their combinations" if held else ""
+    modes = "one mode of frequency zero, which is" if count == 1 else f"{count} modes of frequency zero, which are"
+    yield f"Without stiffness: {names}{but}. That leaves {modes} not reported."
+
+
+def _few_modes(scene: TankScene) -> Iterator[str]:
+    count = mode_count(scene)
+    if count is not None and count < scene.accuracy.modes:
+        yield (
+            f"Nothing but rigid bodies oscillates here: there {'is' if count == 1 else 'are'} {count} "
+            f"{'mode' if count == 1 else 'modes'}, not {scene.accuracy.modes}."
+        )
+
+
+def _sloshing(scene: TankScene) -> Iterator[str]:
+    if scene.body:
+        return
+    if len(scene.layers) == 1:
+        yield "Pure sloshing has the exact answer ω² = g k tanh kH with k = nπ/L, to compare with."
+    elif scene.top == "rigid":
+        yield (
+            "Waves of the interface alone have the exact answer ω² = (ρ₂ − ρ₁) g k/(ρ₁ coth kh₁ + ρ₂ coth kh₂) with "
+            "k = nπ/L, to compare with."
+        )
+    elif scene.top == "pressure_release":
+        yield (
+            "Waves of the interface alone have the exact answer ω² = (ρ₂ − ρ₁) g k/(ρ₁ tanh kh₁ + ρ₂ coth kh₂) with "
+            "k = nπ/L, to compare with."
+        )
+    else:
+        yield (
+            "For each k = nπ/L there are two exact answers, a wave of the surface and a slower one of the interface: "
+            "the roots of a quadratic equation for ω²."
+        )
+
+
+def _walls(scene: TankScene) -> Iterator[str]:
+    for level in levels_of(scene):
+        segments = level_segments(scene, level)
+        if len(segments) == 1 and segments[0].body is not None:
+            if level == "surface" and scene.top != "free":
+                yield f'The beam covers the whole liquid, so top = "{scene.top}" has no effect.'
+            continue
+        for segment, wall in ((segments[0], "left"), (segments[-1], "right")):
+            if segment.body is not None:
+                yield f"Beam {segment.body + 1} touches the {wall} wall: its end slides along it without friction."
+
+
+def _shared_tone(scene: TankScene) -> Iterator[str]:
+    """The elastic tone radiates into the sloshing modes unless it is slow or its beam heavy (docs, aquarium, § 4)."""
+    if len(scene.layers) > 1 or scene.top != "free" or not has_open(scene, "surface"):
+        return
+    # In units of the tank λ = ω² L/g.
+    for (index, beam), tone in zip(scene.beams, expected_tones(scaled_tank(scene)), strict=True):
+        ratio = tone * beam.length / scene.tank.length
+        if ratio > 1 and beam.mass_per_length < scene.layers[0].density * beam.length:
+            yield (
+                f"Beam {index + 1}: ω² l/g of its first elastic tone is about {ratio:.2g}. Above one, the tone "
+                "is shared between hybrid modes with sloshing; a run says how far (participation, runner-up)."
+            )
+
+
+def _hydrostatics(scene: TankScene) -> Iterator[str]:
+    for index, beam in scene.beams:
+        level = scene.level_of(beam)
+        below, above = scene.densities_at(level)
+        ratio = (below - above) * scene.tank.gravity / first_bending(beam)
+        jump = "(ρ₂ − ρ₁) g" if above else "ρ g"
+        if beam.hydrostatic and ratio > 10:
+            yield (
+                f"Beam {index + 1} is soft: {jump} is {ratio:.3g} times the bending stiffness EI κ₁⁴ of its first "
+                "elastic shape, so its lowest modes store little elastic energy."
+            )
+        elif not beam.hydrostatic and ratio > 0.1:
+            yield (
+                f"Beam {index + 1} is modelled without the hydrostatic restoring, {jump}, which is {ratio:.2g} times "
+                "its bending stiffness EI κ₁⁴; hydrostatic = true gives higher frequencies."
+            )
+
+
+def draughts_left_out(scene: TankScene) -> Iterator[str]:
+    """Say of which beams the draught counts: mass over density tells it, and the model leaves it out."""
+    for index, beam in scene.beams:
+        level = scene.level_of(beam)
+        draught = beam.mass_per_length / scene.densities_at(level)[0]
+        depth = scene.layers[0 if level == "interface" else -1].depth
+        if draught > _DEEP * min(beam.length, depth):
+            compared = "its length" if beam.length <= depth else "the depth below it"
+            yield (
+                f"Beam {index + 1} would float with a draught m/ρ of {draught:.3g} m, "
+                f"{draught / min(beam.length, depth):.2g} of {compared}. It is modelled as a plate at the level, "
+                "without draught: errors of that order come with the model, whatever the tolerance."
+            )
+
+
+def _unstable(scene: TankScene) -> Iterator[str]:
+    for index, body in scene.floats:
+        if "roll" in body.motions and roll_stiffness(body, placed_float(scene, index).hydrostatics) < 0.0:
+            yield f"Float {index + 1} is unstable: its roll grows instead of oscillating, a mode with ω² < 0."
+
+
+def _thin(scene: TankScene) -> Iterator[str]:
+    for index, body in scene.floats:
+        if body.boundary == "thin" and body.half_width is not None and body.half_height is not None:
+            ratio = body.half_width / body.half_height
+            much = f", {ratio:.2g}, which is much" if ratio > _THICK else ""
+            yield (
+                f"Float {index + 1} is modelled as thin: its flux lies on x = {body.position:g} m, and the liquids "
+                f"fill the whole tank. That leaves an error of the order of half width over half height{much}; "
+                'boundary = "exact" has none.'
+            )
+
+
+_Hints: TypeAlias = Callable[[TankScene], Iterator[str]]
+_HINTS: tuple[_Hints, ...] = (
+    _air,
+    _symmetry,
+    _zero_modes,
+    _few_modes,
+    _sloshing,
+    _walls,
+    _shared_tone,
+    _hydrostatics,
+    draughts_left_out,
+    _unstable,
+    _thin,
+)
+_HINTS_OF_OPEN_WATER: tuple[_Hints, ...] = (_air, _hydrostatics, draughts_left_out, _unstable, _thin)

@@ -1,0 +1,184 @@
+"""What is solved of a closed tank as labelled arrays: what moves in each mode, and the matrices of floats."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.linalg import block_diag
+
+from hydroelastic.scenes.output.dof_labels import INERTIA_UNITS, MOTION_UNITS, STIFFNESS_UNITS, any_turns, dof_labels
+from hydroelastic.scenes.output.summary_variables import SummaryNames
+from hydroelastic.scenes.tank.scaled_float import MOTIONS
+
+if TYPE_CHECKING:
+    import xarray
+
+    from hydroelastic.fem.pictures.modes import FloatSection, SurfaceCurve
+    from hydroelastic.scenes.tank.shapes import ModeShapes
+    from hydroelastic.scenes.tank.solve import TankSolution
+
+TANK_NAMES = SummaryNames(
+    dimensions={
+        "modes": ("mode",),
+        "first_elastic_by_body": ("elastic_body",),
+        "floats": ("float",),
+        "floats.motions": ("float_motion",),
+        "floats.modes": ("float_mode",),
+        "floats.centre_of_mass": ("axis",),
+        "floats.waterplane": ("side",),
+        "floats.estimates": ("float_estimate",),
+        "floats.printed_constants": ("printed_constant",),
+        "growing": ("growing_mode",),
+        "estimates": ("estimate",),
+        "exact": ("exact_mode",),
+    },
+    prefixes={
+        "modes": "",
+        "first_elastic_by_body": "first_elastic",
+        "floats": "float",
+        "floats.modes": "float_mode",
+        "floats.estimates": "float_estimate",
+        "floats.printed_constants": "constant",
+        "estimates": "estimate",
+    },
+    # The first tone of the first beam is among those of all beams.
+    told=frozenset({"first_elastic", "floats.high_frequency.added_mass"}),
+)
+
+
+def tank_dataset(solution: TankSolution, shapes: ModeShapes) -> xarray.Dataset:
+    """Return the shapes of all modes along surfaces and bodies, and the matrices of floats.
+
+    Args:
+        solution: the field solution.
+        shapes: of its modes, SI units.
+    """
+    # xarray takes a while to import.
+    import xarray
+
+    asked = len(shapes.curves) - shapes.growing
+    parts = [
+        _modes(solution, shapes, slice(0, asked), "mode", ""),
+        _modes(solution, shapes, slice(asked, None), "growing_mode", "growing_"),
+        _matrices(solution),
+    ]
+    return xarray.merge(parts, join="exact", compat="no_conflicts")
+
+
+def _modes(solution: TankSolution, shapes: ModeShapes, modes: slice, dimension: str, prefix: str) -> xarray.Dataset:
+    """What moves in some of the modes, which lie along a dimension."""
+    import xarray
+
+    found = xarray.Dataset()
+    if not shapes.curves[modes]:
+        return found
+    numbers = np.arange(1, len(shapes.curves[modes]) + 1, dtype=np.int32)
+    found = found.assign_coords({dimension: (dimension, numbers, {"long_name": "number of the mode"})})
+    names = _curve_names(solution, shapes.curves[0])
+    for name, curves in zip(names, zip(*shapes.curves[modes], strict=True), strict=True):
+        found = found.merge(_curve(name, curves, dimension, prefix))
+    for index, sections in zip(solution.tank.floats, zip(*shapes.floats[modes], strict=True), strict=True):
+        found = found.merge(_section(f"body_{index + 1}", sections, dimension, prefix))
+    if solution.tank.floats:
+        dofs = _dofs(solution)
+        amplitudes = np.array([np.concatenate(motions) for motions in shapes.motions[modes]])
+        said = {"long_name": "motion of the floats", "units": MOTION_UNITS[any_turns(dofs)]}
+        found = found.assign({f"{prefix}motion": ((dimension, "dof"), amplitudes, said)}).assign_coords(dof=dofs)
+    return found
+
+
+def _curve_names(solution: TankSolution, curves: tuple[SurfaceCurve, ...]) -> list[str]:
+    """Beams, which come first, by their numbers among the bodies; pieces of a level counted from the left."""
+    names, counts = [f"body_{index + 1}" for index in solution.tank.beams], Counter[str]()
+    for curve in curves[len(names) :]:
+        counts[curve.kind] += 1
+        names.append(f"{curve.kind}_{counts[curve.kind]}")
+    return names
+
+
+def _curve(name: str, curves: tuple[SurfaceCurve, ...], dimension: str, prefix: str) -> xarray.Dataset:
+    import xarray
+
+    what, along = "deflection" if curves[0].kind == "body" else "elevation", f"position_on_{name}"
+    said = {"units": "m", "long_name": f"upward {what} of {name}", "level_at_rest": curves[0].level}
+    return xarray.Dataset(
+        {
+            f"{prefix}{what}_of_{name}": (
+                (dimension, along),
+                np.array([curve.displacement for curve in curves]),
+                said,
+            )
+        },
+        {along: (along, curves[0].x, {"units": "m", "long_name": "distance from the left wall"})},
+    )
+
+
+def _section(name: str, sections: tuple[FloatSection, ...], dimension: str, prefix: str) -> xarray.Dataset:
+    import xarray
+
+    point = f"point_on_{name}"
+    moved = np.array([section.displacement for section in sections])
+    return xarray.Dataset(
+        {
+            f"{prefix}displacement_of_{name}": (
+                (dimension, point, "axis"),
+                moved,
+                {"units": "m", "long_name": f"displacement of the contour of {name}"},
+            ),
+            f"contour_of_{name}": (
+                (point, "axis"),
+                sections[0].contour,
+                {"units": "m", "long_name": f"contour of {name} at rest"},
+            ),
+        },
+        {"axis": ["x", "y"]},
+    )
+
+
+def _dofs(solution: TankSolution) -> list[str]:
+    """Motions of all floats, with the body in front where there are several bodies."""
+    several = len(solution.tank.bodies) > 1
+    return dof_labels(
+        f"body_{index + 1}__{motion}" if several else motion
+        for index, body in solution.tank.floats.items()
+        for motion in body.motions
+    )
+
+
+def _matrices(solution: TankSolution) -> xarray.Dataset:
+    """Inertia and hydrostatics of the floats, and their added mass far above the waves, in Capytaine's names."""
+    import xarray
+
+    floats, units = solution.tank.floats.values(), solution.units
+    if not floats:
+        return xarray.Dataset()
+    dofs = _dofs(solution)
+    turns = np.concatenate([body.turns for body in floats])
+    masses = units.density * units.length ** (2.0 + turns[:, None] + turns)
+    places = [[MOTIONS.index(motion) for motion in body.motions] for body in floats]
+    inertia = block_diag(*(np.diag(body.inertia[place]) for body, place in zip(floats, places, strict=True)))
+    stiffness = block_diag(*(body.stiffness[np.ix_(place, place)] for body, place in zip(floats, places, strict=True)))
+    matrices = {
+        "inertia_matrix": (inertia * masses, INERTIA_UNITS, "inertia of the floats"),
+        "hydrostatic_stiffness": (
+            stiffness * masses * units.frequency**2,
+            STIFFNESS_UNITS,
+            "hydrostatic stiffness of the floats",
+        ),
+    }
+    if solution.added_mass is not None:
+        matrices["infinite_frequency_added_mass"] = (
+            solution.added_mass.matrix * masses,
+            INERTIA_UNITS,
+            "added mass far above the waves",
+        )
+    rows = ("influenced_dof", "radiating_dof")
+    return xarray.Dataset(
+        {
+            name: (rows, matrix, {"units": units_of[any_turns(dofs)], "long_name": said})
+            for name, (matrix, units_of, said) in matrices.items()
+        },
+        {"influenced_dof": dofs, "radiating_dof": dofs},
+    )

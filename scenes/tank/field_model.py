@@ -1,0 +1,227 @@
+"""From a scaled scene to the field model: mesh, beams in their dry modes, floats in their motions, coupled pencil."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+from mpi4py import MPI
+
+from hydroelastic.fem.liquid import Layer, liquid_matrices, liquid_space
+from hydroelastic.fem.pencil import CoupledPencil, build_pencil
+from hydroelastic.fem.surfaces import Body, LiquidSurface
+from hydroelastic.meshes.distribute import TankMesh, distribute_mesh
+from hydroelastic.meshes.geometry import FAR_END, FREE_SURFACE, INTERFACE, SYMMETRY_PLANE, body_name
+from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
+from hydroelastic.scenes.tank.beam_shapes import BeamShapes, beam_shapes
+from hydroelastic.scenes.tank.mesh import check_mesh, make_mesh
+from hydroelastic.scenes.tank.outline import grounded_names, layer_names
+from hydroelastic.scenes.tank.plan import Resolution
+from hydroelastic.scenes.tank.scaled_tank import ScaledTank
+from hydroelastic.scenes.tank.symmetry import PARITIES, Parity, left_bodies, shape_parities, twin_of
+
+
+def build_mesh(
+    comm: MPI.Comm, tank: ScaledTank, resolution: Resolution, *, half: bool = False, released: bool = False
+) -> TankMesh:
+    """Mesh a scene, or its left half, with gmsh on rank 0 and distribute it (collective).
+
+    Args:
+        comm: MPI communicator.
+        tank: the scene.
+        resolution: sizes of elements.
+        half: whether the scene is its own mirror image, and the left half is meant.
+        released: whether the mesh is for the limit of high frequency.
+    """
+    return distributed_mesh(comm, lambda: make_mesh(tank, resolution, half=half, released=released))
+
+
+def distributed_mesh(comm: MPI.Comm, make: Callable[[], TaggedMesh]) -> TankMesh:
+    """Make a mesh, in units of the tank, on rank 0 and distribute it (collective).
+
+    Raises:
+        MeshError: on all ranks, if ``make`` fails.
+    """
+    tagged, problem = None, ""
+    if comm.rank == 0:
+        try:
+            tagged = make()
+        except Exception as error:
+            # Whatever it is, the other processes wait to hear of it.
+            problem = str(error) or type(error).__name__
+    return _distributed(comm, tagged, problem)
+
+
+def bring_mesh(comm: MPI.Comm, tank: ScaledTank, tagged: TaggedMesh | None, problem: str = "") -> TankMesh:
+    """Distribute a mesh that the user brought, already in units of the tank, after checking that it fits the scene.
+
+    Raises:
+        MeshError: if a group is missing, or a group does not lie where the scene says.
+    """
+    if comm.rank == 0 and tagged is not None and not problem:
+        try:
+            check_mesh(tank, tagged)
+        except MeshError as error:
+            problem = str(error)
+    return _distributed(comm, tagged, problem)
+
+
+def _distributed(comm: MPI.Comm, tagged: TaggedMesh | None, problem: str) -> TankMesh:
+    problem = comm.bcast(problem, root=0)
+    if problem:
+        raise MeshError(problem)
+    return distribute_mesh(comm, tagged)
+
+
+def build_field_model(
+    mesh: TankMesh, tank: ScaledTank, *, degree: int, shapes: tuple[int, ...], pressure_release: bool = False
+) -> CoupledPencil:
+    """Assemble the coupled problem of a whole tank.
+
+    Args:
+        mesh: the liquid's mesh.
+        tank: the scene.
+        degree: polynomial degree of ψ.
+        shapes: number of dry modes of each beam, 0 for floats.
+        pressure_release: the limit of high frequency whatever the scene says: ψ = 0 on an open top, and two liquids
+            move as one, on a mesh that is made for it.
+
+    Returns:
+        The dimensionless pencil (collective).
+    """
+    (pencil,) = _field_models(mesh, tank, degree, shapes, pressure_release, (None,))
+    return pencil
+
+
+def build_half_models(
+    mesh: TankMesh,
+    tank: ScaledTank,
+    *,
+    degree: int,
+    shapes: tuple[int, ...],
+    pressure_release: bool = False,
+    parities: tuple[Parity, ...] = PARITIES,
+) -> tuple[CoupledPencil, ...]:
+    """Assemble the symmetric and the antisymmetric problem on the left half of a tank that is its own mirror image.
+
+    Args:
+        mesh: the mesh of the half.
+        tank: the whole scene.
+        degree: polynomial degree of ψ.
+        shapes: number of dry modes of each beam of the whole tank, 0 for floats.
+        pressure_release: the limit of high frequency.
+        parities: which problems.
+
+    Returns:
+        A pencil for each of the parities, with energies of half the tank (collective). A body that the mirror plane
+        cuts keeps its shapes of that parity; of two bodies that are mirror images the left one is there.
+    """
+    return _field_models(mesh, tank, degree, shapes, pressure_release, parities)
+
+
+def moving_parities(tank: ScaledTank, shapes: tuple[int, ...], *, pressure_release: bool) -> tuple[Parity, ...]:
+    """The symmetries in which something moves: none of a lid's, and none above the waves that no body has."""
+    if not pressure_release and any(level.moves and level.is_open for level in tank.levels):
+        return PARITIES
+    return tuple(parity for parity in PARITIES if any(body.size for body in _half_bodies(tank, shapes, parity)))
+
+
+def _field_models(
+    mesh: TankMesh,
+    tank: ScaledTank,
+    degree: int,
+    shapes: tuple[int, ...],
+    pressure_release: bool,
+    parities: tuple[Parity | None, ...],
+) -> tuple[CoupledPencil, ...]:
+    surfaces = () if pressure_release else moving_surfaces(mesh, tank)
+    grounded = (*grounded_names(tank, released=pressure_release), *((FAR_END,) if FAR_END in mesh.facet_names else ()))
+    layers = tuple(
+        Layer(name=name, density=layer.density) for name, layer in zip(layer_names(tank), tank.layers, strict=True)
+    )
+    liquid = liquid_space(mesh, degree, grounded, layers, glued=pressure_release and tank.moves_as_one)
+    matrices = liquid_matrices(liquid, tuple(surface.surface for surface in surfaces))
+    pencils = []
+    for parity in parities:
+        plane = (SYMMETRY_PLANE,) if parity == "antisymmetric" else ()
+        bodies = whole_bodies(tank, shapes) if parity is None else _half_bodies(tank, shapes, parity)
+        part = replace(liquid, grounded=liquid.grounded + plane)
+        # A float in the middle may have no motion of this parity, and a beam may be held still.
+        moving = tuple(body for body in bodies if body.size)
+        pencils.append(build_pencil(part, matrices, bodies=moving, surfaces=surfaces))
+    return tuple(pencils)
+
+
+def moving_surfaces(mesh: TankMesh, tank: ScaledTank) -> tuple[LiquidSurface, ...]:
+    """The surfaces of the liquids on which gravity waves travel."""
+    surfaces = (
+        LiquidSurface(
+            surface=FREE_SURFACE if level.above is None else INTERFACE,
+            gravity=1.0,
+            below=level.below,
+            above=level.above,
+        )
+        for level in tank.levels
+        if level.moves
+    )
+    return tuple(surface for surface in surfaces if surface.surface in mesh.facet_names)
+
+
+def whole_bodies(tank: ScaledTank, shapes: tuple[int, ...]) -> tuple[Body, ...]:
+    """Every beam of a tank in its first dry modes, every float in its motions, in the scene's order.
+
+    A beam without dry modes is held still.
+    """
+    return tuple(_body(tank, index, count, None) for index, count in enumerate(shapes))
+
+
+def _half_bodies(tank: ScaledTank, shapes: tuple[int, ...], parity: Parity) -> tuple[Body, ...]:
+    return tuple(
+        _body(tank, index, shapes[index], parity if twin_of(tank, index) == index else None)
+        for index in left_bodies(tank)
+    )
+
+
+def _body(tank: ScaledTank, index: int, count: int, parity: Parity | None) -> Body:
+    if index in tank.beams:
+        return _beam_body(tank, index, count, parity)
+    from hydroelastic.scenes.tank.float_body import float_body
+
+    return float_body(tank.floats[index], index, parity)
+
+
+def _beam_body(tank: ScaledTank, index: int, count: int, parity: Parity | None) -> Body:
+    """A beam in its first ``count`` shapes, rigid ones included; dimensionless.
+
+    With a parity, only the shapes of that parity about its middle, and the energies of half the beam.
+    """
+    beam, piece, jump = tank.beams[index], tank.piece_of(index), tank.level_of(index).jump
+    part = 1.0 if parity is None else 0.5
+    shapes = beam_shapes(beam, count)
+    numbers = [number for number, own in enumerate(shape_parities(beam, count)) if parity in (None, own)]
+    bending = part * shapes.bending[numbers]
+    return Body(
+        surface=body_name(index + 1),
+        shapes=partial(_shape_at, shapes, piece.start, piece.length, numbers),
+        wavenumber=shapes.wavenumber,
+        labels=tuple(shapes.labels[number] for number in numbers),
+        stiffness=bending + part * float(beam.hydrostatic) * jump * piece.length,
+        bending_stiffness=bending,
+        mass=part * shapes.mass[np.ix_(numbers, numbers)],
+    )
+
+
+def _shape_at(
+    shapes: BeamShapes,
+    start: float,
+    length: float,
+    numbers: list[int],
+    points: np.ndarray,
+    normals: np.ndarray,
+    place: int,
+) -> np.ndarray:
+    # Quadrature points at the tips may miss them by rounding.
+    upwards: np.ndarray = shapes.deflection(numbers[place], np.clip(points[0] - start, 0.0, length)) * normals[1]
+    return upwards

@@ -1,0 +1,282 @@
+"""Solve a scene at one resolution: a whole tank, or the two halves of a tank that is its own mirror image.
+
+Modes of the halves are put in one ascending list and written in the bodies of the whole tank, so that nothing later
+needs to know how they were found.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+
+from hydroelastic.fem.liquid import compile_form
+from hydroelastic.fem.modes import HIDDEN, Mode, ModeSet, count_below, solve_modes
+from hydroelastic.fem.pencil import CoupledPencil
+from hydroelastic.fem.surfaces import Body, LiquidSurface
+from hydroelastic.meshes.distribute import TankMesh
+from hydroelastic.scenes.output.stopwatch import Stopwatch
+from hydroelastic.scenes.tank.field_model import build_field_model, build_half_models, moving_parities, whole_bodies
+from hydroelastic.scenes.tank.plan import Resolution
+from hydroelastic.scenes.tank.scaled_tank import ScaledTank
+from hydroelastic.scenes.tank.symmetry import (
+    Parity,
+    left_bodies,
+    motion_parity,
+    shape_parities,
+    shapes_of_twins,
+    twin_of,
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Part:
+    """One eigenproblem of a scene.
+
+    Attributes:
+        parity: which modes it holds; ``None`` is all of them, on the whole tank.
+        pencil: its matrices.
+        modes: its modes, with energies of its part of the tank.
+    """
+
+    parity: Parity | None
+    pencil: CoupledPencil
+    modes: ModeSet
+
+
+@dataclass(frozen=True, kw_only=True)
+class FieldSolution:
+    """The modes of a scene at one resolution.
+
+    Attributes:
+        mesh: mesh of the liquid, or of its left half.
+        parts: the eigenproblems.
+        bodies: the bodies of the whole tank.
+        modes: the lowest modes of all parts, ascending, in the bodies of the whole tank at unit generalized mass.
+        origins: part and index there of each of them.
+        growing_parts: part of each of the growing modes.
+    """
+
+    mesh: TankMesh
+    parts: tuple[Part, ...]
+    bodies: tuple[Body, ...]
+    modes: ModeSet
+    origins: tuple[tuple[int, int], ...]
+    growing_parts: tuple[int, ...] = ()
+
+    def parts_of(self, indices: list[int]) -> list[int]:
+        """The part of each of some modes."""
+        return [self.origins[index][0] for index in indices]
+
+    @property
+    def dofs(self) -> int:
+        """Unknowns of ψ and of the surfaces, over all parts."""
+        return sum(part.pencil.liquid.size + part.pencil.size for part in self.parts)
+
+    @property
+    def surface_unknowns(self) -> int:
+        """Unknowns of the surfaces, over all parts."""
+        return sum(part.pencil.size for part in self.parts)
+
+    @property
+    def half(self) -> bool:
+        """Whether the mesh is that of the left half of the tank."""
+        return self.parts[0].parity is not None
+
+    @property
+    def surfaces(self) -> tuple[LiquidSurface, ...]:
+        """The surfaces of the liquids that move under gravity."""
+        return self.parts[0].pencil.surfaces
+
+    def parity(self, index: int) -> Parity | None:
+        """Symmetry of a mode; ``None`` where the whole tank was solved."""
+        return self.parts[self.origins[index][0]].parity
+
+
+def solve_field(
+    mesh: TankMesh,
+    tank: ScaledTank,
+    resolution: Resolution,
+    count: int,
+    watch: Stopwatch,
+    *,
+    half: bool,
+    pressure_release: bool = False,
+) -> FieldSolution:
+    """Assemble and solve for the lowest modes.
+
+    Args:
+        mesh: the mesh, of the left half if ``half``.
+        tank: the scene.
+        resolution: degree and number of dry modes.
+        count: how many modes; fewer come back if the model has fewer.
+        watch: told the time of compiling the form, of assembly and of solution.
+        half: whether the tank is its own mirror image and is solved as two halves.
+        pressure_release: the limit of high frequency, on a mesh that is made for it.
+
+    Returns:
+        The modes (collective).
+
+    Raises:
+        EigenSolverError: if SLEPc stops before enough pairs have converged.
+    """
+    with watch.stage("forms"):
+        compile_form(mesh, resolution.degree, glued=pressure_release and tank.moves_as_one)
+    if half:
+        resolution = replace(resolution, shapes=shapes_of_twins(tank, resolution.shapes))
+    with watch.stage("assemble"):
+        parities, pencils = part_models(
+            mesh, tank, resolution.degree, resolution.shapes, half=half, pressure_release=pressure_release
+        )
+    with watch.stage("solve"):
+        parts = _solved_parts(pencils, parities, count)
+        return _merged(mesh, tank, resolution, parts, count)
+
+
+def part_models(
+    mesh: TankMesh,
+    tank: ScaledTank,
+    degree: int,
+    shapes: tuple[int, ...],
+    *,
+    half: bool,
+    pressure_release: bool,
+) -> tuple[tuple[Parity | None, ...], tuple[CoupledPencil, ...]]:
+    """The problems of a scene with their symmetries: one of the whole tank, or those of its halves in which something
+    moves (collective)."""
+    if not half:
+        pencil = build_field_model(mesh, tank, degree=degree, shapes=shapes, pressure_release=pressure_release)
+        return (None,), (pencil,)
+    parities = moving_parities(tank, shapes, pressure_release=pressure_release)
+    pencils = build_half_models(
+        mesh, tank, degree=degree, shapes=shapes, pressure_release=pressure_release, parities=parities
+    )
+    return parities, pencils
+
+
+def _solved_parts(pencils: tuple[CoupledPencil, ...], parities: tuple[Parity | None, ...], count: int) -> list[Part]:
+    """Solve each part for its share of the modes, and the ones that fall short for more."""
+    # The two kinds of modes alternate but for a rigid motion or two.
+    shares = [count] if len(pencils) == 1 else [count // 2 + 2] * len(pencils)
+    parts = [
+        Part(parity=parity, pencil=pencil, modes=solve_modes(pencil, share, shapes=0))
+        for pencil, parity, share in zip(pencils, parities, shares, strict=True)
+    ]
+    while True:
+        limit = _rounding_limit(parts)
+        # A part that gives fewer than asked has no more, or rounding hides them.
+        reached = [
+            min(part.modes.eigenvalues[-1], limit) if len(part.modes.eigenvalues) == share else limit
+            for part, share in zip(parts, shares, strict=True)
+        ]
+        complete = sum(int(np.sum(part.modes.eigenvalues <= min(reached))) for part in parts)
+        if complete >= count or min(reached) >= limit:
+            return parts
+        short = int(np.argmin(reached))
+        shares[short] += max(4, count - complete)
+        parts[short] = replace(parts[short], modes=solve_modes(parts[short].pencil, shares[short], shapes=0))
+
+
+def _rounding_limit(parts: list[Part]) -> float:
+    """The λ beyond which the lowest mode of all parts hides others: what one part still sees the other may not."""
+    lowest = (float(part.modes.eigenvalues[0]) for part in parts if len(part.modes.eigenvalues))
+    return min(lowest, default=np.inf) / HIDDEN
+
+
+def _merged(mesh: TankMesh, tank: ScaledTank, resolution: Resolution, parts: list[Part], count: int) -> FieldSolution:
+    limit = _rounding_limit(parts)
+    ordered = sorted(
+        (float(value), number, index)
+        for number, part in enumerate(parts)
+        for index, value in enumerate(part.modes.eigenvalues)
+        if value <= limit
+    )[:count]
+    origins = tuple((number, index) for _, number, index in ordered)
+    bodies = whole_bodies(tank, resolution.shapes)
+    extensions = [extension(tank, bodies, part.parity) for part in parts]
+    amplitudes = [extensions[number] @ parts[number].modes.elastic_amplitudes[index] for number, index in origins]
+
+    def completed(place: int) -> Mode:
+        number, index = origins[place]
+        return _extended(parts[number].modes.completed(index), extensions[number])
+
+    return FieldSolution(
+        mesh=mesh,
+        parts=tuple(parts),
+        bodies=bodies,
+        modes=ModeSet(
+            eigenvalues=np.array([value for value, _, _ in ordered]),
+            elastic_amplitudes=np.array(amplitudes).reshape(len(ordered), sum(body.size for body in bodies)),
+            modes=(),
+            completed=completed,
+            zero_modes=sum(part.modes.zero_modes for part in parts),
+            converged=sum(part.modes.converged for part in parts),
+            iterations=max(part.modes.iterations for part in parts),
+            solves=sum(part.modes.solves for part in parts),
+            growing=tuple(
+                _extended(mode, matrix)
+                for part, matrix in zip(parts, extensions, strict=True)
+                for mode in part.modes.growing
+            ),
+        ),
+        origins=origins,
+        growing_parts=tuple(number for number, part in enumerate(parts) for _ in part.modes.growing),
+    )
+
+
+def _extended(mode: Mode, extension: np.ndarray) -> Mode:
+    """A mode in the bodies of the whole tank; its ζ and ψ stay those of its part, at unit generalized mass there."""
+    # Each unknown's share goes to the bodies of the whole tank as the squares of the amplitudes do.
+    squares = extension**2
+    own = extension.shape[1]
+    shares = (squares / squares.sum(axis=0)) @ mode.energy[:own]
+    return replace(
+        mode,
+        body_amplitudes=extension @ mode.body_amplitudes,
+        energy=np.concatenate([shares, mode.energy[own:]]),
+    )
+
+
+def extension(tank: ScaledTank, bodies: tuple[Body, ...], parity: Parity | None) -> np.ndarray:
+    """Matrix from the body unknowns of a part to those of the whole tank, both at their unit generalized mass."""
+    size = sum(body.size for body in bodies)
+    if parity is None:
+        return np.eye(size)
+    offsets = np.cumsum([0, *(body.size for body in bodies)])
+    columns = []
+    for body in left_bodies(tank):
+        twin = twin_of(tank, body)
+        for number, own in enumerate(_parities(tank, body, bodies[body])):
+            if twin == body and own != parity:
+                continue
+            column = np.zeros(size)
+            column[offsets[body] + number] = np.sqrt(0.5)
+            if twin != body:
+                # Seen from the other side, odd shapes change their sign.
+                column[offsets[twin] + number] = np.sqrt(0.5) if own == parity else -np.sqrt(0.5)
+            columns.append(column)
+    return np.array(columns).reshape(len(columns), size).T
+
+
+def _parities(tank: ScaledTank, index: int, body: Body) -> list[Parity]:
+    """Symmetry of each of a body's shapes about its middle."""
+    if index in tank.beams:
+        return list(shape_parities(tank.beams[index], body.size))
+    return [motion_parity(motion) for motion in tank.floats[index].motions]
+
+
+def count_is_confirmed(solution: FieldSolution) -> bool:
+    """Count the modes below the widest of the last gaps by inertia, in each part."""
+    values = solution.modes.eigenvalues
+    if len(values) < 2:
+        shift = 2.0 * float(values[-1]) if len(values) else 1.0
+    else:
+        gaps = [upper / lower for lower, upper in pairwise(values)]
+        first = max(0, len(gaps) - 3)
+        widest = first + int(np.argmax(gaps[first:]))
+        shift = float(np.sqrt(values[widest] * values[widest + 1]))
+    return all(
+        count_below(part.pencil, shift) == int(np.sum(part.modes.eigenvalues < shift)) + len(part.modes.growing)
+        for part in solution.parts
+    )

@@ -1,0 +1,112 @@
+"""A rigid float as a body of the field model: heave, sway and roll as normal displacements of its wetted contour."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import eigh
+
+from hydroelastic.fem.surfaces import Body
+from hydroelastic.meshes.geometry import body_name
+from hydroelastic.scenes.models.bodies import Motion
+from hydroelastic.scenes.tank.scaled_float import MOTIONS, ScaledFloat
+from hydroelastic.scenes.tank.symmetry import Parity, motion_parity
+
+# Coupling and stiffness below this part of the largest are rounding.
+_NEGLIGIBLE = 1e-12
+
+
+def float_body(body: ScaledFloat, index: int, parity: Parity | None) -> Body:
+    """A float in its principal motions; dimensionless.
+
+    They are heave, sway and roll where gravity does not couple heave and roll, as it does in a section that is not its
+    own mirror image. The two are then replaced by the motions in which the float alone, without liquid, would oscillate
+    under its hydrostatic stiffness; each is named after the one with the larger part of its kinetic energy, and has
+    that one's unit.
+
+    Args:
+        body: the float.
+        index: of it among the bodies.
+        parity: of the motions that are meant, with the energies of half the float; ``None`` takes all, and the whole.
+    """
+    motions = tuple(motion for motion in body.motions if parity in (None, motion_parity(motion)))
+    part = 1.0 if parity is None else 0.5
+    turn, stiffness, inertia = principal_motions(body, motions)
+    return Body(
+        surface=body_name(index + 1),
+        shapes=partial(_thin_shape if body.is_thin else _exact_shape, body, motions, turn),
+        wavenumber=0.0,
+        labels=motions,
+        stiffness=part * stiffness,
+        bending_stiffness=np.zeros(len(motions)),
+        mass=np.diag(part * inertia),
+        singular_points=_singular_points(body),
+    )
+
+
+def principal_motions(
+    body: ScaledFloat, motions: tuple[Motion, ...]
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Motions that neither stiffness nor inertia couples.
+
+    Returns:
+        Their parts in the given motions as columns, their stiffness and their inertia.
+    """
+    places = [MOTIONS.index(motion) for motion in motions]
+    stiffness, inertia = body.stiffness[np.ix_(places, places)], body.inertia[places]
+    turn = np.eye(len(motions))
+    # A roll that moves the float's rim by a unit of length, so that it compares with heave.
+    units = np.array([1.0 / body.smallest_extent if motion == "roll" else 1.0 for motion in motions])
+    alike = np.abs(stiffness * units * units[:, None])
+    if (alike - np.diag(np.diag(alike))).max(initial=0.0) > _NEGLIGIBLE * alike.max(initial=0.0):
+        pair = [motions.index("heave"), motions.index("roll")]
+        _, vectors = eigh(stiffness[np.ix_(pair, pair)], np.diag(inertia[pair]))
+        # Of two vectors that are orthogonal in the inertia one leans to heave and the other to roll.
+        if abs(vectors[0, 0]) ** 2 * inertia[pair[0]] < 0.5:
+            vectors = vectors[:, ::-1]
+        turn[np.ix_(pair, pair)] = vectors / np.diag(vectors)
+    restoring = np.einsum("im,ij,jm->m", turn, stiffness, turn)
+    restoring[np.abs(restoring) * units**2 < _NEGLIGIBLE * alike.max(initial=0.0)] = 0.0
+    return turn, restoring, np.einsum("im,i,im->m", turn, inertia, turn)
+
+
+def _singular_points(body: ScaledFloat) -> NDArray[np.float64] | None:
+    """Where the slope of a thin float's profile has no bound: the ends of a thin ellipse."""
+    if body.profile is None or body.profile.shape != "ellipse":
+        return None
+    return np.array([[body.waterplane[0], y] for y in body.slit])
+
+
+def _exact_shape(
+    body: ScaledFloat,
+    motions: tuple[Motion, ...],
+    turn: NDArray[np.float64],
+    points: NDArray[np.float64],
+    normals: NDArray[np.float64],
+    number: int,
+) -> NDArray[np.float64]:
+    displacement = sum(
+        (factor * body.displacement(motion, points) for factor, motion in zip(turn[:, number], motions, strict=True)),
+        np.zeros_like(points),
+    )
+    outwards: NDArray[np.float64] = (displacement * normals).sum(axis=0)
+    return outwards
+
+
+def _thin_shape(
+    body: ScaledFloat,
+    motions: tuple[Motion, ...],
+    turn: NDArray[np.float64],
+    points: NDArray[np.float64],
+    normals: NDArray[np.float64],
+    number: int,
+) -> NDArray[np.float64]:
+    """The flux through the contour x = x₀ ± ω(y) put on x = x₀: n ds = (∓1, ω') dy out of the liquid."""
+    assert body.profile is not None
+    y = points[1] - body.reference_level
+    # The liquid on the right has its normal to the left, and the contour to the right.
+    on_contour = np.array([points[0] - normals[0] * body.profile.half_width_at(y), points[1]])
+    flux = np.array([normals[0], body.profile.slope_at(y)])
+    return _exact_shape(body, motions, turn, on_contour, flux, number)

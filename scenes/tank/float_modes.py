@@ -1,0 +1,120 @@
+"""The mode of each motion of a float: that in which it moves most.
+
+At unit generalized mass a motion of amplitude a has the modal mass 1/a²; the mode of the motion is the one with the
+smallest. In a tank the resonance of a float is shared with the waves near it: where the runner-up is close, there is no
+such thing as its one natural frequency.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hydroelastic.fem.modes import ModeSet
+from hydroelastic.fem.surfaces import Body
+from hydroelastic.scenes.tank.estimates import FAR_ENOUGH
+from hydroelastic.scenes.tank.high_frequency import HighFrequencyAddedMass
+from hydroelastic.scenes.tank.scaled_tank import ScaledTank
+
+# A motion with a smaller part of a mode's kinetic energy is held: what is left of it is rounding.
+_HELD = 1e-18
+
+
+@dataclass(frozen=True, kw_only=True)
+class FloatMode:
+    """The mode of a motion that gravity restores.
+
+    Attributes:
+        body: index of the float among the bodies.
+        motion: which.
+        index: of the mode, from 0; ``None`` where it is not one of the modes computed.
+        reason: why there is none, or "".
+        modal_mass: smallest 1/a², in units of the tank.
+        runner_up: the next smallest.
+    """
+
+    body: int
+    motion: str
+    index: int | None
+    reason: str
+    modal_mass: float
+    runner_up: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Motion:
+    body: int
+    label: str
+    number: int
+    place: int
+    stiffness: float
+    mass: float
+
+
+def _restored(tank: ScaledTank, bodies: tuple[Body, ...]) -> list[_Motion]:
+    """The motions of floats that have a stiffness, with their places among the unknowns of all bodies."""
+    offsets = np.cumsum([0, *(body.size for body in bodies)])
+    return [
+        _Motion(
+            body=index,
+            label=label,
+            number=number,
+            place=int(offsets[index]) + number,
+            stiffness=stiffness,
+            mass=mass,
+        )
+        for index in tank.floats
+        for number, (label, stiffness, mass) in enumerate(
+            zip(bodies[index].labels, bodies[index].stiffness, bodies[index].mass.diagonal(), strict=True)
+        )
+        if stiffness > 0.0
+    ]
+
+
+def float_modes(
+    tank: ScaledTank,
+    bodies: tuple[Body, ...],
+    modes: ModeSet,
+    added: HighFrequencyAddedMass | None,
+    *,
+    complete: bool,
+) -> tuple[FloatMode, ...]:
+    """Find the mode of each motion.
+
+    Args:
+        tank: the scene.
+        bodies: its bodies in the field model.
+        modes: the modes computed.
+        added: the floats' added mass far above the waves.
+        complete: whether they are all that there are.
+    """
+    found = []
+    for motion in _restored(tank, bodies):
+        moved = modes.elastic_amplitudes[:, motion.place] ** 2
+        order = np.argsort(-moved)
+        more = added.principal(tank, motion.body)[motion.number] if added is not None else 0.0
+        limit = motion.stiffness / (motion.mass + more)
+        certain = complete or bool(modes.eigenvalues[-1] >= 0.8 * FAR_ENOUGH * limit)
+        reason = ""
+        if complete and motion.mass * moved.max(initial=0.0) < _HELD:
+            reason = "the volume of the liquid holds it"
+        elif not certain or not np.any(moved):
+            reason = "it may lie above the modes looked at; ask for more modes"
+        found.append(
+            FloatMode(
+                body=motion.body,
+                motion=motion.label,
+                index=None if reason else int(order[0]),
+                reason=reason,
+                modal_mass=_inverse(moved, order, 0),
+                runner_up=_inverse(moved, order, 1),
+            )
+        )
+    return tuple(found)
+
+
+def _inverse(squares: np.ndarray, order: np.ndarray, place: int) -> float:
+    """1/a² of the motion in that place of an order of the modes; infinite where there is none."""
+    largest = squares[order[place]] if place < len(order) else 0.0
+    return float(1.0 / largest) if largest > 0.0 else np.inf

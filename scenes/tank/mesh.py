@@ -1,0 +1,172 @@
+"""The liquid of a scaled scene as a mesh on one process: made by gmsh, or the user's own after a check. No dolfinx."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from hydroelastic.meshes.geometry import FREE_SURFACE, LID, LIQUID, TankGeometry, body_name, tank_geometry
+from hydroelastic.meshes.grading import Grading
+from hydroelastic.meshes.outline import Corner, Outline
+from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
+from hydroelastic.scenes.tank.corners import tank_singular_points
+from hydroelastic.scenes.tank.outline import Sizes, tank_outline, unsized
+from hydroelastic.scenes.tank.plan import Resolution, sharpest_exponent
+from hydroelastic.scenes.tank.scaled_tank import ScaledTank
+
+# A mesh that the user brings may miss the scene's abscissae by this part of the tank's length: files round.
+_MESH_ROUNDING = 1e-6
+
+
+def geometry_of(tank: ScaledTank, *, half: bool = False) -> TankGeometry:
+    """The outline of a tank with one liquid and no floats, or of its left half, with the names of its top."""
+    rest = LID if tank.top == "rigid" else FREE_SURFACE
+    length = 0.5 if half else 1.0
+    pieces = tuple(
+        (piece.start, min(piece.end, length), rest if piece.body is None else body_name(piece.body + 1))
+        for piece in tank.pieces
+        if piece.start < length
+    )
+    return tank_geometry(length=length, depth=tank.depth, pieces=pieces, mirrored=half)
+
+
+def make_mesh(tank: ScaledTank, resolution: Resolution, *, half: bool = False, released: bool = False) -> TaggedMesh:
+    """Mesh a scene, or its left half, with gmsh; in units of the tank.
+
+    Args:
+        tank: the scene.
+        resolution: sizes of elements, and the degree, which curved cells have too.
+        half: whether the scene is its own mirror image, and the left half is meant.
+        released: whether the mesh is for the limit of high frequency, in which liquids move as one.
+
+    Raises:
+        MeshError: if gmsh fails.
+    """
+    # gmsh takes a third of a second to import, and a scene that brings its mesh does not need it.
+    if is_plain(tank):
+        from hydroelastic.meshes.tank import build_tank_mesh
+
+        geometry = geometry_of(tank, half=half)
+        grading = Grading(
+            surface_sizes=resolution.surface_sizes[: len(geometry.segments)],
+            bulk_size=resolution.bulk_size,
+            tip_size=resolution.tip_size,
+            ring_ratio=resolution.ring_ratio,
+        )
+        return build_tank_mesh(geometry, grading)
+    from hydroelastic.meshes.build import build_mesh
+
+    curved = any(not body.is_thin for body in tank.floats.values())
+    return build_mesh(
+        graded_outline(tank, resolution, half=half, released=released),
+        bulk_size=resolution.bulk_size,
+        ring_ratio=resolution.ring_ratio,
+        geometry_degree=resolution.degree if curved else 1,
+    )
+
+
+def graded_outline(tank: ScaledTank, resolution: Resolution, *, half: bool, released: bool) -> Outline:
+    """The outline of a scene with rings at its singular points, each as deep as its singularity asks for."""
+    contours = {
+        piece.body: size
+        for piece, size in zip(tank.pieces, resolution.surface_sizes, strict=True)
+        if piece.body in tank.floats
+    }
+    sizes = Sizes(pieces=resolution.surface_sizes, contours=contours)
+    outline = tank_outline(tank, sizes, half=half, released=released)
+    if resolution.tip_size is None:
+        return outline
+    exponent = sharpest_exponent(tank, released=released)
+    depth = resolution.tip_size / resolution.ring_size
+    points = tank_singular_points(tank, sizes, half=half, released=released)
+    corners = tuple(
+        Corner(
+            point=point.point,
+            inner=min(resolution.ring_size, point.reach) * depth ** (exponent / point.exponent),
+            outer=min(point.reach, 0.45 * tank.depth),
+        )
+        for point in points
+    )
+    return replace(outline, corners=corners)
+
+
+def tip_points(tank: ScaledTank, *, half: bool, released: bool = False) -> np.ndarray:
+    """Where meshes of a scene are graded to, shape (points, 2)."""
+    if is_plain(tank):
+        return np.array([[tip, 0.0] for tip in geometry_of(tank, half=half).tips]).reshape(-1, 2)
+    points = tank_singular_points(tank, unsized(tank), half=half, released=released)
+    return np.array([point.point for point in points]).reshape(-1, 2)
+
+
+def is_plain(tank: ScaledTank) -> bool:
+    """Whether the liquid is a rectangle whose top is cut into pieces, with beams that are smooth on each."""
+    return len(tank.layers) == 1 and not tank.floats and not any(tank.nodes_of(index) for index in tank.beams)
+
+
+def unknown_count(points: int, triangles: int, degree: int, *, parts: int = 1) -> int:
+    """Number of unknowns of a continuous polynomial of a degree on simply connected meshes of triangles.
+
+    A mesh each of whose triangles is cut into n² has, at the same degree, the unknowns of the uncut one at n times it.
+
+    Args:
+        points: number of nodes.
+        triangles: number of triangles.
+        degree: of the polynomial.
+        parts: number of meshes that do not hang together, like those of two liquids.
+    """
+    edges = points + triangles - parts
+    return points + (degree - 1) * edges + (degree - 1) * (degree - 2) // 2 * triangles
+
+
+def check_mesh(tank: ScaledTank, tagged: TaggedMesh) -> None:
+    """Check names and extents of a mesh against the scene.
+
+    Raises:
+        MeshError: naming the group, where it lies and where it should.
+    """
+    geometry = geometry_of(tank)
+    names = dict.fromkeys(segment.name for segment in geometry.segments)
+    tagged.require(cells=(LIQUID,), facets=names)
+    low, high = tagged.points.min(axis=0), tagged.points.max(axis=0)
+    expected = np.array([0.0, -tank.depth, 1.0, 0.0])
+    if np.abs(np.concatenate([low, high]) - expected).max() > _MESH_ROUNDING:
+        raise MeshError(
+            f"the mesh fills {low[0]:g} < x/L < {high[0]:g}, {low[1]:g} < y/L < {high[1]:g}; "
+            f"the scene's liquid fills 0 < x/L < 1, {-tank.depth:g} < y/L < 0"
+        )
+    _check_nodes(tank, tagged)
+    pieces = {name: [piece for piece in geometry.segments if piece.name == name] for name in names}
+    for name, segments in pieces.items():
+        _check_extent(tagged, name, min(piece.start for piece in segments), max(piece.end for piece in segments))
+    for name, segments in pieces.items():
+        _check_length(tagged, name, sum(piece.end - piece.start for piece in segments))
+
+
+def _check_nodes(tank: ScaledTank, tagged: TaggedMesh) -> None:
+    for index in tank.beams:
+        name = body_name(index + 1)
+        x = tagged.facet_nodes(name)[:, 0]
+        for place in tank.nodes_of(index):
+            if np.abs(x - place).min() > _MESH_ROUNDING:
+                raise MeshError(
+                    f"group {name} of the mesh has no node at x/L = {place:g}, where the beam has a joint or a step"
+                )
+
+
+def _check_extent(tagged: TaggedMesh, name: str, start: float, end: float) -> None:
+    x, y = tagged.facet_nodes(name).T
+    if max(abs(x.min() - start), abs(x.max() - end), np.abs(y).max()) > _MESH_ROUNDING:
+        raise MeshError(
+            f"group {name} of the mesh spans {x.min():g} < x/L < {x.max():g}; "
+            f"the scene puts it at {start:g} < x/L < {end:g} on y = 0"
+        )
+
+
+def _check_length(tagged: TaggedMesh, name: str, length: float) -> None:
+    missing = length - tagged.facet_measure(name)
+    if abs(missing) > _MESH_ROUNDING:
+        raise MeshError(
+            f"the edges of group {name} of the mesh are {abs(missing):g} tank lengths too "
+            f"{'short' if missing > 0 else 'long'} for the scene: some lack the group, or have it in error"
+        )

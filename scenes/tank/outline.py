@@ -1,0 +1,289 @@
+"""The liquids of a scaled scene as a planar outline: layers, still levels, wetted contours, slits of thin floats.
+
+Each layer is bounded from below by the bottom or the level under it, from above by its own level; where a float dips
+in, the boundary follows its contour. A thin float is a slit: its layer is split by the vertical line through it, which
+is no boundary beyond the slit's end.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from itertools import pairwise
+from math import inf
+
+import numpy as np
+
+from hydroelastic.meshes.contours import Arc, root
+from hydroelastic.meshes.geometry import (
+    BOTTOM,
+    FREE_SURFACE,
+    INTERFACE,
+    LEFT_WALL,
+    LID,
+    LIQUID,
+    LOWER_LIQUID,
+    RIGHT_WALL,
+    SYMMETRY_PLANE,
+    UPPER_LIQUID,
+    body_name,
+)
+from hydroelastic.meshes.outline import Curve, Outline, Point, Region
+from hydroelastic.meshes.tagged_mesh import MeshError
+from hydroelastic.scenes.tank.scaled_float import ScaledFloat
+from hydroelastic.scenes.tank.scaled_tank import MIDDLE, Piece, ScaledTank, StillLevel
+
+Directed = tuple[int, bool]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sizes:
+    """Largest elements: on each piece of the levels (all of them, in order), and on the contour of each float."""
+
+    pieces: tuple[float, ...]
+    contours: dict[int, float]
+
+
+def unsized(tank: ScaledTank) -> Sizes:
+    """No wishes for the sizes of elements."""
+    return Sizes(pieces=(inf,) * len(tank.pieces), contours=dict.fromkeys(tank.floats, inf))
+
+
+def layer_names(tank: ScaledTank) -> tuple[str, ...]:
+    """Physical names of the layers' cells, from the bottom up."""
+    return (LIQUID,) if len(tank.layers) == 1 else (LOWER_LIQUID, UPPER_LIQUID)
+
+
+def grounded_names(tank: ScaledTank, *, released: bool) -> tuple[str, ...]:
+    """Surfaces on which ψ = 0: the open top in the limit of high frequency, or where the scene says so."""
+    is_grounded = tank.top == "pressure_release" or (released and tank.top == "free")
+    return (FREE_SURFACE,) if is_grounded and tank.levels[-1].is_open else ()
+
+
+def tank_outline(tank: ScaledTank, sizes: Sizes, *, half: bool = False, released: bool = False) -> Outline:
+    """The outline of a tank, or of its left half, without graded corners.
+
+    Args:
+        tank: the scene.
+        sizes: of elements.
+        half: whether it is its own mirror image, and the left half is meant.
+        released: whether liquids move through the interface as one: it is then no boundary beside the bodies.
+
+    Raises:
+        MeshError: if a thin float has another body straight above or below it.
+    """
+    builder = _Builder(tank=tank, sizes=sizes, right=MIDDLE if half else 1.0, half=half, released=released)
+    regions = [region for number in range(len(tank.layers)) for region in builder.layer(number)]
+    return Outline(curves=tuple(builder.curves), regions=tuple(regions))
+
+
+@dataclass(kw_only=True)
+class _Builder:
+    """Collects curves; each one is added once, though two regions may share it."""
+
+    tank: ScaledTank
+    sizes: Sizes
+    right: float
+    half: bool
+    released: bool
+    curves: list[Curve] = field(default_factory=list)
+    _numbers: dict[tuple[str, Point, Point], int] = field(default_factory=dict)
+
+    def layer(self, number: int) -> Iterator[Region]:
+        """The regions of one layer: one, or several beside each other where thin floats split it."""
+        name = layer_names(self.tank)[number]
+        splits = self._splits(number)
+        marks = tuple(splits)
+        floor, ceiling = self._floor(number, marks), self._ceiling(number, marks)
+        sides = [0.0, *(x for x in marks if x < self.right), self.right]
+        for left, right in pairwise(sides):
+            below, above = self._between(floor, left, right), self._between(ceiling, left, right)
+            up = self._side(number, right, self._last(below), self._last(above), splits)
+            down = self._side(number, left, self._first(below), self._first(above), splits)
+            yield Region(name=name, loop=(*below, *up, *_reversed(above), *_reversed(down)))
+
+    def _splits(self, number: int) -> dict[float, list[int]]:
+        """Abscissae of the thin floats in a layer, and which they are."""
+        splits: dict[float, list[int]] = {}
+        for index, body in self.tank.floats.items():
+            level = self.tank.level_of(index)
+            if body.is_thin and number in (level.below, level.above):
+                splits.setdefault(body.waterplane[0], []).append(index)
+        return dict(sorted(splits.items()))
+
+    def _floor(self, number: int, marks: tuple[float, ...]) -> list[Directed]:
+        """The lower side of a layer from left to right."""
+        if number > 0:
+            return self._level(self.tank.levels[number - 1], marks, upper_side=True)
+        y = self.tank.layers[0].floor
+        stops = [0.0, *(x for x in marks if x < self.right), self.right]
+        return [(self._curve(BOTTOM, (start, y), (end, y)), True) for start, end in pairwise(stops)]
+
+    def _ceiling(self, number: int, marks: tuple[float, ...]) -> list[Directed]:
+        """The upper side of a layer from left to right."""
+        return self._level(self.tank.levels[number], marks, upper_side=False)
+
+    def _level(self, level: StillLevel, marks: tuple[float, ...], *, upper_side: bool) -> list[Directed]:
+        # Both layers must cut the level at the slits of either.
+        other = level.above if not upper_side else level.below
+        stops = sorted({*marks, *(self._splits(other) if other is not None else ())})
+        first = sum(len(lower.pieces) for lower in self.tank.levels[: level.below])
+        path: list[Directed] = []
+        for place, piece in enumerate(level.pieces, first):
+            if piece.start >= self.right:
+                break
+            body = self.tank.floats.get(piece.body) if piece.body is not None else None
+            if body is not None:
+                path += self._contour(piece, body, stops, upper_side=upper_side)
+            else:
+                path += self._flat(level, piece, stops, self.sizes.pieces[place])
+        return path
+
+    def _flat(self, level: StillLevel, piece: Piece, stops: list[float], size: float) -> list[Directed]:
+        end = min(piece.end, self.right)
+        nodes = self.tank.nodes_of(piece.body) if piece.body is not None else ()
+        marks = [piece.start, *(x for x in sorted({*stops, *nodes}) if piece.start < x < end), end]
+        name, cut = self._condition(level, piece)
+        return [
+            (self._curve(name, (start, level.height), (stop, level.height), size=size, cut=cut), True)
+            for start, stop in pairwise(marks)
+        ]
+
+    def _condition(self, level: StillLevel, piece: Piece) -> tuple[str, bool]:
+        """Physical name of a piece, and whether the liquids above and below it are parted."""
+        if piece.body is not None:
+            return body_name(piece.body + 1), level.above is not None
+        if level.above is not None:
+            return ("", False) if self.released else (INTERFACE, True)
+        return (LID if level.kind == "rigid" else FREE_SURFACE), False
+
+    def _contour(self, piece: Piece, body: ScaledFloat, stops: list[float], *, upper_side: bool) -> list[Directed]:
+        assert piece.body is not None
+        if body.is_thin:
+            return []
+        low, high = body.bounds[:2]
+        if any(low < x < high for x in stops):
+            raise MeshError(f"a thin float needs free liquid above and below it: body {piece.body + 1} is in its way")
+        arcs = body.above if upper_side else body.below
+        if self.half and high > self.right:
+            arcs = _left_of(arcs, self.right)
+        size, name = self.sizes.contours[piece.body], body_name(piece.body + 1)
+        path = [
+            (self._curve(name, smooth.start, smooth.end, arc=None if smooth.straight else smooth, size=size), True)
+            for arc in arcs
+            for smooth in _smooth_pieces(arc)
+        ]
+        # Contours turn counterclockwise: over the float they run from right to left.
+        return _reversed(path) if upper_side else path
+
+    def _side(self, number: int, x: float, bottom: Point, top: Point, splits: dict[float, list[int]]) -> list[Directed]:
+        """The vertical line at x from the floor to the ceiling: a wall, the mirror plane, or a line through slits."""
+        name = "" if 0.0 < x < self.right else LEFT_WALL if x == 0.0 else SYMMETRY_PLANE if self.half else RIGHT_WALL
+        pieces = [(bottom, top, name)]
+        # From the floor up: a slit may stand on it, and another hang from the ceiling.
+        for index in sorted(splits.get(x, []), key=lambda index: self.tank.level_of(index).below == number):
+            body = self.tank.floats[index]
+            low, high = body.slit
+            (start, end, _) = pieces.pop()
+            hangs = self.tank.level_of(index).below == number
+            first, last = ((x, low), end) if hangs else (start, (x, high))
+            stops = [first, *(kink for kink in body.kinks if first[1] < kink[1] < last[1]), last]
+            pieces += [(start, first, name)] if hangs else []
+            pieces += [(*ends, body_name(index + 1)) for ends in pairwise(stops)]
+            pieces += [] if hangs else [(last, end, name)]
+        return [
+            (
+                self._curve(
+                    part, start, end, cut=0.0 < x < self.right and bool(part), size=self._slit_size(part, start, end)
+                ),
+                True,
+            )
+            for start, end, part in pieces
+        ]
+
+    def _slit_size(self, name: str, start: Point, end: Point) -> float:
+        if not name.startswith("body_"):
+            return inf
+        return min(0.5 * (end[1] - start[1]), self.sizes.contours[int(name.removeprefix("body_")) - 1])
+
+    def _curve(
+        self,
+        name: str,
+        start: Point,
+        end: Point,
+        *,
+        arc: Arc | None = None,
+        size: float = inf,
+        cut: bool = False,
+    ) -> int:
+        key = name, start, end
+        if key not in self._numbers:
+            self._numbers[key] = len(self.curves)
+            path = None if arc is None else arc.point
+            self.curves.append(Curve(name=name, start=start, end=end, path=path, size=size, cut=cut))
+        return self._numbers[key]
+
+    def _between(self, path: list[Directed], left: float, right: float) -> tuple[Directed, ...]:
+        """The part of a path from x = left to x = right, both of which are ends of curves."""
+        return tuple(
+            directed
+            for directed in path
+            if left <= min(self._ends(directed)[0][0], self._ends(directed)[1][0])
+            and max(self._ends(directed)[0][0], self._ends(directed)[1][0]) <= right
+        )
+
+    def _ends(self, directed: Directed) -> tuple[Point, Point]:
+        curve, forward = self.curves[directed[0]], directed[1]
+        return (curve.start, curve.end) if forward else (curve.end, curve.start)
+
+    def _first(self, path: tuple[Directed, ...]) -> Point:
+        return self._ends(path[0])[0]
+
+    def _last(self, path: tuple[Directed, ...]) -> Point:
+        return self._ends(path[-1])[1]
+
+
+def _reversed(path: tuple[Directed, ...] | list[Directed]) -> list[Directed]:
+    return [(number, not forward) for number, forward in reversed(path)]
+
+
+def _smooth_pieces(arc: Arc) -> Iterator[Arc]:
+    """An arc cut at its knots: polynomials do not follow a spline across them."""
+    if not arc.knots:
+        yield arc
+        return
+    stops = [0.0, *arc.knots, 1.0]
+    points = [arc.start, *((float(x), float(y)) for x, y in arc.point(np.array(arc.knots))), arc.end]
+    for (first, last), (start, end) in zip(pairwise(stops), pairwise(points), strict=True):
+        yield arc.part(first, last, start=start, end=end)
+
+
+def _left_of(arcs: tuple[Arc, ...], x: float) -> tuple[Arc, ...]:
+    """The part of a contour left of the mirror plane; the contour is its own image and meets the plane once."""
+    left = []
+    for arc in (_onto(arc, x) for arc in arcs):
+        if max(arc.start[0], arc.end[0]) <= x:
+            left.append(arc)
+        elif min(arc.start[0], arc.end[0]) < x:
+            t = _meets(arc, x)
+            on_plane = x, float(arc.curve(np.array([t]))[0, 1])
+            if arc.start[0] < x:
+                left.append(arc.part(0.0, t, start=arc.start, end=on_plane))
+            else:
+                left.append(arc.part(t, 1.0, start=on_plane, end=arc.end))
+    return tuple(left)
+
+
+def _meets(arc: Arc, x: float) -> float:
+    """Where an arc that begins and ends on different sides of a vertical line crosses it."""
+    return root(lambda t: float(arc.curve(np.array([t]))[0, 0]) - x, 0.0, 1.0)
+
+
+# Corners of a float in the middle miss the mirror plane by rounding, in tank lengths.
+_ON_PLANE = 1e-13
+
+
+def _onto(arc: Arc, x: float) -> Arc:
+    """An arc whose ends lie on the plane if they nearly do."""
+    start, end = ((x, p[1]) if abs(p[0] - x) < _ON_PLANE else p for p in (arc.start, arc.end))
+    return replace(arc, start=start, end=end)

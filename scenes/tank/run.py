@@ -1,0 +1,168 @@
+"""Run a closed tank: solve, set the estimates beside the solution, tabulate, write and draw."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from mpi4py import MPI
+
+from hydroelastic.fem.modes import EigenSolverError
+from hydroelastic.fem.pictures.options import OF_FIELDS, OF_MOTIONS, PictureOptions
+from hydroelastic.meshes.files import load_mesh
+from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
+from hydroelastic.modal.estimate import Estimate
+from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.output.dataset import LabelledResults
+from hydroelastic.scenes.output.provenance import Summary
+from hydroelastic.scenes.output.staged_run import StagedRun
+from hydroelastic.scenes.output.stopwatch import Report, Stopwatch
+from hydroelastic.scenes.read import closed_tank
+from hydroelastic.scenes.tank.check_hints import draughts_left_out
+from hydroelastic.scenes.tank.dataset import TANK_NAMES, tank_dataset
+from hydroelastic.scenes.tank.estimates import scene_estimates
+from hydroelastic.scenes.tank.solve import TankSolution, solve_scene
+from hydroelastic.scenes.tank.summary import summarize
+from hydroelastic.scenes.tank.tables import mode_csv, tank_cost, tank_sections
+
+if TYPE_CHECKING:
+    import xarray
+
+    from hydroelastic.scenes.tank.float_estimates import EstimatesOfFloat
+    from hydroelastic.scenes.tank.shapes import ModeShapes
+
+
+@dataclass(frozen=True, kw_only=True)
+class EstimatedTank:
+    """The field solution of a closed tank, and the estimates to set beside it.
+
+    Attributes:
+        tank: the field solution.
+        beam: the estimates of the beam, by name.
+        floats: those of the floats, by body; ``None`` without floats.
+        seconds: what the estimates took.
+    """
+
+    tank: TankSolution
+    beam: dict[str, Estimate]
+    floats: dict[int, EstimatesOfFloat] | None
+    seconds: dict[str, float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class SampledTank:
+    """What is written and drawn.
+
+    Attributes:
+        solution: the field solution.
+        shapes: of the modes; ``None`` but on rank 0.
+        summary: content of ``summary.json``.
+    """
+
+    solution: TankSolution
+    shapes: ModeShapes | None
+    summary: Summary
+
+
+def solve_tank(scene: TankScene, comm: MPI.Comm, report: Report) -> EstimatedTank:
+    """Solve a closed tank and estimate it (collective).
+
+    Raises:
+        SceneError: if the scene's ends are open, or its mesh does not fit it.
+        UnsolvedError: if the eigen-solver fails.
+    """
+    closed_tank(scene, "the estimates of the older theories are those of closed tanks")
+    watch = Stopwatch()
+    with watch.stage("estimates"):
+        report("estimates")
+        estimates = scene_estimates(scene)
+        of_floats = None
+        if scene.floats:
+            # Floats need more of SciPy, which takes a while to import.
+            from hydroelastic.scenes.tank.float_estimates import float_estimates
+
+            of_floats = float_estimates(scene)
+    try:
+        solution = solve_scene(scene, comm=comm, mesh=_own_mesh(scene, comm), report=report)
+    except MeshError as error:
+        raise SceneError(_mesh_problem(scene, error)) from error
+    except EigenSolverError as error:
+        raise UnsolvedError(f"the eigen-solver failed: {error}") from error
+    return EstimatedTank(tank=solution, beam=estimates, floats=of_floats, seconds=watch.seconds)
+
+
+def summarize_tank(estimated: EstimatedTank, _comm: MPI.Comm, *, import_seconds: float) -> Summary:
+    """Return the content of ``summary.json`` (collective)."""
+    summary = summarize(estimated.tank, estimated.beam, estimated.floats, import_seconds=import_seconds)
+    summary["timing"].update(estimated.seconds)
+    return summary
+
+
+def _own_mesh(scene: TankScene, comm: MPI.Comm) -> TaggedMesh | None:
+    """The mesh that the user brings, on rank 0."""
+    if scene.mesh is None:
+        return None
+    mesh, problem = None, None
+    if comm.rank == 0:
+        try:
+            mesh = load_mesh(scene.mesh.file)
+        except Exception as error:
+            # Whatever it is, the other processes wait to hear of it.
+            problem = str(error) or type(error).__name__
+    problem = comm.bcast(problem, root=0)
+    if problem is not None:
+        raise SceneError(_mesh_problem(scene, MeshError(problem)))
+    return mesh
+
+
+def _mesh_problem(scene: TankScene, error: MeshError) -> Problem:
+    if scene.mesh is None:
+        return Problem(wrong=f"no mesh could be made: {error}", remedy="Please report this scene")
+    return Problem(
+        key='[mesh] key "file"',
+        value=f'"{scene.mesh.file}"',
+        wrong=str(error),
+        remedy="Mend the mesh, or leave [mesh] out to use the built-in one",
+    )
+
+
+def _sample(estimated: EstimatedTank, summary: Summary) -> SampledTank:
+    # Who only wants the numbers does without what draws.
+    from hydroelastic.scenes.tank.shapes import sample_shapes
+
+    return SampledTank(solution=estimated.tank, shapes=sample_shapes(estimated.tank), summary=summary)
+
+
+def _write(tank: SampledTank, folder: Path) -> None:
+    from hydroelastic.scenes.tank.shapes import write_fields
+
+    assert tank.shapes is not None
+    write_fields(tank.shapes, folder / "fields")
+    (folder / "modes.csv").write_text(mode_csv(tank.summary), encoding="utf-8")
+
+
+def _arrays(tank: SampledTank) -> xarray.Dataset:
+    assert tank.shapes is not None
+    return tank_dataset(tank.solution, tank.shapes)
+
+
+def _draw(tank: SampledTank, folder: Path, options: PictureOptions, report: Report) -> None:
+    from hydroelastic.scenes.tank.shapes import draw_all
+
+    assert tank.shapes is not None
+    draw_all(tank.shapes, tank.summary, folder, options, report)
+
+
+run_tank = StagedRun(
+    solve=solve_tank,
+    summarize=summarize_tank,
+    sections=lambda estimated, summary: tank_sections(summary, draughts_left_out(estimated.tank.scene)),
+    cost=tank_cost,
+    sample=_sample,
+    write=_write,
+    dataset=LabelledResults(arrays=_arrays, names=TANK_NAMES),
+    draw=_draw,
+    heeds=OF_FIELDS | OF_MOTIONS,
+)

@@ -1,0 +1,123 @@
+"""The first elastic tone: the mode in which a beam's first dry mode takes the largest part.
+
+pₙ = (e₁ᵀ K φₙ)², with the K-normalised dry mode e₁ and K-orthonormal modes φₙ; Σ pₙ = 1. In a tank with a free surface
+the elastic energy is spread over several hybrid modes, the more the shorter the beam beside the water; the tone then
+has a runner-up of nearly the same participation, and the pressure-release tone is the well-posed companion.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hydroelastic.fem.modes import Mode, ModeSet
+from hydroelastic.fem.surfaces import Body, LiquidSurface
+
+FIRST_ELASTIC = "elastic 1"
+
+SHARED = 0.5
+"""A mode that has more than this part of the largest participation shares the tone."""
+
+LEAST_OF_ONE_MODE = 0.25
+"""A shared tone whose largest participation is less is no single mode's."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ElasticTone:
+    """The first elastic tone of one beam among computed modes.
+
+    Attributes:
+        body: index of the beam.
+        index: index of the mode, from 0.
+        participation: its pₙ.
+        runner_up: the next largest pₙ.
+        sharing: indices of the first and the last mode that share it.
+        certain: whether no mode that was not computed is expected to have a larger part: what is left is less than
+            the largest part, or the modes reach past the tone and down its flank.
+    """
+
+    body: int
+    index: int
+    participation: float
+    runner_up: float
+    sharing: tuple[int, int]
+    certain: bool
+
+    @property
+    def is_shared(self) -> bool:
+        """Whether a second mode has nearly as large a part."""
+        return self.runner_up > SHARED * self.participation
+
+    @property
+    def is_of_one_mode(self) -> bool:
+        """Whether it makes sense to name a single mode."""
+        return not self.is_shared or self.participation >= LEAST_OF_ONE_MODE
+
+
+def participations(modes: ModeSet, bodies: tuple[Body, ...], body: int) -> np.ndarray:
+    """pₙ of a beam's first dry mode, one for each mode."""
+    position = sum(other.size for other in bodies[:body]) + bodies[body].labels.index(FIRST_ELASTIC)
+    stiffness = bodies[body].stiffness[bodies[body].labels.index(FIRST_ELASTIC)]
+    # Modes have unit generalized mass, so φᵀKφ = λ.
+    parts: np.ndarray = stiffness * modes.elastic_amplitudes[:, position] ** 2 / modes.eigenvalues
+    return parts
+
+
+def elastic_tone(modes: ModeSet, bodies: tuple[Body, ...], body: int, *, companion: float | None = None) -> ElasticTone:
+    """The mode of largest participation.
+
+    Args:
+        modes: the modes.
+        bodies: the bodies of the pencil.
+        body: index of the beam.
+        companion: λ of its pressure-release tone, about which the participations gather, where there is one.
+    """
+    parts = participations(modes, bodies, body)
+    order = np.argsort(parts)[::-1]
+    best, second = parts[order[0]], parts[order[1]] if len(parts) > 1 else 0.0
+    sharing = np.flatnonzero(parts >= SHARED * best)
+    return ElasticTone(
+        body=body,
+        index=int(order[0]),
+        participation=float(best),
+        runner_up=float(second),
+        sharing=(int(sharing[0]), int(sharing[-1])),
+        certain=bool(best > 1.0 - parts.sum()) or _reaches_past(modes, parts, companion),
+    )
+
+
+def _reaches_past(modes: ModeSet, parts: np.ndarray, companion: float | None) -> bool:
+    """Whether the last fifth of the modes lies above the companion, and holds less than half the largest part.
+
+    Without half of the energy in sight, what looks like a flank is not one.
+    """
+    start = len(parts) - len(parts) // 5
+    if companion is None or start == len(parts):
+        return False
+    past = companion < modes.eigenvalues[start] and parts[start:].max() < 0.5 * parts.max()
+    return bool(past and parts.sum() > 0.5)
+
+
+def mode_kind(mode: Mode, bodies: tuple[Body, ...], surfaces: tuple[LiquidSurface, ...]) -> str:
+    """What holds most of the potential energy: a motion of the bodies ("heave", "pitch", "sway", "roll", "elastic"),
+    or the liquids: "sloshing" of one liquid, "interface wave" or "surface wave" of two.
+    """
+    first = sum(body.size for body in bodies)
+    shares = {"sloshing": 0.0}
+    for surface, share in zip(surfaces, mode.energy[first:], strict=True):
+        name = "interface wave" if surface.above is not None else "surface wave" if surface.below else "sloshing"
+        shares[name] = float(share)
+    position = 0
+    for body in bodies:
+        for label in body.labels:
+            kind = label.split()[0]
+            shares[kind] = shares.get(kind, 0.0) + float(mode.energy[position])
+            position += 1
+    return max(shares, key=lambda kind: shares[kind])
+
+
+def bending_fraction(mode: Mode, bodies: tuple[Body, ...]) -> float:
+    """Strain energy of bending over total potential energy."""
+    bending = np.concatenate([body.bending_stiffness for body in bodies] or [np.empty(0)])
+    return float(bending @ mode.body_amplitudes**2 / mode.eigenvalue)

@@ -1,0 +1,71 @@
+"""How short the waves are that a scene's modes carry: wavenumbers and mode counts from local dispersion.
+
+In a piece of a still level of length s, waves of wavenumber k(ω) fit about k s/π times. Summed over the pieces this
+counts the modes below ω well enough to choose a mesh; the a-posteriori estimate then judges the choice.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi, tanh
+
+from scipy.optimize import brentq
+
+from hydroelastic.scenes.models.tank import Beam
+
+_WIDEST = 1e12  # dimensionless wavenumbers beyond this are nobody's
+
+
+@dataclass(frozen=True, kw_only=True)
+class LevelPiece:
+    """A piece of a still level that moves, in units of the tank.
+
+    Attributes:
+        length: its length.
+        beam: the beam that floats there; ``None`` is a surface of the liquids.
+        jump: ρ below less ρ above it, which restores it.
+        layers: density and depth of each layer that moves with it.
+    """
+
+    length: float
+    beam: Beam | None
+    jump: float
+    layers: tuple[tuple[float, float], ...]
+
+    def squared_frequency(self, wavenumber: float) -> float:
+        """λ of a wave: (EI k⁴ + Δρ)/(m + Σ ρⱼ/(k tanh khⱼ)), the beam's terms where there is one."""
+        liquid = sum(density / (wavenumber * tanh(wavenumber * depth)) for density, depth in self.layers)
+        if self.beam is None:
+            return self.jump / liquid
+        stiffness = self.beam.flexural_rigidity * wavenumber**4 + float(self.beam.hydrostatic) * self.jump
+        return stiffness / (self.beam.mass_per_length + liquid)
+
+    def wavenumber(self, squared_frequency: float) -> float:
+        """The k of a wave at λ; zero where even the longest wave is faster."""
+        # Below a millionth of a wave in the tank nothing travels.
+        shortest = 1e-6
+        if self.squared_frequency(shortest) >= squared_frequency:
+            return 0.0
+        high = 1.0
+        while self.squared_frequency(high) < squared_frequency and high < _WIDEST:
+            high *= 4.0
+        if high >= _WIDEST:
+            return _WIDEST
+        return float(brentq(lambda k: self.squared_frequency(k) - squared_frequency, shortest, high))
+
+
+def modes_below(pieces: tuple[LevelPiece, ...], squared_frequency: float) -> float:
+    """About how many modes lie below λ."""
+    return sum(piece.wavenumber(squared_frequency) * piece.length / pi for piece in pieces)
+
+
+def squared_frequency_of_mode(pieces: tuple[LevelPiece, ...], number: int) -> float:
+    """About the λ of a mode, counted from 1; an overestimate by a mode or so."""
+    low, high = 1e-12, 1.0
+    # End effects hold modes back.
+    wanted = number + 1
+    while modes_below(pieces, high) < wanted:
+        high *= 4.0
+    while modes_below(pieces, low) > wanted:
+        low /= 256.0
+    return float(brentq(lambda value: modes_below(pieces, value) - wanted, low, high, rtol=1e-3))

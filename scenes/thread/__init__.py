@@ -1,0 +1,1 @@
+"""Flexible threads in a stream."""

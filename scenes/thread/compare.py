@@ -1,0 +1,36 @@
+"""The field solution of a thread in a stream beside asymptotic solutions and closed forms."""
+
+from __future__ import annotations
+
+from mpi4py import MPI
+
+from hydroelastic.scenes.models.thread import ThreadScene
+from hydroelastic.scenes.output.outcome import Outcome
+from hydroelastic.scenes.output.stopwatch import Report
+from hydroelastic.scenes.thread.compared import comparison_sections
+from hydroelastic.scenes.thread.differences import thread_differences
+from hydroelastic.scenes.thread.estimates import thread_estimates
+from hydroelastic.scenes.thread.solve import solve_thread_scene
+from hydroelastic.scenes.thread.summary import summarize_thread
+from hydroelastic.scenes.thread.tables import thread_cost
+
+
+def compare_thread(scene: ThreadScene, *, report: Report = lambda _message: None) -> Outcome:
+    """Solve a scene and set all estimates that fit it beside the solution; writes nothing (collective).
+
+    Args:
+        scene: the scene; its motions in time are left out, of which there is no estimate.
+        report: told what is being done.
+
+    Raises:
+        UnsolvedError: if the field solution fails.
+    """
+    comm = MPI.COMM_WORLD
+    at_rest = scene.model_copy(update={"analysis": tuple(asked for asked in scene.analysis if asked.kind != "motion")})
+    solution = solve_thread_scene(at_rest, comm, report)
+    report("estimates")
+    estimates = thread_estimates(at_rest, comm)
+    summary = summarize_thread(solution, comm, import_seconds=0.0)
+    summary["comparison"] = thread_differences(solution, estimates)
+    sections = tuple(comparison_sections(summary["comparison"]))
+    return Outcome(solution=solution, summary=summary, sections=sections, cost=thread_cost(summary), notes=True)

@@ -1,0 +1,106 @@
+"""The field solution of a thread beside estimates: differences, the error of the one and what the others leave out."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import isfinite
+from typing import Any
+
+import numpy as np
+
+from hydroelastic.scenes.output.provenance import Summary
+from hydroelastic.scenes.thread.estimate import (
+    Found,
+    Inapplicable,
+    ShapeEstimate,
+    ThreadEstimate,
+    ValueEstimate,
+    places_of,
+)
+from hydroelastic.scenes.thread.results import ThreadSolutionOfScene
+
+# What a theory leaves out is known by its leading term, or by the last one that it keeps: taken twice.
+_LEFT_OUT = 2.0
+# Of the length, of the largest tension and of values: differences below are rounding of the estimates.
+_ROUNDING = 1e-12
+
+
+def thread_differences(solution: ThreadSolutionOfScene, estimates: Sequence[Found]) -> Summary:
+    """Return how far each estimate is from the field solution, JSON-ready.
+
+    A difference is explained if it is not larger than the estimated error of the field solution and twice the estimate
+    of what the theory leaves out, together.
+
+    Args:
+        solution: the field solution.
+        estimates: of the same scene.
+    """
+    rest = solution.rest
+    return {
+        "field": {
+            "position_error": rest.position_error,
+            "tension_error": rest.tension_error,
+            "seconds": sum(solution.seconds.values()),
+        },
+        "shapes": [_shape(solution, found) for found in estimates if isinstance(found, ShapeEstimate)],
+        "values": [_values(solution, found) for found in estimates if isinstance(found, ValueEstimate)],
+        "inapplicable": [
+            {"name": found.name, "reason": found.reason} for found in estimates if isinstance(found, Inapplicable)
+        ],
+    }
+
+
+def _head(found: ThreadEstimate) -> dict[str, Any]:
+    return {
+        "name": found.name,
+        "order": found.order,
+        "parameter": found.parameter,
+        "small": found.small,
+        "seconds": found.seconds,
+    }
+
+
+def _beside(difference: float, error: float, left_out: float, size: float) -> dict[str, Any]:
+    explained = difference <= error + _LEFT_OUT * left_out + _ROUNDING * size
+    return {"difference": difference, "field_error": error, "left_out": left_out, "explained": bool(explained)}
+
+
+def _shape(solution: ThreadSolutionOfScene, found: ShapeEstimate) -> dict[str, Any]:
+    rest, shape = solution.rest, found.shape
+    chosen = slice(None) if len(shape.s) == len(places_of(solution.scene)) else [0, -1]
+    positions = np.vstack([rest.end_positions[:1], rest.positions, rest.end_positions[1:]])[chosen]
+    tensions = np.concatenate([rest.end_tensions[:1], rest.tensions, rest.end_tensions[1:]])[chosen]
+    apart = float(np.linalg.norm(shape.positions - positions, axis=1).max())
+    pulled = float(np.abs(shape.tensions - tensions).max())
+    ends = [0, -1]
+    return {
+        **_head(found),
+        "end_positions": shape.positions[ends].tolist(),
+        "end_tensions": shape.tensions[ends].tolist(),
+        "smallest_tension": float(shape.tensions.min()),
+        "position": _beside(apart, rest.position_error, found.position_left_out, solution.scene.thread.length),
+        "tension": _beside(pulled, rest.tension_error, found.force_left_out, float(np.max(tensions))),
+    }
+
+
+def _values(solution: ThreadSolutionOfScene, found: ValueEstimate) -> dict[str, Any]:
+    """Only those values that the field solution has, too."""
+    measured = found.measure(solution, found.values)
+    entries = [
+        {
+            "number": number,
+            "estimate": _plain(value),
+            "field": _plain(field),
+            **_beside(float(abs(value - field)), float(error), float(left_out), float(abs(value))),
+        }
+        for number, (value, field, error, left_out) in enumerate(
+            zip(found.values, measured.values, measured.errors, found.left_out, strict=True), 1
+        )
+        if isfinite(error)
+    ]
+    return {**_head(found), "quantity": found.quantity, "compared": entries}
+
+
+def _plain(value: Any) -> Any:
+    """A number, or the real and imaginary parts of a complex one."""
+    return [float(value.real), float(value.imag)] if np.iscomplexobj(value) else float(value)

@@ -1,0 +1,161 @@
+"""A thread that is held at one end and pulled at the other, seen from the end that is held."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol, TypeVar
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+from scipy.optimize import root_scalar
+
+from hydroelastic.modal.beam.dry_modes import FloatArray
+from hydroelastic.modal.thread.asymptotics import AsymptoticThread, NoAsymptoticError
+from hydroelastic.modal.thread.shape import ThreadShape
+from hydroelastic.modal.thread.stream_profiles import UniformStream
+from hydroelastic.scenes.models.thread import ThreadScene
+from hydroelastic.scenes.models.thread_parts import FixedEnd, FreeEnd
+from hydroelastic.scenes.thread.estimate import places_of, require, require_bare_thread
+from hydroelastic.scenes.thread.model import body_drag, stream_of
+from hydroelastic.scenes.thread.starts import force_on
+
+LEVELS = 513
+"""Heights at which a shape is found by heights: a cubic between them is wrong by 1e-9 of the length."""
+
+# Of the length, in what is found by iteration.
+_FOUND = 1e-12
+_MOST_ROUNDS = 100
+
+
+class _OfSomeLength(Protocol):
+    @property
+    def length(self) -> float: ...
+
+
+_Thread = TypeVar("_Thread", bound=_OfSomeLength)
+
+
+@dataclass(frozen=True)
+class PulledThread:
+    """A thread seen from its fixed end.
+
+    Attributes:
+        scene: the scene.
+    """
+
+    scene: ThreadScene
+
+    @staticmethod
+    def fits(scene: ThreadScene) -> bool:
+        """Whether one end is fixed and the other one free."""
+        return {scene.ends.a.kind, scene.ends.b.kind} == {"fixed", "free"}
+
+    @property
+    def reverse(self) -> bool:
+        """Whether end A is the free one."""
+        return isinstance(self.scene.ends.a, FreeEnd)
+
+    @property
+    def start(self) -> FloatArray:
+        """Position of the fixed end, m."""
+        held = self.scene.ends.b if self.reverse else self.scene.ends.a
+        assert isinstance(held, FixedEnd)
+        return np.array(held.position)
+
+    @property
+    def free(self) -> FreeEnd:
+        """The free end."""
+        free = self.scene.ends.a if self.reverse else self.scene.ends.b
+        assert isinstance(free, FreeEnd)
+        return free
+
+    @property
+    def force_varies(self) -> bool:
+        """Whether the force at the end depends on where that is."""
+        still = stream_of(self.scene) is None or isinstance(stream_of(self.scene), UniformStream)
+        return not still and body_drag(self.scene, self.free) > 0.0
+
+    @property
+    def places(self) -> FloatArray:
+        """Where the shape is wanted, m from the fixed end."""
+        places = places_of(self.scene)
+        return np.asarray(self.scene.thread.length - places[::-1]) if self.reverse else places
+
+    def shape(self, found: ThreadShape) -> ThreadShape:
+        """The shape as the scene counts, from end A."""
+        if not self.reverse:
+            return found
+        places = self.scene.thread.length - found.s[::-1]
+        return ThreadShape(s=places, positions=found.positions[::-1], forces=-found.forces[::-1])
+
+    def pulled_by_its_force(self, find: Callable[[FloatArray], AsymptoticThread]) -> AsymptoticThread:
+        """The shape whose end lies where the force at its end is that which it was found with.
+
+        Args:
+            find: the shape by the force at the end.
+        """
+        force, level = force_on(self.scene, self.free), float(self.start[2])
+        first = force(self.start)
+        if not self.force_varies:
+            return find(first)
+        size = float(np.linalg.norm(first))
+        require(size > 0.0, "no force pulls at the end")
+
+        def found_at(height: float) -> AsymptoticThread:
+            return find(force(np.array([0.0, 0.0, height])))
+
+        def miss(height: float) -> float:
+            return float(found_at(height).shape.positions[-1, 2]) - height
+
+        length = self.scene.thread.length
+        guess = level + length * first[2] / size
+        solved = root_scalar(miss, x0=guess, x1=guess - 0.01 * length, xtol=_FOUND * length, method="secant")
+        require(solved.converged, "no end lies where it is pulled that way")
+        return found_at(solved.root)
+
+
+def pulled_thread(scene: ThreadScene, *, stretch: bool = False) -> PulledThread:
+    """Return the thread of a scene as pulled at its free end.
+
+    Args:
+        scene: the scene.
+        stretch: whether it may stretch.
+
+    Raises:
+        NoAsymptoticError: if it is none, or has what no theory of it knows.
+    """
+    require(PulledThread.fits(scene), "not one end is fixed and the other one free")
+    require_bare_thread(scene, stretch=stretch)
+    return PulledThread(scene)
+
+
+def shape_at(shape: ThreadShape, places: FloatArray) -> ThreadShape:
+    """Return a shape at other places, by cubics.
+
+    Raises:
+        NoAsymptoticError: if the places of the shape do not increase.
+    """
+    require(bool(np.all(np.diff(shape.s) > 0.0)), "weight would turn the thread back")
+    both = CubicSpline(shape.s, np.hstack([shape.positions, shape.forces]))(places)
+    return ThreadShape(s=places, positions=both[:, :3], forces=both[:, 3:])
+
+
+def of_length(at: Callable[[float], _Thread], length: float, guess: float) -> _Thread:
+    """Return the thread of a length, m, which is nearly in proportion to its height.
+
+    Args:
+        at: the thread by its height, m.
+        length: m.
+        guess: of the height, m.
+
+    Raises:
+        NoAsymptoticError: if no height is found.
+    """
+    height = guess
+    for _ in range(_MOST_ROUNDS):
+        found = at(height)
+        if abs(found.length - length) < _FOUND * length:
+            return found
+        height *= length / found.length
+    raise NoAsymptoticError("no height is found at which the thread has its length")

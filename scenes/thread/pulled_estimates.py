@@ -1,0 +1,143 @@
+"""Shapes of a thread that is held at one end and pulled at the other, by asymptotic and exact solutions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import partial
+from math import inf
+
+import numpy as np
+
+from hydroelastic.modal.beam.dry_modes import FloatArray
+from hydroelastic.modal.thread.asymptotics import AsymptoticThread
+from hydroelastic.modal.thread.drag_dominated import drag_dominated
+from hydroelastic.modal.thread.shape import ThreadShape
+from hydroelastic.modal.thread.stream_profiles import ShearedStream, Stream, TabulatedStream, VeeringStream
+from hydroelastic.modal.thread.tension_at_height import ThreadAtHeight, tension_dominated_at_height
+from hydroelastic.modal.thread.tension_dominated import tension_dominated
+from hydroelastic.modal.thread.weightless import weightless_thread
+from hydroelastic.scenes.models.thread import ThreadScene
+from hydroelastic.scenes.thread.estimate import (
+    Found,
+    ShapeEstimate,
+    attempted,
+    require,
+)
+from hydroelastic.scenes.thread.model import load_of, stream_of
+from hydroelastic.scenes.thread.pulled import LEVELS, PulledThread, of_length, pulled_thread, shape_at
+from hydroelastic.scenes.thread.starts import force_on
+
+_NAMES = {
+    "tension": "tension-dominated, order {order}",
+    "height": "tension-dominated at the end's own depth, order 1",
+    "drag": "drag-dominated, order {order}",
+    "weightless": "weightless thread",
+}
+_TENSION, _WEIGHT = "ε = ∫|q| ds/T", "change of angle and of ln T by the weight"
+
+
+def pulled_estimates(scene: ThreadScene) -> Iterator[Found]:
+    """Yield what is known of the shape of a thread with one fixed and one free end, or why it is not.
+
+    The force of a body is that of the stream at its own depth, which is found with the shape.
+    """
+    for order in (0, 1, 2):
+        yield attempted(_NAMES["tension"].format(order=order), partial(_tension_dominated, scene, order))
+    if PulledThread.fits(scene) and PulledThread(scene).force_varies:
+        yield attempted(_NAMES["height"], partial(_at_height, scene))
+    for order in (0, 1):
+        yield attempted(_NAMES["drag"].format(order=order), partial(_drag_dominated, scene, order))
+    yield attempted(_NAMES["weightless"], partial(_weightless, scene))
+
+
+def _estimate(name: str, pulled: PulledThread, found: AsymptoticThread, parameter: str) -> ShapeEstimate:
+    return ShapeEstimate(
+        name=name,
+        order=found.order,
+        parameter=parameter,
+        small=found.small,
+        shape=pulled.shape(found.shape),
+        position_left_out=found.position_left_out,
+        force_left_out=found.force_left_out,
+    )
+
+
+def _tension_dominated(scene: ThreadScene, order: int) -> ShapeEstimate:
+    pulled, load = pulled_thread(scene, stretch=True), load_of(scene)
+
+    def find(force: FloatArray) -> AsymptoticThread:
+        return tension_dominated(
+            load,
+            scene.thread.length,
+            force,
+            pulled.places,
+            order=order,
+            axial_rigidity=scene.thread.axial_rigidity or inf,
+            start=pulled.start,
+        )
+
+    name = _NAMES["tension"].format(order=order)
+    return _estimate(name, pulled, pulled.pulled_by_its_force(find), _TENSION)
+
+
+def _drag_dominated(scene: ThreadScene, order: int) -> ShapeEstimate:
+    pulled, load = pulled_thread(scene), load_of(scene)
+
+    def find(force: FloatArray) -> AsymptoticThread:
+        found = drag_dominated(load, force, length=scene.thread.length, order=order, count=LEVELS, start=pulled.start)
+        return replace(found, shape=shape_at(found.shape, pulled.places))
+
+    return _estimate(_NAMES["drag"].format(order=order), pulled, pulled.pulled_by_its_force(find), _WEIGHT)
+
+
+def _weightless(scene: ThreadScene) -> ShapeEstimate:
+    pulled = pulled_thread(scene)
+    force = force_on(scene, pulled.free)(pulled.start)
+    shape = weightless_thread(load_of(scene), scene.thread.length, force, pulled.places, pulled.start)
+    return ShapeEstimate(name=_NAMES["weightless"], order=None, shape=pulled.shape(shape))
+
+
+def _at_height(scene: ThreadScene) -> ShapeEstimate:
+    """The thread whose end lies at a height, for the height at which it has its length."""
+    pulled, length = pulled_thread(scene), scene.thread.length
+    force = force_on(scene, pulled.free)
+    up = np.array([1.0, 1.0, np.sign(force(pulled.start)[2])])
+    require(up[2] != 0.0, "no force pulls the end up or down")
+    load = replace(load_of(scene), weight=up[2] * scene.weight, stream=_from(stream_of(scene), pulled.start[2], up[2]))
+
+    def at(height: float) -> ThreadAtHeight:
+        def end_force(place: FloatArray) -> FloatArray:
+            return up * force(pulled.start + up * np.append(place, height))
+
+        return tension_dominated_at_height(load, height, end_force, [0.0, height])
+
+    found = of_length(at, length, length)
+    return ShapeEstimate(
+        name=_NAMES["height"],
+        order=1,
+        parameter=_TENSION,
+        small=found.small,
+        shape=pulled.shape(
+            ThreadShape(
+                s=np.array([0.0, length]), positions=pulled.start + up * found.positions, forces=up * found.forces
+            )
+        ),
+        position_left_out=found.position_left_out,
+        force_left_out=found.force_left_out,
+    )
+
+
+def _from(stream: Stream | None, level: float, up: float) -> Stream | None:
+    """A stream by the height above a level, or by the depth below it."""
+    if isinstance(stream, ShearedStream):
+        x, y, z = (up * part for part in stream.gradient)
+        return replace(stream, gradient=(x, y, z), level=up * (stream.level - level))
+    if isinstance(stream, TabulatedStream):
+        step = int(up)
+        levels = tuple(up * (height - level) for height in stream.levels)[::step]
+        return replace(stream, levels=levels, velocities=stream.velocities[::step])
+    if isinstance(stream, VeeringStream):
+        require(level == 0.0, "the stream turns, and the fixed end does not lie at z = 0")
+        return replace(stream, rate=up * stream.rate)
+    return stream

@@ -12,7 +12,7 @@ from typing import NoReturn
 import click
 
 from hydroelastic.benchmarks.cases import Case
-from hydroelastic.benchmarks.circle import CIRCLE, circle_cases
+from hydroelastic.benchmarks.circle.cases import CIRCLE, circle_cases
 from hydroelastic.benchmarks.measure import Benchmark, cases_of, run_benchmark
 from hydroelastic.benchmarks.output import (
     OutputError,
@@ -22,9 +22,9 @@ from hydroelastic.benchmarks.output import (
     write_strings,
     write_threads,
 )
-from hydroelastic.benchmarks.strings import MOTIONS, string_cases
-from hydroelastic.benchmarks.tanks import TANKS
-from hydroelastic.benchmarks.threads import THREADS, thread_cases
+from hydroelastic.benchmarks.string.cases import MOTIONS, string_cases
+from hydroelastic.benchmarks.tank.cases import TANKS
+from hydroelastic.benchmarks.thread.cases import THREADS, thread_cases
 
 BAD_INPUT = 2
 NOTHING_MEASURED = 3

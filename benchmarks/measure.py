@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from hydroelastic.benchmarks.cases import ALL_CODES, Answer, Case, Code, Variant
 from hydroelastic.benchmarks.peers import PEER_MODULES, PeerError, peer_folder
 from hydroelastic.benchmarks.rows import Row, row_of
-from hydroelastic.benchmarks.tanks import BenchmarkTank
+from hydroelastic.benchmarks.tank.cases import BenchmarkTank
 from hydroelastic.benchmarks.turns import take_turns
 from hydroelastic.benchmarks.workers import Worker, WorkerError, start_worker
 

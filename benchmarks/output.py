@@ -7,16 +7,17 @@ import tempfile
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from hydroelastic.benchmarks.circle_figure import draw_circle
-from hydroelastic.benchmarks.circle_report import circle_csv, circle_markdown
-from hydroelastic.benchmarks.figure import draw_speed
+from hydroelastic.benchmarks.circle.figure import draw_circle
+from hydroelastic.benchmarks.circle.report import circle_csv, circle_markdown
 from hydroelastic.benchmarks.measure import Benchmark
-from hydroelastic.benchmarks.report import speed_csv, speed_markdown
 from hydroelastic.benchmarks.rows import Row
-from hydroelastic.benchmarks.strings_figure import draw_strings
-from hydroelastic.benchmarks.strings_report import strings_csv, strings_markdown
-from hydroelastic.benchmarks.threads_figure import draw_threads
-from hydroelastic.benchmarks.threads_report import threads_csv, threads_markdown
+from hydroelastic.benchmarks.string.figure import draw_strings
+from hydroelastic.benchmarks.string.report import strings_csv, strings_markdown
+from hydroelastic.benchmarks.tank.figure import draw_speed
+from hydroelastic.benchmarks.tank.report import speed_csv, speed_markdown
+from hydroelastic.benchmarks.thread.figure import draw_threads
+from hydroelastic.benchmarks.thread.report import threads_csv, threads_markdown
+from hydroelastic.scenes.output.curve_style import Sheets
 
 NAME = "speed_against_error"
 CIRCLE_NAME = "open_circle"
@@ -24,7 +25,7 @@ STRING_NAME = "hanging_string"
 THREAD_NAME = "threads"
 
 Text = Callable[[Benchmark], str]
-Draw = Callable[[Sequence[Row], Path], None]
+Draw = Callable[[Sequence[Row], Sheets, str], None]
 
 
 class OutputError(Exception):
@@ -88,7 +89,7 @@ def _write(benchmark: Benchmark, folder: Path, name: str, rows: Text, page: Text
             inside = Path(scratch)
             (inside / f"{name}.csv").write_text(rows(benchmark), encoding="utf-8")
             (inside / f"{name}.md").write_text(page(benchmark), encoding="utf-8")
-            draw(benchmark.rows, inside / f"{name}.png")
+            draw(benchmark.rows, Sheets(folder=inside, title=""), name)
             for file in sorted(inside.iterdir()):
                 os.replace(file, folder / file.name)
     except OSError as error:

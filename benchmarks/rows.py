@@ -8,10 +8,10 @@ from statistics import median, quantiles
 import numpy as np
 
 from hydroelastic.benchmarks.cases import CIRCLE_CODES, STRING_CODES, THREAD_CODES, Answer, Case
-from hydroelastic.benchmarks.circle import circle_error
-from hydroelastic.benchmarks.strings import string_error
-from hydroelastic.benchmarks.tanks import tank_named
-from hydroelastic.benchmarks.threads import thread_error
+from hydroelastic.benchmarks.circle.cases import circle_error
+from hydroelastic.benchmarks.string.cases import string_error
+from hydroelastic.benchmarks.tank.cases import tank_named
+from hydroelastic.benchmarks.thread.cases import thread_error
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -23,19 +23,19 @@ from hydroelastic.benchmarks.cases import Case
 from hydroelastic.benchmarks.machine import linear_algebra
 
 MODULES = {
-    "hydroelastic": "hydroelastic_tank",
-    "ngsolve": "ngsolve_tank",
-    "scikit-fem": "scikit_fem_tank",
-    "lower bound": "lower_bound",
-    "hydroelastic radiation": "hydroelastic_circle",
-    "capytaine": "capytaine_circle",
-    "string field": "hydroelastic_string",
-    "string series": "hydroelastic_string",
-    "string sum": "hydroelastic_string",
-    "thread field": "hydroelastic_thread",
-    "thread catenary": "hydroelastic_thread",
-    "moorpy": "moorpy_thread",
-    "moordyn": "moordyn_thread",
+    "hydroelastic": "tank.hydroelastic",
+    "ngsolve": "tank.ngsolve",
+    "scikit-fem": "tank.scikit_fem",
+    "lower bound": "tank.lower_bound",
+    "hydroelastic radiation": "circle.hydroelastic",
+    "capytaine": "circle.capytaine",
+    "string field": "string.hydroelastic",
+    "string series": "string.hydroelastic",
+    "string sum": "string.hydroelastic",
+    "thread field": "thread.hydroelastic",
+    "thread catenary": "thread.hydroelastic",
+    "moorpy": "thread.moorpy",
+    "moordyn": "thread.moordyn",
 }
 
 

@@ -1,0 +1,1 @@
+"""A circle in open water, beside Capytaine."""

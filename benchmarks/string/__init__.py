@@ -1,0 +1,1 @@
+"""A hanging string, as series and as a field."""

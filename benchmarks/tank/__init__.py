@@ -1,0 +1,1 @@
+"""A beam in a tank, beside NGSolve, scikit-fem and a lower bound."""

@@ -1,0 +1,1 @@
+"""Flexible threads, beside MoorPy and MoorDyn."""

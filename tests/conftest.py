@@ -1,5 +1,6 @@
 """Fixtures of more than one test file."""
 
+from collections.abc import Iterator
 from typing import Any
 
 import pytest
@@ -11,3 +12,16 @@ def tanks() -> Any:
     from tanks import Tanks
 
     return Tanks()
+
+
+@pytest.fixture(scope="module")
+def canvas() -> Iterator[Any]:
+    """What renders pictures; where nothing can render, a test that asks for it is skipped."""
+    from hydroelastic.fem.pictures.canvas import Canvas, NoRendererError
+
+    try:
+        opened = Canvas()
+    except NoRendererError as error:
+        pytest.skip(str(error))
+    with opened:
+        yield opened

@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 from open_circle import radiation
 
-from hydroelastic.benchmarks import hydroelastic_circle
 from hydroelastic.benchmarks.cases import Case, Variant
-from hydroelastic.benchmarks.circle import CIRCLE, circle_cases, circle_error
-from hydroelastic.benchmarks.circle_report import CIRCLE_COLUMNS, OWN, PEER, circle_csv, circle_markdown
+from hydroelastic.benchmarks.circle import hydroelastic as hydroelastic_circle
+from hydroelastic.benchmarks.circle.cases import CIRCLE, circle_cases, circle_error
+from hydroelastic.benchmarks.circle.report import CIRCLE_COLUMNS, OWN, PEER, circle_csv, circle_markdown
 from hydroelastic.benchmarks.equal_error import best_of, fastest_as_good
 from hydroelastic.benchmarks.measure import Benchmark
 from hydroelastic.benchmarks.output import CIRCLE_NAME, write_circle

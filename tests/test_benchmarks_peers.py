@@ -13,7 +13,7 @@ import pytest
 from hydroelastic.benchmarks import peers
 from hydroelastic.benchmarks.cases import CODES, Case, Code
 from hydroelastic.benchmarks.peers import PEER_MODULES, PeerError, peer_folder
-from hydroelastic.benchmarks.tanks import tank_named
+from hydroelastic.benchmarks.tank.cases import tank_named
 from hydroelastic.benchmarks.workers import WorkerError, start_worker
 
 PEERS = list(PEER_MODULES)

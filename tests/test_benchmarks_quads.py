@@ -7,7 +7,7 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from hydroelastic.benchmarks.graded_quads import QuadGrading, QuadMesh, graded_quads
+from hydroelastic.benchmarks.tank.graded_quads import QuadGrading, QuadMesh, graded_quads
 
 GRADING = QuadGrading(water_size=0.8, beam_size=1.5, height=2.0, rings=4, ratio=0.15)
 TANKS = {

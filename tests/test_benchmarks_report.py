@@ -16,9 +16,9 @@ from hydroelastic.benchmarks.cases import CODES, Answer, Case, Code
 from hydroelastic.benchmarks.equal_error import front, seconds_at, times_slower
 from hydroelastic.benchmarks.measure import Benchmark, Solve, cases_of, measure
 from hydroelastic.benchmarks.output import NAME, OutputError, check_folder, write_results
-from hydroelastic.benchmarks.report import CSV_COLUMNS, speed_csv, speed_markdown
 from hydroelastic.benchmarks.rows import Row
-from hydroelastic.benchmarks.tanks import TANKS, tank_named
+from hydroelastic.benchmarks.tank.cases import TANKS, tank_named
+from hydroelastic.benchmarks.tank.report import CSV_COLUMNS, speed_csv, speed_markdown
 from hydroelastic.benchmarks.turns import take_turns
 from hydroelastic.benchmarks.workers import WorkerError
 

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from string_bromwich import bromwich, ramp_image, sine_image, smooth_image, step_image
 
-from hydroelastic.benchmarks import hydroelastic_string
 from hydroelastic.benchmarks.cases import Case
 from hydroelastic.benchmarks.measure import Benchmark
 from hydroelastic.benchmarks.output import STRING_NAME, write_strings
 from hydroelastic.benchmarks.rows import Row, row_of
-from hydroelastic.benchmarks.strings import MOTIONS, compared, exact, string_cases, string_error, string_scene
-from hydroelastic.benchmarks.strings_report import STRING_COLUMNS, strings_csv, strings_markdown
+from hydroelastic.benchmarks.string import hydroelastic as hydroelastic_string
+from hydroelastic.benchmarks.string.cases import MOTIONS, compared, exact, string_cases, string_error, string_scene
+from hydroelastic.benchmarks.string.report import STRING_COLUMNS, strings_csv, strings_markdown
 
 IMAGES = {
     "smooth": smooth_image(1.0, 4.0),

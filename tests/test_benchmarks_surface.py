@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 import scipy.linalg
 
-from hydroelastic.benchmarks.dry_shapes import dry_shapes
-from hydroelastic.benchmarks.surface_modes import SurfaceProblem, lowest_eigenvalues
-from hydroelastic.modal.dry_modes import free_free_shape
+from hydroelastic.benchmarks.tank.dry_shapes import dry_shapes
+from hydroelastic.benchmarks.tank.surface_modes import SurfaceProblem, lowest_eigenvalues
+from hydroelastic.modal.beam.dry_modes import free_free_shape
 
 
 @pytest.mark.parametrize("count", [1, 2, 3, 60])

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from hydroelastic.benchmarks.tanks import MODES, TANKS, BenchmarkTank, tank_named
+from hydroelastic.benchmarks.tank.cases import MODES, TANKS, BenchmarkTank, tank_named
 from hydroelastic.modal import gravity_tones
 
 NAMES = [tank.name for tank in TANKS]
@@ -38,7 +38,7 @@ def test_frequencies_are_those_of_the_surface_operator(name: str) -> None:
 
 @pytest.fixture(scope="module")
 def lower_bound() -> Any:
-    return pytest.importorskip("hydroelastic.benchmarks.lower_bound")
+    return pytest.importorskip("hydroelastic.benchmarks.tank.lower_bound")
 
 
 @pytest.mark.parametrize("name", ["base_s0", "base_s1", "offcentre_s0"])
@@ -57,8 +57,8 @@ def test_the_lower_bound_finds_the_eigenvalues_of_the_solver(tanks: Any, lower_b
 
 @pytest.mark.parametrize("halves", [True, False])
 def test_factorizations_agree(tanks: Any, lower_bound: Any, halves: bool) -> None:
-    from hydroelastic.benchmarks.bare_pencil import BarePencil
-    from hydroelastic.benchmarks.factorizations import available_factorizations
+    from hydroelastic.benchmarks.tank.bare_pencil import BarePencil
+    from hydroelastic.benchmarks.tank.factorizations import available_factorizations
 
     solution = tanks.solve(tanks.case_scene("base_s0", modes=MODES, tolerance=1e-4), halves=halves)
     pencil = BarePencil.of(lower_bound.pencils_of(solution)[-1])
@@ -74,7 +74,7 @@ def test_factorizations_agree(tanks: Any, lower_bound: Any, halves: bool) -> Non
 
 
 def test_hydroelastic_solves_the_tank_of_its_case(tanks: Any) -> None:
-    module = pytest.importorskip("hydroelastic.benchmarks.hydroelastic_tank")
+    module = pytest.importorskip("hydroelastic.benchmarks.tank.hydroelastic")
     from hydroelastic.benchmarks.cases import Case
 
     case = Case(code="hydroelastic", tank="narrow_s1", variant="certified", tolerance=1e-4)

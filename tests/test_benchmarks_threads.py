@@ -11,13 +11,13 @@ import pytest
 from thread_cases import inputs, results
 from thread_shooting import shoot
 
-from hydroelastic.benchmarks import hydroelastic_thread
 from hydroelastic.benchmarks.cases import Case, Code
 from hydroelastic.benchmarks.measure import Benchmark
 from hydroelastic.benchmarks.output import THREAD_NAME, write_threads
 from hydroelastic.benchmarks.peers import PeerError, peer_folder
 from hydroelastic.benchmarks.rows import Row, row_of
-from hydroelastic.benchmarks.threads import (
+from hydroelastic.benchmarks.thread import hydroelastic as hydroelastic_thread
+from hydroelastic.benchmarks.thread.cases import (
     CHAIN,
     JUMPER,
     LINES_AT_REST,
@@ -30,11 +30,11 @@ from hydroelastic.benchmarks.threads import (
     thread_error,
     top_displacement,
 )
-from hydroelastic.benchmarks.threads_report import THREAD_COLUMNS, threads_csv, threads_markdown
+from hydroelastic.benchmarks.thread.report import THREAD_COLUMNS, threads_csv, threads_markdown
 from hydroelastic.benchmarks.workers import start_worker
-from hydroelastic.modal.stream_profiles import ShearedStream
-from hydroelastic.modal.thread_catenary import elastic_catenary
-from hydroelastic.modal.thread_load import ThreadLoad
+from hydroelastic.modal.thread.catenary import elastic_catenary
+from hydroelastic.modal.thread.load import ThreadLoad
+from hydroelastic.modal.thread.stream_profiles import ShearedStream
 
 _REFERENCE = Path(__file__).parent / "reference"
 

@@ -10,7 +10,12 @@ from hydroelastic.scenes.read import read_scene, shipped_scenes
 
 DOCS = Path(__file__).parent.parent / "docs"
 PAGE = (DOCS / "scenes_strings_and_ships.md").read_text(encoding="utf-8")
-SCENES = [block for block in re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL) if block.startswith("kind")]
+# What is said of a section in place of a period has tests of its own; its field solution takes a while.
+SCENES = [
+    block
+    for block in re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL)
+    if block.startswith("kind") and "section =" not in block
+]
 
 
 @pytest.mark.parametrize("text", SCENES, ids=lambda text: text.split('"')[1])

@@ -1,20 +1,18 @@
-"""The page of threads: its examples run; its keys, defaults, refusals and results are those of the code."""
+"""The page of threads: its examples run; its refusals and results are those of the code."""
 
 import re
 from copy import deepcopy
 from pathlib import Path
-from types import UnionType
-from typing import Annotated, Any, Union, get_args, get_origin
+from typing import Any
 
 import pytest
-import xarray
-from pydantic import BaseModel, ValidationError
+from pydantic import ValidationError
 
 from hydroelastic.scenes.kinds import runner_of
-from hydroelastic.scenes.model_thread import ThreadScene
-from hydroelastic.scenes.model_values import Sweep
-from hydroelastic.scenes.outcome import Outcome
+from hydroelastic.scenes.models.thread import ThreadScene
+from hydroelastic.scenes.output.outcome import Outcome
 from hydroelastic.scenes.read import read_scene, shipped_scenes
+from hydroelastic.scenes.thread.dataset import thread_dataset
 
 DOCS = Path(__file__).parent.parent / "docs"
 PAGE = (DOCS / "scenes_threads.md").read_text(encoding="utf-8")
@@ -22,9 +20,7 @@ CONVENTIONS = (DOCS / "conventions.md").read_text(encoding="utf-8")
 SUMMARY = CONVENTIONS.split("## `summary.json` of flexible threads")[1].split("\n## ")[0]
 EXAMPLES = [block for block in re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL) if block.startswith("kind")]
 RESULTS = PAGE.split("## Results")[1].split("\n## ")[0]
-KEYS = PAGE.split("## Keys")[1].split("\n## ")[0]
 REFUSED = re.findall(r'^\| "(.*?)" \|', PAGE.split("## What is refused")[1].split("\n## ")[0], re.MULTILINE)
-Model = type[BaseModel]
 
 BUOY: dict[str, Any] = {
     "thread": {"length": 10.0, "diameter": 0.02, "mass": 1.0, "weight": 5.0, "normal_drag": 1.0},
@@ -122,7 +118,7 @@ def outcome(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFac
     file.write_text(request.param, encoding="utf-8")
     # Coarser than the page asks, to be quick.
     scene = read_scene(file, ["accuracy.tolerance=1e-3"])
-    return runner_of(scene)(scene, out=folder / "results", images=False)
+    return runner_of(scene)(scene, out=folder / "results", images=None)
 
 
 def test_examples_run(outcome: Outcome) -> None:
@@ -148,99 +144,9 @@ def test_all_files_columns_and_variables_are_told(outcome: Outcome) -> None:
     for file in outcome.folder.glob("*.csv"):
         row = next(line for line in RESULTS.splitlines() if line.startswith(f"| `{file.name}`"))
         assert f"`{file.read_text(encoding='utf-8').splitlines()[0].replace(',', ', ')}`" in row
-    with xarray.open_dataset(outcome.folder / "dataset.nc") as dataset:
-        assert all(f"`{name}`" in RESULTS for name in [*dataset.data_vars, *dataset.dims])
+    arrays = thread_dataset(outcome.solution)
+    assert all(f"`{name}`" in RESULTS for name in [*arrays.data_vars, *arrays.dims])
     assert all(f"`{file.name}`" in RESULTS for file in outcome.folder.iterdir() if file.is_file())
-
-
-def _models(annotation: Any) -> list[Model]:
-    """All models that a field may hold."""
-    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
-        return [annotation]
-    if get_origin(annotation) is Annotated:
-        return _models(get_args(annotation)[0])
-    if get_origin(annotation) in (Union, UnionType, tuple):
-        return [model for part in get_args(annotation) for model in _models(part)]
-    return []
-
-
-def _all_models(model: Model) -> list[Model]:
-    inner = [part for field in model.model_fields.values() for part in _models(field.annotation)]
-    found = [model, *(deeper for part in inner for deeper in _all_models(part))]
-    return [part for place, part in enumerate(found) if part not in found[:place] and part is not Sweep]
-
-
-def _rows() -> dict[str, dict[str, list[str]]]:
-    """Cells of the page's table by section and key."""
-    sections: dict[str, dict[str, list[str]]] = {}
-    for line in KEYS.splitlines():
-        if not line.startswith("| ") or line.startswith("| key"):
-            continue
-        cells = [cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]]
-        if cells[0].startswith("**"):
-            section = sections.setdefault(cells[0].replace("*", "").replace("`", ""), {})
-            continue
-        for key in re.findall(r"`(\w+)`", cells[0]):
-            section[key] = cells
-    return sections
-
-
-SECTIONS = {
-    "FlexibleThread": "[thread]",
-    "LiquidStream": "[stream]",
-    "PointOnThread": "[[load]]",
-    "FixedEnd": 'an end, "fixed"',
-    "FreeEnd": 'an end, "free"',
-    "SurfaceEnd": 'an end, "surface"',
-    "ThreadModes": '"modes"',
-    "ThreadStability": '"stability"',
-    "ThreadMotion": '"motion"',
-    "EndMotion": "a move",
-    "ThreadOutput": "[output]",
-    "ThreadAccuracy": "[accuracy]",
-}
-# Told in the row of the key that holds them.
-INLINE = {"ThreadScene": "", "Ends": "ends", "Veer": "veer", "EndRelease": "release", "VortexForce": "vortices"}
-
-
-def test_every_model_has_a_place_on_the_page() -> None:
-    assert {model.__name__ for model in _all_models(ThreadScene)} == set(SECTIONS) | set(INLINE)
-
-
-@pytest.mark.parametrize(
-    "model", [m for m in _all_models(ThreadScene) if m.__name__ in SECTIONS], ids=lambda m: m.__name__
-)
-def test_keys_and_defaults_are_those_of_the_code(model: Model) -> None:
-    rows = _rows()[SECTIONS[model.__name__]]
-    assert set(rows) == set(model.model_fields) - {"kind"}
-    for key, field in model.model_fields.items():
-        if key == "kind":
-            continue
-        cell = rows[key][2]
-        if field.is_required():
-            assert cell == "required"
-        elif (told := _told(field.default)) is not None:
-            assert cell == told
-
-
-def _told(default: Any) -> str | None:
-    """How the page tells a default; nothing of those that are no value."""
-    if isinstance(default, bool):
-        return str(default).lower()
-    if isinstance(default, str):
-        return f'`"{default}"`'
-    if isinstance(default, float | int):
-        return {1e-3: "1e-3", 1e-6: "1e-6"}.get(default, f"{default:g}")
-    if isinstance(default, tuple) and default:
-        return f"[{', '.join(f'{value:g}' for value in default)}]".replace("-", "−")
-    return None
-
-
-def test_small_tables_are_told_in_the_row_that_holds_them() -> None:
-    for model in _all_models(ThreadScene):
-        if model.__name__ in ("Veer", "EndRelease", "VortexForce"):
-            row = next(line for line in KEYS.splitlines() if f"| `{INLINE[model.__name__]}` " in line)
-            assert all(f"`{key}`" in row for key in model.model_fields)
 
 
 def _changed(base: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:

@@ -8,7 +8,7 @@ from mpi4py import MPI
 from petsc4py import PETSc
 from scipy.linalg import expm
 
-from hydroelastic.fem.collocation import Collocation, gauss_rule
+from hydroelastic.fem.string.collocation import Collocation, gauss_rule
 
 
 def dense(matrix: np.ndarray) -> PETSc.Mat:

@@ -11,8 +11,8 @@ import pytest
 from hydroelastic.fem.modes import solve_modes
 from hydroelastic.meshes.nested import halved
 from hydroelastic.modal import sloshing_frequencies
-from hydroelastic.scenes.models import TankScene
-from hydroelastic.scenes.scaled_tank import ScaledTank
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.tank.scaled_tank import ScaledTank
 
 
 def values_on_halved_meshes(

@@ -23,18 +23,18 @@ from hydroelastic.fem.shape_loads import shape_loads, surface_load
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.meshes.build import build_mesh as build_tagged_mesh
 from hydroelastic.meshes.geometry import BOTTOM, FREE_SURFACE, INTERFACE, LEFT_WALL, RIGHT_WALL
-from hydroelastic.modal.float_profiles import float_profile
-from hydroelastic.modal.rigid_limits import half_immersed_ellipse, interface_ellipse, section_heave_added_mass
-from hydroelastic.scenes.certainty import boundary_error
-from hydroelastic.scenes.field_model import build_field_model, build_mesh, distributed_mesh
-from hydroelastic.scenes.field_solution import solve_field
-from hydroelastic.scenes.high_frequency import HighFrequencyAddedMass, high_frequency_added_mass
-from hydroelastic.scenes.model_bodies import Beam, Float
-from hydroelastic.scenes.models import TankScene
-from hydroelastic.scenes.plan import companion_resolution, initial_resolution
-from hydroelastic.scenes.scaled_tank import scaled_tank
-from hydroelastic.scenes.stopwatch import Stopwatch
-from hydroelastic.scenes.tank_mesh import graded_outline
+from hydroelastic.modal.floats.profiles import float_profile
+from hydroelastic.modal.floats.rigid_limits import half_immersed_ellipse, interface_ellipse, section_heave_added_mass
+from hydroelastic.scenes.models.bodies import Beam, Float
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.output.stopwatch import Stopwatch
+from hydroelastic.scenes.tank.certainty import boundary_error
+from hydroelastic.scenes.tank.field_model import build_field_model, build_mesh, distributed_mesh
+from hydroelastic.scenes.tank.field_solution import solve_field
+from hydroelastic.scenes.tank.high_frequency import HighFrequencyAddedMass, high_frequency_added_mass
+from hydroelastic.scenes.tank.mesh import graded_outline
+from hydroelastic.scenes.tank.plan import companion_resolution, initial_resolution
+from hydroelastic.scenes.tank.scaled_tank import scaled_tank
 
 FOLDER = Path(__file__).parent / "reference"
 FLOATS: dict[str, Any] = json.loads((FOLDER / "floats.json").read_text(encoding="utf-8"))["cases"]

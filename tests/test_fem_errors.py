@@ -11,7 +11,7 @@ from mpi4py import MPI
 from hydroelastic.fem.modes import solve_modes
 from hydroelastic.fem.spectral_error import cell_errors
 from hydroelastic.fem.truncation import truncation_errors
-from hydroelastic.modal.sloshing import sloshing_frequencies
+from hydroelastic.modal.liquid.sloshing import sloshing_frequencies
 
 # Below, rounding has a part in an error of λ (1e-13 (p/4)⁵ and less, with some room).
 ROUNDING = 1e-11

@@ -13,7 +13,7 @@ from petsc4py import PETSc
 
 from hydroelastic.fem.liquid import LiquidSolver, closed_layer
 from hydroelastic.fem.pencil import CoupledPencil
-from hydroelastic.modal.dry_modes import free_free_shape, free_free_wavenumber
+from hydroelastic.modal.beam.dry_modes import free_free_shape, free_free_wavenumber
 
 pytestmark = pytest.mark.mpi
 

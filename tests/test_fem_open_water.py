@@ -10,14 +10,14 @@ from mpi4py import MPI
 from open_cases import circle, circle_omega, section, stored, two_liquids
 from petsc4py import PETSc
 
-from hydroelastic.fem.complex_direct import ShiftedSolver
-from hydroelastic.fem.complex_scaling import ComplexMatrix, complex_product
+from hydroelastic.fem.open_water.complex_direct import ShiftedSolver
+from hydroelastic.fem.open_water.complex_scaling import ComplexMatrix, complex_product
 from hydroelastic.fem.reduced_pencil import ReducedPencil
-from hydroelastic.scenes.incident_waves import incidence, planes
-from hydroelastic.scenes.models import TankScene
-from hydroelastic.scenes.open_model import Band, OpenModel, first_resolution, open_model
-from hydroelastic.scenes.open_solver import OpenSolver
-from hydroelastic.scenes.stopwatch import Stopwatch
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.open_water.incident_waves import incidence, planes
+from hydroelastic.scenes.open_water.model import Band, OpenModel, first_resolution, open_model
+from hydroelastic.scenes.open_water.solver import OpenSolver
+from hydroelastic.scenes.output.stopwatch import Stopwatch
 
 SECTION_ROWS = stored("open_sections.json")["cases"]
 TWO_LIQUIDS = stored("open_two_liquids.json")["cases"]
@@ -99,9 +99,9 @@ def test_derivatives_by_the_angle(name: str, request: pytest.FixtureRequest) -> 
     for shifted in (angle - step, angle + step):
         from dataclasses import replace
 
-        from hydroelastic.fem.complex_scaling import ComplexScaling
-        from hydroelastic.fem.open_pencil import build_open_pencil
-        from hydroelastic.scenes.field_model import moving_surfaces
+        from hydroelastic.fem.open_water.complex_scaling import ComplexScaling
+        from hydroelastic.fem.open_water.pencil import build_open_pencil
+        from hydroelastic.scenes.tank.field_model import moving_surfaces
 
         low, high = model.basin.bounds
         around.append(

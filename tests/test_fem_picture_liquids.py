@@ -2,38 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from hydroelastic.fem.picture_canvas import Canvas, NoRendererError
-from hydroelastic.fem.picture_float import BODY, displaced_corners, up_to_floats
-from hydroelastic.fem.picture_frame import frame_of
-from hydroelastic.fem.picture_legend import scale_notes
-from hydroelastic.fem.picture_mode import FloatSection, ModePicture, SurfaceCurve
-from hydroelastic.fem.picture_shapes import area, closed, dashed
-from hydroelastic.fem.picture_tank import FREE_SURFACE, INTERFACE, LOWER_WASH, UPPER_WASH
-from hydroelastic.fem.picture_view import view_of
-from hydroelastic.fem.pictures import draw_mode, draw_overview
+from hydroelastic.fem.pictures.canvas import Canvas
+from hydroelastic.fem.pictures.floats import BODY, displaced_corners, up_to_floats
+from hydroelastic.fem.pictures.frame import frame_of
+from hydroelastic.fem.pictures.legend import scale_notes
+from hydroelastic.fem.pictures.mode import FloatSection, ModePicture, SurfaceCurve
+from hydroelastic.fem.pictures.modes import draw_mode, draw_overview
+from hydroelastic.fem.pictures.shapes import area, closed, dashed
+from hydroelastic.fem.pictures.tank import FREE_SURFACE, INTERFACE, LOWER_WASH, UPPER_WASH
+from hydroelastic.fem.pictures.view import view_of
 from hydroelastic.fem.sampling import SurfaceTrace
 
 WIDTH = 800
 UNIT = WIDTH / 1600
 FOOTER = round(285 * UNIT)
 SQUARE = np.array([[4.0, -0.5], [5.0, -0.5], [5.0, 0.5], [4.0, 0.5]])
-
-
-@pytest.fixture(scope="module")
-def canvas() -> Iterator[Canvas]:
-    try:
-        opened = Canvas()
-    except NoRendererError as error:
-        pytest.skip(str(error))
-    with opened:
-        yield opened
 
 
 def layer(low: float, high: float, length: float) -> tuple[np.ndarray, np.ndarray]:
@@ -147,10 +136,11 @@ def test_float_is_displaced_by_the_stated_scale(tmp_path: Path, canvas: Canvas) 
 
 
 def test_floats_stay_near_their_place_and_the_scale_is_stated() -> None:
-    view = view_of(floating_picture(2.0))
+    picture = floating_picture(2.0)
+    view = view_of(picture)
     # A quarter of its height of 1 m, where 0.1 of the tank's length would be a whole one.
     assert 2.0 * view.surface_scale == pytest.approx(0.25)
-    assert "×0.125" in scale_notes(view)
+    assert "×0.125" in scale_notes(view, picture)
 
 
 def test_an_overview_names_the_pressure(tmp_path: Path, canvas: Canvas) -> None:
@@ -174,7 +164,7 @@ def test_thin_and_deep_layers_fit_and_say_how(
 ) -> None:
     picture = layered_picture(length=length, depths=depths, lid=lid)
     view = view_of(picture)
-    assert scale_notes(view).startswith(note)
+    assert scale_notes(view, picture).startswith(note)
     for drawn_depth in (view.stretch * view.depth, view.upper_stretch * view.upper_depth):
         assert drawn_depth >= 0.05 * length
         # Neither surface reaches the other side of its liquid.

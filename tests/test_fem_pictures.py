@@ -2,37 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
+from itertools import combinations
 from pathlib import Path
 
 import numpy as np
 import pytest
+from eyes import EYES, lab
+from mode_pictures import has_colour, heave_picture, pixels, sloshing_picture
+from PIL import Image
 
-from hydroelastic.fem import picture_canvas
-from hydroelastic.fem.picture_canvas import Canvas, NoRendererError
-from hydroelastic.fem.picture_legend import scale_notes, short_number, tick_labels
-from hydroelastic.fem.picture_liquid import LiquidField, displacement_on_grid, iso_lines
-from hydroelastic.fem.picture_page import Page
-from hydroelastic.fem.picture_png import png_bytes
-from hydroelastic.fem.picture_shapes import Shape, arrows, dashes, ribbon, strokes
-from hydroelastic.fem.picture_tank import BODY, FREE_SURFACE, drawn_vectors
-from hydroelastic.fem.picture_view import iso_levels, round_ticks, view_of
-from hydroelastic.fem.pictures import ModePicture, SurfaceCurve, draw_mode, draw_overview
+from hydroelastic.fem.pictures import canvas as picture_canvas
+from hydroelastic.fem.pictures.canvas import Canvas, NoRendererError
+from hydroelastic.fem.pictures.colours import magnitude_colours, mode_colours
+from hydroelastic.fem.pictures.legend import scale_notes
+from hydroelastic.fem.pictures.liquid import LiquidField, displacement_on_grid, iso_lines
+from hydroelastic.fem.pictures.modes import ModePicture, SurfaceCurve, draw_mode, draw_overview
+from hydroelastic.fem.pictures.page import Page
+from hydroelastic.fem.pictures.png import png_bytes
+from hydroelastic.fem.pictures.shapes import Shape, arrows, dashes, ribbon, strokes
+from hydroelastic.fem.pictures.tank import BODY, FREE_SURFACE, drawn_vectors
+from hydroelastic.fem.pictures.ticks import round_ticks, short_number, tick_labels
+from hydroelastic.fem.pictures.view import iso_levels, view_of
 
 WIDTH = 800
 UNIT = WIDTH / 1600
 FOOTER = round(285 * UNIT)
-
-
-@pytest.fixture(scope="module")
-def canvas() -> Iterator[Canvas]:
-    try:
-        opened = Canvas()
-    except NoRendererError as error:
-        pytest.skip(str(error))
-    with opened:
-        yield opened
 
 
 @pytest.fixture(autouse=True)
@@ -40,67 +35,11 @@ def _renderer(canvas: Canvas) -> None:
     """Where nothing can render, nothing is tested here."""
 
 
-def sloshing_picture(
-    *, length: float = 10.0, depth: float = 4.0, body: tuple[float, float] | None = (0.3, 0.7), number: int = 2
-) -> ModePicture:
-    """ψ = cos kx cosh k(y + depth) / cosh k·depth with a body that moves with the liquid."""
-    x, y = np.meshgrid(np.linspace(0.0, length, 41), -depth * np.linspace(1.0, 0.0, 31) ** 2)
-    k = number * np.pi / length
-    below = np.exp(k * y) / (1 + np.exp(-2 * k * depth))
-    mirrored = np.exp(-k * (y + 2 * depth)) / (1 + np.exp(-2 * k * depth))
-    potential = np.cos(k * x) * (below + mirrored)
-    displacement = np.stack([-k * np.sin(k * x) * (below + mirrored), k * np.cos(k * x) * (below - mirrored)], axis=-1)
-    corner = (np.arange(30)[:, None] * 41 + np.arange(40)).ravel()
-    triangles = np.vstack(
-        [np.column_stack([corner, corner + 1, corner + 42]), np.column_stack([corner, corner + 42, corner + 41])]
-    )
-    pieces: list[tuple[str, float, float]] = [("free_surface", 0.0, 1.0)]
-    if body is not None:
-        pieces = [("free_surface", 0.0, body[0]), ("body", *body), ("free_surface", body[1], 1.0)]
-    surfaces = []
-    for kind, low, high in pieces:
-        if high > low:
-            at = length * np.linspace(low, high, 50)
-            surfaces.append(SurfaceCurve(kind=kind, x=at, displacement=k * np.tanh(k * depth) * np.cos(k * at)))
-    return ModePicture(
-        points=np.column_stack([x.ravel(), y.ravel()]),
-        triangles=triangles,
-        potential=potential.ravel(),
-        displacement=displacement.reshape(-1, 2),
-        surfaces=tuple(surfaces),
-        title="Mode 2: ω = 2.464523 rad/s, 0.392 Hz",
-        length=length,
-        depth=depth,
-    )
-
-
-def heave_picture(sign: float) -> ModePicture:
-    """A body that heaves as a whole between surfaces at rest."""
-    picture = sloshing_picture()
-    surfaces = tuple(
-        replace(curve, displacement=np.full(len(curve.x), sign if curve.kind == "body" else 0.0))
-        for curve in picture.surfaces
-    )
-    return replace(picture, surfaces=surfaces)
-
-
 def drawn(picture: ModePicture, folder: Path, width: int = WIDTH) -> np.ndarray:
     """Pixels in 0…255, shape (height, width, 3), the uppermost row first."""
     path = folder / "mode.png"
     draw_mode(picture, path, width=width)
     return pixels(path)
-
-
-def pixels(path: Path) -> np.ndarray:
-    from matplotlib.image import imread
-
-    return np.round(255 * imread(path)[:, :, :3]).astype(int)
-
-
-def has_colour(image: np.ndarray, colour: str) -> np.ndarray:
-    """Where the pixels have a colour, up to the rounding of the renderer."""
-    rgb = [int(colour[i : i + 2], 16) for i in (1, 3, 5)]
-    return np.abs(image - rgb).max(axis=2) <= 2
 
 
 def tank_part(image: np.ndarray) -> np.ndarray:
@@ -168,7 +107,7 @@ def test_extreme_tanks_fit_and_say_how(tmp_path: Path, length: float, depth: flo
     image = drawn(picture, tmp_path)
     assert 0.35 * WIDTH < image.shape[0] < 1.05 * WIDTH
     assert has_colour(tank_part(image), BODY).sum() > 200
-    assert note in scale_notes(view_of(picture))
+    assert note in scale_notes(view_of(picture), picture)
 
 
 def test_liquid_at_rest_can_be_drawn(tmp_path: Path):
@@ -176,7 +115,7 @@ def test_liquid_at_rest_can_be_drawn(tmp_path: Path):
     surfaces = tuple(replace(curve, displacement=np.zeros_like(curve.x)) for curve in picture.surfaces)
     rest = replace(picture, potential=0 * picture.potential, displacement=0 * picture.displacement, surfaces=surfaces)
     assert has_colour(drawn(rest, tmp_path), BODY).any()
-    assert "do not move" in scale_notes(view_of(rest))
+    assert "do not move" in scale_notes(view_of(rest), rest)
 
 
 def test_overview_has_a_panel_for_each_mode(tmp_path: Path, capfd: pytest.CaptureFixture[str]):
@@ -203,7 +142,7 @@ def test_missing_folder_wrong_name_and_width_are_refused(tmp_path: Path):
         draw_mode(picture, tmp_path / "absent" / "mode.png")
     with pytest.raises(FileNotFoundError, match=r"absent.*does not exist"):
         draw_overview([picture], tmp_path / "absent" / "mode.png")
-    with pytest.raises(ValueError, match="PNG"):
+    with pytest.raises(ValueError, match=r"ends in \.png"):
         draw_mode(picture, tmp_path / "mode.pdf")
     with pytest.raises(ValueError, match="400 pixels"):
         draw_mode(picture, tmp_path / "mode.png", width=300)
@@ -397,3 +336,34 @@ def test_numbers_are_round():
         # But for the middle one, a millionth beside zero.
         assert levels == pytest.approx(-levels[::-1], abs=3e-6 * limit)
         assert np.abs(levels).max() <= limit * (1 + 1e-9)
+
+
+@pytest.mark.parametrize("eyes", EYES)
+def test_signs_of_the_field_are_told_apart_by_all_eyes(eyes: str):
+    colours = mode_colours()
+    negative, zero, positive = (lab(colours[place], EYES[eyes]) for place in (30, 127, 225))
+    # A difference of 2.3 is just noticed side by side.
+    for one, other in combinations((negative, zero, positive), 2):
+        assert np.linalg.norm(one - other) > 6 * 2.3
+
+
+@pytest.mark.parametrize("eyes", EYES)
+def test_larger_tensions_are_lighter_to_all_eyes(eyes: str):
+    lightness = [lab(colour, EYES[eyes])[0] for colour in magnitude_colours()[::25]]
+    assert np.all(np.diff(lightness) > 2.3)
+
+
+def test_a_sheet_of_very_many_modes_is_drawn(tmp_path: Path, canvas: Canvas) -> None:
+    """Graphics end at 16384 pixels, beyond which a page was black."""
+    picture = sloshing_picture(length=200.0, depth=1.0)
+    draw_overview([picture] * 200, tmp_path / "many.png", width=1600, canvas=canvas)
+    with Image.open(tmp_path / "many.png") as image:
+        assert image.height <= 10_000
+        assert image.getpixel((3, 3)) == (255, 255, 255)
+
+
+def test_signs_of_other_languages_are_letters_in_a_title(canvas: Canvas) -> None:
+    """A pair of dollar signs would make a formula, without them and in italics; a bar two columns."""
+    width = canvas.text_width("cost a", 20.0)
+    assert canvas.text_width("cost $a$", 20.0) > width + 10.0
+    assert canvas.text_width("x|y", 20.0) == pytest.approx(canvas.text_width("x∣y", 20.0), abs=1.0)

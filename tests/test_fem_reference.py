@@ -15,7 +15,7 @@ from petsc4py import PETSc
 from hydroelastic.fem.added_mass import body_added_mass
 from hydroelastic.fem.liquid import surface_mass_matrix
 from hydroelastic.modal import guided_cover_frequencies, sloshing_frequencies
-from hydroelastic.scenes.estimates import floating_beam
+from hydroelastic.scenes.tank.estimates import floating_beam
 
 REFERENCE = json.loads((Path(__file__).parent / "reference" / "aquarium.json").read_text(encoding="utf-8"))
 CASES: dict[str, dict[str, Any]] = {case["name"]: case for case in REFERENCE["cases"]}

@@ -8,11 +8,11 @@ from mpi4py import MPI
 from numpy.polynomial import legendre
 from string_closed_forms import FREQUENCIES, Motion, ramp, sine, smooth, step
 
-from hydroelastic.fem.collocation import Collocation
-from hydroelastic.fem.string_march import Pace, march
-from hydroelastic.fem.string_model import StringModel, scaled_string
-from hydroelastic.fem.string_pencil import StringPencil, build_string_pencil, string_nodes
-from hydroelastic.fem.string_probe import StringProbe
+from hydroelastic.fem.string.collocation import Collocation
+from hydroelastic.fem.string.march import Pace, march
+from hydroelastic.fem.string.model import StringModel, scaled_string
+from hydroelastic.fem.string.pencil import StringPencil, build_string_pencil, string_nodes
+from hydroelastic.fem.string.probe import StringProbe
 
 COMM = MPI.COMM_WORLD
 MOTIONS = {"ramp": ramp(), "sine": sine(1.7), "smooth": smooth(2.0), "step": step()}

@@ -12,10 +12,10 @@ from scipy.linalg import eigvals
 from scipy.special import j0, j1, jn_zeros
 from string_closed_forms import FREQUENCIES, tip_frequencies
 
-from hydroelastic.fem.string_damped_modes import damped_modes
-from hydroelastic.fem.string_model import StringModel, scaled_string
-from hydroelastic.fem.string_modes import string_modes, undamped_pairs
-from hydroelastic.fem.string_pencil import build_string_pencil, string_nodes
+from hydroelastic.fem.string.damped_modes import damped_modes
+from hydroelastic.fem.string.model import StringModel, scaled_string
+from hydroelastic.fem.string.modes import string_modes, undamped_pairs
+from hydroelastic.fem.string.pencil import build_string_pencil, string_nodes
 from hydroelastic.meshes.line import graded_nodes, travel_nodes
 
 COMM = MPI.COMM_WORLD

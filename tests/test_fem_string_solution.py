@@ -9,9 +9,9 @@ from numpy.polynomial import chebyshev
 from scipy.integrate import quad
 from string_closed_forms import FREQUENCIES, Motion, ramp, sine, smooth, step
 
-from hydroelastic.fem.soft_motion import SoftMotion
-from hydroelastic.fem.string_model import StringModel
-from hydroelastic.fem.string_solution import string_solution
+from hydroelastic.fem.string.model import StringModel
+from hydroelastic.fem.string.soft_motion import SoftMotion
+from hydroelastic.fem.string.solution import string_solution
 
 COMM = MPI.COMM_WORLD
 MOTIONS = {"ramp": ramp(), "sine": sine(1.7), "smooth": smooth(2.0), "step": step(), "fast": smooth(15.0)}

@@ -11,13 +11,13 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_bvp
 from thread_field_cases import free_with, held_at, start_by
 
-from hydroelastic.fem.thread_equilibrium import Start, solve_on_mesh
-from hydroelastic.fem.thread_model import ThreadModel
-from hydroelastic.fem.thread_profile import thread_profile
-from hydroelastic.fem.thread_refinement import ThreadSolution, solve_thread
-from hydroelastic.modal.stream_profiles import UniformStream
-from hydroelastic.modal.thread_load import ThreadLoad
-from hydroelastic.modal.thread_march import MarchedThread, march_back
+from hydroelastic.fem.thread.equilibrium import Start, solve_on_mesh
+from hydroelastic.fem.thread.model import ThreadModel
+from hydroelastic.fem.thread.profile import thread_profile
+from hydroelastic.fem.thread.refinement import ThreadSolution, solve_thread
+from hydroelastic.modal.thread.load import ThreadLoad
+from hydroelastic.modal.thread.march import MarchedThread, march_back
+from hydroelastic.modal.thread.stream_profiles import UniformStream
 
 COMM = MPI.COMM_WORLD
 LENGTH, WEIGHT, NORMAL, TANGENTIAL = 100.0, 3.0, 12.3, 0.6

@@ -11,17 +11,17 @@ from numpy.typing import NDArray
 from thread_cases import load_of, results
 from thread_field_cases import free_with, held_at, model_of, start_by, start_of
 
-from hydroelastic.fem import thread_newton
-from hydroelastic.fem.thread_continuation import solve_with_ramps
-from hydroelastic.fem.thread_equilibrium import Start, solve_on_mesh
-from hydroelastic.fem.thread_model import PointLoad, ThreadEnd, ThreadModel
-from hydroelastic.fem.thread_newton import ThreadSolverError
-from hydroelastic.fem.thread_nodes import first_nodes
-from hydroelastic.fem.thread_profile import thread_profile
-from hydroelastic.fem.thread_refinement import CompressionError, solve_thread
-from hydroelastic.modal.stream_profiles import ShearedStream, TabulatedStream
-from hydroelastic.modal.thread_load import ThreadLoad
-from hydroelastic.modal.thread_march import march_back, march_tail
+from hydroelastic.fem.thread import newton as thread_newton
+from hydroelastic.fem.thread.continuation import solve_with_ramps
+from hydroelastic.fem.thread.equilibrium import Start, solve_on_mesh
+from hydroelastic.fem.thread.model import PointLoad, ThreadEnd, ThreadModel
+from hydroelastic.fem.thread.newton import ThreadSolverError
+from hydroelastic.fem.thread.nodes import first_nodes
+from hydroelastic.fem.thread.profile import thread_profile
+from hydroelastic.fem.thread.refinement import CompressionError, solve_thread
+from hydroelastic.modal.thread.load import ThreadLoad
+from hydroelastic.modal.thread.march import march_back, march_tail
+from hydroelastic.modal.thread.stream_profiles import ShearedStream, TabulatedStream
 
 COMM = MPI.COMM_WORLD
 

@@ -13,13 +13,13 @@ from thread_cases import CASES, inputs, results
 from thread_field_cases import held_at, model_of, start_by, start_of
 from thread_mode_cases import COMM, in_axial_flow, straight_pair, straight_thread
 
-from hydroelastic.fem.thread_equilibrium import Equilibrium, Start, solve_on_mesh
-from hydroelastic.fem.thread_hyperbolicity import IllPosedError
-from hydroelastic.fem.thread_model import PointLoad, Reactive, ThreadModel
-from hydroelastic.fem.thread_modes import Roots, ThreadModes, thread_modes
-from hydroelastic.fem.thread_operators import thread_operators
-from hydroelastic.modal.stream_profiles import UniformStream
-from hydroelastic.modal.thread_catenary import catenary_between, elastic_catenary
+from hydroelastic.fem.thread.equilibrium import Equilibrium, Start, solve_on_mesh
+from hydroelastic.fem.thread.hyperbolicity import IllPosedError
+from hydroelastic.fem.thread.model import PointLoad, Reactive, ThreadModel
+from hydroelastic.fem.thread.modes import Roots, ThreadModes, thread_modes
+from hydroelastic.fem.thread.operators import thread_operators
+from hydroelastic.modal.thread.catenary import catenary_between, elastic_catenary
+from hydroelastic.modal.thread.stream_profiles import UniformStream
 
 
 def pair_from(model: ThreadModel, start: Start, elements: int, degree: int = 3) -> tuple[Equilibrium, Equilibrium]:

@@ -15,9 +15,9 @@ from scipy.special import ellipk
 from thread_cases import inputs, results, tolerance, worst_difference
 from thread_motions import chain, extrapolated, follow, free, held, liquid, swing
 
-from hydroelastic.fem.thread_model import ThreadModel
-from hydroelastic.fem.thread_motion import MovingStart
-from hydroelastic.fem.thread_motion_results import ThreadMotion
+from hydroelastic.fem.thread.model import ThreadModel
+from hydroelastic.fem.thread.motion import MovingStart
+from hydroelastic.fem.thread.motion_results import ThreadMotion
 
 
 @cache

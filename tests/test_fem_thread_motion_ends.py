@@ -11,12 +11,12 @@ from scipy.integrate import solve_bvp, solve_ivp
 from thread_cases import inputs, results
 from thread_motions import CHAIN_OMEGA, chain, follow, free, held, liquid, swing
 
-from hydroelastic.fem.thread_equilibrium import Start, solve_on_mesh
-from hydroelastic.fem.thread_model import ThreadModel
-from hydroelastic.fem.thread_motion import MovingStart, move_from_rest
-from hydroelastic.fem.thread_motion_plan import EndCourse, MotionPlan, ThreadMotionError
-from hydroelastic.fem.thread_shedding import Shedding
-from hydroelastic.modal.stream_profiles import UniformStream
+from hydroelastic.fem.thread.equilibrium import Start, solve_on_mesh
+from hydroelastic.fem.thread.model import ThreadModel
+from hydroelastic.fem.thread.motion import MovingStart, move_from_rest
+from hydroelastic.fem.thread.motion_plan import EndCourse, MotionPlan, ThreadMotionError
+from hydroelastic.fem.thread.shedding import Shedding
+from hydroelastic.modal.thread.stream_profiles import UniformStream
 
 G = 9.81
 FREE_COURSE = EndCourse()

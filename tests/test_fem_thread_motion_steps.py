@@ -10,13 +10,13 @@ import pytest
 from mpi4py import MPI
 from thread_motions import chain, follow, free, liquid, swing
 
-from hydroelastic.fem.thread_model import ThreadModel
-from hydroelastic.fem.thread_motion import move_thread
-from hydroelastic.fem.thread_motion_errors import halved, measure_motion
-from hydroelastic.fem.thread_motion_plan import EndCourse, MotionPlan
-from hydroelastic.fem.thread_motion_results import ThreadMotion
-from hydroelastic.fem.thread_pace import Pace
-from hydroelastic.fem.thread_shedding import Shedding
+from hydroelastic.fem.thread.model import ThreadModel
+from hydroelastic.fem.thread.motion import move_thread
+from hydroelastic.fem.thread.motion_errors import halved, measure_motion
+from hydroelastic.fem.thread.motion_plan import EndCourse, MotionPlan
+from hydroelastic.fem.thread.motion_results import ThreadMotion
+from hydroelastic.fem.thread.pace import Pace
+from hydroelastic.fem.thread.shedding import Shedding
 
 # Before the tip of case D05 is whipped.
 TIMES = (0.0, 0.25, 0.5, 1.0)

@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from thread_field_cases import model_of, start_of
 
-from hydroelastic.fem.thread_equilibrium import solve_on_mesh
-from hydroelastic.fem.thread_model import Reactive, ThreadModel
-from hydroelastic.fem.thread_profile import ThreadProfile, thread_profile
+from hydroelastic.fem.thread.equilibrium import solve_on_mesh
+from hydroelastic.fem.thread.model import Reactive, ThreadModel
+from hydroelastic.fem.thread.profile import ThreadProfile, thread_profile
 
 COMM = MPI.COMM_WORLD
 

@@ -10,9 +10,9 @@ from mpi4py import MPI
 from thread_cases import results
 from thread_field_cases import axes_of, model_of, start_of
 
-from hydroelastic.fem.thread_equilibrium import solve_on_mesh
-from hydroelastic.fem.thread_profile import ThreadProfile, thread_profile
-from hydroelastic.fem.thread_refinement import solve_thread
+from hydroelastic.fem.thread.equilibrium import solve_on_mesh
+from hydroelastic.fem.thread.profile import ThreadProfile, thread_profile
+from hydroelastic.fem.thread.refinement import solve_thread
 
 COMM = MPI.COMM_WORLD
 NAMES = ["S01", "S03", "S05", "S07", "S08", "S10", "S12", "S14", "S16a", "S17", "S19b", "A02", "A04"]

@@ -11,12 +11,12 @@ import pytest
 from thread_cases import results
 from thread_mode_cases import COMM, in_axial_flow, straight_thread
 
-from hydroelastic.fem.thread_hyperbolicity import IllPosedError
-from hydroelastic.fem.thread_model import ThreadModel
-from hydroelastic.fem.thread_spectrum import branches
-from hydroelastic.fem.thread_stability import Stability, stability
-from hydroelastic.fem.thread_straight import straight_equilibrium
-from hydroelastic.modal.stream_profiles import UniformStream
+from hydroelastic.fem.thread.hyperbolicity import IllPosedError
+from hydroelastic.fem.thread.model import ThreadModel
+from hydroelastic.fem.thread.spectrum import branches
+from hydroelastic.fem.thread.stability import Stability, stability
+from hydroelastic.fem.thread.straight import straight_equilibrium
+from hydroelastic.modal.thread.stream_profiles import UniformStream
 
 
 def sweep(

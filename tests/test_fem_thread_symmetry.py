@@ -10,12 +10,12 @@ from mpi4py import MPI
 from numpy.typing import NDArray
 from thread_field_cases import free_with, held_at, model_of, start_by, start_of
 
-from hydroelastic.fem.thread_equilibrium import Start, solve_on_mesh
-from hydroelastic.fem.thread_model import PointLoad, Stream, ThreadEnd, ThreadModel
-from hydroelastic.fem.thread_profile import ThreadProfile, thread_profile
-from hydroelastic.modal.stream_profiles import TabulatedStream
-from hydroelastic.modal.thread_load import ThreadLoad
-from hydroelastic.modal.thread_march import march_back
+from hydroelastic.fem.thread.equilibrium import Start, solve_on_mesh
+from hydroelastic.fem.thread.model import PointLoad, Stream, ThreadEnd, ThreadModel
+from hydroelastic.fem.thread.profile import ThreadProfile, thread_profile
+from hydroelastic.modal.thread.load import ThreadLoad
+from hydroelastic.modal.thread.march import march_back
+from hydroelastic.modal.thread.stream_profiles import TabulatedStream
 
 COMM = MPI.COMM_WORLD
 LENGTH = 150.0

@@ -14,9 +14,9 @@ from layered_tanks import GRAVITY, PlainProblem, check_processes, frequencies, l
 from petsc4py import PETSc
 
 from hydroelastic.fem.modes import count_below, solve_modes
-from hydroelastic.modal.two_layer import InterfacePlate, LayerTop, TwoLayers, tank_modes
-from hydroelastic.scenes.model_bodies import Beam
-from hydroelastic.scenes.models import TankScene
+from hydroelastic.modal.liquid.two_layer import InterfacePlate, LayerTop, TwoLayers, tank_modes
+from hydroelastic.scenes.models.bodies import Beam
+from hydroelastic.scenes.models.tank import TankScene
 
 REFERENCE = json.loads((Path(__file__).parent / "reference" / "two_liquid_beam.json").read_text(encoding="utf-8"))
 ROWS: dict[str, dict[str, Any]] = {row["case"]: row for row in REFERENCE["rows"]}
@@ -55,7 +55,7 @@ def check(tanks: Any, scene: TankScene, omega: np.ndarray, bound: float) -> None
     assert np.all(errors <= solution.relative_errors[: len(errors)])
 
 
-# Thin layers leave a tolerance of 5e-10 to rounding, see `scenes/plan.py`.
+# Thin layers leave a tolerance of 5e-10 to rounding, see `scenes/tank/plan.py`.
 DEPTHS = [((0.3, 0.2), 1e-10), ((1.0, 0.01), 1e-9), ((0.01, 1.0), 1e-9)]
 
 

@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 from random_floats import draw_floats
 
-from hydroelastic.scenes.float_body import principal_motions
-from hydroelastic.scenes.models import TankScene
-from hydroelastic.scenes.rigid_motions import zero_mode_count
-from hydroelastic.scenes.solve import TankSolution, solve_scene
+from hydroelastic.scenes.models.rigid_motions import zero_mode_count
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.tank.float_body import principal_motions
+from hydroelastic.scenes.tank.solve import TankSolution, solve_scene
 
 FOLDER = Path(__file__).parent / "reference"
 CASES: dict[str, dict[str, Any]] = json.loads((FOLDER / "floats.json").read_text(encoding="utf-8"))["cases"]

@@ -77,7 +77,22 @@ def test_help_lists_the_commands_and_prepares_nothing(arguments, tools, tmp_path
     ended = start(*arguments, cache=tmp_path / "cache", path=tools)
     assert ended.returncode == 0
     assert ended.stderr == ""
-    for command in ("run", "compare", "check", "list", "test", "lint", "python", "mpirun", "exec", "shell", "env"):
+    for command in (
+        "run",
+        "compare",
+        "check",
+        "list",
+        "study",
+        "bench",
+        "test",
+        "lint",
+        "docs",
+        "python",
+        "mpirun",
+        "exec",
+        "shell",
+        "env",
+    ):
         assert f"\n  {command} " in ended.stdout
     assert not (tmp_path / "cache").exists()
 
@@ -150,6 +165,36 @@ def test_exit_code_is_that_of_the_program(inside):
 
 def test_python_gets_its_arguments_unchanged(inside):
     assert inside("python", "-c", "print('a b')").stdout.splitlines()[:-1] == ["-c", "print('a b')"]
+
+
+def test_docs_are_built_where_the_user_says(inside, tmp_path):
+    ended = inside("docs", "--out", str(tmp_path / "my site"))
+    arguments = ended.stdout.splitlines()
+    assert arguments[:2] == ["-m", "sphinx"]
+    assert {"--fail-on-warning", "--keep-going"} <= set(arguments)
+    assert arguments[-3:-1] == [str(CHECKOUT), str(tmp_path / "my site")]
+    assert ended.returncode == 7
+
+
+def test_docs_go_to_the_cache_otherwise(inside, tmp_path):
+    folder = inside("docs", XDG_CACHE_HOME=str(tmp_path / "forms")).stdout.splitlines()[-2]
+    assert Path(folder).is_relative_to(tmp_path / "forms" / "docs")
+
+
+def test_docs_replace_nothing_else(inside, tmp_path):
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "letter").write_text("")
+    ended = inside("docs", f"--out={tmp_path / 'mine'}")
+    assert ended.returncode == 2
+    assert "holds something else" in ended.stderr
+    assert ended.stdout == ""
+
+
+@pytest.mark.parametrize(("arguments", "said"), [(("--out",), "--out needs a folder"), (("html",), "was given html")])
+def test_docs_refuse_other_arguments(inside, arguments, said):
+    ended = inside("docs", *arguments)
+    assert ended.returncode == 2
+    assert said in ended.stderr
 
 
 def test_exec_needs_a_program(inside):

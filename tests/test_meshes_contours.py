@@ -11,9 +11,9 @@ import pytest
 
 from hydroelastic.meshes.contours import Arc, Contour, straight_arc, turn_between
 from hydroelastic.meshes.point_contours import outline_contour, polygon_contour, self_crossing
-from hydroelastic.modal.float_profiles import FloatShape, float_profile
-from hydroelastic.scenes.floats import float_contour
-from hydroelastic.scenes.model_bodies import Float
+from hydroelastic.modal.floats.profiles import FloatShape, float_profile
+from hydroelastic.scenes.models.bodies import Float
+from hydroelastic.scenes.models.floats import float_contour
 
 SHAPES: tuple[FloatShape, ...] = ("exponential", "parabola", "ellipse", "wedge", "rectangle")
 # Gauss points and weights of numpy are good to some 1e-15 of the interval.

@@ -25,9 +25,9 @@ from hydroelastic.meshes.geometry import (
 )
 from hydroelastic.meshes.open_sea import Frames, extended, with_far_ends
 from hydroelastic.meshes.tagged_mesh import TaggedMesh
-from hydroelastic.scenes.models import TankScene
-from hydroelastic.scenes.open_basin import OpenBasin, open_basin, reach
-from hydroelastic.scenes.open_model import Band, first_resolution, open_mesh
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.open_water.basin import OpenBasin, open_basin, reach
+from hydroelastic.scenes.open_water.model import Band, first_resolution, open_mesh
 
 SECTIONS = stored("open_sections.json")["cases"]
 TWO_LIQUIDS = stored("open_two_liquids.json")["cases"]

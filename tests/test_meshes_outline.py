@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import inf, pi, radians
 
 import numpy as np
 import pytest
+from mesh_quality import smallest_angle
 from outlines import (
     FLOAT,
     INTERFACE,
     LOWER,
     UPPER,
     Circle,
-    arc,
     circle_tank,
     polygon,
     surface_slit,
@@ -27,11 +26,9 @@ from scipy.sparse.csgraph import connected_components
 
 from hydroelastic.meshes.build import build_mesh
 from hydroelastic.meshes.edges import edges_of
-from hydroelastic.meshes.filling import Line, fill
 from hydroelastic.meshes.geometry import BOTTOM, LEFT_WALL, LID, RIGHT_WALL, SYMMETRY_PLANE
-from hydroelastic.meshes.outline import Corner, Curve, Outline, Point, Region
-from hydroelastic.meshes.size_field import Discs, SizeField
-from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
+from hydroelastic.meshes.outline import Outline, Point
+from hydroelastic.meshes.tagged_mesh import TaggedMesh
 
 BEAM = "body_1"
 RATIO = 0.3
@@ -128,17 +125,6 @@ def signed_areas(mesh: TaggedMesh) -> np.ndarray:
     a, b, c = (mesh.points[mesh.cells[:, corner]] for corner in range(3))
     areas: np.ndarray = 0.5 * ((c - a)[:, 0] * (b - a)[:, 1] - (c - a)[:, 1] * (b - a)[:, 0])
     return areas
-
-
-def smallest_angle(mesh: TaggedMesh) -> float:
-    """In degrees."""
-    corners = mesh.points[mesh.cells]
-    smallest = 180.0
-    for corner in range(3):
-        one, other = (corners[:, (corner + step) % 3] - corners[:, corner] for step in (1, 2))
-        cosine = (one * other).sum(axis=1) / np.linalg.norm(one, axis=1) / np.linalg.norm(other, axis=1)
-        smallest = min(smallest, float(np.degrees(np.arccos(cosine.max()))))
-    return smallest
 
 
 def cells_by_edge(mesh: TaggedMesh) -> tuple[np.ndarray, np.ndarray]:
@@ -336,82 +322,3 @@ def test_corners_beside_one_another_have_rings_that_fit() -> None:
     edges = mesh.points[mesh.facets[mesh.facet_tags == mesh.facet_names[BEAM]]]
     # The outermost rings reach to 0.45 of the way; between them one element is left.
     assert np.linalg.norm(edges[:, 1] - edges[:, 0], axis=1).max() < 0.45 * 0.01
-
-
-SQUARE = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
-
-
-def square(**changes: object) -> Callable[[], Outline]:
-    """A square of four sides a, b, c, d with something changed."""
-    curves = tuple(
-        Curve(name=name, start=start, end=end)
-        for name, start, end in zip("abcd", SQUARE, [*SQUARE[1:], SQUARE[0]], strict=True)
-    )
-    loop = tuple((number, True) for number in range(4))
-    first = replace(curves[0], **changes.pop("first", {}))  # type: ignore[arg-type, call-overload]
-    values = {"curves": (first, *curves[1:]), "regions": (Region(name="liquid", loop=loop),)} | changes
-    return lambda: Outline(**values)  # type: ignore[arg-type]
-
-
-LOOP = ((0, True), (1, True), (2, True), (3, True))
-
-
-@pytest.mark.parametrize(
-    ("outline", "message"),
-    [
-        (square(regions=(Region(name="liquid", loop=LOOP[:3]),)), r"open between curves 2 \('c'\) and 0 \('a'\)"),
-        (
-            square(regions=(Region(name="liquid", loop=tuple((number, False) for number in (3, 2, 1, 0))),)),
-            "must turn counterclockwise",
-        ),
-        (square(regions=(Region(name="liquid", loop=(*LOOP, (0, False), (0, True))),)), "passes a curve twice"),
-        (
-            square(regions=(Region(name="liquid", loop=LOOP), Region(name="oil", loop=LOOP))),
-            r"curve 0 \('a'\) bounds two regions on the same side",
-        ),
-        (square(regions=()), r"curve 0 \('a'\) bounds no region"),
-        (square(first={"name": ""}), "curve 0 has no name"),
-        (square(first={"end": (0.0, 0.0)}), "ends where it starts"),
-        (square(first={"size": 0.0}), "positive size"),
-        (square(first={"path": arc((0.5, 0.0), 0.4, pi, 2 * pi)}), "does not lead from its start to its end"),
-        (square(corners=(Corner(point=(0.5, 0.0), inner=1e-3, outer=0.1),)), "not an end of a curve"),
-        (square(corners=(Corner(point=(0.0, 0.0), inner=0.0, outer=0.1),)), "rings of positive radii"),
-        (square(corners=(Corner(point=(0.0, 0.0), inner=1e-3, outer=0.1),) * 2), "two corners are at the same point"),
-    ],
-)
-def test_outlines_that_are_no_domain_are_refused(outline: Callable[[], Outline], message: str) -> None:
-    with pytest.raises(ValueError, match=message):
-        outline()
-
-
-@pytest.mark.parametrize(
-    ("outline", "message"),
-    [
-        (circle_tank(Circle(), depths=(0.4, 0.05)), "cross or touch one another: float and lid"),
-        (
-            circle_tank(Circle(centre=0.06, contact_angle=radians(150))),
-            "cross or touch one another: float and left_wall",
-        ),
-        (circle_tank(Circle(), depths=(0.09, 0.3)), "cross or touch one another: bottom and float"),
-    ],
-    ids=["through the lid", "at the wall", "on the bottom"],
-)
-def test_curves_that_cross_or_touch_are_refused(outline: Outline, message: str) -> None:
-    with pytest.raises(MeshError, match=message):
-        build_mesh(outline, bulk_size=0.2)
-
-
-def test_gmsh_works_on_after_it_failed() -> None:
-    bow_tie = np.array([[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0], [0.0, 0.0]])
-    line = Line(key=0, points=bow_tie, forward=True, divided=True)
-    size = SizeField(bulk_size=0.3, growth=0.7, straight=[], rings=[], bends=Discs.joined([]))
-    with pytest.raises(MeshError, match="gmsh could not mesh"):
-        fill([bow_tie], [[line]], size)
-    assert len(build_mesh(circle_tank(Circle()), bulk_size=0.5).cells) > 100
-
-
-def test_a_slit_of_one_element_is_refused() -> None:
-    """Both its ends are single: nothing would be open."""
-    outline = surface_slit(low=-0.3, high=-0.2, rings=False)
-    with pytest.raises(MeshError, match="slit of a single element"):
-        build_mesh(outline, bulk_size=0.5)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
+from mesh_quality import smallest_angle
 
 from hydroelastic.meshes.geometry import TankGeometry, tank_geometry
 from hydroelastic.meshes.grading import Grading
@@ -76,17 +77,6 @@ def meshed(request: pytest.FixtureRequest) -> tuple[Case, TaggedMesh]:
 def doubled_areas(mesh: TaggedMesh) -> np.ndarray:
     a, b, c = (mesh.points[mesh.cells[:, corner]] for corner in range(3))
     return (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
-
-
-def smallest_angle(mesh: TaggedMesh) -> float:
-    """In degrees."""
-    corners = mesh.points[mesh.cells]
-    smallest = 180.0
-    for corner in range(3):
-        one, other = (corners[:, (corner + step) % 3] - corners[:, corner] for step in (1, 2))
-        cosine = (one * other).sum(axis=1) / np.linalg.norm(one, axis=1) / np.linalg.norm(other, axis=1)
-        smallest = min(smallest, float(np.degrees(np.arccos(cosine.max()))))
-    return smallest
 
 
 def boundary_length(mesh: TaggedMesh, name: str) -> float:

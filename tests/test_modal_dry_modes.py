@@ -5,7 +5,7 @@ import pytest
 from numpy.polynomial.legendre import leggauss
 from scipy.optimize import brentq
 
-from hydroelastic.modal.dry_modes import free_free_roots, free_free_shape, free_free_wavenumber
+from hydroelastic.modal.beam.dry_modes import free_free_roots, free_free_shape, free_free_wavenumber
 
 EPS = np.finfo(float).eps
 

@@ -24,8 +24,8 @@ from hydroelastic.modal import (
     thin_float_mass,
     thin_float_stiffness,
 )
-from hydroelastic.modal.box_inertia import interface_moment, layer_inertia, layer_wave_moment, liquid_inertia
-from hydroelastic.modal.thin_shapes import sine_moment
+from hydroelastic.modal.floats.box_inertia import interface_moment, layer_inertia, layer_wave_moment, liquid_inertia
+from hydroelastic.modal.floats.thin_shapes import sine_moment
 
 REFERENCE = json.loads((Path(__file__).parent / "reference" / "two_fluid_float.json").read_text(encoding="utf-8"))
 CASES = {case["id"]: case for case in REFERENCE["cases"]}

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from hydroelastic.modal.dry_modes import free_free_roots, free_free_shape
-from hydroelastic.modal.jointed_beam import Joint, JointedBeam, Section
-from hydroelastic.modal.jointed_modes import JointedModes, jointed_modes
+from hydroelastic.modal.beam.dry_modes import free_free_roots, free_free_shape
+from hydroelastic.modal.beam.jointed_beam import Joint, JointedBeam, Section
+from hydroelastic.modal.beam.jointed_modes import JointedModes, jointed_modes
 
 Parts = tuple[tuple[float, float, float], ...]
 

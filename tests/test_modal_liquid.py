@@ -21,10 +21,10 @@ from hydroelastic.modal import (
     shallow_sloshing_frequencies,
     sloshing_frequencies,
 )
-from hydroelastic.modal.added_mass import cosine_cube_sum
-from hydroelastic.modal.cosine_moments import cosine_moments
-from hydroelastic.modal.dry_modes import free_free_shape
-from hydroelastic.modal.surface_operator import surface_operator
+from hydroelastic.modal.beam.added_mass import cosine_cube_sum
+from hydroelastic.modal.beam.cosine_moments import cosine_moments
+from hydroelastic.modal.beam.dry_modes import free_free_shape
+from hydroelastic.modal.beam.surface_operator import surface_operator
 
 MIRROR = np.outer([1, -1, 1, -1], [1, -1, 1, -1])
 

@@ -6,7 +6,12 @@ import math
 import pytest
 
 from hydroelastic.modal import ERRATA, FloatingBeam, free_free_roots, lid_added_mass, one_term_root
-from hydroelastic.modal.paper_model import added_mass, free_end_determinant, one_term_lid_added_mass, one_term_stiffness
+from hydroelastic.modal.beam.paper_model import (
+    added_mass,
+    free_end_determinant,
+    one_term_lid_added_mass,
+    one_term_stiffness,
+)
 
 BASE = FloatingBeam(
     tank_length=10.0,

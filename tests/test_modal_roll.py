@@ -13,7 +13,7 @@ from scipy.integrate import solve_ivp
 
 from hydroelastic.modal import Roll, WaveTrain, roll_path, roll_response
 from hydroelastic.modal.damped_pair import damped_pair
-from hydroelastic.modal.roll_wave import response_from_rest
+from hydroelastic.modal.roll.wave import response_from_rest
 
 DAMPINGS = [0.0, 1e-6, 0.1, 0.96, 1 - 1e-9, 1.0, 1 + 1e-9, 1.5, 4.0, 200.0]
 """n/k."""

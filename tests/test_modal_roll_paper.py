@@ -9,7 +9,7 @@ import pytest
 from roll_trains import SHIPS, TRAIN, K, reference_ship
 
 from hydroelastic.modal import ROLL_ERRATA, Roll, RollSlip, paper_roll_angle, printed_roll_constants, roll_response
-from hydroelastic.modal.roll_paper import ALL_ROLL_SLIPS, PRINTED_ROLL, PRINTED_TRAIN
+from hydroelastic.modal.roll.paper import ALL_ROLL_SLIPS, PRINTED_ROLL, PRINTED_TRAIN
 
 LIGHT, HEAVY = PRINTED_ROLL, Roll(K, 0.96 * K)
 TIMES = np.linspace(0, 54.6, 20_001)[1:]

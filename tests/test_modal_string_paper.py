@@ -20,7 +20,7 @@ from hydroelastic.modal import (
     partial_sum,
     string_response,
 )
-from hydroelastic.modal import string_paper as paper
+from hydroelastic.modal.string import paper as paper
 
 REFERENCE = json.loads((Path(__file__).parent / "reference" / "string_and_roll.json").read_text(encoding="utf-8"))
 PRINTED = {case["id"]: case for case in REFERENCE["cases"] if case["paper"] == "000" and "as_printed" in case}

@@ -20,8 +20,8 @@ from hydroelastic.modal import (
     thin_float_mass,
     thin_float_stiffness,
 )
-from hydroelastic.modal.float_profiles import Profile
-from hydroelastic.modal.thin_shapes import (
+from hydroelastic.modal.floats.profiles import Profile
+from hydroelastic.modal.floats.thin_shapes import (
     LARGE_ARGUMENT,
     area_factor,
     end_wave_moment,

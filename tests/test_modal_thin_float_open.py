@@ -25,10 +25,10 @@ from hydroelastic.modal import (
     thin_float_radiation,
     thin_float_stiffness,
 )
-from hydroelastic.modal import thin_float_decay as decay
-from hydroelastic.modal.float_profiles import FloatShape, Profile
-from hydroelastic.modal.thin_shapes import wave_moment
-from hydroelastic.modal.wave_integral import greatest_angle
+from hydroelastic.modal.floats import thin_float_decay as decay
+from hydroelastic.modal.floats.profiles import FloatShape, Profile
+from hydroelastic.modal.floats.thin_shapes import wave_moment
+from hydroelastic.modal.floats.wave_integral import greatest_angle
 
 MOTIONS = [name for name in CASES if name.startswith("f_")]
 POLES = [name for name in CASES if name.startswith(("pole_", "f_wedge", "f_parabola", "f_ellipse"))]

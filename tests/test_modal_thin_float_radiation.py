@@ -17,10 +17,10 @@ from hydroelastic.modal import (
     thin_constants,
     thin_float_radiation,
 )
-from hydroelastic.modal.complex_moments import complex_wave_moment
-from hydroelastic.modal.float_profiles import FloatShape, Profile
-from hydroelastic.modal.thin_shapes import inertia_factor, wave_moment
-from hydroelastic.modal.wave_integral import wave_integral
+from hydroelastic.modal.floats.complex_moments import complex_wave_moment
+from hydroelastic.modal.floats.profiles import FloatShape, Profile
+from hydroelastic.modal.floats.thin_shapes import inertia_factor, wave_moment
+from hydroelastic.modal.floats.wave_integral import wave_integral
 
 
 @pytest.mark.parametrize("name", ["ab_exponential", "ab_parabola"])

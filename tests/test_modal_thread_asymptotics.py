@@ -11,21 +11,21 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_bvp
 from thread_cases import CASES, inputs, load_of, tolerance, worst_difference
 
-from hydroelastic.modal.stream_profiles import ShearedStream, TabulatedStream, UniformStream, VeeringStream
-from hydroelastic.modal.thread_asymptotics import NoAsymptoticError
-from hydroelastic.modal.thread_clamp_layer import ClampLayer
-from hydroelastic.modal.thread_critical import (
+from hydroelastic.modal.thread.asymptotics import NoAsymptoticError
+from hydroelastic.modal.thread.clamp_layer import ClampLayer
+from hydroelastic.modal.thread.critical import (
     critical_angle,
     critical_line,
     nearly_critical_tail,
     towed_body_exponent,
 )
-from hydroelastic.modal.thread_drag_dominated import drag_dominated
-from hydroelastic.modal.thread_load import ThreadLoad
-from hydroelastic.modal.thread_march import march_back, march_tail
-from hydroelastic.modal.thread_tension_at_height import tension_dominated_at_height
-from hydroelastic.modal.thread_tension_dominated import pulled_up_in_uniform_stream, tension_dominated
-from hydroelastic.modal.thread_weightless import weightless_thread
+from hydroelastic.modal.thread.drag_dominated import drag_dominated
+from hydroelastic.modal.thread.load import ThreadLoad
+from hydroelastic.modal.thread.march import march_back, march_tail
+from hydroelastic.modal.thread.stream_profiles import ShearedStream, TabulatedStream, UniformStream, VeeringStream
+from hydroelastic.modal.thread.tension_at_height import tension_dominated_at_height
+from hydroelastic.modal.thread.tension_dominated import pulled_up_in_uniform_stream, tension_dominated
+from hydroelastic.modal.thread.weightless import weightless_thread
 
 HALVES = np.array([0.1, 0.05, 0.025])
 

@@ -5,8 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from hydroelastic.modal.stream_profiles import ShearedStream, Stream, TabulatedStream, UniformStream, VeeringStream
-from hydroelastic.modal.thread_load import ThreadLoad
+from hydroelastic.modal.thread.load import ThreadLoad
+from hydroelastic.modal.thread.stream_profiles import (
+    ShearedStream,
+    Stream,
+    TabulatedStream,
+    UniformStream,
+    VeeringStream,
+)
 
 LEVELS = (-2.0, 0.0, 1.0, 4.0)
 ROWS = ((0.2, 0.0, 0.0), (0.5, 0.3, 0.0), (1.5, -0.2, 0.1), (1.0, 0.4, 0.0))

@@ -10,8 +10,8 @@ import pytest
 from scipy.integrate import solve_ivp
 from thread_cases import CASES, inputs, results, tolerance
 
-from hydroelastic.modal.thread_axial_flow import AxialFlowBeam, Ends, string_in_axial_flow
-from hydroelastic.modal.thread_modes import (
+from hydroelastic.modal.thread.axial_flow import AxialFlowBeam, Ends, string_in_axial_flow
+from hydroelastic.modal.thread.modes import (
     chain_frequencies,
     damped_exponents,
     irvine_parameter,

@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 from thread_cases import inputs, load_of, results, stream_of, tolerance, worst_difference
 from thread_shooting import shoot
 
-from hydroelastic.modal.stream_profiles import ShearedStream, TabulatedStream, UniformStream
-from hydroelastic.modal.thread_catenary import catenary_between, elastic_catenary
-from hydroelastic.modal.thread_critical import critical_direction
-from hydroelastic.modal.thread_load import ThreadLoad
-from hydroelastic.modal.thread_march import MarchedThread, march_back, march_tail
-from hydroelastic.modal.thread_shape import NoTensionError
-from hydroelastic.modal.thread_taut import taut_tension, taut_thread
+from hydroelastic.modal.thread.catenary import catenary_between, elastic_catenary
+from hydroelastic.modal.thread.critical import critical_direction
+from hydroelastic.modal.thread.load import ThreadLoad
+from hydroelastic.modal.thread.march import MarchedThread, march_back, march_tail
+from hydroelastic.modal.thread.shape import NoTensionError
+from hydroelastic.modal.thread.stream_profiles import ShearedStream, TabulatedStream, UniformStream
+from hydroelastic.modal.thread.taut import taut_tension, taut_thread
 
 # A march accumulates some ten times its tolerance.
 MARCH = 1e-12

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from numpy.polynomial.legendre import leggauss
 
-from hydroelastic.modal.travelling_waves import TravellingWave, travelling_waves
-from hydroelastic.modal.two_layer import TwoLayers, interface_frequencies
+from hydroelastic.modal.liquid.travelling_waves import TravellingWave, travelling_waves
+from hydroelastic.modal.liquid.two_layer import TwoLayers, interface_frequencies
 
 DEEP = math.inf
 LIQUIDS = {

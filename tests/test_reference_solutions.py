@@ -22,8 +22,8 @@ from surface_reference import (
 )
 
 from hydroelastic.modal import gravity_tones
-from hydroelastic.scenes.estimates import floating_beam
-from hydroelastic.scenes.models import TankScene
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.tank.estimates import floating_beam
 
 FOLDER = Path(__file__).parent / "reference"
 OLDER: dict[str, Any] = json.loads((FOLDER / "aquarium.json").read_text(encoding="utf-8"))

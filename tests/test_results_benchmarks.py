@@ -1,18 +1,21 @@
 """The committed benchmark is of the tanks, cases and columns as they stand."""
 
 import csv
+import runpy
 from pathlib import Path
 
 import pytest
 
-from hydroelastic.benchmarks.circle import CIRCLE, circle_cases
-from hydroelastic.benchmarks.circle_report import CIRCLE_COLUMNS
+from hydroelastic.benchmarks.circle.cases import CIRCLE, circle_cases
+from hydroelastic.benchmarks.circle.report import CIRCLE_COLUMNS
 from hydroelastic.benchmarks.measure import cases_of
-from hydroelastic.benchmarks.output import CIRCLE_NAME, NAME, STRING_NAME
-from hydroelastic.benchmarks.report import CSV_COLUMNS
-from hydroelastic.benchmarks.strings import MOTIONS, string_cases
-from hydroelastic.benchmarks.strings_report import STRING_COLUMNS
-from hydroelastic.benchmarks.tanks import TANKS
+from hydroelastic.benchmarks.output import CIRCLE_NAME, NAME, STRING_NAME, THREAD_NAME
+from hydroelastic.benchmarks.string.cases import MOTIONS, string_cases
+from hydroelastic.benchmarks.string.report import STRING_COLUMNS
+from hydroelastic.benchmarks.tank.cases import TANKS
+from hydroelastic.benchmarks.tank.report import CSV_COLUMNS
+from hydroelastic.benchmarks.thread.cases import THREADS, thread_cases
+from hydroelastic.benchmarks.thread.report import THREAD_COLUMNS
 
 FOLDER = Path(__file__).parent.parent / "results" / "benchmarks"
 
@@ -104,3 +107,43 @@ def test_field_and_series_kept_every_tolerance_of_the_string(string_rows: list[d
 def test_page_and_figure_of_the_string_are_there() -> None:
     assert "cut sharply" in (FOLDER / f"{STRING_NAME}.md").read_text(encoding="utf-8")
     assert (FOLDER / f"{STRING_NAME}.png").stat().st_size > 10_000
+
+
+@pytest.fixture(scope="module")
+def thread_rows() -> list[dict[str, str]]:
+    with (FOLDER / f"{THREAD_NAME}.csv").open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_every_case_of_threads_was_measured(thread_rows: list[dict[str, str]]) -> None:
+    assert tuple(thread_rows[0]) == THREAD_COLUMNS
+    measured = [
+        (
+            *(row["code"], row["thread"], row["variant"]),
+            *(int(row["segments"] or 0), float(row["step"] or 0.0), float(row["tolerance"] or 0.0)),
+        )
+        for row in thread_rows
+    ]
+    assert measured == [
+        (case.code, case.tank, case.variant, case.segments, case.step, case.tolerance)
+        for thread in THREADS
+        for case in thread_cases(thread, quick=False)
+    ]
+
+
+def test_field_kept_every_tolerance_of_threads_at_rest(thread_rows: list[dict[str, str]]) -> None:
+    # In motion the tolerance is that of positions, and the error that of a tension, which no tolerance bounds.
+    own = [row for row in thread_rows if row["code"] == "thread field" and row["thread"] != "jumper moved"]
+    assert all(float(row["error"]) <= float(row["tolerance"]) for row in own if row["tolerance"])
+
+
+def test_page_and_figure_of_threads_are_there() -> None:
+    assert "Flexible threads" in (FOLDER / f"{THREAD_NAME}.md").read_text(encoding="utf-8")
+    assert (FOLDER / f"{THREAD_NAME}.png").stat().st_size > 10_000
+
+
+def test_pages_have_the_tables_of_the_committed_measurements() -> None:
+    pages = runpy.run_path(str(FOLDER.parent / "page_tables.py"))["pages"]()
+    assert {page.name for page in pages} == {"speed_against_error.md", "performance.md"}
+    for page, content in pages.items():
+        assert page.read_text(encoding="utf-8") == content

@@ -7,8 +7,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from hydroelastic.scenes.certainty import FrequencyErrors, refined
-from hydroelastic.scenes.plan import HIGHEST_DEGREE, Resolution, initial_resolution, rounding_error, workable_tolerance
+from hydroelastic.scenes.tank.certainty import FrequencyErrors, refined
+from hydroelastic.scenes.tank.plan import (
+    HIGHEST_DEGREE,
+    Resolution,
+    initial_resolution,
+    rounding_error,
+    workable_tolerance,
+)
 
 TOLERANCE = 1e-6
 LAST = Resolution(

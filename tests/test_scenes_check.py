@@ -6,12 +6,12 @@ from typing import Any
 import pytest
 from rich.console import Console
 
-from hydroelastic.scenes.check import print_check
-from hydroelastic.scenes.check_hints import hints
 from hydroelastic.scenes.kinds import checker_of
-from hydroelastic.scenes.models import Beam, Float, Liquid, Tank, TankScene
+from hydroelastic.scenes.models.rigid_motions import zero_mode_count
+from hydroelastic.scenes.models.tank import Beam, Float, Liquid, Tank, TankScene
+from hydroelastic.scenes.output.check_text import print_check
 from hydroelastic.scenes.read import read_scene, shipped_scenes
-from hydroelastic.scenes.rigid_motions import zero_mode_count
+from hydroelastic.scenes.tank.check_hints import hints
 
 
 def beam(**changes: Any) -> Beam:
@@ -31,7 +31,7 @@ def scene(*bodies: Beam | Float, top: str = "free", title: str = "", upper: floa
 
 def printed(given: TankScene) -> str:
     console = Console(file=io.StringIO(), width=200)
-    print_check(given, console)
+    print_check(given.title, checker_of(given)(given), console)
     assert isinstance(console.file, io.StringIO)
     return console.file.getvalue()
 
@@ -60,6 +60,17 @@ def test_zero_modes_are_counted(bodies: tuple[Beam, ...], top: str, expected: in
     assert zero_mode_count(scene(*bodies, top=top)) == expected
     told = [hint for hint in hints(scene(*bodies, top=top)) if "zero" in hint]
     assert len(told) == (1 if expected else 0)
+
+
+def test_a_draught_that_counts_is_said() -> None:
+    # m/ρ = 0.3 m of 4 m is 0.075; of a liquid 0.8 m deep, 0.05/0.8 = 0.0625; of 4 m, 0.05 is 0.0125.
+    def said(given: TankScene) -> list[str]:
+        return [hint for hint in hints(given) if "draught" in hint]
+
+    assert "m/ρ of 0.3 m, 0.075 of its length" in said(scene(beam(mass_per_length=300.0)))[0]
+    shallow = scene(beam()).model_copy(update={"liquid": (Liquid(density=1000, depth=0.8),)})
+    assert "0.062 of the depth below it" in said(shallow)[0]
+    assert not said(scene(beam()))
 
 
 def test_groups_of_the_base_scene() -> None:
@@ -136,7 +147,7 @@ def test_titles_are_printed_as_they_are() -> None:
 def test_every_shipped_scene_can_be_described(name: str) -> None:
     shipped = read_scene(name)
     text = io.StringIO()
-    checker_of(shipped)(shipped, Console(file=text, width=200))
+    print_check(shipped.title, checker_of(shipped)(shipped), Console(file=text, width=200))
     assert shipped.title in text.getvalue()
 
 

@@ -2,6 +2,7 @@
 
 import json
 import os
+import pty
 import subprocess
 import sys
 import types
@@ -10,7 +11,9 @@ from typing import Any
 
 import pytest
 from click.testing import CliRunner, Result
+from scene_files import BEAM_IN_TANK
 
+from hydroelastic.fem.pictures.options import PictureOptions
 from hydroelastic.scenes.command_line import main
 
 DRAWING = {"vtk", "vtkmodules", "pyvista", "matplotlib", "PIL"}
@@ -30,22 +33,7 @@ HEAVY = DRAWING | {
 }
 COARSE = ("--set", "accuracy.modes=1", "--set", "accuracy.tolerance=1e-3")
 
-GOOD = """
-kind = "tank"
-[tank]
-length = 10.0
-[[liquid]]
-density = 1000.0
-depth = 5.0
-[[body]]
-start = 3.0
-length = 4.0
-flexural_rigidity = 5e3
-mass_per_length = 50.0
-[accuracy]
-tolerance = 1e-6
-modes = 10
-"""
+GOOD = BEAM_IN_TANK + "[accuracy]\ntolerance = 1e-6\nmodes = 10\n"
 AFTER_GOOD = f"line {len(GOOD.splitlines()) + 1}"
 SECOND_BEAM = "[[body]]\nstart = 6.0\nlength = 2.0\nflexural_rigidity = 5e3\nmass_per_length = 50.0\n"
 DENSER_LIQUID = "[[liquid]]\ndensity = 1200.0\ndepth = 1.0\n"
@@ -99,6 +87,16 @@ BAD = {
         GOOD.replace("start = 3.0", 'kind = "flaot"\nstart = 3.0'),
         ['"beam" or "float"', 'mean "float"?'],
     ),
+    "plate for beam": (GOOD.replace("start = 3.0", 'kind = "plate"\nstart = 3.0'), ['Did you mean "beam"?']),
+    "unit in a text": (
+        GOOD.replace("length = 10.0", 'length = "10 m"'),
+        ["not a number", "Write a number without a unit; the unit is m."],
+    ),
+    "bare unit": (GOOD.replace("depth = 5.0", "depth = 5.0 m"), ["not TOML", "Write a number without a unit."]),
+    "decimal comma": (
+        GOOD.replace("length = 10.0", "length = 10,5  # m"),
+        ["not TOML", "Write a decimal point, not a comma: 10.5."],
+    ),
     "other kind": (GOOD.replace('"tank"', '"drum"'), ['Allowed: "tank"']),
     "no kind": (GOOD.replace('kind = "tank"', ""), ['"kind"', "missing"]),
     "outside": (GOOD.replace("start = 3.0", "start = 7.0"), ['[[body]] number 1, key "start" = 7.0', "0 to 6 m"]),
@@ -142,6 +140,7 @@ def test_files_that_cannot_be_read(tmp_path: Path, command: str) -> None:
     Path("wide.toml").write_bytes(GOOD.encode("utf-16"))
     assert_refused(invoke(command, "missing.toml"), "missing.toml", "no such file")
     assert_refused(invoke(command, "aquarum"), 'Did you mean "aquarium"?')
+    assert_refused(invoke(command, "latin"), 'Did you mean "latin.toml"?')
     assert_refused(invoke(command, "folder"), "it is a folder")
     assert_refused(invoke(command, "/dev/null"), "not a regular file")
     assert_refused(invoke(command, "latin.toml"), "not UTF-8", AFTER_GOOD)
@@ -192,6 +191,15 @@ def test_help_has_an_example(command: list[str]) -> None:
     assert "hydroelastic " in result.stdout
 
 
+def test_the_program_has_the_name_that_the_launcher_says() -> None:
+    for program, said in (("./hydro", {"HYDROELASTIC_PROGRAM": "./hydro"}), ("hydroelastic", {})):
+        shown = process("run", "--help", **said).stdout
+        assert shown.startswith(f"Usage: {program} run ")
+        assert f"\n    {program} run aquarium" in shown
+        assert f"Try '{program} run --help'" in process("run", **said).stderr
+        assert f"`{program} list`" in process("check", "zzzzz", **said).stderr
+
+
 def test_list_and_check_and_version_print_to_the_output() -> None:
     listed = invoke("list")
     assert listed.exit_code == 0
@@ -206,8 +214,8 @@ def test_list_and_check_and_version_print_to_the_output() -> None:
 
 
 def solver_that(behaves: Any) -> types.ModuleType:
-    module = types.ModuleType("hydroelastic.scenes.run")
-    module.run_scene = behaves  # type: ignore[attr-defined]
+    module = types.ModuleType("hydroelastic.scenes.tank.run")
+    module.run_tank = behaves  # type: ignore[attr-defined]
     return module
 
 
@@ -221,21 +229,40 @@ def test_the_exit_code_tells_whether_the_tolerance_was_met(
         asked.update(settings)
         return types.SimpleNamespace(status=status, table=lambda: "the table", warnings=("none",), reasons=("why",))
 
-    monkeypatch.setitem(sys.modules, "hydroelastic.scenes.run", solver_that(run_scene))
+    monkeypatch.setitem(sys.modules, "hydroelastic.scenes.tank.run", solver_that(run_scene))
     result = invoke("run", "aquarium")
     assert result.exit_code == code
     assert result.stdout == "the table\n"
-    assert (asked["images"], asked["out"]) == (True, Path("results/aquarium"))
+    assert (asked["images"], asked["out"]) == (PictureOptions(), Path("results/aquarium"))
     quiet = invoke("run", "aquarium", "--quiet", "--no-images", "--out", "elsewhere")
     assert (quiet.exit_code, quiet.stdout) == (code, "")
-    assert (asked["images"], asked["out"]) == (False, Path("elsewhere"))
+    assert (asked["images"], asked["out"]) == (None, Path("elsewhere"))
+
+
+def test_a_terminal_is_told_the_scene_and_what_is_done() -> None:
+    said, written = pty.openpty()
+    command = [sys.executable, "-m", "hydroelastic.scenes.command_line", "run", "swell", "--no-images"]
+    ended = subprocess.run(
+        command, stdout=subprocess.DEVNULL, stderr=written, env=os.environ | {"TERM": "xterm"}, check=False, timeout=60
+    )
+    os.close(written)
+    assert ended.returncode == 0
+    # A pipe has no such line.
+    assert "libraries – Ship on a swell, n = 0.6 k" in os.read(said, 65536).decode("utf-8", errors="replace")
+    assert process("run", "swell", "--no-images").stderr == ""
+
+
+def test_results_that_are_replaced_are_named() -> None:
+    first, second = (invoke("run", "swell", "--no-images", "--out", "mine").stdout for _ in range(2))
+    assert first.endswith("Results written to mine/\n")
+    assert second.endswith("Results written to mine/ (replacing earlier ones)\n")
 
 
 def test_an_interrupt_is_one_line_and_130(monkeypatch: pytest.MonkeyPatch) -> None:
     def run_scene(scene: Any, **settings: Any) -> Any:
         raise KeyboardInterrupt
 
-    monkeypatch.setitem(sys.modules, "hydroelastic.scenes.run", solver_that(run_scene))
+    monkeypatch.setitem(sys.modules, "hydroelastic.scenes.tank.run", solver_that(run_scene))
     result = invoke("run", "aquarium")
     assert result.exit_code == 130
     assert result.stdout == ""

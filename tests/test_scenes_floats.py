@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from hydroelastic.scenes.floats import Hydrostatics, float_contour, placed_float, still_level
-from hydroelastic.scenes.model_bodies import Float
-from hydroelastic.scenes.models import Liquid, Tank, TankScene, level_segments
-from hydroelastic.scenes.outline_files import read_outline
+from hydroelastic.scenes.models.bodies import Float
+from hydroelastic.scenes.models.floats import Hydrostatics, float_contour, placed_float, still_level
+from hydroelastic.scenes.models.outline_files import read_outline
+from hydroelastic.scenes.models.tank import Liquid, Tank, TankScene, level_segments
 
 GRAVITY = 9.81
 # Gauss points and weights of numpy are good to some 1e-15 of the interval; moments add up a few of them.

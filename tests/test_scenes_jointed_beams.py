@@ -12,19 +12,19 @@ from tanks import Tanks
 
 from hydroelastic.fem.modes import solve_modes
 from hydroelastic.meshes.tagged_mesh import MeshError
-from hydroelastic.modal.estimates import all_estimates, estimates_of_jointed_beams
-from hydroelastic.modal.jointed_beam import Joint, JointedBeam, Section
-from hydroelastic.modal.jointed_modes import jointed_modes
-from hydroelastic.scenes.check_tables import boundary_table, group_table, unknown_table
+from hydroelastic.modal.beam.estimates import all_estimates, estimates_of_jointed_beams
+from hydroelastic.modal.beam.jointed_beam import Joint, JointedBeam, Section
+from hydroelastic.modal.beam.jointed_modes import jointed_modes
 from hydroelastic.scenes.errors import SceneError
-from hydroelastic.scenes.estimates import floating_beam, scene_estimates
 from hydroelastic.scenes.models import Accuracy, Beam, Liquid, Tank, TankScene
-from hydroelastic.scenes.plan import initial_resolution
+from hydroelastic.scenes.models.rigid_motions import zero_mode_count
 from hydroelastic.scenes.read import read_scene
-from hydroelastic.scenes.rigid_motions import zero_mode_count
-from hydroelastic.scenes.solve import TankSolution
-from hydroelastic.scenes.summary import summarize
-from hydroelastic.scenes.tank_mesh import check_mesh, make_mesh
+from hydroelastic.scenes.tank.check_tables import boundary_table, group_table, unknown_table
+from hydroelastic.scenes.tank.estimates import floating_beam, scene_estimates
+from hydroelastic.scenes.tank.mesh import check_mesh, make_mesh
+from hydroelastic.scenes.tank.plan import initial_resolution
+from hydroelastic.scenes.tank.solve import TankSolution
+from hydroelastic.scenes.tank.summary import summarize
 
 EI, MASS = 5e3, 50.0
 SOFT, STIFF = (1.0, EI, MASS), (1.0, 10.0 * EI, 2.0 * MASS)
@@ -294,7 +294,7 @@ def test_what_does_not_fit_is_said(file: Path, change: str) -> None:
 def test_the_check_shows_sections_and_joints(file: Path) -> None:
     scene = read_scene(file)
     texts = [
-        " ".join(str(cell) for column in table.columns for cell in column.cells)
+        " ".join(cell for row in table.rows for cell in row)
         for table in (boundary_table(scene), unknown_table(scene), group_table(scene))
     ]
     assert "(EI w″)″" in texts[0]

@@ -6,7 +6,8 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 
-from hydroelastic.scenes.models import Accuracy, Beam, Liquid, MeshFile, Tank, TankScene, top_segments
+from hydroelastic.scenes.models import Accuracy, Beam, Liquid, MeshFile, Tank, TankScene
+from hydroelastic.scenes.models.tank import top_segments
 
 
 def beam(**changes: Any) -> Beam:

@@ -10,15 +10,15 @@ import numpy as np
 import pytest
 from mpi4py import MPI
 
-from hydroelastic.modal.float_profiles import float_profile
-from hydroelastic.modal.open_float import released_float
-from hydroelastic.modal.two_layer import TwoLayers
+from hydroelastic.modal.floats.open_float import released_float
+from hydroelastic.modal.floats.profiles import float_profile
+from hydroelastic.modal.liquid.two_layer import TwoLayers
 from hydroelastic.scenes.errors import SceneError
-from hydroelastic.scenes.model_analyses import Decay, Release
-from hydroelastic.scenes.model_bodies import Float
-from hydroelastic.scenes.models import Accuracy, Liquid, Tank, TankScene
-from hydroelastic.scenes.open_decay import DecaySolution, solve_decay
-from hydroelastic.scenes.stopwatch import Stopwatch
+from hydroelastic.scenes.models.bodies import Float
+from hydroelastic.scenes.models.open_analyses import Decay, Release
+from hydroelastic.scenes.models.tank import Accuracy, Liquid, Tank, TankScene
+from hydroelastic.scenes.open_water.decay import DecaySolution, solve_decay
+from hydroelastic.scenes.output.stopwatch import Stopwatch
 
 STORED = json.loads((Path(__file__).parent / "reference" / "open_circle.json").read_text(encoding="utf-8"))["release"]
 G = 9.81

@@ -7,12 +7,12 @@ from math import inf
 import pytest
 from mpi4py import MPI
 
-from hydroelastic.scenes.model_analyses import Decay, Radiation, Release, Resonance
-from hydroelastic.scenes.model_bodies import Beam, Float
-from hydroelastic.scenes.models import Accuracy, Liquid, Tank, TankScene
-from hydroelastic.scenes.open_estimates import thin_float_comparisons
-from hydroelastic.scenes.open_results import OpenSolution
-from hydroelastic.scenes.open_solve import solve_open
+from hydroelastic.scenes.models.bodies import Beam, Float
+from hydroelastic.scenes.models.open_analyses import Decay, Radiation, Release, Resonance
+from hydroelastic.scenes.models.tank import Accuracy, Liquid, Tank, TankScene
+from hydroelastic.scenes.open_water.estimates import thin_float_comparisons
+from hydroelastic.scenes.open_water.results import OpenSolution
+from hydroelastic.scenes.open_water.solve import solve_open
 
 
 def _scene(**changes: object) -> TankScene:

@@ -12,13 +12,15 @@ import pytest
 from open_tables import ANALYSES, CIRCLE, DEEP, OIL, PLATE, open_scene
 from pydantic import ValidationError
 from rich.console import Console
+from scene_files import CIRCLE_IN_OPEN_WATER
 
-from hydroelastic.scenes.check import print_check
 from hydroelastic.scenes.errors import SceneError, scene_error
-from hydroelastic.scenes.model_analyses import Decay, Radiation, Release, Resonance, Response
-from hydroelastic.scenes.models import TankScene, level_segments
+from hydroelastic.scenes.models.open_analyses import Decay, Radiation, Release, Resonance, Response
+from hydroelastic.scenes.models.rigid_motions import levels_of
+from hydroelastic.scenes.models.tank import TankScene, level_segments
+from hydroelastic.scenes.open_water.check import check_open
+from hydroelastic.scenes.output.check_text import print_check
 from hydroelastic.scenes.read import read_scene
-from hydroelastic.scenes.rigid_motions import levels_of
 
 WATER: dict[str, Any] = {"density": 1000.0, "depth": 2.0}
 HIGH_OIL: dict[str, Any] = {"density": 800.0, "depth": inf}
@@ -66,6 +68,16 @@ def test_a_logarithmic_sweep_has_equal_ratios_and_its_very_ends() -> None:
     assert isinstance(analysis, Response)
     assert analysis.omega == pytest.approx([0.1, 0.1 * 10**0.5, 1.0, 10**0.5, 10.0], rel=1e-15)
     assert (analysis.omega[0], analysis.omega[-1]) == (0.1, 10.0)
+
+
+@pytest.mark.parametrize(("start", "stop", "places"), [(0.1, 3.0, 1), (0.05, 20.0, 2), (0.001, 0.7, 3), (1.3, 2.3, 1)])
+def test_a_linear_sweep_gives_the_decimal_numbers_that_are_meant(start: float, stop: float, places: int) -> None:
+    number = round((stop - start) * 10**places) + 1
+    sweep = {"start": start, "stop": stop, "number": number}
+    (analysis,) = open_scene(analyses=[{"kind": "response", "omega": sweep}]).analyses
+    assert isinstance(analysis, Response)
+    # Equal to the last bit, so that they can be looked up by their value.
+    assert analysis.omega == tuple(round(start + place / 10**places, places) for place in range(number))
 
 
 @pytest.mark.parametrize("liquids", [(DEEP,), (WATER, OIL), (DEEP, HIGH_OIL), (WATER, HIGH_OIL)])
@@ -195,26 +207,9 @@ def test_a_tank_with_walls_takes_nothing_of_open_water() -> None:
     assert text.count('ends = "open"') == 2
 
 
-SCENE = """
-kind = "tank"
-[tank]
-length = 10.0
-ends = "open"
-[[liquid]]
-density = 1000.0
-depth = inf
-[[body]]
-kind = "float"
-shape = "ellipse"
-position = 5.0
-half_width = 0.5
-half_height = 0.5
-"""
-
-
 def test_infinite_depth_is_read_and_set(tmp_path: Path) -> None:
     file = tmp_path / "sea.toml"
-    file.write_text(SCENE, encoding="utf-8")
+    file.write_text(CIRCLE_IN_OPEN_WATER, encoding="utf-8")
     assert read_scene(file).liquid[0].depth == inf
     assert read_scene(file, ["liquid.0.depth=3.0"]).liquid[0].depth == 3.0
     assert read_scene(file, ["liquid.0.depth=3.0", "liquid.0.depth=inf"]).liquid[0].depth == inf
@@ -226,13 +221,14 @@ def test_infinite_depth_is_read_and_set(tmp_path: Path) -> None:
 
 def test_check_says_what_will_be_modelled() -> None:
     console = Console(file=io.StringIO(), width=200)
-    print_check(open_scene(CIRCLE, PLATE | {"start": 0.0}, liquids=(DEEP, HIGH_OIL)), console)
+    scene = open_scene(CIRCLE, PLATE | {"start": 0.0}, liquids=(DEEP, HIGH_OIL))
+    print_check(scene.title, check_open(scene), console)
     text = console.file.getvalue()  # type: ignore[attr-defined]
     for words in (
         "1. radiation: added mass, radiation damping and excitation forces at 5 frequencies from 0 to inf rad/s",
         "in waves from the left at 3 frequencies from 1 to 3 rad/s",
         "resonance: the lowest 4, with −Im ω up to 0.5 Re ω",
-        "body 1 is let go at 0.1 m in heave; 41 times from 0 to 20 s",
+        "float 1 is let go at 0.1 m in heave; 41 times from 0 to 20 s",
         "waves leave, none comes back",
         "∇ψ₂ → 0 as y → −∞",
         "∇ψ₁ → 0 as y → ∞",

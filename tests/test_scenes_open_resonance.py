@@ -7,17 +7,16 @@ from typing import Any
 import numpy as np
 import pytest
 from mpi4py import MPI
-from open_cases import GRAVITY, RADIUS, THIN_LIQUIDS, circle, radiation, section, slender, stored
+from open_cases import GRAVITY, RADIUS, SLOW, THIN_LIQUIDS, circle, radiation, section, slender, stored
 
 from hydroelastic.modal import float_profile
-from hydroelastic.modal.open_float import open_float_estimate
-from hydroelastic.scenes import open_resonance
-from hydroelastic.scenes.model_analyses import Resonance
-from hydroelastic.scenes.models import TankScene
-from hydroelastic.scenes.open_resonance import ResonanceSolution, solve_resonance
-from hydroelastic.scenes.stopwatch import Stopwatch
+from hydroelastic.modal.floats.open_float import open_float_estimate
+from hydroelastic.scenes.models.open_analyses import Resonance
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.open_water import resonance as open_resonance
+from hydroelastic.scenes.open_water.resonance import ResonanceSolution, solve_resonance
+from hydroelastic.scenes.output.stopwatch import Stopwatch
 
-SLOW = pytest.mark.slow
 CIRCLE = stored("open_circle.json")["resonance"]
 SECTIONS = stored("open_sections.json")["cases"]
 

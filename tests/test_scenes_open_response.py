@@ -8,18 +8,17 @@ from typing import Any
 import numpy as np
 import pytest
 from mpi4py import MPI
-from open_cases import beam, complex_of, half_slow, plate, radiation, response, section, stored, two_liquids
+from open_cases import SLOW, beam, complex_of, half_slow, plate, radiation, response, section, stored, two_liquids
 from open_levels import one_liquid
 from open_plates import scattering
 from open_tables import open_scene
 
-from hydroelastic.scenes.models import TankScene
+from hydroelastic.scenes.models.tank import TankScene
 
 PLATES = stored("open_plates.json")["plates"]
 TWO_LIQUIDS = stored("open_two_liquids.json")["cases"]
 SECTIONS = stored("open_sections.json")["cases"]
 PUBLISHED = stored("open_water.json")
-SLOW = pytest.mark.slow
 
 # Measured: estimates are 1.7 to 11 times the error.
 TOO_LARGE = 40.0
@@ -213,9 +212,9 @@ def test_what_does_not_disturb_the_water_sends_no_waves() -> None:
 
 @pytest.mark.mpi
 def test_two_processes_find_what_one_finds() -> None:
-    from hydroelastic.scenes.model_analyses import Response
-    from hydroelastic.scenes.open_response import solve_response
-    from hydroelastic.scenes.stopwatch import Stopwatch
+    from hydroelastic.scenes.models.open_analyses import Response
+    from hydroelastic.scenes.open_water.response import solve_response
+    from hydroelastic.scenes.output.stopwatch import Stopwatch
 
     row = TWO_LIQUIDS[1]
     asked = Response(omega=(row["omega"],), positions=5)

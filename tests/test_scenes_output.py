@@ -12,9 +12,9 @@ from pathlib import Path
 
 import pytest
 
-from hydroelastic.scenes import output
 from hydroelastic.scenes.errors import SceneError
-from hydroelastic.scenes.output import check_output, result_folder
+from hydroelastic.scenes.output import folder as output
+from hydroelastic.scenes.output.folder import check_output, result_folder
 
 SUMMARY = json.dumps({"scene": {}, "status": "ok"})
 
@@ -176,7 +176,7 @@ def test_handlers_of_the_caller_and_threads_are_respected(tmp_path: Path) -> Non
 def test_a_killed_process_cleans_up(tmp_path: Path, number: signal.Signals) -> None:
     program = f"""
         import signal, sys, time
-        from hydroelastic.scenes.output import result_folder
+        from hydroelastic.scenes.output.folder import result_folder
         # A shell may start background jobs with these ignored.
         signal.signal(signal.SIGINT, signal.default_int_handler)
         signal.signal(signal.SIGHUP, signal.SIG_DFL)

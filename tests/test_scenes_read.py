@@ -3,29 +3,16 @@
 from pathlib import Path
 
 import pytest
+from scene_files import BEAM_IN_TANK
 
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.read import read_scene, scene_path, shipped_scenes
-
-GOOD = """
-kind = "tank"
-[tank]
-length = 10
-[[liquid]]
-density = 1000.0
-depth = 5.0
-[[body]]
-start = 3.0
-length = 4.0
-flexural_rigidity = 5e3
-mass_per_length = 50.0
-"""
 
 
 @pytest.fixture
 def good(tmp_path: Path) -> Path:
     path = tmp_path / "good.toml"
-    path.write_text(GOOD, encoding="utf-8")
+    path.write_text(BEAM_IN_TANK, encoding="utf-8")
     return path
 
 
@@ -53,7 +40,11 @@ def test_overrides_replace_and_add_values(good: Path) -> None:
 @pytest.mark.parametrize(
     ("override", "said"),
     [
-        ("body.1.start=2", "Allowed: 0"),
+        ("body.1.start=2", "Allowed: 0. Entries count from 0."),
+        ("liquid.density=900", "Entries count from 0: write liquid.0.density for the first."),
+        ("tank.length=12mm", "Write a number without a unit; the unit is m."),
+        ("tank.length=12,5", "Write a decimal point, not a comma: 12.5."),
+        ("accuracy.modes=5,0", "Write a decimal point, not a comma: 5.0."),
         ("body.x.start=2", "not an entry"),
         ("body.-1.start=2", "not an entry"),
         ("body.0.start.deep=2", "table, which is not there"),
@@ -78,7 +69,7 @@ def test_overrides_that_cannot_be_used(good: Path, override: str, said: str) -> 
 
 def test_a_misspelt_key_is_one_problem_and_names_the_way(tmp_path: Path) -> None:
     path = tmp_path / "scene.toml"
-    path.write_text(GOOD.replace("start =", "strat ="), encoding="utf-8")
+    path.write_text(BEAM_IN_TANK.replace("start =", "strat ="), encoding="utf-8")
     said = message(path)
     assert said.startswith(f'{path}: [[body]] number 1, key "strat" = 3.0: ')
     assert 'Did you mean "start"?' in said
@@ -87,7 +78,7 @@ def test_a_misspelt_key_is_one_problem_and_names_the_way(tmp_path: Path) -> None
 
 def test_all_problems_are_listed_up_to_ten(tmp_path: Path) -> None:
     path = tmp_path / "scene.toml"
-    path.write_text(GOOD + "[[body]]\n" * 4, encoding="utf-8")
+    path.write_text(BEAM_IN_TANK + "[[body]]\n" * 4, encoding="utf-8")
     lines = message(path).splitlines()
     assert "16 problems" in lines[0]
     assert len(lines) == 12
@@ -96,13 +87,13 @@ def test_all_problems_are_listed_up_to_ten(tmp_path: Path) -> None:
 
 def test_control_characters_of_a_file_do_not_reach_the_terminal(tmp_path: Path) -> None:
     path = tmp_path / "scene.toml"
-    path.write_text(GOOD + 'kind = "\\u001b[31mred"\n"\\u001b[32m" = 1\n', encoding="utf-8")
+    path.write_text(BEAM_IN_TANK + 'kind = "\\u001b[31mred"\n"\\u001b[32m" = 1\n', encoding="utf-8")
     assert "\x1b" not in message(path)
 
 
 def test_a_byte_order_mark_is_ignored(tmp_path: Path) -> None:
     path = tmp_path / "scene.toml"
-    path.write_text(GOOD, encoding="utf-8-sig")
+    path.write_text(BEAM_IN_TANK, encoding="utf-8-sig")
     assert read_scene(path).tank.length == 10
 
 
@@ -111,7 +102,7 @@ def test_the_kind_comes_first(tmp_path: Path) -> None:
     path.write_text('kind = "drum"\n[drum]\nlength = 1.0\n', encoding="utf-8")
     assert 'key "kind" = "drum"' in message(path)
     assert 'Allowed: "tank"' in message(path)
-    path.write_text(GOOD.replace("kind", "knd"), encoding="utf-8")
+    path.write_text(BEAM_IN_TANK.replace("kind", "knd"), encoding="utf-8")
     kinds = 'kind = "tank" or kind = "string" or kind = "thread" or kind = "roll"'
     assert f'key "kind": it is missing. Allowed: {kinds}. Instead there is "knd".' in message(path)
 
@@ -127,9 +118,9 @@ def test_a_mesh_lies_beside_its_scene(good: Path) -> None:
 
 def test_whole_numbers_of_thousands_of_digits_are_refused_in_words(tmp_path: Path) -> None:
     path = tmp_path / "scene.toml"
-    path.write_text(GOOD.replace("= 10\n", "= " + "9" * 5000 + "\n"), encoding="utf-8")
+    path.write_text(BEAM_IN_TANK.replace("= 10.0\n", "= " + "9" * 5000 + "\n"), encoding="utf-8")
     assert "it is not TOML" in message(path)
-    path.write_text(GOOD.replace("= 10\n", "= 0x" + "f" * 5000 + "\n"), encoding="utf-8")
+    path.write_text(BEAM_IN_TANK.replace("= 10.0\n", "= 0x" + "f" * 5000 + "\n"), encoding="utf-8")
     assert "too large" in message(path)
     assert len(message(path)) < 400
 
@@ -138,7 +129,7 @@ def test_a_file_comes_before_the_shipped_scene_of_its_name(tmp_path: Path, monke
     monkeypatch.chdir(tmp_path)
     (tmp_path / "sloshing").mkdir()
     assert scene_path("sloshing").name == "sloshing.toml"
-    Path("aquarium").write_text(GOOD, encoding="utf-8")
+    Path("aquarium").write_text(BEAM_IN_TANK, encoding="utf-8")
     assert scene_path("aquarium") == Path("aquarium")
 
 
@@ -170,3 +161,8 @@ def test_shipped_scenes_hold_the_values_of_the_reference_cases(name: str) -> Non
     ]
     expected = SHIPPED[name]
     assert found == ([] if expected is None else [expected])
+
+
+@pytest.mark.parametrize("title", ['"two\\nlines"', '"\\u0001"', '"a\\tb"'])
+def test_a_title_is_one_line_that_can_be_shown(good: Path, title: str) -> None:
+    assert "one line" in message(good, f"title={title}")

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from scipy.linalg import block_diag, null_space
 
-from hydroelastic.scenes.check_hints import hints
-from hydroelastic.scenes.floats import placed_float
-from hydroelastic.scenes.models import Beam, Float, Level, Liquid, Tank, TankScene, level_segments
-from hydroelastic.scenes.rigid_motions import mode_count, zero_mode_count
+from hydroelastic.scenes.models.floats import placed_float
+from hydroelastic.scenes.models.rigid_motions import mode_count, zero_mode_count
+from hydroelastic.scenes.models.tank import Beam, Float, Level, Liquid, Tank, TankScene, level_segments
+from hydroelastic.scenes.tank.check_hints import hints
 
 
 def beam(**changes: Any) -> Beam:

@@ -4,12 +4,11 @@ from math import pi
 from pathlib import Path
 
 import pytest
-from scene_files import read_written
+from scene_files import read_written, refused
 
-from hydroelastic.modal.roll_quadratic import LEAST_TOLERANCE
-from hydroelastic.scenes.errors import SceneError
-from hydroelastic.scenes.model_roll import RollScene
-from hydroelastic.scenes.model_roll_checks import LEAST_QUADRATIC_TOLERANCE
+from hydroelastic.modal.roll.quadratic import LEAST_TOLERANCE
+from hydroelastic.scenes.models.roll import RollScene
+from hydroelastic.scenes.models.roll_checks import LEAST_QUADRATIC_TOLERANCE
 
 SHIP = 'kind = "roll"\n[roll]\nnatural_period = 12.0\n'
 WAVE = "[[wave]]\nperiod = 8.0\nslope = 0.1\n"
@@ -19,12 +18,6 @@ def read(tmp_path: Path, text: str) -> RollScene:
     scene = read_written(tmp_path, text)
     assert isinstance(scene, RollScene)
     return scene
-
-
-def refused(tmp_path: Path, text: str) -> str:
-    with pytest.raises(SceneError) as error:
-        read(tmp_path, text)
-    return str(error.value)
 
 
 def test_period_and_frequency_say_the_same(tmp_path: Path) -> None:
@@ -76,7 +69,12 @@ def test_times_follow_the_waves_and_the_free_motion(tmp_path: Path) -> None:
         (SHIP + WAVE + "[output]\ntimes = [0.0]\n", ["times", "not followed at all", "above 0"]),
         (SHIP + WAVE + "[output]\ntimes = [1e9]\n", ["times", "too late", "100000 natural periods"]),
         (SHIP + "quadratic_damping = 1e12\n" + WAVE, ["quadratic_damping", "too many steps", "Shorten"]),
-        (SHIP + "quadratic_damping = 0.2\n" + WAVE.replace("0.1", "1e30"), ["quadratic_damping", "too many steps"]),
+        (SHIP + "quadratic_damping = 0.2\nangle = 1e30\n" + WAVE, ["quadratic_damping", "too many steps"]),
+        (
+            SHIP + WAVE + WAVE.replace("0.1", "-5.0"),
+            ['[[wave]] number 2, key "slope" = -5.0', "steeper than any wave", "0.443 rad", "-5 degrees are -0.08727"],
+        ),
+        (SHIP + '[train]\nfile = "degrees.csv"\n', ["the slope of wave 2, 3 rad", "3 degrees are 0.05236"]),
         (SHIP + "quadratic_damping = 5.0\ndamping_ratio = 1e6\n" + WAVE, ["quadratic_damping", "too many steps"]),
         (
             SHIP + "quadratic_damping = 0.2\n" + WAVE + "[accuracy]\ntolerance = 1e-12\n",
@@ -88,6 +86,7 @@ def test_what_is_refused(tmp_path: Path, text: str, words: list[str]) -> None:
     (tmp_path / "bad.csv").write_text("7.0 0.1\n8.0 zero\n", encoding="utf-8")
     (tmp_path / "negative.csv").write_text("7.0 0.1\n-1 0.2\n", encoding="utf-8")
     (tmp_path / "empty.csv").write_text("period, slope\n", encoding="utf-8")
+    (tmp_path / "degrees.csv").write_text("7.0 0.4\n8.0 3.0\n", encoding="utf-8")
     message = refused(tmp_path, text)
     assert all(word in message for word in words), message
 

@@ -12,10 +12,10 @@ from PIL import Image
 
 from hydroelastic.scenes.command_line import main
 from hydroelastic.scenes.errors import SceneError, UnsolvedError
-from hydroelastic.scenes.model_roll import RollScene
+from hydroelastic.scenes.models.roll import RollScene
 from hydroelastic.scenes.read import read_scene
-from hydroelastic.scenes.roll_run import run_roll
-from hydroelastic.scenes.roll_solve import solve_roll
+from hydroelastic.scenes.roll.run import run_roll
+from hydroelastic.scenes.roll.solve import solve_roll
 
 
 def roll_scene(name: str, *overrides: str) -> RollScene:
@@ -43,6 +43,24 @@ def test_the_example_of_the_paper(name: str, angles: list[float], peak: float, w
     assert solution.statistics.largest_angle == pytest.approx(0.1 * peak, abs=0.6e-6)
     assert solution.statistics.largest_time == pytest.approx(when, abs=0.006)
     assert solution.reasons == ()
+
+
+def test_angles_beyond_linear_restoring_are_said(tmp_path: Path) -> None:
+    # Slopes of 0.1 rad roll it to 0.061 rad, and four times as steep, in resonance and nearly undamped, beyond 0.5 rad.
+    assert "BEYOND THE THEORY" not in run_roll(roll_scene("swell")).tables
+    steep = ("wave=[{period=12.0, slope=0.4}, {period=12.0, slope=0.4}]", "roll.damping_ratio=0.01")
+    outcome = run_roll(roll_scene("swell", *steep), out=tmp_path / "result", images=None)
+    assert outcome.status == "ok"
+    assert outcome.summary["response"]["restoring_is_linear"] is False
+    for text in (outcome.tables, (tmp_path / "result" / "summary.md").read_text(encoding="utf-8")):
+        assert "BEYOND THE THEORY" in text
+
+
+def test_one_wave_is_one(tmp_path: Path) -> None:
+    one = ("wave=[{period=7.0, slope=0.1}]", "output.levels=[]")
+    assert "Motion on 1 wave," in run_roll(roll_scene("swell", *one)).tables
+    checked = CliRunner().invoke(main, ["check", "swell", "--set", one[0]])
+    assert "1 wave: period 7 s, slope 0.1 rad." in checked.output
 
 
 def test_exceedances_count_swings_above_levels() -> None:
@@ -162,6 +180,12 @@ def test_a_section_that_does_not_roll_is_refused(section: str, words: list[str])
     with pytest.raises(SceneError) as error:
         solve("swell", f"roll={{section = '{section}'}}")
     assert all(word in str(error.value) for word in words)
+    # The check says the same, before anything is solved, and both name the ship's file and key.
+    assert f'[roll], key "section" = "{section}"' in str(error.value)
+    checked = CliRunner().invoke(main, ["check", "swell", "--set", f"roll={{section = '{section}'}}"])
+    assert checked.exit_code == 2
+    assert checked.output == f"Error: {error.value}\n"
+    assert "swell.toml with --set" in checked.output
 
 
 def test_an_error_of_the_section_is_carried_to_the_angle() -> None:
@@ -191,11 +215,11 @@ def test_heavy_damping_keeps_the_default_tolerance() -> None:
 
 @pytest.mark.mpi
 def test_a_section_in_open_water_rolls_as_its_resonance_says() -> None:
-    from hydroelastic.scenes.model_analyses import Resonance
-    from hydroelastic.scenes.models import TankScene
-    from hydroelastic.scenes.open_resonance import solve_resonance
-    from hydroelastic.scenes.roll_section import section_roll
-    from hydroelastic.scenes.stopwatch import Stopwatch
+    from hydroelastic.scenes.models.open_analyses import Resonance
+    from hydroelastic.scenes.models.tank import TankScene
+    from hydroelastic.scenes.open_water.resonance import solve_resonance
+    from hydroelastic.scenes.output.stopwatch import Stopwatch
+    from hydroelastic.scenes.roll.section import section_roll
 
     # A rectangle whose roll makes waves: damping by waves of a per cent.
     scene = read_scene(
@@ -208,7 +232,7 @@ def test_a_section_in_open_water_rolls_as_its_resonance_says() -> None:
     )
     assert isinstance(scene, TankScene)
     comm = MPI.COMM_WORLD
-    found = section_roll(scene, Path("section"), comm, Stopwatch(), lambda _message: None)
+    found = section_roll(scene, comm, Stopwatch(), lambda _message: None)
     omega = solve_resonance(comm, scene, Resonance(count=1), Stopwatch()).table.omega[0]
     assert found.damping is not None
     ratio = found.damping / found.natural_frequency
@@ -223,11 +247,11 @@ def test_a_section_that_nothing_restores_is_refused() -> None:
     overrides = [
         "body.0={kind='float', shape='ellipse', position=30.0, half_width=5.0, half_height=5.0, motions=['roll']}",
     ]
-    from hydroelastic.scenes.models import TankScene
-    from hydroelastic.scenes.roll_section import section_roll
-    from hydroelastic.scenes.stopwatch import Stopwatch
+    from hydroelastic.scenes.models.tank import TankScene
+    from hydroelastic.scenes.output.stopwatch import Stopwatch
+    from hydroelastic.scenes.roll.section import section_roll
 
     scene = read_scene("open_ship_section", overrides)
     assert isinstance(scene, TankScene)
     with pytest.raises(UnsolvedError, match="nothing restores"):
-        section_roll(scene, Path("section"), MPI.COMM_WORLD, Stopwatch(), lambda _message: None)
+        section_roll(scene, MPI.COMM_WORLD, Stopwatch(), lambda _message: None)

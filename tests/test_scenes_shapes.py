@@ -9,12 +9,13 @@ import meshio
 import numpy as np
 import pytest
 
-from hydroelastic.fem.picture_mode import SurfaceCurve
-from hydroelastic.fem.pictures import Canvas, NoRendererError
-from hydroelastic.scenes.model_bodies import Beam, Body, Float
-from hydroelastic.scenes.models import Accuracy, Liquid, Tank, TankScene
+from hydroelastic.fem.pictures.mode import SurfaceCurve
+from hydroelastic.fem.pictures.modes import Canvas, NoRendererError
+from hydroelastic.fem.pictures.options import PictureOptions
+from hydroelastic.scenes.models.bodies import Beam, Body, Float
+from hydroelastic.scenes.models.tank import Accuracy, Liquid, Tank, TankScene
 from hydroelastic.scenes.run import run_scene
-from hydroelastic.scenes.shapes import ModeShapes, sample_shapes
+from hydroelastic.scenes.tank.shapes import ModeShapes, sample_shapes
 
 LENGTH = 10.0
 LOWER, UPPER = (1000.0, 4.0), (800.0, 3.0)
@@ -182,9 +183,9 @@ def unstable(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("shapes") / "result"
     try:
         Canvas().__exit__(None, None, None)
-        images = True
+        images = PictureOptions()
     except NoRendererError:
-        images = False
+        images = None
     run_scene(scene(Float(**TALL, position=3.7), top="rigid", modes=2, tolerance=1e-5), out=folder, images=images)
     return folder
 

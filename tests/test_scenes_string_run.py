@@ -14,12 +14,12 @@ from mpi4py import MPI
 from PIL import Image
 
 from hydroelastic.scenes.command_line import main
-from hydroelastic.scenes.model_string import StringScene
+from hydroelastic.scenes.models.string import StringScene
 from hydroelastic.scenes.read import read_scene
-from hydroelastic.scenes.string_fronts import front_distance, travel_times
-from hydroelastic.scenes.string_results import StringSolution
-from hydroelastic.scenes.string_run import run_string
-from hydroelastic.scenes.string_solve import solve_string
+from hydroelastic.scenes.string.fronts import front_distance, travel_times
+from hydroelastic.scenes.string.results import StringSolution
+from hydroelastic.scenes.string.run import run_string
+from hydroelastic.scenes.string.solve import solve_string
 
 REFERENCES = Path(__file__).parent / "reference" / "string_and_roll.json"
 CASES = [case for case in json.loads(REFERENCES.read_text(encoding="utf-8"))["cases"] if case["kind"] != "roll"]

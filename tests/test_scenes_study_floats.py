@@ -6,15 +6,15 @@ from typing import Any
 
 import pytest
 
-from hydroelastic.scenes.models import TankScene
-from hydroelastic.scenes.scaled_tank import scaled_tank
-from hydroelastic.scenes.study import Study, StudyPlan, study_scene
-from hydroelastic.scenes.study_corners import corner_exponents, sharpest_of, symmetries_apart
-from hydroelastic.scenes.study_plan import Family
-from hydroelastic.scenes.study_rates import Rate
-from hydroelastic.scenes.study_report import study_table
-from hydroelastic.scenes.study_theory import expected_order, full_order_grading
-from hydroelastic.scenes.symmetry import Parity
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.study.corners import corner_exponents, sharpest_of, symmetries_apart
+from hydroelastic.scenes.study.plan import Family
+from hydroelastic.scenes.study.rates import Rate
+from hydroelastic.scenes.study.report import study_table
+from hydroelastic.scenes.study.run import Study, StudyPlan, study_scene
+from hydroelastic.scenes.study.theory import expected_order, full_order_grading
+from hydroelastic.scenes.tank.scaled_tank import scaled_tank
+from hydroelastic.scenes.tank.symmetry import Parity
 
 WATER = {"density": 1000.0, "depth": 0.6}
 OIL = {"density": 800.0, "depth": 0.5}

@@ -10,8 +10,8 @@ from click.testing import CliRunner
 
 from hydroelastic.scenes.command_line import main
 from hydroelastic.scenes.errors import SceneError
-from hydroelastic.scenes.study_options import EXAMPLES, plan_from_options
-from hydroelastic.scenes.study_plan import StudyPlan
+from hydroelastic.scenes.study.options import EXAMPLES, plan_from_options
+from hydroelastic.scenes.study.plan import StudyPlan
 
 
 def test_lists_are_put_in_order_and_entries_taken_once() -> None:

@@ -14,12 +14,12 @@ from click.testing import CliRunner
 
 from hydroelastic.scenes.command_line import main
 from hydroelastic.scenes.errors import SceneError
-from hydroelastic.scenes.models import TankScene
+from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.read import read_scene
-from hydroelastic.scenes.study import Study, StudyPlan, study_scene
-from hydroelastic.scenes.study_report import study_table, write_study
-from hydroelastic.scenes.study_thinness import QUANTITIES, check_thinness, fitted_thinness
-from hydroelastic.scenes.study_thinness_report import thinness_csv
+from hydroelastic.scenes.study.report import study_table, write_study
+from hydroelastic.scenes.study.run import Study, StudyPlan, study_scene
+from hydroelastic.scenes.study.thinness import QUANTITIES, check_thinness, fitted_thinness
+from hydroelastic.scenes.study.thinness_report import thinness_csv
 
 FLOAT = {
     "kind": "float",

@@ -8,14 +8,14 @@ from mpi4py import MPI
 from random_threads import all_numbers, random_thread
 from thread_truth import true_error
 
-from hydroelastic.fem.thread_equilibrium import Start
-from hydroelastic.fem.thread_refinement import CompressionError, solve_thread
-from hydroelastic.modal.thread_clamp_layer import ClampLayer
+from hydroelastic.fem.thread.equilibrium import Start
+from hydroelastic.fem.thread.refinement import CompressionError, solve_thread
+from hydroelastic.modal.thread.clamp_layer import ClampLayer
 from hydroelastic.scenes.errors import UnsolvedError
-from hydroelastic.scenes.model_thread import ThreadScene
-from hydroelastic.scenes.thread_equilibrium import FoundEquilibrium, find_equilibrium
-from hydroelastic.scenes.thread_frame import frame_of
-from hydroelastic.scenes.thread_model import model_of
+from hydroelastic.scenes.models.thread import ThreadScene
+from hydroelastic.scenes.thread.equilibrium import FoundEquilibrium, find_equilibrium
+from hydroelastic.scenes.thread.frame import frame_of
+from hydroelastic.scenes.thread.model import model_of
 
 TOLERANCE = 1e-6
 # What a march or a shot with steps of 1e-12 is good for.

@@ -17,12 +17,12 @@ from PIL import Image
 from thread_cases import inputs, results
 
 from hydroelastic.scenes.command_line import main
-from hydroelastic.scenes.model_thread import ThreadScene
+from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.read import read_scene
-from hydroelastic.scenes.thread_model import with_stream_times
-from hydroelastic.scenes.thread_results import ThreadSolutionOfScene
-from hydroelastic.scenes.thread_run import run_thread
-from hydroelastic.scenes.thread_solve import solve_thread_scene
+from hydroelastic.scenes.thread.model import with_stream_times
+from hydroelastic.scenes.thread.results import ThreadSolutionOfScene
+from hydroelastic.scenes.thread.run import run_thread
+from hydroelastic.scenes.thread.solve import solve_thread_scene
 
 DENSITY, DIAMETER = 1025.0, 0.024
 
@@ -208,7 +208,8 @@ def test_a_motion_of_unknown_tensions_is_said_to_be_so() -> None:
     solution = solve(thread_scene("released_chain", *overrides))
     (motion,) = solution.motions
     assert solution.reasons == ()
-    unknown = replace(motion, tension_error=0.11 * float(np.max(motion.tensions)))
+    extremes = replace(motion.extremes, error=0.11 * float(np.max(motion.extremes.highest)))
+    unknown = replace(motion, extremes=extremes)
     (reason,) = replace(solution, motions=(unknown,)).reasons
     assert "estimated error of tensions" in reason
 

@@ -1,14 +1,20 @@
 """First elastic tones of beams that are unlike, and scenes at the ends of what is allowed."""
 
 import itertools
+from types import SimpleNamespace
+from typing import Any
 
+import numpy as np
 import pytest
 
-from hydroelastic.scenes.estimates import floating_beam
-from hydroelastic.scenes.model_checks import MASS_GROUP, STIFFNESS_GROUP
 from hydroelastic.scenes.models import Accuracy, Beam, Liquid, Tank, TankScene
-from hydroelastic.scenes.plan import initial_resolution
-from hydroelastic.scenes.solve import TankSolution, solve_scene
+from hydroelastic.scenes.models.tank_checks import MASS_GROUP, STIFFNESS_GROUP
+from hydroelastic.scenes.tank.estimates import floating_beam
+from hydroelastic.scenes.tank.plan import initial_resolution
+from hydroelastic.scenes.tank.solve import TankSolution, solve_scene
+from hydroelastic.scenes.tank.summary import summarize
+from hydroelastic.scenes.tank.tables import tone_lines
+from hydroelastic.scenes.tank.tones import FIRST_ELASTIC, ElasticTone, elastic_tone
 
 LONG = Beam(start=1.0, length=4.0, flexural_rigidity=5e3, mass_per_length=50.0, hydrostatic=False)
 SHORT = Beam(start=12.0, length=0.5, flexural_rigidity=5e3, mass_per_length=50.0, hydrostatic=False)
@@ -43,6 +49,44 @@ def test_a_tone_out_of_reach_does_not_hide_one_within(unlike: TankSolution) -> N
     assert long.tone.participation > 0.1
     assert short.tone is None
     assert "not searched for" in short.reason
+
+
+def tone_of(parts: list[float]) -> ElasticTone:
+    """The tone of a beam whose first dry mode has these participations in the modes."""
+    modes: Any = SimpleNamespace(elastic_amplitudes=np.sqrt(np.array(parts))[:, None], eigenvalues=np.ones(len(parts)))
+    beam: Any = SimpleNamespace(size=1, labels=(FIRST_ELASTIC,), stiffness=(1.0,))
+    return elastic_tone(modes, (beam,), 0)
+
+
+@pytest.mark.parametrize(
+    ("parts", "of_one_mode", "sharing"),
+    [
+        ([0.0, 0.9, 0.1], True, (1, 1)),
+        ([0.1, 0.425, 0.307], True, (1, 2)),  # shared by two, each of which means something
+        ([0.05, 0.08, 0.142, 0.06, 0.137, 0.02], False, (1, 4)),
+        ([0.2, 0.09, 0.05], True, (0, 0)),  # small, but no other is near
+    ],
+)
+def test_a_tone_that_is_no_single_modes_is_known(
+    parts: list[float], of_one_mode: bool, sharing: tuple[int, int]
+) -> None:
+    tone = tone_of(parts)
+    assert (tone.is_of_one_mode, tone.sharing) == (of_one_mode, sharing)
+
+
+def test_a_tone_that_is_no_single_modes_is_said_so(unlike: TankSolution) -> None:
+    summary = summarize(unlike, {}, import_seconds=0.0)
+    long, short = (" ".join(tone_lines(summary | {"first_elastic_by_body": [tone]})) for tone in _tones(summary))
+    assert "no single mode; modes from 55 to 65 share it, most of it in mode 60, ω = " in long
+    assert "; pressure-release tone (ψ = 0 on the water, the limit far above the waves): " in long
+    assert "none; " in short
+    assert "see the pressure-release tone" in short
+    assert "First elastic tone of beam 2" in " ".join(tone_lines(summary))
+
+
+def _tones(summary: dict[str, Any]) -> list[dict[str, Any]]:
+    long, short = summary["first_elastic_by_body"]
+    return [long | {"one_mode": False, "first_sharing_mode": 55, "last_sharing_mode": 65, "index": 60}, short]
 
 
 def test_tones_follow_their_beams_when_the_scene_lists_them_otherwise(unlike: TankSolution) -> None:

@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
+sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
 
 from float_added_mass import high_frequency_added_mass
 from float_boundary_integrals import second_omega
@@ -33,14 +33,14 @@ HEADER = {
     "about": "Closed 2-D tanks with rigid floats in one or two liquids, per metre of width, SI units. Exact linear "
     "theory: Laplace's equation in each liquid up to the float's own surface at rest.",
     "source": "Made for this catalogue by tests/reference/make_floats.py: Ritz's method with harmonic trial functions, "
-    "poles that cluster at corners and powers of corners (tests/float_reference.py).",
+    "poles that cluster at corners and powers of corners (tests/support/float_reference.py).",
     "command": "./hydro python tests/reference/make_floats.py",
     "schema": {
         "scene": "keys as in docs/scenes.md; liquids from the bottom up",
         "omega": "lowest frequencies, rad/s, without those that are zero, to the digits that are certain",
         "self_convergence": "largest relative difference of omega between a coarser and a finer solution",
         "agreement": "largest relative difference of omega from a second method, boundary integrals on the whole "
-        "boundary (tests/float_boundary_integrals.py); null where it does not apply",
+        "boundary (tests/support/float_boundary_integrals.py); null where it does not apply",
         "floats": "per float, from left to right: mass kg/m, inertia about the centre of mass kg m, centre of mass m "
         "(y = 0 is the still level), ends of the waterplane m, stiffness of heave, sway and roll (anticlockwise)",
         "added_mass": "at the highest frequencies (psi = 0 on a free surface, rho psi continuous at the interface, the "

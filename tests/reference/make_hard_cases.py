@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
+sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
 
 from hard_cases import CASES
 from random_tanks import draw_tanks
@@ -30,7 +30,7 @@ from surface_reference import (
     without_waves,
 )
 
-from hydroelastic.scenes.models import TankScene
+from hydroelastic.scenes.models.tank import TankScene
 
 PATH = Path(__file__).with_name("hard_cases.json")
 RANDOM_SEED, RANDOM_COUNT = 20260, 32
@@ -40,8 +40,8 @@ CLEAR_LEAD, CLEAR_GAP = 0.05, 1e-4
 
 HEADER = {
     "source": "Made for this catalogue by tests/reference/make_hard_cases.py: Galerkin's method on the surface alone, "
-    "with the exact kernel of docs/theory_aquarium.md, section 0, on geometric panels (tests/surface_reference.py); "
-    "closed forms for tanks without a beam or with a guided cover.",
+    "with the exact kernel of docs/theory_aquarium.md, section 0, on geometric panels "
+    "(tests/support/surface_reference.py); closed forms for tanks without a beam or with a guided cover.",
     "command": "./hydro python tests/reference/make_hard_cases.py",
     "schema": {
         "scene": "the tank as a scene (docs/scenes.md), defaults left out",

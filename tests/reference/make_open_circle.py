@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
+sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
 
 from open_circle import MOTIONS, radiation, release, resonance
 
@@ -24,7 +24,7 @@ HEADER = {
     "about": "Half-immersed circular cylinder of radius a, one liquid of infinite depth, waves leave on both sides, "
     "exp(-i omega t). Linear theory, per metre of width.",
     "source": "Made for this list by tests/reference/make_open_circle.py: Ursell's multipoles with 400 or 800 terms, "
-    "extrapolated (tests/open_circle.py).",
+    "extrapolated (tests/support/open_circle.py).",
     "command": "./hydro python tests/reference/make_open_circle.py",
     "schema": {
         "radiation": "Ka = omega^2 a/g; added mass over rho pi a^2/2, damping over rho omega pi a^2/2; error: change "

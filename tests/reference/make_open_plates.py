@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
+sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
 
 from open_levels import one_liquid
 from open_plates import Plate, Segment, scattering
@@ -26,7 +26,7 @@ HEADER = {
     "units, gravity 9.81. A wave of unit elevation exp(i k x - i omega t) comes from the left, x = 0 is the left end "
     "of the plate.",
     "source": "Made for this list by tests/reference/make_open_plates.py: an integral equation along the plate "
-    "(tests/open_plates.py).",
+    "(tests/support/open_plates.py).",
     "command": "./hydro python tests/reference/make_open_plates.py",
     "schema": {
         "depth": "m, null where infinite",

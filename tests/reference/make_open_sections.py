@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
+sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
 
 from open_sections import Water, section_answer
 
@@ -23,7 +23,7 @@ HEADER = {
     "about": "Fixed or moving rigid floats of polygonal section in open water of one liquid, per metre of width, SI "
     "units, density 1000, gravity 9.81, exp(-i omega t), sway, heave, roll (anticlockwise about x = 0, y = 0).",
     "source": "Made for this list by tests/reference/make_open_sections.py: boundary integrals on the wetted sides "
-    "(tests/open_sections.py).",
+    "(tests/support/open_sections.py).",
     "command": "./hydro python tests/reference/make_open_sections.py",
     "schema": {
         "corners": "from the left end of the waterplane round to the right end, m, y = 0 at the still surface",

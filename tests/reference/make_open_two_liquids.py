@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
+sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
 
 from open_plates import Plate, Segment, rigid_radiation, scattering
 from open_two_liquids import TwoLiquids
@@ -26,7 +26,7 @@ HEADER = {
     "free top the surface wave, then the interface wave; with a lid the interface wave alone. All elevations are those "
     "of the level on which the plate lies.",
     "source": "Made for this list by tests/reference/make_open_two_liquids.py: an integral equation along the plate "
-    "(tests/open_plates.py, tests/open_two_liquids.py).",
+    "(tests/support/open_plates.py, tests/support/open_two_liquids.py).",
     "command": "./hydro python tests/reference/make_open_two_liquids.py",
     "schema": {
         "densities, depths": "below, above: kg/m3, m",

@@ -15,13 +15,13 @@ from typing import Any
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
+sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
 
 from float_reference import reference_modes
 from float_tanks import Fineness, float_tank
 from random_floats import draw_floats
 
-from hydroelastic.scenes.models import TankScene
+from hydroelastic.scenes.models.tank import TankScene
 
 PATH = Path(__file__).with_name("random_floats.json")
 SEED, COUNT = 1, 72
@@ -37,7 +37,8 @@ LIGHT = 1e4
 """Modal masses above this many times the mass of the float are not stored: the float hardly moves there."""
 
 HEADER = {
-    "about": "Closed 2-D tanks with floats drawn at random (tests/random_floats.py), per metre of width, SI units.",
+    "about": "Closed 2-D tanks with floats drawn at random (tests/support/random_floats.py), per metre of width, "
+    "SI units.",
     "source": "Made for this list by tests/reference/make_random_floats.py, as floats.json is.",
     "command": "./hydro python tests/reference/make_random_floats.py",
     "schema": {

@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 from thread_cases import inputs, load_of, stream_of
 
-from hydroelastic.fem.thread_equilibrium import Start
-from hydroelastic.fem.thread_model import PointLoad, ThreadEnd, ThreadModel
-from hydroelastic.modal.thread_catenary import catenary_between
-from hydroelastic.modal.thread_march import march_back, march_tail
-from hydroelastic.modal.thread_shape import ThreadShape
+from hydroelastic.fem.thread.equilibrium import Start
+from hydroelastic.fem.thread.model import PointLoad, ThreadEnd, ThreadModel
+from hydroelastic.modal.thread.catenary import catenary_between
+from hydroelastic.modal.thread.march import march_back, march_tail
+from hydroelastic.modal.thread.shape import ThreadShape
 
 
 def axes_of(dimension: int) -> list[int]:

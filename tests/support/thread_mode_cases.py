@@ -9,10 +9,10 @@ import numpy as np
 from mpi4py import MPI
 from numpy.typing import NDArray
 
-from hydroelastic.fem.thread_equilibrium import Equilibrium
-from hydroelastic.fem.thread_model import PointLoad, Reactive, ThreadEnd, ThreadModel
-from hydroelastic.fem.thread_straight import straight_equilibrium
-from hydroelastic.modal.stream_profiles import UniformStream
+from hydroelastic.fem.thread.equilibrium import Equilibrium
+from hydroelastic.fem.thread.model import PointLoad, Reactive, ThreadEnd, ThreadModel
+from hydroelastic.fem.thread.straight import straight_equilibrium
+from hydroelastic.modal.thread.stream_profiles import UniformStream
 
 COMM = MPI.COMM_WORLD
 

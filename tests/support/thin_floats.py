@@ -14,9 +14,9 @@ from hydroelastic.modal import (
     TwoLayers,
     float_profile,
 )
-from hydroelastic.modal.float_profiles import FloatShape, Profile
+from hydroelastic.modal.floats.profiles import FloatShape, Profile
 
-REFERENCE = json.loads((Path(__file__).parent / "reference" / "two_fluid_float.json").read_text(encoding="utf-8"))
+REFERENCE = json.loads((Path(__file__).parents[1] / "reference" / "two_fluid_float.json").read_text(encoding="utf-8"))
 CASES = {case["id"]: case for case in REFERENCE["cases"]}
 EPS = np.finfo(float).eps
 SHAPES: tuple[FloatShape, ...] = ("exponential", "wedge", "parabola", "ellipse")

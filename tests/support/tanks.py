@@ -14,18 +14,18 @@ from hydroelastic.meshes.distribute import TankMesh, distribute_mesh
 from hydroelastic.meshes.grading import Grading
 from hydroelastic.meshes.tagged_mesh import TaggedMesh
 from hydroelastic.meshes.tank import build_tank_mesh
-from hydroelastic.scenes.field_model import build_field_model
 from hydroelastic.scenes.models import Accuracy, Beam, Liquid, Tank, TankScene
-from hydroelastic.scenes.scaled_tank import ScaledTank, scaled_tank
-from hydroelastic.scenes.solve import TankSolution, solve_scene
-from hydroelastic.scenes.tank_mesh import geometry_of
+from hydroelastic.scenes.tank.field_model import build_field_model
+from hydroelastic.scenes.tank.mesh import geometry_of
+from hydroelastic.scenes.tank.scaled_tank import ScaledTank, scaled_tank
+from hydroelastic.scenes.tank.solve import TankSolution, solve_scene
 
 
 class Tanks:
     """Makes scenes, and solves each scene only once."""
 
     def __init__(self) -> None:
-        path = Path(__file__).parent / "reference" / "aquarium.json"
+        path = Path(__file__).parents[1] / "reference" / "aquarium.json"
         self.reference: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
         self.cases: dict[str, Any] = {case["name"]: case for case in self.reference["cases"]}
         self._solutions: dict[tuple[TankScene, bool], TankSolution] = {}

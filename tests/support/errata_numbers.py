@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hydroelastic.modal import HangingString, PrintedAndCorrected, Ramp, Roll, Sine, Smooth, Step, roll_response
-from hydroelastic.modal.roll_paper import (
+from hydroelastic.modal.roll.paper import (
     ALL_ROLL_SLIPS,
     PRINTED_ROLL,
     PRINTED_TRAIN,
@@ -17,7 +17,7 @@ from hydroelastic.modal.roll_paper import (
     paper_roll_angle,
     printed_roll_constants,
 )
-from hydroelastic.modal.string_paper import (
+from hydroelastic.modal.string.paper import (
     critical_damping,
     few_terms_error,
     lowest_oscillating_mode,

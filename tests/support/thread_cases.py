@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from hydroelastic.modal.stream_profiles import ShearedStream, Stream, UniformStream, VeeringStream
-from hydroelastic.modal.thread_load import ThreadLoad
+from hydroelastic.modal.thread.load import ThreadLoad
+from hydroelastic.modal.thread.stream_profiles import ShearedStream, Stream, UniformStream, VeeringStream
 
-_FILE = Path(__file__).parent / "reference" / "thread.json"
+_FILE = Path(__file__).parents[1] / "reference" / "thread.json"
 CASES: dict[str, dict[str, Any]] = {case["id"]: case for case in json.loads(_FILE.read_text(encoding="utf-8"))["cases"]}
 
 

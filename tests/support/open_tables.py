@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from hydroelastic.scenes.model_analyses import Decay, Radiation, Resonance, Response
-from hydroelastic.scenes.models import Beam, TankScene
-from hydroelastic.scenes.open_results import (
+from hydroelastic.scenes.models.open_analyses import Decay, Radiation, Resonance, Response
+from hydroelastic.scenes.models.tank import Beam, TankScene
+from hydroelastic.scenes.open_water.results import (
     DecayTable,
     OpenSolution,
     PlateDeflection,
@@ -33,6 +33,10 @@ ANALYSES: list[dict[str, Any]] = [
     {"kind": "response", "omega": {"start": 1.0, "stop": 3.0, "number": 3}},
     {"kind": "resonance"},
     {"kind": "decay", "displacement": 0.1, "times": {"start": 0.0, "stop": 20.0, "number": 41}},
+]
+FROM_BOTH_SIDES: list[dict[str, Any]] = [
+    *ANALYSES,
+    {"kind": "response", "omega": [2.0, 4.0], "waves_from": "right"},
 ]
 
 
@@ -163,3 +167,8 @@ def _decay(scene: TankScene, analysis: Decay) -> DecayTable:
         tail=0.02 * analysis.displacement.heave,
         certified_until=float(times[-1]),
     )
+
+
+def two_bodies(analyses: list[dict[str, Any]] = ANALYSES) -> OpenSolution:
+    """A circle and a plate on two liquids with a free top: several dofs, two waves."""
+    return arbitrary_solution(open_scene(CIRCLE, PLATE, liquids=(DEEP, OIL), analyses=analyses))

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from pydantic import ValidationError
 
-from hydroelastic.scenes.models import TankScene
+from hydroelastic.scenes.models.tank import TankScene
 
 TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
 LENGTH = (0.3, 100.0)

@@ -17,7 +17,7 @@ K = math.pi / 6
 TRAIN = WaveTrain([8.2, 7.7, 7.5, 8.5, 7.7], [0.03, -0.05, 0.045, 0.06, 0.02])
 PRINTED = WaveTrain(TRAIN.periods, np.ones(5))
 
-_REFERENCE = json.loads((Path(__file__).parent / "reference" / "string_and_roll.json").read_text(encoding="utf-8"))
+_REFERENCE = json.loads((Path(__file__).parents[1] / "reference" / "string_and_roll.json").read_text(encoding="utf-8"))
 SHIPS: dict[str, Any] = {case["id"]: case for case in _REFERENCE["cases"] if case["paper"] == "004"}
 
 

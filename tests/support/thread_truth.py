@@ -8,14 +8,14 @@ import numpy as np
 from mpi4py import MPI
 from thread_shooting import shoot
 
-from hydroelastic.fem.thread_equilibrium import solve_on_mesh
-from hydroelastic.fem.thread_profile import start_from, thread_profile
-from hydroelastic.fem.thread_refinement import ThreadSolution
-from hydroelastic.modal.thread_march import march_back, march_tail
-from hydroelastic.scenes.model_thread import ThreadScene
-from hydroelastic.scenes.model_thread_parts import CarriedBody, FixedEnd
-from hydroelastic.scenes.thread_frame import frame_of
-from hydroelastic.scenes.thread_model import body_drag, dead_force, load_of
+from hydroelastic.fem.thread.equilibrium import solve_on_mesh
+from hydroelastic.fem.thread.profile import start_from, thread_profile
+from hydroelastic.fem.thread.refinement import ThreadSolution
+from hydroelastic.modal.thread.march import march_back, march_tail
+from hydroelastic.scenes.models.thread import ThreadScene
+from hydroelastic.scenes.models.thread_parts import CarriedBody, FixedEnd
+from hydroelastic.scenes.thread.frame import frame_of
+from hydroelastic.scenes.thread.model import body_drag, dead_force, load_of
 
 PLACES = 40
 # Of each step of a march.

@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from hydroelastic.scenes.models import TankScene
-from hydroelastic.scenes.solve import solve_scene
-from hydroelastic.scenes.summary import summarize
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.tank.solve import solve_scene
+from hydroelastic.scenes.tank.summary import summarize
 
 
 @dataclass(frozen=True, kw_only=True)

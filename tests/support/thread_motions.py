@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from scipy.special import j0, y0
 from thread_cases import inputs, results
 
-from hydroelastic.fem.thread_model import PointLoad, ThreadEnd, ThreadModel
-from hydroelastic.fem.thread_motion import MovingStart, move_thread
-from hydroelastic.fem.thread_motion_plan import MotionPlan
-from hydroelastic.fem.thread_motion_results import ThreadMotion
+from hydroelastic.fem.thread.model import PointLoad, ThreadEnd, ThreadModel
+from hydroelastic.fem.thread.motion import MovingStart, move_thread
+from hydroelastic.fem.thread.motion_plan import MotionPlan
+from hydroelastic.fem.thread.motion_results import ThreadMotion
 
 
 def held(position: Any, **rest: Any) -> ThreadEnd:

@@ -14,13 +14,13 @@ from scipy.sparse import csr_matrix
 from scipy.sparse.linalg import splu
 
 from hydroelastic.fem.pencil import CoupledPencil
-from hydroelastic.scenes.field_model import build_mesh
-from hydroelastic.scenes.field_solution import part_models
-from hydroelastic.scenes.model_bodies import Beam, Float
-from hydroelastic.scenes.models import Accuracy, Liquid, Tank, TankScene
-from hydroelastic.scenes.plan import initial_resolution
-from hydroelastic.scenes.scaled_tank import scaled_tank
-from hydroelastic.scenes.solve import TankSolution, solve_scene
+from hydroelastic.scenes.models.bodies import Beam, Float
+from hydroelastic.scenes.models.tank import Accuracy, Liquid, Tank, TankScene
+from hydroelastic.scenes.tank.field_model import build_mesh
+from hydroelastic.scenes.tank.field_solution import part_models
+from hydroelastic.scenes.tank.plan import initial_resolution
+from hydroelastic.scenes.tank.scaled_tank import scaled_tank
+from hydroelastic.scenes.tank.solve import TankSolution, solve_scene
 
 GRAVITY = 9.81
 

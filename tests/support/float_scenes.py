@@ -1,0 +1,33 @@
+"""Scenes with floats as dictionaries, and what is said of one that is refused."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from pydantic import ValidationError
+
+from hydroelastic.scenes.errors import scene_error
+from hydroelastic.scenes.models.tank import TankScene
+
+WEDGE: dict[str, Any] = {"kind": "float", "shape": "wedge", "position": 5.0, "half_width": 0.5, "half_height": 0.4}
+WATER, OIL, AIR = ({"density": density, "depth": depth} for density, depth in ((1000.0, 2.0), (800.0, 1.0), (0.0, 1.0)))
+SQUARE = ((-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5))
+
+
+def scene(*bodies: dict[str, Any], liquids: tuple[dict[str, Any], ...] = (WATER, OIL), **more: Any) -> TankScene:
+    tank = {"length": 10.0} | {key: more.pop(key) for key in ("top", "length") if key in more}
+    return TankScene.model_validate({"tank": tank, "liquid": list(liquids), "body": list(bodies)} | more)
+
+
+def said(*bodies: dict[str, Any], **changes: Any) -> str:
+    """What is said of a scene that is refused for one reason."""
+    with pytest.raises(ValidationError) as caught:
+        scene(*bodies, **changes)
+    text = str(scene_error(caught.value, TankScene))
+    assert "\n" not in text
+    return text
+
+
+def polygon(*vertices: tuple[float, float], **more: Any) -> dict[str, Any]:
+    return {"kind": "float", "shape": "polygon", "position": 5.0, "vertices": [list(v) for v in vertices]} | more

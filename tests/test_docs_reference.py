@@ -1,0 +1,69 @@
+"""The reference of the scenes' keys is that of the models, and tells a unit of each number that has one."""
+
+import pytest
+from pydantic import BaseModel
+from scene_reference import FOLDER, UNIT, page, sections_of, value_type
+
+from hydroelastic.modal.floats.profiles import DEFAULT_TAIL
+from hydroelastic.scenes.models import Float
+from hydroelastic.scenes.models.floats import DEFAULT_CORNER_ANGLE
+from hydroelastic.scenes.read import SCENE_MODELS
+
+REMEDY = "write the reference anew: ./hydro python docs/scene_reference.py"
+# Numbers without a unit: counts, ratios, factors, coefficients, directions.
+DIMENSIONLESS = {
+    *("count", "modes", "elastic_modes", "positions", "frames", "tolerance", "body", "tail", "largest_damping"),
+    *("normal_drag", "tangential_drag", "taper", "clamp", "direction", "factors", "lift", "strouhal"),
+    *("spectral_radius", "damping_ratio"),
+}
+
+
+def models(kind: str) -> list[type[BaseModel]]:
+    return [SCENE_MODELS[kind], *(section.model for section in sections_of(SCENE_MODELS[kind]))]
+
+
+@pytest.mark.parametrize("kind", SCENE_MODELS)
+def test_pages_are_those_of_the_models(kind: str) -> None:
+    assert (FOLDER / f"{kind}.md").read_text(encoding="utf-8") == page(kind), REMEDY
+
+
+def test_there_is_a_page_of_each_kind_and_no_other() -> None:
+    assert {path.stem for path in FOLDER.glob("*.md")} == {*SCENE_MODELS, "index"}
+    index = (FOLDER / "index.md").read_text(encoding="utf-8")
+    assert all(f'`"{kind}"`' in index and f"({kind}.md)" in index for kind in SCENE_MODELS)
+
+
+@pytest.mark.parametrize("kind", SCENE_MODELS)
+def test_every_key_tells_what_it_is_and_every_number_its_unit(kind: str) -> None:
+    for model in models(kind):
+        for key, field in model.model_fields.items():
+            assert field.description, f"{model.__name__}.{key}"
+            has_unit = bool(UNIT.search(field.description))
+            may_have_one = value_type(field)[0] in (float, int) and not (
+                key in DIMENSIONLESS or (model.__name__, key) == ("FlexibleThread", "added_mass")
+            )
+            if may_have_one:
+                assert has_unit, f"{model.__name__}.{key}: {field.description}"
+
+
+def test_defaults_that_depend_on_the_shape_are_those_of_the_code() -> None:
+    fields = Float.model_fields
+    assert f"by default {DEFAULT_TAIL:g}" in (fields["tail"].description or "")
+    assert f"by default {DEFAULT_CORNER_ANGLE:g}" in (fields["corner_angle"].description or "")
+
+
+def test_an_example_of_each_column() -> None:
+    rows = {line.split("`")[1]: line for line in page("tank").splitlines() if line.startswith("| `")}
+    assert rows["gravity"] == "| `gravity` | number | m/s² | 9.81 | positive | acceleration of gravity |"
+    assert "list of texts" in rows["motions"]
+    assert '`"heave"`, `"sway"`, `"roll"`; 1 to 3 of them' in rows["motions"]
+    assert "| positive, or `inf` |" in rows["depth"]
+    assert "list of lists of 2 numbers" in rows["vertices"]
+    assert "[table](#values-as-a-table)" in rows["times"]
+
+
+def test_an_end_has_its_section_once_and_no_default_kind() -> None:
+    text = page("thread")
+    assert text.count("## `[ends.a]` or `[ends.b]`: fixed") == 1
+    assert '| `kind` | text |  | required | `"fixed"` |' in text
+    assert '| `kind` | text |  | `"beam"` |' in page("tank")

@@ -1,0 +1,343 @@
+"""`dataset.nc` of every kind of scene opens in xarray and holds all that the summary holds, under its label."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from math import inf, nan
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray
+from mpi4py import MPI
+from open_tables import ANALYSES, CIRCLE, DEEP, OIL, PLATE, arbitrary_solution, open_scene
+from scene_files import read_written
+
+from hydroelastic.scenes.open_water.dataset import OPEN_NAMES, open_dataset
+from hydroelastic.scenes.open_water.summary import summarize_open
+from hydroelastic.scenes.output.dataset import read_dataset, with_summary, write_dataset
+from hydroelastic.scenes.output.folder import SUMMARY, write_summary
+from hydroelastic.scenes.output.json_values import json_ready
+from hydroelastic.scenes.output.provenance import Summary
+from hydroelastic.scenes.output.summary_variables import SummaryNames
+from hydroelastic.scenes.read import read_scene
+from hydroelastic.scenes.run import run_scene
+
+# A float that tips over, one whose heave and roll are coupled, and a beam beside them.
+FLOATS = """
+kind = "tank"
+title = "Floats and a beam"
+[tank]
+length = 10.0
+top = "free"
+[[liquid]]
+density = 1000.0
+depth = 3.0
+[[body]]
+kind = "float"
+shape = "rectangle"
+position = 2.0
+half_width = 0.4
+half_height = 1.0
+motions = ["heave", "sway", "roll"]
+unstable = "solve"
+[[body]]
+kind = "float"
+shape = "polygon"
+position = 5.0
+vertices = [[-1.0, 0.5], [-1.0, -0.4], [0.3, -0.7], [1.0, -0.4], [1.0, 0.5]]
+motions = ["heave", "roll"]
+[[body]]
+start = 7.0
+length = 2.0
+flexural_rigidity = 5e3
+mass_per_length = 50.0
+[accuracy]
+tolerance = 1e-4
+modes = 4
+"""
+SHORT = "output.times={start=0, stop=4, number=9}"
+CHAIN = (
+    'analysis=[{kind = "modes", count = 2}, {kind = "modes", count = 3}, '
+    '{kind = "motion", times = [0.0, 0.5, 1.0], tolerance = 1e-2, release = [{end = "b", time = 0.25}]}]'
+)
+SCENES: dict[str, tuple[str, ...]] = {
+    "aquarium": (),
+    "float_in_two_liquids": ("accuracy.tolerance=1e-4",),
+    "separator": ("accuracy.modes=3",),
+    "string_sine": (SHORT,),
+    "string_with_load": (SHORT, "accuracy.tolerance=1e-3"),
+    "swell": ('title=""',),
+    "released_chain": (CHAIN,),
+    "fluttering_hose": ("analysis.0.factors={start=9.0, stop=10.0, number=3}", "accuracy.tolerance=1e-3"),
+}
+"""Overrides that keep shipped scenes of each kind short."""
+ALL = [*SCENES, "floats", "open water"]
+
+
+@pytest.fixture(scope="module")
+def folders(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    """Where results are, by name; each is made once."""
+    found: dict[str, Path] = {}
+    for name in ALL:
+        folder = tmp_path_factory.mktemp("result")
+        found[name] = folder / "out"
+        if name == "open water":
+            _write_open(found[name])
+            continue
+        scene = read_written(folder, FLOATS) if name == "floats" else read_scene(name, SCENES[name])
+        run_scene(scene, out=found[name], images=None)
+    return found
+
+
+def _write_open(folder: Path) -> None:
+    """What a run writes of two bodies on two liquids, with arbitrary numbers."""
+    folder.mkdir()
+    again = [{"kind": "response", "omega": [2.0, 4.0], "waves_from": "right"}, {"kind": "resonance", "count": 2}]
+    circle = CIRCLE | {"motions": ["heave", "roll"]}
+    scene = open_scene(circle, PLATE, liquids=(DEEP, OIL), analyses=[*ANALYSES, *again])
+    solution = arbitrary_solution(scene, reasons=("σ ≥ 1", "it is late"))
+    summary = summarize_open(solution, MPI.COMM_WORLD, import_seconds=1.0)
+    write_summary(summary, folder)
+    write_dataset(with_summary(open_dataset(solution), summary, OPEN_NAMES), folder / "dataset.nc")
+
+
+@pytest.fixture(params=ALL)
+def folder(folders: dict[str, Path], request: pytest.FixtureRequest) -> Path:
+    return folders[request.param]
+
+
+def test_the_summary_comes_back_as_it_is(folder: Path) -> None:
+    dataset, summary = read_dataset(folder / "dataset.nc")
+    assert summary == json.loads((folder / SUMMARY).read_text(encoding="utf-8"))
+    assert dataset.attrs["status"] == summary["status"]
+    assert dataset.attrs["title"] == summary["scene"]["title"]
+    assert dataset.attrs["source"] == f"hydroelastic {summary['versions']['hydroelastic']}"
+    with xarray.open_dataset(folder / "dataset.nc") as opened:
+        xarray.testing.assert_identical(opened.load(), dataset)
+
+
+def test_no_number_and_no_word_of_a_summary_is_missing_in_the_variables(folder: Path) -> None:
+    dataset, summary = read_dataset(folder / "dataset.nc")
+    variables = dataset.drop_vars("summary").variables
+    numbers = {float(value) for v in variables.values() if v.dtype.kind in "bif" for value in v.values.ravel()}
+    words = {str(value).lower() for v in variables.values() if v.dtype.kind in "OU" for value in v.values.ravel()}
+    words |= {str(value).lower() for value in dataset.attrs.values()}
+    # Sides of waves are angles in a dataset.
+    words |= {"left", "right"}
+    for place, value in _leaves({key: part for key, part in summary.items() if key != "scene"}):
+        if isinstance(value, str) and value not in ("inf", "-inf"):
+            assert value.lower() in words, place
+        elif value is not None:
+            assert float(value) in numbers, place
+
+
+def _leaves(value: Any, place: str = "") -> Iterator[tuple[str, Any]]:
+    if isinstance(value, dict | list):
+        for key, part in value.items() if isinstance(value, dict) else enumerate(value):
+            yield from _leaves(part, f"{place}.{key}")
+    else:
+        yield place, value
+
+
+def test_every_variable_says_what_it_is(folder: Path) -> None:
+    dataset, _ = read_dataset(folder / "dataset.nc")
+    for name, variable in dataset.data_vars.items():
+        assert "long_name" in variable.attrs, name
+        if variable.dtype.kind not in "if" or str(name).startswith(("constant_", "thin_float_")):
+            # The paper's constants and what is compared with the thin-float theory have units of their own.
+            continue
+        assert "units" in variable.attrs, name
+    for name, coordinate in dataset.coords.items():
+        # Numbers of modes and the like have none.
+        assert "units" in coordinate.attrs or coordinate.dtype.kind in "OUi", name
+
+
+def test_modes_of_a_tank_lie_along_a_dimension(folders: dict[str, Path]) -> None:
+    dataset, summary = read_dataset(folders["aquarium"] / "dataset.nc")
+    assert dataset.mode.values.tolist() == list(range(1, 11))
+    for key in summary["modes"][0]:
+        assert dataset[key].dims == ("mode",)
+        assert dataset[key].values.tolist() == [mode[key] for mode in summary["modes"]]
+    assert dataset.omega.attrs["units"] == "rad/s"
+    assert dataset.frequency_hz.attrs["units"] == "Hz"
+    assert dataset.first_elastic_omega.item() == summary["first_elastic"]["omega"]
+    assert not dataset.first_elastic_shared.item()
+    assert dataset.timing.sel(stage="solve").item() == summary["timing"]["solve"]
+    assert dataset.versions.sel(package="numpy").item() == np.__version__
+    assert dataset.size_halves.dtype == bool
+    for name, estimate in summary["estimates"].items():
+        own = dataset.sel(estimate=name)
+        assert own.estimate_note.item() == estimate["note"]
+        for key in ("omega", "difference", "added_mass_per_length"):
+            assert own[f"estimate_{key}"].item() == pytest.approx(
+                nan if estimate[key] is None else estimate[key], rel=0, nan_ok=True
+            )
+    # Whether a bound holds: true, false, or not known.
+    assert dataset.estimate_bound_holds.sel(estimate="rayleigh").item() == 1.0
+    assert np.isnan(dataset.estimate_bound_holds.sel(estimate="strip").item())
+
+
+def test_waves_in_a_tank_are_cosines_of_known_height(tmp_path: Path) -> None:
+    """η = a cos kx, whose kinetic energy is that of a generalized mass of 1 kg/m if a² = 2k tanh kH/(ρL)."""
+    run_scene(read_scene("sloshing", ["accuracy.modes=3"]), out=tmp_path / "out", images=None)
+    dataset, summary = read_dataset(tmp_path / "out" / "dataset.nc")
+    length, (liquid,) = summary["scene"]["tank"]["length"], summary["scene"]["liquid"]
+    k = dataset.mode * np.pi / length
+    height = np.sqrt(2.0 * k * np.tanh(k * liquid["depth"]) / (liquid["density"] * length))
+    expected = height * np.cos(k * dataset.position_on_free_surface_1)
+    found = dataset.elevation_of_free_surface_1
+    assert found.attrs["units"] == "m"
+    assert float(found.attrs["level_at_rest"]) == 0.0
+    # The sign of a mode is free. ψ errs in the energy by the root of what ω² does; measured 3 % of that.
+    sign = np.sign(found[:, 0] * expected[:, 0])
+    error = float(abs(found - sign * expected).max() / height.min())
+    assert error < np.sqrt(2.0 * dataset.relative_error.max())
+
+
+def test_bodies_move_by_their_motions(folders: dict[str, Path]) -> None:
+    """Each point of a float's contour moves by heave, sway and roll about the centre of mass."""
+    dataset, summary = read_dataset(folders["floats"] / "dataset.nc")
+    assert len(summary["growing"]) == 1
+    assert dataset.growing_growth_rate.item() == summary["growing"][0]["growth_rate"]
+    for prefix, modes in (("", 4), ("growing_", 1)):
+        motion = dataset[f"{prefix}motion"]
+        assert motion.sizes == {f"{prefix}mode": modes, "dof": 5}
+        assert motion.attrs["units"] == "m, of roll rad"
+        for number, row in enumerate(summary["floats"], 1):
+            x, y = row["centre_of_mass"]
+            contour = dataset[f"contour_of_body_{number}"]
+            heave, roll = (motion.sel(dof=f"body_{number}__{name}") for name in ("Heave", "Roll"))
+            sway = motion.sel(dof="body_1__Sway") if number == 1 else 0.0 * roll
+            moved = dataset[f"{prefix}displacement_of_body_{number}"]
+            across = sway - roll * (contour.sel(axis="y") - y)
+            upwards = heave + roll * (contour.sel(axis="x") - x)
+            size = float(abs(moved).max())
+            # Rounding of the sums, at arms of metres.
+            assert float(abs(moved.sel(axis="x") - across).max()) < 1e-13 * size
+            assert float(abs(moved.sel(axis="y") - upwards).max()) < 1e-13 * size
+    assert dataset.deflection_of_body_3.dims == ("mode", "position_on_body_3")
+    assert dataset.position_on_body_3.values[[0, -1]] == pytest.approx([7.0, 9.0], rel=1e-14)
+    assert {"elevation_of_free_surface_4", "growing_deflection_of_body_3"} <= set(dataset.data_vars)
+
+
+def test_the_matrices_of_floats_are_those_of_the_summary(folders: dict[str, Path]) -> None:
+    dataset, summary = read_dataset(folders["floats"] / "dataset.nc")
+    for number, row in enumerate(summary["floats"], 1):
+        dofs = [f"body_{number}__{motion.capitalize()}" for motion in row["motions"]]
+        own = dataset.sel(influenced_dof=dofs, radiating_dof=dofs)
+        assert own.infinite_frequency_added_mass.values.tolist() == row["high_frequency"]["added_mass"]
+        masses = [row["moment_of_inertia" if motion == "roll" else "mass"] for motion in row["motions"]]
+        # To rounding: they went through the units of the tank.
+        assert own.inertia_matrix.values == pytest.approx(np.diag(masses), rel=1e-13)
+        stiffness = own.hydrostatic_stiffness.sel(influenced_dof=dofs[0], radiating_dof=[dofs[0], dofs[-1]])
+        expected = [row["heave_stiffness"], row["coupling_stiffness"]]
+        assert stiffness.values == pytest.approx(expected, rel=1e-13, abs=1e-10 * expected[0])
+        turning = own.hydrostatic_stiffness.sel(influenced_dof=dofs[-1], radiating_dof=dofs[-1])
+        assert turning.item() == pytest.approx(row["roll_stiffness"], rel=1e-13)
+    assert dataset.float_mode_omega.dims == ("float", "float_mode")
+    # The two floats move one another through the liquid.
+    both = dataset.infinite_frequency_added_mass.sel(influenced_dof="body_1__Sway", radiating_dof="body_2__Roll")
+    assert abs(both.item()) > 0.0
+
+
+def test_odd_values_survive(tmp_path: Path) -> None:
+    """Infinity, nothing, truth, words of all scripts, lists that are empty, nested or ragged."""
+    summary: Summary = {
+        "scene": {"title": "Ψ – wave ∿ “quoted” \\ %", "depth": inf},
+        "status": "ok",
+        "reasons": ["σ ≥ 1", "", "ship 船"],
+        "versions": {"hydroelastic": "0"},
+        "nothing": None,
+        "empty": [],
+        "emptier": [[], []],
+        "yes": True,
+        "perhaps": [True, None, False],
+        "infinite": [1.0, inf, -inf, nan],
+        "ragged": [[1, 2], [3], []],
+        "large": 2**40,
+        "small": 5e-324,
+        "third": 1.0 / 3.0,
+        "table": [
+            {"name": "a", "value": 1, "more": {"deep": [1.5]}},
+            {"name": None, "value": None, "more": None, "own": "β"},
+        ],
+        "pairs": [[[0.1, 0.2], [0.3, 0.4]]],
+        "no words": [None, None],
+    }
+    names = SummaryNames(dimensions={"table": ("row",)}, prefixes={"table": ""})
+    dataset, back = _there_and_back(summary, names, tmp_path / "dataset.nc")
+    assert back == json_ready(summary)
+    assert (dataset.yes.dtype, dataset.yes.item()) == (np.dtype(bool), True)
+    np.testing.assert_array_equal(dataset.perhaps, [1.0, nan, 0.0])
+    np.testing.assert_array_equal(dataset.infinite, [1.0, inf, -inf, nan])
+    np.testing.assert_array_equal(dataset.ragged, [[1.0, 2.0], [3.0, nan], [nan, nan]])
+    assert dataset.reasons.values.tolist() == summary["reasons"]
+    assert (dataset.large.item(), dataset.small.item(), dataset.third.item()) == (2**40, 5e-324, 1.0 / 3.0)
+    assert dataset.name.values.tolist() == ["a", ""]
+    assert dataset.own.values.tolist() == ["", "β"]
+    np.testing.assert_array_equal(dataset.value, [1.0, nan])
+    np.testing.assert_array_equal(dataset.more_deep, [[1.5], [nan]])
+    assert dataset.row.values.tolist() == [1, 2]
+    assert dataset.pairs.dims == ("pairs_entry", "pairs_entry_2", "pairs_entry_3")
+    assert dataset.attrs["title"] == "Ψ – wave ∿ “quoted” \\ %"
+    assert not {"empty", "emptier", "scene_title", "status"} & set(dataset.variables)
+
+
+def test_what_arrays_tell_is_not_told_twice(tmp_path: Path) -> None:
+    names = SummaryNames(told=frozenset({"modes.omega"}), dimensions={"modes": ("mode",)})
+    summary: Summary = {
+        "scene": {"title": ""},
+        "status": "ok",
+        "versions": {"hydroelastic": "0"},
+        "modes": [{"omega": 1.0, "residual": 2.0}],
+    }
+    dataset, back = _there_and_back(summary, names, tmp_path / "dataset.nc")
+    assert back == summary
+    assert "modes_omega" not in dataset
+    assert dataset.modes_residual.attrs["units"] == "1"
+
+
+def _there_and_back(summary: Summary, names: SummaryNames, path: Path) -> tuple[xarray.Dataset, Summary]:
+    write_dataset(with_summary(xarray.Dataset(), summary, names), path)
+    return read_dataset(path)
+
+
+def test_the_same_run_writes_the_same_bytes(tmp_path: Path) -> None:
+    """Nothing in a dataset tells when it was written."""
+    solution = arbitrary_solution(open_scene())
+    summary = summarize_open(solution, MPI.COMM_WORLD, import_seconds=1.0)
+    for name in ("one.nc", "other.nc"):
+        write_dataset(with_summary(open_dataset(solution), summary, OPEN_NAMES), tmp_path / name)
+    assert (tmp_path / "one.nc").read_bytes() == (tmp_path / "other.nc").read_bytes()
+
+
+def test_main_quantities_have_names_in_words(folders: dict[str, Path]) -> None:
+    dataset, _ = read_dataset(folders["aquarium"] / "dataset.nc")
+    assert dataset.omega.attrs["long_name"] == "angular frequency of a mode"
+
+
+def test_any_dataset_comes_back(tmp_path: Path) -> None:
+    given = xarray.Dataset(
+        {
+            "small": ((), 1.5, {"units": "m", "empty": ""}),
+            "wide": (("b", "a"), np.arange(6.0).reshape(2, 3)),
+            "words": ("a", ["α", "longer", ""]),
+            "long": ("c", np.arange(50, dtype=np.int32)),
+            "true": ("a", [True, False, True]),
+        },
+        {"a": [1.0, 2.0, 3.0], "c": np.arange(50, dtype=np.int32)},
+        {"title": "odd", "number": 3},
+    )
+    write_dataset(given, tmp_path / "dataset.nc")
+    with xarray.open_dataset(tmp_path / "dataset.nc") as opened:
+        xarray.testing.assert_identical(opened.load(), given.assign(words=("a", given.words.values.astype(object))))
+
+
+def test_phases_of_forces_are_said(folders: dict[str, Path]) -> None:
+    dataset, _ = read_dataset(folders["open water"] / "dataset.nc")
+    for name in ("excitation_force", "RAO", "transmission_coefficient"):
+        assert "x = 0 of the scene" in dataset[name].attrs["phase"]
+    assert "phase" not in dataset["added_mass"].attrs

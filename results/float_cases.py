@@ -8,22 +8,19 @@ run on the machine at hand, without imports.
 
 from __future__ import annotations
 
-import csv
 import json
 import sys
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
-sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
 
 from answers import answer
+from case_files import TANK_COLUMNS, tank_row, write_cases
 
-from hydroelastic.scenes.models import TankScene
+from hydroelastic.scenes.models.tank import TankScene
 
 ROOT = Path(__file__).parents[1]
-FOLDER = Path(__file__).parent / "float_cases"
 TOLERANCES = (1e-4, 1e-6, 1e-8)
 COLUMNS = (
     "case",
@@ -32,10 +29,7 @@ COLUMNS = (
     "modes",
     "true_error",
     "estimate",
-    "seconds",
-    "unknowns",
-    "degree",
-    "attempts",
+    *TANK_COLUMNS,
 )
 
 
@@ -44,18 +38,7 @@ def measured(name: str, case: dict[str, Any], tolerance: float) -> dict[str, Any
     reference = [float(omega) for omega in case["omega"]]
     scene = TankScene.model_validate(case["scene"] | {"accuracy": {"tolerance": tolerance, "modes": len(reference)}})
     found = answer(scene)
-    return {
-        "case": name,
-        "tolerance": tolerance,
-        "status": found.summary["status"],
-        "modes": len(reference),
-        "true_error": float(np.abs(found.errors(reference)).max()),
-        "estimate": float(found.estimates.max()),
-        "seconds": found.seconds,
-        "unknowns": found.summary["size"]["dofs"],
-        "degree": found.summary["size"]["degree"],
-        "attempts": found.summary["solver"]["attempts"],
-    }
+    return {"case": name, "tolerance": tolerance, "modes": len(reference)} | tank_row(found, reference)
 
 
 def markdown(rows: list[dict[str, Any]]) -> str:
@@ -92,14 +75,7 @@ def main() -> None:
         for tolerance in TOLERANCES:
             rows.append(measured(name, case, tolerance))
             print(*rows[-1].values(), sep=", ", flush=True)
-    FOLDER.mkdir(exist_ok=True)
-    with (FOLDER / "float_cases.csv").open("w", encoding="utf-8", newline="") as file:
-        writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(
-            {key: f"{value:.3g}" if isinstance(value, float) else value for key, value in row.items()} for row in rows
-        )
-    (FOLDER / "float_cases.md").write_text(markdown(rows), encoding="utf-8")
+    write_cases("float_cases", COLUMNS, rows, markdown(rows))
 
 
 if __name__ == "__main__":

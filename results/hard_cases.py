@@ -1,4 +1,4 @@
-"""Measure the hard cases: true error, estimate and cost of each case of tests/hard_cases.py at each tolerance.
+"""Measure the hard cases: true error, estimate and cost of each case of tests/support/hard_cases.py at each tolerance.
 
     ./hydro python results/hard_cases.py
 
@@ -8,24 +8,21 @@ to. Seconds are of one run on the machine at hand, without imports.
 
 from __future__ import annotations
 
-import csv
 import json
 import sys
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 # First on the path: there, `hard_cases` is the catalogue.
-sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
 
 from answers import answer
+from case_files import TANK_COLUMNS, tank_row, write_cases
 from hard_cases import CASES, TOLERANCES, HardCase
 
 from hydroelastic.fem.modes import EigenSolverError
 
 ROOT = Path(__file__).parents[1]
-FOLDER = Path(__file__).parent / "hard_cases"
 COLUMNS = (
     "case",
     "tolerance",
@@ -35,10 +32,7 @@ COLUMNS = (
     "estimate",
     "pressure_release_true_error",
     "pressure_release_estimate",
-    "seconds",
-    "unknowns",
-    "degree",
-    "attempts",
+    *TANK_COLUMNS,
 )
 
 
@@ -50,17 +44,14 @@ def measured(case: HardCase, tolerance: float, reference: dict[str, Any]) -> dic
     except EigenSolverError:
         return row | {"status": "failed"}
     errors, estimates = _pressure_release(found.summary["first_elastic_by_body"], reference)
-    return row | {
-        "status": found.summary["status"],
-        "true_error": float(np.abs(found.errors(reference["omega"])).max()),
-        "estimate": float(found.estimates.max()),
-        "pressure_release_true_error": max(errors, default=None),
-        "pressure_release_estimate": max(estimates, default=None),
-        "seconds": found.seconds,
-        "unknowns": found.summary["size"]["dofs"],
-        "degree": found.summary["size"]["degree"],
-        "attempts": found.summary["solver"]["attempts"],
-    }
+    return (
+        row
+        | tank_row(found, reference["omega"])
+        | {
+            "pressure_release_true_error": max(errors, default=None),
+            "pressure_release_estimate": max(estimates, default=None),
+        }
+    )
 
 
 def _pressure_release(tones: list[dict[str, Any]], reference: dict[str, Any]) -> tuple[list[float], list[float]]:
@@ -72,17 +63,6 @@ def _pressure_release(tones: list[dict[str, Any]], reference: dict[str, Any]) ->
     ]
     given = [tone["pressure_release_relative_error"] for tone in tones]
     return errors, [estimate for estimate in given if estimate is not None]
-
-
-def csv_text(rows: list[dict[str, Any]]) -> list[list[str]]:
-    """The rows as text, numbers with three digits; what is unknown is empty."""
-
-    def shown(value: Any) -> str:
-        if value is None:
-            return ""
-        return f"{value:.3g}" if isinstance(value, float) else str(value)
-
-    return [[shown(row.get(column)) for column in COLUMNS] for row in rows]
 
 
 def markdown(rows: list[dict[str, Any]]) -> str:
@@ -133,11 +113,8 @@ def main() -> None:
     for case in CASES:
         for tolerance in TOLERANCES:
             rows.append(measured(case, tolerance, references[case.name]))
-            print(", ".join(csv_text(rows[-1:])[0]), flush=True)
-    FOLDER.mkdir(exist_ok=True)
-    with (FOLDER / "hard_cases.csv").open("w", encoding="utf-8", newline="") as file:
-        csv.writer(file, lineterminator="\n").writerows([list(COLUMNS), *csv_text(rows)])
-    (FOLDER / "hard_cases.md").write_text(markdown(rows), encoding="utf-8")
+            print(*rows[-1].values(), sep=", ", flush=True)
+    write_cases("hard_cases", COLUMNS, rows, markdown(rows))
 
 
 if __name__ == "__main__":

@@ -4,11 +4,13 @@
 
 Each scene of a closed tank keeps its tables, the sheet of all its modes and the pictures of its first elastic tone and
 of heave, any other its summary and its pictures; fields, curves and frames stay out, they are large and one command
-away. Studies of error against cost are made of the scenes in `STUDIED`.
+away. Studies of error against cost are made of the scenes in `STUDIED`. results/shipped/README.md lists all scenes with
+what they took.
 """
 
 from __future__ import annotations
 
+import json
 import shutil
 import sys
 import tempfile
@@ -16,14 +18,15 @@ from pathlib import Path
 
 from PIL import Image
 
-from hydroelastic.scenes.kinds import runner_of
-from hydroelastic.scenes.models import TankScene
-from hydroelastic.scenes.output import SUMMARY
-from hydroelastic.scenes.provenance import Summary
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.output.folder import SUMMARY
+from hydroelastic.scenes.output.provenance import Summary
+from hydroelastic.scenes.output.sections import markdown_table
 from hydroelastic.scenes.read import read_scene, shipped_scenes
-from hydroelastic.scenes.study import study_scene
-from hydroelastic.scenes.study_plan import FAMILIES, StudyPlan
-from hydroelastic.scenes.study_report import write_study
+from hydroelastic.scenes.run import run_scene
+from hydroelastic.scenes.study.plan import FAMILIES, StudyPlan
+from hydroelastic.scenes.study.report import write_study
+from hydroelastic.scenes.study.run import study_scene
 
 SHIPPED = Path(__file__).parent / "shipped"
 STUDIED = {
@@ -46,7 +49,7 @@ def regenerate(name: str) -> str:
     """
     scene = read_scene(name)
     with tempfile.TemporaryDirectory() as scratch:
-        outcome = runner_of(scene)(scene, out=Path(scratch) / name)
+        outcome = run_scene(scene, out=Path(scratch) / name)
         assert outcome.folder is not None
         kept = SHIPPED / name
         shutil.rmtree(kept, ignore_errors=True)
@@ -88,13 +91,48 @@ def _keep_picture(source: Path, target: Path) -> None:
     with Image.open(source) as picture:
         height = round(picture.height * SHOWN_WIDTH / picture.width)
         shown = picture.convert("RGB").resize((SHOWN_WIDTH, height), Image.Resampling.LANCZOS)
-        shown.quantize(256, dither=Image.Dither.NONE).save(target, optimize=True)
+        # Chosen to cover all colours: the most frequent ones alone would turn the ends of a colour bar grey.
+        shown.quantize(256, method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE).save(target, optimize=True)
+
+
+def index() -> str:
+    """Return a page that lists all shipped scenes, as their stored summaries have them."""
+    headings = ("scene", "title", "kind", "status", "seconds", "of which files and pictures", "pictures")
+    rows = []
+    for shipped in shipped_scenes():
+        folder = SHIPPED / shipped.name
+        summary = json.loads((folder / SUMMARY).read_text(encoding="utf-8"))
+        seconds = summary["timing"]
+        written = sum(seconds.get(stage, 0.0) for stage in ("sample", "write", "draw"))
+        pictures = ", ".join(f"[{path.stem}]({shipped.name}/{path.name})" for path in sorted(folder.glob("*.png")))
+        rows.append(
+            (
+                f"`{shipped.name}`",
+                shipped.title,
+                summary["scene"]["kind"],
+                summary["status"],
+                f"{sum(seconds.values()):.1f}",
+                f"{written:.1f}",
+                pictures,
+            )
+        )
+    return "\n".join(
+        [
+            "# The shipped scenes",
+            "",
+            "Made by `./hydro python results/regenerate.py`. Seconds are those of a run after imports.",
+            "",
+            markdown_table(headings, rows),
+            "",
+        ]
+    )
 
 
 def main() -> None:
-    """Regenerate the scenes named on the command line, or all."""
+    """Regenerate the scenes named on the command line, or all, and the list of all."""
     for name in sys.argv[1:] or [scene.name for scene in shipped_scenes()]:
         print(f"{name}: {regenerate(name)}", flush=True)
+    (SHIPPED / "README.md").write_text(index(), encoding="utf-8")
 
 
 if __name__ == "__main__":

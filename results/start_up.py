@@ -73,7 +73,7 @@ def measure_run(scene: str, cache: Path, *, images: bool) -> tuple[Seconds, dict
 
 def measure_imports() -> Seconds:
     """Seconds that importing what `run` needs takes in each library's own files, most first."""
-    program = "import hydroelastic.scenes.command_line, hydroelastic.scenes.run, hydroelastic.scenes.shapes"
+    program = "import hydroelastic.scenes.command_line, hydroelastic.scenes.tank.run, hydroelastic.scenes.tank.shapes"
     with tempfile.TemporaryDirectory() as cache:
         told = subprocess.run(
             [sys.executable, "-X", "importtime", "-c", program],

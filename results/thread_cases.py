@@ -3,13 +3,12 @@
     ./hydro python results/thread_cases.py
 
 It writes results/thread_cases/thread_cases.csv, all numbers, and thread_cases.md, the tables that docs/hard_cases.md
-refers to. The scenes are those of tests/random_threads.py. Seconds are of one run on the machine at hand, without
-imports.
+refers to. The scenes are those of tests/support/random_threads.py. Seconds are of one run on the machine at
+hand, without imports.
 """
 
 from __future__ import annotations
 
-import csv
 import sys
 import time
 from pathlib import Path
@@ -18,17 +17,17 @@ from typing import Any
 import numpy as np
 from mpi4py import MPI
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
 
+from case_files import write_cases
 from random_threads import KINDS, all_numbers, random_thread
 from thread_truth import true_error
 
 from hydroelastic.scenes.errors import UnsolvedError
-from hydroelastic.scenes.model_thread import ThreadScene
-from hydroelastic.scenes.thread_equilibrium import FoundEquilibrium, find_equilibrium
-from hydroelastic.scenes.thread_frame import frame_of
+from hydroelastic.scenes.models.thread import ThreadScene
+from hydroelastic.scenes.thread.equilibrium import FoundEquilibrium, find_equilibrium
+from hydroelastic.scenes.thread.frame import frame_of
 
-FOLDER = Path(__file__).parent / "thread_cases"
 # One in so many is solved by another way too.
 EVERY = 12
 # Error of what is integrated with steps of 1e-12, and of a tail that begins straight over 1e-5 of its length.
@@ -91,10 +90,10 @@ def markdown(rows: list[dict[str, Any]]) -> str:
     lines = [
         "# Random threads, measured",
         "",
-        "Made by `./hydro python results/thread_cases.py`; the scenes are in `tests/random_threads.py`, the tolerance",
-        "is 1e-6. *Newton* is the mean and largest number of steps on the first mesh; *another start* tells how many",
-        "were not found by the first start that there is, for compression or because the steps did not end; *T < 0*",
-        "how many threads without flexural rigidity were returned in compression.",
+        "Made by `./hydro python results/thread_cases.py`; the scenes are in `tests/support/random_threads.py`,",
+        "the tolerance is 1e-6. *Newton* is the mean and largest number of steps on the first mesh; *another start*",
+        "tells how many were not found by the first start that there is, for compression or because steps did not end;",
+        "*T < 0* how many threads without flexural rigidity were returned in compression.",
         "",
         "| kind | cases | failed | T < 0 | starts | with a ramp | another start | Newton | elements | seconds |",
         "|---|---|---|---|---|---|---|---|---|---|",
@@ -152,14 +151,7 @@ def main() -> None:
     for kind, number in all_numbers():
         rows.append(measured(kind, number))
         print(*rows[-1].values(), sep=", ", flush=True)
-    FOLDER.mkdir(exist_ok=True)
-    with (FOLDER / "thread_cases.csv").open("w", encoding="utf-8", newline="") as file:
-        writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(
-            {key: f"{value:.3g}" if isinstance(value, float) else value for key, value in row.items()} for row in rows
-        )
-    (FOLDER / "thread_cases.md").write_text(markdown(rows), encoding="utf-8")
+    write_cases("thread_cases", COLUMNS, rows, markdown(rows))
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import ufl
 from dolfinx import fem
-from dolfinx.fem.petsc import assemble_matrix, assemble_vector, create_matrix, create_vector
+from dolfinx.fem.petsc import assemble_matrix, assemble_vector, create_matrix
 from mpi4py import MPI
 from numpy.typing import NDArray
 from petsc4py import PETSc
@@ -71,7 +71,7 @@ class StepSolver:
         positions = np.asarray(space.sub(0).collapse()[1])
         self._positions = positions[positions < self._owned]
         self._matrix = create_matrix(self._derivative)
-        self._vector, self._change = create_vector(self._residual), create_vector(self._residual)
+        self._vector, self._change = (unknown.x.petsc_vec.duplicate() for _ in range(2))
         self._solver = PETSc.KSP().create(self._comm)
         self._solver.setOperators(self._matrix)
         self._solver.setType("preonly")

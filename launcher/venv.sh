@@ -45,7 +45,7 @@ if sys.prefix != sys.base_prefix:
 
 # Checks by import, once, what the probe believed by metadata.
 verify_code='
-import dolfinx, slepc4py.SLEPc, gmsh, meshio, pyvista, pydantic, click, rich, pytest, xdist
+import dolfinx, slepc4py.SLEPc, gmsh, meshio, pyvista, pydantic, click, rich, pytest, xdist, hypothesis
 from petsc4py import PETSc
 import numpy
 version = tuple(int(part) for part in dolfinx.__version__.split(".")[:2])

@@ -25,7 +25,7 @@ from petsc4py import PETSc
 
 from hydroelastic.fem.cells import CURVED_QUADRATURE, is_straight, owned_cells
 from hydroelastic.fem.direct import direct_solver
-from hydroelastic.fem.kernels import jit_options
+from hydroelastic.fem.kernels import compiled_form
 from hydroelastic.meshes.compat import coordinate_degree
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.meshes.geometry import LIQUID
@@ -241,7 +241,7 @@ def _form(
     ds = chosen_measure("ds", mesh, mesh.topology.dim - 1, facets, 2 * degree + more)
     energy = ufl.inner(ufl.grad(potential), ufl.grad(test))
     form = (energy if weight is None else weight * energy) * dx + ufl.inner(potential, test) * ds
-    return fem.form(form, jit_options=jit_options())
+    return compiled_form(form)
 
 
 def chosen_measure(kind: str, mesh: Mesh, dim: int, entities: np.ndarray, quadrature_degree: int) -> ufl.Measure:

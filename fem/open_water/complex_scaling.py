@@ -21,7 +21,7 @@ from dolfinx.mesh import Mesh
 from petsc4py import PETSc
 
 from hydroelastic.fem.cells import CURVED_QUADRATURE, cell_corners, is_straight, owned_cells
-from hydroelastic.fem.kernels import jit_options
+from hydroelastic.fem.kernels import compiled_form
 from hydroelastic.fem.liquid import NO_ENTITIES, LiquidSpace, assembled, chosen_measure
 
 
@@ -113,7 +113,7 @@ def _weighted_form(
     dx = chosen_measure("dx", mesh, mesh.topology.dim, cells, 2 * liquid.degree - 2 + more)
     ds = chosen_measure("ds", mesh, mesh.topology.dim - 1, facets, 2 * liquid.degree + more)
     energy = sum(weight * potential.dx(axis) * test.dx(axis) for axis, weight in enumerate(weights[:-1]))
-    return fem.form(energy * dx + weights[-1] * potential * test * ds, jit_options=jit_options())
+    return compiled_form(energy * dx + weights[-1] * potential * test * ds)
 
 
 def complex_product(matrix: ComplexMatrix, vector: np.ndarray) -> np.ndarray:

@@ -17,7 +17,7 @@ from mpi4py import MPI
 from numpy.typing import NDArray
 from petsc4py import PETSc
 
-from hydroelastic.fem.kernels import jit_options
+from hydroelastic.fem.kernels import compiled_form
 from hydroelastic.fem.liquid import assembled
 from hydroelastic.fem.string.model import ScaledString
 from hydroelastic.meshes.line import graded_nodes, line_mesh, travel_nodes
@@ -125,7 +125,7 @@ class _Kernel:
         x = ufl.SpatialCoordinate(mesh)[0]
         dx = ufl.Measure("dx", domain=mesh, metadata={"quadrature_degree": 2 * degree + 1})
         energy = (self._stiffness[0] + self._stiffness[1] * x) * u.dx(0) * v.dx(0)
-        self._form = fem.form(((self._mass[0] + self._mass[1] * x) * u * v + energy) * dx, jit_options=jit_options())
+        self._form = compiled_form(((self._mass[0] + self._mass[1] * x) * u * v + energy) * dx)
 
     def matrix(self, mass: tuple[float, float] = (0.0, 0.0), stiffness: tuple[float, float] = (0.0, 0.0)) -> PETSc.Mat:
         self._mass.value[:], self._stiffness.value[:] = mass, stiffness

@@ -12,7 +12,7 @@ import numpy as np
 from dolfinx import fem
 from mpi4py import MPI
 
-from hydroelastic.fem.kernels import jit_options
+from hydroelastic.fem.kernels import compiled_form
 from hydroelastic.fem.thread.eigenpairs import Eigenpair
 from hydroelastic.fem.thread.operators import ThreadOperators
 from hydroelastic.fem.thread.table import line_table
@@ -39,7 +39,7 @@ class QuadraticDecay:
         self._velocity = fem.Function(self._shape.function_space)
         position = operators.equilibrium.state.position
         work = forms.load_work(position, self._velocity, self._shape) - forms.load_work(position, None, self._shape)
-        self._work = fem.form(work, jit_options=jit_options())
+        self._work = compiled_form(work)
 
     def rate(self, pair: Eigenpair, amplitude: float) -> float:
         """σ in 1/s.

@@ -16,7 +16,7 @@ from mpi4py import MPI
 from numpy.typing import NDArray
 from petsc4py import PETSc
 
-from hydroelastic.fem.kernels import jit_options
+from hydroelastic.fem.kernels import compiled_expression, compiled_form
 from hydroelastic.fem.thread.forms import ThreadForms
 from hydroelastic.fem.thread.instant import ThreadInstant
 from hydroelastic.fem.thread.motion_plan import EndCourse
@@ -82,11 +82,11 @@ class ThreadMover:
         self._facets = [space.end_tags.find(tag) for tag in (1, 2)]
         self._end_places = [self._places_of_end(facets) for facets in self._facets]
         tests = [ufl.TestFunction(fem.functionspace(space.mesh, ("DG", 0, (count,)))) for count in (4, 3)]
-        self._energies = fem.form(self.step.energies(tests[0]), jit_options=jit_options())
-        self._powers = fem.form(self.step.powers(tests[1]), jit_options=jit_options())
+        self._energies = compiled_form(self.step.energies(tests[0]))
+        self._powers = compiled_form(self.step.powers(tests[1]))
         state = [*ufl.split(self.step.before)[0], *ufl.split(self.step.speed)[0]]
-        self._sample = fem.Expression(ufl.as_vector(state), _ENDS, jit_options=jit_options())
-        self._tension = fem.Expression(self.step.tension, _ENDS, jit_options=jit_options())
+        self._sample = compiled_expression(ufl.as_vector(state), _ENDS)
+        self._tension = compiled_expression(self.step.tension, _ENDS)
         self._cells = np.arange(space.mesh.topology.index_map(1).size_local, dtype=np.int32)
         self._held = self._hold()
 

@@ -7,13 +7,12 @@ from typing import Any
 
 import numpy as np
 import ufl
-from dolfinx import fem
 from dolfinx.fem.petsc import assemble_matrix, assemble_vector, create_matrix
 from mpi4py import MPI
 from numpy.typing import NDArray
 from petsc4py import PETSc
 
-from hydroelastic.fem.kernels import jit_options
+from hydroelastic.fem.kernels import compiled_form
 
 # Of the thread's length: what a node moves in one step at most.
 STEP_LIMIT = 0.3
@@ -49,8 +48,8 @@ class NewtonSolver:
 
     def __init__(self, residual: Any, unknowns: Any, fixed: list[Any], update: Callable[[], None]) -> None:
         """Compile the forms and make the matrix."""
-        self._residual = fem.form(residual, jit_options=jit_options())
-        self._derivative = fem.form(ufl.derivative(residual, unknowns), jit_options=jit_options())
+        self._residual = compiled_form(residual)
+        self._derivative = compiled_form(ufl.derivative(residual, unknowns))
         self._unknowns, self._fixed, self._update = unknowns, fixed, update
         space = unknowns.function_space
         self._comm = space.mesh.comm

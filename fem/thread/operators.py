@@ -18,7 +18,7 @@ from mpi4py import MPI
 from numpy.typing import NDArray
 from petsc4py import PETSc
 
-from hydroelastic.fem.kernels import jit_options
+from hydroelastic.fem.kernels import compiled_form
 from hydroelastic.fem.liquid import assembled
 from hydroelastic.fem.thread.equilibrium import Equilibrium, split_state
 from hydroelastic.fem.thread.forms import ThreadForms, ThreadState, tangent
@@ -93,7 +93,7 @@ def thread_operators(equilibrium: Equilibrium, *, velocity_damping: bool = True)
     rows = PETSc.IS().createGeneral((free + first).astype(PETSc.IntType), comm=space.mesh.comm)
 
     def restricted(form: Any, factor: float) -> PETSc.Mat:
-        matrix = assembled(fem.form(form, jit_options=jit_options())).createSubMatrix(rows, rows)
+        matrix = assembled(compiled_form(form)).createSubMatrix(rows, rows)
         matrix.scale(factor)
         return matrix
 

@@ -23,7 +23,7 @@ from numpy.polynomial import legendre
 from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
-from hydroelastic.fem.kernels import jit_options
+from hydroelastic.fem.kernels import compiled_expression, compiled_form
 from hydroelastic.fem.thread.equilibrium import Equilibrium, Start, in_space
 from hydroelastic.fem.thread.forms import ThreadState
 from hydroelastic.fem.thread.model import ThreadModel
@@ -190,7 +190,7 @@ def _nodal(equilibrium: Equilibrium) -> tuple[NDArray[np.float64], NDArray[np.fl
 
 
 def _ends_of_elements(mesh: Any, broken: Any, form: Any) -> NDArray[np.float64]:
-    vector = assemble_vector(fem.form(form, jit_options=jit_options()))
+    vector = assemble_vector(compiled_form(form))
     owned = mesh.topology.index_map(1).size_local
     size = broken.dofmap.bs
     local = vector.array.reshape(-1, size)[broken.dofmap.list[:owned, :2]]
@@ -208,7 +208,7 @@ def _load_table(equilibrium: Equilibrium) -> NDArray[np.float64]:
         load = load + forms.moving_load(state.position, None)
     points, _ = basix.make_quadrature(basix.CellType.interval, space.quadrature_degree)
     owned = np.arange(space.mesh.topology.index_map(1).size_local, dtype=np.int32)
-    local = fem.Expression(load, points, jit_options=jit_options()).eval(space.mesh, owned)
+    local = compiled_expression(load, points).eval(space.mesh, owned)
     return gather_elements(space.mesh, local.reshape(len(owned), len(points), space.dimension), points)
 
 

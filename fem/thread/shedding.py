@@ -15,7 +15,7 @@ import basix.ufl
 import ufl
 from dolfinx import fem
 
-from hydroelastic.fem.kernels import jit_options
+from hydroelastic.fem.kernels import compiled_expression
 from hydroelastic.fem.thread.forms import ThreadForms, tangent
 
 
@@ -70,7 +70,7 @@ class SheddingLoad:
         speed = ufl.sqrt(ufl.inner(across, across) + 1e-16)
         turns = self._forms.constant(self._shedding.wave_number) * (self._way + self._half_step * speed)
         after = self._way + 2.0 * self._half_step * speed
-        self._next = fem.Expression(after, self._points, jit_options=jit_options())
+        self._next = compiled_expression(after, self._points)
         size = self._forms.constant(self._shedding.lift) * speed
         size *= ufl.sin(2.0 * pi * turns + self._forms.constant(self._shedding.phase))
         return size * ufl.cross(tangent(position), across)

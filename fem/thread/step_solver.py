@@ -13,7 +13,7 @@ from mpi4py import MPI
 from numpy.typing import NDArray
 from petsc4py import PETSc
 
-from hydroelastic.fem.kernels import jit_options
+from hydroelastic.fem.kernels import compiled_form
 
 # The last change of a mean velocity, times the step, in units of the length: the next one would be rounding.
 _TOLERANCE = 1e-9
@@ -62,8 +62,8 @@ class StepSolver:
 
     def __init__(self, residual: Any, unknown: Any, update: Callable[[], None]) -> None:
         """Compile the forms, make the matrix."""
-        self._residual = fem.form(residual, jit_options=jit_options())
-        self._derivative = fem.form(ufl.derivative(residual, unknown), jit_options=jit_options())
+        self._residual = compiled_form(residual)
+        self._derivative = compiled_form(ufl.derivative(residual, unknown))
         self._unknown, self._update = unknown, update
         space = unknown.function_space
         self._comm = space.mesh.comm

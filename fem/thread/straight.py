@@ -12,7 +12,7 @@ from mpi4py import MPI
 from numpy.typing import NDArray
 from petsc4py import PETSc
 
-from hydroelastic.fem.kernels import jit_options
+from hydroelastic.fem.kernels import compiled_form
 from hydroelastic.fem.thread.equilibrium import Equilibrium, fixed_components
 from hydroelastic.fem.thread.forms import ThreadForms, ThreadState
 from hydroelastic.fem.thread.model import ThreadModel, Units
@@ -94,7 +94,7 @@ def _check_balance(equilibrium: Equilibrium) -> None:
     state, test = equilibrium.state, ThreadState(*ufl.TestFunctions(space.mixed))
     if forms.stream is not None:
         forms.stream.update(state.position)
-    residual = fem.form(forms.static_residual(state, test), jit_options=jit_options())
+    residual = compiled_form(forms.static_residual(state, test))
     vector = fem_petsc.assemble_vector(residual)
     vector.ghostUpdate(addv=PETSc.InsertMode.ADD, mode=PETSc.ScatterMode.REVERSE)
     largest = float(np.abs(vector.array_r[free_unknowns(equilibrium)]).max(initial=0.0))

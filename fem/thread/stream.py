@@ -14,7 +14,7 @@ import ufl
 from dolfinx import fem
 from numpy.typing import NDArray
 
-from hydroelastic.fem.kernels import jit_options
+from hydroelastic.fem.kernels import compiled_expression
 from hydroelastic.fem.thread.model import Stream
 
 
@@ -32,7 +32,7 @@ class _Places:
 
     def update(self, position: Any, stream: Stream) -> None:
         if self._expression[0] is not position:
-            self._expression = position, fem.Expression(position, self._points, jit_options=jit_options())
+            self._expression = position, compiled_expression(position, self._points)
         self.position.interpolate(self._expression[1])
         dimension = self.position.function_space.dofmap.bs
         places = self.position.x.array.reshape(-1, dimension)

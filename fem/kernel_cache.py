@@ -1,0 +1,101 @@
+"""The folder in which dolfinx keeps compiled kernels: one process at a time adds to it, and what is damaged is removed.
+
+dolfinx marks a kernel as being compiled by its C file, for others to wait. Of a process that was killed the mark stays,
+and whoever meets it waits in vain. A lock that ends with its process goes before it here: who has it knows that nobody
+else compiles, so that an unfinished kernel is one that nobody will finish.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import logging
+import os
+import sys
+from collections import defaultdict
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from functools import cache
+from pathlib import Path
+
+from dolfinx.jit import get_options
+from mpi4py import MPI
+
+_LOG = logging.getLogger(__name__)
+_LOCK = "hydroelastic.lock"
+_ELF_HEADER = 64
+# What dolfinx makes before and after it compiles.
+_MARKS = {".c", ".c.cached"}
+# When a folder had last changed when it was looked through.
+_looked_at: dict[Path, int] = {}
+
+
+def cache_folder() -> Path:
+    """Return the folder of compiled kernels.
+
+    The launcher gives each environment a cache of its own. Elsewhere other programs, which know nothing of the lock,
+    compile into the folder of dolfinx, and ours lies in it.
+    """
+    shared = Path(get_options()["cache_dir"])
+    return shared if "HYDROELASTIC_INSIDE" in os.environ else shared / "hydroelastic"
+
+
+@contextmanager
+def kernels_locked(comm: MPI.Comm) -> Iterator[None]:
+    """Hold the lock on compiled kernels on rank 0, which compiles for all; damaged ones are removed first.
+
+    Args:
+        comm: the processes that need the kernel.
+    """
+    if comm.rank != 0:
+        yield
+        return
+    folder = cache_folder()
+    folder.mkdir(parents=True, exist_ok=True)
+    with (folder / _LOCK).open("a") as lock:
+        with suppress(OSError):  # Some network file systems have no locks: dolfinx then waits as it always does.
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            _remove_damaged(folder)
+        yield
+
+
+def _remove_damaged(folder: Path) -> None:
+    """Remove what is there of kernels that are not whole; the holder of the lock only."""
+    if _looked_at.get(folder) == folder.stat().st_mtime_ns:
+        return
+    endings = defaultdict(set)
+    for file in os.listdir(folder):
+        name, dot, ending = file.partition(".")
+        endings[name].add(dot + ending)
+    kernels = {name: found for name, found in endings.items() if name.startswith("libffcx_")}
+    damaged = [name for name, found in kernels.items() if not _is_whole(folder / name, found)]
+    for name in damaged:
+        for ending in kernels[name]:
+            (folder / f"{name}{ending}").unlink()
+    if damaged:
+        _is_whole_library.cache_clear()
+        _LOG.warning("hydroelastic: %d unfinished or damaged kernels in %s are compiled anew", len(damaged), folder)
+    _looked_at[folder] = folder.stat().st_mtime_ns
+
+
+def _is_whole(kernel: Path, endings: set[str]) -> bool:
+    """Whether a kernel can be loaded, or leaves nothing in the way of its compilation."""
+    libraries = [ending for ending in endings if ending.endswith(".so")]
+    if not libraries and endings.isdisjoint(_MARKS):
+        return True
+    whole = all(_is_whole_library(kernel.with_name(f"{kernel.name}{ending}")) for ending in libraries)
+    return bool(libraries) and endings >= _MARKS and whole
+
+
+@cache
+def _is_whole_library(file: Path) -> bool:
+    """Whether a shared library has the length that its header tells; to load a shorter one could end the process.
+
+    The table of sections is the last part of an ELF file: its place is at byte 40 of the header, the length and the
+    number of its entries at 58 and 60 (System V ABI, chapter 4).
+    """
+    with file.open("rb") as content:
+        header = content.read(_ELF_HEADER)
+    if header[:4] != b"\x7fELF":
+        return False
+    table, length, number = (int.from_bytes(header[at:to], sys.byteorder) for at, to in ((40, 48), (58, 60), (60, 62)))
+    return file.stat().st_size >= table + length * number

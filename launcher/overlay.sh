@@ -23,9 +23,9 @@ make_overlay() {
         done
     } >"$metadata/METADATA"
     printf 'hydro\n' >"$metadata/INSTALLER"
-    printf '[console_scripts]\nhydroelastic = hydroelastic.scenes.command_line:main\n' >"$metadata/entry_points.txt"
+    printf '[console_scripts]\nhydroelastic = hydroelastic.scenes.__main__:start\n' >"$metadata/entry_points.txt"
     # shellcheck disable=SC2016
-    printf '#!/bin/sh\nexec python -m hydroelastic.scenes.command_line "$@"\n' >"$building/bin/hydroelastic"
+    printf '#!/bin/sh\nexec python -m hydroelastic.scenes "$@"\n' >"$building/bin/hydroelastic"
     chmod +x -- "$building/bin/hydroelastic"
     publish "$overlay"
 }

@@ -1,19 +1,73 @@
-"""Ctrl-C while gmsh or PETSc calls back into Python: an exception there would leave their objects half way."""
+"""Ctrl-C and the signals that end a process: when they may act, and what they leave behind."""
 
 from __future__ import annotations
 
+import os
+import shutil
 import signal
+import sys
 import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from pathlib import Path
 from types import FrameType
 
-_SIGNALS = (signal.SIGINT, signal.SIGTERM)
+UNFINISHED: set[Path] = set()
+"""Folders that are being written, and that must not outlive the process."""
+
+
+def end_process(number: int, _frame: FrameType | None) -> None:
+    """Handle a signal by ending the process, without unfinished folders.
+
+    Nothing is raised: an exception in the midst of an import, or of a call back from gmsh or PETSc, would come out as a
+    traceback of some other error.
+    """
+    for folder in UNFINISHED:
+        shutil.rmtree(folder, ignore_errors=True)
+    if number == signal.SIGINT:
+        # The signal may have interrupted a print, which then refuses another one.
+        with suppress(RuntimeError, OSError):
+            print("Interrupted: no result folder was written.", file=sys.stderr, flush=True)
+    os._exit(128 + number)
+
+
+def end_on_interrupt() -> None:
+    """Let Ctrl-C end the process by `end_process`; for programs, not for who imports this package.
+
+    A job that a shell started with Ctrl-C ignored keeps ignoring it.
+    """
+    if signal.getsignal(signal.SIGINT) != signal.SIG_IGN:
+        signal.signal(signal.SIGINT, end_process)
+
+
+@contextmanager
+def unfinished(folder: Path) -> Iterator[None]:
+    """Remove a folder if a signal ends the process within the block.
+
+    Termination and hang-up are handled only where they would end the process anyhow: a handler of the caller,
+    ``nohup`` and threads other than the main one stay as they are.
+    """
+    UNFINISHED.add(folder)
+    replaced = []
+    if threading.current_thread() is threading.main_thread():
+        replaced = [number for number in (signal.SIGTERM, signal.SIGHUP) if signal.getsignal(number) == signal.SIG_DFL]
+    for number in replaced:
+        signal.signal(number, end_process)
+    try:
+        yield
+    finally:
+        for number in replaced:
+            signal.signal(number, signal.SIG_DFL)
+        UNFINISHED.discard(folder)
 
 
 @contextmanager
 def interrupts_deferred() -> Iterator[None]:
-    """Hold back Ctrl-C and termination until the block is done, then hand them to whoever handles them."""
+    """Hold back signals whose handlers raise, Ctrl-C first of all, until the block is done.
+
+    An exception while gmsh or PETSc calls back into Python would leave their objects half way. What ends the process
+    is not held back.
+    """
     if threading.current_thread() is not threading.main_thread():
         # Python delivers signals to its main thread only.
         yield
@@ -23,7 +77,10 @@ def interrupts_deferred() -> Iterator[None]:
     def note(number: int, _frame: FrameType | None) -> None:
         received.append(number)
 
-    previous = {number: signal.signal(number, note) for number in _SIGNALS}
+    handlers = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    previous = {number: handler for number, handler in handlers.items() if callable(handler) and handler != end_process}
+    for number in previous:
+        signal.signal(number, note)
     try:
         yield
     finally:

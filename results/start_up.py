@@ -57,7 +57,7 @@ def measure_run(scene: str, cache: Path, *, images: bool) -> tuple[Seconds, dict
     """
     with tempfile.TemporaryDirectory() as scratch:
         out = Path(scratch) / "result"
-        command = [sys.executable, "-m", "hydroelastic.scenes.command_line", "run", scene, "--out", str(out)]
+        command = [sys.executable, "-m", "hydroelastic.scenes", "run", scene, "--out", str(out)]
         begin = time.perf_counter()
         subprocess.run(
             command if images else [*command, "--no-images"],

@@ -5,17 +5,18 @@ from __future__ import annotations
 import contextlib
 import io
 import os
+import signal
 import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import IO, Any
+from typing import Any, NoReturn
 
 import click
 
 from hydroelastic.fem.pictures.options import DEFAULT_PICTURES, CurveFormat
-from hydroelastic.meshes.interrupts import interrupts_deferred
+from hydroelastic.meshes.interrupts import end_on_interrupt
 from hydroelastic.scenes.command_options import (
     animate_option,
     dpi_option,
@@ -26,9 +27,10 @@ from hydroelastic.scenes.command_options import (
     set_option,
     width_option,
 )
-from hydroelastic.scenes.errors import SceneError, UnsolvedError
+from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
 from hydroelastic.scenes.kinds import checker_of, comparer_of, runner_of
-from hydroelastic.scenes.output.folder import check_output, holds_result
+from hydroelastic.scenes.output.folder import check_output, place_of_results
+from hydroelastic.scenes.output.manifest import read_manifest
 from hydroelastic.scenes.program import PROGRAM
 from hydroelastic.scenes.read import Scene, closed_tank, read_scene, scene_path, shipped_scenes
 from hydroelastic.scenes.run import page_writer
@@ -36,6 +38,7 @@ from hydroelastic.scenes.run import page_writer
 BAD_INPUT = 2
 NOT_TO_TOLERANCE = 3
 INTERRUPTED = 130
+OUTPUT_BROKEN = 2
 _SECONDS_TO_END = 10
 
 RANK_VARIABLES = ("OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK")
@@ -54,22 +57,17 @@ class _Unsolved(click.ClickException):
     exit_code = NOT_TO_TOLERANCE
 
 
-class _Interrupted(click.ClickException):
-    """The user pressed Ctrl-C."""
-
-    exit_code = INTERRUPTED
-
-    def show(self, file: IO[Any] | None = None) -> None:
-        """Say so in one line."""
-        click.echo("Interrupted: no result folder was written.", file=file or sys.stderr)
-
-
 class _Commands(click.Group):
     """A group that turns the errors of the project into one message and an exit code."""
 
     def main(self, *arguments: Any, **settings: Any) -> Any:
         with _printing_on_one_rank():
-            return super().main(*arguments, **{"prog_name": PROGRAM} | settings)
+            try:
+                return super().main(*arguments, **{"prog_name": PROGRAM} | settings)
+            except OSError as error:
+                if error.filename is not None:
+                    raise
+                _end_without_output(error)
 
     def invoke(self, ctx: click.Context) -> Any:
         try:
@@ -78,8 +76,14 @@ class _Commands(click.Group):
             raise _BadInput(str(error)) from error
         except UnsolvedError as error:
             raise _Unsolved(str(error)) from error
-        except KeyboardInterrupt as error:
-            raise _Interrupted("interrupted") from error
+
+
+def _end_without_output(error: OSError) -> NoReturn:
+    """End the process with a message, because what is printed cannot be written: to a full disk, say."""
+    click.echo(f"Error: nothing can be printed: {error.strerror}. Redirect the output, or use --quiet.", err=True)
+    # The interpreter flushes once more when it ends, and would complain.
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+    sys.exit(OUTPUT_BROKEN)
 
 
 @contextlib.contextmanager
@@ -95,8 +99,35 @@ def _progress(title: str, *, shown: bool) -> Iterator[Callable[[str], None]]:
         # Text, not str: a title may hold brackets, which rich would read as markup.
         return Text(f"{message} – {title}", no_wrap=True, overflow="ellipsis")
 
-    with Console(stderr=True).status(line("libraries")) as status:
+    console = Console(stderr=True)
+    with console.status(line("libraries")) as status:
+        console.show_cursor(True)  # A signal that ends the process would leave it hidden.
         yield lambda message: status.update(line(message))
+
+
+def _folder_of_results(scene: str, out: Path | None, *, suffix: str = "") -> Path:
+    """Return where results of a scene go, and see that nothing is lost there.
+
+    Raises:
+        SceneError: if the folder cannot be written, or is not the user's choice and has the results of another scene.
+    """
+    file = Path(os.path.realpath(scene_path(scene)))
+    folder = out if out is not None else Path("results") / f"{file.stem}{suffix}"
+    earlier = check_output(folder)
+    other = earlier.scene_file(folder) if earlier is not None else None
+    if other is None or other == file:
+        return folder
+    if out is None:
+        raise SceneError(
+            Problem(
+                key=f"output folder {folder}",
+                wrong=f"it has the results of another scene, {other}",
+                remedy=f"Name another folder with --out; --out {folder} replaces them",
+            ),
+            file=file,
+        )
+    click.echo(f"Note: the results of {other} in {folder}/ will be replaced.", err=True)
+    return folder
 
 
 def _title(scene: Scene) -> str:
@@ -176,7 +207,7 @@ def run(
 ) -> None:
     """Solve SCENE, print its tables and write the result folder.
 
-    A previous result folder of the same name is replaced when the new one is complete.
+    Files of a previous run in the result folder are replaced when the new ones are complete; all else in it is kept.
 
     \b
     Example:
@@ -186,20 +217,18 @@ def run(
     if no_images and options != DEFAULT_PICTURES:
         raise click.UsageError("--no-images leaves nothing for the other options of images to do: drop it, or them.")
     checked = read_scene(scene, overrides)
-    folder = out if out is not None else Path("results") / scene_path(scene).stem
-    check_output(folder)
+    folder = _folder_of_results(scene, out)
     with _progress(_title(checked), shown=not quiet and sys.stderr.isatty()) as report:
         start = time.perf_counter()
-        # Interrupted half way, the libraries below end in an error of their own, or abort.
-        with interrupts_deferred():
-            run_kind = runner_of(checked)
-            write_page = page_writer(checked) if page else None
+        run_kind = runner_of(checked)
+        write_page = page_writer(checked) if page else None
         seconds = time.perf_counter() - start
         outcome = run_kind(
             checked,
             images=None if no_images else options,
             page=write_page,
             out=folder,
+            scene_file=scene_path(scene),
             import_seconds=seconds,
             report=report,
         )
@@ -226,8 +255,7 @@ def compare(context: click.Context, scene: str, overrides: tuple[str, ...]) -> N
     """
     checked = read_scene(scene, overrides)
     with _progress(_title(checked), shown=sys.stderr.isatty()) as report:
-        with interrupts_deferred():
-            compare_kind = comparer_of(checked)
+        compare_kind = comparer_of(checked)
         comparison = compare_kind(checked, report=report)
     click.echo(comparison.table())
     if comparison.status == "unconverged":
@@ -274,18 +302,17 @@ def study(
     plan = plan_from_options(options)
     checked = read_scene(scene, overrides)
     tank = closed_tank(checked, "a study measures the errors of frequencies of closed tanks")
-    folder = out if out is not None else Path("results") / f"{scene_path(scene).stem}_study"
-    check_output(folder)
-    replaces = holds_result(folder)
+    folder = _folder_of_results(scene, out, suffix="_study")
+    replaces = read_manifest(folder) is not None
     with _progress(_title(checked), shown=sys.stderr.isatty()) as report:
-        with interrupts_deferred():
-            from hydroelastic.scenes.study.report import study_table, write_study
-            from hydroelastic.scenes.study.run import study_scene
+        from hydroelastic.scenes.study.report import study_table, write_study
+        from hydroelastic.scenes.study.run import study_scene
+
         measured = study_scene(tank, plan, report=report)
         if _is_first_rank():
-            write_study(measured, folder, picture_options(formats, dpi=dpi))
+            write_study(measured, folder, picture_options(formats, dpi=dpi), scene_file=scene_path(scene))
     click.echo(study_table(measured))
-    click.echo(f"Written to {folder}/{' (replacing earlier ones)' if replaces else ''}")
+    click.echo(f"Written to {place_of_results(folder, replaces=replaces)}")
 
 
 @main.command()
@@ -359,6 +386,7 @@ def bench(
     arguments += [word for name in problem for word in ("--problem", name)]
     arguments += [] if repeats is None else ["--repeats", str(repeats)]
     # A process of its own, for nothing here may depend on the benchmark.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     process = subprocess.Popen([sys.executable, "-m", "hydroelastic.benchmarks", *arguments])
     try:
         code = process.wait()
@@ -377,4 +405,5 @@ for _command in (main, *main.commands.values()):
 
 
 if __name__ == "__main__":
+    end_on_interrupt()
     main()

@@ -41,7 +41,7 @@ NOT_RUN = {
     "./hydro test -m slow": ALL_TESTS,
     "HYDROELASTIC_SUITE=sid ./hydro test": "the second lane: another Debian, from the network",
     "./hydro env": "a command of the launcher, tests/test_launcher_commands.py",
-    "./hydro mpirun -n 2 python -m hydroelastic.scenes.command_line run aquarium": (
+    "./hydro mpirun -n 2 python -m hydroelastic.scenes run aquarium": (
         "MPI cannot start within MPI; tests marked mpi do it"
     ),
     "./hydro bench": MINUTES,

@@ -1,4 +1,4 @@
-"""Compiled kernels: a cache that a killed process or a full disk has damaged is mended, in words and without waiting."""
+"""Compiled kernels: a cache that a killed process has damaged is mended, in words and without waiting."""
 
 import os
 import signal

@@ -152,7 +152,7 @@ def inside(tools, tmp_path, prepared):
 def test_other_words_go_to_the_command_line_unchanged(inside):
     ended = inside("run", "my scene.toml", "--set", "tank.length=12", "", "*")
     assert ended.stdout.splitlines()[:-1] == [
-        *("-m", "hydroelastic.scenes.command_line"),
+        *("-m", "hydroelastic.scenes"),
         *("run", "my scene.toml", "--set", "tank.length=12", "", "*"),
     ]
 

@@ -79,7 +79,7 @@ def test_metadata_has_the_command_and_the_requirements(checkout, tmp_path):
         for line in (checkout / "requirements" / f"{name}.txt").read_text().splitlines()
     ]
     required = sum(bool(line.split("#")[0].strip()) for line in lines)
-    expected = f"['hydroelastic.scenes.command_line:main'] {required}"
+    expected = f"['hydroelastic.scenes.__main__:start'] {required}"
     assert python(checkout, tmp_path / "cache", code) == expected
 
 

@@ -15,6 +15,7 @@ from scene_files import BEAM_IN_TANK
 
 from hydroelastic.fem.pictures.options import PictureOptions
 from hydroelastic.scenes.command_line import main
+from hydroelastic.scenes.read import scene_path
 
 DRAWING = {"vtk", "vtkmodules", "pyvista", "matplotlib", "PIL"}
 HEAVY = DRAWING | {
@@ -51,7 +52,7 @@ def invoke(*arguments: str) -> Result:
 
 
 def process(*arguments: str, **environment: str) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "hydroelastic.scenes.command_line", *arguments]
+    command = [sys.executable, "-m", "hydroelastic.scenes", *arguments]
     return subprocess.run(
         command, capture_output=True, text=True, encoding="utf-8", check=False, env=os.environ | environment, timeout=30
     )
@@ -241,7 +242,7 @@ def test_the_exit_code_tells_whether_the_tolerance_was_met(
 
 def test_a_terminal_is_told_the_scene_and_what_is_done() -> None:
     said, written = pty.openpty()
-    command = [sys.executable, "-m", "hydroelastic.scenes.command_line", "run", "swell", "--no-images"]
+    command = [sys.executable, "-m", "hydroelastic.scenes", "run", "swell", "--no-images"]
     ended = subprocess.run(
         command, stdout=subprocess.DEVNULL, stderr=written, env=os.environ | {"TERM": "xterm"}, check=False, timeout=60
     )
@@ -258,15 +259,31 @@ def test_results_that_are_replaced_are_named() -> None:
     assert second.endswith("Results written to mine/ (replacing earlier ones)\n")
 
 
-def test_an_interrupt_is_one_line_and_130(monkeypatch: pytest.MonkeyPatch) -> None:
-    def run_scene(scene: Any, **settings: Any) -> Any:
-        raise KeyboardInterrupt
+def test_two_scenes_of_one_name_are_kept_apart(tmp_path: Path) -> None:
+    for folder in ("a", "b"):
+        (tmp_path / folder).mkdir()
+        (tmp_path / folder / "roll.toml").write_bytes(scene_path("swell").read_bytes())
+    first, second = os.path.join("a", "roll.toml"), os.path.join("b", "roll.toml")
+    assert invoke("run", first, "--no-images").exit_code == 0
+    summary = Path("results/roll/summary.json")
+    before = summary.stat().st_ino
+    assert_refused(invoke("run", second, "--no-images"), "another scene", str(tmp_path / first), "--out")
+    assert summary.stat().st_ino == before
+    replaced = invoke("run", second, "--no-images", "--out", "results/roll")
+    assert replaced.stderr == f"Note: the results of {tmp_path / first} in results/roll/ will be replaced.\n"
+    # The scene that is there now is that of the last run.
+    assert invoke("run", second, "--no-images").stderr == ""
 
-    monkeypatch.setitem(sys.modules, "hydroelastic.scenes.tank.run", solver_that(run_scene))
-    result = invoke("run", "aquarium")
-    assert result.exit_code == 130
-    assert result.stdout == ""
-    assert len(result.stderr.strip().splitlines()) == 1
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device that is always full")
+@pytest.mark.parametrize("arguments", [["list"], ["check", "swell"], ["run", "swell", "--no-images"]])
+def test_an_output_that_is_full_is_one_line(arguments: list[str]) -> None:
+    command = [sys.executable, "-m", "hydroelastic.scenes", *arguments]
+    with Path("/dev/full").open("w") as full:
+        ended = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False, timeout=60)
+    assert ended.returncode == 2
+    assert ended.stderr.count("\n") == 1
+    assert "nothing can be printed: No space left on device" in ended.stderr
 
 
 @pytest.mark.parametrize(

@@ -196,7 +196,7 @@ def test_a_run_writes_its_folder(scene_file: Path, monkeypatch: pytest.MonkeyPat
     assert result.exit_code == 0, result.output
     assert "Radiation by heave" in result.stdout
     folder = Path("results/circle")
-    files = ["dataset.nc", "images", "radiation.csv", "summary.json", "summary.md"]
+    files = ["dataset.nc", "images", "manifest.json", "radiation.csv", "summary.json", "summary.md"]
     assert sorted(path.name for path in folder.iterdir()) == files
     assert [path.name for path in (folder / "images").iterdir()] == ["radiation_1.png"]
     summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))

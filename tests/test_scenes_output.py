@@ -1,4 +1,4 @@
-"""Result folders: whole or not at all, and never over what is not ours."""
+"""Result folders: whole or not at all, and never over what no run has written."""
 
 import errno
 import json
@@ -13,8 +13,9 @@ from pathlib import Path
 import pytest
 
 from hydroelastic.scenes.errors import SceneError
+from hydroelastic.scenes.output import exchange as exchange_module
 from hydroelastic.scenes.output import folder as output
-from hydroelastic.scenes.output.folder import check_output, result_folder
+from hydroelastic.scenes.output.folder import check_output, place_of_results, result_folder
 
 SUMMARY = json.dumps({"scene": {}, "status": "ok"})
 
@@ -35,14 +36,139 @@ def test_a_result_appears_with_the_folders_above_it(tmp_path: Path) -> None:
     assert (target / "summary.json").is_file()
 
 
+@pytest.fixture(params=["one step", "two steps"])
+def steps(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> str:
+    """How folders exchange their names: in one step, or in two where the file system has no such thing."""
+    if request.param == "two steps":
+        monkeypatch.setattr(exchange_module.sys, "platform", "another system")
+    return str(request.param)
+
+
+@pytest.mark.usefixtures("steps")
 def test_a_previous_result_is_replaced_as_a_whole(tmp_path: Path) -> None:
     target = tmp_path / "result"
-    write_result(target)
-    (target / "old.csv").touch()
+    with result_folder(target) as folder:
+        (folder / "fields").mkdir()
+        (folder / "fields" / "old.vtu").touch()
     write_result(target, "newer")
     assert (target / "modes.csv").read_text(encoding="utf-8") == "newer"
-    assert not (target / "old.csv").exists()
+    assert not (target / "fields").exists()
     assert [path.name for path in tmp_path.iterdir()] == ["result"]
+
+
+@pytest.mark.usefixtures("steps")
+def test_what_no_run_has_written_is_kept(tmp_path: Path) -> None:
+    target = tmp_path / "result"
+    write_result(target)
+    (target / "mine.toml").write_text("the scene", encoding="utf-8")
+    (target / "mine").mkdir()
+    (target / "mine" / "notes.md").write_text("notes", encoding="utf-8")
+    (target / "mine" / "link").symlink_to("nowhere")
+    (target / "folder").symlink_to("mine")
+    inode = (target / "mine.toml").stat().st_ino
+    for _ in range(2):
+        write_result(target, "newer")
+        assert (target / "modes.csv").read_text(encoding="utf-8") == "newer"
+        assert (target / "mine" / "notes.md").read_text(encoding="utf-8") == "notes"
+        assert (target / "mine" / "link").is_symlink()
+        assert (target / "folder").is_symlink()
+        # The same file: an editor that has it open goes on with it.
+        assert (target / "mine.toml").stat().st_ino == inode
+        assert place_of_results(target, replaces=True).endswith(
+            "(replacing earlier ones, keeping folder, mine.toml, mine/link and 1 more)"
+        )
+    assert [path.name for path in tmp_path.iterdir()] == ["result"]
+
+
+def test_results_that_were_changed_are_kept_under_another_name(tmp_path: Path) -> None:
+    target = tmp_path / "result"
+    write_result(target)
+    for text in ("first remark", "second remark"):
+        (target / "modes.csv").write_text(text, encoding="utf-8")
+        write_result(target, "newer")
+    assert (target / "modes.csv").read_text(encoding="utf-8") == "newer"
+    assert (target / "modes.csv.kept").read_text(encoding="utf-8") == "first remark"
+    assert (target / "modes.csv.kept.kept").read_text(encoding="utf-8") == "second remark"
+
+
+def test_a_file_of_the_user_is_kept_where_the_new_results_have_one_of_that_name(tmp_path: Path) -> None:
+    target = tmp_path / "result"
+    write_result(target)
+    with result_folder(target) as folder:
+        (folder / "response.csv").write_text("results", encoding="utf-8")
+        (target / "response.csv").write_text("mine", encoding="utf-8")
+    assert (target / "response.csv").read_text(encoding="utf-8") == "results"
+    assert (target / "response.csv.kept").read_text(encoding="utf-8") == "mine"
+
+
+def test_files_are_copied_where_they_cannot_have_two_names(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def no_links(*_arguments: object, **_settings: object) -> None:
+        raise OSError(errno.EPERM, os.strerror(errno.EPERM))
+
+    monkeypatch.setattr(os, "link", no_links)
+    target = tmp_path / "result"
+    write_result(target)
+    (target / "notes.md").write_text("notes", encoding="utf-8")
+    write_result(target)
+    assert (target / "notes.md").read_text(encoding="utf-8") == "notes"
+
+
+def test_what_appears_amid_the_exchange_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    target = tmp_path / "result"
+    write_result(target)
+    exchange = exchange_module.exchange
+
+    def late(new: Path, old: Path) -> None:
+        (old / "late.md").touch()
+        exchange(new, old)
+
+    monkeypatch.setattr(output, "exchange", late)
+    write_result(target)
+    assert (target / "late.md").exists()
+
+
+def test_the_list_of_files_names_the_scene_relative_to_the_folder(tmp_path: Path) -> None:
+    scene = tmp_path / "scenes" / "tank.toml"
+    with result_folder(tmp_path / "results" / "tank", scene_file=scene):
+        pass
+    tmp_path.rename(tmp_path.with_name("moved"))
+    moved = tmp_path.with_name("moved")
+    listed = check_output(moved / "results" / "tank")
+    assert listed is not None
+    assert listed.scene_file(moved / "results" / "tank") == moved / "scenes" / "tank.toml"
+
+
+def leave_remains(target: Path, ending: str) -> Path:
+    remains = target.with_name(f".{target.name}.0a1b2c3d{ending}")
+    write_result(remains)
+    return remains
+
+
+@pytest.mark.parametrize("ending", [".partial", ".previous"])
+def test_what_killed_runs_have_left_is_removed(tmp_path: Path, ending: str) -> None:
+    target = tmp_path / "result"
+    write_result(target)
+    remains = leave_remains(target, ending)
+    others = leave_remains(tmp_path / "result.2", ending)
+    check_output(target)
+    assert not remains.exists()
+    assert others.exists()
+
+
+def test_a_run_that_was_killed_amid_the_exchange_gives_its_old_results_back(tmp_path: Path) -> None:
+    target = tmp_path / "result"
+    leave_remains(target, ".previous")
+    check_output(target)
+    assert (target / "modes.csv").read_text(encoding="utf-8") == "new"
+    assert [path.name for path in tmp_path.iterdir()] == ["result"]
+
+
+def test_what_another_run_is_writing_is_left_alone(tmp_path: Path) -> None:
+    target = tmp_path / "result"
+    with result_folder(target) as folder:
+        program = f"from hydroelastic.scenes.output.folder import check_output; check_output({str(target)!r})"
+        subprocess.run([sys.executable, "-c", program], check=True, timeout=60)
+        assert folder.exists()
 
 
 def test_an_empty_folder_is_filled(tmp_path: Path) -> None:
@@ -83,6 +209,7 @@ def test_errors_that_are_not_about_the_folder_stay_what_they_are(tmp_path: Path)
 
 
 def test_a_failed_move_keeps_the_previous_result(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(exchange_module.sys, "platform", "another system")
     target = tmp_path / "result"
     write_result(target)
     rename = Path.rename
@@ -99,13 +226,17 @@ def test_a_failed_move_keeps_the_previous_result(tmp_path: Path, monkeypatch: py
     assert (target / "modes.csv").read_text(encoding="utf-8") == "new"
 
 
-@pytest.mark.parametrize("summary", [None, "{}", "not JSON", "[1]", '{"scene": 1}'])
-def test_foreign_folders_are_refused_and_kept(tmp_path: Path, summary: str | None) -> None:
+FOREIGN = [None, "{}", "not JSON", "[1]", '{"scene": 1, "files": []}', '{"scene": "", "files": 1}']
+
+
+@pytest.mark.parametrize("listed", FOREIGN)
+def test_foreign_folders_are_refused_and_kept(tmp_path: Path, listed: str | None) -> None:
     target = tmp_path / "mine"
     target.mkdir()
     (target / "thesis.tex").touch()
-    if summary is not None:
-        (target / "summary.json").write_text(summary, encoding="utf-8")
+    (target / "summary.json").write_text(SUMMARY, encoding="utf-8")
+    if listed is not None:
+        (target / "manifest.json").write_text(listed, encoding="utf-8")
     with pytest.raises(SceneError, match="not a result folder"):
         check_output(target)
     with pytest.raises(SceneError, match="not a result folder"):

@@ -108,6 +108,7 @@ def test_files_tell_one_motion(tmp_path: Path) -> None:
     folder = tmp_path / "result"
     solution = solve("swell")
     assert {path.name for path in folder.iterdir()} == {
+        "manifest.json",
         "summary.json",
         "summary.md",
         "response.csv",

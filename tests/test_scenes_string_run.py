@@ -120,7 +120,16 @@ def test_files_tell_one_motion(tmp_path: Path) -> None:
     outcome = run_string(scene, out=tmp_path / "result")
     folder = tmp_path / "result"
     solution = solve("string_table", "output.frames=5", "output.times={start=0, stop=8, number=33}")
-    names = {"summary.json", "summary.md", "response.csv", "modes.csv", "dataset.nc", "fields", "images"}
+    names = {
+        "manifest.json",
+        "summary.json",
+        "summary.md",
+        "response.csv",
+        "modes.csv",
+        "dataset.nc",
+        "fields",
+        "images",
+    }
     assert {path.name for path in folder.iterdir()} == names
     assert json.loads((folder / "summary.json").read_text(encoding="utf-8")) == outcome.summary
     with (folder / "response.csv").open(encoding="utf-8") as file:

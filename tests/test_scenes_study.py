@@ -248,6 +248,7 @@ def test_write_study_leaves_a_result_folder(beam: Study, tmp_path: Path) -> None
         "study.txt",
         "study.png",
         "summary.json",
+        "manifest.json",
     }
     assert (tmp_path / "out" / "study.png").stat().st_size > 20_000
     summary = json.loads((tmp_path / "out" / "summary.json").read_text(encoding="utf-8"))

@@ -117,7 +117,10 @@ def test_the_command_prints_and_writes_what_was_asked(tmp_path: Path) -> None:
     assert result.exit_code == 0, result.output
     assert "Uniform meshes" in result.stdout
     assert "geometric rings" not in result.stdout
-    assert {path.name for path in folder.iterdir()} == {"study.csv", "study.txt", "study.png", "summary.json"}
+    assert {path.name for path in folder.iterdir()} == {
+        *("study.csv", "study.txt", "study.png"),
+        *("summary.json", "manifest.json"),
+    }
     assert (folder / "study.txt").read_text(encoding="utf-8").strip() in result.stdout
 
 

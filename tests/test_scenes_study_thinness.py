@@ -111,7 +111,7 @@ def test_table_csv_and_figure_tell_the_same(study: Study, tmp_path: Path) -> Non
             assert f"{found.difference:+.2e}" in text
     write_study(study, tmp_path / "out")
     names = {path.name for path in (tmp_path / "out").iterdir()}
-    assert names == {"study.txt", "thinness.csv", "thinness.png", "summary.json"}
+    assert names == {"study.txt", "thinness.csv", "thinness.png", "summary.json", "manifest.json"}
     assert (tmp_path / "out" / "thinness.png").stat().st_size > 20_000
     summary = json.loads((tmp_path / "out" / "summary.json").read_text(encoding="utf-8"))
     assert summary["status"] == "ok"

@@ -1,65 +1,76 @@
-"""Result folders that appear whole or not at all."""
+"""Result folders that appear whole or not at all, and that keep what a run did not write."""
 
 from __future__ import annotations
 
 import contextlib
 import errno
+import fcntl
+import glob
 import json
 import os
 import secrets
 import shutil
-import signal
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from types import FrameType
 from typing import TYPE_CHECKING, Any
 
+from hydroelastic.meshes.interrupts import unfinished
 from hydroelastic.scenes.errors import Problem, SceneError
+from hydroelastic.scenes.output.exchange import exchange
 from hydroelastic.scenes.output.json_values import json_ready
+from hydroelastic.scenes.output.manifest import MANIFEST, Manifest, file_names, read_manifest, write_manifest
 
 if TYPE_CHECKING:
     from mpi4py import MPI
 
 SUMMARY = "summary.json"
-SUMMARY_KEYS = {"scene", "status"}
-"""A folder is one of ours, and may be replaced, if its summary has these keys."""
+MOST_KEPT_NAMED = 3
 
 
-def check_output(path: str | Path) -> None:
+def check_output(path: str | Path) -> Manifest | None:
     """See, before any solving, that a result folder can be written; leaves nothing behind.
 
+    What runs that were killed have left beside the folder is removed.
+
     Args:
-        path: the folder to be written. Missing folders above it would be made. A previous result folder
+        path: the folder to be written. Missing folders above it would be made. The files of a previous run
             would be replaced, an empty folder filled.
+
+    Returns:
+        The list of the files of a previous run, if there are any.
 
     Raises:
         SceneError: if the path is a file, a foreign folder or the current one, or nothing can be written there.
     """
     try:
         target = Path(os.path.realpath(path))
+        _clear_remains(target)
         _refuse_occupied(target)
         if not target.exists():
             # A name that no file system takes: pathlib of Python 3.14 calls it missing and no more.
             with contextlib.suppress(FileNotFoundError):
                 os.lstat(target)
         above = next(folder for folder in target.parents if folder.exists())
-        os.rmdir(tempfile.mkdtemp(prefix=".hydroelastic.", dir=above))
+        with _aside(above / target.name) as aside:
+            aside.rmdir()
     except OSError as error:
         raise _unwritable(path, error) from error
+    return read_manifest(target)
 
 
 @contextmanager
-def result_folder(path: str | Path) -> Iterator[Path]:
+def result_folder(path: str | Path, *, scene_file: Path | None = None) -> Iterator[Path]:
     """Give a folder to write into; when the block ends well it becomes ``path``, else it vanishes.
 
-    The folder is made beside ``path``, so that moving it is a renaming within one file system. A previous result
-    folder is replaced only then. Exceptions, Ctrl-C and the signals that end a job remove what was written.
-    Under MPI only one rank may enter.
+    The folder is made beside ``path``, so that moving it is a renaming within one file system. Files that a previous
+    run listed and that are unchanged are replaced only then. All else that is in ``path`` keeps its place; where the
+    new results have a file of that name, it gets the ending ``.kept``. Exceptions, Ctrl-C and the signals that end a
+    job remove what was written. Under MPI only one rank may enter.
 
     Args:
         path: the result folder; missing folders above it are made.
+        scene_file: the scene file, for the list of files; ``None`` where the scene comes from Python.
 
     Yields:
         The folder to write into.
@@ -70,19 +81,54 @@ def result_folder(path: str | Path) -> Iterator[Path]:
     check_output(path)
     target = Path(os.path.realpath(path))
     made = [folder for folder in target.parents if not folder.exists()]
-    aside = target.parent / f".{target.name}.{secrets.token_hex(4)}.partial"
     try:
-        with _ending_signals_raise():
-            aside.mkdir(parents=True)
+        target.parent.mkdir(parents=True, exist_ok=True)
+        with _aside(target) as aside:
             yield aside
+            write_manifest(aside, scene_file=scene_file, place=target)
             _refuse_occupied(target)
             _move_in(aside, target)
     except BaseException as error:
-        shutil.rmtree(aside, ignore_errors=True)
         _remove_if_empty(made)
         if isinstance(error, OSError) and _concerns(error, target.parent):
             raise _unwritable(target, error) from error
         raise
+
+
+@contextmanager
+def _aside(target: Path) -> Iterator[Path]:
+    """Give an empty folder beside another one, which vanishes at the end of the block, and with the process.
+
+    A shared lock on it, which ends with the process however that ends, tells later runs that it is in use.
+    """
+    aside = target.parent / f".{target.name}.{secrets.token_hex(4)}.partial"
+    with unfinished(aside):
+        aside.mkdir()
+        held = os.open(aside, os.O_RDONLY)
+        try:
+            with contextlib.suppress(OSError):  # Some network file systems have no locks.
+                fcntl.flock(held, fcntl.LOCK_SH)
+            aside.mkdir(exist_ok=True)  # A run that looked for remains may have removed it before it was locked.
+            yield aside
+        finally:
+            shutil.rmtree(aside, ignore_errors=True)
+            os.close(held)
+
+
+def _clear_remains(target: Path) -> None:
+    """Remove what killed runs have left beside a folder; where one was killed amid a move, move back."""
+    name = f".{glob.escape(target.name)}.????????"
+    for remains in target.parent.glob(f"{name}.previous"):
+        if not target.exists():
+            remains.rename(target)
+    for remains in (*target.parent.glob(f"{name}.partial"), *target.parent.glob(f"{name}.previous")):
+        with contextlib.suppress(OSError):
+            held = os.open(remains, os.O_RDONLY)
+            try:
+                fcntl.flock(held, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                shutil.rmtree(remains)
+            finally:
+                os.close(held)
 
 
 def _concerns(error: OSError, folder: Path) -> bool:
@@ -97,8 +143,12 @@ def _refuse_occupied(target: Path) -> None:
             raise _refused(target, "it is the current folder or above it", "Name a folder in it")
         if os.path.ismount(target):
             raise _refused(target, "it is a mount point and cannot be replaced", "Name a folder in it")
-        if any(target.iterdir()) and not holds_result(target):
-            raise _refused(target, "it is not empty and not a result folder", "Name another folder or empty this one")
+        if any(target.iterdir()) and read_manifest(target) is None:
+            raise _refused(
+                target,
+                f"it is not empty and not a result folder: it lacks {MANIFEST}, the list of what a run wrote",
+                "Name another folder or empty this one",
+            )
     elif os.path.lexists(target):
         raise _refused(target, "it is not a folder", "Name another folder")
     above = next(folder for folder in target.parents if folder.exists())
@@ -106,28 +156,55 @@ def _refuse_occupied(target: Path) -> None:
         raise _refused(target, f"{above} is not a folder", "Name another folder")
 
 
-def holds_result(folder: Path) -> bool:
-    """Return whether results of an earlier run are in a folder, which may be missing."""
-    try:
-        summary = json.loads((folder / SUMMARY).read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        return False
-    return isinstance(summary, dict) and summary.keys() >= SUMMARY_KEYS
-
-
 def _move_in(aside: Path, target: Path) -> None:
-    """Put the finished folder in place of the previous one, which is kept until that has worked."""
+    """Put the finished folder in place of the previous one, together with what no run wrote there."""
     if not target.exists():
         aside.rename(target)
         return
-    previous = aside.with_suffix(".previous")
-    target.rename(previous)
+    earlier = read_manifest(target) or Manifest(scene="", files={})
+    found = file_names(target)
+    _keep([name for name in found if not earlier.is_own(target, name)], target, aside)
+    exchange(aside, target)
+    # What came after the look is where the new results have been made.
+    _keep(sorted(set(file_names(aside)) - set(found)), aside, target)
+
+
+def _keep(names: list[str], source: Path, target: Path) -> None:
+    # What keeps its name goes first.
+    for name in sorted(names, key=lambda name: os.path.lexists(target / name)):
+        _link(source / name, _free_name(target / name))
+
+
+def _free_name(path: Path) -> Path:
+    """The path itself, or the first one with endings ``.kept`` at which there is nothing."""
+    while os.path.lexists(path):
+        path = path.with_name(f"{path.name}.kept")
+    return path
+
+
+def _link(source: Path, target: Path) -> None:
+    """Give a file a second name; where the file system has no such thing, copy it."""
+    target.parent.mkdir(parents=True, exist_ok=True)
     try:
-        aside.rename(target)
-    except BaseException:
-        previous.rename(target)
-        raise
-    shutil.rmtree(previous, ignore_errors=True)
+        os.link(source, target, follow_symlinks=False)
+    except OSError:
+        shutil.copy2(source, target, follow_symlinks=False)
+
+
+def place_of_results(folder: Path, *, replaces: bool) -> str:
+    """Return where results are, in words: what was there before, and what of it is there still.
+
+    Args:
+        folder: the result folder.
+        replaces: whether files of an earlier run were there.
+    """
+    listed = read_manifest(folder)
+    kept = [] if listed is None else sorted(set(file_names(folder)) - listed.files.keys() - {MANIFEST})
+    said = ["replacing earlier ones"] * replaces
+    if kept:
+        more = f" and {len(kept) - MOST_KEPT_NAMED} more" if len(kept) > MOST_KEPT_NAMED else ""
+        said.append(f"keeping {', '.join(kept[:MOST_KEPT_NAMED])}{more}")
+    return f"{folder}/ ({', '.join(said)})" if said else f"{folder}/"
 
 
 def _remove_if_empty(folders: list[Path]) -> None:
@@ -139,7 +216,7 @@ def _remove_if_empty(folders: list[Path]) -> None:
 
 
 def write_summary(summary: dict[str, Any], folder: Path) -> None:
-    """Write ``summary.json``, which makes a folder one of ours; infinity is the text "inf", no number is null."""
+    """Write ``summary.json``; infinity is the text "inf", no number is null."""
     text = json.dumps(json_ready(summary), indent=1, ensure_ascii=False, allow_nan=False)
     (folder / SUMMARY).write_text(text + "\n", encoding="utf-8")
 
@@ -155,31 +232,6 @@ def raise_on_all(problem: BaseException | None, comm: MPI.Comm) -> None:
         raise problem
     if failed:
         raise SceneError(Problem(wrong="the first process could not write the result folder"))
-
-
-@contextmanager
-def _ending_signals_raise() -> Iterator[None]:
-    """Turn the signals that end a job into `SystemExit`, so that blocks are left in order.
-
-    Only where they would end the process at once: a handler of the caller, ``nohup`` and threads stay as they are.
-    """
-    replaced = []
-    for number in (signal.SIGTERM, signal.SIGHUP):
-        if signal.getsignal(number) == signal.SIG_DFL:
-            try:
-                signal.signal(number, _exit_with)
-            except ValueError:
-                break  # only the main thread may set handlers
-            replaced.append(number)
-    try:
-        yield
-    finally:
-        for number in replaced:
-            signal.signal(number, signal.SIG_DFL)
-
-
-def _exit_with(number: int, frame: FrameType | None) -> None:
-    raise SystemExit(128 + number)
 
 
 def _refused(target: str | Path, wrong: str, remedy: str) -> SceneError:

@@ -11,7 +11,7 @@ from mpi4py import MPI
 
 from hydroelastic.fem.pictures.options import DEFAULT_PICTURES, PictureOption, PictureOptions
 from hydroelastic.scenes.output.dataset import LabelledResults
-from hydroelastic.scenes.output.folder import holds_result
+from hydroelastic.scenes.output.manifest import read_manifest
 from hydroelastic.scenes.output.outcome import Outcome
 from hydroelastic.scenes.output.provenance import Summary
 from hydroelastic.scenes.output.sections import Section, markdown_sections
@@ -69,6 +69,7 @@ class StagedRun(Generic[_Scene, _Solution]):
         scene: _Scene,
         *,
         out: Path | None = None,
+        scene_file: Path | None = None,
         images: PictureOptions | None = DEFAULT_PICTURES,
         page: Callable[[Outcome, Path], None] | None = None,
         import_seconds: float = 0.0,
@@ -79,6 +80,7 @@ class StagedRun(Generic[_Scene, _Solution]):
         Args:
             scene: the scene.
             out: result folder, made whole or not at all; ``None`` writes nothing.
+            scene_file: where the scene was read; ``None`` if it was made in Python.
             images: how to draw; ``None`` draws nothing.
             page: writes a page about the outcome into the folder, on rank 0 and last; ``None`` writes none.
             import_seconds: time that importing libraries took, for the record.
@@ -95,7 +97,7 @@ class StagedRun(Generic[_Scene, _Solution]):
         outcome = Outcome(solution=solution, summary=summary, sections=sections, cost=self.cost(summary), folder=out)
         if out is not None:
             # Asked before anything is written there.
-            replaces = holds_result(out)
+            replaces = read_manifest(out) is not None
             watch = Stopwatch()
             report("fields")
             with watch.stage("sample"):
@@ -113,6 +115,7 @@ class StagedRun(Generic[_Scene, _Solution]):
             warnings = write_results(
                 out,
                 summary,
+                scene_file=scene_file,
                 tables=lambda folder: self.write(sampled, folder),
                 arrays=lambda: self.dataset.arrays(sampled),
                 names=self.dataset.names,

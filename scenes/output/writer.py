@@ -24,6 +24,7 @@ def write_results(
     out: Path,
     summary: Summary,
     *,
+    scene_file: Path | None,
     tables: Callable[[Path], None],
     arrays: Callable[[], xarray.Dataset],
     names: SummaryNames,
@@ -37,6 +38,7 @@ def write_results(
     Args:
         out: the folder, made whole or not at all.
         summary: content of ``summary.json``; the seconds that writing takes are added.
+        scene_file: where the scene was read; ``None`` if it was made in Python.
         tables: writes files of numbers into a folder.
         arrays: gives the labelled arrays of ``dataset.nc``.
         names: of what the summary adds to them.
@@ -56,7 +58,7 @@ def write_results(
     warnings: list[str] = []
     if comm.rank == 0:
         try:
-            with result_folder(out) as folder:
+            with result_folder(out, scene_file=scene_file) as folder:
                 with watch.stage("write"):
                     report("tables")
                     tables(folder)

@@ -21,6 +21,8 @@ from hydroelastic.scenes.tank.scaled_tank import ScaledTank, StillLevel
 
 _BEAM_POINTS = 201
 _ARC_POINTS = 64
+# Both ends of a beam move alike in modes of a symmetric tank: relative difference of what counts as equal.
+_EQUAL = 1e-9
 # What moves less than this part of the waves moves by rounding, and is not to choose the sign of a mode.
 _STILL = 1e-6
 
@@ -102,13 +104,15 @@ def body_shapes(tank: ScaledTank, bodies: tuple[Body, ...], amplitudes: Array) -
         else:
             beams.append(_displaced_beam(tank, index, body, own))
             leading.append(largest_of(beams[-1].displacement))
-    return BodyShapes(beams=tuple(beams), floats=tuple(floats), motions=tuple(motions), leading=max(leading, key=abs))
+    return BodyShapes(
+        beams=tuple(beams), floats=tuple(floats), motions=tuple(motions), leading=largest_of(np.array(leading))
+    )
 
 
 def largest_of(displacement: Array) -> float:
-    """The value that is largest without its sign; of equal ones the first."""
+    """The value that is largest without its sign; of those that rounding alone tells apart the first."""
     sizes = np.abs(displacement)
-    return float(displacement[np.argmax(sizes)])
+    return float(displacement[np.argmax(sizes >= (1.0 - _EQUAL) * sizes.max())])
 
 
 def sign_of(bodies: BodyShapes, waves: tuple[SurfaceCurve, ...]) -> float:

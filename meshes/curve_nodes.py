@@ -33,19 +33,18 @@ def outermost_ring(outline: Outline, corner: Corner, largest_turn: float) -> flo
     corner, and so small that the curves there turn within the ring by less than half of ``largest_turn`` (radians).
     """
     place = np.array(corner.point)
-    room = inf
-    limits = [corner.outer]
-    for curve in outline.curves:
-        if corner.point in (curve.start, curve.end):
-            other = curve.end if corner.point == curve.start else curve.start
-            room = min(room, float(np.hypot(*(np.array(other) - place))))
-            limits.append(curve.size)
-            if curve.path is not None:
-                limits.append(_bent_radius(curve, corner, _TURN_OF_RINGS * largest_turn))
-        else:
-            points = curve.polyline()
-            room = min(room, float(distances(place[None, :], points[:-1], points[1:]).min()))
-    return min(_ROOM * room, *limits)
+    rooms, limits = [], [corner.outer]
+    for number in outline.curves_at(corner.point):
+        curve = outline.curves[number]
+        other = curve.end if corner.point == curve.start else curve.start
+        rooms.append(float(np.hypot(*(np.array(other) - place))))
+        limits.append(curve.size)
+        if curve.path is not None:
+            limits.append(_bent_radius(curve, corner, _TURN_OF_RINGS * largest_turn))
+    chords = outline.chords
+    away = distances(place[None, :], chords.starts, chords.ends)[0]
+    rooms.append(float(away[~np.isin(chords.curves, outline.curves_at(corner.point))].min(initial=inf)))
+    return min(_ROOM * min(rooms), *limits)
 
 
 def distances(
@@ -151,20 +150,24 @@ def bend_sources(outline: Outline, number: int, span: tuple[float, float], large
     curvature = np.concatenate([[0.0], 2.0 * _turns(points) / (lengths[:-1] + lengths[1:]), [0.0]])
     with np.errstate(divide="ignore"):
         radius = 1.0 / np.maximum(curvature[:-1], curvature[1:])
-    # A chord of length h is off by h²/8R.
-    sizes = np.minimum(largest_turn * radius, np.sqrt(radius * _gaps(outline, curve, centres)))
-    sizes = np.minimum(sizes, curve.size)
+    sizes = np.minimum(largest_turn * radius, curve.size)
+    # A chord of length h is off by h²/8R: only curves that are nearer than this ask for a smaller one.
+    counts = float((sizes**2 / radius).max())
+    sizes = np.minimum(sizes, np.sqrt(radius * _gaps(outline, number, centres, counts)))
     finite = np.isfinite(sizes)
     return Discs(centres=centres[finite], radii=0.5 * lengths[finite], sizes=sizes[finite])
 
 
-def _gaps(outline: Outline, curve: Curve, points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Distance of points on a curve from all curves that do not meet it."""
-    gaps = np.full(len(points), inf)
-    for other in outline.curves:
-        if {other.start, other.end}.isdisjoint({curve.start, curve.end}):
-            polyline = other.polyline()
-            gaps = np.minimum(gaps, distances(points, polyline[:-1], polyline[1:]).min(axis=1))
+def _gaps(outline: Outline, number: int, points: NDArray[np.float64], most: float) -> NDArray[np.float64]:
+    """Distance of points on a curve from the curves that do not meet it and are nearer than ``most``, or infinity."""
+    curve, chords = outline.curves[number], outline.chords
+    low, high = points.min(axis=0) - most, points.max(axis=0) + most
+    near = (np.minimum(chords.starts, chords.ends) <= high) & (np.maximum(chords.starts, chords.ends) >= low)
+    meeting = [*outline.curves_at(curve.start), *outline.curves_at(curve.end)]
+    others = near.all(axis=1) & ~np.isin(chords.curves, meeting)
+    if not others.any():
+        return np.full(len(points), inf)
+    gaps: NDArray[np.float64] = distances(points, chords.starts[others], chords.ends[others]).min(axis=1)
     return gaps
 
 

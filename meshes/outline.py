@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from math import inf
 from typing import Any
 
@@ -85,6 +86,21 @@ class Corner:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Chords:
+    """Straight pieces of curves, for measures that need no accuracy.
+
+    Attributes:
+        starts: shape (n, 2).
+        ends: shape (n, 2).
+        curves: index of the curve that each is a piece of, shape (n,).
+    """
+
+    starts: NDArray[np.float64]
+    ends: NDArray[np.float64]
+    curves: NDArray[np.int64]
+
+
+@dataclass(frozen=True, kw_only=True)
 class Outline:
     """Curves, the regions between them and the corners.
 
@@ -121,6 +137,28 @@ class Outline:
                 raise ValueError(f"the corner at {corner.point} needs rings of positive radii")
         if len({corner.point for corner in self.corners}) < len(self.corners):
             raise ValueError("two corners are at the same point")
+
+    def curves_at(self, point: Point) -> tuple[int, ...]:
+        """Indices of the curves that begin or end at a point."""
+        return self._curves_at.get(point, ())
+
+    @cached_property
+    def _curves_at(self) -> dict[Point, tuple[int, ...]]:
+        meeting: dict[Point, tuple[int, ...]] = {}
+        for number, curve in enumerate(self.curves):
+            for point in (curve.start, curve.end):
+                meeting[point] = (*meeting.get(point, ()), number)
+        return meeting
+
+    @cached_property
+    def chords(self) -> Chords:
+        """The polylines of all curves as one set of straight pieces."""
+        polylines = [curve.polyline() for curve in self.curves]
+        return Chords(
+            starts=np.vstack([polyline[:-1] for polyline in polylines]),
+            ends=np.vstack([polyline[1:] for polyline in polylines]),
+            curves=np.repeat(np.arange(len(polylines)), [len(polyline) - 1 for polyline in polylines]),
+        )
 
     def clockwise(self, region: Region) -> Iterator[tuple[int, bool]]:
         """The region's loop passed the other way."""

@@ -33,6 +33,9 @@ SCENE_MODELS: dict[str, type[Scene]] = {
 }
 """Which model a ``kind`` is read with."""
 
+MOST_BYTES = 20_000_000
+"""Of a scene's file: 100,000 waves or points, written out, take less."""
+
 SHIPPED_FOLDER = Path(__file__).resolve().parent
 
 
@@ -146,6 +149,10 @@ def _unusable(path: Path, wrong: str, remedy: str = "") -> SceneError:
 
 def _parse(file: Path) -> Document:
     try:
+        size = file.stat().st_size
+        if size > MOST_BYTES:
+            wrong = f"it is {size / 1e6:.3g} MB large, and a scene takes {MOST_BYTES / 1e6:g} MB at most"
+            raise _unusable(file, wrong, "Name tables of numbers in files of their own")
         content = file.read_bytes()
     except OSError as error:
         raise _unusable(file, f"it cannot be read ({error.strerror})") from error

@@ -26,6 +26,12 @@ from hydroelastic.scenes.models.problems import misfit
 SMALLEST, LARGEST = 1e-30, 1e30
 """Range of any positive quantity in SI: no product of a few of them overflows."""
 
+MOST_BODIES = 100
+"""Of one scene: the mesh is graded towards both ends of each."""
+
+MOST_SECTIONS = 100
+"""Sections, and joints, of one beam: the mesh has a node at each, and more are rather a rigidity that varies."""
+
 MOST_VERTICES = 100
 """Corners of a polygon: the mesh is graded towards each, and what has more is rather an outline."""
 
@@ -94,9 +100,14 @@ class Beam(SceneModel):
         description="free (no moment, no shear force) or guided (no slope, no shear force; only wall to wall)",
     )
     sections: tuple[BeamSection, ...] = Field(
-        default=(), description="sections from left to right, instead of length, flexural_rigidity, mass_per_length"
+        default=(),
+        max_length=MOST_SECTIONS,
+        description=f"up to {MOST_SECTIONS} sections from left to right, instead of length, flexural_rigidity, "
+        "mass_per_length",
     )
-    joints: tuple[BeamJoint, ...] = Field(default=(), description="joints and hinges, from left to right")
+    joints: tuple[BeamJoint, ...] = Field(
+        default=(), max_length=MOST_SECTIONS, description=f"up to {MOST_SECTIONS} joints and hinges, from left to right"
+    )
 
     @property
     def end(self) -> float:

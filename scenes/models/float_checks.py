@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import combinations
 from typing import TYPE_CHECKING, TypeAlias
 
 from pydantic_core import InitErrorDetails
@@ -243,9 +242,7 @@ def _arms_fit(index: int, body: Float, bounds: _Box) -> Iterator[InitErrorDetail
 
 def _bodies_keep_apart(scene: TankScene) -> Iterator[InitErrorDetails]:
     boxes = [_box(scene, index, body) for index, body in enumerate(scene.body)]
-    for first, second in combinations(range(len(boxes)), 2):
-        if not any(isinstance(scene.body[index], Float) for index in (first, second)):
-            continue
+    for first, second in _neighbours(scene, boxes):
         gap = SMALLEST_GAP * max(max(_extents(boxes[index])) for index in (first, second) if _is_float(scene, index))
         if _nearer_than(gap, boxes[first], boxes[second]):
             later = scene.body[second]
@@ -256,6 +253,23 @@ def _bodies_keep_apart(scene: TankScene) -> Iterator[InitErrorDetails]:
                 f"the body overlaps or touches [[body]] number {first + 1}, which reaches from {left:g} to {right:g} m",
                 remedy=f"Leave a gap of at least {gap:g} m between them",
             )
+
+
+def _neighbours(scene: TankScene, boxes: list[_Box]) -> list[tuple[int, int]]:
+    """Pairs of bodies, one a float at least, that lie over one another or nearly so: found from left to right."""
+    if not scene.floats:
+        return []
+    widest_gap = SMALLEST_GAP * max(max(_extents(boxes[index])) for index, _ in scene.floats)
+    pairs, beside = [], list[int]()
+    for index in sorted(range(len(boxes)), key=lambda index: boxes[index][0]):
+        beside = [other for other in beside if boxes[other][1] + widest_gap > boxes[index][0]]
+        pairs += [
+            (min(index, other), max(index, other))
+            for other in beside
+            if _is_float(scene, index) or _is_float(scene, other)
+        ]
+        beside.append(index)
+    return sorted(pairs)
 
 
 def _is_float(scene: TankScene, index: int) -> bool:
@@ -309,18 +323,19 @@ def _floats_are_stable(scene: TankScene) -> Iterator[InitErrorDetails]:
 
 def _thin_floats_have_free_liquid(scene: TankScene) -> Iterator[InitErrorDetails]:
     """The liquid of a thin float is split by the vertical through it, which must not meet another section."""
-    for index, body in scene.floats:
-        for other, section in scene.floats:
-            if body.boundary == "exact" or section.boundary == "thin" or other == index:
-                continue
-            # SciPy takes a while to import, and most scenes have no float.
-            from hydroelastic.scenes.models.floats import placed_float
+    thin = [(index, body.position) for index, body in scene.floats if body.boundary == "thin"]
+    for other, section in scene.floats:
+        if section.boundary == "thin" or not thin:
+            continue
+        # SciPy takes a while to import, and most scenes have no float.
+        from hydroelastic.scenes.models.floats import placed_float
 
-            left, right = placed_float(scene, other).contour.bounds[:2]
-            if left < body.position < right:
+        left, right = placed_float(scene, other).contour.bounds[:2]
+        for index, position in thin:
+            if left < position < right:
                 yield misfit(
                     ("body", index, "position"),
-                    body.position,
+                    position,
                     f"the thin float lies straight above or below [[body]] number {other + 1}, which reaches from "
                     f"{left:g} to {right:g} m",
                     allowed=f"below {left:g} or above {right:g} m",

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from hydroelastic.meshes.contours import Arc, Contour, Point, root
 from hydroelastic.meshes.point_contours import outline_contour, polygon_contour
 from hydroelastic.modal.floats.profiles import DEFAULT_TAIL, Profile, ProfileArc, float_profile
-from hydroelastic.scenes.models.bodies import Float
+from hydroelastic.scenes.models.bodies import MOST_BODIES, Float
 from hydroelastic.scenes.models.outline_files import read_outline
 from hydroelastic.scenes.models.tank import TankScene
 
@@ -172,7 +172,7 @@ def placed_float(scene: TankScene, index: int) -> PlacedFloat:
 
 
 # Many ask for the same float. The state of an outline's file is that of its last change: it may be edited meanwhile.
-@lru_cache(maxsize=64)
+@lru_cache(maxsize=2 * MOST_BODIES)
 def _placed(
     body: Float,
     folder: Path,

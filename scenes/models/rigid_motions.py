@@ -124,6 +124,6 @@ def has_open(scene: TankScene, level: Level) -> bool:
 def heave_is_held(scene: TankScene, index: int) -> bool:
     """Return whether a body can displace no liquid: nothing else at its level could give way."""
     level = scene.level_of(scene.body[index])
-    alone = sum(1 for body in scene.body if scene.level_of(body) == level) == 1
-    gives_way = (level == "interface" or scene.top != "rigid") and has_open(scene, level)
-    return alone and not gives_way
+    if any(other != index and scene.level_of(body) == level for other, body in enumerate(scene.body)):
+        return False
+    return not ((level == "interface" or scene.top != "rigid") and has_open(scene, level))

@@ -19,7 +19,17 @@ from pydantic import (
 )
 
 from hydroelastic.meshes.formats import FORMATS
-from hydroelastic.scenes.models.bodies import LARGEST, SMALLEST, Beam, Body, Float, Level, PositiveNumber, SceneModel
+from hydroelastic.scenes.models.bodies import (
+    LARGEST,
+    MOST_BODIES,
+    SMALLEST,
+    Beam,
+    Body,
+    Float,
+    Level,
+    PositiveNumber,
+    SceneModel,
+)
 from hydroelastic.scenes.models.infinity import PositiveOrInfinite
 from hydroelastic.scenes.models.open_analyses import Analysis, Resonance
 from hydroelastic.scenes.models.problems import problem, require_fit
@@ -99,7 +109,11 @@ class TankScene(SceneModel):
     title: Title = Field(default="", description="title of tables and images")
     tank: Tank = Field(description="the tank")
     liquid: tuple[Liquid, ...] = Field(min_length=1, max_length=2, description="one liquid or two, from the bottom up")
-    body: tuple[Body, ...] = Field(default=(), description="the bodies, in any order; none for sloshing alone")
+    body: tuple[Body, ...] = Field(
+        default=(),
+        max_length=MOST_BODIES,
+        description=f"up to {MOST_BODIES} bodies, in any order; none for sloshing alone",
+    )
     analysis: tuple[Analysis, ...] = Field(
         default=(), description='what is asked of open water, one resonance analysis if empty; none with ends = "walls"'
     )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from itertools import pairwise
+from itertools import accumulate, pairwise
 from typing import TYPE_CHECKING, TypeAlias
 
 from pydantic_core import InitErrorDetails
@@ -225,7 +225,7 @@ def _joints_are_in_range(scene: TankScene, index: int, beam: Beam) -> Iterator[I
 def _joints_lie_in_their_beams(scene: TankScene) -> Iterator[InitErrorDetails]:
     negligible, nearest = ROUND_OFF * scene.tank.length, SHORTEST_BEAM * bodies_span(scene)
     for index, beam in scene.beams:
-        steps = [sum(part.length for part in beam.parts[:number]) for number in range(1, len(beam.parts))]
+        steps = list(accumulate(part.length for part in beam.parts[:-1]))
         for number, joint in enumerate(beam.joints):
             where = ("body", index, "joints", number, "at")
             others = [other.at for other in beam.joints[:number]]

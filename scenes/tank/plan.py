@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import ceil, e, log10, pi
 from typing import TYPE_CHECKING
@@ -125,24 +127,36 @@ def initial_resolution(
         motions: up to which λ modes are looked at to find those of each motion of a float.
     """
     tank = scaled_tank(scene)
-    below = [modes_below(tank.moving, tone) for tone in tones]
-    # Enough above each tone to hold its flank: the part in each mode falls off like a resonance curve.
-    expected = [ceil(1.25 * count) + 4 for count in below]
-    reaches_tones = tuple(count <= MOST_MODES_TO_TONE for count in expected)
+    # Where other waves are many below a tone or a float's motion it is not searched for: one may ask for more modes.
+    tone = _highest(tones, lambda value: _modes_to_tone(tank, value) <= MOST_MODES_TO_TONE)
+    most_to_motion = max(MOST_MODES_TO_MOTION, 2 * modes)
+    motion = _highest(motions, lambda value: _modes_to_motion(tank, value) <= most_to_motion)
+    to_motion = [_modes_to_motion(tank, motion)] if motion is not None else []
     # The modes above the highest one reported show where the tone is, but need not be accurate.
-    reported = max([modes, *(ceil(count) + 1 for count, reached in zip(below, reaches_tones, strict=True) if reached)])
-    # Where other waves are many below a float's motion it is not searched for: one may ask for more modes.
-    below_motions = [ceil(modes_below(tank.moving, motion)) + 2 for motion in motions]
-    reached_motions = [count for count in below_motions if count <= max(MOST_MODES_TO_MOTION, 2 * modes)]
-    reported = max([reported, *reached_motions])
-    modes = max(
-        [modes, *(count for count, reached in zip(expected, reaches_tones, strict=True) if reached), *reached_motions]
-    )
+    reported = max([modes, *([ceil(modes_below(tank.moving, tone)) + 1] if tone is not None else []), *to_motion])
+    modes = max([modes, *([_modes_to_tone(tank, tone)] if tone is not None else []), *to_motion])
+    reaches_tones = tuple(tone is not None and other <= tone for other in tones)
     highest = squared_frequency_of_mode(tank.moving, reported) if tank.moving else 0.0
     tolerance = workable_tolerance(scene.accuracy.tolerance, tank.depth)
     wavenumbers = tuple(_wavenumber(tank, level, piece, highest) for level in tank.levels for piece in level.pieces)
     resolution = resolution_for(tank, tolerance, wavenumbers, exponent=sharpest_exponent(tank, released=False))
     return replace(resolution, modes=modes, reaches_tones=reaches_tones)
+
+
+def _modes_to_tone(tank: ScaledTank, tone: float) -> int:
+    """Enough above a tone to hold its flank: the part in each mode falls off like a resonance curve."""
+    return ceil(1.25 * modes_below(tank.moving, tone)) + 4
+
+
+def _modes_to_motion(tank: ScaledTank, motion: float) -> int:
+    return ceil(modes_below(tank.moving, motion)) + 2
+
+
+def _highest(values: tuple[float, ...], reached: Callable[[float], bool]) -> float | None:
+    """The highest value that is reached, as all below it are: a few of many values are tried."""
+    ordered = sorted(values)
+    count = bisect_left(ordered, True, key=lambda value: not reached(value))
+    return ordered[count - 1] if count else None
 
 
 def companion_resolution(tank: ScaledTank, tolerance: float, tones: tuple[float, ...]) -> Resolution:

@@ -142,11 +142,16 @@ class ScaledTank:
 
     def level_of(self, body: int) -> StillLevel:
         """The level at which a body floats."""
-        return next(level for level in self.levels if any(piece.body == body for piece in level.pieces))
+        return self._places[body][0]
 
     def piece_of(self, body: int) -> Piece:
         """The part of its level that a body takes."""
-        return next(piece for piece in self.level_of(body).pieces if piece.body == body)
+        return self._places[body][1]
+
+    @cached_property
+    def _places(self) -> dict[int, tuple[StillLevel, Piece]]:
+        """Level and piece of each body, by its index."""
+        return {piece.body: (level, piece) for level in self.levels for piece in level.pieces if piece.body is not None}
 
     def nodes_of(self, body: int) -> dict[float, float]:
         """Abscissae of the steps and joints of a beam, with α of ψ ~ r^α there; none of other bodies.

@@ -1,0 +1,80 @@
+"""The least of many functions that grow with the distance from where they belong, without asking all of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from math import hypot
+from typing import TypeAlias
+
+Box: TypeAlias = tuple[float, float, float, float]
+"""Left, right, low, high."""
+
+# So few sources are asked one after the other: more steps into smaller boxes would take longer.
+_FEW = 8
+
+
+@dataclass(frozen=True, kw_only=True)
+class Source:
+    """A function of a point that is at least its floor plus the growth times the distance from its box.
+
+    Attributes:
+        box: where it belongs.
+        floor: see above.
+        value: x, y → its value.
+    """
+
+    box: Box
+    floor: float
+    value: Callable[[float, float], float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sources:
+    """Sources that may be asked for the least of their values: near ones are, of far ones only their boxes.
+
+    Attributes:
+        sources: all of them.
+        growth: of each with the distance from its box, at least.
+    """
+
+    sources: Sequence[Source]
+    growth: float
+
+    def least(self, x: float, y: float, most: float) -> float:
+        """Return the least value at a point, or ``most`` where all values are greater."""
+        found = most
+        waiting = [(self._floor(x, y), self)] if self.sources else []
+        while waiting:
+            floor, group = waiting.pop()
+            if floor >= found:
+                continue
+            if group._halves:
+                one, other = ((half._floor(x, y), half) for half in group._halves)
+                # The last one is asked first.
+                waiting += (other, one) if one[0] <= other[0] else (one, other)
+            else:
+                found = min(found, *(source.value(x, y) for source in group.sources))
+        return found
+
+    def _floor(self, x: float, y: float) -> float:
+        left, right, low, high, floor = self._whole
+        return floor + self.growth * hypot(max(left - x, 0.0, x - right), max(low - y, 0.0, y - high))
+
+    @cached_property
+    def _whole(self) -> tuple[float, float, float, float, float]:
+        """The box around all sources, and the least of their floors."""
+        lefts, rights, lows, highs = zip(*(source.box for source in self.sources), strict=True)
+        return min(lefts), max(rights), min(lows), max(highs), min(source.floor for source in self.sources)
+
+    @cached_property
+    def _halves(self) -> tuple[Sources, ...]:
+        """The sources of either half of the box; none of a few."""
+        if len(self.sources) <= _FEW:
+            return ()
+        left, right, low, high, _ = self._whole
+        first, last = (0, 1) if right - left >= high - low else (2, 3)
+        ordered = sorted(self.sources, key=lambda source: source.box[first] + source.box[last])
+        middle = len(ordered) // 2
+        return tuple(Sources(sources=part, growth=self.growth) for part in (ordered[:middle], ordered[middle:]))

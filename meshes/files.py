@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
+import io
 import json
+import warnings
+from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 
 import meshio
 import numpy as np
+from numpy.typing import NDArray
 
 from hydroelastic.meshes.formats import FORMATS
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 
 _TAG = "gmsh:physical"
+
+# Twice the area of a triangle over the squares of its sides: what is less is rounding.
+_FLAT = 1e-12
 
 
 def save_mesh(mesh: TaggedMesh, path: Path) -> None:
@@ -58,10 +65,7 @@ def load_mesh(path: Path) -> TaggedMesh:
     _check_suffix(path)
     if not path.is_file():
         raise MeshError(f"mesh file {path} does not exist")
-    try:
-        content = meshio.read(path)
-    except (Exception, SystemExit) as error:  # meshio exits the process on some unreadable files
-        raise MeshError(f"mesh file {path} cannot be read as {path.suffix}: {error}") from error
+    content = _read(path)
     blocks = {"triangle": [], "line": []}  # type: dict[str, list[tuple[np.ndarray, np.ndarray]]]
     for block, tags in zip(content.cells, content.cell_data.get(_TAG, []), strict=False):
         if block.type in blocks:
@@ -75,11 +79,13 @@ def load_mesh(path: Path) -> TaggedMesh:
         )
     cell_names, facet_names = _names(path, content)
     cells = np.vstack([data for data, _ in blocks["triangle"]]).astype(np.int64)
+    _check_geometry(path, np.asarray(content.points, dtype=np.float64), cells)
     used, renumbered = np.unique(cells, return_inverse=True)
     order = np.full(len(content.points), -1, dtype=np.int64)
     order[used] = np.arange(len(used))
-    facets = order[np.vstack([data for data, _ in blocks["line"]])]
-    if np.any(facets < 0):
+    edges = np.vstack([data for data, _ in blocks["line"]]).astype(np.int64)
+    facets = order[np.clip(edges, 0, len(order) - 1)]
+    if np.any(facets < 0) or np.any(edges != np.clip(edges, 0, len(order) - 1)):
         raise MeshError(f"mesh file {path} has tagged edges that belong to no triangle")
     return TaggedMesh(
         points=np.asarray(content.points, dtype=np.float64)[used, :2],
@@ -90,6 +96,31 @@ def load_mesh(path: Path) -> TaggedMesh:
         cell_names=cell_names,
         facet_names=facet_names,
     )
+
+
+def _read(path: Path) -> meshio.Mesh:
+    try:
+        # meshio prints what it finds, and exits the process on some unreadable files.
+        with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()), warnings.catch_warnings():
+            # NumPy only warns of numbers that end too early.
+            warnings.filterwarnings("error", message="string or file could not be read")
+            return meshio.read(path)
+    except (Exception, SystemExit) as error:
+        allowed = FORMATS[path.suffix.lower()]
+        raise MeshError(f"mesh file {path} cannot be read: it is broken, or not {allowed}") from error
+
+
+def _check_geometry(path: Path, points: NDArray[np.float64], cells: NDArray[np.int64]) -> None:
+    if not np.isfinite(points).all():
+        raise MeshError(f"mesh file {path} holds a node whose coordinates are no finite numbers")
+    if cells.min() < 0 or cells.max() >= len(points):
+        raise MeshError(f"mesh file {path} holds a triangle with a node that is not there")
+    sides = points[cells[:, 1:], :2] - points[cells[:, :1], :2]
+    doubled_areas = np.abs(sides[:, 0, 0] * sides[:, 1, 1] - sides[:, 0, 1] * sides[:, 1, 0])
+    flat = doubled_areas <= _FLAT * (sides**2).sum(axis=(1, 2))
+    if flat.any():
+        x, y = points[cells[np.argmax(flat)], :2].mean(axis=0)
+        raise MeshError(f"mesh file {path} holds a triangle without area near ({x:g}, {y:g})")
 
 
 def _names(path: Path, content: meshio.Mesh) -> tuple[dict[str, int], dict[str, int]]:

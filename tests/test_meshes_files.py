@@ -11,6 +11,9 @@ import gmsh
 import meshio
 import numpy as np
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from scene_files import BEAM_IN_TANK
 
 from hydroelastic.meshes.files import load_mesh, save_mesh
 from hydroelastic.meshes.formats import FORMATS
@@ -19,7 +22,9 @@ from hydroelastic.meshes.grading import Grading
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 from hydroelastic.meshes.tank import build_tank_mesh
 from hydroelastic.scenes.errors import SceneError
+from hydroelastic.scenes.kinds import checker_of
 from hydroelastic.scenes.models.tank import MeshFile, TankScene
+from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.run import run_scene
 
 PIECES = ((0.0, 0.3, "free_surface"), (0.3, 0.7, "body_1"), (0.7, 1.0, "free_surface"))
@@ -95,11 +100,68 @@ def test_a_missing_file_is_refused(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("suffix", FORMATS)
 @pytest.mark.parametrize("text", ["", "no mesh\n", "<xml", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0\n"])
-def test_a_file_that_is_no_mesh_is_refused(text: str, suffix: str, tmp_path: Path) -> None:
+def test_a_file_that_is_no_mesh_is_refused(
+    text: str, suffix: str, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    """In our words alone: the library that reads it prints its own, and would exit."""
     path = tmp_path / f"tank{suffix}"
     path.write_text(text, encoding="utf-8")
-    with pytest.raises(MeshError, match=r"cannot be read as|holds no triangles"):
+    with pytest.raises(MeshError) as caught:
         load_mesh(path)
+    assert str(caught.value) in (
+        f"mesh file {path} cannot be read: it is broken, or not {FORMATS[suffix]}",
+        f"mesh file {path} holds no triangles or no boundary edges with physical groups (gmsh:physical); "
+        "give every boundary edge and every cell a physical group",
+    )
+    assert capfd.readouterr() == ("", "")
+
+
+@pytest.mark.parametrize(
+    ("number", "place", "said"),
+    [
+        (2, [np.nan, -1.0, 0.0], "a node whose coordinates are no finite numbers"),
+        (2, [1e300, np.inf, 0.0], "a node whose coordinates are no finite numbers"),
+        (2, [0.5, -0.5, 0.0], r"a triangle without area near"),
+    ],
+)
+def test_a_mesh_that_fills_nothing_is_refused(
+    content: meshio.Mesh, number: int, place: list[float], said: str, tmp_path: Path
+) -> None:
+    """NaN passes each comparison with a limit."""
+    content.points[3 if "area" in said else number] = place
+    with pytest.raises(MeshError, match=said):
+        load_mesh(write(content, tmp_path / "tank.msh"))
+
+
+def test_a_triangle_with_a_node_that_is_not_there_is_refused(content: meshio.Mesh, tmp_path: Path) -> None:
+    content.cells[1] = meshio.CellBlock("triangle", np.array([[0, 1, 2], [0, 2, 9]]))
+    with pytest.raises(MeshError, match=r"a triangle with a node that is not there|cannot be read"):
+        load_mesh(write(content, tmp_path / "tank.msh"))
+
+
+@settings(
+    derandomize=True, deadline=None, max_examples=150, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
+@given(data=st.data(), suffix=st.sampled_from(list(FORMATS)))
+def test_a_damaged_file_is_read_or_refused_in_words(
+    mesh: TaggedMesh, data: st.DataObject, suffix: str, tmp_path: Path
+) -> None:
+    """Bytes changed, left out or doubled anywhere: no other exception than ours comes out, and no NaN goes in."""
+    path = tmp_path / f"tank{suffix}"
+    save_mesh(mesh, path)
+    whole = path.read_bytes()
+    start = data.draw(st.integers(0, len(whole)))
+    end = min(start + data.draw(st.integers(0, 40)), len(whole))
+    instead = data.draw(
+        st.one_of(st.binary(max_size=8), st.just(2 * whole[start:end]), st.just(b"nan "), st.just(b" 99999 "))
+    )
+    path.write_bytes(whole[:start] + instead + whole[end:])
+    try:
+        loaded = load_mesh(path)
+    except MeshError:
+        return
+    assert np.isfinite(loaded.points).all()
+    assert loaded.cells.max() < len(loaded.points)
 
 
 def test_a_mesh_without_names_is_refused(content: meshio.Mesh, tmp_path: Path) -> None:
@@ -246,6 +308,32 @@ def test_a_mesh_of_another_tank_is_refused_in_words(
     said = " ".join(str(caught.value).split())
     assert message in said
     assert str(path) in said
+
+
+def test_what_a_run_would_refuse_of_a_mesh_a_check_refuses_with_the_same_words(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    scene = tmp_path / "scene.toml"
+    scene.write_text(f'{BEAM_IN_TANK}[mesh]\nfile = "tank.msh"\n', encoding="utf-8")
+    (tmp_path / "tank.msh").write_text("garbage\n", encoding="utf-8")
+    said = []
+    for use in (run_scene, lambda scene: tuple(checker_of(scene)(scene))):
+        with pytest.raises(SceneError) as caught:
+            use(read_scene(scene))
+        said.append(str(caught.value))
+    assert said[0] == said[1]
+    mesh = tmp_path / "tank.msh"
+    assert said[0] == (
+        f'{scene}: [mesh], key "file" = "{mesh}": mesh file {mesh} cannot be read: it is broken, or not a mesh of '
+        "gmsh, format 2.2 or 4.1, as gmsh writes it. Mend the mesh, or leave [mesh] out to use the built-in one."
+    )
+    assert capfd.readouterr() == ("", "")
+    users_mesh(mesh, end=7.5)
+    with pytest.raises(SceneError, match="the scene puts it at"):
+        tuple(checker_of(read_scene(scene))(read_scene(scene)))
+    users_mesh(mesh)
+    sections = checker_of(read_scene(scene))(read_scene(scene))
+    assert any("triangles" in line for section in sections for line in section.lines)
 
 
 def test_water_without_its_group_is_refused(tanks: Any, tmp_path: Path) -> None:

@@ -9,13 +9,16 @@ import pytest
 from click.testing import CliRunner
 from mpi4py import MPI
 from PIL import Image
+from scene_files import CIRCLE_IN_OPEN_WATER, read_written
 
 from hydroelastic.scenes.command_line import main
-from hydroelastic.scenes.errors import SceneError, UnsolvedError
+from hydroelastic.scenes.errors import SceneError
+from hydroelastic.scenes.kinds import checker_of
 from hydroelastic.scenes.models.roll import RollScene
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.roll.run import run_roll
 from hydroelastic.scenes.roll.solve import solve_roll
+from hydroelastic.scenes.run import run_scene
 
 
 def roll_scene(name: str, *overrides: str) -> RollScene:
@@ -244,15 +247,10 @@ def test_a_section_in_open_water_rolls_as_its_resonance_says() -> None:
     assert -omega.imag == pytest.approx(found.damping, rel=10 * ratio + 1e-3)
 
 
-def test_a_section_that_nothing_restores_is_refused() -> None:
-    overrides = [
-        "body.0={kind='float', shape='ellipse', position=30.0, half_width=5.0, half_height=5.0, motions=['roll']}",
-    ]
-    from hydroelastic.scenes.models.tank import TankScene
-    from hydroelastic.scenes.output.stopwatch import Stopwatch
-    from hydroelastic.scenes.roll.section import section_roll
-
-    scene = read_scene("open_ship_section", overrides)
-    assert isinstance(scene, TankScene)
-    with pytest.raises(UnsolvedError, match="nothing restores"):
-        section_roll(scene, MPI.COMM_WORLD, Stopwatch(), lambda _message: None)
+def test_a_section_that_nothing_restores_is_refused_before_anything_is_solved(tmp_path: Path) -> None:
+    """A circle that rolls about its centre is neutral."""
+    (tmp_path / "circle.toml").write_text(f'{CIRCLE_IN_OPEN_WATER}motions = ["roll"]\n', encoding="utf-8")
+    ship = read_written(tmp_path, 'kind = "roll"\n[roll]\nsection = "circle.toml"\nangle = 0.1\n')
+    for use in (run_scene, lambda scene: tuple(checker_of(scene)(scene))):
+        with pytest.raises(SceneError, match="nothing restores the roll of that section"):
+            use(ship)

@@ -121,16 +121,29 @@ class TankScene(SceneModel):
     mesh: MeshFile | None = Field(default=None, description="a mesh of your own")
 
     _folder: Path = PrivateAttr(default=Path())
+    _source: str | None = PrivateAttr(default=None)
 
     def model_post_init(self, context: Any) -> None:
-        """Keep the folder of the scene file, from which the files of outlines are found."""
-        if context is not None and any(body.file is not None for _, body in self.floats):
+        """Keep the folder of the scene file, from which the files of outlines are found, and how messages name it.
+
+        Only where a file is named: scenes of the same values are else the same wherever they come from.
+        """
+        if context is None:
+            return
+        if any(body.file is not None for _, body in self.floats):
             self._folder = context["folder"]
+        if self.mesh is not None:
+            self._source = context.get("source")
 
     @property
     def folder(self) -> Path:
         """The folder of the scene file, or the current one."""
         return self._folder
+
+    @property
+    def source(self) -> str | None:
+        """How messages name the scene file where a mesh of the user's is refused; ``None`` if there is none."""
+        return self._source
 
     @property
     def layers(self) -> tuple[Liquid, ...]:

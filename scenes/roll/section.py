@@ -69,14 +69,13 @@ def section_roll(scene: TankScene, comm: MPI.Comm, watch: Stopwatch, report: Rep
     """Solve the scene of a section for its roll (collective).
 
     Args:
-        scene: a tank or open water with one body, a float that may roll.
+        scene: a tank or open water with one body, a float that may roll and floats upright.
         comm: MPI communicator.
         watch: told the time.
         report: told what is being done.
 
     Raises:
-        UnsolvedError: if gravity does not restore the roll, or the field solution does not keep its tolerance or shows
-            no roll of its own.
+        UnsolvedError: if the field solution does not keep its tolerance or shows no roll of its own.
     """
     report("section")
     return _in_open_water(scene, comm, watch) if scene.is_open else _in_a_tank(scene, comm, watch, report)
@@ -108,8 +107,6 @@ def _in_open_water(scene: TankScene, comm: MPI.Comm, watch: Stopwatch) -> Sectio
     body = scene.floats[0][1]
     at_rest = placed_float(scene, 0).hydrostatics
     stiffness, inertia = roll_stiffness(body, at_rest), at_rest.mass * at_rest.radius_of_gyration**2
-    if stiffness <= 0.0:
-        raise UnsolvedError(f"nothing restores the section's roll: its stiffness is {stiffness:g} N")
 
     def radiation(omega: float) -> tuple[RadiationTable, float]:
         with watch.stage("section"):

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from hydroelastic.scenes.errors import Problem, SceneError
 from hydroelastic.scenes.models.bodies import Float
+from hydroelastic.scenes.models.rigid_motions import roll_stiffness
 from hydroelastic.scenes.models.roll import RollScene
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.output.stopwatch import Report, Stopwatch
@@ -22,6 +23,9 @@ def section_scene(scene: RollScene) -> TankScene:
     Raises:
         SceneError: if it cannot be read, or is another scene; it names the ship's file and key.
     """
+    # SciPy takes a while to import, and most ships have no section.
+    from hydroelastic.scenes.models.floats import placed_float
+
     # The reader of scenes knows all kinds, this one too.
     from hydroelastic.scenes.read import read_scene
 
@@ -39,6 +43,13 @@ def section_scene(scene: RollScene) -> TankScene:
             scene,
             "that scene cannot be the section of a rolling ship",
             'a scene with one body, kind = "float", with "roll" among its motions',
+        )
+    at_rest = placed_float(section, 0).hydrostatics
+    if roll_stiffness(body, at_rest) <= 0.0:
+        raise _unusable(
+            scene,
+            f"nothing restores the roll of that section: its stiffness is {roll_stiffness(body, at_rest):g} N",
+            "a section that floats upright: a lower centre_of_mass, or a wider waterplane",
         )
     return section
 

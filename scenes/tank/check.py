@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+from hydroelastic.meshes.tagged_mesh import TaggedMesh
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.output.sections import Section
 from hydroelastic.scenes.tank.check_hints import hints
@@ -24,6 +25,9 @@ def check_tank(scene: TankScene) -> Iterator[Section]:
 
     Args:
         scene: a validated scene.
+
+    Raises:
+        SceneError: if the scene brings a mesh that cannot be read or does not fit it.
     """
     return modelled_tank(scene, requests=(_request(scene),), scale=Section(title="Size", lines=tuple(_sizes(scene))))
 
@@ -50,13 +54,15 @@ def modelled_tank(scene: TankScene, *, requests: Iterable[str], scale: Section) 
 
 def _sizes(scene: TankScene) -> Iterator[str]:
     """What the first attempt is, and why it should be enough; the built-in meshes are made to count them."""
-    tank = scaled_tank(scene)
+    from hydroelastic.scenes.tank.own_mesh import own_mesh
+
+    tank, brought = scaled_tank(scene), own_mesh(scene)
     tolerance = scene.accuracy.tolerance
     tones = expected_tones(tank)
     motions = ends_of_float_motions(tank)
     resolution = initial_resolution(scene, modes=scene.accuracy.modes, tones=tones, motions=motions)
     half = scene.mesh is None and is_mirror_image(tank)
-    yield f"First attempt: {_size(scene, tank, resolution, half=half)}."
+    yield f"First attempt: {_size(tank, resolution, brought, half=half)}."
     if resolution.modes > scene.accuracy.modes:
         what = (
             "where the energy of the first elastic tone gathers" if tank.beams else "in which mode a float moves most"
@@ -82,24 +88,27 @@ def _sizes(scene: TankScene) -> Iterator[str]:
     ]
     if limits:
         limit = companion_resolution(tank, tolerance, tones) if scene.mesh is None else resolution
-        size = _size(scene, tank, limit, half=half, released=scene.mesh is None)
+        size = _size(tank, limit, brought, half=half, released=scene.mesh is None)
         where = "with ψ = 0 on the water" if len(tank.layers) == 1 else "far above the waves, the liquids moving as one"
         yield f"Beside it {' and '.join(limits)} {where}: {size}."
         yield "  It has no waves to resolve, but a stronger singularity at the tips."
 
 
-def _size(scene: TankScene, tank: ScaledTank, resolution: Resolution, *, half: bool, released: bool = False) -> str:
-    parts = [f"degree {resolution.degree}"]
-    if scene.mesh is None:
-        from hydroelastic.scenes.tank.mesh import make_mesh, unknown_count
+def _size(
+    tank: ScaledTank, resolution: Resolution, brought: TaggedMesh | None, *, half: bool, released: bool = False
+) -> str:
+    from hydroelastic.scenes.tank.mesh import make_mesh, unknown_count
 
-        mesh = make_mesh(tank, resolution, half=half, released=released)
-        where = " in half the tank" if half else ""
-        twice = ", for symmetric and for antisymmetric modes" if half else ""
-        parts.append(f"{len(mesh.cells)} triangles{where}")
-        layers = 1 if released else len(tank.layers)
-        unknowns = unknown_count(len(mesh.points), len(mesh.cells), resolution.degree, parts=layers)
-        parts.append(f"{unknowns} unknowns of ψ{twice}")
+    mesh = brought if brought is not None else make_mesh(tank, resolution, half=half, released=released)
+    where = " in half the tank" if half else ""
+    twice = ", for symmetric and for antisymmetric modes" if half else ""
+    layers = 1 if released else len(tank.layers)
+    unknowns = unknown_count(len(mesh.points), len(mesh.cells), resolution.degree, parts=layers)
+    parts = [
+        f"degree {resolution.degree}",
+        f"{len(mesh.cells)} triangles{where}",
+        f"{unknowns} unknowns of ψ{twice}",
+    ]
     if tank.beams:
         parts.append(f"{' + '.join(str(resolution.shapes[index]) for index in tank.beams)} dry modes")
     return ", ".join(parts)

@@ -10,10 +10,9 @@ from mpi4py import MPI
 
 from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.pictures.options import OF_FIELDS, OF_MOTIONS, PictureOptions
-from hydroelastic.meshes.files import load_mesh
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 from hydroelastic.modal.estimate import Estimate
-from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
+from hydroelastic.scenes.errors import SceneError, UnsolvedError
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.output.dataset import LabelledResults
 from hydroelastic.scenes.output.provenance import Summary
@@ -23,6 +22,7 @@ from hydroelastic.scenes.read import closed_tank
 from hydroelastic.scenes.tank.check_hints import draughts_left_out
 from hydroelastic.scenes.tank.dataset import TANK_NAMES, tank_dataset
 from hydroelastic.scenes.tank.estimates import scene_estimates
+from hydroelastic.scenes.tank.own_mesh import mesh_refused, own_mesh
 from hydroelastic.scenes.tank.solve import TankSolution, solve_scene
 from hydroelastic.scenes.tank.summary import summarize
 from hydroelastic.scenes.tank.tables import mode_csv, tank_cost, tank_sections
@@ -87,7 +87,7 @@ def solve_tank(scene: TankScene, comm: MPI.Comm, report: Report) -> EstimatedTan
     try:
         solution = solve_scene(scene, comm=comm, mesh=_own_mesh(scene, comm), report=report)
     except MeshError as error:
-        raise SceneError(_mesh_problem(scene, error)) from error
+        raise mesh_refused(scene, str(error)) from error
     except EigenSolverError as error:
         raise UnsolvedError(f"the eigen-solver failed: {error}") from error
     return EstimatedTank(tank=solution, beam=estimates, floats=of_floats, seconds=watch.seconds)
@@ -104,28 +104,19 @@ def _own_mesh(scene: TankScene, comm: MPI.Comm) -> TaggedMesh | None:
     """The mesh that the user brings, on rank 0."""
     if scene.mesh is None:
         return None
-    mesh, problem = None, None
+    mesh, refused = None, None
     if comm.rank == 0:
         try:
-            mesh = load_mesh(scene.mesh.file)
+            mesh = own_mesh(scene)
+        except SceneError as error:
+            refused = error
         except Exception as error:
             # Whatever it is, the other processes wait to hear of it.
-            problem = str(error) or type(error).__name__
-    problem = comm.bcast(problem, root=0)
-    if problem is not None:
-        raise SceneError(_mesh_problem(scene, MeshError(problem)))
+            refused = mesh_refused(scene, str(error) or type(error).__name__)
+    refused = comm.bcast(refused, root=0)
+    if refused is not None:
+        raise refused
     return mesh
-
-
-def _mesh_problem(scene: TankScene, error: MeshError) -> Problem:
-    if scene.mesh is None:
-        return Problem(wrong=f"no mesh could be made: {error}", remedy="Please report this scene")
-    return Problem(
-        key='[mesh] key "file"',
-        value=f'"{scene.mesh.file}"',
-        wrong=str(error),
-        remedy="Mend the mesh, or leave [mesh] out to use the built-in one",
-    )
 
 
 def _sample(estimated: EstimatedTank, summary: Summary) -> SampledTank:

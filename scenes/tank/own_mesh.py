@@ -1,0 +1,39 @@
+"""The mesh that the user brings: read, and checked against the scene."""
+
+from __future__ import annotations
+
+from hydroelastic.meshes.files import load_mesh
+from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
+from hydroelastic.scenes.errors import Problem, SceneError
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.tank.mesh import check_mesh
+from hydroelastic.scenes.tank.scaled_tank import scaled_tank
+
+
+def own_mesh(scene: TankScene) -> TaggedMesh | None:
+    """Return the mesh that a scene names, m; ``None`` if it names none.
+
+    Raises:
+        SceneError: if it cannot be read, or does not fit the scene.
+    """
+    if scene.mesh is None:
+        return None
+    try:
+        mesh = load_mesh(scene.mesh.file)
+        check_mesh(scaled_tank(scene), mesh.scaled(1.0 / scene.tank.length))
+    except MeshError as error:
+        raise mesh_refused(scene, str(error)) from error
+    return mesh
+
+
+def mesh_refused(scene: TankScene, wrong: str) -> SceneError:
+    """Return what is said of a mesh that cannot be used, the user's or the built-in one."""
+    if scene.mesh is None:
+        return SceneError(Problem(wrong=f"no mesh could be made: {wrong}", remedy="Please report this scene"))
+    problem = Problem(
+        key='[mesh], key "file"',
+        value=f'"{scene.mesh.file}"',
+        wrong=wrong,
+        remedy="Mend the mesh, or leave [mesh] out to use the built-in one",
+    )
+    return SceneError(problem, file=scene.source)

@@ -21,7 +21,7 @@ from PIL import Image
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.output.folder import SUMMARY
 from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.output.sections import markdown_table
+from hydroelastic.scenes.output.markdown import markdown_table, markdown_text
 from hydroelastic.scenes.read import read_scene, shipped_scenes
 from hydroelastic.scenes.run import run_scene
 from hydroelastic.scenes.study.plan import FAMILIES, StudyPlan
@@ -108,7 +108,7 @@ def index() -> str:
         rows.append(
             (
                 f"`{shipped.name}`",
-                shipped.title,
+                markdown_text(shipped.title),
                 summary["scene"]["kind"],
                 summary["status"],
                 f"{sum(seconds.values()):.1f}",

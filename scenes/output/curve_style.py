@@ -121,7 +121,7 @@ class Sheets:
             figure = Figure(figsize=(width, height), layout="constrained")
             yield figure
             # A dollar sign would begin a formula.
-            figure.suptitle(title.replace("$", r"\$"))
+            figure.suptitle(title, parse_math=False)
             for axes in figure.axes:
                 _label_decades(axes.xaxis)
                 _label_decades(axes.yaxis)

@@ -10,7 +10,9 @@ from typing import TypeAlias
 from rich import box
 from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
+from hydroelastic.scenes.output.markdown import markdown_table, markdown_text
 from hydroelastic.scenes.output.provenance import Summary
 
 Row: TypeAlias = tuple[str, ...]
@@ -49,10 +51,10 @@ def printed_sections(
         notes: whether to print the notes of the tables.
         width: of the text, in characters.
     """
-    console = Console(file=io.StringIO(), width=width, color_system=None, highlight=False)
+    console = Console(file=io.StringIO(), width=width, color_system=None, highlight=False, emoji=False)
     console.print(title_of(summary), markup=False)
-    for line in status_lines(summary):
-        console.print(line, markup=False, style="bold")
+    for number, line in enumerate(status_lines(summary)):
+        console.print(f"  - {line}" if number else line, markup=False, style="bold")
     for section in sections:
         console.print(section.title, markup=False)
         if section.rows:
@@ -65,15 +67,16 @@ def printed_sections(
 
 def markdown_sections(summary: Summary, sections: Iterable[Section], cost: str) -> str:
     """All of a result as Markdown, with all notes; the arguments are those of `printed_sections`."""
-    parts = [f"# {title_of(summary)}", ""]
-    complaint = [f"**{line}**" if number == 0 else line for number, line in enumerate(status_lines(summary))]
-    parts += [*complaint, ""] if complaint else []
+    parts = [f"# {markdown_text(title_of(summary))}", ""]
+    complaint, *reasons = status_lines(summary) or [""]
+    parts += [f"**{complaint}**", *(f"- {markdown_text(reason)}" for reason in reasons), ""] if complaint else []
     for section in sections:
-        parts += [f"## {section.title}", ""]
-        parts += [markdown_table(section.headings, section.rows), ""] if section.rows else []
-        parts += [line + "\n" for line in section.lines]
-        parts += [*(f"- {note}" for note in section.notes), ""] if section.notes else []
-    parts.append(cost)
+        parts += [f"## {markdown_text(section.title)}", ""]
+        headings, *rows = (tuple(map(markdown_text, row)) for row in (section.headings, *section.rows))
+        parts += [markdown_table(headings, rows), ""] if rows else []
+        parts += [markdown_text(line) + "\n" for line in section.lines]
+        parts += [*(f"- {markdown_text(note)}" for note in section.notes), ""] if section.notes else []
+    parts.append(markdown_text(cost))
     return "\n".join(parts) + "\n"
 
 
@@ -83,11 +86,11 @@ def title_of(summary: Summary) -> str:
 
 
 def status_lines(summary: Summary) -> list[str]:
-    """A loud word if the answer does not keep what was asked."""
+    """A loud word if the answer does not keep what was asked, then the reasons."""
     if summary["status"] == "ok":
         return []
     tolerance = summary["scene"]["accuracy"]["tolerance"]
-    return [f"NOT CONVERGED to the tolerance {tolerance:g}:", *(f"  - {reason}" for reason in summary["reasons"])]
+    return [f"NOT CONVERGED to the tolerance {tolerance:g}:", *summary["reasons"]]
 
 
 def rich_table(headings: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> Table:
@@ -97,13 +100,6 @@ def rich_table(headings: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> Ta
         leftwards = column == 0 or heading in ("kind", "symmetry", "bound")
         table.add_column(heading, justify="left" if leftwards else "right", no_wrap=True)
     for row in rows:
-        table.add_row(*row)
+        # Text, not str: what a scene is called may hold brackets, which rich would read as markup.
+        table.add_row(*map(Text, row))
     return table
-
-
-def markdown_table(headings: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> str:
-    """Return a table in Markdown."""
-    lines = [headings, tuple("---" for _ in headings), *rows]
-    # A bar in a cell would end it.
-    cells = [[cell.replace("|", r"\|") for cell in line] for line in lines]
-    return "\n".join("| " + " | ".join(line) + " |" for line in cells)

@@ -3,7 +3,7 @@
 A page is gone through as a reader would, in an empty folder with the files of the checkout beside it, block by block:
 
 - ``toml`` is read as a scene. It is whole, or its first line is ``# added to NAME.toml``, a shipped scene. A first line
-  ``# NAME.toml`` names the file in which the commands below find it.
+  ``# NAME.toml`` names the file in which the commands below find it. With ``from FILE`` it is that file to the letter.
 - ``sh`` holds a command a line, which runs. It ends with exit code 0, or what its comment tells: ``# exit code 2``.
 - ``python`` runs, in the same names as the blocks above it on the page.
 - ``text`` is what the ``sh`` or ``python`` block above it prints, or parts of that; with ``from FILE`` of a file.
@@ -97,6 +97,9 @@ class Reader:
         rules[block.language](block)
 
     def _scene(self, block: Block) -> None:
+        source = re.match(r"toml from (\S+)$", block.info)
+        if source:
+            assert block.text == (ROOT / source[1]).read_text(encoding="utf-8"), f"{block.place} is not {source[1]}"
         added = re.match(r"# added to (\w+\.toml)\n", block.text)
         named = re.match(r"# (\w+\.toml)\n", block.text)
         file = Path(named[1] if named else "shown.toml")
@@ -145,6 +148,23 @@ def test_blocks_do_what_they_say(page: Path) -> None:
     reader = Reader()
     for block in blocks_of(page):
         reader.take(block)
+
+
+def test_the_readme_shows_the_file_that_it_copies() -> None:
+    blocks = blocks_of(ROOT / "README.md")
+    (copied,) = (match[1] for block in blocks if (match := re.search(r"^cp (\S+) ", block.text, re.MULTILINE)))
+    assert [block.info for block in blocks if block.language == "toml"] == [f"toml from {copied}"]
+
+
+def test_the_readme_models_the_same_beam_by_the_command_and_from_python() -> None:
+    """Their numbers agree as far as both are shown; that each is what is printed, the test of the page tells."""
+    texts = [block.text for block in blocks_of(ROOT / "README.md") if block.language == "text"]
+    by_command = re.search(r"First elastic tone: .* ω = (\S+) rad/s .* added mass (\S+) kg/m²", texts[0])
+    from_python = re.search(r" 5.0 m: (\S+) rad/s, added mass (\S+) kg/m²", texts[-1])
+    assert by_command is not None
+    assert from_python is not None
+    for shown, other in zip(from_python.groups(), by_command.groups(), strict=True):
+        assert shown == f"{float(other):.{len(shown.partition('.')[2])}f}"
 
 
 def _inline_commands() -> dict[str, str]:

@@ -12,6 +12,7 @@ from dolfinx import fem
 from mpi4py import MPI
 from numpy.typing import NDArray
 
+from hydroelastic.fem.thread.force_scale import force_scale
 from hydroelastic.fem.thread.forms import ThreadForms, ThreadState
 from hydroelastic.fem.thread.model import ThreadModel, Units
 from hydroelastic.fem.thread.newton import NewtonSolver
@@ -129,16 +130,7 @@ def natural_units(model: ThreadModel, start: Start, nodes: NDArray[np.float64]) 
     speed = 0.0
     if model.stream is not None:
         speed = float(np.max(np.linalg.norm(model.stream.velocity_at(in_space(start.position(nodes))), axis=1)))
-    bodies = (*model.loads.values(), *(end.load for end in model.ends))
-    tensions = [
-        *(float(np.linalg.norm(body.force)) + body.drag * speed**2 for body in bodies),
-        abs(model.weight) * model.length,
-        (model.normal_drag * speed + model.viscous_drag) * speed * model.length,
-        model.flexural_rigidity / model.length**2,
-        0.0 if model.reactive == "none" else model.added_mass * speed**2,
-        float(np.max(np.abs(start.force(nodes)))),
-    ]
-    force = max(tensions) or 1.0
+    force = max(force_scale(model, speed), float(np.max(np.abs(start.force(nodes))))) or 1.0
     if speed > 0.0:
         return Units(length=model.length, force=force, time=model.length / speed)
     inertia = model.mass + model.added_mass

@@ -10,6 +10,7 @@ equations of motion with the second derivative of |r_s| = 1, τ·a_s + |P v_s|²
 
 from __future__ import annotations
 
+from functools import partial
 from math import inf
 from typing import Any
 
@@ -54,9 +55,16 @@ class ThreadInstant:
         self._unknown.x.array[:] = 0.0
         return self._solve("start", held, self._starting, _BLINK)
 
-    def accelerate(self, held: HeldUnknowns) -> bool:
-        """Solve for accelerations, axial force and curvature; the result is in the unknown."""
+    def accelerate(self, held: HeldUnknowns, *, unstretched: bool = False) -> bool:
+        """Solve for accelerations, axial force and curvature; the result is in the unknown.
+
+        Args:
+            held: unknowns that are given.
+            unstretched: as if the thread could not stretch.
+        """
         self._unknown.x.array[:] = 0.0
+        if unstretched and self._forms.model.axial_rigidity < inf:
+            return self._solve("unstretched", held, partial(self._accelerating, inf), _BLINK**2)
         return self._solve("accelerate", held, self._accelerating, _BLINK**2)
 
     def _solve(self, name: str, held: HeldUnknowns, equations: Any, step: float) -> bool:
@@ -103,7 +111,7 @@ class ThreadInstant:
             return 0
         return ufl.inner(ufl.split(self._unknown)[2], self._tests[2]) * self._forms.space.dx
 
-    def _accelerating(self) -> Any:
+    def _accelerating(self, rigidity: float | None = None) -> Any:
         step, forms = self._step, self._forms
         position, speed = ufl.split(step.before)[0], ufl.split(step.speed)[0]
         acceleration, force = self._parts()
@@ -112,7 +120,7 @@ class ThreadInstant:
         test = ThreadState(*self._tests)
         form = forms.contact_work(state, test) + forms.inertia(position, acceleration, test.position)
         form -= forms.load_work(position, speed, test.position)
-        if forms.model.axial_rigidity < inf:
+        if (rigidity or forms.model.axial_rigidity) < inf:
             form += forms.stretch(state, test)
         else:
             tau, slope = tangent(position), position.dx(0)

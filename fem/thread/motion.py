@@ -12,16 +12,23 @@ from dolfinx import fem
 from mpi4py import MPI
 from numpy.typing import NDArray
 
-from hydroelastic.fem.thread.equilibrium import Along, Equilibrium
+from hydroelastic.fem.thread.equilibrium import Along, Equilibrium, in_space
+from hydroelastic.fem.thread.force_scale import force_scale
 from hydroelastic.fem.thread.forms import ThreadForms
 from hydroelastic.fem.thread.model import Stream, ThreadModel, Units
 from hydroelastic.fem.thread.motion_plan import EndCourse, MotionPlan, ThreadMotionError, VectorOfTime
-from hydroelastic.fem.thread.motion_results import StepHistory, ThreadMotion, at_step_ends, find_slack
+from hydroelastic.fem.thread.motion_results import SLACK, StepHistory, ThreadMotion, at_step_ends, find_slack
 from hydroelastic.fem.thread.mover import Guidance, ThreadMover
 from hydroelastic.fem.thread.pace import Pace
 from hydroelastic.fem.thread.shedding import SheddingLoad
 from hydroelastic.fem.thread.space import ThreadSpace
 from hydroelastic.fem.thread.step import GeneralisedAlpha
+
+# Of the force unit: less compression at the start passes as the thread turns.
+_SLACK_AT_START = 1e-3
+# How often a step may be shortened while the thread is slack: its folds are the faster the shorter they are, and
+# no step resolves them.
+_MOST_REFUSED_SLACK = 100
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,16 +63,13 @@ class _TimedStream:
 
 
 def motion_units(model: ThreadModel) -> Units:
-    """The thread's length, its weight and loads as a force, and the time of a transverse wave under them.
+    """The thread's length, the largest force that acts on it, and the time of a transverse wave under that.
 
-    Without any force, the drag at the speed at which the stream is at z = 0; without that too, 1 N.
+    The stream counts with its speed at z = 0; without any force, 1 N.
     """
     bodies = (*model.loads.values(), *(end.load for end in model.ends))
-    force = abs(model.weight) * model.length + sum(float(np.linalg.norm(body.force)) for body in bodies)
-    if force == 0.0 and model.stream is not None:
-        speed = float(np.linalg.norm(model.stream.velocity_at(np.zeros((1, 3)))))
-        force = model.normal_drag * speed**2 * model.length
-    force = force or 1.0
+    speed = 0.0 if model.stream is None else float(np.linalg.norm(model.stream.velocity_at(np.zeros((1, 3)))))
+    force = force_scale(model, speed) or 1.0
     inertia = (model.mass + model.added_mass) * model.length + sum(body.mass + body.added_mass for body in bodies)
     return Units(length=model.length, force=force, time=float(np.sqrt(inertia * model.length / force)))
 
@@ -173,6 +177,14 @@ def _interpolate(function: Any, along: Along, length: float, unit: float) -> Non
     function.x.array[np.asarray(places)] = part.x.array
 
 
+def _fastest_stream(model: ThreadModel, positions: NDArray[np.float64], velocities: NDArray[np.float64]) -> float:
+    """The largest speed of the liquid past the thread, of positions and velocities of shape (..., dimension)."""
+    past = -in_space(velocities.reshape(-1, model.dimension))
+    if model.stream is not None:
+        past = past + model.stream.velocity_at(in_space(positions.reshape(-1, model.dimension)))
+    return float(np.max(np.linalg.norm(past, axis=1)))
+
+
 @dataclass
 class _Record:
     """What steps leave, in the units of the forms."""
@@ -196,7 +208,7 @@ class _Run:
         self._mover, self._units, self._plan, self._length = mover, units, plan, length
         self._record = _Record()
         self._pace = Pace(plan.step / units.time, plan.tolerance if plan.grid is None else None)
-        self._jerked, self._refused = 0.0, 0
+        self._jerked, self._refused, self._refused_slack = 0.0, 0, 0
         self._rate_age = 0.0
 
     def go(self, *, place: bool) -> ThreadMotion:
@@ -210,7 +222,7 @@ class _Run:
                 "there is no thread near the given positions, or its tension is undetermined; give positions with "
                 "|r_s| = 1 nearby, and more thread than the distance of its held ends"
             )
-        self._begin(jerk=True)
+        self._begin(jerk=True, look_for_slack=self._plan.tension_at_start)
         self._record.ends.append(mover.time)
         self._record.energies.append(mover.energies())
         self._output()
@@ -225,7 +237,7 @@ class _Run:
                 break
         return self._result(moved * self._length if moved else 0.0, still)
 
-    def _begin(self, *, jerk: bool) -> None:
+    def _begin(self, *, jerk: bool, look_for_slack: bool = False) -> None:
         """Velocities, accelerations and tensions at the start, or after a break."""
         mover = self._mover
         if jerk:
@@ -234,6 +246,8 @@ class _Run:
                 self._fail("no impulse of the ends gives the thread the velocities asked for")
             else:
                 self._jerked = max(self._jerked, jerked)
+        if look_for_slack and not mover.forms.model.bends:
+            self._refuse_slack()
         tensions = mover.accelerate()
         if tensions is None:
             self._fail("the accelerations are undetermined; is the thread straight between two held ends?")
@@ -244,6 +258,21 @@ class _Run:
             self._record.starts[steps] = (tensions, mover.start_reactions()) if known else None
         self._pace.restart()
         self._rate_age = 0.0
+
+    def _refuse_slack(self) -> None:
+        tensions = self._mover.tension_without_stretch()
+        if tensions is None or np.min(tensions) > -_SLACK_AT_START:
+            return
+        self._fail(
+            f"the thread starts slack: to keep its length, it would have to bear {self._worst(tensions)}, and without "
+            "bending stiffness it bears no compression; start in a direction in which weight and forces pull it "
+            "straight, or give it flexural_rigidity"
+        )
+
+    def _worst(self, tensions: NDArray[np.float64]) -> str:
+        """The lowest tension and its place, in words."""
+        place = float(self._mover.forms.space.nodes[np.argmin(tensions)]) * self._length
+        return f"{float(np.min(tensions)) * self._units.force:.4g} N at s = {place:.4g} m"
 
     def _reach(self, stop: float) -> float | None:
         """Go on to a time; to an earlier one where the thread is still."""
@@ -275,6 +304,15 @@ class _Run:
                 break
             self._refused += 1
             length = pace.shorter(length, error)
+            slack = self._slack()
+            if slack is not None:
+                self._refused_slack += 1
+                if self._refused_slack > _MOST_REFUSED_SLACK:
+                    self._fail(
+                        f"the thread is slack, with {self._worst(slack)}: it folds faster than steps can follow, of "
+                        f"which {self._refused_slack} had to be shortened; give it flexural_rigidity, or ask for an "
+                        "earlier last time"
+                    )
             if pace.exhausted(length):
                 self._fail(
                     "Newton's method did not converge in steps however short; look for slack or a fold before this "
@@ -292,6 +330,13 @@ class _Run:
         record.solutions.append(solutions or 0)
         pace.done(length, error)
         return length
+
+    def _slack(self) -> NDArray[np.float64] | None:
+        """Tensions of the last step, if the thread was in compression and does not bend."""
+        tensions = self._record.tensions[-1] if self._record.tensions else None
+        if tensions is None or self._mover.forms.model.bends or np.min(tensions) > -SLACK:
+            return None
+        return tensions
 
     def _output(self) -> None:
         self._record.output.append((len(self._record.work), *self._mover.state()))
@@ -323,12 +368,16 @@ class _Run:
             solutions=np.array(record.solutions),
         )
         rows = [steps for steps, _, _ in record.output]
+        positions = np.array([positions for _, positions, _ in record.output])
+        velocities = np.array([velocities for _, _, velocities in record.output])
+        model = self._mover.forms.model
         return ThreadMotion(
             times=history.ends[rows],
             nodes=nodes,
-            positions=np.array([positions for _, positions, _ in record.output]) * length,
-            velocities=np.array([velocities for _, _, velocities in record.output]) * speed,
+            positions=positions * length,
+            velocities=velocities * speed,
             tensions=history.tensions[rows],
+            force_scale=force_scale(model, _fastest_stream(model, positions, velocities)) * units.force,
             history=history,
             moved=moved,
             jerked=self._jerked * speed,

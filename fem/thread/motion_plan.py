@@ -60,6 +60,7 @@ class MotionPlan:
         grid: times at which steps end, s, increasing, in place of `step` and `tolerance`.
         still_speed: m/s; the motion ends once no component of a velocity is larger, after at least one step. Long steps
             get there with `dissipation` only: the midpoint rule rings.
+        tension_at_start: whether a thread without flexural rigidity is refused that would be in compression at once.
     """
 
     times: NDArray[np.float64]
@@ -72,6 +73,7 @@ class MotionPlan:
     shedding: Shedding | None = None
     grid: NDArray[np.float64] | None = None
     still_speed: float | None = None
+    tension_at_start: bool = False
 
     def __post_init__(self) -> None:
         """Refuse what cannot be followed."""

@@ -68,6 +68,7 @@ class ThreadMotion:
         positions: shape (times, nodes, dimension).
         velocities: shape (times, nodes, dimension).
         tensions: at breaks just after them, shape (times, nodes).
+        force_scale: the largest force that acted on the thread, N, see `force_scale`.
         history: numbers of all steps.
         moved: how far the given positions were moved to be those of a thread, m.
         jerked: by how much given velocities were changed, at the start and at breaks, m/s, at most.
@@ -81,6 +82,7 @@ class ThreadMotion:
     positions: NDArray[np.float64]
     velocities: NDArray[np.float64]
     tensions: NDArray[np.float64]
+    force_scale: float
     history: StepHistory
     moved: float
     jerked: float
@@ -90,7 +92,7 @@ class ThreadMotion:
 
 
 # Of the characteristic force: compression below it is rounding, or an end without force.
-_SLACK = 1e-8
+SLACK = 1e-8
 
 
 def find_slack(
@@ -105,7 +107,7 @@ def find_slack(
         force: a characteristic one.
     """
     lowest = tensions.min(axis=1)
-    loose = lowest < -_SLACK * force
+    loose = lowest < -SLACK * force
     changes = np.flatnonzero(np.diff(np.concatenate([[False], loose, [False]]).astype(int)))
     found = []
     for first, beyond in changes.reshape(-1, 2):

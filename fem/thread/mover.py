@@ -182,6 +182,19 @@ class ThreadMover:
         before[others] = self.step.unknown.x.array[others]
         return self.tensions()
 
+    def tension_without_stretch(self) -> NDArray[np.float64] | None:
+        """Tension at the nodes that the present state asks of a thread that does not stretch, at once.
+
+        One that stretches has none at first where it begins with its length.
+
+        Returns:
+            Shape (nodes,), nothing where there is no solution (collective).
+        """
+        self._held = self._hold()
+        self._act(self.time)
+        self._lead(lambda position: _curvature(position, self.time))
+        return self.tensions() if self._instant.accelerate(self._held, unstretched=True) else None
+
     def _keep_rate(self, values: NDArray[np.float64]) -> None:
         self.step.rate.x.array[self._places] = values[self._places]
 

@@ -19,7 +19,7 @@ from hydroelastic.fem.thread.profile import ThreadProfile, start_from, thread_pr
 COMPRESSION = 1e-8
 # Rounding of a solution, relative: measured 1e-13 for straight threads, whose discrete solution is exact.
 ROUNDING = 1e-12
-# Of the largest tension: what is not for want of elements.
+# Of the largest force: what is not for want of elements.
 _FOLDED = 0.05
 # Inner places of an element at which two solutions are compared.
 _PLACES = np.arange(1, 8) / 8.0
@@ -120,9 +120,9 @@ def solve_thread(
         if len(elements) > 1 and len(nodes) > 2 * _MOST_ELEMENTS:
             break
         equilibrium, fine = solve()
-        # Folds depend on the mesh: to refine them leads nowhere.
-        _refuse_compression(fine, _FOLDED * float(np.max(np.abs(fine.tension))))
         comparison = _Comparison(coarse, fine, equilibrium.units.force)
+        # Folds depend on the mesh: to refine them leads nowhere.
+        _refuse_compression(fine, _FOLDED * comparison.largest)
         errors = comparison.errors()
         if errors.relative <= tolerance:
             _refuse_compression(fine, COMPRESSION * equilibrium.units.force)

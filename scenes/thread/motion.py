@@ -140,6 +140,7 @@ def _plan(scene: ThreadScene, frame: Frame, asked: analyses.ThreadMotion) -> Mot
         ends=(_course(scene, frame, asked, "a"), _course(scene, frame, asked, "b")),
         dissipation=asked.spectral_radius if asked.integrator == "generalized_alpha" else None,
         shedding=shedding,
+        tension_at_start=asked.start == "straight",
     )
 
 
@@ -211,6 +212,7 @@ def _followed(frame: Frame, rest: ThreadSolution, found: MeasuredMotion) -> Foll
             lowest_at=motion.nodes[tensions.argmin(axis=1)],
             highest=tensions.max(axis=1),
             highest_at=motion.nodes[tensions.argmax(axis=1)],
+            force_scale=motion.force_scale,
             error=float(found.tension_changes.max()) + _between_steps(tensions),
         ),
         # Near a free end the tension is as small as its error.

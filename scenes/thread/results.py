@@ -19,6 +19,8 @@ Floats = NDArray[np.float64]
 
 # Of the largest: a motion whose tensions are known worse says nothing of slack.
 _TENSION_KNOWN = 0.1
+# Of the forces that act: smaller tensions, of a thread that falls freely say, are as good as none.
+_TENSION_LEAST = 0.01
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -78,6 +80,7 @@ class Extremes:
         lowest_at: where that is, m along the thread, shape (n,).
         highest: along the thread, N, shape (n,).
         highest_at: where that is, m along the thread, shape (n,).
+        force_scale: the largest force that acted on the thread, N.
         error: estimated, of all of them and of what lies between the steps, N.
     """
 
@@ -86,7 +89,13 @@ class Extremes:
     lowest_at: Floats
     highest: Floats
     highest_at: Floats
+    force_scale: float
     error: float
+
+    @property
+    def size(self) -> float:
+        """The tension in whose parts errors of tensions are judged: the largest one, N."""
+        return max(float(np.max(self.highest)), _TENSION_LEAST * self.force_scale)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -179,9 +188,9 @@ class ThreadSolutionOfScene:
             if motion.slack
         ]
         slack += [
-            f"motion: the estimated error of tensions is {motion.extremes.error:.1e} N, of {largest:.1e} N"
-            for motion, largest in ((motion, float(np.max(motion.extremes.highest))) for motion in self.motions)
-            if motion.extremes.error > _TENSION_KNOWN * largest
+            f"motion: the estimated error of tensions is {motion.extremes.error:.1e} N, of {motion.extremes.size:.1e} N"
+            for motion in self.motions
+            if motion.extremes.error > _TENSION_KNOWN * motion.extremes.size
         ]
         return *slack, *(
             f"{what}: the estimated error {of} is {error:.1e}; {kept_tolerance(error)}"

@@ -1,0 +1,34 @@
+"""The force in whose parts errors of tensions and forces are told: where a thread falls freely no tension is one."""
+
+from __future__ import annotations
+
+from math import inf
+
+from hydroelastic.fem.thread.model import ThreadModel
+
+# Stretch whose force counts where nothing else acts on a thread.
+_STRETCH = 1e-6
+
+
+def force_scale(model: ThreadModel, speed: float) -> float:
+    """The largest force that acts on a thread: |F| + k u² of a body, |w| L, (kn u + nv) u L, EI/L², ma u² if reactive.
+
+    Args:
+        model: the thread, in any consistent units.
+        speed: u, the largest of the liquid past the thread.
+
+    Returns:
+        The force; where nothing acts on the thread that which stretches it by a millionth, zero if it cannot stretch.
+    """
+    bodies = (*model.loads.values(), *(end.load for end in model.ends))
+    reactive = 0.0 if model.reactive == "none" else model.added_mass * speed**2
+    largest = max(
+        *(float(sum(part**2 for part in body.force) ** 0.5) + body.drag * speed**2 for body in bodies),
+        abs(model.weight) * model.length,
+        (model.normal_drag * speed + model.viscous_drag) * speed * model.length,
+        model.flexural_rigidity / model.length**2,
+        reactive,
+    )
+    if largest > 0.0 or model.axial_rigidity == inf:
+        return largest
+    return _STRETCH * model.axial_rigidity

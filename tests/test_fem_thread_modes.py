@@ -13,6 +13,7 @@ from thread_cases import CASES, inputs, results
 from thread_field_cases import held_at, model_of, start_by, start_of
 from thread_mode_cases import COMM, in_axial_flow, straight_pair, straight_thread
 
+from hydroelastic.fem.thread.eigenpairs import eigenpairs, roots_near_zero
 from hydroelastic.fem.thread.equilibrium import Equilibrium, Start, solve_on_mesh
 from hydroelastic.fem.thread.hyperbolicity import IllPosedError
 from hydroelastic.fem.thread.model import PointLoad, Reactive, ThreadModel
@@ -240,6 +241,16 @@ def moored() -> tuple[Equilibrium, Equilibrium]:
 
 
 @pytest.mark.mpi
+def test_roots_of_the_coarser_mesh_go_beyond_the_last_one(moored: tuple[Equilibrium, Equilibrium]) -> None:
+    """There a real root may be beyond the last oscillating one, and must be found all the same."""
+    operators = thread_operators(moored[1])
+    asked = [pair.root for pair in eigenpairs(operators, 1)]
+    roots = roots_near_zero(operators, 1)
+    assert roots[: len(asked)].tolist() == pytest.approx(asked, rel=1e-9)
+    assert len(roots) > len(asked)
+    assert np.all(np.abs(roots[len(asked) :]) >= abs(asked[-1]))
+
+
 def test_overdamped_motions_come_before_oscillating_ones(moored: tuple[Equilibrium, Equilibrium]) -> None:
     modes = thread_modes(*moored, 2)
     exact = [complex(*value) for value in results("M11")["lam"]]

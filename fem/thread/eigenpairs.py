@@ -63,6 +63,30 @@ def eigenpairs(operators: ThreadOperators, count: int) -> list[Eigenpair]:
     Raises:
         EigenSolverError: if there are not so many.
     """
+    pairs, last = _slowest(operators, count)
+    return pairs[: last + 1]
+
+
+def roots_near_zero(operators: ThreadOperators, count: int) -> NDArray[np.complex128]:
+    """The roots of `eigenpairs`, and those that were found beyond the last of them.
+
+    On another mesh a real root may change places with the last one that oscillates.
+
+    Args:
+        operators: of the thread.
+        count: how many pairs of conjugate roots there are at least.
+
+    Returns:
+        λ in units of the operators, by ascending magnitude (collective).
+
+    Raises:
+        EigenSolverError: if there are not so many.
+    """
+    return np.array([pair.root for pair in _slowest(operators, count)[0]], dtype=np.complex128)
+
+
+def _slowest(operators: ThreadOperators, count: int) -> tuple[list[Eigenpair], int]:
+    """Pairs by ascending magnitude, and the place of the last of `count` that oscillate."""
     if count < 1:
         raise ValueError(f"count is {count}: it must be at least 1")
     solve = _linear if operators.damping is None else _quadratic
@@ -71,7 +95,7 @@ def eigenpairs(operators: ThreadOperators, count: int) -> list[Eigenpair]:
         pairs = solve(operators, min(wanted, operators.size))
         oscillating = [number for number, pair in enumerate(pairs) if is_oscillating(pair.root)]
         if len(oscillating) >= count:
-            return pairs[: oscillating[count - 1] + 1]
+            return pairs, oscillating[count - 1]
         if wanted >= operators.size:
             raise EigenSolverError(f"fewer than {count} oscillating motions among {operators.size} unknowns")
         wanted *= 2

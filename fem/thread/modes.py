@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from petsc4py import PETSc
 
 from hydroelastic.fem.modes import EigenSolverError
-from hydroelastic.fem.thread.eigenpairs import Eigenpair, eigenpairs, is_oscillating
+from hydroelastic.fem.thread.eigenpairs import Eigenpair, eigenpairs, is_oscillating, roots_near_zero
 from hydroelastic.fem.thread.equilibrium import Equilibrium
 from hydroelastic.fem.thread.equivalent_damping import QuadraticDecay
 from hydroelastic.fem.thread.hyperbolicity import require_real_wave_speeds
@@ -49,6 +49,12 @@ class Roots:
         ratios: NDArray[np.float64] = -self.values.real / np.abs(self.values)
         return ratios
 
+    @property
+    def relative_errors(self) -> NDArray[np.float64]:
+        """Errors over |λ|."""
+        ratios: NDArray[np.float64] = self.errors / np.abs(self.values)
+        return ratios
+
 
 @dataclass(frozen=True, kw_only=True)
 class ThreadModes:
@@ -71,6 +77,11 @@ class ThreadModes:
     def frequencies(self) -> NDArray[np.float64]:
         """Circular frequencies Im λ of the oscillating motions, rad/s."""
         return self.oscillating.values.imag
+
+    @property
+    def relative_error(self) -> float:
+        """The largest of the relative errors of all roots, those that do not oscillate among them."""
+        return max(float(np.max(part.relative_errors, initial=0.0)) for part in (self.oscillating, self.aperiodic))
 
     @property
     def is_stable(self) -> bool:
@@ -111,7 +122,7 @@ def thread_modes(
     operators = thread_operators(equilibrium, velocity_damping=velocity_damping)
     pairs = eigenpairs(operators, count)
     rough = thread_operators(coarser, velocity_damping=velocity_damping)
-    compared = np.array([pair.root for pair in eigenpairs(rough, count)], dtype=np.complex128) / rough.time_unit
+    compared = roots_near_zero(rough, count) / rough.time_unit
     normal = _plane_normal(equilibrium)
     modes = [_Mode(operators, pair, compared, normal) for pair in pairs]
     oscillating = np.array([is_oscillating(pair.root) for pair in pairs])

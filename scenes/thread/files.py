@@ -49,7 +49,7 @@ def _write_csv(file: Path, columns: tuple[str, ...], rows: Floats) -> None:
 def _mode_rows(roots: Roots, oscillates: int) -> Floats:
     values = roots.values
     return np.column_stack(
-        [np.full(len(values), oscillates), values.real, values.imag, roots.out_of_plane, roots.errors / np.abs(values)]
+        [np.full(len(values), oscillates), values.real, values.imag, roots.out_of_plane, roots.relative_errors]
     )
 
 

@@ -46,8 +46,7 @@ def modes_of(
     try:
         for halving in range(_MOST_HALVINGS + 1):
             found = thread_modes(fine, coarse, asked.count, velocity_damping=asked.velocity_damping)
-            worst = float(np.max(found.oscillating.errors / np.abs(found.oscillating.values), initial=0.0))
-            if worst <= scene.accuracy.tolerance or halving == _MOST_HALVINGS:
+            if found.relative_error <= scene.accuracy.tolerance or halving == _MOST_HALVINGS:
                 break
             nodes = halved(nodes)
             coarse, fine = fine, equilibrium_on(comm, scene, frame, nodes, start, degree)

@@ -175,8 +175,9 @@ class ThreadSolutionOfScene:
         tolerance = self.scene.accuracy.tolerance
         judged = [("equilibrium", "of its positions and forces", self.rest.relative_error, tolerance)]
         for modes in self.modes:
-            errors = modes.oscillating.errors / np.abs(modes.oscillating.values)
-            judged.append(("modes", "of a frequency", float(np.max(errors, initial=0.0)), tolerance))
+            for kind, roots in (("frequency", modes.oscillating), ("root that does not oscillate", modes.aperiodic)):
+                worst = float(np.max(roots.relative_errors, initial=0.0))
+                judged.append(("modes", f"of a {kind}", worst, tolerance))
         for threshold in (threshold for sweep in self.stability for threshold in sweep.thresholds):
             judged.append(("stability", f"of the {threshold.kind}", threshold.error / threshold.value, tolerance))
         for motion, asked in zip(self.motions, self.scene.motions, strict=True):

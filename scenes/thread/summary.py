@@ -87,7 +87,7 @@ def _root(roots: Roots, place: int) -> dict[str, Any]:
         "decay": 0.0 - root.real,
         "damping_ratio": float(roots.damping_ratios[place]) + 0.0,
         "out_of_plane": None if np.isnan(out) else out,
-        "relative_error": float(roots.errors[place] / abs(root)),
+        "relative_error": float(roots.relative_errors[place]),
     }
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -48,6 +48,9 @@ class Equilibrium:
         solution: (r, S) or (r, S, κ) in `units`, a function in `space.mixed`.
         fixed: what of the unknowns is given, boundary conditions.
         newton_steps: how many there were.
+        stretch_response: how the solution changes with a stretch of the whole thread, by that stretch, a function in
+            `space.mixed`; nothing where the solution was given.
+        residual: what is left of the equations, owned unknowns; none where the solution was given.
     """
 
     model: ThreadModel
@@ -57,6 +60,8 @@ class Equilibrium:
     solution: Any
     fixed: list[Any]
     newton_steps: int
+    stretch_response: Any = None
+    residual: NDArray[np.float64] = field(default_factory=lambda: np.zeros(0))
 
     @property
     def state(self) -> ThreadState:
@@ -110,9 +115,18 @@ def solve_on_mesh(
         if forms.stream is not None:
             forms.stream.update(state.position)
 
-    steps = NewtonSolver(residual, solution, fixed, update).solve()
+    solver = NewtonSolver(residual, solution, fixed, update, ufl.TestFunctions(space.mixed)[1] * space.dx)
+    steps = solver.solve()
     return Equilibrium(
-        model=model, units=units, space=space, forms=forms, solution=solution, fixed=fixed, newton_steps=steps
+        model=model,
+        units=units,
+        space=space,
+        forms=forms,
+        solution=solution,
+        fixed=fixed,
+        newton_steps=steps,
+        stretch_response=solver.response,
+        residual=solver.values,
     )
 
 

@@ -41,12 +41,17 @@ class NewtonSolver:
         unknowns: w in the mixed space of a thread whose length is one; its fixed components must have their values.
         fixed: unknowns that are given, one or more boundary conditions.
         update: called before each assembly, for what F knows of w besides.
+        disturbance: D, a form with one argument, whose part in F is small.
 
     Attributes:
         jacobian: matrix of the last linear system.
+        values: F at the solution, owned unknowns.
+        response: of the solution to the disturbance, y of F'(w) y = D, a function like w.
     """
 
-    def __init__(self, residual: Any, unknowns: Any, fixed: list[Any], update: Callable[[], None]) -> None:
+    def __init__(
+        self, residual: Any, unknowns: Any, fixed: list[Any], update: Callable[[], None], disturbance: Any
+    ) -> None:
         """Compile the forms and make the matrix."""
         self._residual = compiled_form(residual)
         self._derivative = compiled_form(ufl.derivative(residual, unknowns))
@@ -59,7 +64,9 @@ class NewtonSolver:
         positions = np.asarray(space.sub(0).collapse()[1])
         self._positions = positions[positions < self._owned]
         self.jacobian = create_matrix(self._derivative)
-        self._values = np.zeros(self._owned)
+        self.values = np.zeros(self._owned)
+        self._disturbance = fem.form(disturbance, jit_options=jit_options())
+        self.response = fem.Function(space)
         # Largest entries of the residual, of that before, and of the last step's positions; whether the residual is
         # that of w.
         self._size = self._before = np.inf
@@ -81,6 +88,8 @@ class NewtonSolver:
         try:
             solver.solve(None, place)
             reason, count = solver.getConvergedReason(), solver.getIterationNumber()
+            if reason > 0:
+                self._respond(solver.getKSP(), place)
         except PETSc.Error as error:
             raise ThreadSolverError(f"a linear system of Newton's method could not be solved: {error}") from error
         finally:
@@ -118,7 +127,7 @@ class NewtonSolver:
         if not self._is_known:
             self._move(place.array_r)
         self._is_known = False
-        value.array[:] = self._values
+        value.array[:] = self.values
 
     def _derive(self, _: PETSc.SNES, __: PETSc.Vec, matrix: PETSc.Mat, ___: PETSc.Mat) -> None:
         # The residual was found last, and at the same place.
@@ -155,12 +164,26 @@ class NewtonSolver:
         self._unknowns.x.array[: self._owned] = values
         self._unknowns.x.scatter_forward()
         self._update()
-        vector = assemble_vector(self._residual)
-        vector.ghostUpdate(addv=PETSc.InsertMode.ADD, mode=PETSc.ScatterMode.REVERSE)
-        self._values = vector.array.copy()
+        vector = self._assembled(self._residual)
+        self.values = vector.array.copy()
         vector.destroy()
-        self._values[self._held] = 0.0
-        self._size = self._largest(self._values)
+        self.values[self._held] = 0.0
+        self._size = self._largest(self.values)
+
+    def _respond(self, linear: PETSc.KSP, place: PETSc.Vec) -> None:
+        """Solve with the matrix of the last step, which was taken within `STEP_TOLERANCE` of the solution."""
+        right, left = self._assembled(self._disturbance), place.duplicate()
+        right.array[self._held] = 0.0
+        linear.solve(right, left)
+        self.response.x.array[: self._owned] = left.array_r
+        self.response.x.scatter_forward()
+        right.destroy()
+        left.destroy()
+
+    def _assembled(self, form: Any) -> PETSc.Vec:
+        vector = assemble_vector(form)
+        vector.ghostUpdate(addv=PETSc.InsertMode.ADD, mode=PETSc.ScatterMode.REVERSE)
+        return vector
 
     def _words(self, reason: int, count: int) -> str:
         """Why SNES stopped."""

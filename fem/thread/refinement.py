@@ -14,6 +14,7 @@ from hydroelastic.fem.thread.model import ThreadModel
 from hydroelastic.fem.thread.newton import ThreadSolverError
 from hydroelastic.fem.thread.nodes import first_nodes
 from hydroelastic.fem.thread.profile import ThreadProfile, start_from, thread_profile
+from hydroelastic.fem.thread.rounding import ThreadRounding, thread_rounding
 
 # Of the characteristic tension: what of compression is rounding.
 COMPRESSION = 1e-8
@@ -62,7 +63,7 @@ class ThreadSolution:
     Attributes:
         equilibrium: the finer one of the last two field solutions.
         profile: its tables.
-        errors: the difference of the two, which bounds the error of the finer one.
+        errors: the difference of the two, which bounds the error of the finer one, and rounding.
         elements: numbers of elements of all meshes, in order.
         newton_steps: on each of them.
         ramps: what had to grow where Newton's method failed at once, and in how many steps.
@@ -89,7 +90,7 @@ def solve_thread(
         degree: of the positions, at least 2.
 
     Returns:
-        The solution (collective).
+        The solution; where rounding is above the tolerance, so are its errors (collective).
 
     Raises:
         CompressionError: where the solution has compression.
@@ -121,10 +122,13 @@ def solve_thread(
             break
         equilibrium, fine = solve()
         comparison = _Comparison(coarse, fine, equilibrium.units.force)
+        differences = comparison.errors()
         # Folds depend on the mesh: to refine them leads nowhere.
         _refuse_compression(fine, _FOLDED * comparison.largest)
-        errors = comparison.errors()
-        if errors.relative <= tolerance:
+        errors = comparison.errors(thread_rounding(equilibrium))
+        rounded = errors.relative - differences.relative
+        # Finer meshes lessen no rounding.
+        if differences.relative <= max(tolerance - rounded, rounded):
             _refuse_compression(fine, COMPRESSION * equilibrium.units.force)
             return ThreadSolution(
                 equilibrium=equilibrium,
@@ -145,6 +149,9 @@ def solve_thread(
     raise ThreadSolverError(
         f"the error is still {errors.relative:.1e} with {elements[-1]} elements, which is more than {tolerance:.1e}"
     )
+
+
+_NOTHING = ThreadRounding(position=0.0, tension=0.0, reaction=0.0, moment=0.0)
 
 
 class _Comparison:
@@ -170,16 +177,17 @@ class _Comparison:
         self.length = coarse.model.length
         self.largest = max(float(np.max(np.linalg.norm(fine.force, axis=2))), characteristic)
 
-    def errors(self) -> ThreadErrors:
-        """What is stated."""
-        position = max(_size(self._inner), _size(self._nodal)) + ROUNDING * self.length
+    def errors(self, rounding: ThreadRounding = _NOTHING) -> ThreadErrors:
+        """What is stated: the differences and rounding."""
+        position = max(_size(self._inner), _size(self._nodal)) + ROUNDING * self.length + rounding.position
         # With a kink of the load two errors of its integral may agree by chance: what a polynomial misses counts too.
         missed = float(np.sum(_tail(self.fine))) + ROUNDING * self.largest
-        tension = float(max(np.max(self._tension), np.max(self._nodal_tension))) + missed
-        reaction = _size(self.fine.reactions() - self.coarse.reactions()) + missed
+        tension = float(max(np.max(self._tension), np.max(self._nodal_tension))) + missed + rounding.tension
+        reaction = _size(self.fine.reactions() - self.coarse.reactions()) + missed + rounding.reaction
         moment, moments = 0.0, self._largest_moment()
         if moments > 0.0:
-            moment = float(np.max(np.abs(self.fine.end_moments() - self.coarse.end_moments()))) + ROUNDING * moments
+            change = float(np.max(np.abs(self.fine.end_moments() - self.coarse.end_moments())))
+            moment = change + ROUNDING * moments + rounding.moment
         parts = [position / self.length, moment / (moments or 1.0)]
         if self.largest > 0.0:
             parts += [tension / self.largest, reaction / self.largest]

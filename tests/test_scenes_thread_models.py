@@ -101,7 +101,7 @@ def test_weight_follows_from_mass_and_diameter(tmp_path: Path) -> None:
         ((THREAD.replace("2.0", "0.5"), FIXED), ["length", "0.5", "1 m apart", "axial_rigidity"]),
         (
             (THREAD.replace("2.0", "1.0"), FIXED),
-            ["length", "no determined tension", "more than 1 m, or axial_rigidity"],
+            ["length", "no determined tension", "1.000000002 m or more, or axial_rigidity"],
         ),
         (
             (THREAD.replace("1.0", "0.0"), FIXED),

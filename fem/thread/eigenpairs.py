@@ -120,8 +120,7 @@ def stiffness_eigenvalues(operators: ThreadOperators, count: int) -> NDArray[np.
     # Where all motions across a straight thread lose their stiffness at once, Lanczos' vectors run out, and with the
     # inner product of a semidefinite M there are no others.
     solver.setProblemType(SLEPc.EPS.ProblemType.GNHEP)
-    with interrupts_deferred():
-        solver.solve()
+    _run(solver)
     # By their distance from zero: more than were sought may be infinite ones with rounding.
     found = range(min(count, solver.getConverged()))
     values = np.array([solver.getEigenvalue(number) for number in found], dtype=np.complex128)
@@ -144,8 +143,7 @@ def _linear_solver(operators: ThreadOperators, count: int) -> SLEPc.EPS:
 
 def _linear(operators: ThreadOperators, count: int) -> list[Eigenpair]:
     solver = _linear_solver(operators, count)
-    with interrupts_deferred():
-        solver.solve()
+    _run(solver)
     pairs: list[Eigenpair] = []
     for number in range(solver.getConverged()):
         real, imaginary = operators.zeros(), operators.zeros()
@@ -176,8 +174,7 @@ def _quadratic(operators: ThreadOperators, count: int) -> list[Eigenpair]:
     _invert(solver.getST())
     for tolerance in _TOLERANCES:
         solver.setTolerances(tolerance, 200)
-        with interrupts_deferred():
-            solver.solve()
+        _run(solver)
         if solver.getConverged() >= count:
             break
     pairs = []
@@ -188,6 +185,14 @@ def _quadratic(operators: ThreadOperators, count: int) -> list[Eigenpair]:
         if root.imag >= 0.0 and residual <= _LARGEST_RESIDUAL:
             pairs.append(Eigenpair(root=root, real=real, imaginary=imaginary, residual=residual))
     return sorted(pairs, key=lambda pair: abs(pair.root))
+
+
+def _run(solver: SLEPc.EPS | SLEPc.PEP) -> None:
+    try:
+        with interrupts_deferred():
+            solver.solve()
+    except PETSc.Error as error:
+        raise EigenSolverError("the matrices of stiffness and mass could not be factored") from error
 
 
 def _invert(transformation: SLEPc.ST) -> None:

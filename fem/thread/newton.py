@@ -91,7 +91,7 @@ class NewtonSolver:
             if reason > 0:
                 self._respond(solver.getKSP(), place)
         except PETSc.Error as error:
-            raise ThreadSolverError(f"a linear system of Newton's method could not be solved: {error}") from error
+            raise ThreadSolverError("a linear system of Newton's method could not be factored") from error
         finally:
             # It knows this object, and this object it: nothing else would free them.
             for part in (solver, place, value):

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
+from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.thread.hyperbolicity import IllPosedError
 from hydroelastic.fem.thread.spectrum import EquilibriumAt, Spectrum, branches, spectrum_at
 
@@ -197,7 +198,12 @@ def _threshold(at: _At, coarse: _At, low: Spectrum, high: Spectrum, kind: Kind, 
 
 
 def _zero(function: Callable[[float], float], low: float, high: float) -> float:
-    return float(brentq(function, low, high, xtol=_TOLERANCE * max(abs(low), abs(high)), rtol=_TOLERANCE))
+    try:
+        return float(brentq(function, low, high, xtol=_TOLERANCE * max(abs(low), abs(high)), rtol=_TOLERANCE))
+    except IllPosedError:
+        raise
+    except (ValueError, RuntimeError) as error:
+        raise EigenSolverError(f"the threshold between the factors {low:g} and {high:g} was not found") from error
 
 
 def _coarse_zero(function: Callable[[float], float], low: float, high: float) -> float:

@@ -194,6 +194,9 @@ def _at_height(
         return float(march(np.array([end[0], end[1], height])).positions[0, 2] - start[2])
 
     off = float(marched.positions[0, 2] - start[2])
+    # At its height already: two different heights are needed to begin with.
+    if abs(off) <= tolerance * length:
+        return marched
     found = root_scalar(miss, method="secant", x0=end[2], x1=end[2] - off, xtol=10 * tolerance * length)
     if not found.converged:
         return marched

@@ -22,6 +22,9 @@ MOST_LOADS = 100
 LEAST_DISTANCE = 1e-6
 """Of the length: bodies that are closer are at one place."""
 
+LEAST_SLACK = 1e-9
+"""Of the distance of the ends: a thread that does not stretch and is longer by less is straight."""
+
 _WAYS = "velocity (and shear), veer, profile or file"
 
 
@@ -100,7 +103,7 @@ def bodies_lie_on_the_thread(scene: ThreadScene) -> Iterator[InitErrorDetails]:
                 ("load", number, "at"),
                 place,
                 "it does not lie between the ends",
-                allowed=f"less than length = {length:g} m",
+                allowed=f"less than length = {length:.12g} m",
                 remedy="What hangs on an end belongs to [ends]",
             )
         elif min(place, length - place) < LEAST_DISTANCE * length:
@@ -120,7 +123,7 @@ def bodies_lie_on_the_thread(scene: ThreadScene) -> Iterator[InitErrorDetails]:
             ("output", "positions"),
             scene.positions[-1],
             "it lies beyond end B",
-            allowed=f"0 to length = {length:g} m",
+            allowed=f"0 to length = {length:.12g} m",
         )
 
 
@@ -159,19 +162,21 @@ def tension_is_determined(scene: ThreadScene) -> Iterator[InitErrorDetails]:
     chord, length = dist(a.position, b.position), scene.thread.length
     if scene.thread.tension is not None and abs(length - chord) <= 1e-10 * chord:
         return
+    allowed = f"{chord * (1.0 + 2.0 * LEAST_SLACK):.12g} m or more, or axial_rigidity"
     if length < chord * (1.0 - 1e-12):
         yield misfit(
             ("thread", "length"),
             length,
-            f"the ends are {chord:g} m apart and the thread does not stretch",
-            allowed=f"more than {chord:g} m, or axial_rigidity",
+            f"the ends are {chord:.12g} m apart and the thread does not stretch",
+            allowed=allowed,
         )
-    elif length <= chord * (1.0 + 1e-9):
+    elif length <= chord * (1.0 + LEAST_SLACK):
         yield misfit(
             ("thread", "length"),
             length,
-            "a straight thread between fixed ends that does not stretch has no determined tension",
-            allowed=f"more than {chord:g} m, or axial_rigidity, or the key tension",
+            f"it is within {LEAST_SLACK:g} of the distance of the fixed ends, {chord:.12g} m: a straight thread that "
+            "does not stretch has no determined tension",
+            allowed=f"{allowed}, or the key tension with a length equal to that distance",
         )
 
 

@@ -50,7 +50,7 @@ def _releases(scene: ThreadScene, motion: ThreadMotion, where: tuple[str | int, 
             yield misfit((*key, "end"), release.end, "it is let go twice", allowed="each end once")
         if release.time >= motion.times[-1]:
             yield misfit(
-                (*key, "time"), release.time, "the motion ends before", allowed=f"less than {motion.times[-1]:g} s"
+                (*key, "time"), release.time, "the motion ends before", allowed=f"less than {motion.times[-1]:.12g} s"
             )
         if scene.thread.reactive != "none":
             yield misfit(
@@ -96,8 +96,8 @@ def _straight_start(
             yield misfit(
                 (*where, "direction"),
                 None,
-                f"it puts the other end at z = {level:g} m",
-                allowed=f"a direction by which it is at its level, {other.level:g} m",
+                f"it puts the other end at z = {level:.12g} m",
+                allowed=f"a direction by which it is at its level, {other.level:.12g} m",
             )
         if held.clamp is not None and dist(way, [part / hypot(*held.clamp) for part in held.clamp]) > 1e-6:
             yield misfit((*where, "direction"), None, "the end is clamped in another", allowed="that of the clamp")
@@ -126,6 +126,6 @@ def _table(
         yield misfit(
             key,
             value,
-            f"its times go from {times[0]:g} to {times[-1]:g} s",
-            allowed=f"from 0 to {motion.times[-1]:g} s at least",
+            f"its times go from {times[0]:.12g} to {times[-1]:.12g} s",
+            allowed=f"from 0 to {motion.times[-1]:.12g} s at least",
         )

@@ -14,6 +14,7 @@ from hydroelastic.modal.beam.dry_modes import FloatArray
 from hydroelastic.modal.thread.asymptotics import NoAsymptoticError
 from hydroelastic.modal.thread.shape import NoTensionError, ThreadShape
 from hydroelastic.scenes.models.thread import ThreadScene
+from hydroelastic.scenes.thread.quiet import libraries_silent
 from hydroelastic.scenes.thread.results import ThreadSolutionOfScene
 
 
@@ -101,9 +102,12 @@ def attempted(name: str, find: Callable[[], ShapeEstimate | ValueEstimate]) -> F
     """Return an estimate with the seconds it took, or why there is none."""
     begin = time.perf_counter()
     try:
-        found = find()
-    except (NoAsymptoticError, NoTensionError, ValueError) as error:
+        with libraries_silent():
+            found = find()
+    except (NoAsymptoticError, NoTensionError) as error:
         return Inapplicable(name, str(error))
+    except (ValueError, ArithmeticError):
+        return Inapplicable(name, "its equations have no finite solution here that could be found")
     return replace(found, seconds=time.perf_counter() - begin)
 
 

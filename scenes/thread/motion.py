@@ -103,7 +103,10 @@ def _beginning(
         return lambda nodes, plan: move_thread(comm, model, nodes, straight, plan, degree=_DEGREE)
     begin = rest.profile
     if asked.start == "still_liquid":
-        begin = find_equilibrium(comm, with_stream_times(scene, 0.0), frame).solution.profile
+        try:
+            begin = find_equilibrium(comm, with_stream_times(scene, 0.0), frame).solution.profile
+        except UnsolvedError as error:
+            raise UnsolvedError(f'start = "still_liquid": without the stream {error}') from error
 
     def from_rest(nodes: Array, plan: MotionPlan) -> ThreadMotion:
         # At rest on this very mesh: a stiff thread takes up the difference of two meshes with a large tension.

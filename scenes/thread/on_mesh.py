@@ -18,6 +18,7 @@ from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.models.thread_parts import FixedEnd
 from hydroelastic.scenes.thread.frame import Frame
 from hydroelastic.scenes.thread.model import load_of, model_of
+from hydroelastic.scenes.thread.quiet import libraries_silent
 
 Array = NDArray[np.float64]
 
@@ -66,7 +67,8 @@ def given_tension(scene: ThreadScene) -> Callable[[Array], Array]:
         return float(load.load((begin + s * way)[None], way[None])[0] @ way)
 
     def at(s: Array) -> Array:
-        return np.array([tension + quad(along, place, length)[0] for place in np.ravel(s)]).reshape(np.shape(s))
+        with libraries_silent():
+            return np.array([tension + quad(along, place, length)[0] for place in np.ravel(s)]).reshape(np.shape(s))
 
     return at
 

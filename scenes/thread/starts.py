@@ -19,6 +19,7 @@ from hydroelastic.modal.thread.taut import taut_thread
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.models.thread_parts import CarriedBody, FixedEnd, SurfaceEnd
 from hydroelastic.scenes.thread.model import body_drag, dead_force, load_of, stream_of
+from hydroelastic.scenes.thread.quiet import libraries_silent
 
 # Of each step of a march: a start need not be better than the mesh.
 _TOLERANCE = 1e-7
@@ -68,11 +69,14 @@ def thread_starts(scene: ThreadScene, refused: list[str]) -> Iterator[ThreadStar
         finders = [("march", lambda: _marched(scene, reverse=not fixed[0]))]
     for name, find in finders:
         try:
-            start = ThreadStart(name, find())
-            # A catenary is found when it is asked for a point.
-            start.position(np.zeros(1))
-        except (NoTensionError, ValueError) as error:
+            with libraries_silent():
+                start = ThreadStart(name, find())
+                # A catenary is found when it is asked for a point.
+                start.position(np.zeros(1))
+        except NoTensionError as error:
             refused.append(f"{name}: {error}")
+        except (ValueError, ArithmeticError):
+            refused.append(f"{name}: its equations have no finite solution that could be found")
         else:
             yield start
 
@@ -89,12 +93,18 @@ def _between(scene: ThreadScene) -> Iterator[tuple[str, Callable[[], _ShapeAt]]]
     if length > chord:
         if np.linalg.norm(whole) > _CANCELLED * np.linalg.norm(weight):
             yield "catenary", lambda: lambda s: catenary_between(a, b, length, whole, np.asarray(s))
-        yield "hanging catenary", lambda: lambda s: catenary_between(a, b, length, weight, np.asarray(s))
+        yield "hanging catenary", lambda: _hanging(a, b, length, weight)
     elif rigidity < inf:
         yield (
             "stretched catenary",
             lambda: lambda s: elastic_catenary(a, b, length, scene.weight, rigidity, np.asarray(s)),
         )
+
+
+def _hanging(a: FloatArray, b: FloatArray, length: float, weight: FloatArray) -> _ShapeAt:
+    if not np.any(weight):
+        raise NoTensionError("a slack thread without weight does not hang")
+    return lambda s: catenary_between(a, b, length, weight, np.asarray(s))
 
 
 def _drag_on_chord(scene: ThreadScene, a: FloatArray, b: FloatArray) -> FloatArray:

@@ -23,6 +23,11 @@ StretchDrag = Literal["none", "volume"]
 class Stream(Protocol):
     """Velocity u(r) of the undisturbed liquid, steady."""
 
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Heights at which a derivative of u jumps, increasing."""
+        ...
+
     def velocity_at(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """u at points of shape (n, 3), shape (n, 3)."""
         ...
@@ -148,6 +153,10 @@ class _ScaledStream:
     stream: Stream
     length: float
     time: float
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        return tuple(height / self.length for height in self.stream.breaks)
 
     def velocity_at(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         return self.stream.velocity_at(points * self.length) * (self.time / self.length)

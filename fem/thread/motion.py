@@ -52,6 +52,10 @@ class _TimedStream:
     stream: Stream
     factor: float = 1.0
 
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        return self.stream.breaks
+
     def set_factor(self, factor: float) -> None:
         self.factor = factor
 

@@ -6,15 +6,16 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal, Protocol
+from typing import Literal, Protocol, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.interpolate import PchipInterpolator
+from scipy.interpolate import CubicSpline, PchipInterpolator
 
 from hydroelastic.modal.beam.dry_modes import FloatArray
 
 Vector = tuple[float, float, float]
+Interpolation = Literal["linear", "monotone", "spline", "cubic"]
 
 # Places between two rows of a table at which its speed is looked at.
 _PLACES_PER_ROW = 16
@@ -172,13 +173,15 @@ class TabulatedStream(_OfHeight):
     Attributes:
         levels: heights of the rows, m, increasing.
         velocities: u of each row, m/s, three components each.
-        interpolation: ``"linear"``, or ``"cubic"``: each component a monotone cubic between rows (SciPy's
-            PCHIP), continuous with its first derivative.
+        interpolation: ``"linear"``; ``"monotone"``, each component a cubic between rows that does not overshoot them
+            (SciPy's PCHIP), continuous with its first derivative; ``"spline"``, cubics that are continuous with
+            their first two derivatives between the outer rows, where the second is zero, and which may overshoot.
+            ``"cubic"`` is an older name of ``"monotone"``.
     """
 
     levels: tuple[float, ...]
     velocities: tuple[Vector, ...]
-    interpolation: Literal["linear", "cubic"] = "linear"
+    interpolation: Interpolation = "linear"
 
     def __post_init__(self) -> None:
         """Refuse tables that are none."""
@@ -190,18 +193,20 @@ class TabulatedStream(_OfHeight):
             raise ValueError(
                 f"velocities has {len(velocities)} rows: there must be one for each of {len(levels)} levels"
             )
-        if self.interpolation not in ("linear", "cubic"):
-            raise ValueError(f"interpolation is {self.interpolation!r}: it must be 'linear' or 'cubic'")
+        if self.interpolation not in get_args(Interpolation):
+            raise ValueError(f"interpolation is {self.interpolation!r}: it must be one of {get_args(Interpolation)}")
         object.__setattr__(self, "levels", levels)
         object.__setattr__(self, "velocities", velocities)
 
     @property
     def breaks(self) -> tuple[float, ...]:  # type: ignore[override]
-        """The rows: the first derivative jumps there, of a cubic the second."""
+        """The rows: the first derivative jumps there, of monotone cubics the second, of a spline the third."""
         return self.levels
 
     @cached_property
-    def _cubic(self) -> PchipInterpolator:
+    def _cubics(self) -> PchipInterpolator | CubicSpline:
+        if self.interpolation == "spline":
+            return CubicSpline(self.levels, np.asarray(self.velocities), bc_type="natural")
         return PchipInterpolator(self.levels, np.asarray(self.velocities))
 
     def _held(self, levels: ArrayLike) -> FloatArray:
@@ -210,15 +215,15 @@ class TabulatedStream(_OfHeight):
     def profile(self, levels: ArrayLike) -> FloatArray:
         """Return u, m/s, at heights, m, shape (n,); shape (n, 3)."""
         heights = self._held(levels)
-        if self.interpolation == "cubic":
-            return np.asarray(self._cubic(heights))
+        if self.interpolation != "linear":
+            return np.asarray(self._cubics(heights))
         return np.stack([np.interp(heights, self.levels, column) for column in np.transpose(self.velocities)], axis=-1)
 
     def slope(self, levels: ArrayLike) -> FloatArray:
         """Return du/dz, 1/s, at heights, m, shape (n,); shape (n, 3); at a break from above."""
         heights = np.asarray(levels, dtype=float)
-        if self.interpolation == "cubic":
-            inside = np.asarray(self._cubic(self._held(heights), 1))
+        if self.interpolation != "linear":
+            inside = np.asarray(self._cubics(self._held(heights), 1))
         else:
             rows = np.clip(np.searchsorted(self.levels, heights, side="right") - 1, 0, len(self.levels) - 2)
             inside = (np.diff(self.velocities, axis=0) / np.diff(self.levels)[:, None])[rows]
@@ -226,7 +231,7 @@ class TabulatedStream(_OfHeight):
         return np.where(within[..., None], inside, 0.0)
 
     def largest_speed(self, low: float, high: float) -> float:
-        """Return the largest |u|, m/s, between two heights, m; of a cubic at 16 places between rows."""
+        """Return the largest |u|, m/s, between two heights, m; of cubics at 16 places between rows."""
         rows = np.asarray(self.levels)
         fine = (rows[:-1, None] + np.diff(rows)[:, None] * np.linspace(0, 1, _PLACES_PER_ROW)).ravel()
         heights = np.concatenate([[low, high], fine[(fine > low) & (fine < high)]])

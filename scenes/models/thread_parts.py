@@ -85,9 +85,11 @@ class LiquidStream(SceneModel):
         description="text file with three columns, height in m and (x, y) of the velocity in m/s, upwards; relative "
         "to the folder of the scene",
     )
-    interpolation: Literal["cubic", "linear"] = Field(
+    interpolation: Literal["linear", "monotone", "spline", "cubic"] = Field(
         default="linear",
-        description="between the rows of a profile: straight lines, or a spline whose curvature is continuous",
+        description="between the rows of a profile: straight lines; monotone cubics, which do not overshoot the rows, "
+        "and whose slope is continuous, not their curvature; a cubic spline, whose curvature is continuous and zero at "
+        'the outer rows, and which may overshoot; "cubic" is an older name of "monotone"',
     )
 
 

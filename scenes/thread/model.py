@@ -33,6 +33,10 @@ class _StreamInFrame:
     stream: Stream
     frame: Frame
 
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        return self.stream.breaks
+
     @cached_property
     def _axes(self) -> Array:
         return Frame(self.frame.direction, 3).axes

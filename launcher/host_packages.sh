@@ -23,7 +23,6 @@ then start again (docs/install.md has other ways: conda, Docker)"
 install_what_root_needs() {
     local packages=()
     type -P mmdebstrap >/dev/null || packages+=(mmdebstrap)
-    type -P bwrap >/dev/null || type -P proot >/dev/null || packages+=(bubblewrap)
     ((EUID == 0)) || type -P newuidmap >/dev/null || packages+=(uidmap)
     [[ -r /usr/share/keyrings/debian-archive-keyring.gpg ]] || packages+=(debian-archive-keyring)
     ((${#packages[@]} == 0)) || install_on_host "${packages[@]}"

@@ -33,7 +33,7 @@ prepare_root() {
         make_root
     fi
     if ! find_entry; then
-        say "this system refuses the namespaces that bubblewrap needs; proot works without them"
+        say "this system refuses namespaces; proot works without them"
         install_on_host proot
         find_entry || fail "proot was not found after its installation"
     fi

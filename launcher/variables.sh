@@ -1,6 +1,10 @@
 # shellcheck shell=bash
 # The environment variables of the started program, and starting it.
 
+# Before a command: the system sends it SIGTERM when its parent ends, even by SIGKILL.
+ends_with_parent=()
+if type -P setpriv >/dev/null; then ends_with_parent=(setpriv --pdeathsig TERM --); fi
+
 set_variables() {
     local path=$venv/bin:$overlay/bin
     if [[ $way == root ]]; then
@@ -48,16 +52,20 @@ command_inside() {
     if [[ $way == root ]]; then command_in_root "$@"; else command=("$@"); fi
 }
 
-# Runs a program in the environment.
+# Runs a program in the environment. It ends with this script, however the script is ended.
 inside() {
     local command
     command_inside "$@"
-    "${command[@]}"
+    "${ends_with_parent[@]}" "${command[@]}"
 }
 
-# The same in place of this script.
+# The same in place of this script, so that signals arrive at the program.
 exec_inside() {
     local command
+    if [[ ${entry:-} == proot ]]; then # it has to stay beside the program, and is deaf to signals
+        inside "$@"
+        return
+    fi
     command_inside "$@"
     exec -- "${command[@]}"
 }

@@ -5,7 +5,7 @@ building='' # the unfinished folder, if any
 
 open_lock() {
     if ! { mkdir -p -- "$cache" && : >>"$cache/lock"; } 2>/dev/null; then
-        fail "cannot write to the cache $cache; set HYDROELASTIC_CACHE to a folder with 5 GB of room"
+        fail "cannot write to the cache $cache; $remedy"
     fi
     exec 9>>"$cache/lock"
 }
@@ -25,12 +25,27 @@ need_room() {
     local free
     free=$(df -Pk -- "$cache" | awk 'NR == 2 { print int($4 / 1024) }')
     ((free >= $1)) ||
-        fail "the cache $cache has $free MB free and needs $1 MB; set HYDROELASTIC_CACHE to another folder"
+        fail "the cache $cache has $free MB free and needs $1 MB; $remedy"
 }
 
 new_building() {
-    building=$(mktemp -d -- "$cache/building.XXXXXX") || fail "cannot write to the cache $cache"
+    building=$(mktemp -d -- "$cache/building.XXXXXX") || fail "cannot write to the cache $cache; $remedy"
     chmod 755 -- "$building"
+}
+
+# Takes what is damaged out of the way of what is about to be made.
+clear_damaged() {
+    [[ -e $1 || -L $1 ]] || return 0
+    say "$1 is damaged and made anew"
+    new_building
+    mv -T -- "$1" "$building/damaged"
+    remove_building "$building"
+    building=''
+}
+
+# list_contents FILTER ...: the list by which is_whole knows the unfinished folder, of what `find` finds with a filter.
+list_contents() {
+    (cd -- "$building" && find . \( -type l -o -type f -size +0 \) "$@" ! -name contents) >"$building/contents"
 }
 
 # A rename is atomic: the name exists only when all of the content does.

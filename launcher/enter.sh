@@ -30,7 +30,7 @@ list_binds() {
         if [[ -d $path ]] && ! is_system_folder "$path"; then binds+=("$path"); fi
     done
     # A checkout, home or cache in an unusual place: below a system folder, or in a hidden folder at the root.
-    for path in "$checkout" "${HOME:-}" "$cache" "${TMPDIR:-}"; do
+    for path in "$checkout" "$HOME" "$cache" "${TMPDIR:-}"; do
         if [[ $path == /?* && -d $path ]] && ! is_bound "$path"; then binds+=("$path"); fi
     done
     # Certificates that a variable names, too.

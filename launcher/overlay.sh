@@ -27,5 +27,6 @@ make_overlay() {
     # shellcheck disable=SC2016
     printf '#!/bin/sh\nexec python -m hydroelastic.scenes "$@"\n' >"$building/bin/hydroelastic"
     chmod +x -- "$building/bin/hydroelastic"
+    list_contents
     publish "$overlay"
 }

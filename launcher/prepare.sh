@@ -14,12 +14,14 @@ prepare() {
     remove_stale
     log=$cache/prepare.log
     if [[ $way == root ]]; then prepare_root; fi
-    if [[ ! -d $venv ]]; then
+    if [[ $way != inside ]] && ! is_whole "$venv"; then
         source "$checkout/launcher/venv.sh"
+        clear_damaged "$venv"
         make_venv
     fi
-    if [[ ! -d $overlay ]]; then
+    if ! is_whole "$overlay"; then
         source "$checkout/launcher/overlay.sh"
+        clear_damaged "$overlay"
         make_overlay
     fi
     trap - INT TERM HUP EXIT
@@ -28,8 +30,9 @@ prepare() {
 
 prepare_root() {
     source "$checkout/launcher/host_packages.sh"
-    if [[ ! -d $root ]]; then
+    if ! is_whole_root; then
         source "$checkout/launcher/root.sh"
+        clear_damaged "$root"
         make_root
     fi
     if ! find_entry; then

@@ -13,6 +13,7 @@ make_root() {
     mkdir -p -- "$building"/etc/ssl "$building"/{tmp,proc,sys,dev,var/tmp}
     touch -- "$building"/etc/{resolv.conf,hosts,passwd,group,pip.conf}
     publish "$root"
+    is_whole_root || fail "the private root $root lacks what it needs; the log is $log"
 }
 
 # As root mmdebstrap writes the folder itself. An ordinary user gets an archive and unpacks it, because the files

@@ -13,6 +13,8 @@ make_venv() {
             sed -i "s|$building|${venv//&/\\&}|g" "$file"
         fi
     done
+    # Of each distribution a little, so that the list is read in milliseconds.
+    list_contents -maxdepth 5 \( -path './bin/*' -o -name RECORD -o -name __init__.py \)
     publish "$venv"
 }
 

@@ -29,6 +29,7 @@ TOOLS = (
     "mktemp",
     "chmod",
     "sed",
+    "find",
 )
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the launcher is for Linux")

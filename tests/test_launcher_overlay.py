@@ -37,7 +37,8 @@ def python(checkout: Path, cache: Path, code: str) -> str:
         (venv / "bin" / "python").write_text(f'#!/bin/sh\nexec {sys.executable} -S "$@"\n')
         (venv / "bin" / "python").chmod(0o755)
     environment = {name: value for name, value in os.environ.items() if not name.startswith(("HYDROELASTIC", "PYTHON"))}
-    environment |= {"HYDROELASTIC_CACHE": str(cache), "HYDROELASTIC_INSIDE": str(venv), "PYTHONDONTWRITEBYTECODE": "1"}
+    environment |= {"HYDROELASTIC_CACHE": str(cache), "HYDROELASTIC_INSIDE": str(venv)}
+    environment["XDG_CACHE_HOME"] = str(cache / "forms")
     ended = subprocess.run(
         [checkout / "hydro", "python", "-c", code],
         env=environment,
@@ -97,3 +98,10 @@ def test_nothing_is_written_into_the_checkout(checkout, tmp_path):
     before = sorted(checkout.rglob("*"))
     python(checkout, tmp_path / "cache", "import hydroelastic.fem")
     assert sorted(checkout.rglob("*")) == before
+    # Python has kept what it compiled, but elsewhere.
+    assert list((tmp_path / "cache" / "forms").rglob("fem/__init__.*.pyc"))
+
+
+def test_examples_that_hypothesis_keeps_are_not_in_the_checkout(checkout, tmp_path):
+    code = "import os; print(os.environ['HYPOTHESIS_STORAGE_DIRECTORY'])"
+    assert Path(python(checkout, tmp_path / "cache", code)).is_relative_to(tmp_path / "cache" / "forms")

@@ -1,7 +1,11 @@
 # shellcheck shell=bash
-# Messages: all go to the standard error, so that the output of the started program stays clean.
+# Messages: all go to the standard error, so that the output of the started program stays clean. Where they cannot be
+# read, they are no reason to stop.
 
-say() { printf 'hydro: %s\n' "$*" >&2; }
+say() { printf 'hydro: %s\n' "$*" >&2 2>/dev/null || true; }
+
+# What was asked for goes to the standard output.
+print() { printf '%s\n' "$1" 2>/dev/null || fail "the standard output cannot be written"; }
 
 # Every bad situation ends here: one message, exit code 2.
 fail() {

@@ -2,16 +2,16 @@
 # ./hydro env: which environment is used, versions, folders and sizes.
 
 print_environment() {
-    local folder size
+    local text versions command folder size
     case $way in
-        root)
-            printf 'way          private Debian root (%s), entered by %s; not the active Python: %s\n' \
-                "$suite" "$entry" "$python_reason"
-            ;;
-        active) printf 'way          active Python %s, with a virtual environment on top\n' "$python_executable" ;;
-        inside) printf 'way          already inside\n' ;;
+        root) text="private Debian root ($suite), entered by $entry; not the active Python: $python_reason" ;;
+        active) text="active Python $python_executable, with a virtual environment on top" ;;
+        inside) text="already inside" ;;
     esac
-    inside python - <<'END'
+    command_inside python -
+    # In place of the subshell, which would not end with this script.
+    versions=$(
+        exec "${ends_with_parent[@]}" "${command[@]}" <<'END'
 import importlib.metadata as metadata, platform
 from petsc4py import PETSc
 print(f"python       {platform.python_version()}")
@@ -19,11 +19,13 @@ for name in ("fenics-dolfinx", "petsc4py", "slepc4py", "gmsh", "vtk", "hydroelas
     print(f"{name:<12} {metadata.version(name).strip()}")
 print(f"scalars      {PETSc.ScalarType.__name__}")
 END
-    printf 'checkout     %s\ncache        %s\n' "$checkout" "$cache"
+    )
+    text="way          $text"$'\n'$versions$'\n'"checkout     $checkout"$'\n'"cache        $cache"
     for folder in "$root" "$venv" "$forms" "$overlay"; do
         if [[ -d $folder ]]; then
             size=$(du -sh -- "$folder" 2>/dev/null | cut -f 1) || true
-            printf '%8s     %s\n' "$size" "$folder"
+            text+=$(printf '\n%8s     %s' "$size" "$folder")
         fi
     done
+    print "$text"
 }

@@ -98,6 +98,50 @@ def test_help_lists_the_commands_and_prepares_nothing(arguments, tools, tmp_path
     assert not (tmp_path / "cache").exists()
 
 
+@pytest.mark.parametrize("flag", ["--help", "-h"])
+@pytest.mark.parametrize("command", ["test", "lint", "docs", "env", "exec", "shell"])
+def test_own_commands_have_help_that_prepares_nothing(command, flag, tools, tmp_path):
+    ended = start(command, flag, cache=tmp_path / "cache", path=tools)
+    assert ended.returncode == 0
+    assert ended.stderr == ""
+    assert ended.stdout.startswith(f"usage: ./hydro {command}")
+    assert not (tmp_path / "cache").exists()
+
+
+@pytest.mark.parametrize("arguments", [("exec", "python", "--help"), ("python", "-h"), ("exec", "python", "-h")])
+def test_help_of_a_program_is_its_own(inside, arguments):
+    ended = inside(*arguments)
+    assert ended.stdout.splitlines()[0] == arguments[-1]
+    assert ended.returncode == 7
+
+
+@pytest.mark.parametrize("command", ["env", "lint"])
+def test_commands_without_arguments_refuse_some(inside, command):
+    ended = inside(command, "--all")
+    assert ended.returncode == 2
+    assert ended.stderr == f"hydro: {command} takes no arguments, and was given --all\n"
+    assert ended.stdout == ""
+
+
+@pytest.mark.parametrize("output", [">/dev/full", ">&-"])
+@pytest.mark.parametrize("command", ["help", "docs --help", "env"])
+def test_output_that_cannot_be_written_is_one_message(tools, tmp_path, prepared, command, output):
+    # Here `env` needs no versions, only a Python that ends well.
+    executable(prepared / "bin" / "python", "#!/bin/sh\n")
+    for name in ("head", "ln", "mv", "du", "cut"):
+        (tools / name).symlink_to(shutil.which(name))
+    variables = {"PATH": str(tools), "HYDROELASTIC_CACHE": str(tmp_path / "cache")}
+    ended = subprocess.run(
+        ["bash", "-c", f'"$0" {command} {output}', LAUNCHER],
+        env=os.environ | variables | {"HYDROELASTIC_INSIDE": str(prepared)},
+        capture_output=True,
+        text=True,
+        timeout=30,
+    )
+    assert ended.returncode == 2
+    assert ended.stderr == "hydro: the standard output cannot be written\n"
+
+
 def test_without_dolfinx_and_apt_the_three_ways_are_told(tools, tmp_path):
     ended = start("list", cache=tmp_path / "cache", path=tools)
     assert ended.returncode == 2

@@ -2,12 +2,11 @@
 # The Debian mirror and its keyring, from the configuration of the host's apt.
 # (`apt-get indextargets` would tell too, but only after an `apt-get update`, which fresh containers never had.)
 
-# Sets mirror, and keyrings as options of mmdebstrap.
+# Sets mirror, empty where mmdebstrap is to choose, and keyrings as options of mmdebstrap.
 find_mirror() {
     local keyring=- debian_keyring=/usr/share/keyrings/debian-archive-keyring.gpg
     mirror='' keyrings=()
-    read -r mirror keyring < <(debian_sources_of_host) || true
-    mirror=${mirror:-http://deb.debian.org/debian}
+    read -r mirror keyring < <(debian_sources_of_host /etc/apt /etc/os-release) || true
     if [[ $keyring == /* && -r $keyring ]]; then
         keyrings=("--keyring=$keyring")
     elif [[ -r $debian_keyring ]]; then
@@ -18,12 +17,12 @@ find_mirror() {
 # Prints "URI keyring" of the Debian archive as the host's apt uses it, one line per source; keyring may be "-".
 # Both formats: one-line *.list and deb822 *.sources. Prints nothing on Ubuntu, which has another archive.
 # Archives of others use the same suite and component names, so a source counts only if it is signed by Debian's
-# keyring, is on debian.org, or has the updates of the suite as well; in this order.
+# keyring, or has the updates of the suite as well; in this order.
 debian_sources_of_host() {
-    local folder=${1:-/etc/apt} codename file files=()
+    local folder=$1 codename file files=()
     codename=$(
         # shellcheck disable=SC1090
-        . "${2:-/etc/os-release}" 2>/dev/null && [[ ${ID:-} == debian ]] && printf '%s' "${VERSION_CODENAME:-sid}"
+        . "$2" 2>/dev/null && [[ ${ID:-} == debian ]] && printf '%s' "${VERSION_CODENAME:-sid}"
     ) || return 0
     for file in "$folder"/sources.list "$folder"/sources.list.d/*.list "$folder"/sources.list.d/*.sources; do
         if [[ -r $file ]]; then files+=("$file"); fi
@@ -70,9 +69,9 @@ debian_sources_of_host() {
         }
         END {
             end_of_stanza()
-            for (rank = 1; rank <= 3; rank++) for (i = 1; i <= found; i++) {
-                signed = key[i] ~ /\/debian-archive/; own = address[i] ~ /^https?:\/\/([^\/]*\.)?debian\.org(\/|:|$)/
-                if (rank == (signed ? 1 : own ? 2 : address[i] in updated ? 3 : 4)) print address[i], key[i]
+            for (rank = 1; rank <= 2; rank++) for (i = 1; i <= found; i++) {
+                signed = key[i] ~ /\/debian-archive/
+                if (rank == (signed ? 1 : address[i] in updated ? 2 : 3)) print address[i], key[i]
             }
         }
     ' "${files[@]}"

@@ -25,10 +25,10 @@ run_mmdebstrap() {
     local options=(--variant=apt "--include=$include" --aptopt='APT::Install-Recommends "false"' "${keyrings[@]}")
     if [[ $suite != trixie ]]; then options+=(--aptopt='Acquire::Check-Valid-Until "false"'); fi
     if ((EUID == 0)); then
-        mmdebstrap "${options[@]}" "$suite" "$building" "$mirror"
+        mmdebstrap "${options[@]}" "$suite" "$building" ${mirror:+"$mirror"}
     else
         # /tmp may be held in memory, and the mapped user of mmdebstrap cannot enter a private home.
-        TMPDIR=/var/tmp mmdebstrap "${options[@]}" --format=tar "$suite" - "$mirror" |
+        TMPDIR=/var/tmp mmdebstrap "${options[@]}" --format=tar "$suite" - ${mirror:+"$mirror"} |
             tar --extract --no-same-owner --exclude='./dev/*' --directory="$building"
     fi
 }

@@ -1,5 +1,6 @@
 """The launcher takes the Debian mirror and its keyring from the configuration of the host's apt, in both formats."""
 
+import os
 import shutil
 import subprocess
 from pathlib import Path
@@ -39,10 +40,10 @@ deb-src http://source.example/debian bookworm main
 deb [arch=amd64 signed-by=/keys/own.gpg] http://mirror.example/debian/ bookworm main contrib
 deb http://mirror.example/debian bookworm-updates main
 deb http://security.example/debian-security bookworm-security main
-deb http://ftp.de.debian.org/debian stable main
+deb http://unsigned.example/debian stable main
 """
     write(tmp_path, "sources.list", text)
-    assert sources(tmp_path) == ["http://ftp.de.debian.org/debian -", "http://mirror.example/debian /keys/own.gpg"]
+    assert sources(tmp_path) == ["http://mirror.example/debian /keys/own.gpg"]
 
 
 def test_deb822_format(tmp_path):
@@ -61,13 +62,13 @@ Components: main
 
 Enabled: no
 Types: deb
-URIs: http://off.debian.org/debian
+URIs: http://off.example/debian
 Suites: bookworm
 Components: main
 
 Types: deb deb-src
-URIs: http://deb.debian.org/debian
-Suites: sid
+URIs: http://second.example/debian
+Suites: sid sid-updates
 Components: contrib
  main
 Signed-By:
@@ -75,7 +76,7 @@ Signed-By:
  .
 """
     write(tmp_path, "sources.list.d/debian.sources", text)
-    assert sources(tmp_path) == [f"https://mirror.example/debian {KEYRING}", "http://deb.debian.org/debian -"]
+    assert sources(tmp_path) == [f"https://mirror.example/debian {KEYRING}", "http://second.example/debian -"]
 
 
 def test_archives_of_others_and_other_schemes_are_left_out(tmp_path):
@@ -86,7 +87,7 @@ def test_archives_of_others_and_other_schemes_are_left_out(tmp_path):
     )
     write(tmp_path, "sources.list.d/containers.list", "deb https://c.example/linux/debian bookworm stable\n")
     write(tmp_path, "sources.list.d/node.sources", "Types: deb\nURIs: https://node.example\nSuites: nodistro\n")
-    write(tmp_path, "sources.list.d/off.list.disabled", "deb http://deb.debian.org/debian bookworm main\n")
+    write(tmp_path, "sources.list.d/off.list.disabled", "deb http://off.example/debian bookworm main\n")
     assert sources(tmp_path) == []
 
 
@@ -97,3 +98,24 @@ def test_ubuntu_has_no_debian_mirror(tmp_path):
 
 def test_no_sources_at_all(tmp_path):
     assert sources(tmp_path) == []
+
+
+@pytest.mark.parametrize(
+    ("mirror", "given"), [("", []), ("http://mirror.example/debian", ["http://mirror.example/debian"])]
+)
+def test_without_a_mirror_mmdebstrap_takes_its_own(tmp_path, mirror, given):
+    (tmp_path / "mmdebstrap").write_text(f'#!/bin/sh\nprintf "%s\\n" "$@" >{tmp_path}/arguments\n')
+    (tmp_path / "mmdebstrap").chmod(0o755)
+    code = """
+        checkout=$1 building=$2/root suite=trixie mirror=$3 keyrings=()
+        source "$1/launcher/names.sh"; source "$1/launcher/root.sh"
+        tar() { cat; }; run_mmdebstrap
+    """
+    subprocess.run(
+        ["bash", "-euc", code, "bash", MIRROR.parent.parent, tmp_path, mirror],
+        env={"PATH": f"{tmp_path}:{os.environ['PATH']}"},
+        check=True,
+        timeout=30,
+    )
+    arguments = (tmp_path / "arguments").read_text().splitlines()
+    assert arguments[arguments.index("trixie") + 2 :] == given

@@ -107,6 +107,9 @@ class ResonanceSearch:
             vector = operator.eigenvector(solver, index)
             if vector is not None:
                 pairs.append(self._pair(target + 1.0 / inverse, *vector))
+        # PETSc and the operator hold each other, and with it the factorization, until one is told to let go.
+        solver.destroy()
+        operator.matrix.destroy()
         return pairs
 
     def refined(self, eigenvalue: complex) -> Eigenpair:

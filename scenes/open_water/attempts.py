@@ -9,6 +9,7 @@ from typing import Generic, TypeVar
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.basin import open_basin
 from hydroelastic.scenes.open_water.model import Band, first_resolution
+from hydroelastic.scenes.output.memory import hand_back_memory
 from hydroelastic.scenes.tank.certainty import FrequencyErrors, refined
 from hydroelastic.scenes.tank.plan import Resolution, sharpest_exponent, workable_tolerance
 
@@ -54,6 +55,7 @@ def attempted(
         if resolution is None:
             break
         attempt = solve(resolution)
+        hand_back_memory()
         if best is None or attempt.error < best.error:
             best = attempt
         if attempt.error <= tolerance:

@@ -15,14 +15,22 @@ from hydroelastic.scenes.open_water.model import OpenModel
 from hydroelastic.scenes.open_water.radiation import RadiationSolution, solve_radiation
 from hydroelastic.scenes.open_water.resonance import ResonanceSolution, solve_resonance
 from hydroelastic.scenes.open_water.response import ResponseSolution, solve_response
-from hydroelastic.scenes.open_water.results import OpenSolution
+from hydroelastic.scenes.open_water.results import (
+    DecayTable,
+    OpenSolution,
+    RadiationTable,
+    ResonanceTable,
+    ResponseTable,
+)
 from hydroelastic.scenes.output.digits import kept_tolerance
+from hydroelastic.scenes.output.memory import hand_back_memory
 from hydroelastic.scenes.output.stopwatch import Report, Stopwatch
 
 # The power of waves is of first order in the error of the field; measured, it is off by less than the tolerance.
 _POWER = 10.0
 
 _Solution: TypeAlias = RadiationSolution | ResponseSolution | ResonanceSolution | DecaySolution
+_Table: TypeAlias = RadiationTable | ResponseTable | ResonanceTable | DecayTable
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,21 +65,24 @@ def solve_open(scene: TankScene, comm: MPI.Comm, report: Report) -> OpenSolution
         EigenSolverError: if resonances cannot be found.
     """
     watch = Stopwatch()
-    solved: list[_Solution] = []
+    tables: list[_Table] = []
     size = _Size()
     reasons: list[str] = []
     for number, analysis in enumerate(scene.analyses, 1):
         report(f"analysis {number}: {analysis.kind}")
         solution = _solved(comm, scene, analysis, watch)
-        solved.append(solution)
+        # The tables alone: a model holds its mesh and matrices.
+        tables.append(solution.table)
         size = size.with_model(solution.model)
         reasons += _reasons(scene, number, analysis, solution)
+        del solution
+        hand_back_memory()
     return OpenSolution(
         scene=scene,
-        radiation=tuple(one.table for one in solved if isinstance(one, RadiationSolution)),
-        response=tuple(one.table for one in solved if isinstance(one, ResponseSolution)),
-        resonance=tuple(one.table for one in solved if isinstance(one, ResonanceSolution)),
-        decay=tuple(one.table for one in solved if isinstance(one, DecaySolution)),
+        radiation=tuple(one for one in tables if isinstance(one, RadiationTable)),
+        response=tuple(one for one in tables if isinstance(one, ResponseTable)),
+        resonance=tuple(one for one in tables if isinstance(one, ResonanceTable)),
+        decay=tuple(one for one in tables if isinstance(one, DecayTable)),
         size={"cells": size.cells, "dofs": size.dofs, "degree": size.degree},
         seconds=dict(watch.seconds),
         reasons=tuple(reasons),

@@ -2,12 +2,13 @@
 
 Solutions at the ends and in the middle of a range begin the basis of `fem.reduced_pencil`. Wherever the residual
 between them is largest the problem is solved in full next, which tells the true error there. For functionals of second
-order the error goes like the square of the residual, and the ratio of the two, the largest that was seen, carries it to
-all other frequencies.
+order the error goes like the square of the residual, and the ratio of the two, the largest of those that were seen
+last, carries it to all other frequencies.
 """
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Generic, TypeVar
@@ -25,6 +26,9 @@ _CANDIDATES = 24
 _SHARE = 0.1
 # A ratio that was seen at a few frequencies may be larger at others.
 _SAFETY = 3.0
+# So many ratios count, the last ones: those of a basis that has nothing of the solution yet are a thousand times
+# larger, and would ask for solutions without end.
+_RECENT = 6
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,10 +78,13 @@ def sweep(problem: Problem[Solution], omegas: np.ndarray, tolerance: float) -> S
     order = [int(place) for place in np.argsort(np.abs(omegas))]
     full = {place: problem.full(complex(omegas[place])) for place in (order[0], order[len(order) // 2], order[-1])}
     found: dict[int, tuple[Solution, float]] = {}
-    ratio = 0.0
+    ratios: deque[float] = deque(maxlen=_RECENT)
+
+    def error(place: int) -> float:
+        return _SAFETY * max(ratios, default=0.0) * found[place][1] ** 2
 
     def is_good(place: int) -> bool:
-        return place in found and 0.0 < _SAFETY * ratio * found[place][1] ** 2 <= _SHARE * tolerance
+        return place in found and 0.0 < error(place) <= _SHARE * tolerance
 
     for candidates in (order[:: max(len(order) // _CANDIDATES, 1)], order):
         while poor := [place for place in candidates if place not in full and not is_good(place)]:
@@ -87,7 +94,7 @@ def sweep(problem: Problem[Solution], omegas: np.ndarray, tolerance: float) -> S
                 continue
             full[worst] = problem.full(complex(omegas[worst]))
             difference = problem.difference(found[worst][0], full[worst])
-            ratio = max(ratio, difference / max(found[worst][1], np.finfo(float).eps) ** 2)
+            ratios.append(difference / max(found[worst][1], np.finfo(float).eps) ** 2)
     errors = np.zeros(len(omegas))
     solutions: list[Solution] = []
     for place in range(len(omegas)):
@@ -95,5 +102,5 @@ def sweep(problem: Problem[Solution], omegas: np.ndarray, tolerance: float) -> S
             solutions.append(full[place])
         else:
             solutions.append(found[place][0])
-            errors[place] = _SAFETY * ratio * found[place][1] ** 2
+            errors[place] = error(place)
     return Swept(solutions=solutions, errors=errors, in_full=[place in full for place in range(len(omegas))])

@@ -36,10 +36,7 @@ def peak_memory(comm: MPI.Comm) -> Iterator[MemoryUse]:
     memory that earlier work freed is handed back, for to use it again would not show. Elsewhere the peak is ``None``.
     """
     use = MemoryUse()
-    gc.collect()
-    # Only glibc has it; other allocators keep less.
-    with suppress(OSError, AttributeError):
-        ctypes.CDLL(None).malloc_trim(0)
+    hand_back_memory()
     resettable = True
     try:
         _RESET.write_text(_FORGET_PEAK, encoding="ascii")
@@ -52,6 +49,15 @@ def peak_memory(comm: MPI.Comm) -> Iterator[MemoryUse]:
     increases = comm.allgather(1024 * (after - before) if known and before is not None and after is not None else None)
     told = [increase for increase in increases if increase is not None]
     use.peak = sum(told) if len(told) == len(increases) else None
+
+
+def hand_back_memory() -> None:
+    """Give memory that was freed back to the operating system: an allocator keeps what it may need again, and what comes
+    next seldom fits into it."""
+    gc.collect()
+    # Only glibc has it; other allocators keep less.
+    with suppress(OSError, AttributeError):
+        ctypes.CDLL(None).malloc_trim(0)
 
 
 def _kilobytes(name: str) -> int | None:

@@ -1,0 +1,263 @@
+"""What is left of the motion of a released body beside its resonances: an integral along a ray, on which nothing
+oscillates.
+
+E is S less that of the bodies with their added mass far above the waves, which adds nothing for t > 0 and makes the
+integral converge at t = 0. H on the ray comes from the field solution, continued by the complex scaling; a reduced
+basis takes it from a few solutions to all points, and waves that are longer than those of the mesh are known by their
+series, `slow_waves`. An error δH of H moves the motion by
+
+    (1/π) Im ∫ D⁻¹ p δH D⁻¹ K a₀ e^{pt} dp,    D = p²(M + H) + K.
+
+In deep water H has a logarithm at p = 0, which leaves the tail −(2/π) K⁻¹ h a₀/t², h = lim Im H = lim b/ω; at finite
+depth there is none.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from math import pi, sqrt
+
+import numpy as np
+
+from hydroelastic.scenes.open_water.model import OpenModel
+from hydroelastic.scenes.open_water.radiation import relative_difference
+from hydroelastic.scenes.open_water.resonance import ANGLE
+from hydroelastic.scenes.open_water.slow_waves import SPREAD, LongWaves, long_waves
+from hydroelastic.scenes.open_water.solver import OpenSolver
+from hydroelastic.scenes.open_water.sweep import Problem, Swept, sweep
+from hydroelastic.scenes.output.stopwatch import Stopwatch
+from hydroelastic.scenes.tank.certainty import FrequencyErrors
+
+# Angles between a ray and the resonances beside it, radians: at least, if there is room, and at most.
+_NARROW, _WIDE = 0.05, 0.12
+# The integral goes so far below 1/t, and so far above the frequencies of the mesh: there H changes slowly, and little
+# depends on it.
+_LOWER, _HIGHER = 2e-4, 20.0
+# Far below the resonances the motion is less sensitive to H, like the square of the frequency; but the tail shall keep
+# its digits too.
+_LEAST_WEIGHT = 0.1
+# The trapezoidal rule in ln r misses e^{−2πd/h} of what is analytic within the angle d: with this part of it 1e-18.
+_STEP = 0.13
+# Points of the ray at which the reduced basis is judged.
+_JUDGED = 60
+# Errors of H at different frequencies have different phases, and cancel in the integral. Measured on a circle and on
+# thin floats at tolerances from 1e-3 to 1e-6, the sum of their magnitudes is 25 to 300 times the error.
+_PHASES = 0.2
+# Times at once.
+_CHUNK = 256
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ray:
+    """A ray ω = re^{−iδ}: δ, and the angle to the nearest resonance or to the waves' own spectrum."""
+
+    angle: float
+    gap: float
+
+    @property
+    def turned(self) -> complex:
+        """e^{−iδ}."""
+        return complex(np.exp(-1j * self.angle))
+
+
+@dataclass(frozen=True, kw_only=True)
+class RayMotion:
+    """The integral at one resolution, dimensionless. Shapes: n times, m body unknowns.
+
+    Attributes:
+        motion: shape (n, m).
+        errors: of all unknowns together, by cause, each of shape (n,).
+        slow: lim b/ω, shape (m, m); ``None`` over a bed.
+        solved: how many frequencies were solved in full.
+    """
+
+    motion: np.ndarray
+    errors: FrequencyErrors
+    slow: np.ndarray | None
+    solved: int
+
+
+def ray_between(resonances: list[complex]) -> Ray:
+    """The ray nearest to the imaginary axis that keeps off the resonances: further away there may be unknown ones."""
+    angles = sorted(float(-np.angle(omega)) for omega in resonances)
+    stops = [0.0, *(angle for angle in angles if angle < 0.5 * ANGLE), 0.5 * ANGLE]
+    gaps = [(low, min(0.5 * (high - low), _WIDE)) for low, high in pairwise(stops)]
+    low, gap = next((found for found in gaps if found[1] >= _NARROW), max(gaps, key=lambda found: found[1]))
+    return Ray(angle=low + gap, gap=gap)
+
+
+class RayIntegral:
+    """The integral for one model.
+
+    Args:
+        model: the problem.
+        limit: a(∞) in units of the model, shape (m, m).
+        initial: a₀ in body unknowns, shape (m,).
+        ray: where it goes.
+        band: lowest and highest frequency of the mesh, dimensionless.
+        slow: frequency below which the tail is made.
+        watch: told the time.
+    """
+
+    def __init__(
+        self,
+        model: OpenModel,
+        limit: np.ndarray,
+        initial: np.ndarray,
+        ray: Ray,
+        band: tuple[float, float],
+        slow: float,
+        watch: Stopwatch,
+    ) -> None:
+        """Prepare (collective)."""
+        self._model, self._limit, self._initial, self._ray, self._band = model, limit, initial, ray, band
+        self._slow, self._watch = slow, watch
+        self._solver = OpenSolver(model, watch)
+        # Of the solutions in full: |ω|, and the relative errors of H.
+        self._radii: list[float] = []
+        self._causes: list[FrequencyErrors] = []
+
+    def followed(self, times: np.ndarray, *, endless: bool) -> RayMotion:
+        """The motion at some times (collective).
+
+        Args:
+            times: dimensionless, not negative.
+            endless: whether H has the form of `slow_waves` below the mesh.
+        """
+        low, high = self._band
+        chosen = np.geomspace(low, 2.0 * high, _JUDGED)
+        tolerance = self._model.basin.scene.accuracy.tolerance
+        swept = sweep(self._problem(), chosen * self._ray.turned, tolerance)
+        with self._watch.stage("motion"):
+            least = min(_LOWER / max(float(times.max()), 1.0 / high), 1e-2 * low)
+            radii = np.exp(np.arange(np.log(least), np.log(_HIGHER * high), _STEP * self._ray.gap))
+            added, series = self._added(radii, endless=endless)
+            weights = self._ray_weights(radii)
+            motion = _summed(times, radii, self._ray, self._integrand(radii, added) * weights[:, None])
+        with self._watch.stage("errors"):
+            errors = self._errors(times, radii, added, chosen, swept, series)
+        return RayMotion(
+            motion=motion,
+            errors=errors,
+            slow=series.damping_over_frequency if series else None,
+            solved=self._solver.factorizations,
+        )
+
+    def _problem(self) -> Problem[tuple[np.ndarray, float]]:
+        """H along the ray, weighed by how the motion depends on it."""
+        model = self._model
+
+        def full(omega: complex) -> tuple[np.ndarray, float]:
+            radiated = self._solver.radiation(omega**2)
+            added = model.pencil.products(model.pencil.loads.astype(complex), radiated)
+            self._radii.append(abs(omega))
+            self._causes.append(model.errors(radiated, np.abs(np.diag(added))))
+            return added, self._weight(omega, added)
+
+        def reduced(omega: complex) -> tuple[tuple[np.ndarray, float], float]:
+            added, residual = self._solver.hydrodynamic(omega**2)
+            weight = self._weight(omega, added)
+            return (added, weight), residual * sqrt(weight)
+
+        def difference(one: tuple[np.ndarray, float], other: tuple[np.ndarray, float]) -> float:
+            return other[1] * relative_difference(one[0], other[0])
+
+        return Problem(full=full, reduced=reduced, difference=difference)
+
+    def _weight(self, omega: complex, added: np.ndarray) -> float:
+        """How far the motion goes for a relative error of H, from one e-fold of the ray."""
+        moved = self._sensitivities(np.array([omega]), added[None], np.abs(added)[None])[0]
+        least = _LEAST_WEIGHT if abs(omega) < self._slow else 0.0
+        return max(float(np.abs(omega) * moved.max() / np.abs(self._initial).max() / pi), least)
+
+    def _sensitivities(self, omegas: np.ndarray, added: np.ndarray, errors: np.ndarray) -> np.ndarray:
+        """|D⁻¹| |p| |δH| |D⁻¹ K a₀|, shape (points, body unknowns), of some |δH|, shape (points, m, m)."""
+        model, squares = self._model, omegas[:, None, None] ** 2
+        inverse = np.linalg.inv(model.stiffness - squares * (model.mass + added))
+        pushed = np.abs(inverse @ (model.stiffness @ self._initial))
+        moved: np.ndarray = np.einsum("nij,njk,nk->ni", np.abs(inverse), errors, pushed) * np.abs(omegas)[:, None]
+        return moved
+
+    def _added(self, radii: np.ndarray, *, endless: bool) -> tuple[np.ndarray, LongWaves | None]:
+        """H at all points, and the series that it has below the mesh."""
+        low = self._band[0]
+        omegas = radii * self._ray.turned
+        if not endless:
+            return self._solver.hydrodynamics(omegas**2), None
+        series = long_waves(lambda slow: self._solver.hydrodynamics(slow**2), low * self._ray.turned)
+        meshed = radii >= low
+        added = [series.hydrodynamic(omegas[~meshed]), self._solver.hydrodynamics(omegas[meshed] ** 2)]
+        return np.concatenate(added), series
+
+    def _integrand(self, radii: np.ndarray, added: np.ndarray) -> np.ndarray:
+        """E at p = conj(−iω), shape (points, body unknowns)."""
+        model = self._model
+        p = (-1j * radii * self._ray.turned)[:, None, None]
+        whole, high = (
+            np.linalg.solve(p**2 * mass + model.stiffness, (p * mass) @ self._initial[:, None])[..., 0]
+            for mass in (model.mass + added, np.broadcast_to(model.mass + self._limit, added.shape))
+        )
+        values: np.ndarray = np.conj(whole - high)
+        return values
+
+    def _ray_weights(self, radii: np.ndarray) -> np.ndarray:
+        """Of the trapezoidal rule in ln r, with the direction of the ray."""
+        step = np.log(radii[1] / radii[0])
+        weights: np.ndarray = radii * step * np.conj(-1j * self._ray.turned) / pi
+        return weights
+
+    def _errors(
+        self,
+        times: np.ndarray,
+        radii: np.ndarray,
+        added: np.ndarray,
+        chosen: np.ndarray,
+        swept: Swept[tuple[np.ndarray, float]],
+        series: LongWaves | None,
+    ) -> FrequencyErrors:
+        """Errors of the motion by cause: of the elements, of the reduced basis, of the series."""
+        order = np.argsort(self._radii)
+        known = np.log(np.array(self._radii)[order])
+        diagonal = np.abs(np.einsum("nii->ni", added))
+        # What the coefficient of the logarithm errs grows with the distance from where it was taken.
+        farther = 1.0 + np.maximum(np.log(SPREAD * self._band[0] / radii), 0.0) / np.log(SPREAD)
+
+        def moved(relative: np.ndarray) -> np.ndarray:
+            """By a relative error of H at all points, shape (points, m)."""
+            roots = np.sqrt(relative * farther[:, None] * diagonal)
+            errors = roots[:, :, None] * roots[:, None, :]
+            sizes = self._sensitivities(radii * self._ray.turned, added, errors).max(axis=1)
+            return _decaying(times, radii, self._ray, sizes * np.abs(self._ray_weights(radii)))
+
+        def of_elements(cause: str) -> np.ndarray:
+            values = np.array([getattr(causes, cause) for causes in self._causes])[order]
+            return _PHASES * moved(np.array([np.interp(np.log(radii), known, column) for column in values.T]).T)
+
+        basis = np.array([error / found[1] for error, found in zip(swept.errors, swept.solutions, strict=True)])
+        others = np.interp(np.log(radii), np.log(chosen), basis)
+        if series is not None:
+            others = others + np.where(radii < self._band[0], series.misfit, 0.0)
+        return FrequencyErrors(
+            liquid=of_elements("liquid") + moved(np.broadcast_to(others[:, None], diagonal.shape)),
+            tips=of_elements("tips"),
+            truncation=np.zeros(len(times)),
+            rounding=of_elements("rounding"),
+        )
+
+
+def _summed(times: np.ndarray, radii: np.ndarray, ray: Ray, weighed: np.ndarray) -> np.ndarray:
+    """Im Σ E w e^{pt}, shape (times, body unknowns)."""
+    rates = radii * np.conj(-1j * ray.turned)
+    parts = [np.imag(np.exp(np.outer(part, rates)) @ weighed) for part in _chunks(times)]
+    return np.concatenate(parts)
+
+
+def _decaying(times: np.ndarray, radii: np.ndarray, ray: Ray, sizes: np.ndarray) -> np.ndarray:
+    """Σ |E w| |e^{pt}|, shape (times,)."""
+    rates = radii * np.imag(ray.turned)
+    return np.concatenate([np.exp(np.outer(part, rates)) @ sizes for part in _chunks(times)])
+
+
+def _chunks(times: np.ndarray) -> list[np.ndarray]:
+    return np.array_split(times, -(-len(times) // _CHUNK))

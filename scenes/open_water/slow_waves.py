@@ -1,0 +1,103 @@
+"""H of bodies in endless liquids in waves so long that its form is known, and no mesh is needed.
+
+With κ = kb, b the length of the basin, and L = ln p on a line p = −iω of the complex plane,
+
+    H = C + D L + κ (E + F L + G L²) + O(κ² L²),        C … G real,    D = −(2/π) lim b/ω,
+
+the series of long waves: 1 and ln κ are the source that a body is to them, and further terms what it is
+besides. The coefficients are taken from a few frequencies; how far they miss H at twice the highest of these tells what
+the rest of the series does to them.
+Over a bed H has no logarithm, and all frequencies are meshed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import isinf, pi, sqrt
+
+import numpy as np
+
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.open_water.basin import liquids_of, open_basin
+
+SPREAD = 2.0
+"""The coefficients are taken from the lowest frequency of the mesh to this multiple of it."""
+
+# κ at the lowest frequency of the mesh.
+_LONG = 1e-4
+# Frequencies from which the coefficients are taken.
+_POINTS = 5
+# Over a bed: so far below 1/t H hardly counts.
+_HARDLY = 0.02
+
+
+@dataclass(frozen=True, kw_only=True)
+class LongWaves:
+    """The series. Shapes: m body unknowns.
+
+    Attributes:
+        unit: the frequency |ω| at which κ counts as 1 and L has no real part.
+        coefficients: C, D, E, F, G, shape (5, m, m).
+        misfit: relative error of H by the rest of the series, an upper estimate.
+    """
+
+    unit: float
+    coefficients: np.ndarray
+    misfit: float
+
+    def hydrodynamic(self, omegas: np.ndarray) -> np.ndarray:
+        """H at some ω, shape (n, m, m)."""
+        values: np.ndarray = np.tensordot(_terms(omegas / self.unit), self.coefficients, axes=1)
+        return values
+
+    @property
+    def damping_over_frequency(self) -> np.ndarray:
+        """lim b/ω for ω → 0, shape (m, m)."""
+        slow: np.ndarray = -0.5 * pi * self.coefficients[1]
+        return slow
+
+
+def long_waves(hydrodynamics: Callable[[np.ndarray], np.ndarray], lowest: complex) -> LongWaves:
+    """Take the series from H at a few slow ω.
+
+    Args:
+        hydrodynamics: H, shape (n, m, m), at some ω (collective).
+        lowest: the lowest ω, Re ω > 0 > Im ω; those taken lie on the line from the origin through it.
+    """
+    omegas = lowest * np.append(np.linspace(1.0, SPREAD, _POINTS), 2.0 * SPREAD)
+    values = hydrodynamics(omegas)
+    unit = SPREAD * abs(lowest)
+    terms, flat = _terms(omegas / unit), values.reshape(len(omegas), -1)
+    parts = [np.vstack([part[:-1].real, part[:-1].imag]) for part in (terms, flat)]
+    coefficients = np.linalg.lstsq(*parts, rcond=None)[0]
+    return LongWaves(
+        unit=unit,
+        coefficients=coefficients.reshape(-1, *values.shape[1:]),
+        misfit=float(np.abs(terms[-1] @ coefficients - flat[-1]).max() / np.abs(flat[-1]).max()),
+    )
+
+
+def _terms(omegas: np.ndarray) -> np.ndarray:
+    """1, L, κ, κL, κL² at some ω, shape (n, 5)."""
+    logarithm, kappa = np.log(-1j * omegas), omegas**2
+    return np.stack([np.ones_like(kappa), logarithm, kappa, kappa * logarithm, kappa * logarithm**2], axis=1)
+
+
+def slowest_meshed(scene: TankScene, latest: float) -> float:
+    """The lowest frequency for which a mesh is needed, rad/s.
+
+    Args:
+        scene: with open ends.
+        latest: the last time that is asked for, s.
+    """
+    if not is_endless(scene):
+        return _HARDLY / latest
+    layers, extent = liquids_of(scene), open_basin(scene, 0.0).units.length
+    buoyancy = (layers.density_below - layers.density_above) / (layers.density_below + layers.density_above)
+    return sqrt(_LONG * layers.gravity * buoyancy / extent)
+
+
+def is_endless(scene: TankScene) -> bool:
+    """Whether no liquid has a bed or a top far away."""
+    return all(isinf(layer.depth) for layer in scene.layers)

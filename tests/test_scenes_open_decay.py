@@ -20,8 +20,11 @@ from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.models.bodies import Float
 from hydroelastic.scenes.models.open_analyses import Decay, Release
 from hydroelastic.scenes.models.tank import Accuracy, Liquid, Tank, TankScene
+from hydroelastic.scenes.open_water.check import open_requests
+from hydroelastic.scenes.open_water.cost import WITHIN, decay_cost
 from hydroelastic.scenes.open_water.decay import DecaySolution, solve_decay
 from hydroelastic.scenes.output.stopwatch import Stopwatch
+from hydroelastic.scenes.read import read_scene
 
 STORED = json.loads((Path(__file__).parent / "reference" / "open_circle.json").read_text(encoding="utf-8"))["release"]
 G = 9.81
@@ -77,6 +80,25 @@ def test_few_factorizations_and_one_alive(monkeypatch: pytest.MonkeyPatch) -> No
     assert len(computed) < 30
     assert found.solved < 24
     assert found.error < 1e-4
+    told = decay_cost(scene, Decay(displacement=Release(heave=0.1), times=(300.0,)))
+    # The mesh is the same; the frequency above which it is not needed is only guessed.
+    assert told.unknowns == pytest.approx(found.model.pencil.size, rel=0.3)
+    assert len(computed) / WITHIN < told.factorizations < len(computed) * WITHIN
+
+
+# Processor time and peak memory of decay analyses, measured on one core.
+@pytest.mark.parametrize(
+    ("name", "tolerance", "seconds", "memory"),
+    [("open_interface", 1e-6, 35.0, 857 * 2**20), ("open_interface", 1e-4, 14.3, 405 * 2**20)],
+)
+def test_cost_is_told_before(name: str, tolerance: float, seconds: float, memory: float) -> None:
+    scene = read_scene(name, [f"accuracy.tolerance={tolerance}"])
+    assert isinstance(scene, TankScene)
+    (asked,) = (analysis for analysis in scene.analyses if isinstance(analysis, Decay))
+    told = decay_cost(scene, asked)
+    assert seconds / WITHIN < told.seconds < seconds * WITHIN
+    assert memory / WITHIN < told.memory < memory * WITHIN
+    assert any(told.words() in line for line in open_requests(scene))
 
 
 @pytest.mark.mpi

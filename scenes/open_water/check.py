@@ -9,12 +9,14 @@ from hydroelastic.modal.liquid.travelling_waves import travelling_waves
 from hydroelastic.scenes.models.open_analyses import Analysis, Decay, Radiation, Resonance, Response
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.basin import liquids_of
+from hydroelastic.scenes.open_water.cost import decay_cost
 from hydroelastic.scenes.output.sections import Section
 from hydroelastic.scenes.tank.check import modelled_tank
 
 
 def check_open(scene: TankScene) -> Iterator[Section]:
-    """Yield what open water is modelled as, what is asked of it, and which waves leave; nothing is meshed.
+    """Yield what open water is modelled as, what is asked of it, and which waves leave; a decay is meshed, to tell its
+    cost.
 
     Args:
         scene: a validated scene.
@@ -28,6 +30,8 @@ def open_requests(scene: TankScene) -> Iterator[str]:
     yield f"Open water, to a relative error of {scene.accuracy.tolerance:g}:"
     for number, analysis in enumerate(scene.analyses, 1):
         yield f"  {number}. {_request(scene, analysis)}"
+        if isinstance(analysis, Decay):
+            yield f"     {decay_cost(scene, analysis).words()}"
 
 
 def _request(scene: TankScene, analysis: Analysis) -> str:

@@ -115,8 +115,7 @@ def solve_decay(comm: MPI.Comm, scene: TankScene, asked: Decay, watch: Stopwatch
     # The last one tells what the sum misses of the initial displacement.
     times = np.array([*asked.times, 0.0])
     rung = _rung(comm, scene, asked, [omega for omega in resonances if -np.angle(omega) < ray.angle], highest, watch)
-    latest = max(max(asked.times), 1.0 / expected[-1])
-    band = Band(lowest=min(slowest_meshed(scene, latest), expected[0]), highest=highest)
+    band = ray_band(scene, asked, expected)
 
     def solve(resolution: Resolution) -> Attempt[_Waves]:
         # Dry modes are judged at the resonances, and both parts move in the same ones.
@@ -146,6 +145,18 @@ def solve_decay(comm: MPI.Comm, scene: TankScene, asked: Decay, watch: Stopwatch
 
     waves = attempted_over(scene, band, solve).result
     return _solution(asked, rung.result, waves)
+
+
+def ray_band(scene: TankScene, asked: Decay, expected: list[float]) -> Band:
+    """The frequencies of the ray's mesh.
+
+    Args:
+        scene: with open ends.
+        asked: the analysis.
+        expected: about those at which the bodies oscillate, rad/s, ascending.
+    """
+    latest = max(*asked.times, 1.0 / expected[-1])
+    return Band(lowest=min(slowest_meshed(scene, latest), expected[0]), highest=_ABOVE * expected[-1])
 
 
 def _solution(asked: Decay, rung: _Ringing, waves: _Waves) -> DecaySolution:

@@ -225,10 +225,46 @@ def open_model(
         angle: α of the complex scaling; by default that of the depth.
         drawn: if the basin holds what is drawn, for so many radians of the shortest wave to each side at most.
     """
+    basin, frames = _laid(scene, band, resolution, angle=angle, drawn=drawn)
+    tank = basin.tank
+    with watch.stage("mesh"):
+        mesh = distributed_mesh(comm, lambda: open_mesh(basin, resolution, frames))
+    liquid = _liquid(basin, resolution, mesh)
+    with watch.stage("forms"):
+        compile_scaled_form(liquid)
+    low, high = basin.bounds
+    with watch.stage("assemble"):
+        pencil = build_open_pencil(
+            liquid,
+            ComplexScaling(angle=frames.angle, low=low, high=high),
+            bodies=whole_bodies(tank, resolution.shapes),
+            surfaces=moving_surfaces(mesh, tank),
+        )
+    shortest = band.wavenumbers(scene)[1] * basin.units.length
+    return OpenModel(basin=basin, resolution=resolution, reach=frames, shortest=shortest, pencil=pencil)
+
+
+def first_mesh(scene: TankScene, band: Band, resolution: Resolution, *, angle: float) -> TaggedMesh:
+    """The mesh that `open_model` would take, on the calling process.
+
+    Args:
+        scene: with open ends.
+        band: the frequencies.
+        resolution: of the basin.
+        angle: α of the complex scaling.
+    """
+    basin, frames = _laid(scene, band, resolution, angle=angle, drawn=None)
+    return open_mesh(basin, resolution, frames)
+
+
+def _laid(
+    scene: TankScene, band: Band, resolution: Resolution, *, angle: float | None, drawn: float | None
+) -> tuple[OpenBasin, Reach]:
+    """The basin and its frames."""
     wavenumbers = band.wavenumbers(scene)
     basin = open_basin(scene, wavenumbers[1], drawn=drawn)
-    tank, length = basin.tank, basin.units.length
-    tolerance = workable_tolerance(scene.accuracy.tolerance, tank.depth)
+    length = basin.units.length
+    tolerance = workable_tolerance(scene.accuracy.tolerance, basin.tank.depth)
     has_bed = any(isfinite(depth) for depth in basin.depths)
     if angle is None:
         angle = ANGLE_OVER_A_BED if has_bed else ANGLE
@@ -240,20 +276,7 @@ def open_model(
         angle=angle,
         tolerance=tolerance,
     )
-    with watch.stage("mesh"):
-        mesh = distributed_mesh(comm, lambda: open_mesh(basin, resolution, frames))
-    liquid = _liquid(basin, resolution, mesh)
-    with watch.stage("forms"):
-        compile_scaled_form(liquid)
-    low, high = basin.bounds
-    with watch.stage("assemble"):
-        pencil = build_open_pencil(
-            liquid,
-            ComplexScaling(angle=angle, low=low, high=high),
-            bodies=whole_bodies(tank, resolution.shapes),
-            surfaces=moving_surfaces(mesh, tank),
-        )
-    return OpenModel(basin=basin, resolution=resolution, reach=frames, shortest=wavenumbers[1] * length, pencil=pencil)
+    return basin, frames
 
 
 def _liquid(basin: OpenBasin, resolution: Resolution, mesh: TankMesh) -> LiquidSpace:

@@ -69,8 +69,8 @@ def long_waves(hydrodynamics: Callable[[np.ndarray], np.ndarray], lowest: comple
     values = hydrodynamics(omegas)
     unit = SPREAD * abs(lowest)
     terms, flat = _terms(omegas / unit), values.reshape(len(omegas), -1)
-    parts = [np.vstack([part[:-1].real, part[:-1].imag]) for part in (terms, flat)]
-    coefficients = np.linalg.lstsq(*parts, rcond=None)[0]
+    known, wanted = (np.vstack([part[:-1].real, part[:-1].imag]) for part in (terms, flat))
+    coefficients = np.linalg.lstsq(known, wanted, rcond=None)[0]
     return LongWaves(
         unit=unit,
         coefficients=coefficients.reshape(-1, *values.shape[1:]),

@@ -52,8 +52,7 @@ def peak_memory(comm: MPI.Comm) -> Iterator[MemoryUse]:
 
 
 def hand_back_memory() -> None:
-    """Give memory that was freed back to the operating system: an allocator keeps what it may need again, and what comes
-    next seldom fits into it."""
+    """Give freed memory back to the operating system: an allocator keeps it, and what comes next seldom fits."""
     gc.collect()
     # Only glibc has it; other allocators keep less.
     with suppress(OSError, AttributeError):

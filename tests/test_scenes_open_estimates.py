@@ -10,9 +10,11 @@ from mpi4py import MPI
 from hydroelastic.scenes.models.bodies import Beam, Float
 from hydroelastic.scenes.models.open_analyses import Decay, Radiation, Release, Resonance
 from hydroelastic.scenes.models.tank import Accuracy, Liquid, Tank, TankScene
-from hydroelastic.scenes.open_water.estimates import thin_float_comparisons
+from hydroelastic.scenes.open_water.check import open_requests
+from hydroelastic.scenes.open_water.estimates import endless_comparison, endless_words, thin_float_comparisons
 from hydroelastic.scenes.open_water.results import OpenSolution
 from hydroelastic.scenes.open_water.solve import solve_open
+from hydroelastic.scenes.open_water.summary import summarize_open
 
 
 def _scene(**changes: object) -> TankScene:
@@ -54,6 +56,20 @@ def test_other_scenes_have_no_such_theory() -> None:
     )
     for scene in (heavy, beam):
         assert thin_float_comparisons(OpenSolution(scene=scene, size={}, seconds={})) == ((), "")
+
+
+def test_check_and_summary_tell_of_the_endless_float() -> None:
+    scene = _scene(shape="exponential", half_width=0.5, tail=1e-3)
+    told = endless_comparison(scene)
+    assert told is not None
+    # Against both closed forms, `test_modal_endless_float`: 0.0103.
+    assert told.cut == pytest.approx(0.0116, rel=1e-2)
+    assert endless_words(told) in list(open_requests(scene))
+    summary = summarize_open(OpenSolution(scene=scene, size={}, seconds={}), MPI.COMM_SELF, import_seconds=0.0)
+    stored = summary["estimates"]["endless_float"]
+    assert stored["cut"] == told.cut
+    assert stored["residues"][1] == [told.residues[1].real, told.residues[1].imag]
+    assert endless_comparison(_scene()) is None
 
 
 def test_blunt_sections_say_why() -> None:

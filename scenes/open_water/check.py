@@ -10,6 +10,7 @@ from hydroelastic.scenes.models.open_analyses import Analysis, Decay, Radiation,
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.basin import liquids_of
 from hydroelastic.scenes.open_water.cost import decay_cost
+from hydroelastic.scenes.open_water.estimates import endless_comparison, endless_words
 from hydroelastic.scenes.output.sections import Section
 from hydroelastic.scenes.tank.check import modelled_tank
 
@@ -32,6 +33,9 @@ def open_requests(scene: TankScene) -> Iterator[str]:
         yield f"  {number}. {_request(scene, analysis)}"
         if isinstance(analysis, Decay):
             yield f"     {decay_cost(scene, analysis).words()}"
+    endless = endless_comparison(scene)
+    if endless is not None:
+        yield endless_words(endless)
 
 
 def _request(scene: TankScene, analysis: Analysis) -> str:

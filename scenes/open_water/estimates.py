@@ -7,9 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from hydroelastic.modal.estimate import NoEstimateError
+from hydroelastic.modal.floats.endless_float import EndlessFloat, endless_float
 from hydroelastic.modal.floats.open_float import OpenFloatEstimate, open_float_estimate, released_float
 from hydroelastic.modal.floats.profiles import Profile
+from hydroelastic.modal.floats.thin_float_radiation import is_deep
 from hydroelastic.scenes.models.floats import float_section
+from hydroelastic.scenes.models.open_analyses import Decay, Resonance
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.basin import liquids_of
 from hydroelastic.scenes.open_water.results import DecayTable, OpenSolution, RadiationTable, ResonanceTable
@@ -56,6 +59,28 @@ def thin_float_comparisons(solution: OpenSolution) -> tuple[tuple[Comparison, ..
     except NoEstimateError as reason:
         return (), f"The thin-float theory has no value: {reason}."
     return tuple(rows), estimate.note
+
+
+def endless_comparison(scene: TankScene) -> EndlessFloat | None:
+    """The endless float of the paper beside a lone exponential that is released in endless liquids; else nothing."""
+    profile, layers = _profile(scene), liquids_of(scene)
+    if profile is None or profile.shape != "exponential" or not is_deep(layers):
+        return None
+    if not any(isinstance(analysis, Decay | Resonance) for analysis in scene.analyses):
+        return None
+    try:
+        return endless_float(profile, layers)
+    except NoEstimateError:
+        return None
+
+
+def endless_words(endless: EndlessFloat) -> str:
+    """How far the endless float is, in words."""
+    return (
+        "The float ends where the scene's tail says. After a release it differs from the endless one of the paper by "
+        f"up to about {endless.cut:.1g} of the displacement at first, which no estimated error of the field solution "
+        "holds: that is of the float with its end. A smaller tail brings them together."
+    )
 
 
 def _profile(scene: TankScene) -> Profile | None:

@@ -7,7 +7,7 @@ from typing import Any
 
 from mpi4py import MPI
 
-from hydroelastic.scenes.open_water.estimates import thin_float_comparisons
+from hydroelastic.scenes.open_water.estimates import endless_comparison, thin_float_comparisons
 from hydroelastic.scenes.open_water.results import (
     DIRECTIONS,
     DecayTable,
@@ -34,6 +34,7 @@ def summarize_open(solution: OpenSolution, comm: MPI.Comm, *, import_seconds: fl
         The content of ``summary.json``.
     """
     comparisons, note = thin_float_comparisons(solution)
+    endless = endless_comparison(solution.scene)
     return {
         "scene": solution.scene.model_dump(mode="json"),
         "status": solution.status,
@@ -42,7 +43,10 @@ def summarize_open(solution: OpenSolution, comm: MPI.Comm, *, import_seconds: fl
         "response": [_written(table) for table in solution.response],
         "resonance": [_written(table) for table in solution.resonance],
         "decay": [_written(table) for table in solution.decay],
-        "estimates": {"thin_float": {"rows": [json_ready(asdict(row)) for row in comparisons], "note": note}},
+        "estimates": {
+            "thin_float": {"rows": [json_ready(asdict(row)) for row in comparisons], "note": note},
+            "endless_float": json_ready(asdict(endless)) if endless else None,
+        },
         "size": {**solution.size, "processes": comm.size},
         "timing": {"import": import_seconds, **solution.seconds},
         "memory_peak": memory_of_processes(comm),

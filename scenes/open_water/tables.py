@@ -9,6 +9,8 @@ from math import ceil, degrees, inf, isfinite, pi
 
 import numpy as np
 
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.open_water.estimates import endless_comparison, endless_words
 from hydroelastic.scenes.open_water.results import (
     DecayTable,
     MissedPeak,
@@ -46,10 +48,10 @@ def open_sections(solution: OpenSolution, summary: Summary) -> Iterator[Section]
     left_out = tuple(draughts_left_out(solution.scene))
     if left_out:
         yield Section(title="Left out of the model", lines=left_out)
-    yield from _estimates(summary)
+    yield from _estimates(solution.scene, summary)
 
 
-def _estimates(summary: Summary) -> Iterator[Section]:
+def _estimates(scene: TankScene, summary: Summary) -> Iterator[Section]:
     """The thin-float theory beside the field solution."""
     estimate = summary["estimates"]["thin_float"]
     if estimate["rows"]:
@@ -65,6 +67,17 @@ def _estimates(summary: Summary) -> Iterator[Section]:
                 "the displacement at first.",
             ),
             compares=True,
+        )
+    endless = endless_comparison(scene)
+    if endless is not None:
+        yield Section(
+            title="The endless float of the paper, by its closed form",
+            headings=("pole", "Re ω, rad/s", "Im ω, 1/s", "Re residue", "Im residue"),
+            rows=[
+                (name, number(omega.real), number(omega.imag), number(residue.real), number(residue.imag))
+                for name, omega, residue in zip(("heave", "second"), endless.resonances, endless.residues, strict=True)
+            ],
+            lines=("After a release s/s₀ contains 2 Re(residue e^(−iωt)) of each.", endless_words(endless)),
         )
 
 

@@ -20,8 +20,8 @@ from PIL import Image
 
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.output.folder import SUMMARY
-from hydroelastic.scenes.output.provenance import Summary
 from hydroelastic.scenes.output.markdown import markdown_table, markdown_text
+from hydroelastic.scenes.output.provenance import Summary
 from hydroelastic.scenes.read import read_scene, shipped_scenes
 from hydroelastic.scenes.run import run_scene
 from hydroelastic.scenes.study.plan import FAMILIES, StudyPlan

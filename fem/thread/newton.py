@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import ufl
+from dolfinx import fem
 from dolfinx.fem.petsc import assemble_matrix, assemble_vector, create_matrix
 from mpi4py import MPI
 from numpy.typing import NDArray
@@ -65,7 +66,7 @@ class NewtonSolver:
         self._positions = positions[positions < self._owned]
         self.jacobian = create_matrix(self._derivative)
         self.values = np.zeros(self._owned)
-        self._disturbance = fem.form(disturbance, jit_options=jit_options())
+        self._disturbance = compiled_form(disturbance)
         self.response = fem.Function(space)
         # Largest entries of the residual, of that before, and of the last step's positions; whether the residual is
         # that of w.

@@ -16,10 +16,12 @@ from thread_motions import follow, free, held
 from hydroelastic.fem.thread.force_scale import force_scale
 from hydroelastic.fem.thread.model import ThreadModel
 from hydroelastic.fem.thread.motion import MovingStart
-from hydroelastic.fem.thread.motion_plan import EndCourse, ThreadMotionError
+from hydroelastic.fem.thread.motion_errors import MeasuredMotion, Run, measure_motion
+from hydroelastic.fem.thread.motion_plan import EndCourse, MotionPlan, ThreadMotionError
 from hydroelastic.fem.thread.mover import ThreadMover
 from hydroelastic.scenes.errors import UnsolvedError
 from hydroelastic.scenes.models.thread import ThreadScene
+from hydroelastic.scenes.thread import motion as motion_module
 from hydroelastic.scenes.thread.results import ThreadSolutionOfScene
 from hydroelastic.scenes.thread.solve import solve_thread_scene
 
@@ -67,6 +69,20 @@ def falling(**motion: Any) -> ThreadScene:
         stream={"density": 1000.0},
         ends={"b": {"kind": "free"}},
     )
+
+
+def test_a_motion_that_refinement_makes_worse_is_given_at_its_best(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Short waves of a thread without tension grow by themselves, and a finer mesh holds shorter ones."""
+    errors = iter([2e-3, 3e-3])
+
+    def measured(run: Run, plan: MotionPlan, *, mesh: bool) -> MeasuredMotion:
+        found = measure_motion(run, plan, mesh=mesh)
+        return replace(found, steps=replace(found.steps, positions=next(errors)))
+
+    monkeypatch.setattr(motion_module, "measure_motion", measured)
+    solution = solve(falling(times=[0.0, 0.2], tolerance=1e-3))
+    assert solution.motions[0].step_error == 2e-3
+    assert any("of positions" in reason for reason in solution.reasons)
 
 
 @pytest.mark.parametrize("tolerance", [1e-1, 1e-4])

@@ -49,6 +49,11 @@ class MeasuredMotion:
     ends: NDArray[np.float64]
     tension_changes: NDArray[np.float64]
 
+    @property
+    def error(self) -> float:
+        """Of positions, by steps and, if that was looked at, by elements, m."""
+        return self.steps.positions + (0.0 if self.mesh is None else self.mesh.positions)
+
     def tension_change(self, start: float, end: float) -> float:
         """The largest of `tension_changes` between two times and at the whole steps' ends around them, N."""
         first = max(int(np.searchsorted(self.ends, start, side="right")) - 1, 0)

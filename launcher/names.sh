@@ -31,8 +31,8 @@ choose_cache() {
 # Sets cache, and the folders in it: root, venv, forms, overlay.
 name_folders() {
     choose_cache
-    local file base debian run development peers place_and_project
-    for file in "$checkout"/requirements/{debian,run,dev,bench}.txt "$checkout/pyproject.toml"; do
+    local file base packages debian run development peers place_and_project
+    for file in "$checkout"/requirements/{debian,run,dev,bench,lock}.txt "$checkout/pyproject.toml"; do
         [[ -r $file ]] || fail "the checkout lacks $file"
     done
     debian=$(read_list "$checkout/requirements/debian.txt" | sha256sum)
@@ -44,13 +44,15 @@ name_folders() {
     project=${project#\\} # sha256sum's mark of a file name with unusual characters
 
     base=$suite-${debian:0:12}
+    packages=$(sha256sum <"$checkout/requirements/lock.txt")
     if [[ $way == active ]]; then
         local python
         python=$(sha256sum <<<"$python_executable $python_version $dolfinx_version")
         base=python$python_version-${python:0:12}
+        packages=${run:0:8}${development:0:8}
     fi
     root=$cache/roots/$base
-    venv=$cache/venvs/$base-${run:0:8}${development:0:8}
+    venv=$cache/venvs/$base-${packages:0:16}
     forms=$cache/forms/$base
     if [[ $way == inside ]]; then
         venv=$HYDROELASTIC_INSIDE forms=${XDG_CACHE_HOME:-$cache/forms/inside}

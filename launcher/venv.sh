@@ -34,7 +34,12 @@ build_venv() {
     if [[ -n $parent ]]; then
         printf '%s\n' "$parent" >"$("$python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))')/parent.pth"
     fi
-    inside "$python" -m pip install -r requirements/run.txt -r requirements/dev.txt
+    if [[ $way == root ]]; then
+        # The same files everywhere. What they need besides is of the root, and bound the lock when it was made.
+        inside "$python" -m pip install --no-deps --require-hashes -r requirements/lock.txt
+    else # to other versions of NumPy or of Python other versions of the rest may belong
+        inside "$python" -m pip install -r requirements/run.txt -r requirements/dev.txt
+    fi
     inside "$python" -c "$verify_code"
 }
 

@@ -41,14 +41,14 @@ class Problem:
     remedy: str = ""
 
     def line(self) -> str:
-        """Return the problem as one line."""
+        """Return the problem as one line that a terminal shows as it is."""
         subject = f"{self.key} = {self.value}" if self.value else self.key
         parts = [f"{subject}: {self.wrong}" if subject else self.wrong]
         if self.allowed:
             parts.append(f"Allowed: {self.allowed}")
         if self.remedy:
             parts.append(self.remedy)
-        return " ".join(part if part.endswith(("?", ".")) else f"{part}." for part in parts)
+        return printable(" ".join(part if part.endswith(("?", ".")) else f"{part}." for part in parts))
 
 
 class SceneError(Exception):
@@ -68,13 +68,19 @@ class SceneError(Exception):
     def __str__(self) -> str:
         """Return one line for one problem, else a heading and one line each (ten at most)."""
         lines = [problem.line() for problem in self.problems]
+        file = printable(str(self.file))
         if len(lines) == 1:
-            return f"{self.file}: {lines[0]}" if self.file is not None else lines[0]
+            return f"{file}: {lines[0]}" if self.file is not None else lines[0]
         shown = lines[:MOST_PROBLEMS_SHOWN]
         if len(lines) > len(shown):
             shown.append(f"… and {len(lines) - len(shown)} more")
-        heading = f"{self.file}: {len(lines)} problems" if self.file is not None else f"{len(lines)} problems"
+        heading = f"{file}: {len(lines)} problems" if self.file is not None else f"{len(lines)} problems"
         return "\n  ".join([heading, *shown])
+
+
+def printable(text: str) -> str:
+    """Return a text with escapes for control characters and all else that would not be seen, as in names of files."""
+    return "".join(sign if sign.isprintable() else sign.encode("unicode_escape").decode() for sign in text)
 
 
 def shown_value(value: object) -> str:

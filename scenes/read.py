@@ -260,7 +260,10 @@ def _with_mesh_beside(scene: TankScene, file: Path) -> TankScene:
     """Complete the path of a user's mesh from the folder of the scene, and see that the mesh is there."""
     if scene.mesh is None:
         return scene
-    mesh_file = (file.parent / scene.mesh.file).resolve()
+    try:
+        mesh_file = (file.parent / scene.mesh.file).resolve()
+    except (OSError, ValueError, RuntimeError):  # a text that is no path, or links that lead to themselves
+        mesh_file = file.parent / scene.mesh.file
     if not mesh_file.is_file():
         problem = Problem(
             key='[mesh], key "file"', value=shown_value(str(scene.mesh.file)), wrong=f"there is no file {mesh_file}"

@@ -13,7 +13,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
-from hydroelastic.scenes.errors import MOST_PROBLEMS_SHOWN, SceneError, scene_error
+from hydroelastic.scenes.errors import MOST_PROBLEMS_SHOWN, SceneError, scene_error, shown_value
 from hydroelastic.scenes.kinds import checker_of
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.output.sections import Section
@@ -55,10 +55,21 @@ def is_in_words(error: SceneError, document: Document) -> bool:
     problems = len(error.problems)
     lines = 1 if problems == 1 else 1 + min(problems, MOST_PROBLEMS_SHOWN) + (problems > MOST_PROBLEMS_SHOWN)
     assert len(re.split("[\n\r]", said)) == lines, said
-    assert all(problem.wrong and "\x1b" not in problem.line() for problem in error.problems), said
+    assert all(part.isprintable() for part in said.split("\n")), said
+    assert all(problem.wrong and _is_found(problem.key, document) for problem in error.problems), said
     assert not FOREIGN.search(said), said
     assert holds_nan(document) or not re.search(r"\bnan\b", said), said
     return True
+
+
+def _is_found(key: str, document: Document) -> bool:
+    """Whether the author can tell where a key is: its table, or its own name, is one of the scene's."""
+    known = {*document, "kind", *(name for model in SCENE_MODELS.values() for name in model.model_fields)}
+    return not key or any(key.startswith((f"[{name}]", f"[[{name}]]", f'key "{name}')) for name in map(shown, known))
+
+
+def shown(name: str) -> str:
+    return shown_value(name)[1:-1]
 
 
 def of_text(document: Document, folder: Path) -> Scene | None:
@@ -94,10 +105,10 @@ def start(scene: Scene, document: Document) -> None:
     except SceneError as error:
         refused = error
     else:
-        shown = "\n".join(
+        told = "\n".join(
             part for section in sections for row in (section.lines, section.notes, *section.rows) for part in row
         )
-        assert not re.search(r"\bnan\b|array\(|<class", shown), shown
+        assert not re.search(r"\bnan\b|array\(|<class", told), told
         return
     assert is_in_words(refused, document)
 
@@ -112,6 +123,46 @@ def follow(kind: str, document: Document, folder: Path) -> None:
     if by_model is not None:
         # What was accepted is accepted again as it is written.
         assert SCENE_MODELS[kind].model_validate(by_model.model_dump(mode="json")).model_dump() == by_model.model_dump()
+
+
+TANK: Document = {"kind": "tank", "tank": {"length": 10.0}, "liquid": [{"density": 1000.0, "depth": 5.0}]}
+STRING: Document = {"kind": "string", "string": {"length": 1.0, "linear_density": 1.0}}
+STEP: Document = {"motion": {"kind": "step", "amplitude": 1.0}}
+ONCE_WRONG: dict[str, tuple[Document, str]] = {
+    "a mesh whose name is no path": (TANK | {"mesh": {"file": "a\0b.msh"}}, "there is no file"),
+    "a mesh whose name has two lines": (TANK | {"mesh": {"file": "a\nb.msh"}}, "there is no file"),
+    "a section whose name has two lines": (
+        {"kind": "roll", "roll": {"section": "a\nb", "angle": 0.1}},
+        "there is no such file",
+    ),
+    "times by default beyond all limits, of a ship": (
+        {"kind": "roll", "roll": {"natural_frequency": 1e-30, "angle": 0.1}},
+        '[output], key "times" = ',
+    ),
+    "times by default beyond all limits, of a string": (
+        STRING | STEP | {"string": {"length": 1e30, "linear_density": 1.0, "gravity": 1e-30}},
+        "a wave would take 2e+30 s along the string",
+    ),
+    "ratios that overflow": (
+        STRING | STEP | {"output": {"times": {"start": 5e-324, "stop": 1e30, "number": 5, "spacing": "logarithmic"}}},
+        "equal ratios cannot begin so near to 0",
+    ),
+}
+
+
+def _read_and_check(file: Path) -> None:
+    scene = read_scene(file)
+    tuple(checker_of(scene)(scene))
+
+
+@pytest.mark.parametrize("case", ONCE_WRONG)
+def test_what_was_once_refused_in_other_words(case: str, folder: Path) -> None:
+    document, said = ONCE_WRONG[case]
+    (folder / "scene.toml").write_text(as_toml(document), encoding="utf-8")
+    with pytest.raises(SceneError) as caught:
+        _read_and_check(folder / "scene.toml")
+    assert is_in_words(caught.value, document)
+    assert said in str(caught.value)
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -135,11 +135,16 @@ class RollScene(SceneInFolder):
         """Return when the motion of a ship of natural frequency k, rad/s, is reported, s."""
         if self.output.times is not None:
             return self.output.times
-        period = 2.0 * pi / natural_frequency
-        last = sum(wave[0] for wave in self.waves) + DEFAULT_FREE_PERIODS * period
-        shortest = min([period, *(wave[0] for wave in self.waves)])
+        last = self.last_time(natural_frequency)
+        shortest = min([2.0 * pi / natural_frequency, *(wave[0] for wave in self.waves)])
         number = min(round(DEFAULT_TIMES_PER_PERIOD * last / shortest) + 1, MOST_TIMES)
         return Sweep(start=0.0, stop=last, number=number).values
+
+    def last_time(self, natural_frequency: float) -> float:
+        """Return until when the motion of a ship of natural frequency k, rad/s, is followed, s."""
+        if self.output.times is not None:
+            return self.output.times[-1]
+        return sum(wave[0] for wave in self.waves) + DEFAULT_FREE_PERIODS * 2.0 * pi / natural_frequency
 
     @model_validator(mode="after")
     def _parts_fit(self) -> RollScene:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from pydantic_core import InitErrorDetails
 
+from hydroelastic.scenes.models.bodies import LARGEST
 from hydroelastic.scenes.models.problems import misfit
 
 if TYPE_CHECKING:
@@ -142,10 +143,10 @@ def motion_can_be_followed(scene: RollScene) -> Iterator[InitErrorDetails]:
         )
     if frequency is None:
         return
-    last = scene.times(frequency)[-1]
+    last = scene.last_time(frequency)
     longest = MOST_PERIODS * 2.0 * pi / frequency
-    if last > longest:
-        allowed = f"up to {longest:g} s, {MOST_PERIODS} natural periods"
+    if last > min(longest, LARGEST):
+        allowed = f"up to {min(longest, LARGEST):g} s, or {MOST_PERIODS} natural periods if that is less"
         yield misfit(("output", "times"), last, "it is too late", allowed=allowed)
     elif scene.roll.quadratic_damping > 0.0 and _steps(scene, frequency, last) > MOST_STEPS:
         yield misfit(

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from pydantic_core import InitErrorDetails
 
+from hydroelastic.scenes.models.bodies import LARGEST
 from hydroelastic.scenes.models.problems import misfit
 
 if TYPE_CHECKING:
@@ -95,6 +96,16 @@ def table_can_be_followed(scene: StringScene) -> Iterator[InitErrorDetails]:
             return
 
 
+def waves_arrive(scene: StringScene) -> Iterator[InitErrorDetails]:
+    """A wave runs along the string in a time that can be written."""
+    travel = scene.string.travel_time
+    longest = LARGEST / LONGEST["series"]
+    if travel > longest:
+        wrong = f"a wave would take {travel:g} s along the string"
+        remedy = "Make the string shorter, or gravity stronger"
+        yield misfit(("string", "length"), scene.string.length, wrong, allowed=f"up to {longest:g} s", remedy=remedy)
+
+
 def output_lies_within(scene: StringScene) -> Iterator[InitErrorDetails]:
     """Places lie on the string, times within the table of the motion; and there are not too many of both."""
     length, times = scene.string.length, scene.times
@@ -151,6 +162,7 @@ def motion_is_not_too_fast(scene: StringScene) -> Iterator[InitErrorDetails]:
 
 STAGES = (
     (liquid_lets_the_string_hang, table_can_be_followed),
+    (waves_arrive,),
     (method_is_there, output_lies_within, motion_is_not_too_fast),
 )
 """Checks in stages: a later one needs what the earlier ones have found in order."""

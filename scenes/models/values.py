@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal, TypeAlias
 from pydantic import AfterValidator, BeforeValidator, Field, Strict, ValidationError, model_validator
 
 from hydroelastic.scenes.errors import scene_error
-from hydroelastic.scenes.models.bodies import LARGEST, SceneModel
+from hydroelastic.scenes.models.bodies import LARGEST, SMALLEST, SceneModel
 from hydroelastic.scenes.models.problems import misfit, problem
 
 MOST_VALUES = 10000
@@ -34,10 +34,9 @@ class Sweep(SceneModel):
         problems = []
         if self.stop <= self.start:
             problems.append(misfit(("stop",), self.stop, "it is not greater than start", allowed=f"> {self.start:g}"))
-        elif self.start == 0.0 and self.spacing == "logarithmic":
-            problems.append(
-                misfit(("start",), self.start, "equal ratios cannot begin with 0", allowed='> 0, or spacing = "linear"')
-            )
+        elif self.start < SMALLEST and self.spacing == "logarithmic":
+            allowed = f'from {SMALLEST:g}, or spacing = "linear"'
+            problems.append(misfit(("start",), self.start, "equal ratios cannot begin so near to 0", allowed=allowed))
         if problems:
             raise ValidationError.from_exception_data(type(self).__name__, problems)
         return self
@@ -72,7 +71,7 @@ def _expanded(value: Any) -> Any:
 
 def _all_different(values: tuple[float, ...]) -> tuple[float, ...]:
     if len(set(values)) < len(values):
-        twice = next(value for value in values if values.count(value) > 1)
+        twice = next(value for value, other in pairwise(sorted(values)) if value == other)
         raise problem(f"{twice:g} is named twice", remedy="Name each once")
     return values
 

@@ -153,14 +153,14 @@ def _damage(draw: st.DrawFn, what: str, place: tuple[Any, Any], other: tuple[Any
         holder += deepcopy([holder[key]] * draw(st.sampled_from([1, 2, 120])))
     elif what == "swap":
         holder[key], other_holder[other_key] = deepcopy(other_holder[other_key]), deepcopy(holder[key])
-    elif what == "scale" and isinstance(holder[key], float):
-        holder[key] *= draw(
-            st.one_of(st.sampled_from([-1.0, 0.0, 0.1, 0.5, 2.0, 10.0]), st.floats(-20.0, 20.0).map(_power_of_ten))
-        )
+    elif what == "scale" and isinstance(value := holder[key], float):
+        extremes = st.sampled_from([1e-30, 2e-30, 1e30, 5e29, 5e-324])
+        holder[key] = draw(st.one_of(extremes, _factors.map(lambda factor: factor * value)))
 
 
-def _power_of_ten(exponent: float) -> float:
-    return float(10.0**exponent)
+_factors = st.one_of(
+    st.sampled_from([-1.0, 0.0, 0.1, 0.5, 2.0, 10.0]), st.floats(-20.0, 20.0).map(lambda power: 10.0**power)
+)
 
 
 def _places(value: Any) -> Iterator[tuple[Any, Any]]:

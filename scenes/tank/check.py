@@ -54,9 +54,7 @@ def modelled_tank(scene: TankScene, *, requests: Iterable[str], scale: Section) 
 
 def _sizes(scene: TankScene) -> Iterator[str]:
     """What the first attempt is, and why it should be enough; the built-in meshes are made to count them."""
-    from hydroelastic.scenes.tank.own_mesh import own_mesh
-
-    tank, brought = scaled_tank(scene), own_mesh(scene)
+    tank, brought = scaled_tank(scene), _brought(scene)
     tolerance = scene.accuracy.tolerance
     tones = expected_tones(tank)
     motions = ends_of_float_motions(tank)
@@ -92,6 +90,15 @@ def _sizes(scene: TankScene) -> Iterator[str]:
         where = "with ψ = 0 on the water" if len(tank.layers) == 1 else "far above the waves, the liquids moving as one"
         yield f"Beside it {' and '.join(limits)} {where}: {size}."
         yield "  It has no waves to resolve, but a stronger singularity at the tips."
+
+
+def _brought(scene: TankScene) -> TaggedMesh | None:
+    if scene.mesh is None:
+        return None
+    # Only who brings a mesh needs what reads it.
+    from hydroelastic.scenes.tank.own_mesh import own_mesh
+
+    return own_mesh(scene)
 
 
 def _size(

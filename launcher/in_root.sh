@@ -10,7 +10,7 @@ PATH=/usr/sbin:/usr/bin:/sbin:/bin
 root=$1 folder=$2 user=$3 group=$4
 shift 4
 
-# Only what is a mount of its own can become the root folder; unbindable, lest it is seen again in the folder above it.
+# As a mount of its own the root can be read-only; unbindable, lest it is seen again in the folder above it.
 mount --bind --make-unbindable -- "$root" "$root" || exit 2
 while [[ $1 != -- ]]; do
     mount --rbind -- "$1" "$root$1" || exit 2
@@ -27,11 +27,7 @@ done
 shift
 mount -o remount,bind,ro -- "$root" 2>/dev/null || true # an ordinary user may be refused
 
-cd -- "$root"
-pivot_root . .
-umount --lazy .
-
 identity=()
 # Mounting made the user the root of a namespace; in a second one the user is back, and without rights again.
-if ((user)); then identity=(unshare --user --map-user="$user" --map-group="$group" --); fi
-exec "${identity[@]}" env --chdir="$folder" "PATH=$inside_path" "$@"
+if ((user)); then identity=(--user --map-user="$user" --map-group="$group"); fi
+exec unshare "${identity[@]}" --root="$root" --wd="$folder" -- /usr/bin/env "PATH=$inside_path" "$@"

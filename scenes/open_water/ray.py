@@ -217,7 +217,8 @@ class RayIntegral:
         series: LongWaves | None,
     ) -> FrequencyErrors:
         """Errors of the motion by cause: of the elements, of the reduced basis, of the series."""
-        order = np.argsort(self._radii)
+        # Beyond the frequencies of the mesh elements do not follow the waves; what the sum misses at t = 0 tells of it.
+        order = [place for place in np.argsort(self._radii) if self._radii[place] <= self._band[1]]
         known = np.log(np.array(self._radii)[order])
         diagonal = np.abs(np.einsum("nii->ni", added))
         # What the coefficient of the logarithm errs grows with the distance from where it was taken.

@@ -1,8 +1,9 @@
 # shellcheck shell=bash
 # Entering the private root: what of the host is seen inside, and the command that starts a program there.
 
-# Sets entry: unshare or proot, the first that this system allows; entry_program is its path on the host, because PATH becomes that of the inside;
-# namespaces are the options of unshare.
+# Sets entry: unshare, bwrap or proot, the first that this system allows; entry_program, its path on the host, because
+# PATH becomes that of the inside; and namespaces, the options of unshare. Some systems, Ubuntu among them, leave
+# namespaces to bwrap and few others.
 find_entry() {
     local kind
     for kind in --mount "--user --map-root-user --mount"; do
@@ -13,6 +14,8 @@ find_entry() {
             return
         fi
     done
+    entry=bwrap
+    if entry_program=$(type -P bwrap) && bwrap --ro-bind / / true 2>/dev/null; then return; fi
     entry=proot
     entry_program=$(type -P proot)
 }
@@ -80,6 +83,14 @@ command_in_root() {
 command_by_unshare() {
     command=("$entry_program" "${namespaces[@]}" --propagation private "$BASH" "$checkout/launcher/in_root.sh")
     command+=("$root" "$folder" "$EUID" "$(id -g)" "${binds[@]}" -- "${binds_read_only[@]}" -- "$@")
+}
+
+command_by_bwrap() {
+    local path
+    command=(setpriv --pdeathsig KILL -- "$entry_program" --ro-bind "$root" /)
+    for path in "${binds[@]}"; do command+=(--dev-bind "$path" "$path"); done
+    for path in "${binds_read_only[@]}"; do command+=(--ro-bind "$path" "$path"); done
+    command+=(--chdir "$folder" -- "${ends_with_parent[@]}" "$@")
 }
 
 command_by_proot() {

@@ -64,7 +64,7 @@ inside() {
 # The same in place of this script, so that signals arrive at the program.
 exec_inside() {
     local command
-    if [[ ${entry:-} == proot ]]; then # it has to stay beside the program, and is deaf to signals
+    if [[ ${entry:-} == @(bwrap|proot) ]]; then # it has to stay beside the program, and is deaf to signals
         inside "$@"
         return
     fi

@@ -34,10 +34,12 @@ def end_process(number: int, _frame: FrameType | None) -> None:
 def end_on_interrupt() -> None:
     """Let Ctrl-C end the process by `end_process`; for programs, not for who imports this package.
 
-    A job that a shell started with Ctrl-C ignored keeps ignoring it.
+    A job that a shell started with Ctrl-C ignored keeps ignoring it. One that the launcher has held back while Python
+    started arrives now.
     """
     if signal.getsignal(signal.SIGINT) != signal.SIG_IGN:
         signal.signal(signal.SIGINT, end_process)
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
 
 
 @contextmanager

@@ -86,18 +86,23 @@ def test_program_ends_with_the_launcher(start, tmp_path, arguments, sent):
     assert (tmp_path / "ended").read_text() == "TERM\n"
 
 
+# What each of them does with its options.
+OPTIONS = {"proot": "while [[ $1 == -? ]]; do shift 2; done", "bwrap": "until [[ $1 == -- ]]; do shift; done; shift"}
+
+
 @pytest.mark.parametrize("sent", [signal.SIGTERM, signal.SIGKILL])
-def test_program_below_proot_ends_with_the_launcher(start, tmp_path, sent):
-    # Like proot: starts the program as its child, does not pass signals on, and leaves it alone when it is killed.
-    proot = tmp_path / "proot"
-    proot.write_text('#!/bin/bash\ntrap : TERM\nwhile [[ $1 == -? ]]; do shift 2; done\n"$@"\n')
-    proot.chmod(0o755)
+@pytest.mark.parametrize("entry", OPTIONS)
+def test_program_below_another_ends_with_the_launcher(start, tmp_path, entry, sent):
+    # Like both: starts the program as its child, does not pass signals on, and leaves it alone when it is killed.
+    program = tmp_path / entry
+    program.write_text(f'#!/bin/bash\ntrap : TERM\n{OPTIONS[entry]}\n"$@"\n')
+    program.chmod(0o755)
     code = """
-        checkout=$1 way=root entry=proot entry_program=$2 root=$3 cache=$3
+        checkout=$1 way=root entry=${2##*/} entry_program=$2 root=$3 cache=$3
         for file in messages variables enter; do source "$checkout/launcher/$file.sh"; done
         exec_inside "$3/venv/bin/python"
     """
-    process, program = start("bash", "-euc", code, "bash", CHECKOUT, proot, tmp_path)
+    process, program = start("bash", "-euc", code, "bash", CHECKOUT, program, tmp_path)
     process.send_signal(sent)
     process.wait(SECONDS_TO_END)
     wait_until(lambda: not runs(program), SECONDS_TO_END)

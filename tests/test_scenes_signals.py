@@ -54,6 +54,18 @@ def test_ctrl_c_is_one_line_and_leaves_nothing(tmp_path: Path, event: str, name:
     assert list(tmp_path.rglob("*.partial")) + list(tmp_path.rglob("*.csv")) == []
 
 
+def test_ctrl_c_before_python_has_started_is_one_line() -> None:
+    def pressed() -> None:
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+        os.kill(os.getpid(), signal.SIGINT)
+
+    command = [sys.executable, "-m", "hydroelastic.scenes", *RUN]
+    ended = subprocess.run(command, preexec_fn=pressed, capture_output=True, text=True, check=False, timeout=100)
+    assert ended.stderr == "Interrupted: no result folder was written.\n"
+    assert (ended.returncode, ended.stdout) == (128 + signal.SIGINT, "")
+
+
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
 @pytest.mark.parametrize(("event", "name"), [STARTED[2], WRITING[1]])
 def test_other_signals_are_silent_and_leave_nothing(tmp_path: Path, event: str, name: str, number: int) -> None:

@@ -26,7 +26,7 @@ from hydroelastic.scenes.models.problems import misfit
 SMALLEST, LARGEST = 1e-30, 1e30
 """Range of any positive quantity in SI: no product of a few of them overflows."""
 
-MOST_BODIES = 100
+MOST_BODIES = 200
 """Of one scene: the mesh is graded towards both ends of each."""
 
 MOST_SECTIONS = 100

@@ -53,7 +53,7 @@ def test_circle_in_deep_water(tolerance: float) -> None:
     found = _released(_scene(tolerance), times)
     error = np.abs(found.table.displacement[:, 0] / 0.1 - STORED["s"])
     # In parts of the displacement at first; the reference has 1e-12.
-    assert error.max() < tolerance
+    assert error.max() < found.error < tolerance
     assert np.all(error < 3.0 * found.table.absolute_error / 0.1)
     # Ursell: -(4/pi) a/(g t^2) of the displacement, from the series of long waves.
     assert found.table.tail == pytest.approx(-4.0 / pi / G * 0.1, rel=1e-3)
@@ -76,7 +76,7 @@ def test_few_factorizations_and_one_alive(monkeypatch: pytest.MonkeyPatch) -> No
     found = _released(scene, np.geomspace(0.5, 300.0, 31))
     # Those of the rough search, of the resonance and of the ray follow one another; the first ones held two.
     assert most == 1
-    # Measured: 23, 18 of them on the ray. Down to 0.02/t and with the ratios of an empty basis there were 39.
+    # Down to 0.02/t and with the ratios of an empty basis there were 39 and more.
     assert len(computed) < 30
     assert found.solved < 24
     assert found.error < 1e-4

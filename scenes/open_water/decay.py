@@ -42,7 +42,7 @@ from hydroelastic.scenes.tank.plan import Resolution
 _SEARCHED = 0.54
 # The meshes go so far above the highest resonance, and that of the resonances so far below the lowest one.
 _ABOVE, _BELOW = 3.0, 0.7
-# The resonances have this part of the tolerance, and the ray what they leave of it.
+# The resonances have this part of the tolerance.
 _SHARE = 0.5
 # A part of the momentum below which it is rounding.
 _PUSHED = 1e-6
@@ -136,7 +136,8 @@ def solve_decay(comm: MPI.Comm, scene: TankScene, asked: Decay, watch: Stopwatch
         found = integral.followed(times * unit, endless=is_endless(scene))
         own, size = found.errors, np.abs(initial).max()
         causes = FrequencyErrors(
-            liquid=(own.liquid + rung.result.errors) / size,
+            liquid=(own.liquid + rung.result.errors + np.abs(rung.result.motion[-1] + found.motion[-1] - initial).max())
+            / size,
             tips=own.tips / size,
             truncation=own.truncation / size,
             rounding=own.rounding / size,

@@ -37,6 +37,8 @@ _LOWER, _HIGHER = 2e-4, 20.0
 # Far below the resonances the motion is less sensitive to H, like the square of the frequency; but the tail shall keep
 # its digits too.
 _LEAST_WEIGHT = 0.1
+# Above them it is as insensitive, but what the basis misses there shows in the sum at t = 0.
+_LEAST_ABOVE = 0.01
 # The trapezoidal rule in ln r misses e^{−2πd/h} of what is analytic within the angle d: with this part of it 1e-18.
 _STEP = 0.13
 # Points of the ray at which the reduced basis is judged.
@@ -168,7 +170,7 @@ class RayIntegral:
     def _weight(self, omega: complex, added: np.ndarray) -> float:
         """How far the motion goes for a relative error of H, from one e-fold of the ray."""
         moved = self._sensitivities(np.array([omega]), added[None], np.abs(added)[None])[0]
-        least = _LEAST_WEIGHT if abs(omega) < self._slow else 0.0
+        least = _LEAST_WEIGHT if abs(omega) < self._slow else _LEAST_ABOVE
         return max(float(np.abs(omega) * moved.max() / np.abs(self._initial).max() / pi), least)
 
     def _sensitivities(self, omegas: np.ndarray, added: np.ndarray, errors: np.ndarray) -> np.ndarray:

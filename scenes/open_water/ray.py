@@ -44,7 +44,7 @@ _STEP = 0.13
 # Points of the ray at which the reduced basis is judged.
 _JUDGED = 60
 # Errors of H at different frequencies have different phases, and cancel in the integral. Measured on a circle and on
-# thin floats at tolerances from 1e-3 to 1e-6, the sum of their magnitudes is 25 to 300 times the error.
+# thin floats at tolerances from 1e-3 to 1e-6, the sum of their magnitudes is 14 to 300 times the error.
 _PHASES = 0.2
 # Times at once.
 _CHUNK = 256

@@ -1,8 +1,8 @@
 """The folder in which dolfinx keeps compiled kernels: one process at a time adds to it, and what is damaged is removed.
 
 dolfinx marks a kernel as being compiled by its C file, for others to wait. Of a process that was killed the mark stays,
-and whoever meets it waits in vain. A lock that ends with its process goes before it here: who has it knows that nobody
-else compiles, so that an unfinished kernel is one that nobody will finish.
+and whoever meets it waits in vain. A lock that ends with its process goes before it here, and its file says whether
+somebody compiles: who gets the lock and finds that said knows that a process was killed, and removes what it left.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ import fcntl
 import logging
 import os
 import sys
+import time
 from collections import defaultdict
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -23,8 +24,9 @@ from mpi4py import MPI
 _LOG = logging.getLogger(__name__)
 _LOCK = "hydroelastic.lock"
 _ELF_HEADER = 64
-# What dolfinx makes before and after it compiles.
-_MARKS = {".c", ".c.cached"}
+_COMPILING = "compiling"
+# What programs that do not know of the lock have left unfinished for so long, s, nobody will finish.
+_GIVEN_UP = 60.0
 # When a folder had last changed when it was looked through.
 _looked_at: dict[Path, int] = {}
 
@@ -51,39 +53,60 @@ def kernels_locked(comm: MPI.Comm) -> Iterator[None]:
         return
     folder = cache_folder()
     folder.mkdir(parents=True, exist_ok=True)
-    with (folder / _LOCK).open("a") as lock:
+    with (folder / _LOCK).open("a+", encoding="ascii") as lock:
         with suppress(OSError):  # Some network file systems have no locks: dolfinx then waits as it always does.
             fcntl.flock(lock, fcntl.LOCK_EX)
-            _remove_damaged(folder)
-        yield
+            lock.seek(0)
+            _remove_damaged(folder, killed=lock.read() == _COMPILING)
+        lock.truncate(0)
+        lock.write(_COMPILING)
+        lock.flush()
+        try:
+            yield
+        finally:
+            lock.truncate(0)
 
 
-def _remove_damaged(folder: Path) -> None:
-    """Remove what is there of kernels that are not whole; the holder of the lock only."""
-    if _looked_at.get(folder) == folder.stat().st_mtime_ns:
+def _remove_damaged(folder: Path, *, killed: bool) -> None:
+    """Remove what is there of kernels that are not whole; the holder of the lock only.
+
+    Args:
+        folder: of the kernels.
+        killed: whether a process was killed while it compiled.
+    """
+    if not killed and _looked_at.get(folder) == folder.stat().st_mtime_ns:
         return
-    endings = defaultdict(set)
+    kernels = defaultdict(set)
     for file in os.listdir(folder):
         name, dot, ending = file.partition(".")
-        endings[name].add(dot + ending)
-    kernels = {name: found for name, found in endings.items() if name.startswith("libffcx_")}
-    damaged = [name for name, found in kernels.items() if not _is_whole(folder / name, found)]
+        if name.startswith("libffcx_"):
+            kernels[name].add(dot + ending)
+    unfinished = {name for name, endings in kernels.items() if ".c" in endings and ".c.cached" not in endings}
+    waited_for = set() if killed else {name for name in unfinished if _age(folder / f"{name}.c") < _GIVEN_UP}
+    finished = kernels.keys() - unfinished
+    broken = {name for name in finished if not _is_whole(folder / name, kernels[name])}
+    damaged = (unfinished - waited_for) | broken
     for name in damaged:
         for ending in kernels[name]:
             (folder / f"{name}{ending}").unlink()
     if damaged:
         _is_whole_library.cache_clear()
         _LOG.warning("hydroelastic: %d unfinished or damaged kernels in %s are compiled anew", len(damaged), folder)
-    _looked_at[folder] = folder.stat().st_mtime_ns
+    if not waited_for:
+        _looked_at[folder] = folder.stat().st_mtime_ns
+
+
+def _age(file: Path) -> float:
+    return time.time() - file.stat().st_mtime
 
 
 def _is_whole(kernel: Path, endings: set[str]) -> bool:
-    """Whether a kernel can be loaded, or leaves nothing in the way of its compilation."""
+    """Whether a finished kernel can be loaded, or leaves nothing in the way of its compilation."""
     libraries = [ending for ending in endings if ending.endswith(".so")]
-    if not libraries and endings.isdisjoint(_MARKS):
+    if not libraries and ".c.cached" not in endings:
         return True
     whole = all(_is_whole_library(kernel.with_name(f"{kernel.name}{ending}")) for ending in libraries)
-    return bool(libraries) and endings >= _MARKS and whole
+    return bool(libraries) and {".c", ".c.cached"} <= endings and whole
 
 
 @cache

@@ -38,6 +38,8 @@ def damage_unfinished(kernel: Path) -> None:
     for file in kernel.parent.glob(f"{kernel.stem}.*"):
         if file != kernel:
             file.unlink()
+    # By a program that does not know of the lock; after a minute it is given up.
+    os.utime(kernel, (time.time() - 100.0, time.time() - 100.0))
 
 
 def damage_truncated(kernel: Path) -> None:
@@ -88,6 +90,14 @@ def test_a_process_killed_while_it_compiles_delays_nobody(tmp_path: Path) -> Non
     value, said = integrated(tmp_path)
     assert value == THIRD
     assert "unfinished" in said
+
+
+def test_a_kernel_that_another_program_is_compiling_is_left_alone(compiled: Path) -> None:
+    foreign = compiled / "fenics" / "libffcx_forms_0.c"
+    foreign.touch()
+    assert integrated(compiled) == (THIRD, "")
+    assert foreign.exists()
+    foreign.unlink()
 
 
 def test_kernels_of_other_programs_are_left_alone(tmp_path: Path) -> None:

@@ -59,6 +59,14 @@ def test_circle_in_deep_water(tolerance: float) -> None:
     assert found.table.tail == pytest.approx(-4.0 / pi / G * 0.1, rel=1e-3)
 
 
+def test_motions_that_nothing_restores_add_no_error() -> None:
+    """A circle that may sway: by symmetry it does not, and the error of the heave is as without."""
+    times = np.array(STORED["t"]) / np.sqrt(G)
+    found = _released(_scene(1e-4, motions=["heave", "sway"]), times)
+    assert found.table.dofs == ("heave", "sway")
+    assert np.abs(found.table.displacement[:, 0] / 0.1 - STORED["s"]).max() < found.error < 1e-4
+
+
 def test_few_factorizations_and_one_alive(monkeypatch: pytest.MonkeyPatch) -> None:
     computed: list[weakref.ref[object]] = []
     most = 0

@@ -153,7 +153,9 @@ def test_a_study_takes_formats_and_resolution(tmp_path: Path, monkeypatch: pytes
     asked: list[PictureOptions] = []
     monkeypatch.setattr(study_run, "study_scene", lambda *_things, **_settings: None)
     monkeypatch.setattr(study_report, "study_table", lambda _study: "")
-    monkeypatch.setattr(study_report, "write_study", lambda _study, _folder, options: asked.append(options))
+    monkeypatch.setattr(
+        study_report, "write_study", lambda _study, _folder, options, **_settings: asked.append(options)
+    )
     out = ("--out", str(tmp_path / "out"))
     assert invoke("study", "aquarium", *out, "--image-format", "pdf", "--dpi", "300").exit_code == 0
     assert invoke("study", "aquarium", *out).exit_code == 0

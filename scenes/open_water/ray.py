@@ -174,11 +174,17 @@ class RayIntegral:
         return max(float(np.abs(omega) * moved.max() / np.abs(self._initial).max() / pi), least)
 
     def _sensitivities(self, omegas: np.ndarray, added: np.ndarray, errors: np.ndarray) -> np.ndarray:
-        """|D⁻¹| |p| |δH| |D⁻¹ K a₀|, shape (points, body unknowns), of some |δH|, shape (points, m, m)."""
-        model, squares = self._model, omegas[:, None, None] ** 2
-        inverse = np.linalg.inv(model.stiffness - squares * (model.mass + added))
-        pushed = np.abs(inverse @ (model.stiffness @ self._initial))
-        moved: np.ndarray = np.einsum("nij,njk,nk->ni", np.abs(inverse), errors, pushed) * np.abs(omegas)[:, None]
+        """|D⁻¹| |p| |δH| |D⁻¹ K a₀|, shape (points, restored unknowns), of some |δH|, shape (points, m, m).
+
+        Motions that nothing restores are not set going, or the release would have been refused: their D⁻¹, without
+        bound as p → 0, would make an error of what is zero by symmetry.
+        """
+        restored = np.flatnonzero(np.diag(self._model.stiffness) > 0.0)
+        own = (slice(None), *np.ix_(restored, restored))
+        stiffness, mass = self._model.stiffness[own[1:]], self._model.mass[own[1:]]
+        inverse = np.linalg.inv(stiffness - omegas[:, None, None] ** 2 * (mass + added[own]))
+        pushed = np.abs(inverse @ (stiffness @ self._initial[restored]))
+        moved: np.ndarray = np.einsum("nij,njk,nk->ni", np.abs(inverse), errors[own], pushed) * np.abs(omegas)[:, None]
         return moved
 
     def _added(self, radii: np.ndarray, *, endless: bool) -> tuple[np.ndarray, LongWaves | None]:

@@ -43,11 +43,13 @@ def cache_folder() -> Path:
 
 @contextmanager
 def kernels_locked(comm: MPI.Comm) -> Iterator[None]:
-    """Hold the lock on compiled kernels on rank 0, which compiles for all; damaged ones are removed first.
+    """Hold the lock on compiled kernels on rank 0, which compiles for all; damaged ones are removed first (collective).
 
     Args:
         comm: the processes that need the kernel.
     """
+    # All are here: none waits for the lock on behalf of a process of its own, while the others wait for it.
+    comm.Barrier()
     if comm.rank != 0:
         yield
         return

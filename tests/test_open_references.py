@@ -11,7 +11,7 @@ import numpy as np
 import open_circle
 import pytest
 from open_levels import Level, one_liquid
-from open_plates import Plate, Segment, rigid_radiation, scattering
+from open_plates import Plate, Segment, plate_of, rigid_radiation, scattering
 from open_sections import Water, section_answer
 from open_two_liquids import TwoLiquids
 from scipy.optimize import brentq
@@ -160,12 +160,6 @@ def test_compound_plate_as_published(row: dict[str, Any]) -> None:
     # The rows have an error of about 1e-5; measured: 4e-6.
     assert np.abs([result.reflected[0], result.transmitted[0]]) == pytest.approx([row["R"], row["T"]], abs=1e-5)
     np.testing.assert_allclose(np.abs(result.deflection), [point[column] for point in points], rtol=0, atol=1e-5)
-
-
-def plate_of(row: dict[str, Any], *, turned: bool = False) -> Plate:
-    segments = tuple(Segment(**segment) for segment in row["segments"])
-    joints = tuple(math.inf if spring is None else spring for spring in row["joints"])
-    return Plate(segments[::-1], joints[::-1]) if turned else Plate(segments, joints)
 
 
 def complex_of(values: Any) -> np.ndarray:

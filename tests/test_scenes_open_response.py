@@ -10,7 +10,7 @@ import pytest
 from mpi4py import MPI
 from open_cases import SLOW, beam, complex_of, half_slow, plate, radiation, response, section, stored, two_liquids
 from open_levels import one_liquid
-from open_plates import scattering
+from open_plates import plate_of, scattering
 from open_tables import open_scene
 
 from hydroelastic.scenes.models.tank import TankScene
@@ -181,8 +181,6 @@ def test_sweep_of_a_plate_is_as_accurate_as_it_says() -> None:
     row = PLATES[0]
     omegas = np.linspace(1.0, 4.0, 61)
     table = response(plate(row, 1e-6), *map(float, omegas)).table
-    from test_open_references import plate_of
-
     for place in range(0, 61, 6):
         level = one_liquid(float(omegas[place]), density=row["density"], depth=row["depth"])
         exact = scattering(plate_of(row), level, np.linspace(0, 1, 11) * plate_of(row).length)

@@ -16,7 +16,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
 
 from open_levels import one_liquid
-from open_plates import Plate, Segment, scattering
+from open_plates import plate_of, scattering
 
 PATH = Path(__file__).with_name("open_plates.json")
 POINTS = np.linspace(0, 1, 11)
@@ -67,12 +67,6 @@ def drawn(number: int) -> dict[str, Any]:
     joints = [springs[(number + joint) % 3] for joint in range(count - 1)]
     omega = float(f"{math.sqrt(9.81 * wave_number * steepness):.5g}")
     return {"density": density, "depth": depth, "omega": omega, "segments": segments, "joints": joints}
-
-
-def plate_of(row: dict[str, Any]) -> Plate:
-    """The plate of a row."""
-    joints = tuple(math.inf if spring is None else spring for spring in row["joints"])
-    return Plate(tuple(Segment(**segment) for segment in row["segments"]), joints)
 
 
 def solved(number: int) -> dict[str, Any]:

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from open_levels import Level
@@ -63,6 +64,13 @@ class Plate:
     def length(self) -> float:
         """m."""
         return sum(segment.length for segment in self.segments)
+
+
+def plate_of(row: dict[str, Any], *, turned: bool = False) -> Plate:
+    """The plate of a stored case, or its mirror image."""
+    segments = tuple(Segment(**segment) for segment in row["segments"])
+    joints = tuple(math.inf if spring is None else spring for spring in row["joints"])
+    return Plate(segments[::-1], joints[::-1]) if turned else Plate(segments, joints)
 
 
 class _Shapes:

@@ -9,7 +9,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -32,6 +32,7 @@ from hydroelastic.scenes.kinds import checker_of, comparer_of, runner_of
 from hydroelastic.scenes.output.folder import check_output, place_of_results
 from hydroelastic.scenes.output.manifest import read_manifest
 from hydroelastic.scenes.program import PROGRAM
+from hydroelastic.scenes.progress import progress
 from hydroelastic.scenes.read import Scene, closed_tank, read_scene, scene_path, shipped_scenes
 from hydroelastic.scenes.run import page_writer
 
@@ -84,25 +85,6 @@ def _end_without_output(error: OSError) -> NoReturn:
     # The interpreter flushes once more when it ends, and would complain.
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
     sys.exit(OUTPUT_BROKEN)
-
-
-@contextlib.contextmanager
-def _progress(title: str, *, shown: bool) -> Iterator[Callable[[str], None]]:
-    """A line on the terminal that says of what scene what is being done; nothing where there is no terminal."""
-    if not shown:
-        yield lambda _message: None
-        return
-    from rich.console import Console
-    from rich.text import Text
-
-    def line(message: str) -> Text:
-        # Text, not str: a title may hold brackets, which rich would read as markup.
-        return Text(f"{message} – {title}", no_wrap=True, overflow="ellipsis")
-
-    console = Console(stderr=True)
-    with console.status(line("libraries")) as status:
-        console.show_cursor(True)  # A signal that ends the process would leave it hidden.
-        yield lambda message: status.update(line(message))
 
 
 def _folder_of_results(scene: str, out: Path | None, *, suffix: str = "") -> Path:
@@ -218,7 +200,7 @@ def run(
         raise click.UsageError("--no-images leaves nothing for the other options of images to do: drop it, or them.")
     checked = read_scene(scene, overrides)
     folder = _folder_of_results(scene, out)
-    with _progress(_title(checked), shown=not quiet and sys.stderr.isatty()) as report:
+    with progress(_title(checked), shown=not quiet and sys.stderr.isatty()) as report:
         start = time.perf_counter()
         run_kind = runner_of(checked)
         write_page = page_writer(checked) if page else None
@@ -254,7 +236,7 @@ def compare(context: click.Context, scene: str, overrides: tuple[str, ...]) -> N
       hydroelastic compare aquarium --set body.0.start=0
     """
     checked = read_scene(scene, overrides)
-    with _progress(_title(checked), shown=sys.stderr.isatty()) as report:
+    with progress(_title(checked), shown=sys.stderr.isatty()) as report:
         compare_kind = comparer_of(checked)
         comparison = compare_kind(checked, report=report)
     click.echo(comparison.table())
@@ -304,7 +286,7 @@ def study(
     tank = closed_tank(checked, "a study measures the errors of frequencies of closed tanks")
     folder = _folder_of_results(scene, out, suffix="_study")
     replaces = read_manifest(folder) is not None
-    with _progress(_title(checked), shown=sys.stderr.isatty()) as report:
+    with progress(_title(checked), shown=sys.stderr.isatty()) as report:
         from hydroelastic.scenes.study.report import study_table, write_study
         from hydroelastic.scenes.study.run import study_scene
 

@@ -180,11 +180,14 @@ class RayIntegral:
         bound as p → 0, would make an error of what is zero by symmetry.
         """
         restored = np.flatnonzero(np.diag(self._model.stiffness) > 0.0)
-        own = (slice(None), *np.ix_(restored, restored))
-        stiffness, mass = self._model.stiffness[own[1:]], self._model.mass[own[1:]]
-        inverse = np.linalg.inv(stiffness - omegas[:, None, None] ** 2 * (mass + added[own]))
+
+        def own(matrices: np.ndarray) -> np.ndarray:
+            return matrices[..., restored, :][..., restored]
+
+        stiffness = own(self._model.stiffness)
+        inverse = np.linalg.inv(stiffness - omegas[:, None, None] ** 2 * own(self._model.mass + added))
         pushed = np.abs(inverse @ (stiffness @ self._initial[restored]))
-        moved: np.ndarray = np.einsum("nij,njk,nk->ni", np.abs(inverse), errors[own], pushed) * np.abs(omegas)[:, None]
+        moved: np.ndarray = np.einsum("nij,njk,nk->ni", np.abs(inverse), own(errors), pushed) * np.abs(omegas)[:, None]
         return moved
 
     def _added(self, radii: np.ndarray, *, endless: bool) -> tuple[np.ndarray, LongWaves | None]:

@@ -39,7 +39,6 @@ from hydroelastic.scenes.run import page_writer
 BAD_INPUT = 2
 NOT_TO_TOLERANCE = 3
 INTERRUPTED = 130
-OUTPUT_BROKEN = 2
 _SECONDS_TO_END = 10
 
 RANK_VARIABLES = ("OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK")
@@ -84,7 +83,7 @@ def _end_without_output(error: OSError) -> NoReturn:
     click.echo(f"Error: nothing can be printed: {error.strerror}. Redirect the output, or use --quiet.", err=True)
     # The interpreter flushes once more when it ends, and would complain.
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
-    sys.exit(OUTPUT_BROKEN)
+    sys.exit(BAD_INPUT)
 
 
 def _folder_of_results(scene: str, out: Path | None, *, suffix: str = "") -> Path:

@@ -40,7 +40,6 @@ from hydroelastic.modal.floats.channel_motion import channel_free_motion, channe
 from hydroelastic.modal.floats.estimates import FloatEstimate, all_float_estimates
 from hydroelastic.modal.floats.in_tank import FloatInTank
 from hydroelastic.modal.floats.open_float import OpenFloatEstimate, open_float_estimate, released_float
-from hydroelastic.modal.floats.profiles import FloatShape, Profile, ProfileArc, float_profile
 from hydroelastic.modal.floats.rigid_limits import (
     RigidAddedMass,
     half_immersed_ellipse,
@@ -95,6 +94,7 @@ from hydroelastic.modal.string.paper import STRING_ERRATA
 from hydroelastic.modal.string.partial_sum import partial_sum
 from hydroelastic.modal.string.resonance import StringResonance, nearest_resonance, string_resonance
 from hydroelastic.modal.string.response import StringResponse, string_response
+from hydroelastic.physics.profiles import FloatShape, Profile, ProfileArc, float_profile
 
 __all__ = [
     "ERRATA",

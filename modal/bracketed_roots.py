@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
+from hydroelastic.physics.arrays import FloatArray
 
 _MOST_STEPS = 200
 # Of a bracket. Rounding of the function itself moves a root by not much less.

@@ -20,9 +20,11 @@ CODE = sorted(
     for pattern in ("hydro", "Dockerfile", "*.toml", "*.yml", ".ci/run", "launcher/*.sh", "docs/*.py", "results/*.py")
     for file in ROOT.glob(pattern)
 ) + sorted(
-    file for folder in ("meshes", "fem", "modal", "scenes", "benchmarks") for file in ROOT.glob(f"{folder}/**/*.py")
+    file
+    for folder in ("physics", "meshes", "fem", "modal", "scenes", "benchmarks")
+    for file in ROOT.glob(f"{folder}/**/*.py")
 )
-FOLDERS = "meshes|fem|modal|scenes|benchmarks|tests|results|launcher|docs|requirements"
+FOLDERS = "physics|meshes|fem|modal|scenes|benchmarks|tests|results|launcher|docs|requirements"
 # A file of the checkout, with asterisks for several; what a run writes to results/ is none.
 NAMED = re.compile(rf"(?<![\w./-])((?:{FOLDERS})/[\w/*-]+\.(?:py|sh|md|toml|txt)|test_\w+\.py)\b")
 

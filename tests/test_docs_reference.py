@@ -4,7 +4,7 @@ import pytest
 from pydantic import BaseModel
 from scene_reference import FOLDER, UNIT, page, sections_of, value_type
 
-from hydroelastic.modal.floats.profiles import DEFAULT_TAIL
+from hydroelastic.physics.profiles import DEFAULT_TAIL
 from hydroelastic.scenes.models import Float
 from hydroelastic.scenes.models.floats import DEFAULT_CORNER_ANGLE
 from hydroelastic.scenes.read import SCENE_MODELS

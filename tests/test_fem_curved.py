@@ -23,8 +23,8 @@ from hydroelastic.fem.shape_loads import shape_loads, surface_load
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.meshes.build import build_mesh as build_tagged_mesh
 from hydroelastic.meshes.geometry import BOTTOM, FREE_SURFACE, INTERFACE, LEFT_WALL, RIGHT_WALL
-from hydroelastic.modal.floats.profiles import float_profile
 from hydroelastic.modal.floats.rigid_limits import half_immersed_ellipse, interface_ellipse, section_heave_added_mass
+from hydroelastic.physics.profiles import float_profile
 from hydroelastic.scenes.models.bodies import Beam, Float
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.output.stopwatch import Stopwatch

@@ -22,7 +22,7 @@ def checkout(tmp_path):
     shutil.copy(CHECKOUT / "pyproject.toml", folder)
     for name in ("launcher", "requirements"):
         shutil.copytree(CHECKOUT / name, folder / name)
-    for name in ("meshes", "fem", "modal", "scenes", "benchmarks"):
+    for name in ("physics", "meshes", "fem", "modal", "scenes", "benchmarks"):
         (folder / name).mkdir()
         (folder / name / "__init__.py").write_text(f"name = {name!r}\n")
     return folder

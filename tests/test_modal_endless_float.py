@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from hydroelastic.modal.floats.endless_float import cut_distance, endless_float
-from hydroelastic.modal.floats.profiles import Profile
 from hydroelastic.modal.floats.thin_float_decay import free_motion
 from hydroelastic.modal.liquid.two_layer import TwoLayers
+from hydroelastic.physics.profiles import Profile
 
 CASES = {
     case["id"]: case

@@ -20,7 +20,6 @@ from hydroelastic.modal import (
     thin_float_mass,
     thin_float_stiffness,
 )
-from hydroelastic.modal.floats.profiles import Profile
 from hydroelastic.modal.floats.thin_shapes import (
     LARGE_ARGUMENT,
     area_factor,
@@ -31,6 +30,7 @@ from hydroelastic.modal.floats.thin_shapes import (
     wave_moment,
     wave_moment_series,
 )
+from hydroelastic.physics.profiles import Profile
 
 REFERENCE = json.loads((Path(__file__).parent / "reference" / "two_fluid_float.json").read_text(encoding="utf-8"))
 CASES = {case["id"]: case for case in REFERENCE["cases"]}

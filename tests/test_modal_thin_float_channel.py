@@ -26,9 +26,9 @@ from hydroelastic.modal import (
     thin_float_radiation,
     thin_float_stiffness,
 )
-from hydroelastic.modal.floats.profiles import FloatShape
 from hydroelastic.modal.floats.thin_float_radiation import natural_rate
 from hydroelastic.modal.floats.wave_integral import wave_integral
+from hydroelastic.physics.profiles import FloatShape
 
 
 @pytest.mark.parametrize("shape", SHAPES)

@@ -26,9 +26,9 @@ from hydroelastic.modal import (
     thin_float_stiffness,
 )
 from hydroelastic.modal.floats import thin_float_decay as decay
-from hydroelastic.modal.floats.profiles import FloatShape, Profile
 from hydroelastic.modal.floats.thin_shapes import wave_moment
 from hydroelastic.modal.floats.wave_integral import greatest_angle
+from hydroelastic.physics.profiles import FloatShape, Profile
 
 MOTIONS = [name for name in CASES if name.startswith("f_")]
 POLES = [name for name in CASES if name.startswith(("pole_", "f_wedge", "f_parabola", "f_ellipse"))]

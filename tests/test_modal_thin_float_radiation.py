@@ -18,9 +18,9 @@ from hydroelastic.modal import (
     thin_float_radiation,
 )
 from hydroelastic.modal.floats.complex_moments import complex_wave_moment
-from hydroelastic.modal.floats.profiles import FloatShape, Profile
 from hydroelastic.modal.floats.thin_shapes import inertia_factor, wave_moment
 from hydroelastic.modal.floats.wave_integral import wave_integral
+from hydroelastic.physics.profiles import FloatShape, Profile
 
 
 @pytest.mark.parametrize("name", ["ab_exponential", "ab_parabola"])

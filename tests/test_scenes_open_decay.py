@@ -14,8 +14,8 @@ from mpi4py import MPI
 
 from hydroelastic.fem.open_water import complex_direct
 from hydroelastic.modal.floats.open_float import released_float
-from hydroelastic.modal.floats.profiles import float_profile
 from hydroelastic.modal.liquid.two_layer import TwoLayers
+from hydroelastic.physics.profiles import float_profile
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.models.bodies import Float
 from hydroelastic.scenes.models.open_analyses import Decay, Release

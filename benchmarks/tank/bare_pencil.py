@@ -13,7 +13,7 @@ from petsc4py import PETSc
 from hydroelastic.benchmarks.tank.surface_modes import SurfaceModes, SurfaceProblem, lowest_eigenvalues
 from hydroelastic.fem.liquid import grounded_dofs
 from hydroelastic.fem.pencil import CoupledPencil
-from hydroelastic.modal.beam.dry_modes import FloatArray
+from hydroelastic.physics.arrays import FloatArray
 
 Solve = Callable[[FloatArray], FloatArray]
 """Right side → solution, on the free unknowns of ψ."""

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydroelastic.modal.beam.dry_modes import RIGID_SHAPES, FloatArray, free_free_roots
+from hydroelastic.modal.beam.dry_modes import RIGID_SHAPES, free_free_roots
+from hydroelastic.physics.arrays import FloatArray
 
 
 def dry_shapes(count: int, s: FloatArray) -> FloatArray:

@@ -9,7 +9,7 @@ import scipy.sparse.linalg
 from petsc4py import PETSc
 
 from hydroelastic.benchmarks.tank.bare_pencil import Solve
-from hydroelastic.modal.beam.dry_modes import FloatArray
+from hydroelastic.physics.arrays import FloatArray
 
 Factorize = Callable[[scipy.sparse.csr_matrix], Solve]
 

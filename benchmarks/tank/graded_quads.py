@@ -12,7 +12,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
+from hydroelastic.physics.arrays import FloatArray
 
 _GROWTH = 1.5
 

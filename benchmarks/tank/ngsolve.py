@@ -25,7 +25,7 @@ from hydroelastic.benchmarks.tank.dry_shapes import dry_shapes
 from hydroelastic.benchmarks.tank.peer_resolution import RING_RATIO, PeerResolution, PeerRule, peer_resolution
 from hydroelastic.benchmarks.tank.peer_surface import Surface, class_frequencies
 from hydroelastic.benchmarks.tank.symmetry import ModeClass, lowest_of, mode_classes
-from hydroelastic.modal.beam.dry_modes import FloatArray
+from hydroelastic.physics.arrays import FloatArray
 
 _RULE = PeerRule(waves_on_water=0.5, waves_under_beam=0.25, degrees_per_ring=3)
 _SPARE_POINTS = 6

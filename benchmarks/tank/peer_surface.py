@@ -11,7 +11,7 @@ import scipy.sparse
 from hydroelastic.benchmarks.tank.cases import BenchmarkTank
 from hydroelastic.benchmarks.tank.surface_modes import SurfaceProblem, lowest_eigenvalues
 from hydroelastic.benchmarks.tank.symmetry import ModeClass
-from hydroelastic.modal.beam.dry_modes import FloatArray
+from hydroelastic.physics.arrays import FloatArray
 
 
 @dataclass(frozen=True, kw_only=True)

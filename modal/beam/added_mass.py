@@ -8,8 +8,9 @@ import numpy as np
 from scipy.special import bernoulli, zeta
 
 from hydroelastic.modal.beam.cosine_moments import cosine_moments, tip_values
-from hydroelastic.modal.beam.dry_modes import FloatArray, free_free_shape, free_free_wavenumber
+from hydroelastic.modal.beam.dry_modes import free_free_shape, free_free_wavenumber
 from hydroelastic.modal.beam.floating_beam import FloatingBeam
+from hydroelastic.physics.arrays import FloatArray
 
 _TERMS_PER_WAVE = 4000
 _MOST_TERMS = 1_000_000

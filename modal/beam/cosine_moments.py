@@ -7,8 +7,9 @@ import functools
 import numpy as np
 from numpy.polynomial.legendre import leggauss
 
-from hydroelastic.modal.beam.dry_modes import FloatArray, free_free_shape, free_free_wavenumber
+from hydroelastic.modal.beam.dry_modes import free_free_shape, free_free_wavenumber
 from hydroelastic.modal.beam.floating_beam import FloatingBeam
+from hydroelastic.physics.arrays import FloatArray
 
 _RESONANCE = 1e-3
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import functools
-from typing import Any, SupportsFloat, TypeAlias
+from typing import SupportsFloat
 
 import numpy as np
 import numpy.typing as npt
 
-FloatArray: TypeAlias = npt.NDArray[np.floating[Any]]
+from hydroelastic.physics.arrays import FloatArray
 
 RIGID_SHAPES = 2
 """Heave (index 0) and pitch (index 1) come before the elastic shapes."""

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hydroelastic.modal.beam.dry_modes import FloatArray, free_free_roots
+from hydroelastic.modal.beam.dry_modes import free_free_roots
+from hydroelastic.physics.arrays import FloatArray
 
 _ROUNDING = 1e-12
 

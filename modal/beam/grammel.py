@@ -8,12 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import eigh
 
-from hydroelastic.modal.beam.dry_modes import RIGID_SHAPES, FloatArray
+from hydroelastic.modal.beam.dry_modes import RIGID_SHAPES
 from hydroelastic.modal.beam.floating_beam import FloatingBeam
 from hydroelastic.modal.beam.gravity_added_mass import MOST_NODES, wetted_shapes
 from hydroelastic.modal.beam.pressure_release import pressure_release_added_mass
 from hydroelastic.modal.beam.surface_operator import surface_operator
 from hydroelastic.modal.estimate import NoEstimateError
+from hydroelastic.physics.arrays import FloatArray
 
 _SHAPES = 24
 _COVER_NODES = 160

@@ -8,9 +8,9 @@ import numpy as np
 from scipy.linalg import eigh
 
 from hydroelastic.modal.beam.cosine_moments import cosine_moments
-from hydroelastic.modal.beam.dry_modes import FloatArray
 from hydroelastic.modal.beam.floating_beam import FloatingBeam
 from hydroelastic.modal.beam.tone_pencil import TonePencil, Tones, solve_tones
+from hydroelastic.physics.arrays import FloatArray
 
 _DECOUPLED = 1e-20
 _RANK = 1e-14

@@ -7,11 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hydroelastic.modal.beam.dry_modes import FloatArray, free_free_shape
+from hydroelastic.modal.beam.dry_modes import free_free_shape
 from hydroelastic.modal.beam.floating_beam import FloatingBeam
 from hydroelastic.modal.beam.surface_operator import SurfaceOperator, nodes_needed, surface_operator
 from hydroelastic.modal.beam.tone_pencil import TonePencil, Tones, solve_tones
 from hydroelastic.modal.estimate import NoEstimateError
+from hydroelastic.physics.arrays import FloatArray
 
 MOST_NODES = 1500
 """Above this size of the dense matrices the waves (or the depth) are refused as too fine to resolve."""

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
+from hydroelastic.physics.arrays import FloatArray
 
 
 def guided_wavenumber(index: int) -> float:

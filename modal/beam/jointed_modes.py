@@ -22,8 +22,9 @@ import numpy as np
 from numpy.polynomial import legendre
 from scipy.linalg import lapack, qr
 
-from hydroelastic.modal.beam.dry_modes import RIGID_SHAPES, FloatArray
+from hydroelastic.modal.beam.dry_modes import RIGID_SHAPES
 from hydroelastic.modal.beam.jointed_beam import JointedBeam, Section, comes_first
+from hydroelastic.physics.arrays import FloatArray
 
 Side = Literal["left", "right"]
 

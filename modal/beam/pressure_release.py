@@ -8,9 +8,10 @@ import math
 import numpy as np
 from numpy.polynomial.legendre import leggauss
 
-from hydroelastic.modal.beam.dry_modes import FloatArray, free_free_shape
+from hydroelastic.modal.beam.dry_modes import free_free_shape
 from hydroelastic.modal.beam.floating_beam import FloatingBeam
 from hydroelastic.modal.estimate import NoEstimateError
+from hydroelastic.physics.arrays import FloatArray
 
 MOST_TERMS = 420
 """Above this length of the expansion the gap or the depth is refused as too small against the beam."""

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import beta, betainc
 
-from hydroelastic.modal.beam.dry_modes import FloatArray, free_free_wavenumber
+from hydroelastic.modal.beam.dry_modes import free_free_wavenumber
 from hydroelastic.modal.beam.floating_beam import FloatingBeam
+from hydroelastic.physics.arrays import FloatArray
 
 GRADING = 12
 """Order of the graded substitution: its derivative vanishes like (distance)^(GRADING − 1) at the tips."""

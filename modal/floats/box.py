@@ -9,14 +9,14 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.special import zeta
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
 from hydroelastic.modal.estimate import NoEstimateError
 from hydroelastic.modal.floats.box_inertia import interface_moment, liquid_inertia
 from hydroelastic.modal.floats.in_tank import FloatInTank
-from hydroelastic.modal.floats.profiles import Profile
 from hydroelastic.modal.floats.thin_float import thin_float_added_mass
 from hydroelastic.modal.floats.thin_shapes import LARGE_ARGUMENT, check_pointed, wave_moment_series
 from hydroelastic.modal.liquid.two_layer import interface_frequencies
+from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.profiles import Profile
 
 _TAIL_RATIO = 8
 _TAIL_TERMS = 18

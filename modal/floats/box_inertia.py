@@ -6,8 +6,6 @@ import math
 
 import numpy as np
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
-from hydroelastic.modal.floats.profiles import Profile
 from hydroelastic.modal.floats.thin_shapes import (
     LARGE_ARGUMENT,
     end_wave_moment,
@@ -17,6 +15,8 @@ from hydroelastic.modal.floats.thin_shapes import (
     wave_moment,
 )
 from hydroelastic.modal.liquid.two_layer import TwoLayers
+from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.profiles import Profile
 
 
 def layer_wave_moment(profile: Profile, depth: float, wavenumbers: FloatArray) -> FloatArray:

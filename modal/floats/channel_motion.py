@@ -12,14 +12,14 @@ from numpy.polynomial.chebyshev import chebpts1, chebval, chebvander
 from numpy.polynomial.legendre import leggauss
 from scipy.optimize import brentq
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
 from hydroelastic.modal.estimate import NoEstimateError
 from hydroelastic.modal.floats.channel_radiation import channel_inertia, channel_radiation, check_channel
 from hydroelastic.modal.floats.complex_moments import ComplexArray
-from hydroelastic.modal.floats.profiles import Profile
 from hydroelastic.modal.floats.thin_float import thin_float_mass, thin_float_stiffness
 from hydroelastic.modal.floats.thin_float_decay import FreeMotion
 from hydroelastic.modal.liquid.two_layer import TwoLayers
+from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.profiles import Profile
 
 CHANNEL_SELF_CHECK = 1e-8
 """Greatest |f(0) − 1|, beyond which no value is given."""

@@ -6,12 +6,12 @@ import math
 
 import numpy as np
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
 from hydroelastic.modal.estimate import NoEstimateError
 from hydroelastic.modal.floats.box_inertia import interface_moment, layer_inertia, layer_wave_moment
-from hydroelastic.modal.floats.profiles import Profile
 from hydroelastic.modal.floats.thin_shapes import check_pointed, inertia_factor
 from hydroelastic.modal.liquid.two_layer import TwoLayers
+from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.profiles import Profile
 
 _STEP = 0.08
 _REACH = 40

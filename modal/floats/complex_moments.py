@@ -9,9 +9,9 @@ import numpy as np
 import numpy.typing as npt
 from numpy.polynomial.legendre import leggauss
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
-from hydroelastic.modal.floats.profiles import Profile
 from hydroelastic.modal.floats.thin_shapes import check_pointed, wave_moment_series
+from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.profiles import Profile
 
 ComplexArray = npt.NDArray[np.complex128]
 

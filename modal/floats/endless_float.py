@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-from hydroelastic.modal.floats.profiles import Profile
 from hydroelastic.modal.floats.thin_float_radiation import natural_rate
 from hydroelastic.modal.floats.thin_float_resonance import heave_pole, second_pole
 from hydroelastic.modal.liquid.two_layer import TwoLayers
+from hydroelastic.physics.profiles import Profile
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 
 from hydroelastic.modal.estimate import NoEstimateError
-from hydroelastic.modal.floats.profiles import Profile
 from hydroelastic.modal.liquid.two_layer import TwoLayers
+from hydroelastic.physics.profiles import Profile
 
 _ROUNDING = 1e-12
 

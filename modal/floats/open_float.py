@@ -9,12 +9,12 @@ import numpy.typing as npt
 
 from hydroelastic.modal.estimate import NoEstimateError
 from hydroelastic.modal.floats.channel_motion import channel_free_motion, channel_resonance
-from hydroelastic.modal.floats.profiles import Profile
 from hydroelastic.modal.floats.thin_float import thin_float_mass, thin_float_stiffness
 from hydroelastic.modal.floats.thin_float_decay import FreeMotion, crossover_time, free_motion
 from hydroelastic.modal.floats.thin_float_radiation import HeaveRadiation, is_deep, natural_rate, thin_float_radiation
 from hydroelastic.modal.floats.thin_float_resonance import heave_pole
 from hydroelastic.modal.liquid.two_layer import TwoLayers
+from hydroelastic.physics.profiles import Profile
 
 
 @dataclass(frozen=True, kw_only=True)

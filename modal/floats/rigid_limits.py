@@ -9,7 +9,7 @@ from scipy.optimize import brentq
 from scipy.special import elliprd, elliprf, gamma
 
 from hydroelastic.modal.estimate import NoEstimateError
-from hydroelastic.modal.floats.profiles import Profile
+from hydroelastic.physics.profiles import Profile
 
 _LEAST_STEP = 1e-15
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from hydroelastic.modal.floats.profiles import Profile
 from hydroelastic.modal.floats.thin_shapes import area_factor, inertia_factor
+from hydroelastic.physics.profiles import Profile
 
 
 @dataclass(frozen=True, kw_only=True)

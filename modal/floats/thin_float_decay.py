@@ -11,13 +11,13 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import lambertw
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
 from hydroelastic.modal.estimate import NoEstimateError
 from hydroelastic.modal.floats.complex_moments import ComplexArray
-from hydroelastic.modal.floats.profiles import Profile
 from hydroelastic.modal.floats.thin_float import thin_constants
 from hydroelastic.modal.floats.thin_float_resonance import FreePole, heave_pole, pole_count, second_pole
 from hydroelastic.modal.floats.wave_integral import fastest_scale, greatest_angle, is_endless, wave_integral
+from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.profiles import Profile
 
 SELF_CHECK = 1e-10
 """Greatest |f(0) − 1|, beyond which no value is given."""

@@ -6,9 +6,9 @@ import math
 
 from hydroelastic.modal.beam.paper_model import Erratum, PrintedAndCorrected
 from hydroelastic.modal.estimate import NoEstimateError
-from hydroelastic.modal.floats.profiles import Profile
 from hydroelastic.modal.floats.thin_float import thin_constants, thin_float_added_mass, thin_float_mass
 from hydroelastic.modal.liquid.two_layer import TwoLayers
+from hydroelastic.physics.profiles import Profile
 
 THIN_FLOAT_SOURCE = (
     'L. D. Akulenko, S. V. Nesterov, "Oscillations of a rigid body on the interface of two liquids", '

@@ -8,14 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
 from hydroelastic.modal.floats.channel_radiation import channel_inertia, channel_radiation
 from hydroelastic.modal.floats.complex_moments import ComplexArray
-from hydroelastic.modal.floats.profiles import Profile
 from hydroelastic.modal.floats.thin_float import thin_float_added_mass
 from hydroelastic.modal.floats.thin_shapes import inertia_factor, wave_moment
 from hydroelastic.modal.floats.wave_integral import wave_integral
 from hydroelastic.modal.liquid.two_layer import TwoLayers
+from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.profiles import Profile
 
 
 @dataclass(frozen=True, kw_only=True)

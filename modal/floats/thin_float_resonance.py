@@ -10,12 +10,12 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
 from hydroelastic.modal.estimate import NoEstimateError
 from hydroelastic.modal.floats.complex_moments import ComplexArray
-from hydroelastic.modal.floats.profiles import Profile
 from hydroelastic.modal.floats.thin_float import thin_constants
 from hydroelastic.modal.floats.wave_integral import fastest_scale, greatest_angle, is_endless, wave_integral
+from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.profiles import Profile
 
 _FIRST_COUPLING = 0.02
 _GROWTH = 1.15

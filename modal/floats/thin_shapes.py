@@ -10,9 +10,9 @@ import numpy.typing as npt
 from numpy.polynomial.legendre import leggauss
 from scipy.special import j1, poch, spherical_jn
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
 from hydroelastic.modal.estimate import NoEstimateError
-from hydroelastic.modal.floats.profiles import FloatShape, Profile
+from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.profiles import FloatShape, Profile
 
 LARGE_ARGUMENT = 50.0
 """From here on e^{−κ} is nothing beside 1, and the series of R in 1/κ have full precision."""

@@ -9,8 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from hydroelastic.modal.floats.complex_moments import MOST_ANGLE, ComplexArray, complex_wave_moment
-from hydroelastic.modal.floats.profiles import Profile
 from hydroelastic.modal.floats.thin_shapes import check_pointed
+from hydroelastic.physics.profiles import Profile
 
 _STEP = 0.09
 _REACH = 40

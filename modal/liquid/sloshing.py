@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
 from hydroelastic.modal.beam.floating_beam import FloatingBeam
+from hydroelastic.physics.arrays import FloatArray
 
 
 def wavenumbers(tank_length: float, count: int) -> FloatArray:

@@ -10,8 +10,8 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import brentq
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
 from hydroelastic.modal.liquid.two_layer import Branch, TwoLayers, interface_frequencies
+from hydroelastic.physics.arrays import FloatArray
 
 
 @dataclass(frozen=True, kw_only=True)

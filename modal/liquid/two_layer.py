@@ -9,8 +9,8 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
 from hydroelastic.modal.liquid.sloshing import wavenumbers
+from hydroelastic.physics.arrays import FloatArray
 
 LayerTop = Literal["free", "rigid", "pressure_release"]
 Branch = Literal["internal", "surface"]

@@ -12,9 +12,9 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 from scipy.special import hyp2f1, lambertw
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
 from hydroelastic.modal.roll.motion import Roll
 from hydroelastic.modal.roll.quadratic import check_quadratic_damping
+from hydroelastic.physics.arrays import FloatArray
 
 _TOLERANCE = 1e-13
 # Of 2dA: below, the argument of Lambert's W lies so near −1/e that it takes digits.

@@ -8,8 +8,8 @@ from typing import Protocol
 import numpy as np
 import numpy.typing as npt
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
 from hydroelastic.modal.roll.motion import Roll, RollMotion, WaveTrain, locate
+from hydroelastic.physics.arrays import FloatArray
 
 MOST_KNOTS = 20_000_000
 """Of `roll_knots`: beyond, arrays would no longer fit into memory."""

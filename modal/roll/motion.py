@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
 from hydroelastic.modal.damped_pair import damped_pair
 from hydroelastic.modal.roll.wave import response_from_rest
+from hydroelastic.physics.arrays import FloatArray
 
 
 @dataclass(frozen=True)

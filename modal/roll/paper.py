@@ -9,9 +9,9 @@ from collections.abc import Collection
 import numpy as np
 import numpy.typing as npt
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
 from hydroelastic.modal.beam.paper_model import Erratum, PrintedAndCorrected
 from hydroelastic.modal.roll.motion import Roll, WaveTrain
+from hydroelastic.physics.arrays import FloatArray
 
 ROLL_SOURCE = 'I. A. Bobrova, "Operational method for problems of physics on oscillatory processes" (in Russian)'
 

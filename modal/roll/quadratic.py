@@ -11,9 +11,9 @@ import numpy as np
 import numpy.typing as npt
 from scipy.integrate import OdeSolution, solve_ivp
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
 from hydroelastic.modal.roll.knots import roll_knots
 from hydroelastic.modal.roll.motion import Roll, RollMotion, WaveTrain, locate
+from hydroelastic.physics.arrays import FloatArray
 
 LEAST_TOLERANCE = 1e-11
 """Of `quadratic_roll_path`: the finer steps then come near to what SciPy allows."""

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
 from hydroelastic.modal.bracketed_roots import bracketed_roots, sign_change_roots
 from hydroelastic.modal.roll.knots import RollPath, roll_knots
+from hydroelastic.physics.arrays import FloatArray
 
 _KNOTS_PER_PERIOD = 12
 # Of φ² over a quarter of a period, h = π/2: (2h)^17 8!^4/(17 · 16!^3) of its mean, 5e-15.

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from scipy.linalg import eigvals, solve
 from scipy.optimize import brentq, root
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
+from hydroelastic.physics.arrays import FloatArray
 
 ComplexArray = NDArray[np.complex128]
 Ends = Literal["pinned", "clamped", "clamped-free"]

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
 from hydroelastic.modal.thread.asymptotics import NoAsymptoticError
+from hydroelastic.physics.arrays import FloatArray
 
 _LARGEST = 0.2
 

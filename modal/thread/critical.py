@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
 from hydroelastic.modal.thread.asymptotics import NoAsymptoticError
 from hydroelastic.modal.thread.load import UP, ThreadLoad
 from hydroelastic.modal.thread.panel_quadrature import PanelQuadrature
 from hydroelastic.modal.thread.shape import NoTensionError, ThreadShape
 from hydroelastic.modal.thread.stream_profiles import UniformStream
+from hydroelastic.physics.arrays import FloatArray
 
 _DIRECTIONS = 361
 # Of the stream: changes above it are not small.

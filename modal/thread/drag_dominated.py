@@ -10,10 +10,10 @@ from numpy.typing import ArrayLike
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
 from hydroelastic.modal.thread.asymptotics import AsymptoticThread, NoAsymptoticError
 from hydroelastic.modal.thread.load import ThreadLoad
 from hydroelastic.modal.thread.shape import ThreadShape
+from hydroelastic.physics.arrays import FloatArray
 
 # First-order changes of the angle, of sin f, and of ln T: above it the second order is not smaller.
 _LARGEST = 0.5

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
 from hydroelastic.modal.thread.stream_profiles import Stream
+from hydroelastic.physics.arrays import FloatArray
 
 UP = np.array([0.0, 0.0, 1.0])
 

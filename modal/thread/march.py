@@ -16,10 +16,10 @@ from numpy.typing import ArrayLike
 from scipy.integrate import solve_ivp
 from scipy.optimize import root, root_scalar
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
 from hydroelastic.modal.thread.critical import critical_direction
 from hydroelastic.modal.thread.load import UP, ThreadLoad
 from hydroelastic.modal.thread.shape import NoTensionError, ThreadShape
+from hydroelastic.physics.arrays import FloatArray
 
 Force = ArrayLike | Callable[[FloatArray], ArrayLike]
 

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import j0, j1, y0, y1
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
 from hydroelastic.modal.bessel_zeros import bessel_zeros
 from hydroelastic.modal.bracketed_roots import bracketed_roots, sign_change_roots
+from hydroelastic.physics.arrays import FloatArray
 
 # Places at which the determinant of a chain is looked at, between two roots that are π apart in travel time.
 _PLACES_PER_ROOT = 16

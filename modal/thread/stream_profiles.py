@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.interpolate import CubicSpline, PchipInterpolator
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
+from hydroelastic.physics.arrays import FloatArray
 
 Vector = tuple[float, float, float]
 Interpolation = Literal["linear", "monotone", "spline", "cubic"]

@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import root
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
 from hydroelastic.modal.thread.asymptotics import NoAsymptoticError
 from hydroelastic.modal.thread.load import ThreadLoad
 from hydroelastic.modal.thread.panel_quadrature import PanelQuadrature
+from hydroelastic.physics.arrays import FloatArray
 
 _LARGEST = 0.5
 _PANELS = 16

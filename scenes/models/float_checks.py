@@ -13,7 +13,7 @@ from hydroelastic.scenes.models.problems import misfit
 
 # Contours need NumPy and SciPy, which take a while to import: functions that are called for floats import them.
 if TYPE_CHECKING:
-    from hydroelastic.meshes.contours import Contour
+    from hydroelastic.physics.contours import Contour
     from hydroelastic.scenes.models.tank import TankScene
 
 SLENDERNESS = {"exact": (1e-3, 1e3), "thin": (1e-9, 1e3)}
@@ -86,7 +86,7 @@ def _problems_of(scene: TankScene, index: int, body: Float) -> Iterator[InitErro
 
 
 def _vertices_make_a_polygon(index: int, vertices: tuple[tuple[float, float], ...]) -> Iterator[InitErrorDetails]:
-    from hydroelastic.meshes.point_contours import shortest_side
+    from hydroelastic.physics.point_contours import shortest_side
 
     location = ("body", index, "vertices")
     length, size, number = shortest_side(vertices)
@@ -100,7 +100,7 @@ def _vertices_make_a_polygon(index: int, vertices: tuple[tuple[float, float], ..
 
 
 def _section_is_simple(location: tuple[str | int, ...], contour: Contour) -> Iterator[InitErrorDetails]:
-    from hydroelastic.meshes.point_contours import self_crossing
+    from hydroelastic.physics.point_contours import self_crossing
 
     if location[-1] not in ("vertices", "file"):
         return

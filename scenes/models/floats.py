@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from hydroelastic.meshes.contours import Arc, Contour, Point, root
-from hydroelastic.meshes.point_contours import outline_contour, polygon_contour
-from hydroelastic.modal.floats.profiles import DEFAULT_TAIL, Profile, ProfileArc, float_profile
+from hydroelastic.physics.contours import Arc, Contour, Point, root
+from hydroelastic.physics.point_contours import outline_contour, polygon_contour
+from hydroelastic.physics.profiles import DEFAULT_TAIL, Profile, ProfileArc, float_profile
 from hydroelastic.scenes.models.bodies import MOST_BODIES, Float
 from hydroelastic.scenes.models.outline_files import read_outline
 from hydroelastic.scenes.models.tank import TankScene

@@ -9,8 +9,8 @@ import numpy as np
 from hydroelastic.modal.estimate import NoEstimateError
 from hydroelastic.modal.floats.endless_float import EndlessFloat, endless_float
 from hydroelastic.modal.floats.open_float import OpenFloatEstimate, open_float_estimate, released_float
-from hydroelastic.modal.floats.profiles import Profile
 from hydroelastic.modal.floats.thin_float_radiation import is_deep
+from hydroelastic.physics.profiles import Profile
 from hydroelastic.scenes.models.floats import float_section
 from hydroelastic.scenes.models.open_analyses import Decay, Resonance
 from hydroelastic.scenes.models.tank import TankScene

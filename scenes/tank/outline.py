@@ -14,7 +14,6 @@ from math import inf
 
 import numpy as np
 
-from hydroelastic.meshes.contours import Arc, root
 from hydroelastic.meshes.geometry import (
     BOTTOM,
     FREE_SURFACE,
@@ -30,6 +29,7 @@ from hydroelastic.meshes.geometry import (
 )
 from hydroelastic.meshes.outline import Curve, Outline, Point, Region
 from hydroelastic.meshes.tagged_mesh import MeshError
+from hydroelastic.physics.contours import Arc, root
 from hydroelastic.scenes.tank.scaled_float import ScaledFloat
 from hydroelastic.scenes.tank.scaled_tank import MIDDLE, Piece, ScaledTank, StillLevel
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from hydroelastic.meshes.contours import Arc, Contour
-from hydroelastic.modal.floats.profiles import Profile, float_profile
+from hydroelastic.physics.contours import Arc, Contour
+from hydroelastic.physics.profiles import Profile, float_profile
 from hydroelastic.scenes.models.bodies import Float, Motion
 from hydroelastic.scenes.models.floats import placed_float
 from hydroelastic.scenes.models.tank import TankScene

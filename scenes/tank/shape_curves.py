@@ -13,8 +13,8 @@ from hydroelastic.fem.liquid import LiquidSpace
 from hydroelastic.fem.pictures.modes import FloatSection, SurfaceCurve
 from hydroelastic.fem.sampling import SurfaceTrace, sample_surface
 from hydroelastic.fem.surfaces import Body
-from hydroelastic.meshes.contours import Arc, Contour
 from hydroelastic.meshes.geometry import FREE_SURFACE, INTERFACE
+from hydroelastic.physics.contours import Arc, Contour
 from hydroelastic.scenes.tank.float_body import principal_motions
 from hydroelastic.scenes.tank.scaled_float import ScaledFloat
 from hydroelastic.scenes.tank.scaled_tank import ScaledTank, StillLevel

@@ -10,9 +10,9 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
 from hydroelastic.modal.thread.asymptotics import NoAsymptoticError
 from hydroelastic.modal.thread.shape import NoTensionError, ThreadShape
+from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.thread.quiet import libraries_silent
 from hydroelastic.scenes.thread.results import ThreadSolutionOfScene

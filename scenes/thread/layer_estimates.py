@@ -9,10 +9,10 @@ from math import acos
 import numpy as np
 from mpi4py import MPI
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
 from hydroelastic.modal.thread.clamp_layer import ClampLayer
 from hydroelastic.modal.thread.critical import critical_direction, towed_body_exponent
 from hydroelastic.modal.thread.stream_profiles import UniformStream
+from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.scenes.errors import UnsolvedError
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.models.thread_analyses import EndName

@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
 from hydroelastic.modal.thread.asymptotics import NoAsymptoticError
 from hydroelastic.modal.thread.axial_flow import AxialFlowBeam, Ends, string_in_axial_flow
 from hydroelastic.modal.thread.modes import (
@@ -21,6 +20,7 @@ from hydroelastic.modal.thread.modes import (
     tensioned_beam_frequencies,
 )
 from hydroelastic.modal.thread.stream_profiles import UniformStream
+from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.models.thread_analyses import ThreadModes, ThreadStability
 from hydroelastic.scenes.models.thread_parts import FixedEnd, FreeEnd

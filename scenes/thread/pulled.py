@@ -10,10 +10,10 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.optimize import root_scalar
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
 from hydroelastic.modal.thread.asymptotics import AsymptoticThread, NoAsymptoticError
 from hydroelastic.modal.thread.shape import ThreadShape
 from hydroelastic.modal.thread.stream_profiles import UniformStream
+from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.models.thread_parts import FixedEnd, FreeEnd
 from hydroelastic.scenes.thread.estimate import places_of, require, require_bare_thread

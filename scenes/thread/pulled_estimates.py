@@ -9,7 +9,6 @@ from math import inf
 
 import numpy as np
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
 from hydroelastic.modal.thread.asymptotics import AsymptoticThread
 from hydroelastic.modal.thread.drag_dominated import drag_dominated
 from hydroelastic.modal.thread.shape import ThreadShape
@@ -17,6 +16,7 @@ from hydroelastic.modal.thread.stream_profiles import ShearedStream, Stream, Tab
 from hydroelastic.modal.thread.tension_at_height import ThreadAtHeight, tension_dominated_at_height
 from hydroelastic.modal.thread.tension_dominated import tension_dominated
 from hydroelastic.modal.thread.weightless import weightless_thread
+from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.thread.estimate import (
     Found,

@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
 from hydroelastic.modal.thread.catenary import catenary_between, elastic_catenary
 from hydroelastic.modal.thread.march import Force, MarchedThread, march_back, march_tail
 from hydroelastic.modal.thread.shape import NoTensionError, ThreadShape
 from hydroelastic.modal.thread.taut import taut_thread
+from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.models.thread_parts import CarriedBody, FixedEnd, SurfaceEnd
 from hydroelastic.scenes.thread.model import body_drag, dead_force, load_of, stream_of

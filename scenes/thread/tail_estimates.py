@@ -8,7 +8,6 @@ from functools import partial
 
 import numpy as np
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
 from hydroelastic.modal.thread.critical import (
     NearlyCriticalTail,
     critical_direction,
@@ -17,6 +16,7 @@ from hydroelastic.modal.thread.critical import (
 )
 from hydroelastic.modal.thread.shape import ThreadShape
 from hydroelastic.modal.thread.stream_profiles import ShearedStream
+from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.thread.estimate import Found, ShapeEstimate, attempted, require
 from hydroelastic.scenes.thread.model import load_of, stream_of

@@ -14,7 +14,7 @@ from hydroelastic.modal import (
     TwoLayers,
     float_profile,
 )
-from hydroelastic.modal.floats.profiles import FloatShape, Profile
+from hydroelastic.physics.profiles import FloatShape, Profile
 
 REFERENCE = json.loads((Path(__file__).parents[1] / "reference" / "two_fluid_float.json").read_text(encoding="utf-8"))
 CASES = {case["id"]: case for case in REFERENCE["cases"]}

@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hydroelastic.meshes.contours import Arc, Contour, straight_arc, turn_between
-from hydroelastic.meshes.point_contours import outline_contour, polygon_contour, self_crossing
-from hydroelastic.modal.floats.profiles import FloatShape, float_profile
+from hydroelastic.physics.contours import Arc, Contour, straight_arc, turn_between
+from hydroelastic.physics.point_contours import outline_contour, polygon_contour, self_crossing
+from hydroelastic.physics.profiles import FloatShape, float_profile
 from hydroelastic.scenes.models.bodies import Float
 from hydroelastic.scenes.models.floats import float_contour
 

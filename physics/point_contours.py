@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from hydroelastic.meshes.contours import Arc, Array, Contour, Point, straight_arc
+from hydroelastic.physics.contours import Arc, Array, Contour, Point, straight_arc
 
 STRAIGHT = 1e-4
 """Where the line from point to point turns by a smaller angle, in radians, it goes straight on."""

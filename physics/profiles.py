@@ -11,7 +11,7 @@ from typing import Literal, get_args
 import numpy as np
 import numpy.typing as npt
 
-from hydroelastic.modal.beam.dry_modes import FloatArray
+from hydroelastic.physics.arrays import FloatArray
 
 FloatShape = Literal["exponential", "parabola", "ellipse", "wedge", "rectangle"]
 DEFAULT_TAIL = 1e-3

@@ -5,13 +5,14 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, get_args
 
 import numpy as np
 import numpy.typing as npt
 
 from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.contours import Arc, Contour, Point
 
 FloatShape = Literal["exponential", "parabola", "ellipse", "wedge", "rectangle"]
 DEFAULT_TAIL = 1e-3
@@ -228,6 +229,39 @@ def float_profile(shape: FloatShape, half_width: float, half_height: float, tail
     if shape == "exponential":
         return Profile(shape=shape, half_width=half_width, half_height=half_height, tail=tail)
     return Profile(shape=shape, half_width=half_width, half_height=half_height)
+
+
+def profile_contour(profile: Profile) -> Contour:
+    """Return the closed contour of a section, counterclockwise from its lowest point, m.
+
+    Raises:
+        ValueError: for an exponential with ``tail`` = 0, which has no outline.
+    """
+    right = tuple(_right(arc) for arc in profile.arcs)
+    return Contour(right + tuple(_mirrored(arc) for arc in reversed(right)))
+
+
+def _right(arc: ProfileArc) -> Arc:
+    (start, end) = ((float(x), float(y)) for x, y in arc.point(np.array([0.0, 1.0])))
+    return Arc(curve=arc.point, velocity=arc.velocity, start=_on_axis(start), end=_on_axis(end), straight=arc.straight)
+
+
+def _on_axis(point: Point) -> Point:
+    """A point of a profile; sines of π leave one that lies on the axis beside it by rounding."""
+    x, y = point
+    return (0.0 if abs(x) < 1e-15 * abs(y) else x), y
+
+
+def _mirrored(arc: Arc) -> Arc:
+    """The mirror image of an arc about x = 0, passed the other way."""
+    (x, y), (z, w) = arc.start, arc.end
+    return replace(
+        arc,
+        curve=lambda t: arc.curve(1.0 - t) * (-1.0, 1.0),
+        velocity=lambda t: arc.velocity(1.0 - t) * (1.0, -1.0),
+        start=(-z, w),
+        end=(-x, y),
+    )
 
 
 def _ellipse(half_width: float, half_height: float, t: npt.ArrayLike) -> FloatArray:

@@ -11,8 +11,8 @@ import pytest
 from hydroelastic.fem.modes import solve_modes
 from hydroelastic.meshes.nested import halved
 from hydroelastic.modal import sloshing_frequencies
+from hydroelastic.physics.tank import Tank
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.tank.scaled_tank import ScaledTank
 
 
 def values_on_halved_meshes(
@@ -83,7 +83,7 @@ def on_graded_mesh(tanks: Any) -> Any:
 
     def errors(degree: int, tip_size: float) -> np.ndarray:
         if (degree, tip_size) not in found:
-            tank: ScaledTank
+            tank: Tank
             tank, tagged = tanks.graded_mesh(scene, size=0.1, tip_size=tip_size)
             # With 40 dry modes what the beam leaves out is below 1e-11.
             pencil = tanks.pencil_on(tanks.distribute(tagged), tank, degree=degree, shapes=40)

@@ -20,21 +20,21 @@ from scipy.special import ellipe, i1
 from hydroelastic.fem.added_mass import body_added_mass
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.shape_loads import shape_loads, surface_load
+from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.fem.surfaces import Body
+from hydroelastic.fem.tank.error_estimates import boundary_error
+from hydroelastic.fem.tank.field_model import build_field_model, build_mesh, distributed_mesh
+from hydroelastic.fem.tank.field_solution import solve_field
+from hydroelastic.fem.tank.infinite_frequency import HighFrequencyAddedMass, high_frequency_added_mass
+from hydroelastic.fem.tank.mesh import graded_outline
+from hydroelastic.fem.tank.resolution import companion_resolution, initial_resolution
 from hydroelastic.meshes.build import build_mesh as build_tagged_mesh
 from hydroelastic.meshes.geometry import BOTTOM, FREE_SURFACE, INTERFACE, LEFT_WALL, RIGHT_WALL
 from hydroelastic.modal.floats.rigid_limits import half_immersed_ellipse, interface_ellipse, section_heave_added_mass
 from hydroelastic.physics.profiles import float_profile
 from hydroelastic.scenes.models.bodies import Beam, Float
+from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.output.stopwatch import Stopwatch
-from hydroelastic.scenes.tank.certainty import boundary_error
-from hydroelastic.scenes.tank.field_model import build_field_model, build_mesh, distributed_mesh
-from hydroelastic.scenes.tank.field_solution import solve_field
-from hydroelastic.scenes.tank.high_frequency import HighFrequencyAddedMass, high_frequency_added_mass
-from hydroelastic.scenes.tank.mesh import graded_outline
-from hydroelastic.scenes.tank.plan import companion_resolution, initial_resolution
-from hydroelastic.scenes.tank.scaled_tank import scaled_tank
 
 FOLDER = Path(__file__).parent / "reference"
 FLOATS: dict[str, Any] = json.loads((FOLDER / "floats.json").read_text(encoding="utf-8"))["cases"]
@@ -127,8 +127,12 @@ def neumann_energy(degree: int) -> float:
         depths=(DEPTH,),
         top="free",
     )
-    tank = scaled_tank(scene)
-    resolution = replace(initial_resolution(scene, modes=6), degree=degree, tip_size=None)
+    tank = physical_tank(scene).scaled()
+    resolution = replace(
+        initial_resolution(tank, scene.accuracy.tolerance, modes=6),
+        degree=degree,
+        tip_size=None,
+    )
     mesh = build_mesh(MPI.COMM_WORLD, tank, resolution)
     pencil = build_field_model(mesh, tank, degree=degree, shapes=(0,))
 
@@ -166,8 +170,8 @@ def test_frequencies_converge_with_the_degree_of_the_geometry(name: str) -> None
     case = FLOATS[name]
     omega = np.array([float(text) for text in case["omega"]])
     scene = TankScene.model_validate(case["scene"] | {"accuracy": {"tolerance": 1e-8, "modes": len(omega)}})
-    tank = scaled_tank(scene)
-    resolution = replace(initial_resolution(scene, modes=len(omega)), degree=9)
+    tank = physical_tank(scene).scaled()
+    resolution = replace(initial_resolution(tank, scene.accuracy.tolerance, modes=len(omega)), degree=9)
     half = name != "circle_off_centre"
     errors = []
     for geometry_degree in (1, 2, 3, 5, 8):
@@ -204,7 +208,7 @@ def above_the_waves(length: float, *bodies: Float, densities: tuple[float, ...])
         length=length,
         top="free" if len(densities) == 1 else "rigid",
     )
-    return high_frequency_added_mass(MPI.COMM_WORLD, scaled_tank(scene), 1e-9, Stopwatch(), half=True)
+    return high_frequency_added_mass(MPI.COMM_WORLD, physical_tank(scene).scaled(), 1e-9, Stopwatch(), half=True)
 
 
 def unbounded(shape: str, densities: tuple[float, ...], motions: str = "heave", **keys: Any) -> np.ndarray:
@@ -266,7 +270,7 @@ def test_a_rigid_plate_has_its_added_mass_above_the_waves(densities: tuple[float
     for length in LENGTHS:
         beam = Beam(start=0.5 * length - 1.0, length=2.0, flexural_rigidity=1e6, mass_per_length=1.0)
         depths = (0.5 * length,) * len(densities)
-        tank = scaled_tank(layered(beam, densities=densities, depths=depths, length=length, top="free"))
+        tank = physical_tank(layered(beam, densities=densities, depths=depths, length=length, top="free")).scaled()
         resolution = companion_resolution(tank, 1e-9, (0.0,))
         mesh = build_mesh(MPI.COMM_WORLD, tank, resolution, released=True)
         pencil = build_field_model(mesh, tank, degree=resolution.degree, shapes=(1,), pressure_release=True)
@@ -282,7 +286,7 @@ def test_processes_agree_on_the_added_mass_above_the_waves(densities: tuple[floa
         rigid("wedge", 0.7, half_width=0.1, half_height=0.1),
     )
     top = "free" if len(densities) == 1 else "rigid"
-    tank = scaled_tank(layered(*bodies, densities=densities, top=top))
+    tank = physical_tank(layered(*bodies, densities=densities, top=top)).scaled()
     together, alone = (
         high_frequency_added_mass(comm, tank, 1e-8, Stopwatch(), half=False).matrix
         for comm in (MPI.COMM_WORLD, MPI.COMM_SELF)

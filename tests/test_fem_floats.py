@@ -12,17 +12,17 @@ from float_problems import ALL, UNSTABLE, raw_problem
 from layered_tanks import GRAVITY, PlainProblem, check_processes, frequencies, layered, pencils, rigid
 
 from hydroelastic.fem.added_mass import body_added_mass
+from hydroelastic.fem.bodies.rigid_float import float_body
 from hydroelastic.fem.modes import solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
+from hydroelastic.fem.tank.solve import TankSolution
 from hydroelastic.modal.floats.box import BoxModes, box_modes
 from hydroelastic.modal.floats.in_tank import FloatInTank
 from hydroelastic.modal.liquid.two_layer import TwoLayers
 from hydroelastic.scenes.models.bodies import Beam, Float
 from hydroelastic.scenes.models.floats import float_section, placed_float
+from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.tank.float_body import float_body
-from hydroelastic.scenes.tank.scaled_tank import scaled_tank
-from hydroelastic.scenes.tank.solve import TankSolution
 
 PUBLIC = json.loads((Path(__file__).parent / "reference" / "two_fluid_float.json").read_text(encoding="utf-8"))
 BOXES: dict[str, dict[str, Any]] = {
@@ -180,7 +180,7 @@ def test_the_mean_level_rises_as_the_float_sinks(box_1: CoupledPencil) -> None:
     plain = PlainProblem(box_1)
     mean = plain.volumes[0].copy()
     mean[0] = 0.0
-    level = scaled_tank(BOX_1).levels[0]
+    level = physical_tank(BOX_1).scaled().levels[0]
     held = plain.stiffness - level.jump * np.outer(mean, mean) / mean.sum()
     omega = frequencies(plain.eigenvalues(5, stiffness=held), BOX_1)
     body = box_theory(BOX_1, 5, volume_term=False)
@@ -222,7 +222,7 @@ FLOATS: dict[str, TankScene] = {
 def test_frequencies_do_not_depend_on_the_principal_motions(name: str) -> None:
     """Heave and roll of unsymmetric sections are coupled by gravity: against the full 3 × 3 stiffness."""
     scene = FLOATS[name]
-    stiffness = scaled_tank(scene).floats[0].stiffness
+    stiffness = physical_tank(scene).scaled().floats[0].stiffness
     assert (abs(stiffness[0, 2]) > 1e-3 * np.sqrt(stiffness[0, 0] * stiffness[2, 2])) == (name != "circle")
     (pencil,) = pencils(scene)
     modes = solve_modes(pencil, 8, shapes=0)
@@ -235,7 +235,7 @@ def test_frequencies_do_not_depend_on_the_principal_motions(name: str) -> None:
 
 def test_the_principal_motions_diagonalize_stiffness_and_inertia() -> None:
     for scene in FLOATS.values():
-        floating = scaled_tank(scene).floats[0]
+        floating = physical_tank(scene).scaled().floats[0]
         body = float_body(floating, 0, None)
         square = np.linalg.eigvalsh(floating.stiffness / np.sqrt(np.outer(floating.inertia, floating.inertia)))
         # The eigenvalues of the float alone, in vacuo; zero is zero to rounding of the largest.

@@ -12,7 +12,7 @@ from petsc4py import PETSc
 
 from hydroelastic.fem.modes import Mode, count_below, solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
-from hydroelastic.scenes.tank.solve import TankSolution
+from hydroelastic.fem.tank.solve import TankSolution
 
 
 def scenes_of_each_kind(tanks: Any) -> dict[str, Any]:

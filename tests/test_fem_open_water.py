@@ -13,11 +13,11 @@ from petsc4py import PETSc
 from hydroelastic.fem.open_water.complex_direct import ShiftedSolver
 from hydroelastic.fem.open_water.complex_scaling import ComplexMatrix, complex_product
 from hydroelastic.fem.reduced_pencil import ReducedPencil
+from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.incident_waves import incidence, planes
 from hydroelastic.scenes.open_water.model import Band, OpenModel, first_resolution, open_model
 from hydroelastic.scenes.open_water.solver import OpenSolver
-from hydroelastic.scenes.output.stopwatch import Stopwatch
 
 SECTION_ROWS = stored("open_sections.json")["cases"]
 TWO_LIQUIDS = stored("open_two_liquids.json")["cases"]
@@ -101,7 +101,7 @@ def test_derivatives_by_the_angle(name: str, request: pytest.FixtureRequest) -> 
 
         from hydroelastic.fem.open_water.complex_scaling import ComplexScaling
         from hydroelastic.fem.open_water.pencil import build_open_pencil
-        from hydroelastic.scenes.tank.field_model import moving_surfaces
+        from hydroelastic.fem.tank.field_model import moving_surfaces
 
         low, high = model.basin.bounds
         around.append(

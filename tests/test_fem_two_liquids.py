@@ -55,7 +55,7 @@ def check(tanks: Any, scene: TankScene, omega: np.ndarray, bound: float) -> None
     assert np.all(errors <= solution.relative_errors[: len(errors)])
 
 
-# Thin layers leave a tolerance of 5e-10 to rounding, see `scenes/tank/plan.py`.
+# Thin layers leave a tolerance of 5e-10 to rounding, see `fem/tank/resolution.py`.
 DEPTHS = [((0.3, 0.2), 1e-10), ((1.0, 0.01), 1e-9), ((0.01, 1.0), 1e-9)]
 
 

@@ -9,15 +9,15 @@ import pytest
 from scipy.optimize import brentq
 
 from hydroelastic.modal.beam.dry_modes import free_free_roots, free_free_shape
-from hydroelastic.modal.beam.jointed_beam import Joint, JointedBeam, Section
 from hydroelastic.modal.beam.jointed_modes import JointedModes, jointed_modes
+from hydroelastic.physics.beams import Beam, Joint, Section
 
 Parts = tuple[tuple[float, float, float], ...]
 
 
-def beam(parts: Parts, *joints: tuple[float, float]) -> JointedBeam:
+def beam(parts: Parts, *joints: tuple[float, float]) -> Beam:
     """A beam from lengths, flexural rigidities and masses of its sections, and places and stiffnesses of its joints."""
-    return JointedBeam(
+    return Beam(
         sections=tuple(Section(length=a, flexural_rigidity=b, mass_per_length=c) for a, b, c in parts),
         joints=tuple(Joint(at=place, rotational_stiffness=stiffness) for place, stiffness in joints),
     )
@@ -93,7 +93,7 @@ def waves(part: Section, omega: float, s: float) -> np.ndarray:
     return np.array(rows) * np.array([1.0, 1.0, part.flexural_rigidity, part.flexural_rigidity])[:, None]
 
 
-def determinant(given: JointedBeam, omega: float) -> tuple[float, float]:
+def determinant(given: Beam, omega: float) -> tuple[float, float]:
     """Sign and logarithm of the determinant of all conditions at ends, steps and joints; its roots are frequencies."""
     count = len(given.spans)
     stiffness = {given.node_of(joint): joint.rotational_stiffness for joint in given.joints}
@@ -112,7 +112,7 @@ def determinant(given: JointedBeam, omega: float) -> tuple[float, float]:
     return float(sign), float(logarithm)
 
 
-def root(given: JointedBeam, low: float, high: float) -> float:
+def root(given: Beam, low: float, high: float) -> float:
     reference = determinant(given, low)[1]
 
     def scaled(omega: float) -> float:

@@ -22,8 +22,9 @@ from surface_reference import (
 )
 
 from hydroelastic.modal import gravity_tones
+from hydroelastic.modal.tank_estimates import floating_beam
+from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.tank.estimates import floating_beam
 
 FOLDER = Path(__file__).parent / "reference"
 OLDER: dict[str, Any] = json.loads((FOLDER / "aquarium.json").read_text(encoding="utf-8"))
@@ -114,7 +115,7 @@ def test_tones_are_those_of_the_dense_estimates() -> None:
     """`modal` discretises the same operator by another rule, and the beam by its dry modes."""
     scene = TankScene.model_validate(COMPUTED["tip_1e-02_from_the_wall"]["scene"])
     expected = COMPUTED["tip_1e-02_from_the_wall"]["omega"]
-    tones = gravity_tones(floating_beam(scene), tuple(range(40)), 4.0 * expected[-1] ** 2)
+    tones = gravity_tones(floating_beam(physical_tank(scene)), tuple(range(40)), 4.0 * expected[-1] ** 2)
     # Forty dry modes leave a tail, so that these lie above; measured 4e-11.
     error = np.sqrt(tones.squared_frequencies[: len(expected)]) / expected - 1.0
     assert error.min() >= -1e-11

@@ -15,11 +15,11 @@ from pydantic import ValidationError
 
 from hydroelastic.scenes.errors import MOST_PROBLEMS_SHOWN, SceneError, scene_error, shown_value
 from hydroelastic.scenes.kinds import checker_of
+from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.output.sections import Section
 from hydroelastic.scenes.read import SCENE_MODELS, SHIPPED_FOLDER, Scene, read_scene
 from hydroelastic.scenes.tank.check import modelled_tank
-from hydroelastic.scenes.tank.scaled_tank import scaled_tank
 
 KINDS = list(SCENE_MODELS)
 # The same examples in every run: a failure is found again.
@@ -98,7 +98,7 @@ def start(scene: Scene, document: Document) -> None:
     """Do what comes before anything is solved; a tank's mesh takes too long here."""
     try:
         if isinstance(scene, TankScene) and not scene.is_open:
-            scaled_tank(scene)
+            physical_tank(scene).scaled()
             sections = tuple(modelled_tank(scene, requests=(), scale=Section(title="Size")))
         else:
             sections = tuple(checker_of(scene)(scene))

@@ -7,14 +7,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from hydroelastic.scenes.tank.certainty import FrequencyErrors, refined
-from hydroelastic.scenes.tank.plan import (
+from hydroelastic.fem.tank.error_estimates import FrequencyErrors, refined
+from hydroelastic.fem.tank.resolution import (
     HIGHEST_DEGREE,
     Resolution,
     initial_resolution,
     rounding_error,
     workable_tolerance,
 )
+from hydroelastic.scenes.models.physical import physical_tank
 
 TOLERANCE = 1e-6
 LAST = Resolution(
@@ -92,7 +93,7 @@ def test_a_tolerance_beyond_double_precision_is_not_worked_towards() -> None:
 def test_the_degree_leaves_room_for_rounding_in_thin_layers(tanks: Any) -> None:
     def degree(depth: float) -> int:
         scene = tanks.scene(tanks.beam(), depth=depth, tolerance=1e-8)
-        return initial_resolution(scene, modes=8).degree
+        return initial_resolution(physical_tank(scene).scaled(), scene.accuracy.tolerance, modes=8).degree
 
     assert degree(0.01) < degree(5.0)
     assert rounding_error(degree(5.0), 0.5) < 1e-8

@@ -6,8 +6,9 @@ from typing import Any
 import pytest
 from rich.console import Console
 
+from hydroelastic.physics.rigid_motions import zero_mode_count
 from hydroelastic.scenes.kinds import checker_of
-from hydroelastic.scenes.models.rigid_motions import zero_mode_count
+from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import Beam, Float, Liquid, Tank, TankScene
 from hydroelastic.scenes.output.check_text import print_check
 from hydroelastic.scenes.read import read_scene, shipped_scenes
@@ -57,7 +58,7 @@ COVER = beam(start=0, length=10, hydrostatic=False)
     ],
 )
 def test_zero_modes_are_counted(bodies: tuple[Beam, ...], top: str, expected: int) -> None:
-    assert zero_mode_count(scene(*bodies, top=top)) == expected
+    assert zero_mode_count(physical_tank(scene(*bodies, top=top))) == expected
     told = [hint for hint in hints(scene(*bodies, top=top)) if "zero" in hint]
     assert len(told) == (1 if expected else 0)
 

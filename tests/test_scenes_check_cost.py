@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
+from hydroelastic.fem.tank.expected import expected_tones
+from hydroelastic.fem.tank.resolution import initial_resolution
 from hydroelastic.meshes.geometry import tank_geometry
 from hydroelastic.meshes.grading import Grading
 from hydroelastic.meshes.nearest import Source, Sources
@@ -17,10 +19,8 @@ from hydroelastic.scenes.errors import scene_error
 from hydroelastic.scenes.kinds import checker_of
 from hydroelastic.scenes.models import float_checks, floats
 from hydroelastic.scenes.models.bodies import MOST_BODIES, MOST_SECTIONS
+from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import Beam, Float, Liquid, Tank, TankScene
-from hydroelastic.scenes.tank.estimates import expected_tones
-from hydroelastic.scenes.tank.plan import initial_resolution
-from hydroelastic.scenes.tank.scaled_tank import scaled_tank
 
 LENGTH = 10.0
 
@@ -80,7 +80,8 @@ def test_waves_are_counted_for_a_few_of_many_tones() -> None:
 
     def plan(count: int) -> None:
         given = row_of_beams(count)
-        initial_resolution(given, modes=10, tones=expected_tones(scaled_tank(given)))
+        tank = physical_tank(given).scaled()
+        initial_resolution(tank, given.accuracy.tolerance, modes=10, tones=expected_tones(tank))
 
     assert growth_of(plan, 25, 50) < 2.4
 

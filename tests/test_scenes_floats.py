@@ -9,10 +9,12 @@ from typing import Any
 import numpy as np
 import pytest
 
+from hydroelastic.physics.hydrostatics import Hydrostatics, still_level
 from hydroelastic.scenes.models.bodies import Float
-from hydroelastic.scenes.models.floats import Hydrostatics, float_contour, placed_float, still_level
+from hydroelastic.scenes.models.floats import float_contour, placed_float
 from hydroelastic.scenes.models.outline_files import read_outline
-from hydroelastic.scenes.models.tank import Liquid, Tank, TankScene, level_segments
+from hydroelastic.scenes.models.physical import physical_tank
+from hydroelastic.scenes.models.tank import Liquid, Tank, TankScene
 
 GRAVITY = 9.81
 # Gauss points and weights of numpy are good to some 1e-15 of the interval; moments add up a few of them.
@@ -214,11 +216,12 @@ def test_thin_floats_have_the_hydrostatics_of_their_profile() -> None:
         thin, exact = at_rest(**SECTIONS[section], boundary="thin"), at_rest(**SECTIONS[section])
         assert thin == exact
     thin_scene, exact_scene = scene(**SECTIONS["wedge"], boundary="thin"), scene(**SECTIONS["wedge"])
-    found = [(segment.kind, segment.start, segment.end) for segment in level_segments(thin_scene, "interface")]
-    assert found == [("interface", 0, 10), ("float", 10, 10), ("interface", 10, 20)]
-    found = [(segment.kind, segment.start, segment.end) for segment in level_segments(exact_scene, "interface")]
-    assert found == [("interface", 0, 9.2), ("float", 9.2, 10.8), ("interface", 10.8, 20)]
-    assert [segment.kind for segment in level_segments(exact_scene, "surface")] == ["free"]
+    (interface, _), (exact_interface, surface) = (physical_tank(given).levels for given in (thin_scene, exact_scene))
+    found = [(piece.body, piece.start, piece.end) for piece in interface.pieces]
+    assert found == [(None, 0, 10), (0, 10, 10), (None, 10, 20)]
+    found = [(piece.body, piece.start, piece.end) for piece in exact_interface.pieces]
+    assert found == [(None, 0, 9.2), (0, 9.2, 10.8), (None, 10.8, 20)]
+    assert (surface.kind, [piece.body for piece in surface.pieces]) == ("free", [None])
 
 
 def test_metres_and_millimetres_give_the_same_digits() -> None:

@@ -11,19 +11,21 @@ import pytest
 from tanks import Tanks
 
 from hydroelastic.fem.modes import solve_modes
+from hydroelastic.fem.tank.mesh import check_mesh, make_mesh
+from hydroelastic.fem.tank.resolution import initial_resolution
+from hydroelastic.fem.tank.solve import TankSolution
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.modal.beam.estimates import all_estimates, estimates_of_jointed_beams
-from hydroelastic.modal.beam.jointed_beam import Joint, JointedBeam, Section
 from hydroelastic.modal.beam.jointed_modes import jointed_modes
+from hydroelastic.modal.tank_estimates import floating_beam, tone_estimates
+from hydroelastic.physics import beams
+from hydroelastic.physics.beams import Joint, Section
+from hydroelastic.physics.rigid_motions import zero_mode_count
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.models import Accuracy, Beam, Liquid, Tank, TankScene
-from hydroelastic.scenes.models.rigid_motions import zero_mode_count
+from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.tank.check_tables import boundary_table, group_table, unknown_table
-from hydroelastic.scenes.tank.estimates import floating_beam, scene_estimates
-from hydroelastic.scenes.tank.mesh import check_mesh, make_mesh
-from hydroelastic.scenes.tank.plan import initial_resolution
-from hydroelastic.scenes.tank.solve import TankSolution
 from hydroelastic.scenes.tank.summary import summarize
 
 EI, MASS = 5e3, 50.0
@@ -175,8 +177,8 @@ def test_hinges_of_a_beam_without_hydrostatics_cost_nothing(tanks: Tanks) -> Non
     """Heave is tied to the water; pitch and each hinge are modes of frequency zero."""
     beam = tanks.beam(joints=[joint(1.0), joint(2.5), joint(3.0, 10.0)])
     scene = tanks.scene(beam)
-    assert zero_mode_count(scene) == 3
-    assert tanks.solve(scene).modes.zero_modes == zero_mode_count(scene)
+    assert zero_mode_count(physical_tank(scene)) == 3
+    assert tanks.solve(scene).modes.zero_modes == zero_mode_count(physical_tank(scene))
 
 
 @pytest.mark.mpi
@@ -186,7 +188,7 @@ def test_a_stepped_mass_couples_the_shapes(tanks: Tanks) -> None:
     scene = tanks.scene(beam, top="pressure_release", density=1e-3)
     solution = tanks.solve(scene)
     dry = jointed_modes(
-        JointedBeam(
+        beams.Beam(
             sections=(
                 Section(length=1.0, flexural_rigidity=5e6, mass_per_length=5e6),
                 Section(length=3.0, flexural_rigidity=5e6, mass_per_length=1e6),
@@ -201,10 +203,11 @@ def test_a_stepped_mass_couples_the_shapes(tanks: Tanks) -> None:
 
 def test_the_dry_frequency_is_that_of_the_whole_beam(tanks: Tanks) -> None:
     beam = stepped((1.0, EI, MASS), (3.0, 2.0 * EI, 3.0 * MASS), joints=[joint(2.0, 1e4)])
-    solution = tanks.solve(tanks.scene(beam))
-    summary = summarize(solution, scene_estimates(solution.scene), import_seconds=0.0)
+    scene = tanks.scene(beam)
+    solution = tanks.solve(scene)
+    summary = summarize(scene, solution, tone_estimates(solution.physical), import_seconds=0.0)
     dry = jointed_modes(
-        JointedBeam(
+        beams.Beam(
             sections=(
                 Section(length=1.0, flexural_rigidity=EI, mass_per_length=MASS),
                 Section(length=3.0, flexural_rigidity=2.0 * EI, mass_per_length=3.0 * MASS),
@@ -219,9 +222,9 @@ def test_the_dry_frequency_is_that_of_the_whole_beam(tanks: Tanks) -> None:
 
 
 def test_older_theories_say_that_they_know_uniform_beams_only(tanks: Tanks) -> None:
-    estimates = scene_estimates(tanks.scene(tanks.beam(joints=[joint(1.0)])))
+    estimates = tone_estimates(physical_tank(tanks.scene(tanks.beam(joints=[joint(1.0)]))))
     uniform = tanks.scene(tanks.beam())
-    assert estimates.keys() == all_estimates(floating_beam(uniform)).keys()
+    assert estimates.keys() == all_estimates(floating_beam(physical_tank(uniform))).keys()
     assert estimates == estimates_of_jointed_beams()
     for estimate in estimates.values():
         assert estimate.omega is None
@@ -311,7 +314,7 @@ def test_a_mesh_of_ones_own_needs_nodes_at_joints(tanks: Tanks) -> None:
         MeshError, match=r"group body_1 of the mesh has no node at x/L = 0\.43, where the beam has a joint"
     ):
         check_mesh(tank, tagged)
-    check_mesh(tank, make_mesh(tank, initial_resolution(scene, modes=4)))
+    check_mesh(tank, make_mesh(tank, initial_resolution(tank, scene.accuracy.tolerance, modes=4)))
 
 
 def test_an_own_mass_matrix_is_symmetric_and_positive(tanks: Tanks) -> None:

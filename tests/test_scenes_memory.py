@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from mpi4py import MPI
 
-from hydroelastic.scenes.output import memory
-from hydroelastic.scenes.output.memory import peak_memory
+from hydroelastic.fem import memory
+from hydroelastic.fem.memory import peak_memory
 
 pytestmark = pytest.mark.skipif(not Path("/proc/self/clear_refs").exists(), reason="only Linux resets a peak")
 

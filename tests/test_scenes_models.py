@@ -7,7 +7,7 @@ import pytest
 from pydantic import ValidationError
 
 from hydroelastic.scenes.models import Accuracy, Beam, Liquid, MeshFile, Tank, TankScene
-from hydroelastic.scenes.models.tank import top_segments
+from hydroelastic.scenes.models.physical import physical_tank
 
 
 def beam(**changes: Any) -> Beam:
@@ -105,8 +105,8 @@ def test_round_off_at_the_walls_is_forgiven() -> None:
     # 0.1 + 0.2 > 0.3 by one rounding; the top must still end exactly at the walls.
     given = scene(beam(start=0.1, length=0.2), length=0.3, depth=1)
     assert given.body[0].end > given.tank.length
-    assert top_segments(given)[-1].end == 0.3
-    assert [segment.kind for segment in top_segments(scene(beam(start=1e-12, length=10)))] == ["beam"]
+    assert physical_tank(given).pieces[-1].end == 0.3
+    assert [piece.body for piece in physical_tank(scene(beam(start=1e-12, length=10))).pieces] == [0]
 
 
 @pytest.mark.parametrize("start", [6.0, 7.0, 4.0, 3.0])
@@ -118,8 +118,10 @@ def test_beams_neither_overlap_nor_touch(start: float) -> None:
 
 def test_the_top_is_listed_from_wall_to_wall_whatever_the_order_of_the_beams() -> None:
     given = scene(beam(start=6, length=4), beam(start=1, length=2), top="rigid")
-    found = [(segment.kind, segment.start, segment.end, segment.body) for segment in top_segments(given)]
-    assert found == [("rigid", 0, 1, None), ("beam", 1, 3, 1), ("rigid", 3, 6, None), ("beam", 6, 10, 0)]
+    (level,) = physical_tank(given).levels
+    assert level.kind == "rigid"
+    found = [(piece.start, piece.end, piece.body) for piece in level.pieces]
+    assert found == [(0, 1, None), (1, 3, 1), (3, 6, None), (6, 10, 0)]
 
 
 @pytest.mark.parametrize("top", ["rigid", "pressure_release"])

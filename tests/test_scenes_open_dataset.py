@@ -13,12 +13,12 @@ import xarray
 from mpi4py import MPI
 from open_tables import CIRCLE, DEEP, FROM_BOTH_SIDES, OIL, arbitrary_solution, open_scene, two_bodies
 
+from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.scenes.models.open_analyses import Radiation, Response
 from hydroelastic.scenes.open_water.dataset import open_dataset
 from hydroelastic.scenes.open_water.radiation import solve_radiation
 from hydroelastic.scenes.open_water.response import solve_response
 from hydroelastic.scenes.output.dataset import write_dataset
-from hydroelastic.scenes.output.stopwatch import Stopwatch
 
 
 @pytest.fixture

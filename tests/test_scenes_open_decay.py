@@ -13,6 +13,7 @@ import pytest
 from mpi4py import MPI
 
 from hydroelastic.fem.open_water import complex_direct
+from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.modal.floats.open_float import released_float
 from hydroelastic.modal.liquid.two_layer import TwoLayers
 from hydroelastic.physics.profiles import float_profile
@@ -23,7 +24,6 @@ from hydroelastic.scenes.models.tank import Accuracy, Liquid, Tank, TankScene
 from hydroelastic.scenes.open_water.check import open_requests
 from hydroelastic.scenes.open_water.cost import WITHIN, decay_cost
 from hydroelastic.scenes.open_water.decay import DecaySolution, solve_decay
-from hydroelastic.scenes.output.stopwatch import Stopwatch
 from hydroelastic.scenes.read import read_scene
 
 STORED = json.loads((Path(__file__).parent / "reference" / "open_circle.json").read_text(encoding="utf-8"))["release"]

@@ -19,6 +19,7 @@ from hydroelastic.fem.open_water.resonances import ResonanceSearch
 from hydroelastic.fem.pictures.canvas import NoRendererError
 from hydroelastic.fem.pictures.gif import FRAMES
 from hydroelastic.fem.pictures.options import PictureOptions
+from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.scenes.models.open_analyses import Radiation, Resonance
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.basin import open_basin
@@ -28,7 +29,6 @@ from hydroelastic.scenes.open_water.fields import OpenField, open_fields
 from hydroelastic.scenes.open_water.results import OpenSolution
 from hydroelastic.scenes.open_water.run import run_open
 from hydroelastic.scenes.open_water.solve import solve_open
-from hydroelastic.scenes.output.stopwatch import Stopwatch
 
 # Fields are solved for to 1e-3 of their energies. Measured at nodes, elevations are off by 1e-6 here, gradients at the
 # surface, where they are least accurate, by 3e-2 of the largest.

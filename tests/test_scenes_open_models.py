@@ -16,8 +16,8 @@ from scene_files import CIRCLE_IN_OPEN_WATER
 
 from hydroelastic.scenes.errors import SceneError, scene_error
 from hydroelastic.scenes.models.open_analyses import Decay, Radiation, Release, Resonance, Response
-from hydroelastic.scenes.models.rigid_motions import levels_of
-from hydroelastic.scenes.models.tank import TankScene, level_segments
+from hydroelastic.scenes.models.physical import physical_tank
+from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.check import check_open
 from hydroelastic.scenes.output.check_text import print_check
 from hydroelastic.scenes.read import read_scene
@@ -116,10 +116,10 @@ def test_depths_are_as_deep_as_one_likes_but_not_too_thin() -> None:
 def test_an_upper_liquid_without_end_has_no_surface() -> None:
     given = open_scene(liquids=(WATER, HIGH_OIL))
     assert given.top == "rigid"
-    assert levels_of(given) == ("interface",)
-    segments = level_segments(given, "interface")
-    assert [segment.kind for segment in segments] == ["interface", "float", "interface"]
-    assert (segments[0].start, segments[-1].end) == (-inf, inf)
+    (level,) = physical_tank(given).levels_from_top
+    assert level.name == "interface"
+    assert [piece.body for piece in level.pieces] == [None, 0, None]
+    assert (level.pieces[0].start, level.pieces[-1].end) == (-inf, inf)
     assert "without end" in said(liquids=(WATER, HIGH_OIL), top="rigid")
     assert "no surface" in said(CIRCLE | {"at": "surface"}, liquids=(WATER, HIGH_OIL))
 

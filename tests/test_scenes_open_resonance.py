@@ -9,13 +9,13 @@ import pytest
 from mpi4py import MPI
 from open_cases import GRAVITY, RADIUS, SLOW, THIN_LIQUIDS, circle, radiation, section, slender, stored
 
+from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.modal import float_profile
 from hydroelastic.modal.floats.open_float import open_float_estimate
 from hydroelastic.scenes.models.open_analyses import Resonance
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water import resonance as open_resonance
 from hydroelastic.scenes.open_water.resonance import ResonanceSolution, solve_resonance
-from hydroelastic.scenes.output.stopwatch import Stopwatch
 
 CIRCLE = stored("open_circle.json")["resonance"]
 SECTIONS = stored("open_sections.json")["cases"]

@@ -210,9 +210,9 @@ def test_what_does_not_disturb_the_water_sends_no_waves() -> None:
 
 @pytest.mark.mpi
 def test_two_processes_find_what_one_finds() -> None:
+    from hydroelastic.fem.stopwatch import Stopwatch
     from hydroelastic.scenes.models.open_analyses import Response
     from hydroelastic.scenes.open_water.response import solve_response
-    from hydroelastic.scenes.output.stopwatch import Stopwatch
 
     row = TWO_LIQUIDS[1]
     asked = Response(omega=(row["omega"],), positions=5)

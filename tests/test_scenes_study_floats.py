@@ -6,6 +6,8 @@ from typing import Any
 
 import pytest
 
+from hydroelastic.physics.symmetry import Parity
+from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.study.corners import corner_exponents, sharpest_of, symmetries_apart
 from hydroelastic.scenes.study.plan import Family
@@ -13,8 +15,6 @@ from hydroelastic.scenes.study.rates import Rate
 from hydroelastic.scenes.study.report import study_table
 from hydroelastic.scenes.study.run import Study, StudyPlan, study_scene
 from hydroelastic.scenes.study.theory import expected_order, full_order_grading
-from hydroelastic.scenes.tank.scaled_tank import scaled_tank
-from hydroelastic.scenes.tank.symmetry import Parity
 
 WATER = {"density": 1000.0, "depth": 0.6}
 OIL = {"density": 800.0, "depth": 0.5}
@@ -101,7 +101,7 @@ def test_the_sharpest_corner_counts_for_each_symmetry(
     symmetric: float | None,
     antisymmetric: float | None,
 ) -> None:
-    tank = scaled_tank(scene(*bodies, **more))
+    tank = physical_tank(scene(*bodies, **more)).scaled()
     found = [sharpest_of(tank, parity) for parity in (None, "symmetric", "antisymmetric")]
     # Directions of curved contours are differences of neighbouring points.
     for exponent, expected in zip(found, (all_modes, symmetric, antisymmetric), strict=True):
@@ -110,7 +110,7 @@ def test_the_sharpest_corner_counts_for_each_symmetry(
 
 
 def test_beside_the_middle_all_modes_meet_the_end_of_a_slit() -> None:
-    tank = scaled_tank(scene(THIN | {"position": 0.7}))
+    tank = physical_tank(scene(THIN | {"position": 0.7})).scaled()
     assert symmetries_apart(tank) == ()
     assert sharpest_of(tank) == 0.5
     # Its two ends, and right angles where it passes the interface.

@@ -44,12 +44,13 @@ def test_every_bound_that_is_promised_holds(tanks: Any, name: str) -> None:
 
 
 def test_a_broken_bound_is_said_loudly(tanks: Any) -> None:
-    solution = tanks.solve(tanks.case_scene("base_s0"))
+    scene = tanks.case_scene("base_s0")
+    solution = tanks.solve(scene)
     lowest = float(solution.omega(solution.modes.eigenvalues[0]))
     low = Estimate(
         omega=0.99 * lowest, added_mass_per_length=1.0, bound="above_mode_index", mode_index=1, note="made up"
     )
-    summary = summarize(solution, {"low": low}, import_seconds=0.0)
+    summary = summarize(scene, solution, {"low": low}, import_seconds=0.0)
     assert summary["estimates"]["low"]["bound_holds"] is False
     assert "VIOLATED" in markdown_sections(summary, tank_sections(summary), "")
 

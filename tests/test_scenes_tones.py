@@ -7,14 +7,16 @@ from typing import Any
 import numpy as np
 import pytest
 
+from hydroelastic.fem.tank.elastic_tone import FIRST_ELASTIC, ElasticTone, elastic_tone
+from hydroelastic.fem.tank.resolution import initial_resolution
+from hydroelastic.fem.tank.solve import TankSolution
+from hydroelastic.modal.tank_estimates import floating_beam
 from hydroelastic.scenes.models import Accuracy, Beam, Liquid, Tank, TankScene
+from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank_checks import MASS_GROUP, STIFFNESS_GROUP
-from hydroelastic.scenes.tank.estimates import floating_beam
-from hydroelastic.scenes.tank.plan import initial_resolution
-from hydroelastic.scenes.tank.solve import TankSolution, solve_scene
+from hydroelastic.scenes.tank.solve import solve_scene
 from hydroelastic.scenes.tank.summary import summarize
 from hydroelastic.scenes.tank.tables import tone_lines
-from hydroelastic.scenes.tank.tones import FIRST_ELASTIC, ElasticTone, elastic_tone
 
 LONG = Beam(start=1.0, length=4.0, flexural_rigidity=5e3, mass_per_length=50.0, hydrostatic=False)
 SHORT = Beam(start=12.0, length=0.5, flexural_rigidity=5e3, mass_per_length=50.0, hydrostatic=False)
@@ -75,7 +77,7 @@ def test_a_tone_that_is_no_single_modes_is_known(
 
 
 def test_a_tone_that_is_no_single_modes_is_said_so(unlike: TankSolution) -> None:
-    summary = summarize(unlike, {}, import_seconds=0.0)
+    summary = summarize(tank(LONG, SHORT), unlike, {}, import_seconds=0.0)
     long, short = (" ".join(tone_lines(summary | {"first_elastic_by_body": [tone]})) for tone in _tones(summary))
     assert "no single mode; modes from 55 to 65 share it, most of it in mode 60, ω = " in long
     assert "; pressure-release tone (ψ = 0 on the water, the limit far above the waves): " in long
@@ -107,11 +109,11 @@ def test_a_mesh_can_be_planned_at_the_ends_of_the_ranges(rigidity: float, mass: 
         mass_per_length=1.01 ** (1 if mass < 1 else -1) * mass * 1000.0 * 4.0,
         hydrostatic=hydrostatic,
     )
-    assert min(initial_resolution(tank(beam, length=10.0), modes=6).surface_sizes) > 0.0
+    assert min(initial_resolution(physical_tank(tank(beam, length=10.0)).scaled(), 1e-6, modes=6).surface_sizes) > 0.0
 
 
 @pytest.mark.parametrize("beyond", [-0.5e-9, 0.0, 0.5e-9])
 def test_an_end_within_rounding_of_the_wall_lies_on_it_for_the_estimates_too(beyond: float) -> None:
     beam = LONG.model_copy(update={"start": 6.0 + 10.0 * beyond})
-    given = floating_beam(tank(beam, length=10.0))
+    given = floating_beam(physical_tank(tank(beam, length=10.0)))
     assert given.right_gap == 0.0

@@ -9,8 +9,9 @@ from slepc4py import SLEPc
 
 from hydroelastic.benchmarks.cases import Answer, Case
 from hydroelastic.benchmarks.tank.cases import MODES, tank_named
+from hydroelastic.fem.tank.solve import TankSolution
 from hydroelastic.scenes.models.tank import Accuracy, Beam, Liquid, Tank, TankScene
-from hydroelastic.scenes.tank.solve import TankSolution, solve_scene
+from hydroelastic.scenes.tank.solve import solve_scene
 
 
 def versions() -> dict[str, str]:

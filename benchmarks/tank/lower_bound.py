@@ -19,7 +19,8 @@ from hydroelastic.benchmarks.tank.bare_pencil import BarePencil
 from hydroelastic.benchmarks.tank.cases import MODES, BenchmarkTank, tank_named
 from hydroelastic.benchmarks.tank.factorizations import Factorize, available_factorizations
 from hydroelastic.fem.pencil import CoupledPencil
-from hydroelastic.scenes.tank.solve import TankSolution, solve_scene
+from hydroelastic.fem.tank.solve import TankSolution
+from hydroelastic.scenes.tank.solve import solve_scene
 
 _STRICT = 1e-13
 _TRIALS = 3

@@ -23,8 +23,8 @@ from numpy.polynomial import legendre
 from scipy.linalg import lapack, qr
 
 from hydroelastic.modal.beam.dry_modes import RIGID_SHAPES
-from hydroelastic.modal.beam.jointed_beam import JointedBeam, Section, comes_first
 from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.beams import Beam, Section, comes_first
 
 Side = Literal["left", "right"]
 
@@ -46,7 +46,7 @@ class JointedModes:
         curvatures: those of w″.
     """
 
-    beam: JointedBeam
+    beam: Beam
     squared_frequencies: FloatArray
     parities: tuple[int, ...]
     deflections: tuple[FloatArray, ...]
@@ -124,7 +124,7 @@ class JointedModes:
 
 
 @lru_cache(maxsize=64)
-def jointed_modes(beam: JointedBeam, count: int) -> JointedModes:
+def jointed_modes(beam: Beam, count: int) -> JointedModes:
     """Return the first dry modes of a beam.
 
     Args:
@@ -164,7 +164,7 @@ def jointed_modes(beam: JointedBeam, count: int) -> JointedModes:
     )
 
 
-def _mirrored(modes: JointedModes, beam: JointedBeam) -> JointedModes:
+def _mirrored(modes: JointedModes, beam: Beam) -> JointedModes:
     """The modes of the beam seen from the other side."""
 
     def turned(tables: tuple[FloatArray, ...]) -> tuple[FloatArray, ...]:
@@ -179,7 +179,7 @@ def _mirrored(modes: JointedModes, beam: JointedBeam) -> JointedModes:
     )
 
 
-def _degrees(beam: JointedBeam, count: int) -> list[int]:
+def _degrees(beam: Beam, count: int) -> list[int]:
     """Degree of the curvature on each span, up to the highest mode.
 
     Modes are counted as half waves, Σ κl/π, and one more for each end of a span. A wave has Legendre coefficients like
@@ -197,7 +197,7 @@ class _Basis:
     Columns: polynomials of the spans from left to right, then joints; each of unit strain energy. Rows: Gauss points.
     """
 
-    def __init__(self, beam: JointedBeam, degrees: list[int]) -> None:
+    def __init__(self, beam: Beam, degrees: list[int]) -> None:
         self.beam, self.degrees = beam, degrees
         self.edges = np.array(beam.edges)
         self.joints = [joint for joint in beam.joints if joint.rotational_stiffness > 0.0]

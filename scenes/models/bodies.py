@@ -21,6 +21,7 @@ from pydantic import (
 )
 from pydantic_core import InitErrorDetails
 
+from hydroelastic.physics.motions import Level, Motion
 from hydroelastic.scenes.models.problems import misfit
 
 SMALLEST, LARGEST = 1e-30, 1e30
@@ -35,9 +36,7 @@ MOST_SECTIONS = 100
 MOST_VERTICES = 100
 """Corners of a polygon: the mesh is graded towards each, and what has more is rather an outline."""
 
-Level: TypeAlias = Literal["interface", "surface"]
 Shape: TypeAlias = Literal["exponential", "parabola", "ellipse", "wedge", "rectangle", "polygon", "outline"]
-Motion: TypeAlias = Literal["heave", "sway", "roll"]
 
 PositiveNumber: TypeAlias = Annotated[float, Strict(), Field(ge=SMALLEST, le=LARGEST)]
 AnyNumber: TypeAlias = Annotated[float, Strict(), Field(ge=-LARGEST, le=LARGEST)]

@@ -300,10 +300,9 @@ def _extents(bounds: _Box) -> tuple[float, float]:
 def _floats_are_stable(scene: TankScene) -> Iterator[InitErrorDetails]:
     for index, body in scene.floats:
         from hydroelastic.scenes.models.floats import placed_float
-        from hydroelastic.scenes.models.rigid_motions import roll_stiffness
 
-        at_rest = placed_float(scene, index).hydrostatics
-        stiffness = roll_stiffness(body, at_rest)
+        placed = placed_float(scene, index)
+        at_rest, stiffness = placed.hydrostatics, placed.roll_stiffness
         if "roll" not in body.motions or body.unstable == "solve" or stiffness >= 0.0:
             continue
         # Where the centre of mass would make the float neutral.

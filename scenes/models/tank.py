@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
-from math import inf, isinf
+from math import isinf
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -33,7 +31,7 @@ from hydroelastic.scenes.models.bodies import (
 from hydroelastic.scenes.models.infinity import PositiveOrInfinite
 from hydroelastic.scenes.models.open_analyses import Analysis, Resonance
 from hydroelastic.scenes.models.problems import problem, require_fit
-from hydroelastic.scenes.models.tank_checks import ROUND_OFF, STAGES
+from hydroelastic.scenes.models.tank_checks import STAGES
 from hydroelastic.scenes.models.title import Title
 
 
@@ -205,65 +203,3 @@ class TankScene(SceneModel):
     def _parts_fit(self) -> TankScene:
         require_fit(self, STAGES)
         return self
-
-
-@dataclass(frozen=True, kw_only=True)
-class Segment:
-    """A piece of a still level.
-
-    Args:
-        kind: what lies there; a thin float is a piece without length.
-        start: distance of its left end from the left wall, m.
-        end: distance of its right end from the left wall, m.
-        body: index of the body in the scene, or None beside the bodies.
-    """
-
-    kind: Literal["free", "rigid", "pressure_release", "interface", "beam", "float"]
-    start: float
-    end: float
-    body: int | None = None
-
-
-def top_segments(scene: TankScene) -> tuple[Segment, ...]:
-    """Return the top of the uppermost liquid from end to end, without gaps."""
-    return level_segments(scene, "surface")
-
-
-def level_segments(scene: TankScene, level: Level) -> tuple[Segment, ...]:
-    """Return a still level from the left wall to the right one, or from −∞ to ∞ in open water, without gaps.
-
-    A beam whose end is within `ROUND_OFF` of a wall ends exactly there. A float takes up its waterplane.
-    """
-    left, right = (-inf, inf) if scene.is_open else (0.0, scene.tank.length)
-    beside = scene.top if level == "surface" else "interface"
-    segments = []
-    reached = left
-    for index, start, end in sorted(_places(scene, level), key=lambda place: place[1]):
-        if start > reached:
-            segments.append(Segment(kind=beside, start=reached, end=start))
-        segments.append(Segment(kind=scene.body[index].kind, start=start, end=end, body=index))
-        reached = end
-    if reached < right:
-        segments.append(Segment(kind=beside, start=reached, end=right))
-    return tuple(segments)
-
-
-def _places(scene: TankScene, level: Level) -> Iterator[tuple[int, float, float]]:
-    length = scene.tank.length
-    negligible = ROUND_OFF * length
-    for index, body in enumerate(scene.body):
-        if scene.level_of(body) != level:
-            continue
-        if isinstance(body, Beam):
-            if scene.is_open:
-                yield index, body.start, body.end
-                continue
-            start = body.start if body.start > negligible else 0.0
-            yield index, start, body.end if body.end < length - negligible else length
-        elif body.boundary == "thin":
-            yield index, body.position, body.position
-        else:
-            # SciPy takes a while to import, and most scenes have no float.
-            from hydroelastic.scenes.models.floats import placed_float
-
-            yield index, *placed_float(scene, index).hydrostatics.waterplane

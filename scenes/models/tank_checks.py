@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from pydantic_core import InitErrorDetails
 
+from hydroelastic.physics.tank import ROUND_OFF
 from hydroelastic.scenes.models.bodies import Beam
 from hydroelastic.scenes.models.float_checks import CHECKS_OF_FLOATS_AT_REST, floats_float_in_the_tank
 from hydroelastic.scenes.models.open_checks import (
@@ -22,9 +23,6 @@ from hydroelastic.scenes.models.problems import misfit
 
 if TYPE_CHECKING:
     from hydroelastic.scenes.models.tank import TankScene
-
-ROUND_OFF = 1e-9
-"""Lengths below this part of the tank's length count as zero: decimal input is not exact."""
 
 DEPTH_TO_LENGTH = (1e-4, 1e3)
 """Below it a layer is too thin for cells that follow it along the tank; above it no motion reaches
@@ -291,9 +289,10 @@ def _guided_beams_cover_the_tank(scene: TankScene) -> Iterator[InitErrorDetails]
 
 
 def _something_moves(scene: TankScene) -> Iterator[InitErrorDetails]:
-    from hydroelastic.scenes.models.rigid_motions import mode_count
+    from hydroelastic.physics.rigid_motions import mode_count
+    from hydroelastic.scenes.models.physical import physical_tank
 
-    if scene.is_open or mode_count(scene) != 0:
+    if scene.is_open or mode_count(physical_tank(scene)) != 0:
         return
     if not scene.body:
         yield misfit(

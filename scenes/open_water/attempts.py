@@ -6,12 +6,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
+from hydroelastic.fem.memory import hand_back_memory
+from hydroelastic.fem.tank.error_estimates import FrequencyErrors, refined
+from hydroelastic.fem.tank.resolution import Resolution, sharpest_exponent, workable_tolerance
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.basin import open_basin
 from hydroelastic.scenes.open_water.model import Band, first_resolution
-from hydroelastic.scenes.output.memory import hand_back_memory
-from hydroelastic.scenes.tank.certainty import FrequencyErrors, refined
-from hydroelastic.scenes.tank.plan import Resolution, sharpest_exponent, workable_tolerance
 
 Result = TypeVar("Result")
 

@@ -17,9 +17,10 @@ from hydroelastic.meshes.geometry import BOTTOM, LEFT_WALL, LID, RIGHT_WALL
 from hydroelastic.meshes.open_sea import Frames
 from hydroelastic.modal.liquid.travelling_waves import TravellingWave, travelling_waves
 from hydroelastic.modal.liquid.two_layer import TwoLayers
+from hydroelastic.physics.scales import Scales
+from hydroelastic.physics.tank import Tank
+from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import Beam, Float, TankScene
-from hydroelastic.scenes.tank.scaled_tank import ScaledTank, scaled_tank
-from hydroelastic.scenes.tank.scaling import Scales, scales
 
 # Distance of the basin's sides from the bodies, in parts of their extent.
 _MARGIN = 0.5
@@ -50,7 +51,7 @@ class OpenBasin:
     """
 
     scene: TankScene
-    tank: ScaledTank
+    tank: Tank
     units: Scales
     origin: float
     layers: TwoLayers
@@ -157,11 +158,11 @@ def open_basin(scene: TankScene, shortest: float, *, drawn: float | None = None)
             "body": tuple(_moved(body, -origin) for body in scene.body),
         }
     )
-    units = scales(basin)
+    physical = physical_tank(basin)
     return OpenBasin(
         scene=basin,
-        tank=scaled_tank(basin),
-        units=units,
+        tank=physical.scaled(),
+        units=physical.units,
         origin=origin,
         layers=liquids_of(scene),
         depths=tuple(depth / length for depth in depths),

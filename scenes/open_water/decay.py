@@ -20,6 +20,10 @@ import numpy as np
 from mpi4py import MPI
 
 from hydroelastic.fem.open_water.resonances import Eigenpair, ResonanceSearch
+from hydroelastic.fem.stopwatch import Stopwatch
+from hydroelastic.fem.tank.error_estimates import FrequencyErrors
+from hydroelastic.fem.tank.field_model import whole_bodies
+from hydroelastic.fem.tank.resolution import Resolution
 from hydroelastic.scenes.errors import Problem as WrongInput
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.models.open_analyses import Decay
@@ -33,10 +37,6 @@ from hydroelastic.scenes.open_water.released import ReleasedModel, released_adde
 from hydroelastic.scenes.open_water.resonance import ANGLE, Region, resonance_errors, rough_resonances
 from hydroelastic.scenes.open_water.results import DecayTable
 from hydroelastic.scenes.open_water.slow_waves import is_endless, slowest_meshed
-from hydroelastic.scenes.output.stopwatch import Stopwatch
-from hydroelastic.scenes.tank.certainty import FrequencyErrors
-from hydroelastic.scenes.tank.field_model import whole_bodies
-from hydroelastic.scenes.tank.plan import Resolution
 
 # Resonances are looked for up to this angle from the real axis.
 _SEARCHED = 0.54

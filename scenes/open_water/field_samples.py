@@ -13,10 +13,10 @@ from hydroelastic.fem.pictures.mode import Beyond, ModePicture
 from hydroelastic.fem.pictures.wave import WavePicture
 from hydroelastic.fem.sampling import LiquidSample, SurfaceTrace, sample_liquid
 from hydroelastic.meshes.geometry import BOTTOM, LID
+from hydroelastic.physics.tank import StillLevel, Tank
 from hydroelastic.scenes.open_water.fields import OpenField
 from hydroelastic.scenes.open_water.model import OpenModel
 from hydroelastic.scenes.tank.body_file import displacement_of, write_bodies
-from hydroelastic.scenes.tank.scaled_tank import ScaledTank, StillLevel
 from hydroelastic.scenes.tank.shape_curves import body_shapes, sample_level, wave_curves, wave_levels
 
 
@@ -146,7 +146,7 @@ def _with_incident(field: OpenField, sample: LiquidSample) -> tuple[np.ndarray, 
     return potential, displacement
 
 
-def _elevations(field: OpenField, tank: ScaledTank, level: StillLevel, trace: SurfaceTrace) -> SurfaceTrace:
+def _elevations(field: OpenField, tank: Tank, level: StillLevel, trace: SurfaceTrace) -> SurfaceTrace:
     """Real and imaginary part of the elevation of a still level, in units of the basin."""
     pressure = trace.potential[0] + 1j * trace.potential[1]
     if field.incident is not None:

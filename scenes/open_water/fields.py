@@ -20,6 +20,7 @@ from mpi4py import MPI
 
 from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.open_water.resonances import Eigenpair, ResonanceSearch
+from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.scenes.open_water.incident_waves import Plane
 from hydroelastic.scenes.open_water.model import Band, OpenModel, first_resolution, open_model
 from hydroelastic.scenes.open_water.released import rough_scene
@@ -27,7 +28,6 @@ from hydroelastic.scenes.open_water.resonance import ANGLE
 from hydroelastic.scenes.open_water.results import OpenSolution, RadiationTable, ResonanceTable, ResponseTable
 from hydroelastic.scenes.open_water.solver import OpenSolver
 from hydroelastic.scenes.open_water.tables import motion_name
-from hydroelastic.scenes.output.stopwatch import Stopwatch
 
 # Motions and resonances of one analysis that are shown.
 _MOST_FIELDS = 4

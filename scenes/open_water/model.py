@@ -17,20 +17,12 @@ from hydroelastic.fem.open_water.far_field import FarField
 from hydroelastic.fem.open_water.pencil import OpenPencil, build_open_pencil
 from hydroelastic.fem.open_water.wetted_surface import WettedSurface
 from hydroelastic.fem.spectral_error import cell_errors
-from hydroelastic.meshes.distribute import TankMesh
-from hydroelastic.meshes.geometry import FAR_END
-from hydroelastic.meshes.open_sea import extended, with_far_ends
-from hydroelastic.meshes.tagged_mesh import TaggedMesh
-from hydroelastic.modal.liquid.travelling_waves import travelling_waves
-from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.basin import CUT, OpenBasin, Reach, liquids_of, open_basin, reach
-from hydroelastic.scenes.open_water.motion_scale import MotionScale, motion_scale
-from hydroelastic.scenes.output.stopwatch import Stopwatch
-from hydroelastic.scenes.tank.certainty import FrequencyErrors, boundary_error
-from hydroelastic.scenes.tank.field_model import distributed_mesh, moving_surfaces, whole_bodies
-from hydroelastic.scenes.tank.mesh import graded_outline, tip_points
-from hydroelastic.scenes.tank.outline import grounded_names, layer_names
-from hydroelastic.scenes.tank.plan import (
+from hydroelastic.fem.stopwatch import Stopwatch
+from hydroelastic.fem.tank.error_estimates import FrequencyErrors, boundary_error
+from hydroelastic.fem.tank.field_model import distributed_mesh, moving_surfaces, whole_bodies
+from hydroelastic.fem.tank.mesh import graded_outline, tip_points
+from hydroelastic.fem.tank.outline import grounded_names, layer_names
+from hydroelastic.fem.tank.resolution import (
     Resolution,
     radians,
     resolution_for,
@@ -38,6 +30,15 @@ from hydroelastic.scenes.tank.plan import (
     sharpest_exponent,
     workable_tolerance,
 )
+from hydroelastic.meshes.distribute import TankMesh
+from hydroelastic.meshes.geometry import FAR_END
+from hydroelastic.meshes.open_sea import extended, with_far_ends
+from hydroelastic.meshes.tagged_mesh import TaggedMesh
+from hydroelastic.modal.liquid.travelling_waves import travelling_waves
+from hydroelastic.physics.local_waves import moving_parts
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.open_water.basin import CUT, OpenBasin, Reach, liquids_of, open_basin, reach
+from hydroelastic.scenes.open_water.motion_scale import MotionScale, motion_scale
 
 ANGLE = pi / 3.0
 """α of the complex scaling in deep water. Measured on circles at Ka from 0.05 to 10: 60 degrees is as good as 45 or
@@ -193,7 +194,7 @@ def first_resolution(scene: TankScene, band: Band, *, drawn: float | None = None
         if level.below == 1 and own * tank.layers[1].depth > _UNFELT:
             own = shortest.get("surface", 0.0)
         for piece in level.pieces:
-            bent = max((moving.wavenumber(squared) for moving in tank.moving_pieces(level, piece)), default=0.0)
+            bent = max((moving.wavenumber(squared) for moving in moving_parts(tank, level, piece)), default=0.0)
             flexural.append(bent if piece.body in tank.beams else 0.0)
             # What waves scatter under a beam is as short as they are.
             meshed.append(0.0 if piece.body in tank.floats else max(own, flexural[-1]))

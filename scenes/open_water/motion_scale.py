@@ -8,8 +8,8 @@ import numpy as np
 from scipy.linalg import block_diag
 
 from hydroelastic.fem.surfaces import Body
+from hydroelastic.physics.scales import Scales
 from hydroelastic.scenes.open_water.basin import OpenBasin
-from hydroelastic.scenes.tank.scaling import Scales
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,7 +71,7 @@ def motion_scale(basin: OpenBasin, bodies: tuple[Body, ...]) -> MotionScale:
     for index, body in enumerate(bodies):
         turns.append(np.eye(body.size))
         if index in basin.tank.floats:
-            from hydroelastic.scenes.tank.float_body import principal_motions
+            from hydroelastic.fem.bodies.rigid_float import principal_motions
 
             own = basin.tank.floats[index]
             turns[-1] = principal_motions(own, own.motions)[0]

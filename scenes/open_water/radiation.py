@@ -9,6 +9,11 @@ import numpy as np
 from mpi4py import MPI
 from scipy.linalg import block_diag
 
+from hydroelastic.fem.stopwatch import Stopwatch
+from hydroelastic.fem.tank.error_estimates import FrequencyErrors
+from hydroelastic.fem.tank.field_model import whole_bodies
+from hydroelastic.fem.tank.resolution import Resolution
+from hydroelastic.physics.tank import Tank
 from hydroelastic.scenes.models.open_analyses import Radiation
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.attempts import Attempt, attempted_over
@@ -20,11 +25,6 @@ from hydroelastic.scenes.open_water.released import released_added_mass
 from hydroelastic.scenes.open_water.results import DIRECTIONS, RadiationTable
 from hydroelastic.scenes.open_water.solver import OpenSolver
 from hydroelastic.scenes.open_water.sweep import Problem, Swept, sweep
-from hydroelastic.scenes.output.stopwatch import Stopwatch
-from hydroelastic.scenes.tank.certainty import FrequencyErrors
-from hydroelastic.scenes.tank.field_model import whole_bodies
-from hydroelastic.scenes.tank.plan import Resolution
-from hydroelastic.scenes.tank.scaled_tank import ScaledTank
 
 # Heave and pitch of a beam, and one more motion for each hinge, come before its elastic shapes.
 _RIGID = 2
@@ -66,7 +66,7 @@ def solve_radiation(comm: MPI.Comm, scene: TankScene, asked: Radiation, watch: S
     return _tabulated(comm, scene, asked, shapes, attempt, watch)
 
 
-def _reported_shapes(tank: ScaledTank, elastic: int) -> tuple[int, ...]:
+def _reported_shapes(tank: Tank, elastic: int) -> tuple[int, ...]:
     return tuple(
         _RIGID + len(tank.beams[index].hinges) + elastic if index in tank.beams else 0
         for index in range(len(tank.bodies))

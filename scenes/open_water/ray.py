@@ -20,14 +20,14 @@ from math import pi, sqrt
 
 import numpy as np
 
+from hydroelastic.fem.stopwatch import Stopwatch
+from hydroelastic.fem.tank.error_estimates import FrequencyErrors
 from hydroelastic.scenes.open_water.model import OpenModel
 from hydroelastic.scenes.open_water.radiation import relative_difference
 from hydroelastic.scenes.open_water.resonance import ANGLE
 from hydroelastic.scenes.open_water.slow_waves import SPREAD, LongWaves, long_waves
 from hydroelastic.scenes.open_water.solver import OpenSolver
 from hydroelastic.scenes.open_water.sweep import Problem, Swept, sweep
-from hydroelastic.scenes.output.stopwatch import Stopwatch
-from hydroelastic.scenes.tank.certainty import FrequencyErrors
 
 # Angles between a ray and the resonances beside it, radians: at least, if there is room, and at most.
 _NARROW, _WIDE = 0.05, 0.12

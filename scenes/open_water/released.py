@@ -11,21 +11,21 @@ from scipy.linalg import block_diag
 
 from hydroelastic.fem.added_mass import body_responses
 from hydroelastic.fem.liquid import compile_form
-from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.attempts import Attempt, attempted
-from hydroelastic.scenes.open_water.basin import open_basin, reach
-from hydroelastic.scenes.open_water.model import ANGLE, GROWTH, NO_WATER, open_mesh
-from hydroelastic.scenes.output.stopwatch import Stopwatch
-from hydroelastic.scenes.tank.certainty import FrequencyErrors, boundary_error, energies_missed
-from hydroelastic.scenes.tank.field_model import build_field_model, distributed_mesh, whole_bodies
-from hydroelastic.scenes.tank.plan import (
+from hydroelastic.fem.stopwatch import Stopwatch
+from hydroelastic.fem.tank.error_estimates import FrequencyErrors, boundary_error, energies_missed
+from hydroelastic.fem.tank.field_model import build_field_model, distributed_mesh, whole_bodies
+from hydroelastic.fem.tank.resolution import (
     Resolution,
     resolution_for,
     rounding_error,
     sharpest_exponent,
     workable_tolerance,
 )
-from hydroelastic.scenes.tank.scaling import Scales
+from hydroelastic.physics.scales import Scales
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.open_water.attempts import Attempt, attempted
+from hydroelastic.scenes.open_water.basin import open_basin, reach
+from hydroelastic.scenes.open_water.model import ANGLE, GROWTH, NO_WATER, open_mesh
 
 # Dry modes of each beam, and tolerance, where frequencies are only to be known roughly.
 _SHAPES = 16

@@ -9,6 +9,10 @@ import numpy as np
 from mpi4py import MPI
 
 from hydroelastic.fem.open_water.resonances import Eigenpair, ResonanceSearch
+from hydroelastic.fem.stopwatch import Stopwatch
+from hydroelastic.fem.tank.error_estimates import FrequencyErrors, boundary_error
+from hydroelastic.fem.tank.field_model import whole_bodies
+from hydroelastic.fem.tank.resolution import Resolution, rounding_error
 from hydroelastic.fem.truncation import truncation_errors
 from hydroelastic.scenes.models.open_analyses import Resonance
 from hydroelastic.scenes.models.tank import TankScene
@@ -20,10 +24,6 @@ from hydroelastic.scenes.open_water.motion_scale import motion_scale
 from hydroelastic.scenes.open_water.released import released_model, rough_scene
 from hydroelastic.scenes.open_water.results import ResonanceTable
 from hydroelastic.scenes.open_water.solver import OpenSolver
-from hydroelastic.scenes.output.stopwatch import Stopwatch
-from hydroelastic.scenes.tank.certainty import FrequencyErrors, boundary_error
-from hydroelastic.scenes.tank.field_model import whole_bodies
-from hydroelastic.scenes.tank.plan import Resolution, rounding_error
 
 ANGLE = 1.3
 """α of the complex scaling: resonances with −Im ω/Re ω below tan(α/2) = 0.76 are uncovered in deep water."""

@@ -8,7 +8,10 @@ from math import nan
 import numpy as np
 from mpi4py import MPI
 
+from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.fem.surfaces import Body
+from hydroelastic.fem.tank.error_estimates import FrequencyErrors, boundary_error
+from hydroelastic.fem.tank.resolution import Resolution, rounding_error
 from hydroelastic.scenes.models.open_analyses import Response
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.attempts import Attempt, attempted_over
@@ -19,9 +22,6 @@ from hydroelastic.scenes.open_water.radiation import between, joined_errors, jud
 from hydroelastic.scenes.open_water.results import MissedPeak, PlateDeflection, ResponseTable
 from hydroelastic.scenes.open_water.solver import OpenSolver
 from hydroelastic.scenes.open_water.sweep import FEW, Problem, Swept, sweep
-from hydroelastic.scenes.output.stopwatch import Stopwatch
-from hydroelastic.scenes.tank.certainty import FrequencyErrors, boundary_error
-from hydroelastic.scenes.tank.plan import Resolution, rounding_error
 
 # Dry modes of the tail, which the last ones stand for: at the tips their deflections add like Σ n⁻⁵.
 _TAIL = 0.25

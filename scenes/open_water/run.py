@@ -9,6 +9,7 @@ from mpi4py import MPI
 
 from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.pictures.options import OF_CURVES, OF_FIELDS, OF_MOTIONS, PictureOptions
+from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
 from hydroelastic.scenes.models.tank import TankScene
@@ -25,7 +26,6 @@ from hydroelastic.scenes.open_water.tables import open_cost, open_sections
 from hydroelastic.scenes.output.dataset import LabelledResults
 from hydroelastic.scenes.output.provenance import Summary
 from hydroelastic.scenes.output.staged_run import StagedRun
-from hydroelastic.scenes.output.stopwatch import Report, Stopwatch
 
 
 def _solve(scene: TankScene, comm: MPI.Comm, report: Report) -> OpenSolution:

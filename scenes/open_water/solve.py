@@ -8,6 +8,9 @@ from typing import TypeAlias
 import numpy as np
 from mpi4py import MPI
 
+from hydroelastic.fem.kept_tolerance import kept_tolerance
+from hydroelastic.fem.memory import hand_back_memory
+from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.scenes.models.open_analyses import Analysis, Decay, Radiation, Response
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.decay import DecaySolution, solve_decay
@@ -22,9 +25,6 @@ from hydroelastic.scenes.open_water.results import (
     ResonanceTable,
     ResponseTable,
 )
-from hydroelastic.scenes.output.digits import kept_tolerance
-from hydroelastic.scenes.output.memory import hand_back_memory
-from hydroelastic.scenes.output.stopwatch import Report, Stopwatch
 
 # The power of waves is of first order in the error of the field; measured, it is off by less than the tolerance.
 _POWER = 10.0

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import ceil, floor, log10
+from math import floor, log10
 
 
 def with_certain_digits(value: float, relative_error: float) -> str:
@@ -35,11 +35,3 @@ def counted(count: int, noun: str) -> str:
 def per_cent(value: float | None) -> str:
     """A relative difference, or a dash."""
     return "–" if value is None else f"{100.0 * value:+.3g} %"
-
-
-def kept_tolerance(error: float) -> str:
-    """What tolerance an error keeps, in words: the error rounded up."""
-    if error > 0.1:
-        return "no digit is certain"
-    digit = 10.0 ** floor(log10(error))
-    return f"a tolerance of {ceil(error / digit) * digit:.0e} is kept"

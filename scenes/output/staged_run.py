@@ -10,12 +10,12 @@ from typing import Any, Generic, Protocol, TypeVar
 from mpi4py import MPI
 
 from hydroelastic.fem.pictures.options import DEFAULT_PICTURES, PictureOption, PictureOptions
+from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.scenes.output.dataset import LabelledResults
 from hydroelastic.scenes.output.manifest import read_manifest
 from hydroelastic.scenes.output.outcome import Outcome
 from hydroelastic.scenes.output.provenance import Summary
 from hydroelastic.scenes.output.sections import Section, markdown_sections
-from hydroelastic.scenes.output.stopwatch import Report, Stopwatch
 from hydroelastic.scenes.output.writer import write_results
 
 _Scene = TypeVar("_Scene", contravariant=True)

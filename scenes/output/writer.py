@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 from mpi4py import MPI
 
 from hydroelastic.fem.pictures.canvas import NoRendererError
+from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.scenes.output.dataset import DATASET, with_summary, write_dataset
 from hydroelastic.scenes.output.folder import raise_on_all, result_folder, write_summary
 from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.output.stopwatch import Report, Stopwatch
 from hydroelastic.scenes.output.summary_variables import SummaryNames
 
 if TYPE_CHECKING:

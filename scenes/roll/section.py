@@ -21,15 +21,14 @@ from mpi4py import MPI
 from scipy.optimize import root_scalar
 
 from hydroelastic.fem.modes import EigenSolverError
+from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.scenes.errors import UnsolvedError
 from hydroelastic.scenes.models.floats import placed_float
 from hydroelastic.scenes.models.open_analyses import Radiation, Resonance
-from hydroelastic.scenes.models.rigid_motions import roll_stiffness
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.radiation import solve_radiation
 from hydroelastic.scenes.open_water.resonance import solve_resonance
 from hydroelastic.scenes.open_water.results import RadiationTable
-from hydroelastic.scenes.output.stopwatch import Report, Stopwatch
 from hydroelastic.scenes.tank.float_summary import float_rows
 from hydroelastic.scenes.tank.solve import solve_scene
 
@@ -104,9 +103,9 @@ def _in_a_tank(scene: TankScene, comm: MPI.Comm, watch: Stopwatch, report: Repor
 
 
 def _in_open_water(scene: TankScene, comm: MPI.Comm, watch: Stopwatch) -> SectionRoll:
-    body = scene.floats[0][1]
-    at_rest = placed_float(scene, 0).hydrostatics
-    stiffness, inertia = roll_stiffness(body, at_rest), at_rest.mass * at_rest.radius_of_gyration**2
+    placed = placed_float(scene, 0)
+    at_rest = placed.hydrostatics
+    stiffness, inertia = placed.roll_stiffness, at_rest.mass * at_rest.radius_of_gyration**2
 
     def radiation(omega: float) -> tuple[RadiationTable, float]:
         with watch.stage("section"):

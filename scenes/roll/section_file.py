@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.scenes.errors import Problem, SceneError
 from hydroelastic.scenes.models.bodies import Float
-from hydroelastic.scenes.models.rigid_motions import roll_stiffness
 from hydroelastic.scenes.models.roll import RollScene
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.output.stopwatch import Report, Stopwatch
 
 if TYPE_CHECKING:
     from mpi4py import MPI
@@ -44,11 +43,11 @@ def section_scene(scene: RollScene) -> TankScene:
             "that scene cannot be the section of a rolling ship",
             'a scene with one body, kind = "float", with "roll" among its motions',
         )
-    at_rest = placed_float(section, 0).hydrostatics
-    if roll_stiffness(body, at_rest) <= 0.0:
+    stiffness = placed_float(section, 0).roll_stiffness
+    if stiffness <= 0.0:
         raise _unusable(
             scene,
-            f"nothing restores the roll of that section: its stiffness is {roll_stiffness(body, at_rest):g} N",
+            f"nothing restores the roll of that section: its stiffness is {stiffness:g} N",
             "a section that floats upright: a lower centre_of_mass, or a wider waterplane",
         )
     return section

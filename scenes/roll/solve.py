@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from pydantic import ValidationError
 
+from hydroelastic.fem.kept_tolerance import kept_tolerance
+from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.modal.roll.knots import RollPath, roll_knots
 from hydroelastic.modal.roll.motion import Roll, RollMotion, WaveTrain, roll_path
 from hydroelastic.modal.roll.quadratic import QuadraticRollPath, quadratic_roll_path
@@ -16,8 +18,6 @@ from hydroelastic.scenes.errors import UnsolvedError, scene_error
 from hydroelastic.scenes.models.problems import require_fit
 from hydroelastic.scenes.models.roll import RollScene
 from hydroelastic.scenes.models.roll_checks import motion_can_be_followed, rates_are_comparable
-from hydroelastic.scenes.output.digits import kept_tolerance
-from hydroelastic.scenes.output.stopwatch import Report, Stopwatch
 from hydroelastic.scenes.roll.section_file import solved_section
 
 if TYPE_CHECKING:

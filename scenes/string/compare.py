@@ -8,12 +8,12 @@ import numpy as np
 from mpi4py import MPI
 from pydantic import ValidationError
 
+from hydroelastic.fem.stopwatch import Report
 from hydroelastic.scenes.errors import Problem, SceneError, scene_error
 from hydroelastic.scenes.models.string import StringScene
 from hydroelastic.scenes.output.outcome import Outcome
 from hydroelastic.scenes.output.provenance import Summary
 from hydroelastic.scenes.output.sections import Section
-from hydroelastic.scenes.output.stopwatch import Report
 from hydroelastic.scenes.string.field import solve_string_field
 from hydroelastic.scenes.string.results import StringSolution
 from hydroelastic.scenes.string.series import solve_series

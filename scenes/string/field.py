@@ -6,12 +6,12 @@ import numpy as np
 from mpi4py import MPI
 
 from hydroelastic.fem.modes import EigenSolverError
+from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.fem.string.damped_modes import damped_modes
 from hydroelastic.fem.string.model import StringModel
 from hydroelastic.fem.string.solution import string_solution
 from hydroelastic.scenes.errors import UnsolvedError
 from hydroelastic.scenes.models.string import StringScene
-from hydroelastic.scenes.output.stopwatch import Report, Stopwatch
 from hydroelastic.scenes.string.fronts import BESIDE, front_distance, travel_times
 from hydroelastic.scenes.string.motion import end_motion
 from hydroelastic.scenes.string.results import StringMotions, StringSolution

@@ -9,8 +9,8 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
+from hydroelastic.fem.kept_tolerance import kept_tolerance
 from hydroelastic.scenes.models.string import StringScene
-from hydroelastic.scenes.output.digits import kept_tolerance
 from hydroelastic.scenes.string.fronts import BESIDE, front_distance
 
 Floats = NDArray[np.float64]

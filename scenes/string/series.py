@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.modal.string.hanging_string import HangingString
 from hydroelastic.modal.string.response import string_response
 from hydroelastic.scenes.models.string import StringScene
-from hydroelastic.scenes.output.stopwatch import Stopwatch
 from hydroelastic.scenes.string.motion import end_motion
 from hydroelastic.scenes.string.results import StringMotions, StringSolution
 

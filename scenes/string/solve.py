@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from hydroelastic.fem.stopwatch import Report
 from hydroelastic.scenes.models.string import StringScene
-from hydroelastic.scenes.output.stopwatch import Report
 from hydroelastic.scenes.string.results import StringSolution
 
 if TYPE_CHECKING:

@@ -11,29 +11,29 @@ from __future__ import annotations
 from dataclasses import replace
 from math import inf
 
+from hydroelastic.fem.tank.outline import Sizes, grounded_names, tank_outline
+from hydroelastic.fem.tank.singularities import singular_points
 from hydroelastic.meshes.geometry import LEFT_WALL, RIGHT_WALL, SYMMETRY_PLANE
 from hydroelastic.meshes.outline import Outline, Point
-from hydroelastic.scenes.tank.corners import singular_points
-from hydroelastic.scenes.tank.outline import Sizes, grounded_names, tank_outline
-from hydroelastic.scenes.tank.scaled_tank import MIDDLE, ScaledTank
-from hydroelastic.scenes.tank.symmetry import PARITIES, Parity, is_mirror_image
+from hydroelastic.physics.symmetry import PARITIES, Parity, is_mirror_image
+from hydroelastic.physics.tank import MIDDLE, Tank
 
 # Names of curves that are no mirrors to `singular_points`: it judges all modes at once, and meshes for the worst.
 _WALL, _PLANE = "wall", "plane"
 
 
-def plain_outline(tank: ScaledTank, size: float = inf, *, half: bool) -> Outline:
+def plain_outline(tank: Tank, size: float = inf, *, half: bool) -> Outline:
     """The outline of a tank, or of its left half, with elements of one size along levels and floats, without rings."""
     sizes = Sizes(pieces=(size,) * len(tank.pieces), contours=dict.fromkeys(tank.floats, size))
     return tank_outline(tank, sizes, half=half)
 
 
-def has_curved_contours(tank: ScaledTank) -> bool:
+def has_curved_contours(tank: Tank) -> bool:
     """Whether a float's contour, which the mesh follows, is curved."""
     return any(curve.path is not None for curve in plain_outline(tank, half=False).curves)
 
 
-def corner_exponents(tank: ScaledTank, parity: Parity | None = None) -> dict[Point, float]:
+def corner_exponents(tank: Tank, parity: Parity | None = None) -> dict[Point, float]:
     """α at every corner where ψ is singular, in the left half of a tank that is its own mirror image.
 
     Args:
@@ -50,12 +50,12 @@ def corner_exponents(tank: ScaledTank, parity: Parity | None = None) -> dict[Poi
     return {point: min(one[point], other[point]) for point in one}
 
 
-def sharpest_of(tank: ScaledTank, parity: Parity | None = None) -> float | None:
+def sharpest_of(tank: Tank, parity: Parity | None = None) -> float | None:
     """α of the worst corner; ``None`` where ψ is smooth."""
     return min(corner_exponents(tank, parity).values(), default=None)
 
 
-def symmetries_apart(tank: ScaledTank) -> tuple[Parity, ...]:
+def symmetries_apart(tank: Tank) -> tuple[Parity, ...]:
     """Both symmetries if their worst corners differ, so that their modes converge at different orders; else none."""
     if not is_mirror_image(tank):
         return ()
@@ -63,7 +63,7 @@ def symmetries_apart(tank: ScaledTank) -> tuple[Parity, ...]:
     return () if one == other else PARITIES
 
 
-def _exponents(tank: ScaledTank, parity: Parity | None) -> dict[Point, float]:
+def _exponents(tank: Tank, parity: Parity | None) -> dict[Point, float]:
     outline = plain_outline(tank, half=parity is not None)
     grounded = grounded_names(tank, released=False)
     # Only what is singular to some mode: smooth contours cross the middle plane at right angles.
@@ -86,7 +86,7 @@ def _unmirrored(name: str) -> str:
     return {LEFT_WALL: _WALL, RIGHT_WALL: _WALL, SYMMETRY_PLANE: _PLANE}.get(name, name)
 
 
-def _ends_of_guided_beams(tank: ScaledTank) -> set[Point]:
+def _ends_of_guided_beams(tank: Tank) -> set[Point]:
     """Guided ends at walls: beyond a wall, beam and liquid go on as their images, smoothly."""
     return {
         (x, tank.level_of(index).height)
@@ -96,10 +96,10 @@ def _ends_of_guided_beams(tank: ScaledTank) -> set[Point]:
     }
 
 
-def _ends_of_thin_ellipses(tank: ScaledTank) -> set[Point]:
+def _ends_of_thin_ellipses(tank: Tank) -> set[Point]:
     return {
         (body.waterplane[0], y)
         for body in tank.floats.values()
-        if body.is_thin and body.given.shape == "ellipse"
+        if body.profile is not None and body.is_thin and body.profile.shape == "ellipse"
         for y in body.slit
     }

@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import replace
 from math import inf
 
+from hydroelastic.fem.tank.mesh import geometry_of, is_plain
+from hydroelastic.fem.tank.outline import grounded_names
+from hydroelastic.fem.tank.singularities import singular_points
 from hydroelastic.meshes.nested import NestedMeshes, outline_meshes, rectangle_meshes
 from hydroelastic.meshes.outline import Corner
+from hydroelastic.physics.tank import Tank
 from hydroelastic.scenes.study.corners import corner_exponents, plain_outline
-from hydroelastic.scenes.tank.corners import singular_points
-from hydroelastic.scenes.tank.mesh import geometry_of, is_plain
-from hydroelastic.scenes.tank.outline import grounded_names
-from hydroelastic.scenes.tank.scaled_tank import ScaledTank
 
 # Elements of the first mesh along levels and floats, in tank lengths: six on the half of a beam as long as half the
 # tank.
@@ -26,7 +26,7 @@ def full_order(degree: int, exponent: float) -> float:
     return max(1.0, degree / exponent) + _MARGIN
 
 
-def full_order_gradings(tank: ScaledTank, meshes: NestedMeshes, degree: int) -> tuple[float, ...]:
+def full_order_gradings(tank: Tank, meshes: NestedMeshes, degree: int) -> tuple[float, ...]:
     """β of each corner of the meshes, so that all of them keep the full order."""
     exponents = corner_exponents(tank)
     return tuple(
@@ -34,12 +34,12 @@ def full_order_gradings(tank: ScaledTank, meshes: NestedMeshes, degree: int) -> 
     )
 
 
-def coarsest_size(tank: ScaledTank) -> float:
+def coarsest_size(tank: Tank) -> float:
     """Largest element of the first mesh along levels and floats: that of a thin layer is no longer than it is deep."""
     return min(_COARSEST, tank.depth)
 
 
-def nested_meshes(tank: ScaledTank, *, half: bool) -> NestedMeshes:
+def nested_meshes(tank: Tank, *, half: bool) -> NestedMeshes:
     """The meshes of a scene with straight boundaries, or of its left half."""
     size = coarsest_size(tank)
     # Far from the levels nothing moves.

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias, get_args
 
+from hydroelastic.fem.tank.resolution import HIGHEST_DEGREE
 from hydroelastic.scenes.errors import Problem, SceneError, shown_value
-from hydroelastic.scenes.tank.plan import HIGHEST_DEGREE
 from hydroelastic.scenes.words import proposal
 
 Family: TypeAlias = Literal["uniform", "algebraic", "geometric", "tolerance", "thinness"]

@@ -10,13 +10,13 @@ from math import exp, inf, log
 import numpy as np
 
 from hydroelastic.meshes.grading import Grading
+from hydroelastic.physics.symmetry import Parity
+from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.study.corners import sharpest_of, symmetries_apart
 from hydroelastic.scenes.study.plan import Family
 from hydroelastic.scenes.study.rows import StudyRow
 from hydroelastic.scenes.study.theory import expected_order, expected_remainders, gain_along_a_ray
-from hydroelastic.scenes.tank.scaled_tank import scaled_tank
-from hydroelastic.scenes.tank.symmetry import Parity
 
 DIFFERENCE = 0.1
 """An order that differs from theory by more than this part of it is flagged: not yet asymptotic."""
@@ -102,7 +102,7 @@ def fitted_rates(scene: TankScene, rows: Sequence[StudyRow], parities: Sequence[
         parities: symmetry of each mode.
     """
     series = [row for row in rows if row.family in ("uniform", "algebraic")]
-    symmetries = symmetries_apart(scaled_tank(scene)) or (None,)
+    symmetries = symmetries_apart(physical_tank(scene).scaled()) or (None,)
     rates = []
     for (family, degree), group in groupby(series, key=lambda row: (row.family, row.degree)):
         meshes = list(group)
@@ -134,7 +134,7 @@ def _rate(
 
 def fitted_gain(scene: TankScene, rows: Sequence[StudyRow], parities: Sequence[Parity | None]) -> Gain | None:
     """Fit the gain per degree on geometric rings; ``None`` with fewer than three degrees above rounding."""
-    tank = scaled_tank(scene)
+    tank = physical_tank(scene).scaled()
     symmetry = min(symmetries_apart(tank), key=lambda parity: sharpest_of(tank, parity) or inf, default=None)
     series = [row for row in rows if row.family == "geometric"]
     used = _asymptotic(series, _of(symmetry, parities, series))

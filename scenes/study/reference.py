@@ -7,16 +7,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 from mpi4py import MPI
 
-from hydroelastic.scenes.models.tank import Accuracy, TankScene
-from hydroelastic.scenes.output.stopwatch import Stopwatch
-from hydroelastic.scenes.tank.certainty import frequency_errors
-from hydroelastic.scenes.tank.estimates import exact_frequencies
-from hydroelastic.scenes.tank.field_model import build_mesh
-from hydroelastic.scenes.tank.field_solution import solve_field
-from hydroelastic.scenes.tank.plan import Resolution, initial_resolution
-from hydroelastic.scenes.tank.scaled_tank import ScaledTank
-from hydroelastic.scenes.tank.scaling import scales
-from hydroelastic.scenes.tank.symmetry import Parity
+from hydroelastic.fem.stopwatch import Stopwatch
+from hydroelastic.fem.tank.error_estimates import frequency_errors
+from hydroelastic.fem.tank.field_model import build_mesh
+from hydroelastic.fem.tank.field_solution import solve_field
+from hydroelastic.fem.tank.resolution import Resolution, initial_resolution
+from hydroelastic.modal.tank_estimates import exact_frequencies
+from hydroelastic.physics.symmetry import Parity
+from hydroelastic.physics.tank import Tank
+from hydroelastic.scenes.models.physical import physical_tank
+from hydroelastic.scenes.models.tank import TankScene
 
 # No row of a study asks for this; dry modes, rings and elements of all of them come from it.
 _STRICTEST = 1e-11
@@ -48,13 +48,13 @@ class Reference:
 
 def finest_resolution(scene: TankScene) -> Resolution:
     """Elements, rings and dry modes for a tolerance that no row of a study reaches."""
-    strict = scene.model_copy(update={"accuracy": Accuracy(tolerance=_STRICTEST, modes=scene.accuracy.modes)})
-    return initial_resolution(strict, modes=scene.accuracy.modes).with_shapes(_MORE_SHAPES)
+    tank = physical_tank(scene).scaled()
+    return initial_resolution(tank, _STRICTEST, modes=scene.accuracy.modes).with_shapes(_MORE_SHAPES)
 
 
-def reference_of(scene: TankScene, tank: ScaledTank, *, half: bool) -> Reference:
+def reference_of(scene: TankScene, tank: Tank, *, half: bool) -> Reference:
     """The closed form of a scene where there is one, else a finer solution (collective)."""
-    formula, frequencies = exact_frequencies(scene)
+    formula, frequencies = exact_frequencies(physical_tank(scene), scene.accuracy.modes)
     if frequencies:
         return Reference(name=formula, omega=np.array(frequencies), uncertainty=0.0)
     finest = finest_resolution(scene)
@@ -64,7 +64,7 @@ def reference_of(scene: TankScene, tank: ScaledTank, *, half: bool) -> Reference
     return min(candidates, key=lambda candidate: candidate.uncertainty)
 
 
-def _solved(scene: TankScene, tank: ScaledTank, resolution: Resolution, *, half: bool) -> Reference:
+def _solved(scene: TankScene, tank: Tank, resolution: Resolution, *, half: bool) -> Reference:
     mesh = build_mesh(MPI.COMM_WORLD, tank, resolution, half=half)
     field = solve_field(mesh, tank, resolution, scene.accuracy.modes, Stopwatch(), half=half)
     indices = list(range(len(field.modes.eigenvalues)))
@@ -73,7 +73,7 @@ def _solved(scene: TankScene, tank: ScaledTank, resolution: Resolution, *, half:
     dry_modes = f", {sum(resolution.shapes)} dry modes" if resolution.shapes else ""
     return Reference(
         name=f"degree {resolution.degree} on geometric rings, {field.dofs} unknowns{dry_modes}",
-        omega=np.sqrt(field.modes.eigenvalues) * scales(scene).frequency,
+        omega=np.sqrt(field.modes.eigenvalues) * physical_tank(scene).units.frequency,
         uncertainty=float(errors.max()),
         parities=tuple(field.parity(index) for index in indices),
     )

@@ -15,6 +15,8 @@ from rich.console import Console
 from rich.table import Table
 
 from hydroelastic.fem.pictures.options import DEFAULT_PICTURES, PictureOptions
+from hydroelastic.physics.symmetry import Parity
+from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.output.curve_style import Sheets
 from hydroelastic.scenes.output.folder import SUMMARY, result_folder
@@ -28,8 +30,6 @@ from hydroelastic.scenes.study.run import Study
 from hydroelastic.scenes.study.thinness import fitted_thinness
 from hydroelastic.scenes.study.thinness_figure import draw_thinness
 from hydroelastic.scenes.study.thinness_report import print_thinness, thinness_csv
-from hydroelastic.scenes.tank.scaled_tank import scaled_tank
-from hydroelastic.scenes.tank.symmetry import Parity
 
 STAGES = ("plan", "mesh", "forms", "assemble", "solve", "count", "errors", "pressure release")
 """Stages of a solution in their order; others that the solver may time follow them."""
@@ -123,14 +123,14 @@ def _print_errors(console: Console, study: Study, reference: Reference) -> None:
 
 def _symmetry_lines(scene: TankScene) -> Iterator[str]:
     """What the error over all modes follows where their orders differ."""
-    tank = scaled_tank(scene)
+    tank = physical_tank(scene).scaled()
     found = [f"{(sharpest_of(tank, parity) or inf):.3g} ({parity} modes)" for parity in symmetries_apart(tank)]
     if found:
         yield f"At the worst corner ψ ~ r^α, α = {' or '.join(found)}: the error of all follows the smaller."
 
 
 def _why_none(scene: TankScene, family: Family) -> str:
-    if family in ("uniform", "algebraic") and has_curved_contours(scaled_tank(scene)):
+    if family in ("uniform", "algebraic") and has_curved_contours(physical_tank(scene).scaled()):
         return "the contour of a float is curved, and these meshes are halved along straight boundaries only"
     return "ψ is smooth, or no mesh has so few unknowns"
 

@@ -8,18 +8,18 @@ from dataclasses import dataclass
 import numpy as np
 from mpi4py import MPI
 
+from hydroelastic.fem.memory import peak_memory
 from hydroelastic.fem.spectral_error import LOWEST_DEGREE
+from hydroelastic.fem.stopwatch import Stopwatch
+from hydroelastic.fem.tank.error_estimates import frequency_errors
+from hydroelastic.fem.tank.field_solution import solve_field
+from hydroelastic.fem.tank.resolution import Resolution, rounding_error
 from hydroelastic.meshes.distribute import TankMesh
+from hydroelastic.physics.tank import Tank
+from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import Accuracy, TankScene
-from hydroelastic.scenes.output.memory import peak_memory
-from hydroelastic.scenes.output.stopwatch import Stopwatch
 from hydroelastic.scenes.study.plan import Family
 from hydroelastic.scenes.study.reference import Reference
-from hydroelastic.scenes.tank.certainty import frequency_errors
-from hydroelastic.scenes.tank.field_solution import solve_field
-from hydroelastic.scenes.tank.plan import Resolution, rounding_error
-from hydroelastic.scenes.tank.scaled_tank import ScaledTank
-from hydroelastic.scenes.tank.scaling import scales
 from hydroelastic.scenes.tank.solve import solve_scene
 
 # Below this an error is rounding, whatever the degree: measured on meshes of up to 2e5 unknowns with exact frequencies.
@@ -90,7 +90,7 @@ class StudiedTank:
     """
 
     scene: TankScene
-    tank: ScaledTank
+    tank: Tank
     half: bool
     finest: Resolution
     reference: Reference
@@ -141,7 +141,7 @@ def mesh_row(
                 modes = [field.modes.completed(index) for index in indices]
                 causes = frequency_errors(field, modes, field.parts_of(indices), resolution, studied.tank)
                 estimate = float(causes.total.max())
-    omega = np.sqrt(field.modes.eigenvalues) * scales(studied.scene).frequency
+    omega = np.sqrt(field.modes.eigenvalues) * physical_tank(studied.scene).units.frequency
     if len(omega) < min(count, len(studied.reference.omega)):
         return None
     return StudyRow(

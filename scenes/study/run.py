@@ -20,9 +20,14 @@ from mpi4py import MPI
 from hydroelastic.fem.liquid import compile_form
 from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.spectral_error import LOWEST_DEGREE
+from hydroelastic.fem.stopwatch import Report, Stopwatch
+from hydroelastic.fem.tank.field_model import build_mesh
+from hydroelastic.fem.tank.field_solution import solve_field
+from hydroelastic.fem.tank.resolution import HIGHEST_DEGREE, initial_resolution
+from hydroelastic.physics.symmetry import is_mirror_image
 from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
+from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.output.stopwatch import Report, Stopwatch
 from hydroelastic.scenes.read import closed_tank
 from hydroelastic.scenes.study.plan import Family, StudyPlan
 from hydroelastic.scenes.study.rates import Gain, Rate, fitted_gain, fitted_rates
@@ -30,11 +35,6 @@ from hydroelastic.scenes.study.reference import Reference, finest_resolution, re
 from hydroelastic.scenes.study.rows import StudiedTank, StudyRow
 from hydroelastic.scenes.study.series import SERIES
 from hydroelastic.scenes.study.thinness import ThinnessRow, check_thinness, thinness_rows
-from hydroelastic.scenes.tank.field_model import build_mesh
-from hydroelastic.scenes.tank.field_solution import solve_field
-from hydroelastic.scenes.tank.plan import HIGHEST_DEGREE, initial_resolution
-from hydroelastic.scenes.tank.scaled_tank import scaled_tank
-from hydroelastic.scenes.tank.symmetry import is_mirror_image
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -100,7 +100,7 @@ def study_scene(scene: TankScene, plan: StudyPlan | None = None, *, report: Repo
 
 def studied_tank(scene: TankScene) -> StudiedTank:
     """Solve for the reference of a closed tank, which all rows of its study share (collective)."""
-    tank = scaled_tank(scene)
+    tank = physical_tank(scene).scaled()
     half = is_mirror_image(tank)
     return StudiedTank(
         scene=scene,
@@ -114,7 +114,7 @@ def studied_tank(scene: TankScene) -> StudiedTank:
 def _study(scene: TankScene, plan: StudyPlan, report: Report) -> Study:
     thinness = tuple(_thinness(scene, plan, report))
     if not any(family in SERIES for family in plan.families):
-        return Study(scene=scene, plan=plan, halves=is_mirror_image(scaled_tank(scene)), thinness=thinness)
+        return Study(scene=scene, plan=plan, halves=is_mirror_image(physical_tank(scene).scaled()), thinness=thinness)
     report("reference solution")
     studied = studied_tank(scene)
     report("forms")
@@ -154,7 +154,7 @@ def _compile_forms(studied: StudiedTank, plan: StudyPlan) -> None:
         "tolerance": tuple(range(LOWEST_DEGREE, HIGHEST_DEGREE + 1)),
     }
     degrees = {degree for family in plan.families if family in needed for degree in needed[family]}
-    coarse = initial_resolution(studied.scene, modes=1)
+    coarse = initial_resolution(studied.tank, studied.scene.accuracy.tolerance, modes=1)
     for degree in sorted(degrees):
         resolution = replace(coarse, degree=degree)
         # Cells at curved contours are of the same degree, and have a form of their own.

@@ -9,6 +9,9 @@ from functools import partial
 from mpi4py import MPI
 
 from hydroelastic.fem.modes import EigenSolverError
+from hydroelastic.fem.tank.field_model import build_mesh, distributed_mesh
+from hydroelastic.fem.tank.mesh import unknown_count
+from hydroelastic.fem.tank.resolution import SMALLEST_TIP
 from hydroelastic.meshes.grading import Grading
 from hydroelastic.meshes.nested import NestedMeshes
 from hydroelastic.scenes.study.corners import has_curved_contours
@@ -17,9 +20,6 @@ from hydroelastic.scenes.study.plan import Family, StudyPlan
 from hydroelastic.scenes.study.rows import StudiedTank, StudyRow, mesh_row, tolerance_row
 from hydroelastic.scenes.study.steady import steadily_timed
 from hydroelastic.scenes.study.theory import singular_exponent
-from hydroelastic.scenes.tank.field_model import build_mesh, distributed_mesh
-from hydroelastic.scenes.tank.mesh import unknown_count
-from hydroelastic.scenes.tank.plan import SMALLEST_TIP
 
 _mesh_row, _tolerance_row = steadily_timed(mesh_row), steadily_timed(tolerance_row)
 

@@ -21,11 +21,11 @@ import numpy as np
 
 from hydroelastic.fem.ring_approximation import remaining_energy
 from hydroelastic.meshes.grading import Grading
+from hydroelastic.physics.symmetry import Parity
+from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.study.corners import sharpest_of
 from hydroelastic.scenes.study.meshes import full_order
-from hydroelastic.scenes.tank.scaled_tank import scaled_tank
-from hydroelastic.scenes.tank.symmetry import Parity
 
 # Rings are cut into sectors of at most this.
 _WIDEST_SECTOR = pi / 3.0
@@ -41,7 +41,7 @@ def singular_exponent(scene: TankScene, parity: Parity | None = None) -> float |
         scene: the scene.
         parity: symmetry of the modes in a tank that is its own mirror image; ``None`` is the sharper of both.
     """
-    return sharpest_of(scaled_tank(scene), parity)
+    return sharpest_of(physical_tank(scene).scaled(), parity)
 
 
 def expected_order(scene: TankScene, degree: int, grading: float = 1.0, parity: Parity | None = None) -> float:

@@ -4,20 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from hydroelastic.meshes.tagged_mesh import TaggedMesh
-from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.output.sections import Section
-from hydroelastic.scenes.tank.check_hints import hints
-from hydroelastic.scenes.tank.check_tables import boundary_table, group_table, hydrostatics_table, unknown_table
-from hydroelastic.scenes.tank.estimates import ends_of_float_motions, expected_tones
-from hydroelastic.scenes.tank.plan import (
+from hydroelastic.fem.tank.expected import ends_of_float_motions, expected_tones
+from hydroelastic.fem.tank.resolution import (
     Resolution,
     companion_resolution,
     initial_resolution,
     workable_tolerance,
 )
-from hydroelastic.scenes.tank.scaled_tank import ScaledTank, scaled_tank
-from hydroelastic.scenes.tank.symmetry import is_mirror_image
+from hydroelastic.meshes.tagged_mesh import TaggedMesh
+from hydroelastic.physics.symmetry import is_mirror_image
+from hydroelastic.physics.tank import Tank
+from hydroelastic.scenes.models.physical import physical_tank
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.output.sections import Section
+from hydroelastic.scenes.tank.check_hints import hints
+from hydroelastic.scenes.tank.check_tables import boundary_table, group_table, hydrostatics_table, unknown_table
 
 
 def check_tank(scene: TankScene) -> Iterator[Section]:
@@ -54,11 +55,11 @@ def modelled_tank(scene: TankScene, *, requests: Iterable[str], scale: Section) 
 
 def _sizes(scene: TankScene) -> Iterator[str]:
     """What the first attempt is, and why it should be enough; the built-in meshes are made to count them."""
-    tank, brought = scaled_tank(scene), _brought(scene)
+    tank, brought = physical_tank(scene).scaled(), _brought(scene)
     tolerance = scene.accuracy.tolerance
     tones = expected_tones(tank)
     motions = ends_of_float_motions(tank)
-    resolution = initial_resolution(scene, modes=scene.accuracy.modes, tones=tones, motions=motions)
+    resolution = initial_resolution(tank, tolerance, modes=scene.accuracy.modes, tones=tones, motions=motions)
     half = scene.mesh is None and is_mirror_image(tank)
     yield f"First attempt: {_size(tank, resolution, brought, half=half)}."
     if resolution.modes > scene.accuracy.modes:
@@ -101,10 +102,8 @@ def _brought(scene: TankScene) -> TaggedMesh | None:
     return own_mesh(scene)
 
 
-def _size(
-    tank: ScaledTank, resolution: Resolution, brought: TaggedMesh | None, *, half: bool, released: bool = False
-) -> str:
-    from hydroelastic.scenes.tank.mesh import make_mesh, unknown_count
+def _size(tank: Tank, resolution: Resolution, brought: TaggedMesh | None, *, half: bool, released: bool = False) -> str:
+    from hydroelastic.fem.tank.mesh import make_mesh, unknown_count
 
     mesh = brought if brought is not None else make_mesh(tank, resolution, half=half, released=released)
     where = " in half the tank" if half else ""

@@ -5,20 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import TypeAlias
 
-from hydroelastic.scenes.models.floats import placed_float
-from hydroelastic.scenes.models.rigid_motions import (
-    has_open,
-    levels_of,
-    loose_motions,
-    mode_count,
-    roll_stiffness,
-    zero_mode_count,
-)
-from hydroelastic.scenes.models.tank import TankScene, level_segments
-from hydroelastic.scenes.tank.beam_shapes import first_bending
-from hydroelastic.scenes.tank.estimates import expected_tones
-from hydroelastic.scenes.tank.scaled_tank import scaled_tank
-from hydroelastic.scenes.tank.symmetry import is_mirror_image
+from hydroelastic.fem.tank.expected import expected_tones
+from hydroelastic.modal.beam.beam_shapes import first_bending
+from hydroelastic.physics.rigid_motions import loose_motions, mode_count, zero_mode_count
+from hydroelastic.physics.symmetry import is_mirror_image
+from hydroelastic.scenes.models.physical import physical_tank
+from hydroelastic.scenes.models.tank import TankScene
 
 # Half width over half height from which the conditions of a thin float are off by more than some per cent.
 _THICK = 0.1
@@ -41,7 +33,7 @@ def _air(scene: TankScene) -> Iterator[str]:
 
 
 def _symmetry(scene: TankScene) -> Iterator[str]:
-    if is_mirror_image(scaled_tank(scene)):
+    if is_mirror_image(physical_tank(scene).scaled()):
         yield (
             "The scene is its own mirror image: modes are symmetric (∂ψ/∂x = 0 in the middle) or antisymmetric "
             "(ψ = 0 there), and half the tank holds either kind."
@@ -49,10 +41,11 @@ def _symmetry(scene: TankScene) -> Iterator[str]:
 
 
 def _zero_modes(scene: TankScene) -> Iterator[str]:
-    count = zero_mode_count(scene)
+    tank = physical_tank(scene)
+    count = zero_mode_count(tank)
     if count == 0:
         return
-    loose = loose_motions(scene)
+    loose = loose_motions(tank)
     names = ", ".join(f"{motion.name} of {scene.body[motion.body].kind} {motion.body + 1}" for motion in loose)
     held = len(loose) - count
     but = f"; the volume of the liquid forbids {held} of these or of their combinations" if held else ""
@@ -61,7 +54,7 @@ def _zero_modes(scene: TankScene) -> Iterator[str]:
 
 
 def _few_modes(scene: TankScene) -> Iterator[str]:
-    count = mode_count(scene)
+    count = mode_count(physical_tank(scene))
     if count is not None and count < scene.accuracy.modes:
         yield (
             f"Nothing but rigid bodies oscillates here: there {'is' if count == 1 else 'are'} {count} "
@@ -92,25 +85,25 @@ def _sloshing(scene: TankScene) -> Iterator[str]:
 
 
 def _walls(scene: TankScene) -> Iterator[str]:
-    for level in levels_of(scene):
-        segments = level_segments(scene, level)
-        if len(segments) == 1 and segments[0].body is not None:
-            if level == "surface" and scene.top != "free":
+    for level in physical_tank(scene).levels_from_top:
+        if not level.is_open:
+            if level.above is None and scene.top != "free":
                 yield f'The beam covers the whole liquid, so top = "{scene.top}" has no effect.'
             continue
-        for segment, wall in ((segments[0], "left"), (segments[-1], "right")):
-            if segment.body is not None:
-                yield f"Beam {segment.body + 1} touches the {wall} wall: its end slides along it without friction."
+        for piece, wall in ((level.pieces[0], "left"), (level.pieces[-1], "right")):
+            if piece.body is not None:
+                yield f"Beam {piece.body + 1} touches the {wall} wall: its end slides along it without friction."
 
 
 def _shared_tone(scene: TankScene) -> Iterator[str]:
     """The elastic tone radiates into the sloshing modes unless it is slow or its beam heavy (docs, aquarium, § 4)."""
-    if len(scene.layers) > 1 or scene.top != "free" or not has_open(scene, "surface"):
+    tank = physical_tank(scene)
+    if len(tank.layers) > 1 or tank.top != "free" or not tank.levels[0].is_open:
         return
     # In units of the tank λ = ω² L/g.
-    for (index, beam), tone in zip(scene.beams, expected_tones(scaled_tank(scene)), strict=True):
-        ratio = tone * beam.length / scene.tank.length
-        if ratio > 1 and beam.mass_per_length < scene.layers[0].density * beam.length:
+    for (index, beam), tone in zip(tank.beams.items(), expected_tones(tank.scaled()), strict=True):
+        ratio = tone * beam.length / tank.length
+        if ratio > 1 and beam.mass_per_length < tank.layers[0].density * beam.length:
             yield (
                 f"Beam {index + 1}: ω² l/g of its first elastic tone is about {ratio:.2g}. Above one, the tone "
                 "is shared between hybrid modes with sloshing; a run says how far (participation, runner-up)."
@@ -118,9 +111,8 @@ def _shared_tone(scene: TankScene) -> Iterator[str]:
 
 
 def _hydrostatics(scene: TankScene) -> Iterator[str]:
-    for index, beam in scene.beams:
-        level = scene.level_of(beam)
-        below, above = scene.densities_at(level)
+    for index, beam in physical_tank(scene).beams.items():
+        below, above = scene.densities_at(beam.level)
         ratio = (below - above) * scene.tank.gravity / first_bending(beam)
         jump = "(ρ₂ − ρ₁) g" if above else "ρ g"
         if beam.hydrostatic and ratio > 10:
@@ -151,8 +143,8 @@ def draughts_left_out(scene: TankScene) -> Iterator[str]:
 
 
 def _unstable(scene: TankScene) -> Iterator[str]:
-    for index, body in scene.floats:
-        if "roll" in body.motions and roll_stiffness(body, placed_float(scene, index).hydrostatics) < 0.0:
+    for index, body in physical_tank(scene).floats.items():
+        if "roll" in body.motions and body.roll_stiffness < 0.0:
             yield f"Float {index + 1} is unstable: its roll grows instead of oscillating, a mode with ω² < 0."
 
 

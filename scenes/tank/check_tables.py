@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import isinf
 
+from hydroelastic.physics.rigid_motions import heave_is_held
+from hydroelastic.physics.tank import Piece, StillLevel
 from hydroelastic.scenes.models.bodies import Beam, Float, Level
 from hydroelastic.scenes.models.floats import placed_float
-from hydroelastic.scenes.models.rigid_motions import has_open, heave_is_held, levels_of, roll_stiffness
-from hydroelastic.scenes.models.tank import Segment, TankScene, level_segments
+from hydroelastic.scenes.models.physical import physical_tank
+from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.output.sections import Row, Section
 
 SURFACE_NAMES = {
@@ -38,13 +40,13 @@ def boundary_table(scene: TankScene) -> Section:
     title = "Boundaries of the liquids (levels" if several else "Boundary of the liquid (top"
     on_levels = [
         (
-            _surface_name(scene, level, segment),
-            f"{segment.start:g}",
-            f"{segment.end:g}",
-            _surface_condition(scene, level, segment),
+            _surface_name(scene, level, piece),
+            f"{piece.start:g}",
+            f"{piece.end:g}",
+            _surface_condition(scene, level, piece),
         )
-        for level in levels_of(scene)
-        for segment in level_segments(scene, level)
+        for level in physical_tank(scene).levels_from_top
+        for piece in level.pieces
     ]
     return Section(
         title=f"{title} from left to right)",
@@ -71,29 +73,31 @@ def _open_ends(scene: TankScene) -> Iterator[tuple[str, str, str, str]]:
         yield "high above", "-inf", "inf", f"∇{potential_of(scene, 1)} → 0 as y → ∞"
 
 
-def _surface_name(scene: TankScene, level: Level, segment: Segment) -> str:
-    if segment.body is not None:
-        return f"{segment.kind} {segment.body + 1}"
-    name = SURFACE_NAMES[segment.kind]
-    return f"{name}, y = {scene.height_of(level):g} m" if len(scene.layers) == 2 else name
+def _surface_name(scene: TankScene, level: StillLevel, piece: Piece) -> str:
+    if piece.body is not None:
+        return f"{scene.body[piece.body].kind} {piece.body + 1}"
+    name = SURFACE_NAMES[level.kind]
+    return f"{name}, y = {level.height:g} m" if len(scene.layers) == 2 else name
 
 
-def _surface_condition(scene: TankScene, level: Level, segment: Segment) -> str:
-    if segment.body is None:
-        return _open_condition(scene, segment)
-    body = scene.body[segment.body]
-    return _beam_condition(scene, level, body) if isinstance(body, Beam) else _float_condition(scene, level, body)
+def _surface_condition(scene: TankScene, level: StillLevel, piece: Piece) -> str:
+    if piece.body is None:
+        return _open_condition(scene, level)
+    body = scene.body[piece.body]
+    if isinstance(body, Beam):
+        return _beam_condition(scene, level.name, body)
+    return _float_condition(scene, level.name, body)
 
 
-def _open_condition(scene: TankScene, segment: Segment) -> str:
-    if segment.kind == "interface":
+def _open_condition(scene: TankScene, level: StillLevel) -> str:
+    if level.kind == "interface":
         return "∂ψ₁/∂y = ∂ψ₂/∂y = η, (ρ₂ − ρ₁) g η = ω² (ρ₂ ψ₂ − ρ₁ ψ₁)"
     potential, elevation = potential_of(scene, len(scene.layers) - 1), _surface_elevation(scene)
     return {
         "free": f"∂{potential}/∂y = {elevation}, g {elevation} = ω² {potential}",
         "rigid": f"∂{potential}/∂y = 0",
         "pressure_release": f"{potential} = 0",
-    }[segment.kind]
+    }[level.kind]
 
 
 def _surface_elevation(scene: TankScene) -> str:
@@ -149,7 +153,7 @@ def _unknowns(scene: TankScene) -> Iterator[Row]:
     else:
         yield "ψ₁", f"upper liquid, 0 < y < {scene.layers[1].depth:g} m", why
         yield "ψ₂", f"lower liquid, {-scene.layers[0].depth:g} m < y < 0", "the same"
-    for level in levels_of(scene):
+    for level in physical_tank(scene).levels_from_top:
         yield _elevation_row(scene, level)
     for index, body in enumerate(scene.body):
         if isinstance(body, Beam):
@@ -158,11 +162,11 @@ def _unknowns(scene: TankScene) -> Iterator[Row]:
             yield f"s of float {index + 1}", f"float {index + 1}", _float_basis(scene, index, body)
 
 
-def _elevation_row(scene: TankScene, level: Level) -> tuple[str, str, str]:
-    if not has_open(scene, level):
+def _elevation_row(scene: TankScene, level: StillLevel) -> tuple[str, str, str]:
+    if not level.is_open:
         return "η: none", "–", "the beam covers the whole liquid"
     spans = "" if scene.is_open else "; with the bodies it spans the eigenproblem"
-    if level == "interface":
+    if level.above is not None:
         return "η", "interface", f"internal waves{spans}"
     name, potential = _surface_elevation(scene), potential_of(scene, len(scene.layers) - 1)
     reasons = {
@@ -185,14 +189,18 @@ def _beam_basis(scene: TankScene, index: int, beam: Beam) -> str:
     if beam.ends == "guided":
         return "w = Σ aᵢ φᵢ: elastic shapes cos(nπx/L), n ≥ 1; heave is held by the liquid's volume"
     hinges = ", a turn about each hinge" if beam.hinges else ""
-    if heave_is_held(scene, index):
+    if heave_is_held(physical_tank(scene), index):
         return f"w = Σ aᵢ φᵢ: pitch{hinges} and elastic shapes free in vacuum; heave is held by the liquid's volume"
     return f"w = Σ aᵢ φᵢ: heave, pitch{hinges} and elastic shapes free in vacuum"
 
 
 def _float_basis(scene: TankScene, index: int, body: Float) -> str:
     motions = ", ".join("roll about its centre of mass" if motion == "roll" else motion for motion in body.motions)
-    held = "; heave is held by the liquid's volume" if "heave" in body.motions and heave_is_held(scene, index) else ""
+    held = (
+        "; heave is held by the liquid's volume"
+        if "heave" in body.motions and heave_is_held(physical_tank(scene), index)
+        else ""
+    )
     return f"rigid motions: {motions}{held}"
 
 
@@ -310,7 +318,7 @@ def _rest(scene: TankScene, index: int, body: Float) -> dict[str, str]:
         "c33 heave, N/m²": f"{rest.heave_stiffness:.6g}",
         "c35 heave and roll, N/m": f"{rest.coupling_stiffness:.6g}",
         "c55 roll, N": f"{rest.roll_stiffness:.6g}",
-        "at rest": _stability(body, roll_stiffness(body, rest)),
+        "at rest": _stability(body, placed.roll_stiffness),
     }
 
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from hydroelastic.fem.stopwatch import Report
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.output.outcome import Outcome
-from hydroelastic.scenes.output.stopwatch import Report
 from hydroelastic.scenes.tank.run import run_tank
 from hydroelastic.scenes.tank.tables import compared_sections
 

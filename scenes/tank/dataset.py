@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.linalg import block_diag
 
+from hydroelastic.physics.motions import MOTIONS
 from hydroelastic.scenes.output.dof_labels import INERTIA_UNITS, MOTION_UNITS, STIFFNESS_UNITS, any_turns, dof_labels
 from hydroelastic.scenes.output.summary_variables import SummaryNames
-from hydroelastic.scenes.tank.scaled_float import MOTIONS
 
 if TYPE_CHECKING:
     import xarray
 
     from hydroelastic.fem.pictures.modes import FloatSection, SurfaceCurve
+    from hydroelastic.fem.tank.solve import TankSolution
     from hydroelastic.scenes.tank.shapes import ModeShapes
-    from hydroelastic.scenes.tank.solve import TankSolution
 
 TANK_NAMES = SummaryNames(
     dimensions={

@@ -6,13 +6,12 @@ from typing import Any
 
 import numpy as np
 
-from hydroelastic.scenes.models.floats import placed_float
+from hydroelastic.fem.bodies.rigid_float import principal_motions
+from hydroelastic.fem.tank.elastic_tone import mode_kind
+from hydroelastic.fem.tank.float_modes import FloatMode
+from hydroelastic.fem.tank.solve import TankSolution
+from hydroelastic.modal.floats.tank_estimates import EstimatesOfFloat
 from hydroelastic.scenes.tank.differences import difference
-from hydroelastic.scenes.tank.float_body import principal_motions
-from hydroelastic.scenes.tank.float_estimates import EstimatesOfFloat
-from hydroelastic.scenes.tank.float_modes import FloatMode
-from hydroelastic.scenes.tank.solve import TankSolution
-from hydroelastic.scenes.tank.tones import mode_kind
 
 # A runner-up with less than so many times the smallest modal mass makes the mode of a motion a shared one.
 SHARED = 2.0
@@ -30,12 +29,12 @@ def float_rows(solution: TankSolution, estimates: dict[int, EstimatesOfFloat]) -
 
 def _float_row(solution: TankSolution, index: int, estimates: EstimatesOfFloat | None) -> dict[str, Any]:
     modes = [_mode(solution, mode) for mode in solution.float_modes if mode.body == index]
-    rest = placed_float(solution.scene, index).hydrostatics
-    body = solution.tank.floats[index]
+    body = solution.physical.floats[index]
+    rest = body.hydrostatics
     return {
         "body": index + 1,
         "motions": list(body.motions),
-        "boundary": body.given.boundary,
+        "boundary": "thin" if body.is_thin else "exact",
         "mass": rest.mass,
         "moment_of_inertia": rest.mass * rest.radius_of_gyration**2,
         "centre_of_mass": list(rest.centre_of_mass),

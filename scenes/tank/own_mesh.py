@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from hydroelastic.fem.tank.mesh import check_mesh
 from hydroelastic.meshes.files import load_mesh
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 from hydroelastic.scenes.errors import Problem, SceneError
+from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.tank.mesh import check_mesh
-from hydroelastic.scenes.tank.scaled_tank import scaled_tank
 
 
 def own_mesh(scene: TankScene) -> TaggedMesh | None:
@@ -20,7 +20,7 @@ def own_mesh(scene: TankScene) -> TaggedMesh | None:
         return None
     try:
         mesh = load_mesh(scene.mesh.file)
-        check_mesh(scaled_tank(scene), mesh.scaled(1.0 / scene.tank.length))
+        check_mesh(physical_tank(scene).scaled(), mesh.scaled(1.0 / scene.tank.length))
     except MeshError as error:
         raise mesh_refused(scene, str(error)) from error
     return mesh

@@ -10,27 +10,29 @@ from mpi4py import MPI
 
 from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.pictures.options import OF_FIELDS, OF_MOTIONS, PictureOptions
+from hydroelastic.fem.stopwatch import Report, Stopwatch
+from hydroelastic.fem.tank.solve import TankSolution
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 from hydroelastic.modal.estimate import Estimate
+from hydroelastic.modal.tank_estimates import tone_estimates
 from hydroelastic.scenes.errors import SceneError, UnsolvedError
+from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.output.dataset import LabelledResults
 from hydroelastic.scenes.output.provenance import Summary
 from hydroelastic.scenes.output.staged_run import StagedRun
-from hydroelastic.scenes.output.stopwatch import Report, Stopwatch
 from hydroelastic.scenes.read import closed_tank
 from hydroelastic.scenes.tank.check_hints import draughts_left_out
 from hydroelastic.scenes.tank.dataset import TANK_NAMES, tank_dataset
-from hydroelastic.scenes.tank.estimates import scene_estimates
 from hydroelastic.scenes.tank.own_mesh import mesh_refused, own_mesh
-from hydroelastic.scenes.tank.solve import TankSolution, solve_scene
+from hydroelastic.scenes.tank.solve import solve_scene
 from hydroelastic.scenes.tank.summary import summarize
 from hydroelastic.scenes.tank.tables import mode_csv, tank_cost, tank_sections
 
 if TYPE_CHECKING:
     import xarray
 
-    from hydroelastic.scenes.tank.float_estimates import EstimatesOfFloat
+    from hydroelastic.modal.floats.tank_estimates import EstimatesOfFloat
     from hydroelastic.scenes.tank.shapes import ModeShapes
 
 
@@ -39,12 +41,14 @@ class EstimatedTank:
     """The field solution of a closed tank, and the estimates to set beside it.
 
     Attributes:
-        tank: the field solution.
+        scene: what was asked.
+        tank: its field solution.
         beam: the estimates of the beam, by name.
         floats: those of the floats, by body; ``None`` without floats.
         seconds: what the estimates took.
     """
 
+    scene: TankScene
     tank: TankSolution
     beam: dict[str, Estimate]
     floats: dict[int, EstimatesOfFloat] | None
@@ -77,25 +81,28 @@ def solve_tank(scene: TankScene, comm: MPI.Comm, report: Report) -> EstimatedTan
     watch = Stopwatch()
     with watch.stage("estimates"):
         report("estimates")
-        estimates = scene_estimates(scene)
+        physical = physical_tank(scene)
+        estimates = tone_estimates(physical)
         of_floats = None
         if scene.floats:
             # Floats need more of SciPy, which takes a while to import.
-            from hydroelastic.scenes.tank.float_estimates import float_estimates
+            from hydroelastic.modal.floats.tank_estimates import float_estimates
 
-            of_floats = float_estimates(scene)
+            of_floats = float_estimates(physical)
     try:
         solution = solve_scene(scene, comm=comm, mesh=_own_mesh(scene, comm), report=report)
     except MeshError as error:
         raise mesh_refused(scene, str(error)) from error
     except EigenSolverError as error:
         raise UnsolvedError(f"the eigen-solver failed: {error}") from error
-    return EstimatedTank(tank=solution, beam=estimates, floats=of_floats, seconds=watch.seconds)
+    return EstimatedTank(scene=scene, tank=solution, beam=estimates, floats=of_floats, seconds=watch.seconds)
 
 
 def summarize_tank(estimated: EstimatedTank, _comm: MPI.Comm, *, import_seconds: float) -> Summary:
     """Return the content of ``summary.json`` (collective)."""
-    summary = summarize(estimated.tank, estimated.beam, estimated.floats, import_seconds=import_seconds)
+    summary = summarize(
+        estimated.scene, estimated.tank, estimated.beam, estimated.floats, import_seconds=import_seconds
+    )
     summary["timing"].update(estimated.seconds)
     return summary
 
@@ -149,7 +156,7 @@ def _draw(tank: SampledTank, folder: Path, options: PictureOptions, report: Repo
 run_tank = StagedRun(
     solve=solve_tank,
     summarize=summarize_tank,
-    sections=lambda estimated, summary: tank_sections(summary, draughts_left_out(estimated.tank.scene)),
+    sections=lambda estimated, summary: tank_sections(summary, draughts_left_out(estimated.scene)),
     cost=tank_cost,
     sample=_sample,
     write=_write,

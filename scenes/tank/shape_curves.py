@@ -9,15 +9,15 @@ import numpy as np
 from dolfinx import fem
 from numpy.typing import NDArray
 
+from hydroelastic.fem.bodies.rigid_float import principal_motions
 from hydroelastic.fem.liquid import LiquidSpace
 from hydroelastic.fem.pictures.modes import FloatSection, SurfaceCurve
 from hydroelastic.fem.sampling import SurfaceTrace, sample_surface
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.meshes.geometry import FREE_SURFACE, INTERFACE
 from hydroelastic.physics.contours import Arc, Contour
-from hydroelastic.scenes.tank.float_body import principal_motions
-from hydroelastic.scenes.tank.scaled_float import ScaledFloat
-from hydroelastic.scenes.tank.scaled_tank import ScaledTank, StillLevel
+from hydroelastic.physics.floats import RigidFloat
+from hydroelastic.physics.tank import StillLevel, Tank
 
 _BEAM_POINTS = 201
 _ARC_POINTS = 64
@@ -29,13 +29,13 @@ _STILL = 1e-6
 Array = NDArray[np.float64]
 
 
-def wave_levels(tank: ScaledTank) -> tuple[StillLevel, ...]:
+def wave_levels(tank: Tank) -> tuple[StillLevel, ...]:
     """The still levels on which waves travel beside the bodies."""
     return tuple(level for level in tank.levels if level.moves and level.is_open)
 
 
 def sample_level(
-    tank: ScaledTank, level: StillLevel, liquid: LiquidSpace, functions: list[fem.Function]
+    tank: Tank, level: StillLevel, liquid: LiquidSpace, functions: list[fem.Function]
 ) -> SurfaceTrace | None:
     """(ρψ below − ρψ above)/(ρ below − ρ above) along a still level, which is its elevation over λ.
 
@@ -84,7 +84,7 @@ class BodyShapes:
     leading: float
 
 
-def body_shapes(tank: ScaledTank, bodies: tuple[Body, ...], amplitudes: Array) -> BodyShapes:
+def body_shapes(tank: Tank, bodies: tuple[Body, ...], amplitudes: Array) -> BodyShapes:
     """Displace the bodies of a tank.
 
     Args:
@@ -124,7 +124,7 @@ def sign_of(bodies: BodyShapes, waves: tuple[SurfaceCurve, ...]) -> float:
     return float(np.sign(leading)) or 1.0
 
 
-def _displaced_beam(tank: ScaledTank, index: int, body: Body, amplitudes: Array) -> SurfaceCurve:
+def _displaced_beam(tank: Tank, index: int, body: Body, amplitudes: Array) -> SurfaceCurve:
     piece, level = tank.piece_of(index), tank.level_of(index)
     x: Array = np.linspace(piece.start, piece.end, _BEAM_POINTS, dtype=np.float64)
     points = np.vstack([x, np.full_like(x, level.height)])
@@ -136,7 +136,7 @@ def _displaced_beam(tank: ScaledTank, index: int, body: Body, amplitudes: Array)
     return SurfaceCurve(kind="body", x=x, displacement=displacement, level=level.height)
 
 
-def _displaced_float(body: ScaledFloat, amplitudes: Array) -> tuple[FloatSection, float]:
+def _displaced_float(body: RigidFloat, amplitudes: Array) -> tuple[FloatSection, float]:
     """A float displaced by its motions, and the largest displacement of its contour by one of them, with its sign.
 
     The contour's points say nothing of the sign: by roll, some rise as far as others sink.

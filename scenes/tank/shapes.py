@@ -21,14 +21,14 @@ from hydroelastic.fem.pictures.modes import (
 )
 from hydroelastic.fem.pictures.options import PictureOptions
 from hydroelastic.fem.sampling import LiquidSample, SurfaceTrace, sample_liquid
+from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.tank.solve import TankSolution
+from hydroelastic.physics.symmetry import Parity
+from hydroelastic.physics.tank import StillLevel
 from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.output.stopwatch import Report
 from hydroelastic.scenes.tank.animated import animated_modes
 from hydroelastic.scenes.tank.body_file import displacement_of, write_bodies
-from hydroelastic.scenes.tank.scaled_tank import StillLevel
 from hydroelastic.scenes.tank.shape_curves import body_shapes, sample_level, sign_of, wave_curves, wave_levels
-from hydroelastic.scenes.tank.solve import TankSolution
-from hydroelastic.scenes.tank.symmetry import Parity
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -111,8 +111,8 @@ def sample_shapes(solution: TankSolution) -> ModeShapes | None:
         motions=tuple(motions),
         growing=len(growing),
         length=length,
-        depths=tuple(layer.depth for layer in solution.scene.layers),
-        densities=tuple(layer.density for layer in solution.scene.layers),
+        depths=tuple(layer.depth for layer in solution.physical.layers),
+        densities=tuple(layer.density for layer in solution.physical.layers),
         lid=tuple(
             (piece.start * length, piece.end * length)
             for piece in top.pieces

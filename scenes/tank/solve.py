@@ -1,121 +1,14 @@
-"""Solve a scene to the tolerance it asks for, and say how far each number can be trusted.
-
-Each attempt solves once and judges itself: by the decay of the liquid's motion with the degree, by what the dry modes
-left out would add, and by rounding. An attempt that misses the tolerance is refined where the error comes from.
-"""
+"""Solve the scene of a tank between walls."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from math import ceil
-
-import numpy as np
 from mpi4py import MPI
 
-from hydroelastic.fem.modes import Mode, ModeSet
-from hydroelastic.meshes.distribute import TankMesh
+from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.tank.solve import TankSolution, solve_tank
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
-from hydroelastic.scenes.models.rigid_motions import mode_count
+from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.output.digits import kept_tolerance
-from hydroelastic.scenes.output.stopwatch import Report, Stopwatch
-from hydroelastic.scenes.tank.certainty import FrequencyErrors, frequency_errors, refined
-from hydroelastic.scenes.tank.companion import Companion, solve_companion
-from hydroelastic.scenes.tank.estimates import ends_of_float_motions, expected_tones
-from hydroelastic.scenes.tank.field_model import bring_mesh, build_mesh, moving_surfaces
-from hydroelastic.scenes.tank.field_solution import FieldSolution, count_is_confirmed, solve_field
-from hydroelastic.scenes.tank.float_modes import FloatMode, float_modes
-from hydroelastic.scenes.tank.high_frequency import HighFrequencyAddedMass, high_frequency_added_mass
-from hydroelastic.scenes.tank.plan import (
-    MOST_MODES_TO_TONE,
-    Resolution,
-    companion_resolution,
-    initial_resolution,
-    sharpest_exponent,
-    workable_tolerance,
-)
-from hydroelastic.scenes.tank.scaled_tank import ScaledTank, scaled_tank
-from hydroelastic.scenes.tank.scaling import Scales, scales
-from hydroelastic.scenes.tank.symmetry import is_mirror_image
-from hydroelastic.scenes.tank.tones import ElasticTone, elastic_tone
-
-_MOST_ATTEMPTS = 5
-
-
-@dataclass(frozen=True, kw_only=True)
-class ToneSolution:
-    """The first elastic tone of one beam.
-
-    Attributes:
-        body: index of the beam among the bodies.
-        tone: the mode and its participation; ``None`` where it is not one of the modes that can be told apart.
-        reason: why there is no tone, or "".
-        pressure_release: λ of the tone with ψ = 0 on the water; ``None`` where there is no water.
-        pressure_release_error: relative error of that frequency.
-        pressure_release_values: λ of the lowest modes with ψ = 0 on the water.
-    """
-
-    body: int
-    tone: ElasticTone | None
-    reason: str
-    pressure_release: float | None
-    pressure_release_error: float | None
-    pressure_release_values: tuple[float, ...]
-
-
-@dataclass(frozen=True, kw_only=True)
-class TankSolution:
-    """The dimensionless solution of a scene.
-
-    Attributes:
-        scene: the scene.
-        units: its units.
-        tank: the scaled scene.
-        resolution: the resolution of the last attempt.
-        field: its mesh, matrices and modes; one mode more than were planned.
-        asked: the modes asked for, with their shapes.
-        relative_errors: estimated relative error of the frequency of each mode of the field; NaN where none was asked.
-        growing_errors: estimated relative error of the growth rate of each growing mode.
-        rounding: the part of the largest that no refinement takes away.
-        counted: whether the inertia of an independent factorization confirms that no mode is missing.
-        tones: one for each beam.
-        float_modes: one for each motion of a float that gravity restores.
-        added_mass: of the floats, far above the waves; ``None`` without floats, or where a lid leaves no such limit.
-        attempts: how many resolutions were tried.
-        reasons: why the solution does not keep what was asked; empty if it does.
-        seconds: time by stage.
-    """
-
-    scene: TankScene
-    units: Scales
-    tank: ScaledTank
-    resolution: Resolution
-    field: FieldSolution
-    asked: tuple[Mode, ...]
-    relative_errors: np.ndarray
-    growing_errors: np.ndarray
-    rounding: float
-    counted: bool
-    tones: tuple[ToneSolution, ...]
-    float_modes: tuple[FloatMode, ...]
-    added_mass: HighFrequencyAddedMass | None
-    attempts: int
-    reasons: tuple[str, ...]
-    seconds: dict[str, float]
-
-    @property
-    def modes(self) -> ModeSet:
-        """All modes, in the bodies of the whole tank."""
-        return self.field.modes
-
-    @property
-    def largest_error(self) -> float:
-        """The largest error of the modes asked for, of the tones, and of growth rates."""
-        return float(np.nanmax([0.0, *self.relative_errors, *self.growing_errors]))
-
-    def omega(self, eigenvalue: float) -> float:
-        """ω in rad/s of a dimensionless λ."""
-        return float(np.sqrt(eigenvalue)) * self.units.frequency
 
 
 def solve_scene(
@@ -126,228 +19,21 @@ def solve_scene(
     halves: bool = True,
     report: Report = lambda _message: None,
 ) -> TankSolution:
-    """Solve a tank scene.
-
-    Args:
-        scene: what is asked.
-        comm: MPI communicator; all processes by default.
-        mesh: a mesh of the liquid in metres that the user brings (on rank 0), instead of ours. Its elements are then
-            kept, and only degree and dry modes are refined.
-        halves: whether a tank that is its own mirror image is solved as two halves; ``False`` is for comparison.
-        report: told what is being done.
-
-    Returns:
-        The solution, with `TankSolution.reasons` where it does not keep the asked tolerance (collective).
+    """Solve a scene to its tolerance; see `fem.tank.solve.solve_tank` (collective).
 
     Raises:
-        MeshError: if the mesh does not fit the scene.
-        EigenSolverError: if the eigen-solver fails.
+        MeshError: if the scene names a mesh and none is given on rank 0, or the mesh does not fit.
     """
     comm = comm or MPI.COMM_WORLD
-    watch = Stopwatch()
-    with watch.stage("plan"):
-        tank, units = scaled_tank(scene), scales(scene)
-        tones = expected_tones(tank)
-        motions = ends_of_float_motions(tank)
-        resolution: Resolution | None = initial_resolution(
-            scene, modes=scene.accuracy.modes, tones=tones, motions=motions
-        )
-    brought = _brought_mesh(comm, scene, tank, mesh, 1.0 / units.length, watch)
-    half = halves and brought is None and is_mirror_image(tank)
-    tolerance = workable_tolerance(scene.accuracy.tolerance, tank.depth)
-    companion: Companion | None = None
-    added: HighFrequencyAddedMass | None = None
-    best: TankSolution | None = None
-    for attempt in range(1, _MOST_ATTEMPTS + 1):
-        assert resolution is not None
-        if brought is not None:
-            resolution = replace(resolution, tip_size=None)
-        report(f"attempt {attempt}: degree {resolution.degree}, {resolution.modes} modes")
-        with watch.stage("mesh"):
-            own_mesh = brought or build_mesh(comm, tank, resolution, half=half)
-        if companion is None and tank.beams and moving_surfaces(own_mesh, tank):
-            report("pressure-release tone")
-            first = companion_resolution(tank, tolerance, tones) if brought is None else resolution
-            companion = solve_companion(comm, tank, first, tolerance, brought, watch, half=half)
-        if added is None and tank.floats and tank.has_high_frequency_limit:
-            report("added mass far above the waves")
-            added = high_frequency_added_mass(comm, tank, tolerance, watch, half=half)
-        field = solve_field(own_mesh, tank, resolution, resolution.modes + 1, watch, half=half)
-        solution, causes = _judged(scene, tank, units, resolution, field, (companion, added), watch, attempt)
-        if best is None or _shortfall(solution) <= _shortfall(best):
-            best = solution
-        if not solution.reasons:
-            break
-        resolution = _next_resolution(solution, causes, own_mesh=brought is None)
-        if resolution is None:
-            break
-    assert best is not None
-    return replace(best, seconds=dict(watch.seconds))
-
-
-def _brought_mesh(
-    comm: MPI.Comm, scene: TankScene, tank: ScaledTank, mesh: TaggedMesh | None, factor: float, watch: Stopwatch
-) -> TankMesh | None:
-    given = comm.bcast(mesh is not None, root=0)
-    if scene.mesh is not None and not given:
+    if scene.mesh is not None and not comm.bcast(mesh is not None, root=0):
         raise MeshError(f"the scene brings the mesh {scene.mesh.file}: load it and hand it over")
-    if not given:
-        return None
-    with watch.stage("mesh"):
-        return bring_mesh(comm, tank, mesh.scaled(factor) if mesh is not None else None)
-
-
-def _shortfall(solution: TankSolution) -> tuple[int, float]:
-    """How far a solution falls short: number of complaints, then the largest error."""
-    return len(solution.reasons), solution.largest_error
-
-
-def _next_resolution(solution: TankSolution, causes: FrequencyErrors, *, own_mesh: bool) -> Resolution | None:
-    """More modes if a tone was not among them, else a finer model; ``None`` where neither would help."""
-    resolution = solution.resolution
-    if any(tone.tone is not None and not tone.tone.certain for tone in solution.tones):
-        wider = initial_resolution(solution.scene, modes=min(ceil(1.6 * resolution.modes), MOST_MODES_TO_TONE))
-        return replace(
-            wider,
-            degree=max(wider.degree, resolution.degree),
-            reaches_tones=resolution.reaches_tones,
-            widened=True,
-        )
-    tolerance = workable_tolerance(solution.scene.accuracy.tolerance, solution.tank.depth)
-    if solution.counted and solution.largest_error <= tolerance:
-        return None
-    exponent = sharpest_exponent(solution.tank, released=False)
-    return refined(resolution, causes, tolerance, exponent=exponent, own_mesh=own_mesh)
-
-
-def _judged(
-    scene: TankScene,
-    tank: ScaledTank,
-    units: Scales,
-    resolution: Resolution,
-    field: FieldSolution,
-    limits: tuple[Companion | None, HighFrequencyAddedMass | None],
-    watch: Stopwatch,
-    attempt: int,
-) -> tuple[TankSolution, FrequencyErrors]:
-    """An attempt with all that it says about itself; beside it the limits of high frequency."""
-    companion, added = limits
-    tones = tuple(_tone(field, beam, body, resolution, companion) for beam, body in enumerate(tank.beams))
-    complete = len(field.modes.eigenvalues) <= resolution.modes
-    moved = float_modes(tank, field.bodies, field.modes, added, complete=complete)
-    with watch.stage("count"):
-        counted = count_is_confirmed(field)
-    with watch.stage("errors"):
-        asked = min(scene.accuracy.modes, len(field.modes.eigenvalues))
-        beams = (tone.tone.index for tone in tones if tone.tone is not None)
-        floats = (mode.index for mode in moved if mode.index is not None)
-        indices = sorted({*range(asked), *beams, *floats})
-        modes = [field.modes.completed(index) for index in indices]
-        parts = [*field.parts_of(indices), *field.growing_parts]
-        causes = frequency_errors(field, [*modes, *field.modes.growing], parts, resolution, tank)
-    errors = np.full(len(field.modes.eigenvalues), np.nan)
-    errors[indices] = causes.total[: len(indices)]
-    solution = TankSolution(
-        scene=scene,
-        units=units,
-        tank=tank,
-        resolution=resolution,
-        field=field,
-        asked=tuple(modes[:asked]),
-        relative_errors=errors,
-        growing_errors=causes.total[len(indices) :],
-        rounding=causes.largest("rounding"),
-        counted=counted,
-        tones=tones,
-        float_modes=moved,
-        added_mass=added,
-        attempts=attempt,
-        reasons=(),
-        seconds={},
+    asked = scene.accuracy
+    return solve_tank(
+        physical_tank(scene),
+        tolerance=asked.tolerance,
+        modes=asked.modes,
+        comm=comm,
+        mesh=mesh,
+        halves=halves,
+        report=report,
     )
-    return replace(solution, reasons=_reasons(solution)), causes
-
-
-def _tone(
-    field: FieldSolution, beam: int, body: int, resolution: Resolution, companion: Companion | None
-) -> ToneSolution:
-    """The first elastic tone of a beam, with its pressure-release companion."""
-    release = companion.eigenvalue(beam) if companion is not None else None
-    tone: ElasticTone | None = elastic_tone(field.modes, field.bodies, body, companion=release)
-    reason = ""
-    assert tone is not None
-    if not tone.certain and not resolution.reaches_tones[beam]:
-        tone, reason = None, f"more than {MOST_MODES_TO_TONE} modes lie below it, and it was not searched for"
-    elif not tone.certain and resolution.widened:
-        tone, reason = None, f"its energy is spread over modes beyond the first {resolution.modes}"
-    if tone is None and release is not None:
-        reason += "; see the pressure-release tone"
-    return ToneSolution(
-        body=body,
-        tone=tone,
-        reason=reason,
-        pressure_release=release,
-        pressure_release_error=companion.errors[beam] if companion is not None else None,
-        pressure_release_values=tuple(companion.solution.modes.eigenvalues) if companion is not None else (),
-    )
-
-
-def _reasons(solution: TankSolution) -> tuple[str, ...]:
-    """Why a solution does not keep what was asked, in words."""
-    tolerance = solution.scene.accuracy.tolerance
-    reasons = []
-    errors = solution.relative_errors[: len(solution.asked)]
-    if errors.max(initial=0.0) > tolerance:
-        number = int(np.argmax(errors)) + 1
-        reasons.append(
-            f"mode {number} has an estimated relative error of {errors.max():.1e}, above the tolerance {tolerance:g}; "
-            + (f"rounding alone leaves {solution.rounding:.1e}; " if solution.rounding > 0.5 * tolerance else "")
-            + kept_tolerance(float(errors.max()))
-        )
-    if solution.growing_errors.max(initial=0.0) > tolerance:
-        error = float(solution.growing_errors.max())
-        reasons.append(
-            f"a growth rate has an estimated relative error of {error:.1e}, above the tolerance {tolerance:g}; "
-            + kept_tolerance(error)
-        )
-    if len(solution.asked) < min(solution.scene.accuracy.modes, _modes_there(solution)):
-        asked = solution.scene.accuracy.modes
-        reasons.append(f"{len(solution.asked)} of {asked} modes can be told from the rounding of the lowest")
-    if not solution.counted:
-        reasons.append("an independent count of the modes by inertia disagrees: a mode may be missing")
-    for tone in solution.tones:
-        number = tone.body + 1
-        if tone.tone is not None and not tone.tone.certain:
-            reasons.append(f"the first elastic tone of beam {number} may lie above the modes computed")
-        elif tone.tone is not None and solution.relative_errors[tone.tone.index] > tolerance:
-            error = float(solution.relative_errors[tone.tone.index])
-            reasons.append(
-                f"the first elastic tone of beam {number} has an estimated error of {error:.1e}, above the tolerance "
-                f"{tolerance:g}; {kept_tolerance(error)}"
-            )
-        if tone.pressure_release_error is not None and tone.pressure_release_error > tolerance:
-            reasons.append(
-                f"the pressure-release tone of beam {number} has an estimated error of "
-                f"{tone.pressure_release_error:.1e}, above the tolerance {tolerance:g}; "
-                + kept_tolerance(tone.pressure_release_error)
-            )
-    for mode in solution.float_modes:
-        if mode.index is not None and solution.relative_errors[mode.index] > tolerance:
-            error = float(solution.relative_errors[mode.index])
-            reasons.append(
-                f"the {mode.motion} mode of float {mode.body + 1} has an estimated error of {error:.1e}, above the "
-                f"tolerance {tolerance:g}; {kept_tolerance(error)}"
-            )
-    if solution.added_mass is not None and solution.added_mass.error > tolerance:
-        error = solution.added_mass.error
-        reasons.append(
-            f"the added mass far above the waves has an estimated error of {error:.1e}, above the tolerance "
-            f"{tolerance:g}; {kept_tolerance(error)}"
-        )
-    return tuple(reasons)
-
-
-def _modes_there(solution: TankSolution) -> float:
-    """How many modes a scene has: no more than rigid motions where no wave travels and nothing bends."""
-    count = mode_count(solution.scene)
-    return np.inf if count is None else count - len(solution.modes.growing)

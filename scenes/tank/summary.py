@@ -6,19 +6,21 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from hydroelastic.fem.tank.elastic_tone import bending_fraction, mode_kind
+from hydroelastic.fem.tank.solve import TankSolution, ToneSolution
+from hydroelastic.modal.beam.beam_shapes import first_dry_eigenvalue
 from hydroelastic.modal.estimate import Estimate
+from hydroelastic.modal.tank_estimates import exact_frequencies
+from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.output.provenance import Summary, memory_of_processes, versions
-from hydroelastic.scenes.tank.beam_shapes import first_dry_eigenvalue
 from hydroelastic.scenes.tank.differences import difference
-from hydroelastic.scenes.tank.estimates import exact_frequencies
-from hydroelastic.scenes.tank.solve import TankSolution, ToneSolution
-from hydroelastic.scenes.tank.tones import bending_fraction, mode_kind
 
 if TYPE_CHECKING:
-    from hydroelastic.scenes.tank.float_estimates import EstimatesOfFloat
+    from hydroelastic.modal.floats.tank_estimates import EstimatesOfFloat
 
 
 def summarize(
+    scene: TankScene,
     solution: TankSolution,
     estimates: dict[str, Estimate],
     of_floats: dict[int, EstimatesOfFloat] | None = None,
@@ -28,7 +30,8 @@ def summarize(
     """Build the summary of a solved scene (collective: peak memory is summed over processes).
 
     Args:
-        solution: the field solution.
+        scene: what was asked.
+        solution: its field solution.
         estimates: older theories' estimates of the first beam's tone.
         of_floats: the theories' estimates of floats, by their indices.
         import_seconds: time spent importing libraries.
@@ -41,7 +44,7 @@ def summarize(
         from hydroelastic.scenes.tank.float_summary import float_rows, growing_rows
     first = _first_elastic(solution)
     return {
-        "scene": solution.scene.model_dump(mode="json"),
+        "scene": scene.model_dump(mode="json"),
         "status": "unconverged" if solution.reasons else "ok",
         "reasons": list(solution.reasons),
         "modes": _modes(solution),
@@ -97,7 +100,7 @@ def _modes(solution: TankSolution) -> list[dict[str, Any]]:
 
 def _exact(solution: TankSolution) -> list[dict[str, Any]]:
     """The exact frequencies of the modes asked for, for scenes that have a closed form."""
-    formula, frequencies = exact_frequencies(solution.scene)
+    formula, frequencies = exact_frequencies(solution.physical, solution.count)
     rows = []
     for mode, exact in zip(solution.asked, frequencies, strict=False):
         rows.append({"formula": formula, "omega": exact, "difference": solution.omega(mode.eigenvalue) / exact - 1.0})

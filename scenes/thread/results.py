@@ -8,11 +8,11 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from hydroelastic.fem.kept_tolerance import kept_tolerance
 from hydroelastic.fem.thread.modes import ThreadModes
 from hydroelastic.fem.thread.motion_results import Slack
 from hydroelastic.fem.thread.stability import Stability
 from hydroelastic.scenes.models.thread import ThreadScene
-from hydroelastic.scenes.output.digits import kept_tolerance
 from hydroelastic.scenes.thread.frame import Frame
 
 Floats = NDArray[np.float64]

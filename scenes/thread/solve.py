@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from mpi4py import MPI
 
+from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.fem.thread.profile import ThreadProfile
 from hydroelastic.scenes.models import thread_analyses as analyses
 from hydroelastic.scenes.models.thread import ThreadScene
-from hydroelastic.scenes.output.stopwatch import Report, Stopwatch
 from hydroelastic.scenes.thread.equilibrium import FoundEquilibrium, find_equilibrium
 from hydroelastic.scenes.thread.frame import Frame, frame_of
 from hydroelastic.scenes.thread.modes import modes_of, stability_of

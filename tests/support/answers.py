@@ -43,7 +43,7 @@ def answer(scene: TankScene) -> Answer:
     start = time.perf_counter()
     solution = solve_scene(scene)
     seconds = time.perf_counter() - start
-    summary = summarize(solution, {}, import_seconds=0.0)
+    summary = summarize(scene, solution, {}, import_seconds=0.0)
     return Answer(
         omega=np.array([mode["omega"] for mode in summary["modes"]]),
         estimates=np.array([mode["relative_error"] for mode in summary["modes"]]),

@@ -8,9 +8,9 @@ from layered_tanks import PlainProblem, layered, rigid
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.shape_loads import shape_loads
 from hydroelastic.fem.surfaces import Body
+from hydroelastic.physics.motions import MOTIONS
+from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.tank.scaled_float import MOTIONS
-from hydroelastic.scenes.tank.scaled_tank import scaled_tank
 
 ALL = "heave sway roll"
 
@@ -49,7 +49,7 @@ UNSTABLE: dict[str, TankScene] = {
 
 def raw_problem(scene: TankScene, pencil: CoupledPencil) -> PlainProblem:
     """The plain problem of a float in heave, sway and roll themselves, with their full stiffness."""
-    floating = scaled_tank(scene).floats[0]
+    floating = physical_tank(scene).scaled().floats[0]
     count = len(MOTIONS)
     raw = Body(
         surface=pencil.bodies[0].surface,

@@ -14,13 +14,14 @@ from scipy.sparse import csr_matrix
 from scipy.sparse.linalg import splu
 
 from hydroelastic.fem.pencil import CoupledPencil
+from hydroelastic.fem.tank.field_model import build_mesh
+from hydroelastic.fem.tank.field_solution import part_models
+from hydroelastic.fem.tank.resolution import initial_resolution
+from hydroelastic.fem.tank.solve import TankSolution
 from hydroelastic.scenes.models.bodies import Beam, Float
+from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import Accuracy, Liquid, Tank, TankScene
-from hydroelastic.scenes.tank.field_model import build_mesh
-from hydroelastic.scenes.tank.field_solution import part_models
-from hydroelastic.scenes.tank.plan import initial_resolution
-from hydroelastic.scenes.tank.scaled_tank import scaled_tank
-from hydroelastic.scenes.tank.solve import TankSolution, solve_scene
+from hydroelastic.scenes.tank.solve import solve_scene
 
 GRAVITY = 9.81
 
@@ -52,8 +53,8 @@ def pencils(
     scene: TankScene, *, half: bool = False, coarse: bool = True, released: bool = False
 ) -> tuple[CoupledPencil, ...]:
     """The matrices of a scene, or of its halves, on a mesh for few unknowns (collective)."""
-    tank = scaled_tank(scene)
-    resolution = initial_resolution(scene, modes=scene.accuracy.modes)
+    tank = physical_tank(scene).scaled()
+    resolution = initial_resolution(tank, scene.accuracy.tolerance, modes=scene.accuracy.modes)
     if coarse:
         resolution = replace(resolution, degree=4, shapes=tuple(min(count, 6) for count in resolution.shapes))
     mesh = build_mesh(MPI.COMM_WORLD, tank, resolution, half=half, released=released)

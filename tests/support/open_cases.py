@@ -12,12 +12,12 @@ import pytest
 from mpi4py import MPI
 from open_tables import open_scene
 
+from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.modal.liquid.two_layer import TwoLayers
 from hydroelastic.scenes.models.open_analyses import Radiation, Response
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.radiation import RadiationSolution, solve_radiation
 from hydroelastic.scenes.open_water.response import ResponseSolution, solve_response
-from hydroelastic.scenes.output.stopwatch import Stopwatch
 
 FOLDER = Path(__file__).parents[1] / "reference"
 DENSITY = 1000.0

@@ -10,15 +10,17 @@ import numpy as np
 from mpi4py import MPI
 
 from hydroelastic.fem.pencil import CoupledPencil
+from hydroelastic.fem.tank.field_model import build_field_model
+from hydroelastic.fem.tank.mesh import geometry_of
+from hydroelastic.fem.tank.solve import TankSolution
 from hydroelastic.meshes.distribute import TankMesh, distribute_mesh
 from hydroelastic.meshes.grading import Grading
 from hydroelastic.meshes.tagged_mesh import TaggedMesh
 from hydroelastic.meshes.tank import build_tank_mesh
+from hydroelastic.physics import tank as physics
 from hydroelastic.scenes.models import Accuracy, Beam, Liquid, Tank, TankScene
-from hydroelastic.scenes.tank.field_model import build_field_model
-from hydroelastic.scenes.tank.mesh import geometry_of
-from hydroelastic.scenes.tank.scaled_tank import ScaledTank, scaled_tank
-from hydroelastic.scenes.tank.solve import TankSolution, solve_scene
+from hydroelastic.scenes.models.physical import physical_tank
+from hydroelastic.scenes.tank.solve import solve_scene
 
 
 class Tanks:
@@ -67,9 +69,9 @@ class Tanks:
 
     def graded_mesh(
         self, scene: TankScene, *, size: float = 0.25, tip_size: float | None = 1e-8
-    ) -> tuple[ScaledTank, TaggedMesh]:
+    ) -> tuple[physics.Tank, TaggedMesh]:
         """The scaled scene and a mesh of it, elements of one size but for the rings at the tips."""
-        tank = scaled_tank(scene)
+        tank = physical_tank(scene).scaled()
         grading = Grading(surface_sizes=(size,) * len(tank.pieces), bulk_size=size, tip_size=tip_size)
         return tank, build_tank_mesh(geometry_of(tank), grading)
 
@@ -78,7 +80,7 @@ class Tanks:
         return distribute_mesh(MPI.COMM_WORLD, tagged)
 
     def pencil_on(
-        self, mesh: TankMesh, tank: ScaledTank, *, degree: int, shapes: int, pressure_release: bool = False
+        self, mesh: TankMesh, tank: physics.Tank, *, degree: int, shapes: int, pressure_release: bool = False
     ) -> CoupledPencil:
         """The matrices of a scaled scene on a given mesh (collective)."""
         counts = (shapes,) * len(tank.beams)

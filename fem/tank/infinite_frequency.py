@@ -12,17 +12,17 @@ from mpi4py import MPI
 from scipy.linalg import block_diag
 
 from hydroelastic.fem.added_mass import body_responses
+from hydroelastic.fem.bodies.rigid_float import principal_motions
 from hydroelastic.fem.liquid import compile_form
+from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.fem.surfaces import Body
+from hydroelastic.fem.tank.error_estimates import FrequencyErrors, boundary_error, energies_missed, refined
+from hydroelastic.fem.tank.field_model import build_mesh, whole_bodies
+from hydroelastic.fem.tank.field_solution import extension, part_models
+from hydroelastic.fem.tank.resolution import Resolution, companion_resolution, rounding_error, sharpest_exponent
 from hydroelastic.meshes.distribute import TankMesh
-from hydroelastic.scenes.output.stopwatch import Stopwatch
-from hydroelastic.scenes.tank.certainty import FrequencyErrors, boundary_error, energies_missed, refined
-from hydroelastic.scenes.tank.field_model import build_mesh, whole_bodies
-from hydroelastic.scenes.tank.field_solution import extension, part_models
-from hydroelastic.scenes.tank.float_body import principal_motions
-from hydroelastic.scenes.tank.plan import Resolution, companion_resolution, rounding_error, sharpest_exponent
-from hydroelastic.scenes.tank.scaled_tank import ScaledTank
-from hydroelastic.scenes.tank.symmetry import Parity
+from hydroelastic.physics.symmetry import Parity
+from hydroelastic.physics.tank import Tank
 
 _MOST_ATTEMPTS = 5
 # Added mass below this part of ρ times the square (roll: fourth power) of the float's extent is rounding.
@@ -41,13 +41,13 @@ class HighFrequencyAddedMass:
     matrix: np.ndarray
     error: float
 
-    def block(self, tank: ScaledTank, body: int) -> np.ndarray:
+    def block(self, tank: Tank, body: int) -> np.ndarray:
         """The part of one float, of its own motions in its own movement, shape (motions, motions)."""
         first = sum(len(tank.floats[index].motions) for index in tank.floats if index < body)
         own = slice(first, first + len(tank.floats[body].motions))
         return self.matrix[own, own]
 
-    def principal(self, tank: ScaledTank, body: int) -> np.ndarray:
+    def principal(self, tank: Tank, body: int) -> np.ndarray:
         """Added mass of each of a float's principal motions, shape (motions,)."""
         turn = principal_motions(tank.floats[body], tank.floats[body].motions)[0]
         added: np.ndarray = np.diag(turn.T @ self.block(tank, body) @ turn)
@@ -55,7 +55,7 @@ class HighFrequencyAddedMass:
 
 
 def high_frequency_added_mass(
-    comm: MPI.Comm, tank: ScaledTank, tolerance: float, watch: Stopwatch, *, half: bool
+    comm: MPI.Comm, tank: Tank, tolerance: float, watch: Stopwatch, *, half: bool
 ) -> HighFrequencyAddedMass:
     """Solve for it to a tolerance, or as near to it as a few attempts come.
 
@@ -91,7 +91,7 @@ def high_frequency_added_mass(
 
 
 def _solved(
-    mesh: TankMesh, tank: ScaledTank, resolution: Resolution, *, half: bool
+    mesh: TankMesh, tank: Tank, resolution: Resolution, *, half: bool
 ) -> tuple[HighFrequencyAddedMass, FrequencyErrors]:
     shapes = (0,) * len(tank.bodies)
     parities, pencils = part_models(mesh, tank, resolution.degree, shapes, half=half, pressure_release=True)
@@ -118,7 +118,7 @@ def _solved(
     return HighFrequencyAddedMass(matrix=0.5 * (physical + physical.T), error=total), causes
 
 
-def _restriction(tank: ScaledTank, bodies: tuple[Body, ...], parity: Parity | None) -> np.ndarray:
+def _restriction(tank: Tank, bodies: tuple[Body, ...], parity: Parity | None) -> np.ndarray:
     """From motions of the whole tank to those of a part (as columns), so that energies of all parts add up."""
     columns = extension(tank, bodies, parity)
     if parity is None:
@@ -128,7 +128,7 @@ def _restriction(tank: ScaledTank, bodies: tuple[Body, ...], parity: Parity | No
     return restriction
 
 
-def _relevant(tank: ScaledTank, restriction: np.ndarray, added: np.ndarray) -> np.ndarray:
+def _relevant(tank: Tank, restriction: np.ndarray, added: np.ndarray) -> np.ndarray:
     """The motions of a part that move liquid: a circle that turns about its centre does not."""
     scales = np.concatenate(
         [

@@ -8,12 +8,18 @@ from dataclasses import dataclass, replace
 from math import ceil, e, log10, pi
 from typing import TYPE_CHECKING
 
-from hydroelastic.scenes.models.tank import Beam, TankScene
-from hydroelastic.scenes.tank.scaled_tank import Piece, ScaledTank, StillLevel, scaled_tank
-from hydroelastic.scenes.tank.waves import modes_below, squared_frequency_of_mode
+from hydroelastic.physics.beams import Beam
+from hydroelastic.physics.local_waves import (
+    LevelPiece,
+    modes_below,
+    moving_parts,
+    moving_pieces,
+    squared_frequency_of_mode,
+)
+from hydroelastic.physics.tank import Piece, StillLevel, Tank
 
 if TYPE_CHECKING:
-    from hydroelastic.scenes.tank.scaled_float import ScaledFloat
+    from hydroelastic.physics.floats import RigidFloat
 
 HIGHEST_DEGREE = 10
 MOST_SHAPES = 400
@@ -113,7 +119,7 @@ def workable_tolerance(tolerance: float, depth: float) -> float:
 
 
 def initial_resolution(
-    scene: TankScene, *, modes: int, tones: tuple[float, ...] = (), motions: tuple[float, ...] = ()
+    tank: Tank, tolerance: float, *, modes: int, tones: tuple[float, ...] = (), motions: tuple[float, ...] = ()
 ) -> Resolution:
     """Resolution for a number of modes, for elastic tones and for motions of floats.
 
@@ -121,35 +127,36 @@ def initial_resolution(
     into the tips as the singularity there asks for.
 
     Args:
-        scene: the scene.
+        tank: of unit length.
+        tolerance: asked relative error.
         modes: how many are asked for.
         tones: about the (dimensionless) λ of the first elastic tone of each beam.
         motions: up to which λ modes are looked at to find those of each motion of a float.
     """
-    tank = scaled_tank(scene)
+    moving = moving_pieces(tank)
     # Where other waves are many below a tone or a float's motion it is not searched for: one may ask for more modes.
-    tone = _highest(tones, lambda value: _modes_to_tone(tank, value) <= MOST_MODES_TO_TONE)
+    tone = _highest(tones, lambda value: _modes_to_tone(moving, value) <= MOST_MODES_TO_TONE)
     most_to_motion = max(MOST_MODES_TO_MOTION, 2 * modes)
-    motion = _highest(motions, lambda value: _modes_to_motion(tank, value) <= most_to_motion)
-    to_motion = [_modes_to_motion(tank, motion)] if motion is not None else []
+    motion = _highest(motions, lambda value: _modes_to_motion(moving, value) <= most_to_motion)
+    to_motion = [_modes_to_motion(moving, motion)] if motion is not None else []
     # The modes above the highest one reported show where the tone is, but need not be accurate.
-    reported = max([modes, *([ceil(modes_below(tank.moving, tone)) + 1] if tone is not None else []), *to_motion])
-    modes = max([modes, *([_modes_to_tone(tank, tone)] if tone is not None else []), *to_motion])
+    reported = max([modes, *([ceil(modes_below(moving, tone)) + 1] if tone is not None else []), *to_motion])
+    modes = max([modes, *([_modes_to_tone(moving, tone)] if tone is not None else []), *to_motion])
     reaches_tones = tuple(tone is not None and other <= tone for other in tones)
-    highest = squared_frequency_of_mode(tank.moving, reported) if tank.moving else 0.0
-    tolerance = workable_tolerance(scene.accuracy.tolerance, tank.depth)
+    highest = squared_frequency_of_mode(moving, reported) if moving else 0.0
+    tolerance = workable_tolerance(tolerance, tank.depth)
     wavenumbers = tuple(_wavenumber(tank, level, piece, highest) for level in tank.levels for piece in level.pieces)
     resolution = resolution_for(tank, tolerance, wavenumbers, exponent=sharpest_exponent(tank, released=False))
     return replace(resolution, modes=modes, reaches_tones=reaches_tones)
 
 
-def _modes_to_tone(tank: ScaledTank, tone: float) -> int:
+def _modes_to_tone(moving: tuple[LevelPiece, ...], tone: float) -> int:
     """Enough above a tone to hold its flank: the part in each mode falls off like a resonance curve."""
-    return ceil(1.25 * modes_below(tank.moving, tone)) + 4
+    return ceil(1.25 * modes_below(moving, tone)) + 4
 
 
-def _modes_to_motion(tank: ScaledTank, motion: float) -> int:
-    return ceil(modes_below(tank.moving, motion)) + 2
+def _modes_to_motion(moving: tuple[LevelPiece, ...], motion: float) -> int:
+    return ceil(modes_below(moving, motion)) + 2
 
 
 def _highest(values: tuple[float, ...], reached: Callable[[float], bool]) -> float | None:
@@ -159,7 +166,7 @@ def _highest(values: tuple[float, ...], reached: Callable[[float], bool]) -> flo
     return ordered[count - 1] if count else None
 
 
-def companion_resolution(tank: ScaledTank, tolerance: float, tones: tuple[float, ...]) -> Resolution:
+def companion_resolution(tank: Tank, tolerance: float, tones: tuple[float, ...]) -> Resolution:
     """Resolution for the limit of high frequency: no waves beside the bodies, but sharper tips.
 
     Args:
@@ -180,7 +187,7 @@ def companion_resolution(tank: ScaledTank, tolerance: float, tones: tuple[float,
     return replace(resolution, modes=_COMPANION_MODES * len(tank.beams))
 
 
-def sharpest_exponent(tank: ScaledTank, *, released: bool) -> float:
+def sharpest_exponent(tank: Tank, *, released: bool) -> float:
     """The smallest α with which ψ ~ r^α at a tip, a corner or a contact point.
 
     Args:
@@ -189,22 +196,20 @@ def sharpest_exponent(tank: ScaledTank, *, released: bool) -> float:
     """
     if not tank.floats:
         return 0.5 if released or tank.top == "pressure_release" else 1.0
-    from hydroelastic.scenes.tank.corners import tank_singular_points
-    from hydroelastic.scenes.tank.outline import unsized
+    from hydroelastic.fem.tank.outline import unsized
+    from hydroelastic.fem.tank.singularities import tank_singular_points
 
     points = tank_singular_points(tank, unsized(tank), half=False, released=released)
     return min((point.exponent for point in points), default=_SMOOTH)
 
 
-def _wavenumber(tank: ScaledTank, level: StillLevel, piece: Piece, squared_frequency: float) -> float:
+def _wavenumber(tank: Tank, level: StillLevel, piece: Piece, squared_frequency: float) -> float:
     """The shortest wave on a piece of a still level, up to λ."""
-    waves = (moving.wavenumber(squared_frequency) for moving in tank.moving_pieces(level, piece))
+    waves = (moving.wavenumber(squared_frequency) for moving in moving_parts(tank, level, piece))
     return max(waves, default=0.0)
 
 
-def resolution_for(
-    tank: ScaledTank, tolerance: float, wavenumbers: tuple[float, ...], *, exponent: float
-) -> Resolution:
+def resolution_for(tank: Tank, tolerance: float, wavenumbers: tuple[float, ...], *, exponent: float) -> Resolution:
     """Elements, rings and dry modes for the shortest waves on the pieces of the still levels.
 
     Where ψ ~ r^α at a tip, the error falls like the power 2α of the innermost ring: like its square beside water under
@@ -248,7 +253,7 @@ def _innermost(exponent: float, tolerance: float) -> float:
     return min((5.0 + 10.0 * exponent) * float(tolerance ** (0.5 / exponent)), 0.25)
 
 
-def _contour_size(body: ScaledFloat) -> float:
+def _contour_size(body: RigidFloat) -> float:
     """Largest element along a contour; where it bends, the mesh takes smaller ones."""
     left, right, low, high = body.bounds
     return min(_OF_CONTOUR * max(right - left, high - low), 0.25)
@@ -265,14 +270,14 @@ def _shapes_for(beam: Beam, wavenumber: float, tolerance: float) -> int:
     Dry modes have wavenumbers κ ~ EI^{-1/4} in the sections, and the shortest wave is in the softest one. What stiffer
     ones bend counts less, like 1/EI, but is not seen before their first bending shape, of 3/2 half waves.
     """
-    softest = min(part.flexural_rigidity for part in beam.parts)
-    phase = sum((softest / part.flexural_rigidity) ** 0.25 * part.length for part in beam.parts)
+    softest = min(part.flexural_rigidity for part in beam.sections)
+    phase = sum((softest / part.flexural_rigidity) ** 0.25 * part.length for part in beam.sections)
     needed = 0.0
-    for part in beam.parts:
+    for part in beam.sections:
         ratio = part.flexural_rigidity / softest
         length = sum(
             other.length
-            for other in beam.parts
+            for other in beam.sections
             if 1.0 / _ALIKE <= other.flexural_rigidity / part.flexural_rigidity <= _ALIKE
         )
         half_waves = wavenumber * ratio**-0.25 * length / pi

@@ -30,8 +30,8 @@ from hydroelastic.meshes.geometry import (
 from hydroelastic.meshes.outline import Curve, Outline, Point, Region
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.physics.contours import Arc, root
-from hydroelastic.scenes.tank.scaled_float import ScaledFloat
-from hydroelastic.scenes.tank.scaled_tank import MIDDLE, Piece, ScaledTank, StillLevel
+from hydroelastic.physics.floats import RigidFloat
+from hydroelastic.physics.tank import MIDDLE, Piece, StillLevel, Tank
 
 Directed = tuple[int, bool]
 
@@ -44,23 +44,23 @@ class Sizes:
     contours: dict[int, float]
 
 
-def unsized(tank: ScaledTank) -> Sizes:
+def unsized(tank: Tank) -> Sizes:
     """No wishes for the sizes of elements."""
     return Sizes(pieces=(inf,) * len(tank.pieces), contours=dict.fromkeys(tank.floats, inf))
 
 
-def layer_names(tank: ScaledTank) -> tuple[str, ...]:
+def layer_names(tank: Tank) -> tuple[str, ...]:
     """Physical names of the layers' cells, from the bottom up."""
     return (LIQUID,) if len(tank.layers) == 1 else (LOWER_LIQUID, UPPER_LIQUID)
 
 
-def grounded_names(tank: ScaledTank, *, released: bool) -> tuple[str, ...]:
+def grounded_names(tank: Tank, *, released: bool) -> tuple[str, ...]:
     """Surfaces on which ψ = 0: the open top in the limit of high frequency, or where the scene says so."""
     is_grounded = tank.top == "pressure_release" or (released and tank.top == "free")
     return (FREE_SURFACE,) if is_grounded and tank.levels[-1].is_open else ()
 
 
-def tank_outline(tank: ScaledTank, sizes: Sizes, *, half: bool = False, released: bool = False) -> Outline:
+def tank_outline(tank: Tank, sizes: Sizes, *, half: bool = False, released: bool = False) -> Outline:
     """The outline of a tank, or of its left half, without graded corners.
 
     Args:
@@ -81,7 +81,7 @@ def tank_outline(tank: ScaledTank, sizes: Sizes, *, half: bool = False, released
 class _Builder:
     """Collects curves; each one is added once, though two regions may share it."""
 
-    tank: ScaledTank
+    tank: Tank
     sizes: Sizes
     right: float
     half: bool
@@ -157,7 +157,7 @@ class _Builder:
             return ("", False) if self.released else (INTERFACE, True)
         return (LID if level.kind == "rigid" else FREE_SURFACE), False
 
-    def _contour(self, piece: Piece, body: ScaledFloat, stops: list[float], *, upper_side: bool) -> list[Directed]:
+    def _contour(self, piece: Piece, body: RigidFloat, stops: list[float], *, upper_side: bool) -> list[Directed]:
         assert piece.body is not None
         if body.is_thin:
             return []

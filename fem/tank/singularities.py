@@ -13,10 +13,10 @@ from math import atan2, dist, inf, pi
 
 import numpy as np
 
+from hydroelastic.fem.tank.outline import Sizes, grounded_names, tank_outline
 from hydroelastic.meshes.geometry import LEFT_WALL, RIGHT_WALL, SYMMETRY_PLANE
 from hydroelastic.meshes.outline import Outline, Point
-from hydroelastic.scenes.tank.outline import Sizes, grounded_names, tank_outline
-from hydroelastic.scenes.tank.scaled_tank import ScaledTank
+from hydroelastic.physics.tank import Tank
 
 _MIRRORS = (LEFT_WALL, RIGHT_WALL, SYMMETRY_PLANE)
 
@@ -135,7 +135,7 @@ def _reach(outline: Outline, point: Point, wedges: dict[Point, list[_Wedge]]) ->
     return min(0.45 * min(others), *(outline.curves[number].size for number in beside))
 
 
-def tank_singular_points(tank: ScaledTank, sizes: Sizes, *, half: bool, released: bool) -> tuple[SingularPoint, ...]:
+def tank_singular_points(tank: Tank, sizes: Sizes, *, half: bool, released: bool) -> tuple[SingularPoint, ...]:
     """The singular points of a scene, or of its left half; see `tank_outline`."""
     return singular_points(
         tank_outline(tank, sizes, half=half, released=released),
@@ -145,7 +145,7 @@ def tank_singular_points(tank: ScaledTank, sizes: Sizes, *, half: bool, released
     )
 
 
-def _kinks(tank: ScaledTank) -> dict[Point, float]:
+def _kinks(tank: Tank) -> dict[Point, float]:
     """Points of bodies at which the displacement of a thin float jumps, or the slope or curvature of a beam."""
     on_floats = {kink: _SIDE_JUMPS for body in tank.floats.values() for kink in body.kinks}
     on_beams = {

@@ -10,15 +10,15 @@ from scipy.linalg import eigh
 
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.meshes.geometry import body_name
-from hydroelastic.scenes.models.bodies import Motion
-from hydroelastic.scenes.tank.scaled_float import MOTIONS, ScaledFloat
-from hydroelastic.scenes.tank.symmetry import Parity, motion_parity
+from hydroelastic.physics.floats import RigidFloat
+from hydroelastic.physics.motions import MOTIONS, Motion
+from hydroelastic.physics.symmetry import Parity, motion_parity
 
 # Coupling and stiffness below this part of the largest are rounding.
 _NEGLIGIBLE = 1e-12
 
 
-def float_body(body: ScaledFloat, index: int, parity: Parity | None) -> Body:
+def float_body(body: RigidFloat, index: int, parity: Parity | None) -> Body:
     """A float in its principal motions; dimensionless.
 
     They are heave, sway and roll where gravity does not couple heave and roll, as it does in a section that is not its
@@ -47,7 +47,7 @@ def float_body(body: ScaledFloat, index: int, parity: Parity | None) -> Body:
 
 
 def principal_motions(
-    body: ScaledFloat, motions: tuple[Motion, ...]
+    body: RigidFloat, motions: tuple[Motion, ...]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
     """Motions that neither stiffness nor inertia couples.
 
@@ -72,15 +72,15 @@ def principal_motions(
     return turn, restoring, np.einsum("im,i,im->m", turn, inertia, turn)
 
 
-def _singular_points(body: ScaledFloat) -> NDArray[np.float64] | None:
+def _singular_points(body: RigidFloat) -> NDArray[np.float64] | None:
     """Where the slope of a thin float's profile has no bound: the ends of a thin ellipse."""
-    if body.profile is None or body.profile.shape != "ellipse":
+    if not body.is_thin or body.profile is None or body.profile.shape != "ellipse":
         return None
     return np.array([[body.waterplane[0], y] for y in body.slit])
 
 
 def _exact_shape(
-    body: ScaledFloat,
+    body: RigidFloat,
     motions: tuple[Motion, ...],
     turn: NDArray[np.float64],
     points: NDArray[np.float64],
@@ -96,7 +96,7 @@ def _exact_shape(
 
 
 def _thin_shape(
-    body: ScaledFloat,
+    body: RigidFloat,
     motions: tuple[Motion, ...],
     turn: NDArray[np.float64],
     points: NDArray[np.float64],
@@ -105,7 +105,7 @@ def _thin_shape(
 ) -> NDArray[np.float64]:
     """The flux through the contour x = x₀ ± ω(y) put on x = x₀: n ds = (∓1, ω') dy out of the liquid."""
     assert body.profile is not None
-    y = points[1] - body.reference_level
+    y = points[1] - body.hydrostatics.reference_level
     # The liquid on the right has its normal to the left, and the contour to the right.
     on_contour = np.array([points[0] - normals[0] * body.profile.half_width_at(y), points[1]])
     flux = np.array([normals[0], body.profile.slope_at(y)])

@@ -11,14 +11,14 @@ from dataclasses import dataclass
 from mpi4py import MPI
 
 from hydroelastic.fem.liquid import compile_form
+from hydroelastic.fem.stopwatch import Stopwatch
+from hydroelastic.fem.tank.elastic_tone import ElasticTone, elastic_tone
+from hydroelastic.fem.tank.error_estimates import ROUNDING_OF_SPREAD, FrequencyErrors, frequency_errors, refined
+from hydroelastic.fem.tank.field_model import build_mesh
+from hydroelastic.fem.tank.field_solution import FieldSolution, solve_field
+from hydroelastic.fem.tank.resolution import Resolution, sharpest_exponent
 from hydroelastic.meshes.distribute import TankMesh
-from hydroelastic.scenes.output.stopwatch import Stopwatch
-from hydroelastic.scenes.tank.certainty import ROUNDING_OF_SPREAD, FrequencyErrors, frequency_errors, refined
-from hydroelastic.scenes.tank.field_model import build_mesh
-from hydroelastic.scenes.tank.field_solution import FieldSolution, solve_field
-from hydroelastic.scenes.tank.plan import Resolution, sharpest_exponent
-from hydroelastic.scenes.tank.scaled_tank import ScaledTank
-from hydroelastic.scenes.tank.tones import ElasticTone, elastic_tone
+from hydroelastic.physics.tank import Tank
 
 _MOST_ATTEMPTS = 5
 
@@ -55,7 +55,7 @@ class Companion:
 
 def solve_companion(
     comm: MPI.Comm,
-    tank: ScaledTank,
+    tank: Tank,
     resolution: Resolution,
     tolerance: float,
     brought: TankMesh | None,
@@ -99,7 +99,7 @@ def solve_companion(
 
 
 def _tones(
-    mesh: TankMesh, tank: ScaledTank, resolution: Resolution, tolerance: float, *, half: bool
+    mesh: TankMesh, tank: Tank, resolution: Resolution, tolerance: float, *, half: bool
 ) -> tuple[Companion, FrequencyErrors]:
     """Solve for more and more modes until they hold the tone of each beam."""
     beams = tuple(tank.beams)

@@ -1,4 +1,4 @@
-"""The thin-float theory's estimates of a scene's floats, with the paper's constants as printed beside them."""
+"""The thin-float theory's estimates of the floats of a tank, with the paper's constants as printed beside them."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from hydroelastic.modal.floats.estimates import FloatEstimate, all_float_estimat
 from hydroelastic.modal.floats.in_tank import FloatInTank
 from hydroelastic.modal.floats.thin_float_paper import PrintedAndCorrected, printed_constants
 from hydroelastic.modal.liquid.two_layer import TwoLayers
-from hydroelastic.scenes.models.floats import float_section, placed_float
-from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.tank.estimates import two_layers
+from hydroelastic.modal.tank_estimates import two_layers
+from hydroelastic.physics.floats import RigidFloat
+from hydroelastic.physics.tank import Tank
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,32 +27,29 @@ class EstimatesOfFloat:
     printed: dict[str, PrintedAndCorrected]
 
 
-def float_estimates(scene: TankScene) -> dict[int, EstimatesOfFloat]:
+def float_estimates(tank: Tank) -> dict[int, EstimatesOfFloat]:
     """Estimates of every float that heaves at the lowest level, as if it were alone in the tank, by its index."""
-    if len(scene.layers) == 1 and scene.top != "free":
+    if len(tank.layers) == 1 and tank.top != "free":
         # The theories of one liquid know its free surface only.
         return {}
-    layers = two_layers(scene)
-    lowest = "surface" if len(scene.layers) == 1 else "interface"
+    layers, lowest = two_layers(tank), tank.levels[0].name
     found = {}
-    for index, body in scene.floats:
-        if "heave" in body.motions and scene.level_of(body) == lowest:
-            floating = _float_in_tank(scene, layers, index)
+    for index, body in tank.floats.items():
+        if "heave" in body.motions and body.level == lowest:
+            floating = _float_in_tank(tank, layers, body)
             found[index] = EstimatesOfFloat(heave=all_float_estimates(floating), printed=_printed(floating))
     return found
 
 
-def _float_in_tank(scene: TankScene, layers: TwoLayers, index: int) -> FloatInTank:
-    rest = placed_float(scene, index).hydrostatics
-    body = dict(scene.floats)[index]
-    at_reference_level = rest.reference_level == rest.level
+def _float_in_tank(tank: Tank, layers: TwoLayers, body: RigidFloat) -> FloatInTank:
+    rest = body.hydrostatics
     return FloatInTank(
         layers=layers,
-        tank_length=scene.tank.length,
+        tank_length=tank.length,
         position=0.5 * sum(rest.waterplane),
         mass=rest.mass,
         stiffness=rest.heave_stiffness,
-        profile=float_section(body) if at_reference_level else None,
+        profile=body.profile if rest.reference_level == rest.level else None,
     )
 
 

@@ -6,20 +6,20 @@ from dataclasses import replace
 
 import numpy as np
 
+from hydroelastic.fem.tank.outline import Sizes, tank_outline, unsized
+from hydroelastic.fem.tank.resolution import Resolution, sharpest_exponent
+from hydroelastic.fem.tank.singularities import tank_singular_points
 from hydroelastic.meshes.geometry import FREE_SURFACE, LID, LIQUID, TankGeometry, body_name, tank_geometry
 from hydroelastic.meshes.grading import Grading
 from hydroelastic.meshes.outline import Corner, Outline
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
-from hydroelastic.scenes.tank.corners import tank_singular_points
-from hydroelastic.scenes.tank.outline import Sizes, tank_outline, unsized
-from hydroelastic.scenes.tank.plan import Resolution, sharpest_exponent
-from hydroelastic.scenes.tank.scaled_tank import ScaledTank
+from hydroelastic.physics.tank import Tank
 
 # A mesh that the user brings may miss the scene's abscissae by this part of the tank's length: files round.
 _MESH_ROUNDING = 1e-6
 
 
-def geometry_of(tank: ScaledTank, *, half: bool = False) -> TankGeometry:
+def geometry_of(tank: Tank, *, half: bool = False) -> TankGeometry:
     """The outline of a tank with one liquid and no floats, or of its left half, with the names of its top."""
     rest = LID if tank.top == "rigid" else FREE_SURFACE
     length = 0.5 if half else 1.0
@@ -31,7 +31,7 @@ def geometry_of(tank: ScaledTank, *, half: bool = False) -> TankGeometry:
     return tank_geometry(length=length, depth=tank.depth, pieces=pieces, mirrored=half)
 
 
-def make_mesh(tank: ScaledTank, resolution: Resolution, *, half: bool = False, released: bool = False) -> TaggedMesh:
+def make_mesh(tank: Tank, resolution: Resolution, *, half: bool = False, released: bool = False) -> TaggedMesh:
     """Mesh a scene, or its left half, with gmsh; in units of the tank.
 
     Args:
@@ -66,7 +66,7 @@ def make_mesh(tank: ScaledTank, resolution: Resolution, *, half: bool = False, r
     )
 
 
-def graded_outline(tank: ScaledTank, resolution: Resolution, *, half: bool, released: bool) -> Outline:
+def graded_outline(tank: Tank, resolution: Resolution, *, half: bool, released: bool) -> Outline:
     """The outline of a scene with rings at its singular points, each as deep as its singularity asks for."""
     contours = {
         piece.body: size
@@ -91,7 +91,7 @@ def graded_outline(tank: ScaledTank, resolution: Resolution, *, half: bool, rele
     return replace(outline, corners=corners)
 
 
-def tip_points(tank: ScaledTank, *, half: bool, released: bool = False) -> np.ndarray:
+def tip_points(tank: Tank, *, half: bool, released: bool = False) -> np.ndarray:
     """Where meshes of a scene are graded to, shape (points, 2)."""
     if is_plain(tank):
         return np.array([[tip, 0.0] for tip in geometry_of(tank, half=half).tips]).reshape(-1, 2)
@@ -99,7 +99,7 @@ def tip_points(tank: ScaledTank, *, half: bool, released: bool = False) -> np.nd
     return np.array([point.point for point in points]).reshape(-1, 2)
 
 
-def is_plain(tank: ScaledTank) -> bool:
+def is_plain(tank: Tank) -> bool:
     """Whether the liquid is a rectangle whose top is cut into pieces, with beams that are smooth on each."""
     return len(tank.layers) == 1 and not tank.floats and not any(tank.nodes_of(index) for index in tank.beams)
 
@@ -119,7 +119,7 @@ def unknown_count(points: int, triangles: int, degree: int, *, parts: int = 1) -
     return points + (degree - 1) * edges + (degree - 1) * (degree - 2) // 2 * triangles
 
 
-def check_mesh(tank: ScaledTank, tagged: TaggedMesh) -> None:
+def check_mesh(tank: Tank, tagged: TaggedMesh) -> None:
     """Check names and extents of a mesh against the scene.
 
     Raises:
@@ -143,7 +143,7 @@ def check_mesh(tank: ScaledTank, tagged: TaggedMesh) -> None:
         _check_length(tagged, name, sum(piece.end - piece.start for piece in segments))
 
 
-def _check_nodes(tank: ScaledTank, tagged: TaggedMesh) -> None:
+def _check_nodes(tank: Tank, tagged: TaggedMesh) -> None:
     for index in tank.beams:
         name = body_name(index + 1)
         x = tagged.facet_nodes(name)[:, 0]

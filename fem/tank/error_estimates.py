@@ -13,12 +13,12 @@ from hydroelastic.fem.cells import cells_at
 from hydroelastic.fem.liquid import LiquidSpace
 from hydroelastic.fem.modes import EigenSolverError, Mode
 from hydroelastic.fem.spectral_error import cell_errors
+from hydroelastic.fem.tank.field_solution import FieldSolution
+from hydroelastic.fem.tank.mesh import tip_points
+from hydroelastic.fem.tank.resolution import HIGHEST_DEGREE, Resolution, rounding_error
 from hydroelastic.fem.truncation import truncation_errors
 from hydroelastic.meshes.distribute import TankMesh
-from hydroelastic.scenes.tank.field_solution import FieldSolution
-from hydroelastic.scenes.tank.mesh import tip_points
-from hydroelastic.scenes.tank.plan import HIGHEST_DEGREE, Resolution, rounding_error
-from hydroelastic.scenes.tank.scaled_tank import ScaledTank
+from hydroelastic.physics.tank import Tank
 
 ROUNDING_OF_SPREAD = 1e-15
 """Lanczos leaves a few units of the last place of the largest 1/λ in each."""
@@ -55,7 +55,7 @@ def frequency_errors(
     modes: list[Mode],
     parts: list[int],
     resolution: Resolution,
-    tank: ScaledTank,
+    tank: Tank,
     *,
     released: bool = False,
 ) -> FrequencyErrors:
@@ -93,7 +93,7 @@ def frequency_errors(
 def energies_missed(
     liquid: LiquidSpace,
     potentials: list[PETSc.Vec],
-    tank: ScaledTank,
+    tank: Tank,
     resolution: Resolution,
     *,
     half: bool,
@@ -115,7 +115,7 @@ def energies_missed(
     return whole - at_tips, at_tips
 
 
-def boundary_error(mesh: TankMesh, tank: ScaledTank) -> float:
+def boundary_error(mesh: TankMesh, tank: Tank) -> float:
     """Relative error of frequencies from cells that miss a float's contour by δ, an upper estimate.
 
     Between nodes the boundary lies now on one side of the contour, now on the other, and most of it cancels. Measured

@@ -1,4 +1,4 @@
-"""How short the waves are that a scene's modes carry: wavenumbers and mode counts from local dispersion.
+"""How short the waves are that modes carry: wavenumbers and mode counts from local dispersion.
 
 In a piece of a still level of length s, waves of wavenumber k(ω) fit about k s/π times. Summed over the pieces this
 counts the modes below ω well enough to choose a mesh; the a-posteriori estimate then judges the choice.
@@ -11,7 +11,8 @@ from math import pi, tanh
 
 from scipy.optimize import brentq
 
-from hydroelastic.scenes.models.tank import Beam
+from hydroelastic.physics.beams import Section
+from hydroelastic.physics.tank import Piece, StillLevel, Tank
 
 _WIDEST = 1e12  # dimensionless wavenumbers beyond this are nobody's
 
@@ -22,14 +23,16 @@ class LevelPiece:
 
     Attributes:
         length: its length.
-        beam: the beam that floats there; ``None`` is a surface of the liquids.
+        beam: the section of a beam that floats there; ``None`` is a surface of the liquids.
         jump: ρ below less ρ above it, which restores it.
+        restored: whether it restores a beam too.
         layers: density and depth of each layer that moves with it.
     """
 
     length: float
-    beam: Beam | None
+    beam: Section | None
     jump: float
+    restored: bool
     layers: tuple[tuple[float, float], ...]
 
     def squared_frequency(self, wavenumber: float) -> float:
@@ -37,7 +40,7 @@ class LevelPiece:
         liquid = sum(density / (wavenumber * tanh(wavenumber * depth)) for density, depth in self.layers)
         if self.beam is None:
             return self.jump / liquid
-        stiffness = self.beam.flexural_rigidity * wavenumber**4 + float(self.beam.hydrostatic) * self.jump
+        stiffness = self.beam.flexural_rigidity * wavenumber**4 + float(self.restored) * self.jump
         return stiffness / (self.beam.mass_per_length + liquid)
 
     def wavenumber(self, squared_frequency: float) -> float:
@@ -52,6 +55,34 @@ class LevelPiece:
         if high >= _WIDEST:
             return _WIDEST
         return float(brentq(lambda k: self.squared_frequency(k) - squared_frequency, shortest, high))
+
+
+def moving_pieces(tank: Tank) -> tuple[LevelPiece, ...]:
+    """How waves travel on the still levels of a tank, from the bottom up and from left to right."""
+    return tuple(
+        moving for level in tank.levels for piece in level.pieces for moving in moving_parts(tank, level, piece)
+    )
+
+
+def moving_parts(tank: Tank, level: StillLevel, piece: Piece) -> tuple[LevelPiece, ...]:
+    """How waves travel on a piece of a level, on each section of a beam; none where none do."""
+    layers = _layers_at(tank, level)
+    if piece.body in tank.beams:
+        beam = tank.beams[piece.body]
+        return tuple(
+            LevelPiece(length=part.length, beam=part, jump=level.jump, restored=beam.hydrostatic, layers=layers)
+            for part in beam.sections
+        )
+    if piece.body is not None or not level.moves:
+        return ()
+    return (LevelPiece(length=piece.length, beam=None, jump=level.jump, restored=True, layers=layers),)
+
+
+def _layers_at(tank: Tank, level: StillLevel) -> tuple[tuple[float, float], ...]:
+    """Density and depth of the layers that move with a level; at a top over two of them, as if they were one."""
+    if level.above is None:
+        return ((tank.layers[-1].density, sum(layer.depth for layer in tank.layers)),)
+    return tuple((tank.layers[number].density, tank.layers[number].depth) for number in (level.below, level.above))
 
 
 def modes_below(pieces: tuple[LevelPiece, ...], squared_frequency: float) -> float:

@@ -4,27 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from functools import partial
 
-import numpy as np
 from mpi4py import MPI
 
+from hydroelastic.fem.bodies.beam import beam_body
 from hydroelastic.fem.liquid import Layer, liquid_matrices, liquid_space
 from hydroelastic.fem.pencil import CoupledPencil, build_pencil
 from hydroelastic.fem.surfaces import Body, LiquidSurface
+from hydroelastic.fem.tank.mesh import check_mesh, make_mesh
+from hydroelastic.fem.tank.outline import grounded_names, layer_names
+from hydroelastic.fem.tank.resolution import Resolution
 from hydroelastic.meshes.distribute import TankMesh, distribute_mesh
-from hydroelastic.meshes.geometry import FAR_END, FREE_SURFACE, INTERFACE, SYMMETRY_PLANE, body_name
+from hydroelastic.meshes.geometry import FAR_END, FREE_SURFACE, INTERFACE, SYMMETRY_PLANE
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
-from hydroelastic.scenes.tank.beam_shapes import BeamShapes, beam_shapes
-from hydroelastic.scenes.tank.mesh import check_mesh, make_mesh
-from hydroelastic.scenes.tank.outline import grounded_names, layer_names
-from hydroelastic.scenes.tank.plan import Resolution
-from hydroelastic.scenes.tank.scaled_tank import ScaledTank
-from hydroelastic.scenes.tank.symmetry import PARITIES, Parity, left_bodies, shape_parities, twin_of
+from hydroelastic.physics.symmetry import PARITIES, Parity, left_bodies, twin_of
+from hydroelastic.physics.tank import Tank
 
 
 def build_mesh(
-    comm: MPI.Comm, tank: ScaledTank, resolution: Resolution, *, half: bool = False, released: bool = False
+    comm: MPI.Comm, tank: Tank, resolution: Resolution, *, half: bool = False, released: bool = False
 ) -> TankMesh:
     """Mesh a scene, or its left half, with gmsh on rank 0 and distribute it (collective).
 
@@ -54,7 +52,7 @@ def distributed_mesh(comm: MPI.Comm, make: Callable[[], TaggedMesh]) -> TankMesh
     return _distributed(comm, tagged, problem)
 
 
-def bring_mesh(comm: MPI.Comm, tank: ScaledTank, tagged: TaggedMesh | None, problem: str = "") -> TankMesh:
+def bring_mesh(comm: MPI.Comm, tank: Tank, tagged: TaggedMesh | None, problem: str = "") -> TankMesh:
     """Distribute a mesh that the user brought, already in units of the tank, after checking that it fits the scene.
 
     Raises:
@@ -76,7 +74,7 @@ def _distributed(comm: MPI.Comm, tagged: TaggedMesh | None, problem: str) -> Tan
 
 
 def build_field_model(
-    mesh: TankMesh, tank: ScaledTank, *, degree: int, shapes: tuple[int, ...], pressure_release: bool = False
+    mesh: TankMesh, tank: Tank, *, degree: int, shapes: tuple[int, ...], pressure_release: bool = False
 ) -> CoupledPencil:
     """Assemble the coupled problem of a whole tank.
 
@@ -97,7 +95,7 @@ def build_field_model(
 
 def build_half_models(
     mesh: TankMesh,
-    tank: ScaledTank,
+    tank: Tank,
     *,
     degree: int,
     shapes: tuple[int, ...],
@@ -121,7 +119,7 @@ def build_half_models(
     return _field_models(mesh, tank, degree, shapes, pressure_release, parities)
 
 
-def moving_parities(tank: ScaledTank, shapes: tuple[int, ...], *, pressure_release: bool) -> tuple[Parity, ...]:
+def moving_parities(tank: Tank, shapes: tuple[int, ...], *, pressure_release: bool) -> tuple[Parity, ...]:
     """The symmetries in which something moves: none of a lid's, and none above the waves that no body has."""
     if not pressure_release and any(level.moves and level.is_open for level in tank.levels):
         return PARITIES
@@ -130,7 +128,7 @@ def moving_parities(tank: ScaledTank, shapes: tuple[int, ...], *, pressure_relea
 
 def _field_models(
     mesh: TankMesh,
-    tank: ScaledTank,
+    tank: Tank,
     degree: int,
     shapes: tuple[int, ...],
     pressure_release: bool,
@@ -154,7 +152,7 @@ def _field_models(
     return tuple(pencils)
 
 
-def moving_surfaces(mesh: TankMesh, tank: ScaledTank) -> tuple[LiquidSurface, ...]:
+def moving_surfaces(mesh: TankMesh, tank: Tank) -> tuple[LiquidSurface, ...]:
     """The surfaces of the liquids on which gravity waves travel."""
     surfaces = (
         LiquidSurface(
@@ -169,7 +167,7 @@ def moving_surfaces(mesh: TankMesh, tank: ScaledTank) -> tuple[LiquidSurface, ..
     return tuple(surface for surface in surfaces if surface.surface in mesh.facet_names)
 
 
-def whole_bodies(tank: ScaledTank, shapes: tuple[int, ...]) -> tuple[Body, ...]:
+def whole_bodies(tank: Tank, shapes: tuple[int, ...]) -> tuple[Body, ...]:
     """Every beam of a tank in its first dry modes, every float in its motions, in the scene's order.
 
     A beam without dry modes is held still.
@@ -177,51 +175,17 @@ def whole_bodies(tank: ScaledTank, shapes: tuple[int, ...]) -> tuple[Body, ...]:
     return tuple(_body(tank, index, count, None) for index, count in enumerate(shapes))
 
 
-def _half_bodies(tank: ScaledTank, shapes: tuple[int, ...], parity: Parity) -> tuple[Body, ...]:
+def _half_bodies(tank: Tank, shapes: tuple[int, ...], parity: Parity) -> tuple[Body, ...]:
     return tuple(
         _body(tank, index, shapes[index], parity if twin_of(tank, index) == index else None)
         for index in left_bodies(tank)
     )
 
 
-def _body(tank: ScaledTank, index: int, count: int, parity: Parity | None) -> Body:
+def _body(tank: Tank, index: int, count: int, parity: Parity | None) -> Body:
     if index in tank.beams:
-        return _beam_body(tank, index, count, parity)
-    from hydroelastic.scenes.tank.float_body import float_body
+        return beam_body(tank, index, count, parity)
+    # Contours need SciPy's root finders, which take a while to import.
+    from hydroelastic.fem.bodies.rigid_float import float_body
 
     return float_body(tank.floats[index], index, parity)
-
-
-def _beam_body(tank: ScaledTank, index: int, count: int, parity: Parity | None) -> Body:
-    """A beam in its first ``count`` shapes, rigid ones included; dimensionless.
-
-    With a parity, only the shapes of that parity about its middle, and the energies of half the beam.
-    """
-    beam, piece, jump = tank.beams[index], tank.piece_of(index), tank.level_of(index).jump
-    part = 1.0 if parity is None else 0.5
-    shapes = beam_shapes(beam, count)
-    numbers = [number for number, own in enumerate(shape_parities(beam, count)) if parity in (None, own)]
-    bending = part * shapes.bending[numbers]
-    return Body(
-        surface=body_name(index + 1),
-        shapes=partial(_shape_at, shapes, piece.start, piece.length, numbers),
-        wavenumber=shapes.wavenumber,
-        labels=tuple(shapes.labels[number] for number in numbers),
-        stiffness=bending + part * float(beam.hydrostatic) * jump * piece.length,
-        bending_stiffness=bending,
-        mass=part * shapes.mass[np.ix_(numbers, numbers)],
-    )
-
-
-def _shape_at(
-    shapes: BeamShapes,
-    start: float,
-    length: float,
-    numbers: list[int],
-    points: np.ndarray,
-    normals: np.ndarray,
-    place: int,
-) -> np.ndarray:
-    # Quadrature points at the tips may miss them by rounding.
-    upwards: np.ndarray = shapes.deflection(numbers[place], np.clip(points[0] - start, 0.0, length)) * normals[1]
-    return upwards

@@ -1,11 +1,15 @@
-"""A beam of uniform sections with elastic joints and hinges: what it is made of, and where it may bend or kink."""
+"""An Euler–Bernoulli beam of uniform sections with elastic joints and hinges, and where it floats."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
-from math import isfinite
+from math import fsum, isfinite
+from typing import Literal
+
+from hydroelastic.physics.motions import Level
+from hydroelastic.physics.scales import Scales
 
 SAME_PLACE = 1e-9
 """Places closer than this part of the beam's length are one: decimal input is not exact."""
@@ -42,12 +46,16 @@ class Joint:
 
 
 @dataclass(frozen=True, kw_only=True)
-class JointedBeam:
-    """A beam with free ends; sections are welded to each other where there is no joint.
+class Beam:
+    """A beam without draught; its sections are welded to each other where there is no joint.
 
     Attributes:
-        sections: from left to right.
+        sections: from left to right; one of a uniform beam.
         joints: from left to right.
+        start: x of its left end, m.
+        level: at which it floats.
+        hydrostatic: whether the hydrostatic restoring Δρ g w acts on it.
+        ends: free (no moment, no shear force), or guided (no slope, no shear force).
 
     Raises:
         ValueError: if a number is not positive and finite, or a joint lies at an end, outside, or upon another.
@@ -55,6 +63,10 @@ class JointedBeam:
 
     sections: tuple[Section, ...]
     joints: tuple[Joint, ...] = ()
+    start: float = 0.0
+    level: Level = "surface"
+    hydrostatic: bool = True
+    ends: Literal["free", "guided"] = "free"
 
     def __post_init__(self) -> None:
         """Refuse what is no beam."""
@@ -70,7 +82,68 @@ class JointedBeam:
     @cached_property
     def length(self) -> float:
         """Length of the whole beam, m."""
-        return sum(part.length for part in self.sections)
+        return fsum(part.length for part in self.sections)
+
+    @property
+    def end(self) -> float:
+        """x of its right end, m."""
+        return self.start + self.length
+
+    @property
+    def is_uniform(self) -> bool:
+        """Whether it has one section and no joints."""
+        return len(self.sections) == 1 and not self.joints
+
+    @property
+    def flexural_rigidity(self) -> float:
+        """EI of the uniform beam as flexible on the whole, l/EI = Σ lᵢ/EIᵢ, N·m per metre of width."""
+        if len(self.sections) == 1:
+            return self.sections[0].flexural_rigidity
+        return self.length / fsum(part.length / part.flexural_rigidity for part in self.sections)
+
+    @property
+    def mass_per_length(self) -> float:
+        """Mean mass per length and metre of width, kg/m²."""
+        if len(self.sections) == 1:
+            return self.sections[0].mass_per_length
+        return fsum(part.length * part.mass_per_length for part in self.sections) / self.length
+
+    def scaled(self, units: Scales, start: float, end: float) -> Beam:
+        """Return the beam in other units, between given ends in these units."""
+        # One section fills the whole length to the last digit.
+        stretch = (end - start) / self.length
+        only = end - start if len(self.sections) == 1 else None
+        return replace(
+            self,
+            start=start,
+            sections=tuple(
+                Section(
+                    length=only or part.length * stretch,
+                    flexural_rigidity=part.flexural_rigidity / units.flexural_rigidity,
+                    mass_per_length=part.mass_per_length / units.mass_per_length,
+                )
+                for part in self.sections
+            ),
+            joints=tuple(
+                Joint(
+                    at=joint.at / units.length,
+                    rotational_stiffness=joint.rotational_stiffness / units.rotational_stiffness,
+                )
+                for joint in self.joints
+            ),
+        )
+
+    def mirrors(self, other: object) -> bool:
+        """Whether it is the mirror image of another body, wherever both float, but for rounding."""
+        return (
+            isinstance(other, Beam)
+            and (self.hydrostatic, self.ends) == (other.hydrostatic, other.ends)
+            and alike(self, other.reversed)
+        )
+
+    def with_even_mass(self) -> Beam:
+        """Return the beam with a mass per length of 1 everywhere, and its left end at the origin."""
+        return replace(self, start=0.0, sections=tuple(replace(part, mass_per_length=1.0) for part in self.sections))
 
     @property
     def hinges(self) -> tuple[float, ...]:
@@ -108,9 +181,10 @@ class JointedBeam:
         return min(range(len(self.edges)), key=lambda number: abs(self.edges[number] - joint.at))
 
     @cached_property
-    def reversed(self) -> JointedBeam:
-        """The beam seen from the other side."""
-        return JointedBeam(
+    def reversed(self) -> Beam:
+        """The beam seen from the other side, in its place."""
+        return replace(
+            self,
             sections=self.sections[::-1],
             joints=tuple(replace(joint, at=self.length - joint.at) for joint in reversed(self.joints)),
         )
@@ -121,15 +195,15 @@ class JointedBeam:
         return alike(self, self.reversed)
 
 
-def alike(one: JointedBeam, other: JointedBeam) -> bool:
-    """Whether two beams are equal but for rounding."""
+def alike(one: Beam, other: Beam) -> bool:
+    """Whether two beams are equal, wherever they float, but for rounding."""
     numbers, others = _numbers(one), _numbers(other)
     return len(numbers) == len(others) and all(
         abs(a - b) <= _ALIKE * max(abs(a), abs(b), scale) for (a, scale), (b, _) in zip(numbers, others, strict=True)
     )
 
 
-def _numbers(beam: JointedBeam) -> list[tuple[float, float]]:
+def _numbers(beam: Beam) -> list[tuple[float, float]]:
     """All that describes a beam, each number with the size beside which it may be rounding."""
     spans = [
         number
@@ -140,7 +214,7 @@ def _numbers(beam: JointedBeam) -> list[tuple[float, float]]:
     return [*spans, *joints, (float(len(beam.joints)), 0.0)]
 
 
-def comes_first(beam: JointedBeam) -> bool:
+def comes_first(beam: Beam) -> bool:
     """Whether of a beam and its reverse this is the one in whose direction shapes are computed.
 
     Twins then have shapes that are mirror images of each other, with their signs.

@@ -13,9 +13,9 @@ import numpy as np
 
 from hydroelastic.fem.modes import ModeSet
 from hydroelastic.fem.surfaces import Body
-from hydroelastic.scenes.tank.estimates import FAR_ENOUGH
-from hydroelastic.scenes.tank.high_frequency import HighFrequencyAddedMass
-from hydroelastic.scenes.tank.scaled_tank import ScaledTank
+from hydroelastic.fem.tank.expected import FAR_ENOUGH
+from hydroelastic.fem.tank.infinite_frequency import HighFrequencyAddedMass
+from hydroelastic.physics.tank import Tank
 
 # A motion with a smaller part of a mode's kinetic energy is held: what is left of it is rounding.
 _HELD = 1e-18
@@ -52,7 +52,7 @@ class _Motion:
     mass: float
 
 
-def _restored(tank: ScaledTank, bodies: tuple[Body, ...]) -> list[_Motion]:
+def _restored(tank: Tank, bodies: tuple[Body, ...]) -> list[_Motion]:
     """The motions of floats that have a stiffness, with their places among the unknowns of all bodies."""
     offsets = np.cumsum([0, *(body.size for body in bodies)])
     return [
@@ -73,7 +73,7 @@ def _restored(tank: ScaledTank, bodies: tuple[Body, ...]) -> list[_Motion]:
 
 
 def float_modes(
-    tank: ScaledTank,
+    tank: Tank,
     bodies: tuple[Body, ...],
     modes: ModeSet,
     added: HighFrequencyAddedMass | None,

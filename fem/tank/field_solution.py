@@ -11,23 +11,23 @@ from itertools import pairwise
 
 import numpy as np
 
+from hydroelastic.fem.bodies.beam import shape_parities
 from hydroelastic.fem.liquid import compile_form
 from hydroelastic.fem.modes import HIDDEN, Mode, ModeSet, count_below, solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
+from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.fem.surfaces import Body, LiquidSurface
+from hydroelastic.fem.tank.field_model import build_field_model, build_half_models, moving_parities, whole_bodies
+from hydroelastic.fem.tank.resolution import Resolution
 from hydroelastic.meshes.distribute import TankMesh
-from hydroelastic.scenes.output.stopwatch import Stopwatch
-from hydroelastic.scenes.tank.field_model import build_field_model, build_half_models, moving_parities, whole_bodies
-from hydroelastic.scenes.tank.plan import Resolution
-from hydroelastic.scenes.tank.scaled_tank import ScaledTank
-from hydroelastic.scenes.tank.symmetry import (
+from hydroelastic.physics.symmetry import (
     Parity,
     left_bodies,
     motion_parity,
-    shape_parities,
     shapes_of_twins,
     twin_of,
 )
+from hydroelastic.physics.tank import Tank
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -96,7 +96,7 @@ class FieldSolution:
 
 def solve_field(
     mesh: TankMesh,
-    tank: ScaledTank,
+    tank: Tank,
     resolution: Resolution,
     count: int,
     watch: Stopwatch,
@@ -136,7 +136,7 @@ def solve_field(
 
 def part_models(
     mesh: TankMesh,
-    tank: ScaledTank,
+    tank: Tank,
     degree: int,
     shapes: tuple[int, ...],
     *,
@@ -184,7 +184,7 @@ def _rounding_limit(parts: list[Part]) -> float:
     return min(lowest, default=np.inf) / HIDDEN
 
 
-def _merged(mesh: TankMesh, tank: ScaledTank, resolution: Resolution, parts: list[Part], count: int) -> FieldSolution:
+def _merged(mesh: TankMesh, tank: Tank, resolution: Resolution, parts: list[Part], count: int) -> FieldSolution:
     limit = _rounding_limit(parts)
     ordered = sorted(
         (float(value), number, index)
@@ -238,7 +238,7 @@ def _extended(mode: Mode, extension: np.ndarray) -> Mode:
     )
 
 
-def extension(tank: ScaledTank, bodies: tuple[Body, ...], parity: Parity | None) -> np.ndarray:
+def extension(tank: Tank, bodies: tuple[Body, ...], parity: Parity | None) -> np.ndarray:
     """Matrix from the body unknowns of a part to those of the whole tank, both at their unit generalized mass."""
     size = sum(body.size for body in bodies)
     if parity is None:
@@ -259,7 +259,7 @@ def extension(tank: ScaledTank, bodies: tuple[Body, ...], parity: Parity | None)
     return np.array(columns).reshape(len(columns), size).T
 
 
-def _parities(tank: ScaledTank, index: int, body: Body) -> list[Parity]:
+def _parities(tank: Tank, index: int, body: Body) -> list[Parity]:
     """Symmetry of each of a body's shapes about its middle."""
     if index in tank.beams:
         return list(shape_parities(tank.beams[index], body.size))

@@ -1,4 +1,4 @@
-"""The shapes in which a beam of a scaled scene moves: dry modes in closed form where it is uniform, else computed ones.
+"""The shapes in which a beam moves: dry modes in closed form where it is uniform, else computed ones.
 
 All are orthogonal in the bending energy and in plain ∫wᵢwⱼ, so that the hydrostatic restoring stays diagonal: those of
 a stepped or jointed beam are its dry modes with an even mass. Only the mass of one whose sections differ in it couples
@@ -15,9 +15,8 @@ from numpy.typing import NDArray
 
 from hydroelastic.modal.beam.dry_modes import free_free_shape, free_free_wavenumber
 from hydroelastic.modal.beam.guided_modes import guided_shape, guided_wavenumber
-from hydroelastic.modal.beam.jointed_beam import Joint, JointedBeam, Section
 from hydroelastic.modal.beam.jointed_modes import JointedModes, jointed_modes
-from hydroelastic.scenes.models.bodies import Beam
+from hydroelastic.physics.beams import Beam
 
 Array = NDArray[np.float64]
 
@@ -70,7 +69,7 @@ def _closed_shapes(beam: Beam, count: int) -> BeamShapes:
 
 def _computed_shapes(beam: Beam, count: int) -> BeamShapes:
     modes = even_modes(beam, count)
-    length, masses = beam.length, np.array([part.mass_per_length for part in jointed_beam(beam).spans])
+    length, masses = beam.length, np.array([part.mass_per_length for part in beam.spans])
     # Exactly diagonal where it is so.
     mass = modes.products(masses) if np.any(masses != masses[0]) else masses[0] * np.eye(len(modes.labels))
     scale = float(np.sqrt(length))
@@ -101,39 +100,16 @@ class _AllAtOnce:
         return values
 
 
-def jointed_beam(beam: Beam, *, even: bool = False) -> JointedBeam:
-    """A beam as its dry modes take it.
-
-    Args:
-        beam: the beam.
-        even: whether its mass is to be 1 everywhere.
-    """
-    return JointedBeam(
-        sections=tuple(
-            Section(
-                length=part.length,
-                flexural_rigidity=part.flexural_rigidity,
-                mass_per_length=1.0 if even else part.mass_per_length,
-            )
-            for part in beam.parts
-        ),
-        joints=tuple(
-            Joint(at=joint.at, rotational_stiffness=joint.rotational_stiffness)
-            for joint in sorted(beam.joints, key=lambda joint: joint.at)
-        ),
-    )
-
-
 def even_modes(beam: Beam, count: int) -> JointedModes:
     """Dry modes of a stepped or jointed beam as if its mass were 1 everywhere."""
-    return jointed_modes(jointed_beam(beam, even=True), count)
+    return jointed_modes(beam.with_even_mass(), count)
 
 
 def first_dry_eigenvalue(beam: Beam) -> float:
     """λ of the first elastic mode of a beam in vacuum."""
     if not beam.is_uniform:
         rigid = 2 + len(beam.hinges)
-        return float(jointed_modes(jointed_beam(beam), rigid + 1).squared_frequencies[rigid])
+        return float(jointed_modes(beam, rigid + 1).squared_frequencies[rigid])
     shapes = beam_shapes(beam, 3)
     first = shapes.labels.index("elastic 1")
     return float(shapes.bending[first] / shapes.mass[first, first])

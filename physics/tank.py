@@ -1,0 +1,318 @@
+"""A tank, or open water: its liquids, their still levels cut into pieces, and what floats there."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+from math import inf
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+from hydroelastic.physics.beams import Beam
+from hydroelastic.physics.motions import Level
+from hydroelastic.physics.scales import Scales
+
+if TYPE_CHECKING:
+    # Contours need SciPy's root finders, which take a while to import, and most tanks have no float.
+    from hydroelastic.physics.floats import RigidFloat
+
+Top: TypeAlias = Literal["free", "rigid", "pressure_release"]
+
+ROUND_OFF = 1e-9
+"""Lengths below this part of the tank's length count as zero: decimal input is not exact."""
+
+MIDDLE = 0.5
+"""Abscissa of the mirror plane of a symmetric tank, in tank lengths."""
+
+ROUNDING = 1e-14
+"""Lengths that decimal input means to be equal differ by a few units of the last place."""
+
+# α where the slope of a beam jumps, and where its curvature does.
+_KINK, _STEP = 2.0, 3.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class Layer:
+    """A layer of ideal incompressible liquid.
+
+    Attributes:
+        density: kg/m³.
+        floor: ordinate of its lower side, m.
+        depth: m; may be infinite in open water.
+    """
+
+    density: float
+    floor: float
+    depth: float
+
+    @property
+    def ceiling(self) -> float:
+        """Ordinate of its upper side."""
+        return self.floor + self.depth
+
+
+@dataclass(frozen=True, kw_only=True)
+class Piece:
+    """A piece of a still level from left to right: a body's, or what lies beside the bodies.
+
+    Attributes:
+        start: its left end, m.
+        end: its right end, m; that of a thin float is its start.
+        body: index of the body, or ``None``.
+    """
+
+    start: float
+    end: float
+    body: int | None
+
+    @property
+    def length(self) -> float:
+        """Its length."""
+        return self.end - self.start
+
+
+@dataclass(frozen=True, kw_only=True)
+class StillLevel:
+    """The upper side of a layer at rest.
+
+    Attributes:
+        height: its ordinate.
+        below: index of the layer below.
+        above: index of the layer above, ``None`` at the top.
+        kind: what it is beside the bodies: "interface", or the condition of the top.
+        jump: ρ below less ρ above, kg/m³.
+        pieces: from left to right.
+    """
+
+    height: float
+    below: int
+    above: int | None
+    kind: Literal["interface"] | Top
+    jump: float
+    pieces: tuple[Piece, ...]
+
+    def scaled(self, units: Scales, layers: tuple[Layer, ...]) -> StillLevel:
+        """Return the level between layers in other units, in which the tank ends exactly at 1."""
+        length = units.length
+        pieces = tuple(
+            replace(
+                piece,
+                start=_snapped(piece.start / length),
+                end=1.0 if piece.end == length else _snapped(piece.end / length),
+            )
+            for piece in self.pieces
+        )
+        height = 0.0 if self.below == 0 else layers[self.below].ceiling
+        return replace(self, height=height, jump=density_jump(layers, self.below), pieces=pieces)
+
+    @property
+    def name(self) -> Level:
+        """What bodies call it."""
+        return "surface" if self.above is None else "interface"
+
+    @property
+    def moves(self) -> bool:
+        """Whether waves travel on it beside the bodies."""
+        return self.kind in ("free", "interface")
+
+    @property
+    def is_open(self) -> bool:
+        """Whether there is something beside the bodies."""
+        return any(piece.body is None for piece in self.pieces)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Tank:
+    """Liquids at rest with what floats on them, per metre of width; in SI units, or in those of `scaled`.
+
+    Attributes:
+        length: between the walls, or of the stretch of open water that is of interest, m.
+        gravity: g, m/s².
+        is_open: whether waves leave to both sides, instead of being reflected by walls.
+        layers: from the bottom up.
+        levels: the upper sides of the layers, from the bottom up.
+        bodies: beams and floats.
+    """
+
+    length: float
+    gravity: float
+    is_open: bool
+    layers: tuple[Layer, ...]
+    levels: tuple[StillLevel, ...]
+    bodies: tuple[Beam | RigidFloat, ...]
+
+    @property
+    def units(self) -> Scales:
+        """The units in which length, gravity and the density of the lowest layer are 1."""
+        return Scales(length=self.length, density=self.layers[0].density, gravity=self.gravity)
+
+    def scaled(self) -> Tank:
+        """Return the tank in these units."""
+        units = self.units
+        layers = tuple(
+            Layer(
+                density=layer.density / units.density,
+                floor=layer.floor / units.length,
+                depth=layer.depth / units.length,
+            )
+            for layer in self.layers
+        )
+        levels = tuple(level.scaled(units, layers) for level in self.levels)
+        places = {piece.body: piece for level in levels for piece in level.pieces}
+        return replace(
+            self,
+            length=1.0,
+            gravity=1.0,
+            layers=layers,
+            levels=levels,
+            bodies=tuple(
+                body.scaled(units, places[index].start, places[index].end) for index, body in enumerate(self.bodies)
+            ),
+        )
+
+    @property
+    def depth(self) -> float:
+        """Depth of the thinnest layer: rounding grows in it, and cells follow it."""
+        return min(layer.depth for layer in self.layers)
+
+    @property
+    def top(self) -> Top:
+        """What lies on the uppermost layer beside the bodies."""
+        kind = self.levels[-1].kind
+        assert kind != "interface"
+        return kind
+
+    @cached_property
+    def beams(self) -> dict[int, Beam]:
+        """The beams by their index among the bodies."""
+        return {index: body for index, body in enumerate(self.bodies) if isinstance(body, Beam)}
+
+    @cached_property
+    def floats(self) -> dict[int, RigidFloat]:
+        """The floats by their index among the bodies."""
+        return {index: body for index, body in enumerate(self.bodies) if not isinstance(body, Beam)}
+
+    @property
+    def has_high_frequency_limit(self) -> bool:
+        """Whether there is something that moves freely far above the waves: open water, or an interface."""
+        return len(self.layers) > 1 or (self.top != "rigid" and self.levels[-1].is_open)
+
+    @property
+    def moves_as_one(self) -> bool:
+        """Whether two liquids meet beside the bodies, and so move as one far above the waves."""
+        return len(self.layers) > 1 and self.levels[0].is_open
+
+    @property
+    def levels_from_top(self) -> tuple[StillLevel, ...]:
+        """The still levels from the top down, without the surface of an upper liquid that has no end."""
+        return tuple(level for level in reversed(self.levels) if level.height < inf)
+
+    @property
+    def pieces(self) -> tuple[Piece, ...]:
+        """The pieces of all levels, from the bottom up and from left to right."""
+        return tuple(piece for level in self.levels for piece in level.pieces)
+
+    def level_of(self, body: int) -> StillLevel:
+        """The level at which a body floats."""
+        return self._places[body][0]
+
+    def piece_of(self, body: int) -> Piece:
+        """The part of its level that a body takes."""
+        return self._places[body][1]
+
+    @cached_property
+    def _places(self) -> dict[int, tuple[StillLevel, Piece]]:
+        """Level and piece of each body, by its index."""
+        return {piece.body: (level, piece) for level in self.levels for piece in level.pieces if piece.body is not None}
+
+    def nodes_of(self, body: int) -> dict[float, float]:
+        """Abscissae of the steps and joints of a beam, with α of ψ ~ r^α there; none of other bodies.
+
+        Where the slope of a beam jumps, ψ has a term r² ln r, and r³ ln r where its curvature does.
+        """
+        if body not in self.beams or self.beams[body].is_uniform:
+            return {}
+        beam, start = self.beams[body], self.piece_of(body).start
+        joints = {beam.node_of(joint) for joint in beam.joints}
+        return {
+            _snapped(start + edge): _KINK if number in joints else _STEP
+            for number, edge in enumerate(beam.edges)
+            if 0 < number < len(beam.edges) - 1
+        }
+
+
+def density_jump(layers: tuple[Layer, ...], below: int) -> float:
+    """ρ of a layer less that of the one above it, if there is one."""
+    return layers[below].density - (layers[below + 1].density if below + 1 < len(layers) else 0.0)
+
+
+def tank(
+    *,
+    length: float,
+    gravity: float,
+    is_open: bool,
+    liquids: tuple[tuple[float, float], ...],
+    top: Top,
+    bodies: tuple[Beam | RigidFloat, ...],
+) -> Tank:
+    """Cut the still levels of a tank into pieces.
+
+    Args:
+        length: m.
+        gravity: m/s².
+        is_open: whether waves leave to both sides.
+        liquids: density, kg/m³, and depth, m, from the bottom up; the second lies on y = 0.
+        top: what lies on the uppermost liquid beside the bodies.
+        bodies: in any order, each at its level, without overlap.
+    """
+    floors = [-liquids[0][1], 0.0]
+    layers = tuple(
+        Layer(density=density, floor=floor, depth=depth)
+        for (density, depth), floor in zip(liquids, floors, strict=False)
+    )
+    names: tuple[Level, ...] = ("surface",) if len(layers) == 1 else ("interface", "surface")
+    levels = []
+    for number, name in enumerate(names):
+        above = number + 1 if number + 1 < len(layers) else None
+        levels.append(
+            StillLevel(
+                height=0.0 if number == 0 else layers[number].ceiling,
+                below=number,
+                above=above,
+                kind=top if above is None else "interface",
+                jump=density_jump(layers, number),
+                pieces=tuple(_pieces(bodies, name, length, is_open=is_open)),
+            )
+        )
+    return Tank(length=length, gravity=gravity, is_open=is_open, layers=layers, levels=tuple(levels), bodies=bodies)
+
+
+def _pieces(bodies: tuple[Beam | RigidFloat, ...], name: Level, length: float, *, is_open: bool) -> Iterator[Piece]:
+    """A still level from wall to wall, or from −∞ to ∞ in open water, without gaps.
+
+    A beam whose end is within `ROUND_OFF` of a wall ends exactly there. A float takes up its waterplane.
+    """
+    left, right = (-inf, inf) if is_open else (0.0, length)
+    negligible = 0.0 if is_open else ROUND_OFF * length
+    places = []
+    for index, body in enumerate(bodies):
+        if body.level != name:
+            continue
+        if not isinstance(body, Beam):
+            places.append((*body.waterplane, index))
+            continue
+        start = body.start if is_open or body.start > negligible else 0.0
+        places.append((start, body.end if is_open or body.end < length - negligible else length, index))
+    reached = left
+    for start, end, index in sorted(places):
+        if start > reached:
+            yield Piece(start=reached, end=start, body=None)
+        yield Piece(start=start, end=end, body=index)
+        reached = end
+    if reached < right:
+        yield Piece(start=reached, end=right, body=None)
+
+
+def _snapped(x: float) -> float:
+    """The middle of the tank for what lies there but for rounding: a mirror plane must not miss a thin float."""
+    return MIDDLE if abs(x - MIDDLE) <= ROUNDING else x

@@ -1,0 +1,54 @@
+"""From a scene to the tank that it describes: `physics.tank.Tank`, in SI units."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from hydroelastic.physics.beams import Beam, Joint, Section
+from hydroelastic.physics.tank import Tank, tank
+from hydroelastic.scenes.models import bodies as words
+from hydroelastic.scenes.models.tank import TankScene
+
+if TYPE_CHECKING:
+    from hydroelastic.physics.floats import RigidFloat
+
+
+def physical_tank(scene: TankScene) -> Tank:
+    """Return the tank, or the open water, of a scene; SI units, per metre of width.
+
+    Raises:
+        ValueError: if a float cannot float at its level.
+    """
+    return tank(
+        length=scene.tank.length,
+        gravity=scene.tank.gravity,
+        is_open=scene.is_open,
+        liquids=tuple((layer.density, layer.depth) for layer in scene.layers),
+        top=scene.top,
+        bodies=tuple(_body(scene, index) for index in range(len(scene.body))),
+    )
+
+
+def _body(scene: TankScene, index: int) -> Beam | RigidFloat:
+    body = scene.body[index]
+    if isinstance(body, words.Float):
+        # Contours need SciPy's root finders, which take a while to import.
+        from hydroelastic.scenes.models.floats import placed_float
+
+        return placed_float(scene, index)
+    joints = sorted(body.joints, key=lambda joint: joint.at)
+    return Beam(
+        sections=tuple(
+            Section(
+                length=part.length,
+                flexural_rigidity=part.flexural_rigidity,
+                mass_per_length=part.mass_per_length,
+            )
+            for part in body.parts
+        ),
+        joints=tuple(Joint(at=joint.at, rotational_stiffness=joint.rotational_stiffness) for joint in joints),
+        start=body.start,
+        level=scene.level_of(body),
+        hydrostatic=body.hydrostatic,
+        ends=body.ends,
+    )

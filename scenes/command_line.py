@@ -232,7 +232,7 @@ def compare(context: click.Context, scene: str, overrides: tuple[str, ...]) -> N
 
     \b
     Example:
-      hydroelastic compare aquarium --set body.0.start=0
+      hydroelastic compare aquarium --set body.1.start=0
     """
     checked = read_scene(scene, overrides)
     with progress(_title(checked), shown=sys.stderr.isatty()) as report:

@@ -22,7 +22,7 @@ set_option = click.option(
     "overrides",
     multiple=True,
     metavar="KEY=VALUE",
-    help="Replace a value of the scene, e.g. body.0.start=2.5 (entries count from 0). May be repeated.",
+    help="Replace a value of the scene, e.g. body.1.start=2.5 (entries are numbered from 1). May be repeated.",
 )
 format_option = click.option(
     "--image-format",

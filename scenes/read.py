@@ -97,7 +97,7 @@ def read_scene(path: str | Path, overrides: Iterable[str] = ()) -> Scene:
     Args:
         path: a TOML file, or the bare name of a shipped scene such as ``aquarium``.
         overrides: replacements ``key=value`` with dotted keys and TOML values, made before validation:
-            ``body.0.start=2.5`` (entries are counted from 0), ``accuracy.tolerance=1e-8``. A bare word is a text.
+            ``body.1.start=2.5`` (entries are numbered from 1), ``accuracy.tolerance=1e-8``. A bare word is a text.
 
     Returns:
         The scene; the path of a mesh file is complete.
@@ -227,12 +227,13 @@ def _index_in(holder: Any, names: list[str], place: int, change: str) -> Any:
         return name
     if not isinstance(holder, list):
         raise _bad_override(change, f'"{name}" needs a {"list" if name.isdigit() else "table"}, which is not there')
-    numbers = {str(number): number for number in range(len(holder))}
+    numbers = {str(number): number - 1 for number in range(1, len(holder) + 1)}
     if name not in numbers:
         entries = ", ".join(numbers) or "none, the list is empty"
-        remedy = "Entries count from 0"
-        if numbers and not name.lstrip("+-").isdigit():
-            remedy += f": write {'.'.join((*names[:place], '0', *names[place:]))} for the first"
+        remedy = "Entries are numbered from 1"
+        if numbers and (name == "0" or not name.lstrip("+-").isdigit()):
+            rest = names[place + 1 :] if name == "0" else names[place:]
+            remedy += f": write {'.'.join((*names[:place], '1', *rest))} for the first"
         raise _bad_override(change, f'"{name}" is not an entry of the list', remedy, allowed=entries)
     return numbers[name]
 

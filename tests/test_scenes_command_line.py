@@ -159,7 +159,7 @@ def test_a_file_without_permission() -> None:
     assert_refused(invoke("check", "scene.toml"), "Permission denied")
 
 
-@pytest.mark.parametrize("override", ["tank.length", "body.7.start=1", "tank.length=[", "tank.lenth=3"])
+@pytest.mark.parametrize("override", ["tank.length", "body.8.start=1", "tank.length=[", "tank.lenth=3"])
 def test_bad_overrides_give_one_clear_message(override: str) -> None:
     assert_refused(invoke("check", "aquarium", "--set", override))
 
@@ -205,7 +205,7 @@ def test_list_and_check_and_version_print_to_the_output() -> None:
     listed = invoke("list")
     assert listed.exit_code == 0
     assert "nearly_covered" in listed.stdout
-    checked = invoke("check", "aquarium", "--set", "body.0.start=2.5")
+    checked = invoke("check", "aquarium", "--set", "body.1.start=2.5")
     assert checked.exit_code == 0
     assert "2.5" in checked.stdout
     assert checked.stderr == ""

@@ -71,7 +71,7 @@ SCENES: dict[str, tuple[str, ...]] = {
     "string_with_load": (SHORT, "accuracy.tolerance=1e-3"),
     "swell": ('title=""',),
     "released_chain": (CHAIN,),
-    "fluttering_hose": ("analysis.0.factors={start=9.0, stop=10.0, number=3}", "accuracy.tolerance=1e-3"),
+    "fluttering_hose": ("analysis.1.factors={start=9.0, stop=10.0, number=3}", "accuracy.tolerance=1e-3"),
 }
 """Overrides that keep shipped scenes of each kind short."""
 ALL = [*SCENES, "floats", "open water"]

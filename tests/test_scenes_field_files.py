@@ -25,7 +25,7 @@ SCENES: dict[str, tuple[str, ...]] = {
     "sloshing": ("accuracy.modes=3", "accuracy.tolerance=1e-9"),
     "float_in_two_liquids": ("accuracy.modes=3", "accuracy.tolerance=1e-4"),
     "aquarium": ("accuracy.modes=3", "accuracy.tolerance=1e-4"),
-    "open_plate": ("analysis.0.omega=[3.0]", "accuracy.tolerance=1e-3"),
+    "open_plate": ("analysis.1.omega=[3.0]", "accuracy.tolerance=1e-3"),
     "string_table": ("output.frames=3", "output.times={start=0, stop=8, number=33}"),
     "released_chain": (
         "output.frames=3",

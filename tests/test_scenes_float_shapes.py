@@ -119,7 +119,7 @@ def test_an_outline_lies_beside_its_scene(tmp_path: Path) -> None:
     path = tmp_path / "scene.toml"
     path.write_text(OUTLINE, encoding="utf-8")
     (tmp_path / "points.csv").write_text("-1 -1\n1 -1\n1 1\n-1 1\n", encoding="utf-8")
-    given = read_scene(path, ["body.0.mass=1000.0"])
+    given = read_scene(path, ["body.1.mass=1000.0"])
     assert given.folder == tmp_path
     # What is stored of the scene holds on any machine.
     assert given.model_dump(mode="json")["body"][0]["file"] == "points.csv"

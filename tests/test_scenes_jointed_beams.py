@@ -268,22 +268,22 @@ def tanks_uniform() -> Beam:
 
 
 MESSAGES = {
-    "body.0.length=4.0": 'key "length" = 4.0: it is given beside sections, which have their own. Leave it out',
-    "body.0.joints.0.at=12.5": "a joint lies within its beam of 12.5 m, and not at an end",
-    "body.0.joints.0.at=13": "a joint lies within its beam of 12.5 m",
-    "body.0.joints.0.at=5.0": "there is another joint at this place",
-    "body.0.joints.0.at=5.0001": "it is too close to an end, to a step of the beam or to another joint",
-    "body.0.joints.0.at=2.501": "it is too close to an end, to a step",
-    "body.0.joints.0.at=0.0": "it is too small",
-    "body.0.joints.0.rotational_stiffness=-1.0": 'key "joints.rotational_stiffness", entry 1 = -1.0: it is too small',
-    "body.0.joints.1.rotational_stiffness=1e-12": "Allowed: 0 for a hinge, or at least",
-    'body.0.ends="guided"': "guided ends are for uniform beams; this one has sections",
-    "body.0.sections.1.flexural_rigidity=1e-12": 'key "sections.flexural_rigidity", entry 2 = 1e-12: EI/(ρ g l⁴)',
-    "body.0.sections.0.length=1e-4": "the section is too short for one mesh",
-    "body.0.sections.0.length=30.0": 'key "sections" = 40.0: the beam is longer than the tank (20 m)',
-    "body.0.sections.0.lenght=2.0": 'Did you mean "length"?',
-    "body.0.sections=3": "it is not a list of tables",
-    "body.0.sections=[]": 'key "length": it is missing',
+    "body.1.length=4.0": 'key "length" = 4.0: it is given beside sections, which have their own. Leave it out',
+    "body.1.joints.1.at=12.5": "a joint lies within its beam of 12.5 m, and not at an end",
+    "body.1.joints.1.at=13": "a joint lies within its beam of 12.5 m",
+    "body.1.joints.1.at=5.0": "there is another joint at this place",
+    "body.1.joints.1.at=5.0001": "it is too close to an end, to a step of the beam or to another joint",
+    "body.1.joints.1.at=2.501": "it is too close to an end, to a step",
+    "body.1.joints.1.at=0.0": "it is too small",
+    "body.1.joints.1.rotational_stiffness=-1.0": 'key "joints.rotational_stiffness", entry 1 = -1.0: it is too small',
+    "body.1.joints.2.rotational_stiffness=1e-12": "Allowed: 0 for a hinge, or at least",
+    'body.1.ends="guided"': "guided ends are for uniform beams; this one has sections",
+    "body.1.sections.2.flexural_rigidity=1e-12": 'key "sections.flexural_rigidity", entry 2 = 1e-12: EI/(ρ g l⁴)',
+    "body.1.sections.1.length=1e-4": "the section is too short for one mesh",
+    "body.1.sections.1.length=30.0": 'key "sections" = 40.0: the beam is longer than the tank (20 m)',
+    "body.1.sections.1.lenght=2.0": 'Did you mean "length"?',
+    "body.1.sections=3": "it is not a list of tables",
+    "body.1.sections=[]": 'key "length": it is missing',
 }
 
 

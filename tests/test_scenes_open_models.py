@@ -211,8 +211,8 @@ def test_infinite_depth_is_read_and_set(tmp_path: Path) -> None:
     file = tmp_path / "sea.toml"
     file.write_text(CIRCLE_IN_OPEN_WATER, encoding="utf-8")
     assert read_scene(file).liquid[0].depth == inf
-    assert read_scene(file, ["liquid.0.depth=3.0"]).liquid[0].depth == 3.0
-    assert read_scene(file, ["liquid.0.depth=3.0", "liquid.0.depth=inf"]).liquid[0].depth == inf
+    assert read_scene(file, ["liquid.1.depth=3.0"]).liquid[0].depth == 3.0
+    assert read_scene(file, ["liquid.1.depth=3.0", "liquid.1.depth=inf"]).liquid[0].depth == inf
     swept = read_scene(file, ['analysis=[{kind = "radiation", omega = {start = 1, stop = 2, number = 2}}]'])
     assert swept.analyses == (Radiation(omega=(1.0, 2.0)),)
     with pytest.raises(SceneError, match="not infinitely deep"):

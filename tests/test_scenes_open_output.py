@@ -233,7 +233,7 @@ def test_a_folder_appears_whole_or_not_at_all(scene_file: Path, monkeypatch: pyt
 
 
 def test_bad_input_ends_with_2_and_one_message(scene_file: Path) -> None:
-    result = CliRunner().invoke(main, ["run", str(scene_file), "--set", "analysis.0.omega=[-1]"])
+    result = CliRunner().invoke(main, ["run", str(scene_file), "--set", "analysis.1.omega=[-1]"])
     assert (result.exit_code, result.stdout) == (2, "")
     assert "entry 1 = -1: it is too small" in result.stderr
 

@@ -24,7 +24,7 @@ def message(path: Path | str, *overrides: str) -> str:
 
 def test_overrides_replace_and_add_values(good: Path) -> None:
     changes = [
-        "body.0.start=2.5",
+        "body.1.start=2.5",
         "accuracy.tolerance=1e-8",
         "tank.top=rigid",
         'title="Two words"',
@@ -40,14 +40,15 @@ def test_overrides_replace_and_add_values(good: Path) -> None:
 @pytest.mark.parametrize(
     ("override", "said"),
     [
-        ("body.1.start=2", "Allowed: 0. Entries count from 0."),
-        ("liquid.density=900", "Entries count from 0: write liquid.0.density for the first."),
+        ("body.2.start=2", "Allowed: 1. Entries are numbered from 1."),
+        ("body.0.start=2", "Allowed: 1. Entries are numbered from 1: write body.1.start for the first."),
+        ("liquid.density=900", "Entries are numbered from 1: write liquid.1.density for the first."),
         ("tank.length=12mm", "Write a number without a unit; the unit is m."),
         ("tank.length=12,5", "Write a decimal point, not a comma: 12.5."),
         ("accuracy.modes=5,0", "Write a decimal point, not a comma: 5.0."),
         ("body.x.start=2", "not an entry"),
         ("body.-1.start=2", "not an entry"),
-        ("body.0.start.deep=2", "table, which is not there"),
+        ("body.1.start.deep=2", "table, which is not there"),
         ("float.0.start=2", "list, which is not there"),
         ("tank.length", "key=value"),
         ("=3", "key=value"),

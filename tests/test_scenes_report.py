@@ -193,7 +193,7 @@ def test_the_scene_in_the_page_reads_back_as_the_same(tmp_path: Path, name: str)
 def test_texts_and_lists_of_a_scene_read_back(tmp_path: Path) -> None:
     title = 'A "quoted" \\ title, ünïcode ψ and $'
     omega = [round(0.3 + 0.01 * place**1.5, 5) for place in range(40)]
-    changes = [f"analysis.0.omega={omega}", f"accuracy.tolerance={1e-3}"]
+    changes = [f"analysis.1.omega={omega}", f"accuracy.tolerance={1e-3}"]
     scene = read_scene("open_plate", changes).model_copy(update={"title": title})
     text = scene_text(scene)
     assert read_written(tmp_path, text).model_dump() == scene.model_dump()

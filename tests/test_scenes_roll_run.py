@@ -229,7 +229,7 @@ def test_a_section_in_open_water_rolls_as_its_resonance_says() -> None:
     scene = read_scene(
         "open_ship_section",
         [
-            "body.0={kind='float', shape='rectangle', position=30.0, half_width=6.0, half_height=3.0, "
+            "body.1={kind='float', shape='rectangle', position=30.0, half_width=6.0, half_height=3.0, "
             "radius_of_gyration=4.0, centre_of_mass=0.5, motions=['roll']}",
             "accuracy.tolerance=1e-4",
         ],

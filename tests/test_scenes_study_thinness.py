@@ -84,7 +84,7 @@ def test_a_given_mass_goes_with_the_width() -> None:
 
 def test_heave_that_is_shared_with_waves_is_said_to_be() -> None:
     rows = study_scene(
-        read_scene("float_ellipse", ['body.0.motions=["heave"]', "body.0.half_width=0.2"]),
+        read_scene("float_ellipse", ['body.1.motions=["heave"]', "body.1.half_width=0.2"]),
         replace(PLAN, width_halvings=2),
     ).thinness
     found = {rate.quantity: rate for rate in fitted_thinness(rows)}
@@ -128,7 +128,7 @@ def test_it_is_not_made_unless_asked_for() -> None:
     [
         ("aquarium", ()),
         ("float_ellipse", ()),
-        ("float_ellipse", ('body.0.motions=["heave"]', 'body.0.shape="rectangle"')),
+        ("float_ellipse", ('body.1.motions=["heave"]', 'body.1.shape="rectangle"')),
     ],
 )
 def test_scenes_without_a_float_that_both_know_are_refused(name: str, changes: tuple[str, ...]) -> None:

@@ -8,7 +8,7 @@ from html.parser import HTMLParser
 SCENES: dict[str, tuple[str, tuple[str, ...]]] = {
     "tank": ("aquarium", ("accuracy.modes=3", "accuracy.tolerance=1e-4")),
     "float": ("float_wedge", ("accuracy.modes=3", "accuracy.tolerance=1e-3")),
-    "open": ("open_plate", ("analysis.0.omega=[3.0, 4.0]", "accuracy.tolerance=1e-2")),
+    "open": ("open_plate", ("analysis.1.omega=[3.0, 4.0]", "accuracy.tolerance=1e-2")),
     "string": ("string_ramp", ("output.frames=0",)),
     "thread": ("catenary", ()),
     "roll": ("swell", ()),

@@ -23,7 +23,8 @@ from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 from hydroelastic.meshes.tank import build_tank_mesh
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.kinds import checker_of
-from hydroelastic.scenes.models.tank import MeshFile, TankScene
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.models.tank_parts import MeshFile
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.run import run_scene
 

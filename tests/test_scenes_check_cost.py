@@ -18,9 +18,10 @@ from hydroelastic.meshes.tank import build_tank_mesh
 from hydroelastic.scenes.errors import scene_error
 from hydroelastic.scenes.kinds import checker_of
 from hydroelastic.scenes.models import float_checks, floats
-from hydroelastic.scenes.models.bodies import MOST_BODIES, MOST_SECTIONS
+from hydroelastic.scenes.models.bodies import MOST_BODIES, MOST_SECTIONS, Beam, Float
 from hydroelastic.scenes.models.physical import physical_tank
-from hydroelastic.scenes.models.tank import Beam, Float, Liquid, Tank, TankScene
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.models.tank_parts import Liquid, Tank
 
 LENGTH = 10.0
 

@@ -14,7 +14,8 @@ from hydroelastic.scenes.models.bodies import Float
 from hydroelastic.scenes.models.floats import float_contour, placed_float
 from hydroelastic.scenes.models.outline_files import read_outline
 from hydroelastic.scenes.models.physical import physical_tank
-from hydroelastic.scenes.models.tank import Liquid, Tank, TankScene
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.models.tank_parts import Liquid, Tank
 
 GRAVITY = 9.81
 # Gauss points and weights of numpy are good to some 1e-15 of the interval; moments add up a few of them.

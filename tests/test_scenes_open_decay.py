@@ -20,7 +20,8 @@ from hydroelastic.physics.profiles import float_profile
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.models.bodies import Float
 from hydroelastic.scenes.models.open_analyses import Decay, Release
-from hydroelastic.scenes.models.tank import Accuracy, Liquid, Tank, TankScene
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.models.tank_parts import Accuracy, Liquid, Tank
 from hydroelastic.scenes.open_water.check import open_requests
 from hydroelastic.scenes.open_water.cost import WITHIN, decay_cost
 from hydroelastic.scenes.open_water.decay import DecaySolution, solve_decay

@@ -9,7 +9,8 @@ from mpi4py import MPI
 
 from hydroelastic.scenes.models.bodies import Beam, Float
 from hydroelastic.scenes.models.open_analyses import Decay, Radiation, Release, Resonance
-from hydroelastic.scenes.models.tank import Accuracy, Liquid, Tank, TankScene
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.models.tank_parts import Accuracy, Liquid, Tank
 from hydroelastic.scenes.open_water.check import open_requests
 from hydroelastic.scenes.open_water.estimates import endless_comparison, endless_words, thin_float_comparisons
 from hydroelastic.scenes.open_water.results import OpenSolution

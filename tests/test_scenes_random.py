@@ -13,7 +13,8 @@ from mpi4py import MPI
 from random_scenes import HOW_MANY, coarse, hundred_scenes
 from random_tanks import draw_tanks
 
-from hydroelastic.scenes.models.tank import Beam, TankScene
+from hydroelastic.scenes.models.bodies import Beam
+from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.read import Scene
 from hydroelastic.scenes.run import run_scene
 from hydroelastic.scenes.tank.solve import solve_scene

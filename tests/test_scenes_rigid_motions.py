@@ -8,10 +8,13 @@ import numpy as np
 import pytest
 from scipy.linalg import block_diag, null_space
 
+from hydroelastic.physics.motions import Level
 from hydroelastic.physics.rigid_motions import mode_count, zero_mode_count
+from hydroelastic.scenes.models.bodies import Beam, Float
 from hydroelastic.scenes.models.floats import placed_float
 from hydroelastic.scenes.models.physical import physical_tank
-from hydroelastic.scenes.models.tank import Beam, Float, Level, Liquid, Tank, TankScene
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.models.tank_parts import Liquid, Tank
 from hydroelastic.scenes.tank.check_hints import hints
 
 

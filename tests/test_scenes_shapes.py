@@ -13,7 +13,8 @@ from hydroelastic.fem.pictures.mode import SurfaceCurve
 from hydroelastic.fem.pictures.modes import Canvas, NoRendererError
 from hydroelastic.fem.pictures.options import PictureOptions
 from hydroelastic.scenes.models.bodies import Beam, Body, Float
-from hydroelastic.scenes.models.tank import Accuracy, Liquid, Tank, TankScene
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.models.tank_parts import Accuracy, Liquid, Tank
 from hydroelastic.scenes.run import run_scene
 from hydroelastic.scenes.tank.shape_curves import largest_of
 from hydroelastic.scenes.tank.shapes import ModeShapes, sample_shapes

@@ -12,7 +12,8 @@ from hydroelastic.benchmarks.tank.hydroelastic import versions as versions
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.scenes.models.bodies import Float
 from hydroelastic.scenes.models.open_analyses import Radiation
-from hydroelastic.scenes.models.tank import Accuracy, Liquid, Tank, TankScene
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.models.tank_parts import Accuracy, Liquid, Tank
 from hydroelastic.scenes.open_water.radiation import solve_radiation
 
 _STRETCH = 10.0  # is drawn only; the answers do not depend on it

@@ -10,7 +10,9 @@ from slepc4py import SLEPc
 from hydroelastic.benchmarks.cases import Answer, Case
 from hydroelastic.benchmarks.tank.cases import MODES, tank_named
 from hydroelastic.fem.tank.solve import TankSolution
-from hydroelastic.scenes.models.tank import Accuracy, Beam, Liquid, Tank, TankScene
+from hydroelastic.scenes.models.bodies import Beam
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.models.tank_parts import Accuracy, Liquid, Tank
 from hydroelastic.scenes.tank.solve import solve_scene
 
 

@@ -4,7 +4,8 @@ from hydroelastic.scenes.models.bodies import Beam, Float
 from hydroelastic.scenes.models.open_analyses import Decay, Radiation, Resonance, Response
 from hydroelastic.scenes.models.roll import RollScene
 from hydroelastic.scenes.models.string import StringScene
-from hydroelastic.scenes.models.tank import Accuracy, Liquid, MeshFile, Tank, TankScene
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.models.tank_parts import Accuracy, Liquid, MeshFile, Tank
 from hydroelastic.scenes.models.thread import ThreadScene
 
 __all__ = [

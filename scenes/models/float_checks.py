@@ -14,7 +14,7 @@ from hydroelastic.scenes.models.problems import misfit
 # Contours need NumPy and SciPy, which take a while to import: functions that are called for floats import them.
 if TYPE_CHECKING:
     from hydroelastic.physics.contours import Contour
-    from hydroelastic.scenes.models.tank import TankScene
+    from hydroelastic.scenes.models.tank_parts import TankParts
 
 SLENDERNESS = {"exact": (1e-3, 1e3), "thin": (1e-9, 1e3)}
 """Width over height of a section: one mesh follows both, but for thin floats, whose width is not meshed."""
@@ -37,7 +37,7 @@ LONGEST_ARM = 1e3
 _Box: TypeAlias = tuple[float, float, float, float]
 
 
-def floats_float_in_the_tank(scene: TankScene) -> Iterator[InitErrorDetails]:
+def floats_float_in_the_tank(scene: TankParts) -> Iterator[InitErrorDetails]:
     """Yield the first problem of each float, alone in the tank: its section, its equilibrium, its place."""
     for index, body in scene.floats:
         found = next(_problems_of(scene, index, body), None)
@@ -45,7 +45,7 @@ def floats_float_in_the_tank(scene: TankScene) -> Iterator[InitErrorDetails]:
             yield found
 
 
-def _problems_of(scene: TankScene, index: int, body: Float) -> Iterator[InitErrorDetails]:
+def _problems_of(scene: TankParts, index: int, body: Float) -> Iterator[InitErrorDetails]:
     from hydroelastic.scenes.models.floats import float_contour, placed_float, still_level
 
     if body.vertices is not None:
@@ -115,7 +115,7 @@ def _section_is_simple(location: tuple[str | int, ...], contour: Contour) -> Ite
         )
 
 
-def _sizes_fit(scene: TankScene, index: int, body: Float, contour: Contour) -> Iterator[InitErrorDetails]:
+def _sizes_fit(scene: TankParts, index: int, body: Float, contour: Contour) -> Iterator[InitErrorDetails]:
     width, height = _extents(contour.bounds)
     least, most = SLENDERNESS[body.boundary]
     if not least <= width / height <= most:
@@ -169,7 +169,7 @@ def _parts_on_both_sides(index: int, body: Float, contour: Contour, level: float
         )
 
 
-def _has_room(scene: TankScene, index: int, body: Float, bounds: _Box) -> Iterator[InitErrorDetails]:
+def _has_room(scene: TankParts, index: int, body: Float, bounds: _Box) -> Iterator[InitErrorDetails]:
     left, right, low, high = bounds
     gap = SMALLEST_GAP * max(_extents(bounds))
     length = scene.tank.length
@@ -209,7 +209,7 @@ def _has_room(scene: TankScene, index: int, body: Float, bounds: _Box) -> Iterat
         )
 
 
-def _lies_in_the_stretch(scene: TankScene, index: int, body: Float) -> Iterator[InitErrorDetails]:
+def _lies_in_the_stretch(scene: TankParts, index: int, body: Float) -> Iterator[InitErrorDetails]:
     """There are no walls that a float might touch."""
     if body.position > scene.tank.length:
         yield misfit(
@@ -220,7 +220,7 @@ def _lies_in_the_stretch(scene: TankScene, index: int, body: Float) -> Iterator[
         )
 
 
-def _limits(scene: TankScene, body: Float) -> tuple[float, float | None]:
+def _limits(scene: TankParts, body: Float) -> tuple[float, float | None]:
     """Ordinates between which a float must stay, m: the layers on either side of its level, air included."""
     if len(scene.layers) == 2 and scene.level_of(body) == "surface":
         return 0.0, None
@@ -240,7 +240,7 @@ def _arms_fit(index: int, body: Float, bounds: _Box) -> Iterator[InitErrorDetail
             )
 
 
-def _bodies_keep_apart(scene: TankScene) -> Iterator[InitErrorDetails]:
+def _bodies_keep_apart(scene: TankParts) -> Iterator[InitErrorDetails]:
     boxes = [_box(scene, index, body) for index, body in enumerate(scene.body)]
     for first, second in _neighbours(scene, boxes):
         gap = SMALLEST_GAP * max(max(_extents(boxes[index])) for index in (first, second) if _is_float(scene, index))
@@ -255,7 +255,7 @@ def _bodies_keep_apart(scene: TankScene) -> Iterator[InitErrorDetails]:
             )
 
 
-def _neighbours(scene: TankScene, boxes: list[_Box]) -> list[tuple[int, int]]:
+def _neighbours(scene: TankParts, boxes: list[_Box]) -> list[tuple[int, int]]:
     """Pairs of bodies, one a float at least, that lie over one another or nearly so: found from left to right."""
     if not scene.floats:
         return []
@@ -272,11 +272,11 @@ def _neighbours(scene: TankScene, boxes: list[_Box]) -> list[tuple[int, int]]:
     return sorted(pairs)
 
 
-def _is_float(scene: TankScene, index: int) -> bool:
+def _is_float(scene: TankParts, index: int) -> bool:
     return isinstance(scene.body[index], Float)
 
 
-def _box(scene: TankScene, index: int, body: Beam | Float) -> _Box:
+def _box(scene: TankParts, index: int, body: Beam | Float) -> _Box:
     if isinstance(body, Beam):
         height = scene.height_of(scene.level_of(body))
         return body.start, body.end, height, height
@@ -297,7 +297,7 @@ def _extents(bounds: _Box) -> tuple[float, float]:
     return right - left, high - low
 
 
-def _floats_are_stable(scene: TankScene) -> Iterator[InitErrorDetails]:
+def _floats_are_stable(scene: TankParts) -> Iterator[InitErrorDetails]:
     for index, body in scene.floats:
         from hydroelastic.scenes.models.floats import placed_float
 
@@ -320,7 +320,7 @@ def _floats_are_stable(scene: TankScene) -> Iterator[InitErrorDetails]:
         )
 
 
-def _thin_floats_have_free_liquid(scene: TankScene) -> Iterator[InitErrorDetails]:
+def _thin_floats_have_free_liquid(scene: TankParts) -> Iterator[InitErrorDetails]:
     """The liquid of a thin float is split by the vertical through it, which must not meet another section."""
     thin = [(index, body.position) for index, body in scene.floats if body.boundary == "thin"]
     for other, section in scene.floats:

@@ -13,7 +13,7 @@ from hydroelastic.physics.point_contours import outline_contour, polygon_contour
 from hydroelastic.physics.profiles import DEFAULT_TAIL, Profile, float_profile, profile_contour
 from hydroelastic.scenes.models.bodies import MOST_BODIES, Float
 from hydroelastic.scenes.models.outline_files import read_outline
-from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.models.tank_parts import TankParts
 
 DEFAULT_CORNER_ANGLE = 30.0
 """Degrees by which an outline turns in a corner, unless the scene says it."""
@@ -46,7 +46,7 @@ def float_contour(body: Float, folder: Path) -> Contour:
     return polygon_contour(body.vertices or ())
 
 
-def placed_float(scene: TankScene, index: int) -> RigidFloat:
+def placed_float(scene: TankParts, index: int) -> RigidFloat:
     """Return a float of a scene where it rests, in the frame of the tank, m.
 
     Args:

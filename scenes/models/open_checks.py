@@ -4,23 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from math import inf, isinf, sqrt
-from typing import TYPE_CHECKING
 
 from pydantic_core import InitErrorDetails
 
 from hydroelastic.scenes.models.bodies import Float
 from hydroelastic.scenes.models.open_analyses import Decay
 from hydroelastic.scenes.models.problems import misfit
-
-if TYPE_CHECKING:
-    from hydroelastic.scenes.models.tank import TankScene
-
+from hydroelastic.scenes.models.tank_parts import TankParts
 
 SLOWEST, FASTEST = 1e-6, 1e3
 """Frequencies in √(g/length), with the length that is drawn, between which waves can be meshed beside bodies."""
 
 
-def tanks_with_walls_end(scene: TankScene) -> Iterator[InitErrorDetails]:
+def tanks_with_walls_end(scene: TankParts) -> Iterator[InitErrorDetails]:
     """Yield what only open water has."""
     if scene.is_open:
         return
@@ -42,7 +38,7 @@ def tanks_with_walls_end(scene: TankScene) -> Iterator[InitErrorDetails]:
         )
 
 
-def open_water_has_bodies_and_waves(scene: TankScene) -> Iterator[InitErrorDetails]:
+def open_water_has_bodies_and_waves(scene: TankParts) -> Iterator[InitErrorDetails]:
     """Yield what open water lacks, and keys that have no effect there."""
     if not scene.is_open:
         return
@@ -74,7 +70,7 @@ def open_water_has_bodies_and_waves(scene: TankScene) -> Iterator[InitErrorDetai
     yield from _nothing_lies_above_an_infinite_liquid(scene)
 
 
-def frequencies_and_times_can_be_resolved(scene: TankScene) -> Iterator[InitErrorDetails]:
+def frequencies_and_times_can_be_resolved(scene: TankParts) -> Iterator[InitErrorDetails]:
     """Yield analyses whose waves are out of all proportion to what is drawn."""
     unit = sqrt(scene.tank.gravity / scene.tank.length)
     slowest, fastest = SLOWEST * unit, FASTEST * unit
@@ -101,7 +97,7 @@ def frequencies_and_times_can_be_resolved(scene: TankScene) -> Iterator[InitErro
             )
 
 
-def _nothing_lies_above_an_infinite_liquid(scene: TankScene) -> Iterator[InitErrorDetails]:
+def _nothing_lies_above_an_infinite_liquid(scene: TankParts) -> Iterator[InitErrorDetails]:
     if len(scene.layers) < 2 or not isinf(scene.layers[1].depth):
         return
     if scene.tank.top != "free":
@@ -121,7 +117,7 @@ def _nothing_lies_above_an_infinite_liquid(scene: TankScene) -> Iterator[InitErr
             )
 
 
-def beams_in_open_water_are_free(scene: TankScene) -> Iterator[InitErrorDetails]:
+def beams_in_open_water_are_free(scene: TankParts) -> Iterator[InitErrorDetails]:
     """Yield the beams that walls would have to guide."""
     for index, beam in scene.beams:
         if scene.is_open and beam.ends == "guided":
@@ -133,7 +129,7 @@ def beams_in_open_water_are_free(scene: TankScene) -> Iterator[InitErrorDetails]
             )
 
 
-def what_decays_is_a_float(scene: TankScene) -> Iterator[InitErrorDetails]:
+def what_decays_is_a_float(scene: TankParts) -> Iterator[InitErrorDetails]:
     """Yield the decay analyses of what is no float or may not move so."""
     for index, analysis in enumerate(scene.analysis):
         if not isinstance(analysis, Decay):
@@ -160,7 +156,7 @@ def what_decays_is_a_float(scene: TankScene) -> Iterator[InitErrorDetails]:
                 )
 
 
-def bodies_span(scene: TankScene) -> float:
+def bodies_span(scene: TankParts) -> float:
     """Return the length beside which no body may be too small, m: of the tank, or over which bodies in open water lie.
 
     Floats count by their position.

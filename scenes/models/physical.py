@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 from hydroelastic.physics.beams import Beam, Joint, Section
 from hydroelastic.physics.tank import Tank, tank
 from hydroelastic.scenes.models import bodies as words
-from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.models.tank_parts import TankParts
 
 if TYPE_CHECKING:
     from hydroelastic.physics.floats import RigidFloat
 
 
-def physical_tank(scene: TankScene) -> Tank:
+def physical_tank(scene: TankParts) -> Tank:
     """Return the tank, or the open water, of a scene; SI units, per metre of width.
 
     Raises:
@@ -29,7 +29,7 @@ def physical_tank(scene: TankScene) -> Tank:
     )
 
 
-def _body(scene: TankScene, index: int) -> Beam | RigidFloat:
+def _body(scene: TankParts, index: int) -> Beam | RigidFloat:
     body = scene.body[index]
     if isinstance(body, words.Float):
         # Contours need SciPy's root finders, which take a while to import.

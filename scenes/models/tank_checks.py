@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from itertools import accumulate, pairwise
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 from pydantic_core import InitErrorDetails
 
@@ -20,9 +20,7 @@ from hydroelastic.scenes.models.open_checks import (
     what_decays_is_a_float,
 )
 from hydroelastic.scenes.models.problems import misfit
-
-if TYPE_CHECKING:
-    from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.models.tank_parts import TankParts
 
 DEPTH_TO_LENGTH = (1e-4, 1e3)
 """Below it a layer is too thin for cells that follow it along the tank; above it no motion reaches
@@ -47,7 +45,7 @@ MASS_GROUP = (1e-12, 1e12)
 """m/(ρ l): beyond this, the beam or the liquid is lost in the rounding of the other."""
 
 
-def _densities_are_in_order(scene: TankScene) -> Iterator[InitErrorDetails]:
+def _densities_are_in_order(scene: TankParts) -> Iterator[InitErrorDetails]:
     lower = scene.liquid[0].density
     if lower == 0.0:
         yield misfit(
@@ -83,7 +81,7 @@ def _densities_are_in_order(scene: TankScene) -> Iterator[InitErrorDetails]:
             )
 
 
-def _bodies_have_their_level(scene: TankScene) -> Iterator[InitErrorDetails]:
+def _bodies_have_their_level(scene: TankParts) -> Iterator[InitErrorDetails]:
     for index, body in enumerate(scene.body):
         if body.at == "interface" and len(scene.liquid) == 1:
             yield misfit(
@@ -102,7 +100,7 @@ def _bodies_have_their_level(scene: TankScene) -> Iterator[InitErrorDetails]:
             )
 
 
-def _meshes_are_those_of_beams(scene: TankScene) -> Iterator[InitErrorDetails]:
+def _meshes_are_those_of_beams(scene: TankParts) -> Iterator[InitErrorDetails]:
     if scene.mesh is None or scene.is_open or (len(scene.layers) == 1 and not scene.floats):
         return
     because = "two liquids" if len(scene.layers) == 2 else "a float"
@@ -114,7 +112,7 @@ def _meshes_are_those_of_beams(scene: TankScene) -> Iterator[InitErrorDetails]:
     )
 
 
-def _depths_fit_the_length(scene: TankScene) -> Iterator[InitErrorDetails]:
+def _depths_fit_the_length(scene: TankParts) -> Iterator[InitErrorDetails]:
     if scene.is_open:
         yield from _depths_fit_the_bodies(scene)
         return
@@ -131,7 +129,7 @@ def _depths_fit_the_length(scene: TankScene) -> Iterator[InitErrorDetails]:
             )
 
 
-def _depths_fit_the_bodies(scene: TankScene) -> Iterator[InitErrorDetails]:
+def _depths_fit_the_bodies(scene: TankParts) -> Iterator[InitErrorDetails]:
     """Frames of cells reach as far down as they are needed: open water may be deep."""
     least = DEPTH_TO_LENGTH[0] * bodies_span(scene)
     for index, layer in enumerate(scene.layers):
@@ -144,7 +142,7 @@ def _depths_fit_the_bodies(scene: TankScene) -> Iterator[InitErrorDetails]:
             )
 
 
-def _beams_lie_in_the_tank(scene: TankScene) -> Iterator[InitErrorDetails]:
+def _beams_lie_in_the_tank(scene: TankParts) -> Iterator[InitErrorDetails]:
     length = scene.tank.length
     place = "stretch that is drawn" if scene.is_open else "tank"
     for index, beam in scene.beams:
@@ -160,7 +158,7 @@ def _beams_lie_in_the_tank(scene: TankScene) -> Iterator[InitErrorDetails]:
             )
 
 
-def _beams_keep_apart(scene: TankScene) -> Iterator[InitErrorDetails]:
+def _beams_keep_apart(scene: TankParts) -> Iterator[InitErrorDetails]:
     for level in ("interface", "surface"):
         beams = [(index, beam) for index, beam in scene.beams if scene.level_of(beam) == level]
         ordered = sorted(beams, key=lambda numbered: numbered[1].start)
@@ -174,7 +172,7 @@ def _beams_keep_apart(scene: TankScene) -> Iterator[InitErrorDetails]:
                 )
 
 
-def _beams_are_not_too_short(scene: TankScene) -> Iterator[InitErrorDetails]:
+def _beams_are_not_too_short(scene: TankParts) -> Iterator[InitErrorDetails]:
     shortest = SHORTEST_BEAM * bodies_span(scene)
     others = "the others" if scene.is_open else "the tank"
     for index, beam in scene.beams:
@@ -187,11 +185,11 @@ def _beams_are_not_too_short(scene: TankScene) -> Iterator[InitErrorDetails]:
             )
 
 
-def _span_name(scene: TankScene) -> str:
+def _span_name(scene: TankParts) -> str:
     return "the length that the bodies take up" if scene.is_open else "the tank's length"
 
 
-def _groups_are_in_range(scene: TankScene) -> Iterator[InitErrorDetails]:
+def _groups_are_in_range(scene: TankParts) -> Iterator[InitErrorDetails]:
     for index, beam in scene.beams:
         for number, part in enumerate(beam.parts):
             where: tuple[str | int, ...] = ("body", index, "sections", number) if beam.sections else ("body", index)
@@ -207,7 +205,7 @@ def _groups_are_in_range(scene: TankScene) -> Iterator[InitErrorDetails]:
         yield from _joints_are_in_range(scene, index, beam)
 
 
-def _joints_are_in_range(scene: TankScene, index: int, beam: Beam) -> Iterator[InitErrorDetails]:
+def _joints_are_in_range(scene: TankParts, index: int, beam: Beam) -> Iterator[InitErrorDetails]:
     below, above = scene.densities_at(scene.level_of(beam))
     least = SOFTEST_JOINT * (below - above) * scene.tank.gravity * beam.length**3
     for number, joint in enumerate(beam.joints):
@@ -220,7 +218,7 @@ def _joints_are_in_range(scene: TankScene, index: int, beam: Beam) -> Iterator[I
             )
 
 
-def _joints_lie_in_their_beams(scene: TankScene) -> Iterator[InitErrorDetails]:
+def _joints_lie_in_their_beams(scene: TankParts) -> Iterator[InitErrorDetails]:
     negligible, nearest = ROUND_OFF * scene.tank.length, SHORTEST_BEAM * bodies_span(scene)
     for index, beam in scene.beams:
         steps = list(accumulate(part.length for part in beam.parts[:-1]))
@@ -245,7 +243,7 @@ def _joints_lie_in_their_beams(scene: TankScene) -> Iterator[InitErrorDetails]:
                 )
 
 
-def _sections_are_not_too_short(scene: TankScene) -> Iterator[InitErrorDetails]:
+def _sections_are_not_too_short(scene: TankParts) -> Iterator[InitErrorDetails]:
     shortest = SHORTEST_BEAM * bodies_span(scene)
     for index, beam in scene.beams:
         for number, part in enumerate(beam.sections):
@@ -258,7 +256,7 @@ def _sections_are_not_too_short(scene: TankScene) -> Iterator[InitErrorDetails]:
                 )
 
 
-def _groups(scene: TankScene, beam: Beam) -> tuple[tuple[str, str, float, tuple[float, float]], ...]:
+def _groups(scene: TankParts, beam: Beam) -> tuple[tuple[str, str, float, tuple[float, float]], ...]:
     below, above = scene.densities_at(scene.level_of(beam))
     jump = "(ρ₂ − ρ₁)" if above else "ρ"
     weight = (below - above) * scene.tank.gravity
@@ -268,7 +266,7 @@ def _groups(scene: TankScene, beam: Beam) -> tuple[tuple[str, str, float, tuple[
     )
 
 
-def _guided_beams_cover_the_tank(scene: TankScene) -> Iterator[InitErrorDetails]:
+def _guided_beams_cover_the_tank(scene: TankParts) -> Iterator[InitErrorDetails]:
     negligible = ROUND_OFF * scene.tank.length
     for index, beam in scene.beams:
         covers = beam.start <= negligible and beam.end >= scene.tank.length - negligible
@@ -288,7 +286,7 @@ def _guided_beams_cover_the_tank(scene: TankScene) -> Iterator[InitErrorDetails]
             )
 
 
-def _something_moves(scene: TankScene) -> Iterator[InitErrorDetails]:
+def _something_moves(scene: TankParts) -> Iterator[InitErrorDetails]:
     from hydroelastic.physics.rigid_motions import mode_count
     from hydroelastic.scenes.models.physical import physical_tank
 
@@ -310,7 +308,7 @@ def _something_moves(scene: TankScene) -> Iterator[InitErrorDetails]:
         )
 
 
-_Check: TypeAlias = Callable[["TankScene"], Iterator[InitErrorDetails]]
+_Check: TypeAlias = Callable[["TankParts"], Iterator[InitErrorDetails]]
 
 STAGES: tuple[tuple[_Check, ...], ...] = (
     (_densities_are_in_order, _bodies_have_their_level, _meshes_are_those_of_beams, tanks_with_walls_end),

@@ -19,8 +19,9 @@ from hydroelastic.modal.liquid.travelling_waves import TravellingWave, travellin
 from hydroelastic.modal.liquid.two_layer import TwoLayers
 from hydroelastic.physics.scales import Scales
 from hydroelastic.physics.tank import Tank
+from hydroelastic.scenes.models.bodies import Beam, Float
 from hydroelastic.scenes.models.physical import physical_tank
-from hydroelastic.scenes.models.tank import Beam, Float, TankScene
+from hydroelastic.scenes.models.tank import TankScene
 
 # Distance of the basin's sides from the bodies, in parts of their extent.
 _MARGIN = 0.5

@@ -17,7 +17,8 @@ from hydroelastic.fem.tank.resolution import Resolution, rounding_error
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.physics.tank import Tank
 from hydroelastic.scenes.models.physical import physical_tank
-from hydroelastic.scenes.models.tank import Accuracy, TankScene
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.models.tank_parts import Accuracy
 from hydroelastic.scenes.study.plan import Family
 from hydroelastic.scenes.study.reference import Reference
 from hydroelastic.scenes.tank.solve import solve_scene

@@ -20,7 +20,8 @@ from hydroelastic.fem.tank.resolution import initial_resolution
 from hydroelastic.fem.tank.solve import TankSolution
 from hydroelastic.scenes.models.bodies import Beam, Float
 from hydroelastic.scenes.models.physical import physical_tank
-from hydroelastic.scenes.models.tank import Accuracy, Liquid, Tank, TankScene
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.models.tank_parts import Accuracy, Liquid, Tank
 from hydroelastic.scenes.tank.solve import solve_scene
 
 GRAVITY = 9.81

@@ -6,8 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from hydroelastic.scenes.models.bodies import Beam
 from hydroelastic.scenes.models.open_analyses import Decay, Radiation, Resonance, Response
-from hydroelastic.scenes.models.tank import Beam, TankScene
+from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.results import (
     DecayTable,
     OpenSolution,

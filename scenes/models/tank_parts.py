@@ -1,0 +1,194 @@
+"""The parts of the scene of a closed tank, or of open water, as frozen values. SI units; 2-D, so per metre of width."""
+
+from __future__ import annotations
+
+from math import isinf
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import (
+    Field,
+    PrivateAttr,
+    SerializerFunctionWrapHandler,
+    Strict,
+    field_validator,
+    model_serializer,
+)
+
+from hydroelastic.meshes.formats import FORMATS
+from hydroelastic.scenes.models.bodies import (
+    LARGEST,
+    MOST_BODIES,
+    SMALLEST,
+    Beam,
+    Body,
+    Float,
+    Level,
+    PositiveNumber,
+    SceneModel,
+)
+from hydroelastic.scenes.models.infinity import PositiveOrInfinite
+from hydroelastic.scenes.models.open_analyses import Analysis, Resonance
+from hydroelastic.scenes.models.problems import problem
+from hydroelastic.scenes.models.title import Title
+
+
+class Tank(SceneModel):
+    """The rectangular tank and what closes it on top where no body floats."""
+
+    length: PositiveNumber = Field(
+        description="length of the tank between its walls, or of the stretch of open water that is drawn, m"
+    )
+    gravity: PositiveNumber = Field(default=9.81, description="acceleration of gravity, m/s²")
+    ends: Literal["walls", "open"] = Field(
+        default="walls",
+        description="both ends are rigid vertical walls, or open water in which waves leave to both sides",
+    )
+    top: Literal["free", "rigid", "pressure_release"] = Field(
+        default="free",
+        description="the top beside the bodies: free surface with waves, rigid lid, or ψ = 0 without gravity waves",
+    )
+
+
+class Liquid(SceneModel):
+    """A layer of ideal incompressible liquid."""
+
+    density: Annotated[float, Strict(), Field(ge=0, le=LARGEST)] = Field(
+        description="density, kg/m³; 0, of the upper of two only, is air, which is not modelled"
+    )
+    depth: PositiveOrInfinite = Field(description='depth of the layer, m; inf only with ends = "open"')
+
+    @field_validator("density")
+    @classmethod
+    def _density_or_air(cls, density: float) -> float:
+        if 0.0 < density < SMALLEST:
+            raise problem(
+                "it is too small", allowed=f"0 for air, or a positive number from {SMALLEST:g} to {LARGEST:g}"
+            )
+        return density
+
+
+class Accuracy(SceneModel):
+    """What is asked of the answer."""
+
+    tolerance: Annotated[float, Strict(), Field(ge=1e-12, le=1e-1)] = Field(
+        default=1e-6, description="asked relative error of the frequencies"
+    )
+    modes: Annotated[int, Strict(), Field(ge=1, le=200)] = Field(
+        default=10, description="number of modes, from the lowest"
+    )
+
+
+class MeshFile(SceneModel):
+    """A mesh of the liquid made by the user instead of the built-in one."""
+
+    file: Path = Field(
+        description=f"mesh file ({', '.join(FORMATS)}); a relative path starts at the folder of the scene"
+    )
+
+    @field_validator("file")
+    @classmethod
+    def _known_format(cls, file: Path) -> Path:
+        if file.suffix.lower() not in FORMATS:
+            raise problem("it is not a known mesh format", allowed=", ".join(f"*{s}" for s in FORMATS))
+        return file
+
+
+class TankParts(SceneModel):
+    """The parts of the scene of a tank, each allowed for itself; `TankScene` sees to it that they fit together."""
+
+    kind: Literal["tank"] = Field(default="tank", description="kind of the scene")
+    title: Title = Field(default="", description="title of tables and images")
+    tank: Tank = Field(description="the tank")
+    liquid: tuple[Liquid, ...] = Field(min_length=1, max_length=2, description="one liquid or two, from the bottom up")
+    body: tuple[Body, ...] = Field(
+        default=(),
+        max_length=MOST_BODIES,
+        description=f"up to {MOST_BODIES} bodies, in any order; none for sloshing alone",
+    )
+    analysis: tuple[Analysis, ...] = Field(
+        default=(), description='what is asked of open water, one resonance analysis if empty; none with ends = "walls"'
+    )
+    accuracy: Accuracy = Field(default=Accuracy(), description="what is asked of the answer")
+    mesh: MeshFile | None = Field(default=None, description="a mesh of your own")
+
+    _folder: Path = PrivateAttr(default=Path())
+    _source: str | None = PrivateAttr(default=None)
+
+    def model_post_init(self, context: Any) -> None:
+        """Keep the folder of the scene file, from which the files of outlines are found, and how messages name it.
+
+        Only where a file is named: scenes of the same values are else the same wherever they come from.
+        """
+        if context is None:
+            return
+        if any(body.file is not None for _, body in self.floats):
+            self._folder = context["folder"]
+        if self.mesh is not None:
+            self._source = context.get("source")
+
+    @property
+    def folder(self) -> Path:
+        """The folder of the scene file, or the current one."""
+        return self._folder
+
+    @property
+    def source(self) -> str | None:
+        """How messages name the scene file where a mesh of the user's is refused; ``None`` if there is none."""
+        return self._source
+
+    @property
+    def layers(self) -> tuple[Liquid, ...]:
+        """The liquids that are modelled, from the bottom up: without the air, of density 0, above the lower one."""
+        return tuple(liquid for liquid in self.liquid if liquid.density > 0.0)
+
+    @property
+    def top(self) -> Literal["free", "rigid", "pressure_release"]:
+        """What lies on the uppermost modelled liquid beside the bodies: with air above it, the top is free.
+
+        An upper liquid without end has no top; far away, a lid makes no difference.
+        """
+        if len(self.layers) == 2 and isinf(self.layers[1].depth):
+            return "rigid"
+        return self.tank.top if len(self.layers) == len(self.liquid) else "free"
+
+    @property
+    def is_open(self) -> bool:
+        """Whether waves leave to both sides."""
+        return self.tank.ends == "open"
+
+    @property
+    def analyses(self) -> tuple[Analysis, ...]:
+        """What is asked of open water; nothing of a closed tank, whose modes are found."""
+        return (self.analysis or (Resonance(),)) if self.is_open else ()
+
+    @property
+    def beams(self) -> tuple[tuple[int, Beam], ...]:
+        """The beams, each with its index among the bodies."""
+        return tuple((index, body) for index, body in enumerate(self.body) if isinstance(body, Beam))
+
+    @property
+    def floats(self) -> tuple[tuple[int, Float], ...]:
+        """The floats, each with its index among the bodies."""
+        return tuple((index, body) for index, body in enumerate(self.body) if isinstance(body, Float))
+
+    def level_of(self, body: Beam | Float) -> Level:
+        """Return where a body floats; of one modelled liquid there is only the surface."""
+        if len(self.layers) == 1:
+            return "surface"
+        return body.at if body.at is not None else "interface"
+
+    def height_of(self, level: Level) -> float:
+        """Return the ordinate of a still level, m: 0 but for the surface of the upper of two liquids."""
+        return self.layers[1].depth if level == "surface" and len(self.layers) == 2 else 0.0
+
+    def densities_at(self, level: Level) -> tuple[float, float]:
+        """Return the densities below and above a level, kg/m³; 0 above the surface."""
+        densities = (*(layer.density for layer in self.layers), 0.0)
+        place = len(self.layers) - 1 if level == "surface" else 0
+        return densities[place], densities[place + 1]
+
+    @model_serializer(mode="wrap")
+    def _without_idle_keys(self, written: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        """Leave out the analyses where there are none, as in every closed tank."""
+        return {key: value for key, value in written(self).items() if key != "analysis" or value}

@@ -88,13 +88,13 @@ from hydroelastic.modal.roll.motion import LinearRollPath, Roll, RollMotion, Wav
 from hydroelastic.modal.roll.paper import ROLL_ERRATA, RollSlip, paper_roll_angle, printed_roll_constants
 from hydroelastic.modal.roll.quadratic import QuadraticRollPath, quadratic_roll_path
 from hydroelastic.modal.roll.statistics import RollStatistics, roll_statistics
-from hydroelastic.modal.string.hanging_string import HangingString
-from hydroelastic.modal.string.motions import Given, Motion, Ramp, Sine, Smooth, Step, sampled, tabulated
 from hydroelastic.modal.string.paper import STRING_ERRATA
 from hydroelastic.modal.string.partial_sum import partial_sum
 from hydroelastic.modal.string.resonance import StringResonance, nearest_resonance, string_resonance
 from hydroelastic.modal.string.response import StringResponse, string_response
 from hydroelastic.physics.profiles import FloatShape, Profile, ProfileArc, float_profile
+from hydroelastic.physics.string import HangingString
+from hydroelastic.physics.string_motions import Given, Motion, Ramp, Sine, Smooth, Step, sampled, tabulated
 
 __all__ = [
     "ERRATA",

@@ -10,17 +10,16 @@ from string_closed_forms import FREQUENCIES, Motion, ramp, sine, smooth, step
 
 from hydroelastic.fem.string.collocation import Collocation
 from hydroelastic.fem.string.march import Pace, march
-from hydroelastic.fem.string.model import StringModel, scaled_string
 from hydroelastic.fem.string.pencil import StringPencil, build_string_pencil, string_nodes
 from hydroelastic.fem.string.probe import StringProbe
+from hydroelastic.physics.string import HangingString
 
 COMM = MPI.COMM_WORLD
 MOTIONS = {"ramp": ramp(), "sine": sine(1.7), "smooth": smooth(2.0), "step": step()}
 
 
 def plain(damping: float, degree: int, elements: int) -> StringPencil:
-    model = StringModel(length=1.0, linear_density=1.0, gravity=1.0, resistance=(damping, damping))
-    string = scaled_string(model)
+    string = HangingString(length=1.0, linear_density=1.0, gravity=1.0, resistance=(damping, damping))
     return build_string_pencil(COMM, string, degree, string_nodes(string, elements))
 
 
@@ -74,8 +73,7 @@ def test_energy_is_kept_after_a_step() -> None:
 
 
 def test_energy_lost_is_what_the_resistance_takes() -> None:
-    model = StringModel(length=1.0, linear_density=1.0, gravity=1.0, resistance=(0.2, 0.7), tip_mass=0.3)
-    string = scaled_string(model)
+    string = HangingString(length=1.0, linear_density=1.0, gravity=1.0, resistance=(0.2, 0.7), tip_mass=0.3)
     pencil = build_string_pencil(COMM, string, 6, string_nodes(string, 6))
     stepper = Collocation(pencil.mass, pencil.resistance, pencil.stiffness, 4)
     size = len(pencil.free)

@@ -19,11 +19,11 @@ from slepc4py import SLEPc
 
 from hydroelastic.fem.direct import configure_direct
 from hydroelastic.fem.modes import EigenSolverError
-from hydroelastic.fem.string.model import StringModel, scaled_string
 from hydroelastic.fem.string.modes import MODE_DEGREE, StringModes, mode_pencils, rounding, string_modes
 from hydroelastic.fem.string.pencil import StringPencil
 from hydroelastic.fem.string.probe import StringProbe
 from hydroelastic.meshes.interrupts import interrupts_deferred
+from hydroelastic.physics.string import HangingString
 
 _RESIDUAL = 1e-12
 
@@ -46,7 +46,7 @@ class DampedModes:
 
 def damped_modes(
     comm: MPI.Comm,
-    model: StringModel,
+    string: HangingString,
     count: int,
     positions: NDArray[np.float64],
     *,
@@ -58,7 +58,7 @@ def damped_modes(
 
     Args:
         comm: communicator.
-        model: the string.
+        string: the string.
         count: how many roots, a conjugate pair being one; the two real roots of an aperiodic motion are two, and the
             fast one may lie far from zero.
         positions: x of the shapes, m, from 0 to the length, shape (positions,).
@@ -73,14 +73,13 @@ def damped_modes(
     Raises:
         EigenSolverError: if SLEPc does not deliver them.
     """
-    string = scaled_string(model)
     if string.uniform_damping is not None and not quadratic:
-        undamped = string_modes(comm, model, count, positions, elements=elements, degree=degree)
-        return _from_undamped(undamped, string.uniform_damping / string.time_unit)
+        undamped = string_modes(comm, string, count, positions, elements=elements, degree=degree)
+        return _from_undamped(undamped, string.uniform_damping)
     pencil, richer = mode_pencils(comm, string, count, elements, degree)
     roots, vectors = _quadratic_pairs(pencil, count)
     closer, _ = _quadratic_pairs(richer, count)
-    probe = StringProbe(pencil, np.asarray(positions, float) / model.length)
+    probe = StringProbe(pencil, np.asarray(positions, float) / string.length)
     tip = StringProbe(pencil, np.zeros(1))
     differences = np.min(np.abs(roots[:, None] - closer), axis=1)
     rounded = np.array([_rounding(pencil, root, *parts) for root, parts in zip(roots, vectors, strict=True)])

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.fem.string.end_motion import EndMotion, after, jumps
-from hydroelastic.fem.string.model import ScaledString
 from hydroelastic.fem.string.soft_motion import SoftMotion
+from hydroelastic.physics.string import HangingString
 
 # Largest error of a softened step, and of its first three integrals, in units of 1, 1/ω₀, 1/ω₀², 1/ω₀³: from 5 to 11
 # digits 0.50, 0.33, 0.13 to 0.14 and 0.12 to 0.15 within 3/ω₀ of the middle, and farther away all below 0.3/(ω₀t).
@@ -25,7 +25,7 @@ _CLOSE = 1e-4
 
 
 def front_errors(
-    string: ScaledString,
+    string: HangingString,
     motion: EndMotion,
     soft: SoftMotion,
     positions: NDArray[np.float64],
@@ -37,30 +37,27 @@ def front_errors(
     the ripples beside it pass through zero.
 
     Args:
-        string: what hangs.
+        string: the string.
         motion: of its upper end.
         soft: the motion that the values follow.
-        positions: x in units of the length, shape (positions,).
+        positions: x, m, shape (positions,).
         times: s, shape (times,).
 
     Returns:
         In metres, shape (positions, times).
     """
-    whole = string.travel_time * string.time_unit
+    whole, travel = string.travel_time, string.travel_times(positions)
     bottom, slope = string.tension
-    speed = np.sqrt(bottom + slope * positions)
-    travel = string.travel_times(positions) * string.time_unit
-    damping = string.smallest_damping / string.time_unit
+    root = np.sqrt(bottom + slope * positions)
     # At the lower end the tension may vanish: the height is that at the width of the front.
-    width = 1.0 / soft.middle / string.time_unit
-    blunt = np.maximum(speed, abs(slope) / sqrt(string.mass) * width)
-    height = np.sqrt(max(sqrt(bottom + slope), float(blunt.max())) / blunt)[:, None]
+    blunt = np.maximum(root, abs(slope) / sqrt(string.inertia) / soft.middle)
+    height = np.sqrt(max(sqrt(bottom + slope * string.length), float(blunt.max())) / blunt)[:, None]
     errors = np.zeros((len(positions), len(times)))
     for start in motion.breaks:
         jumped = (*jumps(motion, start), *_bends(motion, start, _CLOSE / soft.middle))
         since = times - start
         away = _nearest_passage(whole, travel, since)
-        decay = np.exp(-damping * np.maximum(since, 0.0) - 0.5 * (away / soft.width) ** 2)
+        decay = np.exp(-string.smallest_damping * np.maximum(since, 0.0) - 0.5 * (away / soft.width) ** 2)
         ringing = _RINGING / np.maximum(soft.middle * away, 1e-3)
         for order, (jump, largest) in enumerate(zip(jumped, _LARGEST, strict=True)):
             errors += abs(jump) / soft.middle**order * np.minimum(largest, ringing) * height * decay

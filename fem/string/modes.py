@@ -15,10 +15,10 @@ from slepc4py import SLEPc
 
 from hydroelastic.fem.direct import configure_direct
 from hydroelastic.fem.modes import EigenSolverError
-from hydroelastic.fem.string.model import ScaledString, StringModel, scaled_string
 from hydroelastic.fem.string.pencil import StringPencil, build_string_pencil, string_nodes
 from hydroelastic.fem.string.probe import StringProbe
 from hydroelastic.meshes.interrupts import interrupts_deferred
+from hydroelastic.physics.string import HangingString
 
 MODE_DEGREE = 10
 """Of the polynomials on which modes are sought."""
@@ -45,7 +45,7 @@ class StringModes:
 
 def string_modes(
     comm: MPI.Comm,
-    model: StringModel,
+    string: HangingString,
     count: int,
     positions: NDArray[np.float64],
     *,
@@ -56,7 +56,7 @@ def string_modes(
 
     Args:
         comm: communicator.
-        model: the string.
+        string: the string.
         count: how many modes.
         positions: x of the shapes, m, from 0 to the length, shape (positions,).
         elements: of equal travel time; by default enough for about fourteen digits.
@@ -68,13 +68,12 @@ def string_modes(
     Raises:
         EigenSolverError: if SLEPc does not deliver them.
     """
-    string = scaled_string(model)
     pencil, richer = mode_pencils(comm, string, count, elements, degree)
     squares, vectors = undamped_pairs(pencil, count)
     closer, _ = undamped_pairs(richer, count)
     frequencies, better = np.sqrt(squares), np.sqrt(closer)
     rounded = [0.5 * rounding(pencil.stiffness, vector) for vector in vectors] / frequencies
-    probe = StringProbe(pencil, np.asarray(positions, float) / model.length)
+    probe = StringProbe(pencil, np.asarray(positions, float) / string.length)
     tip = StringProbe(pencil, np.zeros(1))
     shapes = [probe.values(vector) * np.sign(tip.values(vector)[0]) for vector in vectors]
     last_place = 4.0 * np.finfo(float).eps * frequencies
@@ -86,7 +85,7 @@ def string_modes(
 
 
 def mode_pencils(
-    comm: MPI.Comm, string: ScaledString, count: int, elements: int | None, degree: int
+    comm: MPI.Comm, string: HangingString, count: int, elements: int | None, degree: int
 ) -> tuple[StringPencil, StringPencil]:
     """Matrices on one mesh with polynomials of a degree, and of a higher one to judge it by (collective)."""
     # With degree 10, one and a half half-waves in an element leave thirteen digits.

@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 from hydroelastic.fem.string.end_motion import EndMotion
 from hydroelastic.fem.string.fronts import front_errors
 from hydroelastic.fem.string.march import March, Pace, march, schedule
-from hydroelastic.fem.string.model import StringModel, scaled_string
 from hydroelastic.fem.string.pencil import StringPencil, build_string_pencil, string_nodes
 from hydroelastic.fem.string.probe import StringProbe
 from hydroelastic.fem.string.soft_motion import SoftMotion
+from hydroelastic.physics.string import HangingString
 
 DEGREE = 10
 """Of the polynomials."""
@@ -68,7 +68,7 @@ class StringRuns:
 
     Args:
         comm: communicator.
-        model: the string.
+        string: the string.
         motion: of its upper end.
         positions: x, m, shape (positions,).
         times: s, increasing, shape (times,).
@@ -78,16 +78,15 @@ class StringRuns:
     def __init__(
         self,
         comm: MPI.Comm,
-        model: StringModel,
+        string: HangingString,
         motion: EndMotion,
         positions: NDArray[np.float64],
         times: NDArray[np.float64],
         tolerance: float,
     ) -> None:
-        """Take the dimensions out of the string."""
+        """Choose the digits of the softening."""
         self._comm, self._motion, self._times = comm, motion, times
-        self.string = scaled_string(model)
-        self._positions: NDArray[np.float64] = np.asarray(positions / model.length, dtype=np.float64)
+        self.string, self._positions = string, positions
         sample = np.concatenate([times, np.linspace(times[0], times[-1], 64)])
         largest = max(tolerance, float(np.max(np.abs(np.asarray(motion.value(sample))))))
         self._digits = float(np.clip(log10(largest / tolerance) + 2.5, 3.0, 13.0))
@@ -97,11 +96,6 @@ class StringRuns:
         self.seconds = {"mesh": 0.0, "motion": 0.0}
         self.marches = 0
 
-    @property
-    def travel_time(self) -> float:
-        """Of a wave along the string, s."""
-        return self.string.travel_time * self.string.time_unit
-
     def soft(self, resolution: Resolution) -> SoftMotion:
         """The motion as softly as a resolution wants it."""
         if resolution.reach not in self._soft:
@@ -110,11 +104,11 @@ class StringRuns:
 
     def elements(self, resolution: Resolution) -> int:
         """Of equal travel time."""
-        return int(np.ceil(self.soft(resolution).highest * self.travel_time / resolution.element))
+        return int(np.ceil(self.soft(resolution).highest * self.string.travel_time / resolution.element))
 
     def pace(self, resolution: Resolution) -> Pace:
         """Of the steps: waves decay like e^{−αt} at the least, α the smallest damping along the string."""
-        damping = self.string.smallest_damping / self.string.time_unit
+        damping = self.string.smallest_damping
         quiet = self._digits * log(10.0) / damping if damping > 0.0 else inf
         return Pace(longest=resolution.step / self.soft(resolution).highest, quiet=quiet)
 
@@ -141,7 +135,7 @@ class StringRuns:
     def _on_mesh(self, elements: int) -> tuple[StringPencil, StringProbe]:
         if elements not in self._meshes:
             pencil = build_string_pencil(self._comm, self.string, DEGREE, string_nodes(self.string, elements))
-            self._meshes[elements] = pencil, StringProbe(pencil, self._positions)
+            self._meshes[elements] = pencil, StringProbe(pencil, np.divide(self._positions, self.string.length))
         return self._meshes[elements]
 
     def front_errors(self, resolution: Resolution) -> NDArray[np.float64]:

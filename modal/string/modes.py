@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.modal.damped_pair import damped_pair
-from hydroelastic.modal.string.forcing import Forcing
-from hydroelastic.modal.string.hanging_string import HangingString
 from hydroelastic.modal.string.quasistatic import Exponential
+from hydroelastic.physics.string import HangingString
+from hydroelastic.physics.string_forcing import Forcing
 
 
 @dataclass(frozen=True, kw_only=True)

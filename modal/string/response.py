@@ -12,17 +12,19 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from hydroelastic.modal.string.forcing import Forcing
-from hydroelastic.modal.string.hanging_string import HangingString, participations
+from hydroelastic.modal.bessel_zeros import bessel_zeros
+from hydroelastic.modal.string.closed_form import participations, relative_roots
 from hydroelastic.modal.string.modes import free_coordinates, launches
 from hydroelastic.modal.string.quasistatic import Exponential, exponentials, forced_part
 from hydroelastic.modal.string.rounding import Rounding
 from hydroelastic.modal.string.truncation import Truncation, fewest_terms, weights
+from hydroelastic.physics.string import HangingString
+from hydroelastic.physics.string_forcing import Forcing
+from hydroelastic.physics.string_motions import Motion
 
 EPS = float(np.finfo(float).eps)
 FEWEST_TERMS = 128
@@ -34,18 +36,6 @@ STRIP = 16
 WORK = 2**22
 # … and no fewer for long tables, nor more than 65536 for single points, enough at 7e-4 R from a front: powers of 2.
 LEAST_OF_MOST_TERMS, LARGEST_OF_MOST_TERMS = 12, 16
-
-
-class UpperEnd(Protocol):
-    """A motion of the upper end: those of `modal/string/motions.py`."""
-
-    @property
-    def forcing(self) -> Forcing:
-        """The motion as pieces of polynomials and exponentials."""
-
-    @property
-    def end(self) -> float:
-        """Last time at which it is known, s; or infinity."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -65,7 +55,7 @@ class StringResponse:
 
 def string_response(
     string: HangingString,
-    motion: UpperEnd,
+    motion: Motion,
     positions: ArrayLike,
     times: ArrayLike,
     *,
@@ -76,7 +66,7 @@ def string_response(
 
     Args:
         string: the string.
-        motion: f(t) of its upper end, from `modal/string/motions.py`.
+        motion: f(t) of its upper end, from `physics/string_motions.py`.
         positions: x above the free lower end, m, shape (positions,) or one.
         times: t, s, not negative, shape (times,) or one, in any order.
         tolerance: aim of the error of the cut sum, in units of the largest |f| until then. Next to fronts it
@@ -93,7 +83,7 @@ def string_response(
     """
     positions, times = np.atleast_1d(np.asarray(positions, float)), np.atleast_1d(np.asarray(times, float))
     _check(motion, times, tolerance, most_terms)
-    ratios = string.relative_roots(positions)
+    ratios = relative_roots(string, positions)
     across, along = np.argsort(ratios, kind="stable"), np.argsort(times, kind="stable")
     values = np.zeros((len(positions), len(times)))
     errors = np.zeros_like(values)
@@ -119,7 +109,7 @@ def string_response(
     return StringResponse(values=values, errors=errors, terms=terms)
 
 
-def _check(motion: UpperEnd, times: NDArray[np.float64], tolerance: float, most_terms: int | None) -> None:
+def _check(motion: Motion, times: NDArray[np.float64], tolerance: float, most_terms: int | None) -> None:
     if not (np.isfinite(times) & (times >= 0)).all():
         raise ValueError(f"times has {times[~(np.isfinite(times) & (times >= 0))][0]}: finite times from 0 are allowed")
     if times.size and times.max() > motion.end:
@@ -230,7 +220,7 @@ class _Tile:
 
     def _octave(self, start: int, stop: int, pending: NDArray[np.bool_], rounding: Rounding) -> _Octave:
         """Return modes start + 1 … stop at all positions, and at the times that are pending (zero at the others)."""
-        zeros = self.string.zeros(stop)[start:]
+        zeros = bessel_zeros(stop)[start:]
         frequencies = np.divide(zeros, self.string.travel_time)
         jumps = launches(self.string, self.forcing, self.parts, frequencies, start + 1)
         shapes = participations(zeros, self.ratios)

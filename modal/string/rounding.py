@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hydroelastic.modal.string.hanging_string import HangingString
 from hydroelastic.modal.string.modes import Launches
+from hydroelastic.physics.string import HangingString
 
 EPS = float(np.finfo(float).eps)
 

@@ -24,10 +24,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import erfc
 
-from hydroelastic.modal.string.forcing import Forcing
-from hydroelastic.modal.string.hanging_string import HangingString
 from hydroelastic.modal.string.modes import launches
 from hydroelastic.modal.string.quasistatic import Exponential
+from hydroelastic.physics.string import HangingString
+from hydroelastic.physics.string_forcing import Forcing
 
 DIGITS = 15.0
 EDGE = math.sqrt(DIGITS * math.log(10))

@@ -50,7 +50,7 @@ def _tank(scene: TankScene, outcome: Outcome) -> tuple[Section, ...] | str:
 
 
 def _string(scene: StringScene, outcome: Outcome) -> tuple[Section, ...] | str:
-    if not scene.string.has_closed_form:
+    if not scene.string.physical.has_closed_form:
         return "With a tip mass or a resistance that varies there is no series to compare with."
     if scene.method == "series":
         return (
@@ -58,9 +58,9 @@ def _string(scene: StringScene, outcome: Outcome) -> tuple[Section, ...] | str:
             "given by the command hydroelastic compare."
         )
     from hydroelastic.scenes.string.compare import compared, comparison_section
-    from hydroelastic.scenes.string.series import solve_series
+    from hydroelastic.scenes.string.solve import solve_series
 
-    return (comparison_section(compared(outcome.solution, solve_series(scene))),)
+    return (comparison_section(compared(outcome.solution.solution, solve_series(scene))),)
 
 
 def _thread(scene: ThreadScene, outcome: Outcome) -> Iterator[Section]:

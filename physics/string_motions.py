@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import CubicSpline
 
-from hydroelastic.modal.string.forcing import DERIVATIVES, Forcing, one_piece
+from hydroelastic.physics.string_forcing import DERIVATIVES, Forcing, one_piece
 
 MOST_SAMPLES = 2**16
 FEWEST_SAMPLES = 17
@@ -66,7 +66,7 @@ class _Endless(_Values):
         return math.inf
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Ramp(_Endless):
     """f = V t.
 
@@ -83,7 +83,7 @@ class Ramp(_Endless):
         return Forcing(starts=starts, derivatives=derivatives)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Step(_Endless):
     """f = Δ from t = 0.
 
@@ -100,7 +100,7 @@ class Step(_Endless):
         return Forcing(starts=starts, derivatives=derivatives)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Sine(_Endless):
     """f = Δ sin ωt.
 
@@ -124,7 +124,7 @@ class Sine(_Endless):
         )
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Smooth(_Endless):
     """f = Δ(1 − e^{−βt})².
 
@@ -154,7 +154,7 @@ class Smooth(_Endless):
         )
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Given(_Values):
     """A motion by pieces of polynomials up to the third degree; made by `tabulated` and `sampled`.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydroelastic.modal.string.motions import Given, Ramp, Sine, Smooth, Step, tabulated
+from hydroelastic.physics.string_motions import Given, Ramp, Sine, Smooth, Step, tabulated
 from hydroelastic.scenes.models.string import RampMotion, SineMotion, SmoothMotion, StepMotion, StringScene, TableMotion
 
 

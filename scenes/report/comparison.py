@@ -15,7 +15,7 @@ from hydroelastic.scenes.output.sections import Section
 from hydroelastic.scenes.read import Scene
 
 if TYPE_CHECKING:
-    from hydroelastic.scenes.roll.solve import RollSolution
+    from hydroelastic.scenes.roll.results import RollResult
 
 
 def comparison_of(scene: Scene, outcome: Outcome) -> tuple[Section, ...] | str:
@@ -73,10 +73,10 @@ def _thread(scene: ThreadScene, outcome: Outcome) -> Iterator[Section]:
     yield from comparison_sections(thread_differences(outcome.solution, estimates))
 
 
-def _roll(solution: RollSolution) -> tuple[Section, ...] | str:
+def _roll(result: RollResult) -> tuple[Section, ...] | str:
     from hydroelastic.scenes.roll.compare import paper_section, untreated_by_paper
 
-    untreated = untreated_by_paper(solution)
+    untreated = untreated_by_paper(result)
     if untreated:
         return f"The solution is a closed form; the paper's formulas do not treat this motion: {untreated}."
-    return (paper_section(solution),)
+    return (paper_section(result),)

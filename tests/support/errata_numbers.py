@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from uniform_strings import uniform_string
 
-from hydroelastic.modal import HangingString, PrintedAndCorrected, Ramp, Roll, Sine, Smooth, Step, roll_response
+from hydroelastic.modal import HangingString, PrintedAndCorrected, Ramp, Ship, Sine, Smooth, Step, roll_response
 from hydroelastic.modal.roll.paper import (
     ALL_ROLL_SLIPS,
     PRINTED_ROLL,
@@ -102,14 +102,20 @@ def _angle(time: float) -> PrintedAndCorrected:
 def _at_critical_damping() -> PrintedAndCorrected:
     """φ at 20 s; the paper has none."""
     k = PRINTED_ROLL.natural_frequency
-    return PrintedAndCorrected(printed=math.nan, corrected=float(roll_response(Roll(k, k), PRINTED_TRAIN, 20.0).angle))
+    return PrintedAndCorrected(
+        printed=math.nan,
+        corrected=float(roll_response(Ship(natural_frequency=k, damping=k), PRINTED_TRAIN, 20.0).angle),
+    )
 
 
 def _difference_of_dampings() -> PrintedAndCorrected:
     """Between n = 0.6 k and 0.96 k; the paper sees none."""
     times = np.linspace(0.0, 54.6, 10921)
     k = PRINTED_ROLL.natural_frequency
-    one, other = (roll_response(Roll(k, factor * k), PRINTED_TRAIN, times).angle for factor in (0.6, 0.96))
+    one, other = (
+        roll_response(Ship(natural_frequency=k, damping=factor * k), PRINTED_TRAIN, times).angle
+        for factor in (0.6, 0.96)
+    )
     return PrintedAndCorrected(printed=0.0, corrected=float(np.abs(one - other).max()))
 
 

@@ -163,8 +163,11 @@ def test_a_section_in_a_tank_gives_its_natural_frequency() -> None:
     result = solve("swell", swell, "accuracy.tolerance=1e-6", "output.times={start=0, stop=60, number=61}")
     section = result.section
     assert section is not None
-    # The mode of roll of results/shipped/ship_section.
+    # The mode of roll of results/shipped/ship_section, and its added inertia with a stated error of 5e-10.
     assert section.natural_frequency == pytest.approx(0.41225772491, rel=1e-9)
+    assert section.added_inertia == pytest.approx(2338528.6244, rel=2e-9)
+    assert section.inertia == pytest.approx(9370997.4525, rel=1e-10)
+    assert section.stiffness == pytest.approx(0.41225772491**2 * (9370997.4525 + 2338528.6244), rel=1e-9)
     assert section.damping is None
     assert result.solution.ship.damping == pytest.approx(0.6 * section.natural_frequency, rel=1e-15)
     same = solve(

@@ -95,7 +95,7 @@ from hydroelastic.modal.string.response import StringResponse, string_response
 from hydroelastic.physics.profiles import FloatShape, Profile, ProfileArc, float_profile
 from hydroelastic.physics.ship import Ship
 from hydroelastic.physics.string import HangingString
-from hydroelastic.physics.string_motions import Given, Motion, Ramp, Sine, Smooth, Step, sampled, tabulated
+from hydroelastic.physics.string_motions import Motion, Ramp, Sine, Smooth, Step, TabulatedMotion, sampled, tabulated
 from hydroelastic.physics.wave import WaveTrain
 
 __all__ = [
@@ -117,7 +117,6 @@ __all__ = [
     "FreeMotion",
     "FreePole",
     "FroudeCoefficients",
-    "Given",
     "HangingString",
     "HeaveRadiation",
     "InterfacePlate",
@@ -145,6 +144,7 @@ __all__ = [
     "Step",
     "StringResonance",
     "StringResponse",
+    "TabulatedMotion",
     "ThinConstants",
     "Tones",
     "TwoLayers",

@@ -10,7 +10,7 @@ from scipy.integrate import quad
 from string_closed_forms import FREQUENCIES, Motion, ramp, sine, smooth, step
 
 from hydroelastic.fem.string.response import field_response
-from hydroelastic.fem.string.soft_motion import SoftMotion
+from hydroelastic.fem.string.smoothed_motion import SmoothedMotion
 from hydroelastic.physics.string import HangingString
 
 COMM = MPI.COMM_WORLD
@@ -145,7 +145,7 @@ def steady(model: HangingString, omega: float, positions: np.ndarray, tip: float
 @pytest.mark.parametrize("order", [0, 1, 2])
 def test_soft_motion_is_a_convolution(order: int) -> None:
     motion = MOTIONS["fast"]
-    soft = SoftMotion(motion, 0.3, 8.0)
+    soft = SmoothedMotion(motion, 0.3, 8.0)
 
     def kernel(t: float) -> float:
         width = 0.3 / np.sqrt(16.0 * np.log(10.0))
@@ -171,7 +171,7 @@ def test_soft_motion_is_a_convolution(order: int) -> None:
 
 
 def test_a_step_is_softened_with_its_jump() -> None:
-    soft = SoftMotion(step(), 0.2, 9.0)
+    soft = SmoothedMotion(step(), 0.2, 9.0)
     times = np.linspace(-0.2, 0.2, 2001)
     # From 0 to 1, odd about ½; rate and curvature are those of the kernel.
     np.testing.assert_allclose(soft.value(times) + soft.value(times)[::-1], 1.0, atol=1e-8)

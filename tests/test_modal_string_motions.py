@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 from uniform_strings import uniform_string
 
-from hydroelastic.modal import Given, Ramp, Sine, Smooth, Step, sampled, string_response, tabulated
+from hydroelastic.modal import Ramp, Sine, Smooth, Step, TabulatedMotion, sampled, string_response, tabulated
 
 Floats = NDArray[np.float64]
 POSITIONS = np.array([0.0, 0.1, 0.45, 0.8, 0.99])
@@ -39,7 +39,7 @@ def _step(times: Floats) -> Floats:
         tabulated([0, 1, 2, 4], [0, 1, 1, 5], "cubic"),
     ],
 )
-def test_derivatives_are_those_of_the_values(motion: Ramp | Sine | Smooth | Step | Given) -> None:
+def test_derivatives_are_those_of_the_values(motion: Ramp | Sine | Smooth | Step | TabulatedMotion) -> None:
     times, step = np.array([0.3, 1.5, 3.2]), 1e-4
     below, at, above = (motion.value(times + shift) for shift in (-step, 0, step))
     # Central differences, of error step²/6 times a fourth derivative below 300, and of rounding over step².

@@ -1,9 +1,8 @@
-"""The matrices of the hanging string on polynomials of one degree, its upper end held.
+"""Matrices of the hanging string on polynomials of one degree, its upper end fixed.
 
     M = ∫m u v + M_tip u v|₀,    C = ∫2λ u v,    K = ∫T u_x v_x
 
-K is positive also where T vanishes at the free end, for u = 0 at the upper one; that condition is built in by leaving
-its unknown out.
+K is positive definite also where T vanishes at the free end, for u = 0 at the upper one, whose unknown is left out.
 """
 
 from __future__ import annotations
@@ -25,12 +24,12 @@ from hydroelastic.physics.string import HangingString
 
 @dataclass(frozen=True, kw_only=True)
 class StringPencil:
-    """The string as matrices on its free unknowns.
+    """Dimensionless matrices of a string on its free unknowns.
 
     Attributes:
         string: the string, in SI units; the matrices are those of the dimensionless one.
         space: polynomials on the line, the unknown of the upper end included.
-        degree: of the polynomials.
+        degree: polynomial degree.
         free: owned unknowns but that of the upper end.
         mass: M.
         resistance: C.
@@ -70,7 +69,7 @@ class StringPencil:
 
 
 def string_nodes(string: HangingString, elements: int) -> NDArray[np.float64]:
-    """Nodes with equal travel times, and more towards the end next to a zero of the tension outside the string."""
+    """Return nodes with equal travel times, graded towards an end next to a zero of the tension outside the string."""
     tension = string.dimensionless().tension
     return graded_nodes(travel_nodes(elements, *tension), *tension)
 

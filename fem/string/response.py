@@ -1,11 +1,11 @@
-"""The motion of the hanging string to a tolerance: reach of the softening, mesh and step chosen by their own errors.
+"""Adaptive motion of the hanging string: smoothing of fronts, mesh and time step chosen by their estimated errors.
 
-Fronts limit what a mesh of one fineness can give: an error of order s·2n/(2n + 1) in the mean for degree n, with s = ½
+Fronts limit the accuracy on a uniform mesh: the error is of order s·2n/(2n + 1) in the mean for degree n, with s = ½
 after a step, 1½ after a ramp and 2½ after a motion that starts with a jump of its acceleration. The motion is therefore
-softened at its breaks (`soft_motion`), and the errors told apart by three causes:
+smoothed at its breaks (`smoothed_motion.py`), and errors are estimated separately for three causes:
 
-    cause   made smaller by                                            estimated by
-    front   less reach of the softening, a finer mesh, shorter steps   the last changes; within a front its height
+    cause   reduced by                                                 estimated by
+    front   less reach of the smoothing, a finer mesh, shorter steps   the last changes; within a front its height
     space   more elements                                              a mesh of four fifths of the elements
     time    shorter steps                                              Richardson's extrapolation from steps twice and
                                                                        four times as long
@@ -40,15 +40,15 @@ _CAUTION = 4.0
 
 @dataclass(frozen=True, kw_only=True)
 class FieldSizes:
-    """How large the last solution was.
+    """Size of the last discretisation.
 
     Attributes:
-        elements: of the mesh.
-        degree: of the polynomials.
-        unknowns: free ones.
-        steps: of time.
-        reach: within which of a front values are softened, s.
-        marches: motions computed in all, to choose and to judge.
+        elements: number of elements.
+        degree: polynomial degree.
+        unknowns: number of free unknowns.
+        steps: number of time steps.
+        reach: time from a front within which values are smoothed, s.
+        marches: number of motions computed in all, trials and error estimates included.
     """
 
     elements: int
@@ -61,13 +61,13 @@ class FieldSizes:
 
 @dataclass(frozen=True, kw_only=True)
 class ErrorsByCause:
-    """The largest estimated error of each cause, m.
+    """Largest estimated error of each cause.
 
     Attributes:
-        front: of the softening of fronts, of the values that are judged.
-        space: of the mesh.
-        time: of the steps.
-        time_order: observed in three steps; rounding lowers it.
+        front: error from the smoothing of fronts, of the values that are judged, m.
+        space: discretisation error in space, m.
+        time: discretisation error in time, m.
+        time_order: order observed with three step lengths; rounding lowers it.
     """
 
     front: float
@@ -78,16 +78,16 @@ class ErrorsByCause:
 
 @dataclass(frozen=True, kw_only=True)
 class FieldResponse:
-    """How the string moves.
+    """Displacements of the string and their errors.
 
     Attributes:
         values: U at the positions and times, m, shape (positions, times).
         errors: estimate of their absolute errors, m, shape (positions, times).
-        causes: the largest ones by cause.
+        causes: the largest errors by cause.
         tolerance: asked, m.
-        problem: why the tolerance is not reached everywhere; empty where it is.
-        sizes: of the last solution.
-        seconds: by stage.
+        problem: why the tolerance is not reached everywhere; empty if it is.
+        sizes: size of the last discretisation.
+        seconds: time by stage.
     """
 
     values: NDArray[np.float64]
@@ -116,7 +116,7 @@ def field_response(
     most_unknowns: int = 4_000,
     most_steps: int = 8_000,
 ) -> FieldResponse:
-    """Move the upper end of a string that was at rest.
+    """Return the motion of a string at rest whose upper end is moved.
 
     Args:
         comm: communicator.
@@ -125,13 +125,13 @@ def field_response(
         positions: x, m, up from the lower end, shape (positions,).
         times: s, from the start of the motion, increasing, shape (times,).
         tolerance: absolute, m.
-        judged: values that are to keep the tolerance, shape (positions, times), all by default: next to fronts it would
-            cost more the nearer they are, and after a step it cannot be kept.
-        most_unknowns: of a mesh.
-        most_steps: of a march.
+        judged: values that must keep the tolerance, shape (positions, times), all by default: the cost grows towards
+            fronts, and at the front of a step no tolerance can be kept.
+        most_unknowns: largest number of unknowns of a mesh.
+        most_steps: largest number of time steps.
 
     Returns:
-        The motion (collective).
+        The displacements (collective).
 
     Raises:
         ValueError: if positions, times or the tolerance are out of range.
@@ -186,7 +186,7 @@ def _check(
 
 @dataclass(frozen=True, kw_only=True)
 class _Checked:
-    """A solution with one softening, and the errors of its mesh and step at each place and time."""
+    """A solution with one smoothing, and the errors of its mesh and step at each position and time."""
 
     values: NDArray[np.float64]
     space: NDArray[np.float64]
@@ -201,7 +201,7 @@ class _Checked:
 
 
 def _checked(runs: StringRuns, resolution: Resolution, known: March | None = None) -> _Checked:
-    """Solve, unless that is done, and judge mesh and step."""
+    """Solve, unless the solution is known, and estimate the errors of mesh and step."""
     fine = known or runs.move(resolution)
     double, fourfold = (runs.move(resolution.tighter(factor, space=False, time=True)) for factor in (2.0, 4.0))
     coarse = runs.move(resolution, elements=int(_COARSER * runs.elements(resolution)))
@@ -237,10 +237,10 @@ def _settled(runs: StringRuns, resolution: Resolution, share: float, known: Marc
 def _refined(
     runs: StringRuns, share: float, judged: NDArray[np.bool_], most_unknowns: int, most_steps: int
 ) -> tuple[_Checked, NDArray[np.float64]]:
-    """Take back the reach of the softening until its errors are below a part of the tolerance, or the limits are met.
+    """Reduce the reach of the smoothing until its errors are below a part of the tolerance, or the limits are met.
 
     Returns:
-        The solution, and its errors by fronts at each place and time.
+        The solution, and its errors from fronts, m, shape (positions, times).
     """
     checked = _settled(runs, Resolution(reach=_FIRST_REACH * runs.string.travel_time), share)
     resolution, values, last = checked.resolution.suited(*checked.worst, share), checked.values, None
@@ -249,7 +249,7 @@ def _refined(
     while last is None or front[judged].max(initial=0.0) > share:
         finer = resolution.closer(_CLOSER)
         large = runs.elements(finer) * DEGREE > most_unknowns or runs.steps(finer) > most_steps
-        # Without a second softening nothing is known about the first.
+        # Without a second smoothing nothing is known about the first.
         if large and last is not None:
             break
         last = runs.move(finer)

@@ -1,4 +1,4 @@
-"""How the swings of a free roll grow smaller, and the coefficients that naval architects take from them."""
+"""Decay of free roll: swing ratios, and the extinction coefficients of Froude and Bertin."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _LAMBERT_FROM = 1.0
 
 @dataclass(frozen=True, kw_only=True)
 class FroudeCoefficients:
-    """δφ = aφ_m + bφ_m²: what a swing loses in half a cycle, by the mean φ_m of the swings before and after.
+    """Extinction δφ = aφ_m + bφ_m² of a swing in half a cycle, by the mean φ_m of the swings before and after.
 
     Attributes:
         linear: a, dimensionless.

@@ -1,4 +1,4 @@
-"""What statistics ask of a roll motion, however it was found, and places that miss none of its swings."""
+"""A roll motion in closed form or integrated, and times between which it has no unseen swings."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Extremes and statistics of a roll motion: true ones, between the times of any output."""
+"""Extremes and statistics of a roll motion over all times, not those of the output alone."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _CELLS_PER_PERIOD, _GAUSS_POINTS = 4, 8
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class RollStatistics:
-    """What a motion came to between two times.
+    """Statistics of a motion between two times.
 
     Attributes:
         largest_time: when |φ| is largest, s, the first and last time included.

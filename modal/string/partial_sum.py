@@ -1,4 +1,4 @@
-"""The plain sum of a string's first modes: what the smoothly cut one of `string_response` improves on."""
+"""Sharply cut sum of the first modes of a string, for comparison with the smoothly cut one of `string_response`."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from hydroelastic.modal.bessel_zeros import bessel_zeros
 from hydroelastic.modal.string.closed_form import natural_frequencies, participations, relative_roots
-from hydroelastic.modal.string.modes import free_coordinates, launches
+from hydroelastic.modal.string.modes import free_coordinates, free_motion_jumps
 from hydroelastic.modal.string.quasistatic import exponentials, forced_part
 from hydroelastic.physics.string import HangingString
 from hydroelastic.physics.string_motions import Motion
@@ -40,6 +40,6 @@ def partial_sum(
         raise ValueError(f"terms is {terms}: at least {max(1, least)} is allowed, for that mode is met")
     zeros, frequencies = bessel_zeros(terms), natural_frequencies(string, terms)
     forced, _ = forced_part(string, forcing, ratios, times)
-    jumps = launches(string, forcing, parts, frequencies, first_mode=1)
+    jumps = free_motion_jumps(string, forcing, parts, frequencies, first_mode=1)
     free = free_coordinates(frequencies, string.damping, forcing.starts, jumps, times)
     return np.asarray(forced + participations(zeros, ratios) @ free)

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from hydroelastic.modal.bessel_zeros import bessel_zeros
 from hydroelastic.modal.string.closed_form import participations, relative_roots
-from hydroelastic.modal.string.modes import free_coordinates, launches
+from hydroelastic.modal.string.modes import free_coordinates, free_motion_jumps
 from hydroelastic.modal.string.quasistatic import Exponential, exponentials, forced_part
 from hydroelastic.modal.string.rounding import Rounding
 from hydroelastic.modal.string.truncation import Truncation, fewest_terms, weights
@@ -44,7 +44,7 @@ class StringResponse:
 
     Attributes:
         values: U(x, t), m, shape (positions, times).
-        errors: estimates of their absolute errors, m: what the cut sum loses next to a front, and rounding.
+        errors: estimates of their absolute errors, m, from truncation, which is large next to a front, and rounding.
         terms: the largest number of modes that was used.
     """
 
@@ -69,10 +69,10 @@ def string_response(
         motion: f(t) of its upper end, from `physics/string_motions.py`.
         positions: x above the free lower end, m, shape (positions,) or one.
         times: t, s, not negative, shape (times,) or one, in any order.
-        tolerance: aim of the error of the cut sum, in units of the largest |f| until then. Next to fronts it
-            may be missed; the errors returned tell.
-        most_terms: modes at the most; by default 65536 for a few points, and fewer, from 4096, for large grids and
-            long tables.
+        tolerance: of the truncation error, relative to the largest |f| until then. Next to fronts it may not be
+            reached, as the errors returned show.
+        most_terms: largest number of modes; by default 65536 for a few points, and fewer, from 4096, for large grids
+            and long tables.
 
     Returns:
         Values, their errors and the number of modes. Exactly 0 before the front, f(t) at the upper end.
@@ -133,7 +133,7 @@ def _portions(order: NDArray[np.int_]) -> Iterator[NDArray[np.int_]]:
 
 
 def _affordable(series: int, needed: float) -> int:
-    """Return the modes at the most for a tile of so many positions, times and pieces; four times as many if needed."""
+    """Return the largest number of modes for a tile of so many positions, times and pieces."""
     power = max((WORK // series).bit_length(), LEAST_OF_MOST_TERMS)
     extra = max(0, min(2, math.ceil(math.log2(max(needed, 1))) - power))
     return 1 << min(power + extra, LARGEST_OF_MOST_TERMS)
@@ -164,9 +164,9 @@ class _Tile:
         parts: its exponentials.
         ratios: r, rising, shape (positions,).
         times: s, rising, shape (times,).
-        tolerance: aim of the error of the cut sum, m.
+        tolerance: of the truncation error, m.
         needed: the fewest modes at each time, shape (times,).
-        most_terms: modes at the most.
+        most_terms: largest number of modes.
     """
 
     string: HangingString
@@ -222,7 +222,7 @@ class _Tile:
         """Return modes start + 1 … stop at all positions, and at the times that are pending (zero at the others)."""
         zeros = bessel_zeros(stop)[start:]
         frequencies = np.divide(zeros, self.string.travel_time)
-        jumps = launches(self.string, self.forcing, self.parts, frequencies, start + 1)
+        jumps = free_motion_jumps(self.string, self.forcing, self.parts, frequencies, start + 1)
         shapes = participations(zeros, self.ratios)
         wanted = pending.any(axis=0)
         coordinates = np.zeros((len(zeros), len(self.times)))

@@ -1,4 +1,4 @@
-"""What the scene of a rolling ship will be modelled as, said before anything is solved."""
+"""Model and method of the scene of a rolling ship, shown before anything is solved."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from hydroelastic.scenes.roll.summary import regime
 
 
 def check_roll(scene: RollScene) -> Iterator[Section]:
-    """Yield the equation, its constants, what is unknown, the waves and the method.
+    """Yield the equation, its constants, the unknowns, the waves and the method.
 
     Args:
         scene: a validated scene; nothing is solved.

@@ -8,7 +8,7 @@ from hydroelastic.modal.roll.paper import ALL_ROLL_SLIPS, ROLL_SOURCE, RollSlip,
 from hydroelastic.scenes.output.sections import Section
 from hydroelastic.scenes.roll.results import RollResult
 
-# Of the largest angle: what the sums of sines of the paper differ by without any slip.
+# Of the largest angle: rounding of the paper's sums of sines without any slip.
 _ROUNDING = 1e-11
 
 
@@ -29,7 +29,7 @@ def untreated_by_paper(result: RollResult) -> str:
 
 
 def paper_section(result: RollResult) -> Section:
-    """Return what each of the paper's slips costs, and all of them together.
+    """Return the error from each of the paper's slips, and from all of them together.
 
     Args:
         result: of a motion that the paper treats.

@@ -1,4 +1,4 @@
-"""What the scene of a hanging string will be modelled as, said before anything is solved."""
+"""Model and method of the scene of a hanging string, shown before anything is solved."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _MOTIONS = {
 
 
 def check_string(scene: StringScene) -> Iterator[Section]:
-    """Yield the equation, its constants, what is unknown, the motion of the upper end and the method.
+    """Yield the equation, its constants, the unknowns, the motion of the upper end and the method.
 
     Args:
         scene: a validated scene; nothing is solved.

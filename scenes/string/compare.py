@@ -26,7 +26,7 @@ def compare_string(scene: StringScene, *, report: Report = lambda _message: None
 
     Args:
         scene: with a uniform resistance and nothing on the free end.
-        report: told what is being done.
+        report: called with a word on what is being done.
 
     Raises:
         SceneError: if there is no series, or the motion is too fast or too long for a field solution.
@@ -63,7 +63,7 @@ def _as_field(scene: StringScene) -> StringScene:
 
 
 def compared(field: StringSolution, series: StringSolution) -> Summary:
-    """Return the differences of two solutions of one scene, and what each took.
+    """Return the differences of two solutions of one scene, and the time of each.
 
     Args:
         field: the field solution.

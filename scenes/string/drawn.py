@@ -1,4 +1,4 @@
-"""The motion of a string as it is drawn: at places and times of its own where a scene asks for few of them."""
+"""The motion of a string for pictures: at more positions and times where a scene asks for few."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from hydroelastic.scenes.models.string import DEFAULT_POSITIONS, DEFAULT_TIMES
 from hydroelastic.scenes.string.results import StringResult
 from hydroelastic.scenes.string.solve import solve_series
 
-# From so many times on a motion is smooth as it is; from so many places on a shape is.
+# With so many times a motion, and with so many positions a shape, is smooth as it is.
 _ENOUGH_TIMES = 61
 _ENOUGH_POSITIONS = 61
 
 
 def as_drawn(result: StringResult) -> StringSolution:
-    """Return the same motion with more places and times between the asked ones, which are among them.
+    """Return the same motion at more positions and times, those asked included.
 
     A series is summed once more. A field solution would take its whole time again: it is drawn as it is.
 
@@ -41,7 +41,7 @@ def columns_of(solution: StringSolution, times: Floats) -> list[int]:
 
 
 def jumps_in_animation(result: StringResult) -> tuple[str, ...]:
-    """Say what an animation lacks, and which key gives it."""
+    """Return why there is no animation, or a coarse one, and which key gives it."""
     solution = result.solution
     if solution.times[-1] == 0.0:
         return ('the string is not animated: give [output] key "times" times after 0',)

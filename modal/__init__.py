@@ -84,17 +84,19 @@ from hydroelastic.modal.roll.decrement import (
     swing_amplitudes,
 )
 from hydroelastic.modal.roll.knots import RollPath
-from hydroelastic.modal.roll.motion import LinearRollPath, Roll, RollMotion, WaveTrain, roll_path, roll_response
+from hydroelastic.modal.roll.motion import LinearRollPath, RollMotion, roll_path, roll_response
 from hydroelastic.modal.roll.paper import ROLL_ERRATA, RollSlip, paper_roll_angle, printed_roll_constants
-from hydroelastic.modal.roll.quadratic import QuadraticRollPath, quadratic_roll_path
+from hydroelastic.modal.roll.quadratic import QuadraticRollPath, RollIntegrationError, quadratic_roll_path
 from hydroelastic.modal.roll.statistics import RollStatistics, roll_statistics
-from hydroelastic.modal.string.hanging_string import HangingString
-from hydroelastic.modal.string.motions import Given, Motion, Ramp, Sine, Smooth, Step, sampled, tabulated
 from hydroelastic.modal.string.paper import STRING_ERRATA
 from hydroelastic.modal.string.partial_sum import partial_sum
 from hydroelastic.modal.string.resonance import StringResonance, nearest_resonance, string_resonance
 from hydroelastic.modal.string.response import StringResponse, string_response
 from hydroelastic.physics.profiles import FloatShape, Profile, ProfileArc, float_profile
+from hydroelastic.physics.ship import Ship
+from hydroelastic.physics.string import HangingString
+from hydroelastic.physics.string_motions import Motion, Ramp, Sine, Smooth, Step, TabulatedMotion, sampled, tabulated
+from hydroelastic.physics.wave import WaveTrain
 
 __all__ = [
     "ERRATA",
@@ -115,7 +117,6 @@ __all__ = [
     "FreeMotion",
     "FreePole",
     "FroudeCoefficients",
-    "Given",
     "HangingString",
     "HeaveRadiation",
     "InterfacePlate",
@@ -132,16 +133,18 @@ __all__ = [
     "QuotientPair",
     "Ramp",
     "RigidAddedMass",
-    "Roll",
+    "RollIntegrationError",
     "RollMotion",
     "RollPath",
     "RollSlip",
     "RollStatistics",
+    "Ship",
     "Sine",
     "Smooth",
     "Step",
     "StringResonance",
     "StringResponse",
+    "TabulatedMotion",
     "ThinConstants",
     "Tones",
     "TwoLayers",

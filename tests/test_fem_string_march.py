@@ -9,18 +9,17 @@ from numpy.polynomial import legendre
 from string_closed_forms import FREQUENCIES, Motion, ramp, sine, smooth, step
 
 from hydroelastic.fem.string.collocation import Collocation
-from hydroelastic.fem.string.march import Pace, march
-from hydroelastic.fem.string.model import StringModel, scaled_string
+from hydroelastic.fem.string.march import StepControl, march
 from hydroelastic.fem.string.pencil import StringPencil, build_string_pencil, string_nodes
 from hydroelastic.fem.string.probe import StringProbe
+from hydroelastic.physics.string import HangingString
 
 COMM = MPI.COMM_WORLD
 MOTIONS = {"ramp": ramp(), "sine": sine(1.7), "smooth": smooth(2.0), "step": step()}
 
 
 def plain(damping: float, degree: int, elements: int) -> StringPencil:
-    model = StringModel(length=1.0, linear_density=1.0, gravity=1.0, resistance=(damping, damping))
-    string = scaled_string(model)
+    string = HangingString(length=1.0, linear_density=1.0, gravity=1.0, resistance=(damping, damping))
     return build_string_pencil(COMM, string, degree, string_nodes(string, elements))
 
 
@@ -33,11 +32,11 @@ def test_order_in_time(name: str, damping: float, stages: int) -> None:
     probe = StringProbe(pencil, np.array([0.0, 0.1, 0.25, 0.5, 0.7, 0.9, 0.97]))
     # Early too: heavy resistance soon leaves nothing but rounding.
     times = np.array([0.25, 0.5, 2.0])
-    exact = march(pencil, probe, MOTIONS[name], times, Pace(longest=1.0 / 240.0)).values
+    exact = march(pencil, probe, MOTIONS[name], times, StepControl(longest=1.0 / 240.0)).values
     counts = np.array([40, 56, 80] if stages == 4 else [80, 112, 160])
     errors = [
         np.abs(
-            march(pencil, probe, MOTIONS[name], times, Pace(longest=1.0 / count), stages=stages).values - exact
+            march(pencil, probe, MOTIONS[name], times, StepControl(longest=1.0 / count), stages=stages).values - exact
         ).max()
         for count in counts
     ]
@@ -58,7 +57,9 @@ def test_order_in_space_is_that_of_the_front(name: str, regularity: float, degre
     errors = []
     for count in counts:
         pencil = plain(0.3, degree, int(count))
-        values = march(pencil, StringProbe(pencil, positions), motion, times, Pace(longest=0.7 / count / degree)).values
+        values = march(
+            pencil, StringProbe(pencil, positions), motion, times, StepControl(longest=0.7 / count / degree)
+        ).values
         errors.append(np.sqrt(weights @ (values - exact)[:, 0] ** 2))
     order = -np.polyfit(np.log(counts), np.log(errors), 1)[0]
     assert order == pytest.approx(regularity * 2 * degree / (2 * degree + 1), abs=0.1)
@@ -69,13 +70,12 @@ def test_energy_is_kept_after_a_step() -> None:
     pencil = plain(0.0, 6, 12)
     probe = StringProbe(pencil, np.array([0.0]))
     # ½∫T w_x² of the state after the step is large but finite on a mesh. Measured 1e-11 after 2000 steps: rounding.
-    energies = march(pencil, probe, step(), np.linspace(0.0, 100.0, 9), Pace(longest=0.05)).energies
+    energies = march(pencil, probe, step(), np.linspace(0.0, 100.0, 9), StepControl(longest=0.05)).energies
     np.testing.assert_allclose(energies, energies[0], rtol=5e-11)
 
 
 def test_energy_lost_is_what_the_resistance_takes() -> None:
-    model = StringModel(length=1.0, linear_density=1.0, gravity=1.0, resistance=(0.2, 0.7), tip_mass=0.3)
-    string = scaled_string(model)
+    string = HangingString(length=1.0, linear_density=1.0, gravity=1.0, resistance=(0.2, 0.7), tip_mass=0.3)
     pencil = build_string_pencil(COMM, string, 6, string_nodes(string, 6))
     stepper = Collocation(pencil.mass, pencil.resistance, pencil.stiffness, 4)
     size = len(pencil.free)
@@ -118,7 +118,7 @@ def test_motions_that_jump_again() -> None:
     )
     pencil = plain(0.2, 6, 10)
     probe = StringProbe(pencil, np.array([0.0, 0.4, 0.8]))
-    pace = Pace(longest=0.01)
-    both = march(pencil, probe, twice, np.array([1.5, 2.0]), pace).values
-    one = march(pencil, probe, first, np.array([1.0, 1.5, 2.0]), pace).values
+    control = StepControl(longest=0.01)
+    both = march(pencil, probe, twice, np.array([1.5, 2.0]), control).values
+    one = march(pencil, probe, first, np.array([1.0, 1.5, 2.0]), control).values
     np.testing.assert_allclose(both, one[:, 1:] + 0.5 * one[:, :2], atol=1e-8)

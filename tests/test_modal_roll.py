@@ -11,7 +11,7 @@ import pytest
 from roll_trains import PRINTED, SHIPS, TRAIN, K, exponential_motion, reference_ship
 from scipy.integrate import solve_ivp
 
-from hydroelastic.modal import Roll, WaveTrain, roll_path, roll_response
+from hydroelastic.modal import Ship, WaveTrain, roll_path, roll_response
 from hydroelastic.modal.damped_pair import damped_pair
 from hydroelastic.modal.roll.wave import response_from_rest
 
@@ -31,7 +31,7 @@ def test_references(name: str) -> None:
 @pytest.mark.parametrize("ratio", DAMPINGS)
 @pytest.mark.parametrize("start", [(0.0, 0.0), (0.4, -0.3)])
 def test_is_the_exponential_of_the_matrix(ratio: float, start: tuple[float, float]) -> None:
-    roll = Roll(K, ratio * K)
+    roll = Ship(natural_frequency=K, damping=ratio * K)
     times = np.random.default_rng(1).uniform(0, 80, 100)
     expected = exponential_motion(roll, TRAIN, times, *start)
     motion = roll_response(roll, TRAIN, times, *start)
@@ -44,7 +44,7 @@ def test_is_the_exponential_of_the_matrix(ratio: float, start: tuple[float, floa
 def test_waves_much_shorter_and_longer_than_the_free_period(k: float) -> None:
     times = np.linspace(0, 60, 50)
     for ratio in (0.0, 0.3, 1.0, 2.0):
-        roll = Roll(k, ratio * k)
+        roll = Ship(natural_frequency=k, damping=ratio * k)
         expected = exponential_motion(roll, TRAIN, times)[0]
         assert roll_response(roll, TRAIN, times).angle == pytest.approx(expected, abs=1e-12 * np.abs(expected).max())
 
@@ -64,7 +64,7 @@ def test_far_from_resonance_it_is_the_steady_and_the_free_motion(ratio: float, r
 
 @pytest.mark.parametrize("ratio", [0.0, 0.6, 3.0])
 def test_integration_in_time(ratio: float) -> None:
-    roll, state, times = Roll(K, ratio * K), [0.1, 0.05], np.linspace(0, 1, 9)
+    roll, state, times = Ship(natural_frequency=K, damping=ratio * K), [0.1, 0.05], np.linspace(0, 1, 9)
     motion = roll_path(roll, TRAIN, *state)
     for start, period, omega, slope in zip(TRAIN.starts, TRAIN.periods, TRAIN.frequencies, TRAIN.slopes, strict=False):
         result = solve_ivp(
@@ -87,7 +87,7 @@ def test_integration_in_time(ratio: float) -> None:
 
 
 def test_resonance_without_damping_grows_by_the_secular_term() -> None:
-    roll, train = Roll(K), WaveTrain([2 * math.pi / K] * 10, [1.0] * 10)
+    roll, train = Ship(natural_frequency=K), WaveTrain(periods=[2 * math.pi / K] * 10, slopes=[1.0] * 10)
     t = np.linspace(0, 120, 1001)[:-1]
     motion = roll_response(roll, train, t)
     # φ grows to 31 rad, the phase kt to 63 rad: roundings of its own size in the expected values too.
@@ -107,10 +107,12 @@ def test_neighbourhood_of_resonance_keeps_all_digits(damping: float, side: int) 
             # |y| is at most π; measured 2.4e-15.
             assert value.imag == pytest.approx(angle, abs=5e-15)
             assert omega * value.real == pytest.approx(rate, abs=5e-15)
-    train = WaveTrain(2 * math.pi / (1 + side * np.array([1e-15, 1e-9, 1e-4])), [1.0, 1.0, 1.0])
+    train = WaveTrain(periods=2 * math.pi / (1 + side * np.array([1e-15, 1e-9, 1e-4])), slopes=[1.0, 1.0, 1.0])
     times = np.linspace(0, 25, 40)
-    motion = roll_response(Roll(1.0, damping), train, times)
-    assert motion.angle == pytest.approx(exponential_motion(Roll(1.0, damping), train, times)[0], abs=1e-12)
+    motion = roll_response(Ship(natural_frequency=1.0, damping=damping), train, times)
+    assert motion.angle == pytest.approx(
+        exponential_motion(Ship(natural_frequency=1.0, damping=damping), train, times)[0], abs=1e-12
+    )
 
 
 def taylor_response(damping: float, omega: float, duration: float) -> tuple[float, float]:
@@ -128,12 +130,15 @@ def taylor_response(damping: float, omega: float, duration: float) -> tuple[floa
 
 
 def test_regular_at_critical_damping() -> None:
-    angles = [float(roll_response(Roll(K, ratio * K), PRINTED, 20.0).angle) for ratio in (1 - 1e-6, 1.0, 1 + 1e-6)]
+    angles = [
+        float(roll_response(Ship(natural_frequency=K, damping=ratio * K), PRINTED, 20.0).angle)
+        for ratio in (1 - 1e-6, 1.0, 1 + 1e-6)
+    ]
     assert angles == pytest.approx([0.274478845, 0.274478639, 0.274478433], abs=1e-9)
 
 
 def test_times_may_stand_in_any_order_and_shape() -> None:
-    roll = Roll(K, 0.1)
+    roll = Ship(natural_frequency=K, damping=0.1)
     times = np.array([[50.0, -1.0, 3.0], [0.0, 8.2, 12.0]])
     motion = roll_response(roll, TRAIN, times, 0.1, 0.2)
     for field in ("times", "angle", "rate", "acceleration"):
@@ -149,7 +154,7 @@ def test_times_may_stand_in_any_order_and_shape() -> None:
 
 @pytest.mark.parametrize("ratio", [0.0, 0.6, 1.0, 5.0])
 def test_motion_is_smooth_where_waves_meet(ratio: float) -> None:
-    roll, tick = Roll(K, ratio * K), 1e-4
+    roll, tick = Ship(natural_frequency=K, damping=ratio * K), 1e-4
     inner = TRAIN.starts[1:-1]
     before, after = (roll_response(roll, TRAIN, inner + shift) for shift in (-1e-10, 1e-10))
     for field in ("angle", "rate", "acceleration"):
@@ -165,7 +170,9 @@ def test_motion_is_smooth_where_waves_meet(ratio: float) -> None:
 def test_rate_and_acceleration_are_derivatives() -> None:
     times, step = np.linspace(1, 60, 40), 1e-4
     for ratio in (0.0, 0.5, 1.0, 3.0):
-        before, here, after = (roll_response(Roll(K, ratio * K), TRAIN, times + d) for d in (-step, 0, step))
+        before, here, after = (
+            roll_response(Ship(natural_frequency=K, damping=ratio * K), TRAIN, times + d) for d in (-step, 0, step)
+        )
         # Central differences: step²/6 of the third derivative and 1e-17/step, both near 1e-11.
         assert (after.angle - before.angle) / (2 * step) == pytest.approx(here.rate, abs=1e-10)
         assert (after.rate - before.rate) / (2 * step) == pytest.approx(here.acceleration, abs=1e-9)
@@ -173,13 +180,13 @@ def test_rate_and_acceleration_are_derivatives() -> None:
 
 def test_without_waves_the_ship_moves_freely() -> None:
     t = np.array([0.0, 1.0, 30.0])
-    motion = roll_response(Roll(2.0), WaveTrain([], []), t, angle=0.1, rate=0.3)
+    motion = roll_response(Ship(natural_frequency=2.0), WaveTrain(periods=[], slopes=[]), t, angle=0.1, rate=0.3)
     assert motion.angle == pytest.approx(0.1 * np.cos(2 * t) + 0.15 * np.sin(2 * t), abs=1e-15)
 
 
 def test_late_waves_begin_where_their_periods_add_up_to() -> None:
     periods = np.random.default_rng(3).uniform(5, 15, 10_000)
-    starts = WaveTrain(periods, np.ones(10_000)).starts
+    starts = WaveTrain(periods=periods, slopes=np.ones(10_000)).starts
     assert starts[:2].tolist() == [0.0, periods[0]]
     # One rounding of 1e5 s; rounded sums would be wrong by 30 of them.
     assert starts[-1] == pytest.approx(math.fsum(periods), abs=1.5e-11)
@@ -188,34 +195,40 @@ def test_late_waves_begin_where_their_periods_add_up_to() -> None:
 @pytest.mark.parametrize("ratio", [0.0, 0.02, 1.0, 200.0])
 def test_ten_thousand_waves(ratio: float) -> None:
     random = np.random.default_rng(2)
-    train = WaveTrain(random.uniform(5, 15, 10_000), random.uniform(0.01, 0.05, 10_000))
+    train = WaveTrain(periods=random.uniform(5, 15, 10_000), slopes=random.uniform(0.01, 0.05, 10_000))
     times = random.uniform(0, train.starts[-1], 100_000)
     begin = time.perf_counter()
-    motion = roll_response(Roll(K, ratio * K), train, times)
+    motion = roll_response(Ship(natural_frequency=K, damping=ratio * K), train, times)
     # Measured: 0.12 to 0.18 s.
     assert time.perf_counter() - begin < 1.0
     late = np.sort(times)[-5:]
-    expected = exponential_motion(Roll(K, ratio * K), train, late)
+    expected = exponential_motion(Ship(natural_frequency=K, damping=ratio * K), train, late)
     # The undamped ship rolls by 18 rad. The exponentials differ by 1.1e-9; steady and free motions, summed up in
     # extended precision, differ by 5e-13 from the closed form.
     largest = np.abs(motion.angle).max()
-    assert roll_response(Roll(K, ratio * K), train, late).angle == pytest.approx(expected[0], abs=1e-10 * largest)
+    assert roll_response(Ship(natural_frequency=K, damping=ratio * K), train, late).angle == pytest.approx(
+        expected[0], abs=1e-10 * largest
+    )
 
 
 def test_wrong_arguments_are_named() -> None:
     with pytest.raises(ValueError, match=r"natural_frequency is 0\.0; it must be finite and positive"):
-        Roll(0.0)
+        Ship(natural_frequency=0.0)
     with pytest.raises(ValueError, match=r"damping is -1\.0"):
-        Roll(1.0, -1.0)
+        Ship(natural_frequency=1.0, damping=-1.0)
     with pytest.raises(ValueError, match=r"damping is nan"):
-        Roll(1.0, math.nan)
+        Ship(natural_frequency=1.0, damping=math.nan)
+    with pytest.raises(ValueError, match=r"quadratic_damping is -1\.0"):
+        Ship(natural_frequency=1.0, quadratic_damping=-1.0)
+    with pytest.raises(ValueError, match="the closed form is that of linear damping"):
+        roll_response(Ship(natural_frequency=1.0, quadratic_damping=0.1), TRAIN, 0.0)
     with pytest.raises(ValueError, match=r"periods have shape \(2,\) and slopes \(1,\)"):
-        WaveTrain([1.0, 2.0], [1.0])
+        WaveTrain(periods=[1.0, 2.0], slopes=[1.0])
     with pytest.raises(ValueError, match=r"periods\[1\] is 0\.0"):
-        WaveTrain([1.0, 0.0], [1.0, 1.0])
+        WaveTrain(periods=[1.0, 0.0], slopes=[1.0, 1.0])
     with pytest.raises(ValueError, match=r"slopes\[0\] is inf"):
-        WaveTrain([1.0], [math.inf])
+        WaveTrain(periods=[1.0], slopes=[math.inf])
     with pytest.raises(ValueError, match="times contain nan"):
-        roll_response(Roll(1.0), TRAIN, [0.0, math.nan])
+        roll_response(Ship(natural_frequency=1.0), TRAIN, [0.0, math.nan])
     with pytest.raises(ValueError, match="rate is inf"):
-        roll_response(Roll(1.0), TRAIN, 0.0, rate=math.inf)
+        roll_response(Ship(natural_frequency=1.0), TRAIN, 0.0, rate=math.inf)

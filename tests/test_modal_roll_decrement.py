@@ -12,7 +12,7 @@ from scipy.integrate import quad, solve_ivp
 
 from hydroelastic.modal import (
     FroudeCoefficients,
-    Roll,
+    Ship,
     WaveTrain,
     damping_from_froude,
     equivalent_roll_damping,
@@ -54,7 +54,7 @@ def test_quadratic_relation_against_integration(amplitude: float) -> None:
     assert swing == pytest.approx(integrated_swing(0.0, 0.5, amplitude), rel=1e-12)
     # k does not matter, and angles scale with 1/d.
     assert quadratic_decrement(5.0, amplitude / 10) == pytest.approx(swing / 10, rel=1e-14)
-    assert swing_amplitudes(Roll(7.0), 0.5, amplitude, 1)[1] == swing
+    assert swing_amplitudes(Ship(natural_frequency=7.0, quadratic_damping=0.5), amplitude, 1)[1] == swing
 
 
 def test_small_swings_keep_their_digits() -> None:
@@ -74,68 +74,82 @@ def test_no_swing_comes_back_larger_than_the_inverse_of_twice_the_damping() -> N
 
 
 def test_linear_swings_are_those_of_the_motion() -> None:
-    roll = Roll(0.7, 0.1)
+    roll = Ship(natural_frequency=0.7, damping=0.1)
     half = math.pi / math.sqrt(0.7**2 - 0.1**2)
-    swings = swing_amplitudes(roll, 0.0, 0.3, 6)
-    motion = roll_response(roll, WaveTrain([], []), half * np.arange(7), angle=0.3)
+    swings = swing_amplitudes(roll, 0.3, 6)
+    motion = roll_response(roll, WaveTrain(periods=[], slopes=[]), half * np.arange(7), angle=0.3)
     assert swings == pytest.approx(np.abs(motion.angle), rel=1e-13)
     assert np.abs(motion.rate).max() < 1e-16
     assert swings[1:] / swings[:-1] == pytest.approx(np.full(6, linear_decrement(roll)), rel=1e-14)
-    assert linear_decrement(Roll(2.0)) == 1.0
+    assert linear_decrement(Ship(natural_frequency=2.0)) == 1.0
 
 
 @pytest.mark.parametrize(("n", "d"), [(0.01, 0.4), (0.3, 2.0), (0.9, 5.0), (0.05, 100.0)])
 def test_both_dampings_together(n: float, d: float) -> None:
-    swings = swing_amplitudes(Roll(3.0, 3.0 * n), d, 0.6, 3)
+    swings = swing_amplitudes(Ship(natural_frequency=3.0, damping=3.0 * n, quadratic_damping=d), 0.6, 3)
     for before, after in pairwise(swings):
         assert after == pytest.approx(integrated_swing(n, d, before), abs=2e-12 * before)
     # More damping leaves less.
-    assert (swings[1:] < swing_amplitudes(Roll(3.0), d, 0.6, 3)[1:]).all()
-    assert (swings[1:] < swing_amplitudes(Roll(3.0, 3.0 * n), 0.0, 0.6, 3)[1:]).all()
+    assert (swings[1:] < swing_amplitudes(Ship(natural_frequency=3.0, quadratic_damping=d), 0.6, 3)[1:]).all()
+    assert (swings[1:] < swing_amplitudes(Ship(natural_frequency=3.0, damping=3.0 * n), 0.6, 3)[1:]).all()
 
 
 @pytest.mark.parametrize(("n", "d"), [(1e-7, 0.4), (0.2, 1e-9)])
 def test_both_dampings_tend_to_one_alone(n: float, d: float) -> None:
-    alone = swing_amplitudes(Roll(1.0), d, 0.5, 4) if n < d else swing_amplitudes(Roll(1.0, n), 0.0, 0.5, 4)
+    alone = (
+        swing_amplitudes(Ship(natural_frequency=1.0, quadratic_damping=d), 0.5, 4)
+        if n < d
+        else swing_amplitudes(Ship(natural_frequency=1.0, damping=n), 0.5, 4)
+    )
     # n takes πn of a swing, d takes (4/3)d A.
-    assert swing_amplitudes(Roll(1.0, n), d, 0.5, 4) == pytest.approx(alone, abs=1e-6)
-    assert np.abs(swing_amplitudes(Roll(1.0, n), d, 0.5, 4) - alone).max() > 1e-11
+    assert swing_amplitudes(Ship(natural_frequency=1.0, damping=n, quadratic_damping=d), 0.5, 4) == pytest.approx(
+        alone, abs=1e-6
+    )
+    assert (
+        np.abs(swing_amplitudes(Ship(natural_frequency=1.0, damping=n, quadratic_damping=d), 0.5, 4) - alone).max()
+        > 1e-11
+    )
 
 
 def test_froude_coefficients_of_each_damping_alone() -> None:
-    roll = Roll(0.5, 0.04)
-    linear, quadratic = froude_coefficients(roll, 0.0), froude_coefficients(Roll(0.5), 0.3)
+    roll = Ship(natural_frequency=0.5, damping=0.04)
+    linear, quadratic = (
+        froude_coefficients(roll),
+        froude_coefficients(Ship(natural_frequency=0.5, quadratic_damping=0.3)),
+    )
     assert (linear.quadratic, quadratic.linear) == (0.0, 0.0)
-    swings = swing_amplitudes(roll, 0.0, 0.4, 3)
+    swings = swing_amplitudes(roll, 0.4, 3)
     mean = (swings[1:] + swings[:-1]) / 2
     assert swings[:-1] - swings[1:] == pytest.approx(linear.linear * mean, rel=1e-13)
     assert linear.linear == pytest.approx(math.pi * 0.04 / 0.5, rel=0.01)
-    swings = swing_amplitudes(Roll(0.5), 0.3, 0.4, 3)
+    swings = swing_amplitudes(Ship(natural_frequency=0.5, quadratic_damping=0.3), 0.4, 3)
     mean = (swings[1:] + swings[:-1]) / 2
     bertin = (swings[:-1] - swings[1:]) / mean**2
     assert bertin == pytest.approx(quadratic.quadratic * (1 - (0.6 * mean) ** 2 / 15), rel=1e-4)
 
 
 def test_coefficients_and_dampings_are_inverse() -> None:
-    roll, d = damping_from_froude(0.8, froude_coefficients(Roll(0.8, 0.3), 0.7))
-    assert (roll.natural_frequency, roll.damping, d) == pytest.approx((0.8, 0.3, 0.7), rel=1e-14)
+    ship = damping_from_froude(
+        0.8, froude_coefficients(Ship(natural_frequency=0.8, damping=0.3, quadratic_damping=0.7))
+    )
+    assert (ship.natural_frequency, ship.damping, ship.quadratic_damping) == pytest.approx((0.8, 0.3, 0.7), rel=1e-14)
 
 
 def test_fit_finds_the_coefficients_of_small_dampings() -> None:
-    roll, d = Roll(1.0, 0.002), 0.05
-    fitted, expected = fit_froude(swing_amplitudes(roll, d, 0.4, 12)), froude_coefficients(roll, d)
+    ship = Ship(natural_frequency=1.0, damping=0.002, quadratic_damping=0.05)
+    fitted, expected = fit_froude(swing_amplitudes(ship, 0.4, 12)), froude_coefficients(ship)
     # Both dampings together add terms of the relative order of a swing's loss, 2 %.
     assert fitted.linear == pytest.approx(expected.linear, rel=0.02)
     assert fitted.quadratic == pytest.approx(expected.quadratic, rel=0.02)
-    exact = fit_froude(swing_amplitudes(Roll(1.0, 0.1), 0.0, 0.4, 5))
+    exact = fit_froude(swing_amplitudes(Ship(natural_frequency=1.0, damping=0.1), 0.4, 5))
     assert (exact.linear, exact.quadratic) == pytest.approx(
         (2 * math.tanh(0.05 * math.pi / math.sqrt(0.99)), 0.0), abs=1e-13
     )
 
 
 def test_equivalent_damping_takes_the_same_energy() -> None:
-    roll, d, amplitude = Roll(0.9, 0.05), 0.6, 0.35
-    linear = equivalent_roll_damping(roll, d, amplitude)
+    d, amplitude = 0.6, 0.35
+    linear = equivalent_roll_damping(Ship(natural_frequency=0.9, damping=0.05, quadratic_damping=d), amplitude)
     period = 2 * math.pi / 0.9
     rate = lambda t: -0.9 * amplitude * math.sin(0.9 * t)  # noqa: E731
     taken = quad(lambda t: (2 * 0.05 + d * abs(rate(t))) * rate(t) ** 2, 0, period, points=[period / 2])[0]
@@ -149,12 +163,12 @@ def test_tabulated_roll_decay_follows_the_law_of_both_dampings() -> None:
     # Half a unit of the last digit of N.
     assert quadratic + linear / angle == pytest.approx(bertin, abs=5e-5)
     degrees = 180 / math.pi
-    roll, d = damping_from_froude(1.0, FroudeCoefficients(linear=linear, quadratic=quadratic * degrees))
-    assert roll.damping == pytest.approx(0.0085, abs=0.0005)
-    assert d == pytest.approx(0.41, abs=0.01)
+    ship = damping_from_froude(1.0, FroudeCoefficients(linear=linear, quadratic=quadratic * degrees))
+    assert ship.damping == pytest.approx(0.0085, abs=0.0005)
+    assert ship.quadratic_damping == pytest.approx(0.41, abs=0.01)
     for mean, value in IMO:
         # A swing from above the mean by half of what is lost.
-        swings = swing_amplitudes(roll, d, (mean + value * mean**2 / 2) / degrees, 1) * degrees
+        swings = swing_amplitudes(ship, (mean + value * mean**2 / 2) / degrees, 1) * degrees
         lost, middle = swings[0] - swings[1], swings.mean()
         # What both dampings add to one another is one part in a hundred here.
         assert lost / middle**2 == pytest.approx(value, rel=0.02)
@@ -162,10 +176,13 @@ def test_tabulated_roll_decay_follows_the_law_of_both_dampings() -> None:
 
 def test_wrong_arguments_are_named() -> None:
     for call, message in (
-        (lambda: linear_decrement(Roll(1.0, 1.0)), r"damping is 1\.0; a ship swings back and forth only below"),
+        (
+            lambda: linear_decrement(Ship(natural_frequency=1.0, damping=1.0)),
+            r"damping is 1\.0; a ship swings back and forth only below",
+        ),
         (lambda: quadratic_decrement(-1.0, 1.0), r"quadratic_damping is -1\.0"),
         (lambda: quadratic_decrement(1.0, math.inf), "amplitude is inf"),
-        (lambda: swing_amplitudes(Roll(1.0), 1.0, 1.0, -1), "count is -1"),
+        (lambda: swing_amplitudes(Ship(natural_frequency=1.0, quadratic_damping=1.0), 1.0, -1), "count is -1"),
         (lambda: damping_from_froude(1.0, FroudeCoefficients(linear=2.0, quadratic=0.0)), r"linear is 2\.0"),
         (lambda: fit_froude([1.0, 0.5]), "at least three"),
         (lambda: fit_froude([1.0, 0.5, 0.0]), "swings must be finite and positive"),

@@ -8,15 +8,15 @@ import numpy as np
 import pytest
 from roll_trains import SHIPS, TRAIN, K, reference_ship
 
-from hydroelastic.modal import ROLL_ERRATA, Roll, RollSlip, paper_roll_angle, printed_roll_constants, roll_response
+from hydroelastic.modal import ROLL_ERRATA, RollSlip, Ship, paper_roll_angle, printed_roll_constants, roll_response
 from hydroelastic.modal.roll.paper import ALL_ROLL_SLIPS, PRINTED_ROLL, PRINTED_TRAIN
 
-LIGHT, HEAVY = PRINTED_ROLL, Roll(K, 0.96 * K)
+LIGHT, HEAVY = PRINTED_ROLL, Ship(natural_frequency=K, damping=0.96 * K)
 TIMES = np.linspace(0, 54.6, 20_001)[1:]
 THIRD = {RollSlip.THIRD_BRANCH_ARGUMENT, RollSlip.THIRD_BRANCH_DECAY}
 
 
-def greatest_error(roll: Roll, slips: set[RollSlip] | frozenset[RollSlip]) -> float:
+def greatest_error(roll: Ship, slips: set[RollSlip] | frozenset[RollSlip]) -> float:
     exact = roll_response(roll, PRINTED_TRAIN, TIMES).angle
     return float(np.abs(paper_roll_angle(roll, PRINTED_TRAIN, TIMES, slips) - exact).max())
 
@@ -29,8 +29,17 @@ def test_errata_are_numbered_and_complete() -> None:
         assert erratum.consequence
 
 
-@pytest.mark.parametrize("roll", [LIGHT, HEAVY, Roll(K, 1e-3), Roll(K, K * (1 - 1e-9)), Roll(0.9, 0.05)])
-def test_without_slips_it_is_the_closed_form(roll: Roll) -> None:
+@pytest.mark.parametrize(
+    "roll",
+    [
+        LIGHT,
+        HEAVY,
+        Ship(natural_frequency=K, damping=1e-3),
+        Ship(natural_frequency=K, damping=K * (1 - 1e-9)),
+        Ship(natural_frequency=0.9, damping=0.05),
+    ],
+)
+def test_without_slips_it_is_the_closed_form(roll: Ship) -> None:
     # Large λ of light damping, and phases: measured 2e-13 with n = 0.002k.
     assert paper_roll_angle(roll, TRAIN, TIMES, ()) == pytest.approx(roll_response(roll, TRAIN, TIMES).angle, abs=1e-12)
 
@@ -90,7 +99,10 @@ def test_constants() -> None:
         assert constants["alpha"].corrected == pytest.approx(alpha[1], abs=5e-4)
         assert constants["beta"].printed == constants["beta"].corrected == pytest.approx(beta, abs=5e-4)
     # λ has no unit: the same ship with times in minutes.
-    seconds, minutes = printed_roll_constants(LIGHT, 8.2), printed_roll_constants(Roll(60 * K, 36 * K), 8.2 / 60)
+    seconds, minutes = (
+        printed_roll_constants(LIGHT, 8.2),
+        printed_roll_constants(Ship(natural_frequency=60 * K, damping=36 * K), 8.2 / 60),
+    )
     assert minutes["lambda"].corrected == pytest.approx(seconds["lambda"].corrected, rel=1e-14)
     assert abs(minutes["lambda"].printed / seconds["lambda"].printed - 1) > 0.5
     # Long waves turn β.
@@ -108,7 +120,7 @@ def test_both_dampings_give_different_curves() -> None:
 
 
 def test_paper_treats_oscillating_ships_only() -> None:
-    for roll in (Roll(K, K), Roll(K, 2 * K)):
+    for roll in (Ship(natural_frequency=K, damping=K), Ship(natural_frequency=K, damping=2 * K)):
         with pytest.raises(ValueError, match="the paper treats only less"):
             paper_roll_angle(roll, TRAIN, 1.0)
         with pytest.raises(ValueError, match="the paper treats only less"):
@@ -116,4 +128,4 @@ def test_paper_treats_oscillating_ships_only() -> None:
     with pytest.raises(ValueError, match=r"period is 0\.0"):
         printed_roll_constants(LIGHT, 0.0)
     with pytest.raises(ValueError, match="resonance"):
-        printed_roll_constants(Roll(2 * math.pi), 1.0)
+        printed_roll_constants(Ship(natural_frequency=2 * math.pi), 1.0)

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from roll_trains import TRAIN, K
 from scipy.integrate import solve_ivp
 
-from hydroelastic.modal import Roll, WaveTrain, quadratic_roll_path, roll_response, swing_amplitudes
+from hydroelastic.modal import Ship, WaveTrain, quadratic_roll_path, roll_response, swing_amplitudes
 
 END = 60.0
 TIMES = np.linspace(-1.0, END, 400)
@@ -18,8 +19,8 @@ TIMES = np.linspace(-1.0, END, 400)
 @pytest.mark.parametrize("ratio", [0.0, 0.1, 0.6, 1.0, 1.2, 4.0])
 @pytest.mark.parametrize("tolerance", [1e-5, 1e-8, 1e-11])
 def test_without_quadratic_damping_it_is_the_closed_form(ratio: float, tolerance: float) -> None:
-    roll = Roll(K, ratio * K)
-    path = quadratic_roll_path(roll, 0.0, TRAIN, END, 0.05, -0.02, tolerance)
+    roll = Ship(natural_frequency=K, damping=ratio * K)
+    path = quadratic_roll_path(roll, TRAIN, END, 0.05, -0.02, tolerance)
     exact, motion = roll_response(roll, TRAIN, TIMES, 0.05, -0.02), path.motion(TIMES)
     largest = np.abs(exact.angle).max()
     error = np.abs(motion.angle - exact.angle).max()
@@ -33,8 +34,8 @@ def test_without_quadratic_damping_it_is_the_closed_form(ratio: float, tolerance
 @pytest.mark.parametrize(("ratio", "d"), [(0.0, 0.5), (0.05, 0.5), (0.05, 20.0), (0.6, 3.0), (3.0, 5.0)])
 def test_another_integration(ratio: float, d: float) -> None:
     """By Radau, an implicit method of order 5, wave by wave and without regard to turns of φ'."""
-    roll = Roll(K, ratio * K)
-    path = quadratic_roll_path(roll, d, TRAIN, float(TRAIN.starts[-1]), 0.1, 0.0, 1e-10)
+    roll = Ship(natural_frequency=K, damping=ratio * K)
+    path = quadratic_roll_path(replace(roll, quadratic_damping=d), TRAIN, float(TRAIN.starts[-1]), 0.1, 0.0, 1e-10)
     state = [0.1, 0.0]
     for start, period, omega, slope in zip(
         TRAIN.starts[:-1], TRAIN.periods, TRAIN.frequencies, TRAIN.slopes, strict=True
@@ -57,26 +58,26 @@ def test_another_integration(ratio: float, d: float) -> None:
 
 
 def test_error_estimate_holds_in_waves() -> None:
-    roll = Roll(K, 0.02 * K)
-    best = quadratic_roll_path(roll, 0.8, TRAIN, END, tolerance=1e-11).motion(TIMES).angle
+    roll = Ship(natural_frequency=K, damping=0.02 * K)
+    best = quadratic_roll_path(replace(roll, quadratic_damping=0.8), TRAIN, END, tolerance=1e-11).motion(TIMES).angle
     for tolerance in (1e-3, 1e-5, 1e-7, 1e-9):
-        path = quadratic_roll_path(roll, 0.8, TRAIN, END, tolerance=tolerance)
+        path = quadratic_roll_path(replace(roll, quadratic_damping=0.8), TRAIN, END, tolerance=tolerance)
         error = np.abs(path.motion(TIMES).angle - best).max()
         assert error <= path.angle_error <= tolerance * np.abs(best).max()
 
 
 def test_angles_scale_with_the_inverse_of_the_damping() -> None:
     # φ → φ/3 and a → a/3 with d → 3d is the same equation; mirrored waves mirror the motion.
-    roll = Roll(K, 0.05 * K)
-    first = quadratic_roll_path(roll, 0.5, TRAIN, END, 0.1).motion(TIMES)
-    small = WaveTrain(TRAIN.periods, -TRAIN.slopes / 3)
-    second = quadratic_roll_path(roll, 1.5, small, END, -0.1 / 3).motion(TIMES)
+    roll = Ship(natural_frequency=K, damping=0.05 * K)
+    first = quadratic_roll_path(replace(roll, quadratic_damping=0.5), TRAIN, END, 0.1).motion(TIMES)
+    small = WaveTrain(periods=TRAIN.periods, slopes=-TRAIN.slopes / 3)
+    second = quadratic_roll_path(replace(roll, quadratic_damping=1.5), small, END, -0.1 / 3).motion(TIMES)
     assert -3 * second.angle == pytest.approx(first.angle, abs=1e-9)
 
 
 def test_energy_that_damping_takes() -> None:
-    roll, d = Roll(K, 0.03 * K), 0.7
-    path = quadratic_roll_path(roll, d, TRAIN, END, 0.2, tolerance=1e-10)
+    roll, d = Ship(natural_frequency=K, damping=0.03 * K), 0.7
+    path = quadratic_roll_path(replace(roll, quadratic_damping=d), TRAIN, END, 0.2, tolerance=1e-10)
     edges = np.unique(np.concatenate([TRAIN.starts, np.linspace(0, END, 2001)]))
     nodes, weights = np.polynomial.legendre.leggauss(5)
     half = np.diff(edges) / 2
@@ -93,8 +94,14 @@ def test_energy_that_damping_takes() -> None:
 
 
 def test_free_swings_are_those_of_the_exact_relation() -> None:
-    path = quadratic_roll_path(Roll(K), 0.9, WaveTrain([], []), 40.0, angle=0.8, tolerance=1e-11)
-    expected = swing_amplitudes(Roll(K), 0.9, 0.8, 3)
+    path = quadratic_roll_path(
+        Ship(natural_frequency=K, quadratic_damping=0.9),
+        WaveTrain(periods=[], slopes=[]),
+        40.0,
+        angle=0.8,
+        tolerance=1e-11,
+    )
+    expected = swing_amplitudes(Ship(natural_frequency=K, quadratic_damping=0.9), 0.8, 3)
     times = np.linspace(0, 40, 40_001)
     motion = path.motion(times)
     turns = np.flatnonzero(np.diff(np.sign(motion.rate[1:]))) + 1
@@ -103,7 +110,12 @@ def test_free_swings_are_those_of_the_exact_relation() -> None:
 
 
 def test_acceleration_is_the_derivative_of_the_rate() -> None:
-    path, step = quadratic_roll_path(Roll(K, 0.05), 2.0, TRAIN, END, 0.3, tolerance=1e-11), 1e-3
+    path, step = (
+        quadratic_roll_path(
+            Ship(natural_frequency=K, damping=0.05, quadratic_damping=2.0), TRAIN, END, 0.3, tolerance=1e-11
+        ),
+        1e-3,
+    )
     times = np.linspace(1, 50, 60)
     before, here, after = (path.motion(times + shift) for shift in (-step, 0, step))
     # step²/6 of the third derivative of the rate, 0.1.
@@ -112,25 +124,29 @@ def test_acceleration_is_the_derivative_of_the_rate() -> None:
 
 def test_rate_that_only_touches_zero_at_the_start() -> None:
     # k²φ drives the ship one way for 1e-17 s, the wave then the other way.
-    waves = WaveTrain(TRAIN.periods, -TRAIN.slopes)
-    plain = quadratic_roll_path(Roll(K), 0.5, waves, END).motion(TIMES).angle
-    assert quadratic_roll_path(Roll(K), 0.5, waves, END, angle=-1e-18).motion(TIMES).angle == pytest.approx(
-        plain, abs=1e-9
-    )
+    waves = WaveTrain(periods=TRAIN.periods, slopes=-TRAIN.slopes)
+    plain = quadratic_roll_path(Ship(natural_frequency=K, quadratic_damping=0.5), waves, END).motion(TIMES).angle
+    assert quadratic_roll_path(Ship(natural_frequency=K, quadratic_damping=0.5), waves, END, angle=-1e-18).motion(
+        TIMES
+    ).angle == pytest.approx(plain, abs=1e-9)
 
 
 def test_ship_that_nothing_moves_rests() -> None:
-    motion = quadratic_roll_path(Roll(K), 1.0, WaveTrain([5.0, 6.0], [0.0, 0.1]), 20.0).motion([0.0, 3.0, 5.0, 8.0])
+    motion = quadratic_roll_path(
+        Ship(natural_frequency=K, quadratic_damping=1.0), WaveTrain(periods=[5.0, 6.0], slopes=[0.0, 0.1]), 20.0
+    ).motion([0.0, 3.0, 5.0, 8.0])
     assert motion.angle[:3].tolist() == [0.0, 0.0, 0.0]
     assert motion.angle[3] > 0
-    still = quadratic_roll_path(Roll(K), 1.0, WaveTrain([5.0], [0.0]), 20.0)
+    still = quadratic_roll_path(
+        Ship(natural_frequency=K, quadratic_damping=1.0), WaveTrain(periods=[5.0], slopes=[0.0]), 20.0
+    )
     assert (still.angle_error, np.abs(still.motion(TIMES[TIMES < 20]).angle).max()) == (0.0, 0.0)
 
 
 def test_wave_that_is_not_reached_is_not_integrated() -> None:
-    whole = quadratic_roll_path(Roll(K), 0.5, TRAIN, END)
+    whole = quadratic_roll_path(Ship(natural_frequency=K, quadratic_damping=0.5), TRAIN, END)
     for end in (3.0, float(TRAIN.starts[1]), 10.0):
-        part = quadratic_roll_path(Roll(K), 0.5, TRAIN, end)
+        part = quadratic_roll_path(Ship(natural_frequency=K, quadratic_damping=0.5), TRAIN, end)
         assert float(part.motion(end).angle) == pytest.approx(float(whole.motion(end).angle), abs=1e-9)
         with pytest.raises(ValueError, match="must be finite and at most"):
             part.motion(end + 0.1)
@@ -138,11 +154,10 @@ def test_wave_that_is_not_reached_is_not_integrated() -> None:
 
 def test_wrong_arguments_are_named() -> None:
     for arguments, message in (
-        ({"quadratic_damping": -1.0}, r"quadratic_damping is -1\.0"),
         ({"end": 0.0}, r"end is 0\.0"),
         ({"tolerance": 1e-15}, "tolerance is 1e-15; it must lie between 1e-11 and 0.01"),
         ({"angle": math.nan}, "angle is nan"),
     ):
-        given = {"quadratic_damping": 1.0, "end": 10.0} | arguments
+        given = {"end": 10.0} | arguments
         with pytest.raises(ValueError, match=message):
-            quadratic_roll_path(Roll(1.0), train=TRAIN, **given)
+            quadratic_roll_path(Ship(natural_frequency=1.0, quadratic_damping=1.0), TRAIN, **given)

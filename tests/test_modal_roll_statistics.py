@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from roll_trains import PRINTED, TRAIN, K
 
 from hydroelastic.modal import (
-    Roll,
+    Ship,
     WaveTrain,
     quadratic_roll_path,
     roll_path,
@@ -19,7 +20,7 @@ from hydroelastic.modal import (
 )
 from hydroelastic.modal.bracketed_roots import bracketed_roots, sign_change_roots
 
-NO_WAVES = WaveTrain([], [])
+NO_WAVES = WaveTrain(periods=[], slopes=[])
 
 
 def test_free_decay() -> None:
@@ -27,7 +28,7 @@ def test_free_decay() -> None:
     own = math.sqrt(k**2 - n**2)
     # Ends in the middle of the tenth half cycle, while |φ| grows: at the end it stands higher than its next swing will.
     end = 9.5 * math.pi / own + 0.3
-    result = roll_statistics(roll_path(Roll(k, n), NO_WAVES, angle=first), end)
+    result = roll_statistics(roll_path(Ship(natural_frequency=k, damping=n), NO_WAVES, angle=first), end)
     halves = np.arange(10)
     expected = first * (-1.0) ** halves * np.exp(-n * halves * math.pi / own)
     assert result.extreme_times == pytest.approx(halves[1:] * math.pi / own, rel=1e-14)
@@ -45,19 +46,19 @@ def test_free_decay() -> None:
 
 
 def test_later_start_leaves_out_the_swing_it_cuts() -> None:
-    path = roll_path(Roll(1.0), NO_WAVES, angle=1.0)
+    path = roll_path(Ship(natural_frequency=1.0), NO_WAVES, angle=1.0)
     result = roll_statistics(path, 3 * math.pi + 0.1, start=0.5)
     assert result.swing_times == pytest.approx([math.pi, 2 * math.pi, 3 * math.pi], rel=1e-14)
     assert result.largest_angle == pytest.approx(-1.0, abs=1e-14) or result.largest_angle == pytest.approx(1.0)
     # A motion that only grows until the end has no swing, but a largest angle.
-    growing = roll_statistics(roll_path(Roll(1.0), NO_WAVES, rate=1.0), 1.0)
+    growing = roll_statistics(roll_path(Ship(natural_frequency=1.0), NO_WAVES, rate=1.0), 1.0)
     assert growing.swing_angles.size == 0
     assert growing.significant_angle == 0.0
     assert (growing.largest_time, growing.largest_angle) == (1.0, pytest.approx(math.sin(1.0)))
 
 
 def test_ship_that_nothing_moves_has_no_swings() -> None:
-    result = roll_statistics(roll_path(Roll(1.0), WaveTrain([3.0], [0.0])), 10.0)
+    result = roll_statistics(roll_path(Ship(natural_frequency=1.0), WaveTrain(periods=[3.0], slopes=[0.0])), 10.0)
     assert result.largest_angle == result.root_mean_square == result.significant_angle == 0.0
     assert result.extreme_times.size == result.swing_times.size == 0
 
@@ -65,11 +66,11 @@ def test_ship_that_nothing_moves_has_no_swings() -> None:
 def test_root_mean_square() -> None:
     # cos over 3.25 periods, and a decay beyond critical damping with a layer of 1/400 of its slow part.
     end = 6.5 * math.pi
-    result = roll_statistics(roll_path(Roll(1.0), NO_WAVES, angle=1.0), end)
+    result = roll_statistics(roll_path(Ship(natural_frequency=1.0), NO_WAVES, angle=1.0), end)
     assert result.root_mean_square == pytest.approx(math.sqrt(0.5 + math.sin(2 * end) / (4 * end)), rel=1e-14)
     root = math.sqrt(10.0**2 - 1)
     slow, fast = -1 / (10 + root), -(10 + root)
-    result = roll_statistics(roll_path(Roll(1.0, 10.0), NO_WAVES, rate=1.0), 30.0)
+    result = roll_statistics(roll_path(Ship(natural_frequency=1.0, damping=10.0), NO_WAVES, rate=1.0), 30.0)
     parts = sum(sign * math.expm1(p * 30) / p for sign, p in ((1, 2 * slow), (-2, slow + fast), (1, 2 * fast))) / (
         4 * root**2
     )
@@ -78,7 +79,7 @@ def test_root_mean_square() -> None:
 
 
 def test_peaks_of_the_printed_example() -> None:
-    result = roll_statistics(roll_path(Roll(K, 0.6 * K), PRINTED), 39.6)
+    result = roll_statistics(roll_path(Ship(natural_frequency=K, damping=0.6 * K), PRINTED), 39.6)
     expected = {4.45: 0.60995, 8.93: -0.52308, 12.89: 0.41982, 20.47: 0.40411, 28.34: 0.50360}
     for when, angle in expected.items():
         nearest = np.abs(result.extreme_times - when).argmin()
@@ -91,8 +92,8 @@ def test_peaks_of_the_printed_example() -> None:
 @pytest.mark.parametrize("ratio", [0.0, 0.1, 0.6, 1.0, 1.5, 20.0])
 def test_against_a_hundred_thousand_times(ratio: float) -> None:
     random = np.random.default_rng(5)
-    train = WaveTrain(random.uniform(2, 40, 60), random.uniform(-0.05, 0.05, 60))
-    path = roll_path(Roll(K, ratio * K), train, rate=0.02)
+    train = WaveTrain(periods=random.uniform(2, 40, 60), slopes=random.uniform(-0.05, 0.05, 60))
+    path = roll_path(Ship(natural_frequency=K, damping=ratio * K), train, rate=0.02)
     end = train.starts[-1] + 10
     result = roll_statistics(path, end)
     times = np.linspace(0, end, 400_001)
@@ -119,7 +120,7 @@ def test_against_a_hundred_thousand_times(ratio: float) -> None:
 @pytest.mark.parametrize("depth", [1e-4, 1e-6])
 def test_two_extremes_within_a_step_are_not_missed(depth: float) -> None:
     """A motion whose rate dips below 0 by little and for a short time, in the middle of a wave."""
-    roll, train, when = Roll(0.9), WaveTrain([2 * math.pi], [1.0]), 4.0
+    roll, train, when = Ship(natural_frequency=0.9), WaveTrain(periods=[2 * math.pi], slopes=[1.0]), 4.0
     # The rate and the acceleration there depend on the state at the start in a straight line.
     basis = [roll_path(roll, train, *state).motion(when) for state in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0))]
     values = np.array([[float(motion.rate), float(motion.acceleration)] for motion in basis])
@@ -142,8 +143,8 @@ def test_two_extremes_within_a_step_are_not_missed(depth: float) -> None:
 @pytest.mark.parametrize("ratio", [0.0, 0.05, 2.0])
 def test_ten_thousand_waves(ratio: float) -> None:
     random = np.random.default_rng(2)
-    train = WaveTrain(random.uniform(5, 15, 10_000), random.uniform(0.01, 0.05, 10_000))
-    path = roll_path(Roll(K, ratio * K), train)
+    train = WaveTrain(periods=random.uniform(5, 15, 10_000), slopes=random.uniform(0.01, 0.05, 10_000))
+    path = roll_path(Ship(natural_frequency=K, damping=ratio * K), train)
     begin = time.perf_counter()
     result = roll_statistics(path, float(train.starts[-1]))
     # Measured: 0.5 s undamped to 0.8 s beyond critical damping, on a machine that does other things too: 0.3 s alone.
@@ -152,10 +153,10 @@ def test_ten_thousand_waves(ratio: float) -> None:
 
 
 def test_quadratic_damping() -> None:
-    roll, d = Roll(K, 0.02 * K), 0.6
-    path = quadratic_roll_path(roll, d, NO_WAVES, 60.0, angle=0.5, tolerance=1e-10)
+    roll, d = Ship(natural_frequency=K, damping=0.02 * K), 0.6
+    path = quadratic_roll_path(replace(roll, quadratic_damping=d), NO_WAVES, 60.0, angle=0.5, tolerance=1e-10)
     result = roll_statistics(path, 60.0)
-    expected = swing_amplitudes(roll, d, 0.5, len(result.swing_angles) - 1)
+    expected = swing_amplitudes(replace(roll, quadratic_damping=d), 0.5, len(result.swing_angles) - 1)
     assert np.abs(result.swing_angles) == pytest.approx(expected, abs=1e-10)
     # The mean with other nodes.
     times = np.linspace(0, 60, 200_001)
@@ -166,9 +167,9 @@ def test_quadratic_damping() -> None:
 
 
 def test_in_waves_quadratic_damping_that_vanishes_gives_the_same() -> None:
-    roll = Roll(K, 0.05 * K)
+    roll = Ship(natural_frequency=K, damping=0.05 * K)
     exact = roll_statistics(roll_path(roll, TRAIN), 39.6)
-    other = roll_statistics(quadratic_roll_path(roll, 0.0, TRAIN, 39.6), 39.6)
+    other = roll_statistics(quadratic_roll_path(roll, TRAIN, 39.6), 39.6)
     assert other.swing_angles == pytest.approx(exact.swing_angles, abs=1e-9)
     assert other.extreme_times == pytest.approx(exact.extreme_times, abs=1e-7)
     assert other.root_mean_square == pytest.approx(exact.root_mean_square, rel=1e-8)
@@ -191,7 +192,7 @@ def test_roots_are_found_to_rounding_and_where_the_function_is_tiny() -> None:
 
 
 def test_wrong_arguments_are_named() -> None:
-    path = roll_path(Roll(1.0), NO_WAVES, angle=1.0)
+    path = roll_path(Ship(natural_frequency=1.0), NO_WAVES, angle=1.0)
     for start, end in ((-1.0, 2.0), (2.0, 2.0), (0.0, math.inf), (0.0, math.nan)):
         with pytest.raises(ValueError, match=r"start is .* and end .*; they must be finite, 0 ≤ start < end"):
             roll_statistics(path, end, start)

@@ -8,18 +8,20 @@ import numpy as np
 import pytest
 from string_bromwich import bromwich
 from string_cases import image_of
+from uniform_strings import uniform_string
 
 from hydroelastic.modal import HangingString, Ramp, Sine, Smooth, Step, string_response, tabulated
+from hydroelastic.modal.string.closed_form import front_jump
 
-MOTIONS = [Ramp(1.3), Sine(0.4, 7.0), Smooth(1.0, 4.0), Step(0.5)]
-STRING = HangingString(length=2.0, damping=0.8)
+MOTIONS = [Ramp(speed=1.3), Sine(amplitude=0.4, omega=7.0), Smooth(amplitude=1.0, rate=4.0), Step(amplitude=0.5)]
+STRING = uniform_string(length=2.0, damping=0.8)
 
 
 @pytest.mark.parametrize("motion", MOTIONS)
 def test_nothing_moves_before_the_front(motion: Ramp | Sine | Smooth | Step) -> None:
     positions = np.array([0.0, 0.1, 1.0, 1.9])
-    found = string_response(STRING, motion, positions, STRING.front_time(positions) * (1 - 1e-12))
-    ahead = np.subtract.outer(STRING.front_time(positions), STRING.front_time(positions)) >= 0
+    found = string_response(STRING, motion, positions, STRING.arrival_times(positions) * (1 - 1e-12))
+    ahead = np.subtract.outer(STRING.arrival_times(positions), STRING.arrival_times(positions)) >= 0
     assert (found.values[ahead] == 0).all()
     assert (found.errors[ahead] == 0).all()
     assert string_response(STRING, motion, positions, 0.0).values.tolist() == [[0.0]] * 4
@@ -36,14 +38,14 @@ def test_the_upper_end_is_where_it_is_moved_to(motion: Ramp | Sine | Smooth | St
     ("damping", "position", "expected"), [(0.0, 0.6, None), (0.8, 0.36, 1.05240), (3.0, 0.09, 0.47761)]
 )
 def test_height_of_the_front_of_a_step(damping: float, position: float, expected: float | None) -> None:
-    string = HangingString(length=1.0, damping=damping)
-    front, jump = float(string.front_time(position)), float(string.front_jump(position))
+    string = uniform_string(damping=damping)
+    front, jump = float(string.arrival_times(position)), float(front_jump(string, position))
     assert jump == pytest.approx(position**-0.25 * np.exp(-damping * front), rel=1e-14)
     if expected:
         # Numbers of the theory.
         assert jump == pytest.approx(expected, abs=6e-6)
     after = np.array([1e-3, 2e-3]) * string.travel_time
-    first, second = string_response(string, Step(1.0), position, front + after).values[0]
+    first, second = string_response(string, Step(amplitude=1.0), position, front + after).values[0]
     # Behind the front the motion is smooth: its value there by a straight line, of error (10⁻³)² times a few.
     assert 2 * first - second == pytest.approx(jump, rel=2e-5)
 
@@ -51,7 +53,7 @@ def test_height_of_the_front_of_a_step(damping: float, position: float, expected
 def _random_points(seed: int) -> tuple[HangingString, np.ndarray, np.ndarray]:
     random = np.random.default_rng(seed)
     damping = 10 ** random.uniform(-2, 1) * (random.random() > 0.2)
-    string = HangingString(length=10 ** random.uniform(-1, 1), damping=damping)
+    string = uniform_string(length=10 ** random.uniform(-1, 1), damping=damping)
     ratios = np.concatenate([[0.0], random.random(8), 1 - 10 ** random.uniform(-5, -1, 3)])
     return string, string.length * ratios**2, string.travel_time * random.uniform(0, 6, 12)
 
@@ -60,7 +62,7 @@ TABLE_TIMES = np.linspace(0, 40, 81)
 TABLE = np.sin(2 * TABLE_TIMES) + 0.3 * np.cos(5 * TABLE_TIMES)
 ALL_MOTIONS = [
     *MOTIONS,
-    Smooth(1.0, 300.0),
+    Smooth(amplitude=1.0, rate=300.0),
     tabulated([0.0, 1.0, 2.0, 40.0], [0.5, 1.0, 0.0, 0.0]),
     tabulated(TABLE_TIMES, TABLE),
     tabulated(TABLE_TIMES, TABLE, "cubic"),
@@ -110,7 +112,7 @@ def test_random_points_by_the_integral(seed: int) -> None:
         assert found.values[row, column] == pytest.approx(expected, rel=1e-12, abs=2e-12)
 
 
-@pytest.mark.parametrize("motion", [Step(1.0), Smooth(1.0, 6.0)])
+@pytest.mark.parametrize("motion", [Step(amplitude=1.0), Smooth(amplitude=1.0, rate=6.0)])
 def test_right_behind_the_front_with_single_points(motion: Step | Smooth) -> None:
     for ratio in (0.0, 0.2, 0.6, 0.95):
         found = string_response(STRING, motion, 2.0 * ratio**2, STRING.travel_time * (1 - ratio + 0.002))
@@ -120,8 +122,8 @@ def test_right_behind_the_front_with_single_points(motion: Step | Smooth) -> Non
 
 def test_many_points_need_fewer_modes_than_few() -> None:
     positions, times = np.linspace(0, 2, 300), np.linspace(0, 3, 300)
-    grid = string_response(STRING, Step(1.0), positions, times)
-    alone = string_response(STRING, Step(1.0), positions[37], times)
+    grid = string_response(STRING, Step(amplitude=1.0), positions, times)
+    alone = string_response(STRING, Step(amplitude=1.0), positions[37], times)
     assert grid.terms < alone.terms
     both = grid.errors[37] + alone.errors[0]
     assert (np.abs(grid.values[37] - alone.values[0]) <= 3 * both).all()

@@ -7,8 +7,9 @@ import math
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from uniform_strings import uniform_string
 
-from hydroelastic.modal import Given, HangingString, Ramp, Sine, Smooth, Step, sampled, string_response, tabulated
+from hydroelastic.modal import Ramp, Sine, Smooth, Step, TabulatedMotion, sampled, string_response, tabulated
 
 Floats = NDArray[np.float64]
 POSITIONS = np.array([0.0, 0.1, 0.45, 0.8, 0.99])
@@ -29,9 +30,16 @@ def _step(times: Floats) -> Floats:
 
 
 @pytest.mark.parametrize(
-    "motion", [Ramp(2.0), Sine(1.5, 3.0), Smooth(0.7, 2.0), Step(0.3), tabulated([0, 1, 2, 4], [0, 1, 1, 5], "cubic")]
+    "motion",
+    [
+        Ramp(speed=2.0),
+        Sine(amplitude=1.5, omega=3.0),
+        Smooth(amplitude=0.7, rate=2.0),
+        Step(amplitude=0.3),
+        tabulated([0, 1, 2, 4], [0, 1, 1, 5], "cubic"),
+    ],
 )
-def test_derivatives_are_those_of_the_values(motion: Ramp | Sine | Smooth | Step | Given) -> None:
+def test_derivatives_are_those_of_the_values(motion: Ramp | Sine | Smooth | Step | TabulatedMotion) -> None:
     times, step = np.array([0.3, 1.5, 3.2]), 1e-4
     below, at, above = (motion.value(times + shift) for shift in (-step, 0, step))
     # Central differences, of error step²/6 times a fourth derivative below 300, and of rounding over step².
@@ -41,10 +49,10 @@ def test_derivatives_are_those_of_the_values(motion: Ramp | Sine | Smooth | Step
 
 
 def test_values_of_motions() -> None:
-    assert Ramp(2.0).value(3.0) == pytest.approx(6.0)
-    assert Sine(2.0, 0.5).value(3.0) == pytest.approx(2 * math.sin(1.5))
-    assert Smooth(2.0, 0.5).value(3.0) == pytest.approx(2 * (1 - math.exp(-1.5)) ** 2)
-    assert Step(2.0).value(0.0) == 2
+    assert Ramp(speed=2.0).value(3.0) == pytest.approx(6.0)
+    assert Sine(amplitude=2.0, omega=0.5).value(3.0) == pytest.approx(2 * math.sin(1.5))
+    assert Smooth(amplitude=2.0, rate=0.5).value(3.0) == pytest.approx(2 * (1 - math.exp(-1.5)) ** 2)
+    assert Step(amplitude=2.0).value(0.0) == 2
     table = tabulated([0.0, 1.0, 3.0], [1.0, 2.0, 0.0])
     assert table.value([0.0, 0.5, 1.0, 2.0, 3.0]) == pytest.approx([1.0, 1.5, 2.0, 1.0, 0.0])
     assert table.end == 3
@@ -53,10 +61,11 @@ def test_values_of_motions() -> None:
 
 @pytest.mark.parametrize("damping", [0.0, 0.5, 3.766067388420842, 30.0])
 @pytest.mark.parametrize(
-    ("function", "motion"), [(_sine, Sine(1.0, 5.0)), (_smooth, Smooth(1.0, 4.0)), (_step, Step(1.0))]
+    ("function", "motion"),
+    [(_sine, Sine(amplitude=1.0, omega=5.0)), (_smooth, Smooth(amplitude=1.0, rate=4.0)), (_step, Step(amplitude=1.0))],
 )
 def test_functions_move_the_string_as_closed_forms_do(function: object, motion: Sine, damping: float) -> None:
-    string = HangingString(length=1.0, damping=damping)
+    string = uniform_string(damping=damping)
     found = string_response(string, sampled(function, END, 1e-9), POSITIONS, TIMES)  # type: ignore[arg-type]
     exact = string_response(string, motion, POSITIONS, TIMES)
     # The deviation of the spline, 1e-9, is focused at the lower end: measured 3e-8 and less.
@@ -66,11 +75,11 @@ def test_functions_move_the_string_as_closed_forms_do(function: object, motion: 
 @pytest.mark.parametrize("interpolation", ["linear", "cubic"])
 @pytest.mark.parametrize("damping", [0.0, 3.0, 200.0])
 def test_a_table_of_a_ramp_is_the_ramp(interpolation: str, damping: float) -> None:
-    string = HangingString(length=1.0, damping=damping)
+    string = uniform_string(damping=damping)
     rows = np.sort(np.random.default_rng(3).random(150)) * END
     rows = np.concatenate([[0.0], rows, [END]])
     found = string_response(string, tabulated(rows, 2 * rows, interpolation), POSITIONS, TIMES)  # type: ignore[arg-type]
-    exact = string_response(string, Ramp(2.0), POSITIONS, TIMES)
+    exact = string_response(string, Ramp(speed=2.0), POSITIONS, TIMES)
     error = np.abs(found.values - exact.values)
     assert (error <= 3 * (found.errors + exact.errors)).all()
     # Rounding of 28 s × 2 m/s, times 150 rows, for the heaviest damping.
@@ -79,10 +88,10 @@ def test_a_table_of_a_ramp_is_the_ramp(interpolation: str, damping: float) -> No
 
 def test_rounding_of_a_long_table_is_told() -> None:
     """Slow modes keep what is rounded at every row, and equal rows round to the same side."""
-    string = HangingString(length=1.0, damping=200.0)
+    string = uniform_string(damping=200.0)
     rows = np.linspace(0, END, 2001)
     found = string_response(string, tabulated(rows, 2 * rows), POSITIONS, TIMES)
-    exact = string_response(string, Ramp(2.0), POSITIONS, TIMES)
+    exact = string_response(string, Ramp(speed=2.0), POSITIONS, TIMES)
     error = np.abs(found.values - exact.values)
     assert error.max() > 1e-12
     assert (error <= 3 * (found.errors + exact.errors)).all()
@@ -91,10 +100,10 @@ def test_rounding_of_a_long_table_is_told() -> None:
 
 @pytest.mark.parametrize(("interpolation", "order"), [("linear", 2), ("cubic", 4)])
 def test_tables_converge(interpolation: str, order: int) -> None:
-    string = HangingString(length=1.0, damping=1.0)
+    string = uniform_string(damping=1.0)
     random = np.random.default_rng(11)
     positions, instants = random.random(40), END * random.random(40)
-    exact = string_response(string, Sine(1.0, 5.0), positions, instants).values
+    exact = string_response(string, Sine(amplitude=1.0, omega=5.0), positions, instants).values
     errors = []
     for rows in (101, 201, 401):
         times = np.linspace(0, END, rows)
@@ -105,7 +114,7 @@ def test_tables_converge(interpolation: str, order: int) -> None:
 
 
 def test_superposition() -> None:
-    string = HangingString(length=3.0, damping=0.4)
+    string = uniform_string(length=3.0, damping=0.4)
     times = np.linspace(0, END, 60)
     random = np.random.default_rng(5)
     first, second = random.standard_normal((2, 60))
@@ -118,11 +127,11 @@ def test_superposition() -> None:
 
 def test_a_motion_may_begin_with_a_jump_and_be_broken() -> None:
     """A rise to 1, then from t = 1 on the same again, by a function with a jump: two steps, one after the other."""
-    string = HangingString(length=1.0, damping=0.6)
+    string = uniform_string(damping=0.6)
     stairs = sampled(lambda times: np.where(times < 1, 1.0, 3.0), END, 1e-9, breaks=[1.0])
     found = string_response(string, stairs, POSITIONS, TIMES)
-    first = string_response(string, Step(1.0), POSITIONS, TIMES)
-    later = string_response(string, Step(2.0), POSITIONS, np.maximum(TIMES - 1, 0))
+    first = string_response(string, Step(amplitude=1.0), POSITIONS, TIMES)
+    later = string_response(string, Step(amplitude=2.0), POSITIONS, np.maximum(TIMES - 1, 0))
     expected = first.values + later.values
     far = first.errors + later.errors < 1e-10
     assert found.values[far] == pytest.approx(expected[far], abs=1e-10)
@@ -130,7 +139,7 @@ def test_a_motion_may_begin_with_a_jump_and_be_broken() -> None:
 
 def test_motion_is_continuous_where_a_table_goes_on() -> None:
     table = tabulated([0.0, 1.0, 2.0], [0.0, 1.0, 0.0])
-    string = HangingString(length=1.0, damping=0.3)
+    string = uniform_string(damping=0.3)
     below, above = string_response(string, table, 0.4, [1 - 1e-9, 1 + 1e-9]).values[0]
     # Velocities are below 10 m/s.
     assert below == pytest.approx(above, abs=2e-8)
@@ -152,23 +161,23 @@ def test_refuses_bad_tables(times: list[float], values: list[float], message: st
 
 
 def test_refuses_what_is_not_allowed() -> None:
-    string = HangingString(length=1.0)
+    string = uniform_string()
     with pytest.raises(ValueError, match=r"times goes to 3\.0 s.*known up to 2\.0"):
         string_response(string, tabulated([0.0, 2.0], [0.0, 1.0]), 0.5, [1.0, 3.0])
     with pytest.raises(ValueError, match=r"times has -1\.0"):
-        string_response(string, Ramp(1.0), 0.5, [-1.0, 3.0])
+        string_response(string, Ramp(speed=1.0), 0.5, [-1.0, 3.0])
     with pytest.raises(ValueError, match=r"positions has 2\.0"):
-        string_response(string, Ramp(1.0), 2.0, 1.0)
+        string_response(string, Ramp(speed=1.0), 2.0, 1.0)
     with pytest.raises(ValueError, match="most_terms is 3"):
-        string_response(string, Ramp(1.0), 0.5, 1.0, most_terms=3)
+        string_response(string, Ramp(speed=1.0), 0.5, 1.0, most_terms=3)
     with pytest.raises(ValueError, match="tolerance is 0"):
-        string_response(string, Ramp(1.0), 0.5, 1.0, tolerance=0.0)
+        string_response(string, Ramp(speed=1.0), 0.5, 1.0, tolerance=0.0)
     with pytest.raises(ValueError, match="interpolation is 'quintic'"):
         tabulated([0.0, 1.0], [0.0, 1.0], "quintic")  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="rate is 0"):
-        Smooth(1.0, 0.0)
+        Smooth(amplitude=1.0, rate=0.0)
     with pytest.raises(ValueError, match="speed is nan"):
-        Ramp(math.nan)
+        Ramp(speed=math.nan)
 
 
 def test_refuses_functions_that_cannot_be_followed() -> None:

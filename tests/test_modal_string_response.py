@@ -7,8 +7,9 @@ from pathlib import Path
 
 import pytest
 from string_cases import CASES, StringCase
+from uniform_strings import uniform_string
 
-from hydroelastic.modal import HangingString, Ramp, Sine, Smooth, Step, string_response
+from hydroelastic.modal import Ramp, Sine, Smooth, Step, string_response
 
 REFERENCE = json.loads((Path(__file__).parent / "reference" / "string_and_roll.json").read_text(encoding="utf-8"))
 STORED = {case["id"]: case for case in REFERENCE["cases"] if case["paper"] == "000"}
@@ -21,14 +22,14 @@ def _stored_case(name: str) -> StringCase:
     motion: Ramp | Sine | Smooth | Step
     match case["kind"]:
         case "ramp":
-            motion = Ramp(amplitude)
+            motion = Ramp(speed=amplitude)
         case "sine":
-            motion = Sine(amplitude, inputs["omega"])
+            motion = Sine(amplitude=amplitude, omega=inputs["omega"])
         case "smooth":
-            motion = Smooth(amplitude, inputs["beta"])
+            motion = Smooth(amplitude=amplitude, rate=inputs["beta"])
         case _:
-            motion = Step(amplitude)
-    string = HangingString(length=inputs["l"], damping=inputs["alpha"], gravity=inputs["g"])
+            motion = Step(amplitude=amplitude)
+    string = uniform_string(length=inputs["l"], damping=inputs["alpha"], gravity=inputs["g"])
     return StringCase(string=string, motion=motion, position=inputs["x"], time=inputs["t"])
 
 

@@ -40,12 +40,12 @@ def solve(name: str, *overrides: str):  # type: ignore[no-untyped-def]
     ],
 )
 def test_the_example_of_the_paper(name: str, angles: list[float], peak: float, when: float) -> None:
-    solution = solve(name, "output.times=[5.0, 10.0, 15.0, 20.0, 60.0]")
-    assert solution.motion.angle[:4] == pytest.approx(0.1 * np.array(angles), abs=0.6e-9)
+    result = solve(name, "output.times=[5.0, 10.0, 15.0, 20.0, 60.0]")
+    assert result.solution.motion.angle[:4] == pytest.approx(0.1 * np.array(angles), abs=0.6e-9)
     # The largest angle lies between the times of the output.
-    assert solution.statistics.largest_angle == pytest.approx(0.1 * peak, abs=0.6e-6)
-    assert solution.statistics.largest_time == pytest.approx(when, abs=0.006)
-    assert solution.reasons == ()
+    assert result.solution.statistics.largest_angle == pytest.approx(0.1 * peak, abs=0.6e-6)
+    assert result.solution.statistics.largest_time == pytest.approx(when, abs=0.006)
+    assert result.reasons == ()
 
 
 def test_angles_beyond_linear_restoring_are_said(tmp_path: Path) -> None:
@@ -67,38 +67,40 @@ def test_one_wave_is_one(tmp_path: Path) -> None:
 
 
 def test_exceedances_count_swings_above_levels() -> None:
-    solution = solve("swell")
-    swings = np.abs(solution.statistics.swing_angles)
+    result = solve("swell")
+    swings = np.abs(result.solution.statistics.swing_angles)
     summary = run_roll(roll_scene("swell")).summary
     counted = [row["swings"] for row in summary["response"]["exceedances"]]
     assert counted == [int(np.sum(swings > level)) for level in (0.02, 0.04, 0.06)]
     # Beside it, from a fine table of the motion: one stretch between zeros is above 0.06 rad, three are below 0.02.
-    fine = solve("swell", "output.times={start=0, stop=60, number=60001}").motion.angle
+    fine = solve("swell", "output.times={start=0, stop=60, number=60001}").solution.motion.angle
     pieces = np.split(np.abs(fine), np.flatnonzero(np.diff(np.sign(fine)) != 0) + 1)
     assert counted == [sum(piece.max() > level for piece in pieces) for level in (0.02, 0.04, 0.06)]
 
 
 def test_damping_given_as_rate_or_ratio_is_one() -> None:
-    ratio = solve("swell").motion.angle
-    rate = solve("swell", "roll={natural_frequency = 0.5235987755982988, damping = 0.3141592653589793}").motion.angle
+    ratio = solve("swell").solution.motion.angle
+    rate = solve(
+        "swell", "roll={natural_frequency = 0.5235987755982988, damping = 0.3141592653589793}"
+    ).solution.motion.angle
     assert rate == pytest.approx(ratio, abs=1e-15)
 
 
 def test_quadratic_damping_tends_to_none() -> None:
-    without = solve("swell").motion.angle
-    little = solve("swell", "roll.quadratic_damping=1e-9").motion.angle
+    without = solve("swell").solution.motion.angle
+    little = solve("swell", "roll.quadratic_damping=1e-9").solution.motion.angle
     # d φ'² is about 1e-9 × 4e-3 of what moves the ship; the integrator keeps the tolerance 1e-8.
     assert little == pytest.approx(without, abs=1.1e-8 * 0.061)
     more = solve("swell", "roll.quadratic_damping=5.0")
     # It takes as much energy as 4/(3π) d k A = 0.07 1/s more of n = 0.31 1/s would.
-    assert np.abs(more.motion.angle).max() < 0.95 * np.abs(without).max()
-    assert more.angle_error < 1e-8 * 0.061
+    assert np.abs(more.solution.motion.angle).max() < 0.95 * np.abs(without).max()
+    assert more.solution.angle_error < 1e-8 * 0.061
 
 
 def test_a_release_without_waves() -> None:
     overrides = ("wave=[]", "roll.angle=0.1", "roll.damping_ratio=0.1", "output.levels=[]")
-    solution = solve("swell", *overrides)
-    swings = np.abs(solution.statistics.swing_angles)
+    result = solve("swell", *overrides)
+    swings = np.abs(result.solution.statistics.swing_angles)
     # The exact decrement, to rounding of the extremes.
     ratio = np.exp(-np.pi * 0.1 / np.sqrt(1.0 - 0.01))
     assert swings[1:5] / swings[:4] == pytest.approx(ratio, rel=1e-12)
@@ -109,7 +111,7 @@ def test_a_release_without_waves() -> None:
 def test_files_tell_one_motion(tmp_path: Path) -> None:
     outcome = run_roll(roll_scene("swell"), out=tmp_path / "result")
     folder = tmp_path / "result"
-    solution = solve("swell")
+    result = solve("swell")
     assert {path.name for path in folder.iterdir()} == {
         "manifest.json",
         "summary.json",
@@ -120,12 +122,12 @@ def test_files_tell_one_motion(tmp_path: Path) -> None:
     }
     with (folder / "response.csv").open(encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
-    assert [float(row["angle"]) for row in rows] == solution.motion.angle.tolist()
+    assert [float(row["angle"]) for row in rows] == result.solution.motion.angle.tolist()
     assert json.loads((folder / "summary.json").read_text(encoding="utf-8")) == outcome.summary
     import xarray
 
     with xarray.open_dataset(folder / "dataset.nc") as dataset:
-        assert dataset.angle.values.tolist() == solution.motion.angle.tolist()
+        assert dataset.angle.values.tolist() == result.solution.motion.angle.tolist()
         assert dataset.acceleration.attrs["units"] == "rad/s^2"
     with Image.open(folder / "images" / "roll.png") as picture:
         assert picture.width > 1000
@@ -158,18 +160,21 @@ def test_an_error_above_the_tolerance_is_said(tmp_path: Path) -> None:
 
 def test_a_section_in_a_tank_gives_its_natural_frequency() -> None:
     swell = "roll={section = 'ship_section', damping_ratio = 0.6}"
-    solution = solve("swell", swell, "accuracy.tolerance=1e-6", "output.times={start=0, stop=60, number=61}")
-    section = solution.section
+    result = solve("swell", swell, "accuracy.tolerance=1e-6", "output.times={start=0, stop=60, number=61}")
+    section = result.section
     assert section is not None
-    # The mode of roll of results/shipped/ship_section.
+    # The mode of roll of results/shipped/ship_section, and its added inertia with a stated error of 5e-10.
     assert section.natural_frequency == pytest.approx(0.41225772491, rel=1e-9)
+    assert section.added_inertia == pytest.approx(2338528.6244, rel=2e-9)
+    assert section.inertia == pytest.approx(9370997.4525, rel=1e-10)
+    assert section.stiffness == pytest.approx(0.41225772491**2 * (9370997.4525 + 2338528.6244), rel=1e-9)
     assert section.damping is None
-    assert solution.roll.damping == pytest.approx(0.6 * section.natural_frequency, rel=1e-15)
+    assert result.solution.ship.damping == pytest.approx(0.6 * section.natural_frequency, rel=1e-15)
     same = solve(
         "swell", f"roll={{natural_frequency = {section.natural_frequency!r}, damping_ratio = 0.6}}",
         "output.times={start=0, stop=60, number=61}",
     )  # fmt: skip
-    assert same.motion.angle.tolist() == solution.motion.angle.tolist()
+    assert same.solution.motion.angle.tolist() == result.solution.motion.angle.tolist()
 
 
 @pytest.mark.parametrize(
@@ -193,16 +198,16 @@ def test_a_section_that_does_not_roll_is_refused(section: str, words: list[str])
 
 
 def test_an_error_of_the_section_is_carried_to_the_angle() -> None:
-    solution = solve("swell", "roll={section = 'ship_section', damping_ratio = 0.01}", "accuracy.tolerance=1e-12")
-    assert solution.section_error > 0.0
-    assert any("section" in reason for reason in solution.reasons)
+    result = solve("swell", "roll={section = 'ship_section', damping_ratio = 0.01}", "accuracy.tolerance=1e-12")
+    assert result.solution.ship_error > 0.0
+    assert any("section" in reason for reason in result.reasons)
 
 
 def test_that_error_does_not_depend_on_the_times_of_the_output() -> None:
     given = ("roll={section = 'ship_section', damping_ratio = 0.01}", "accuracy.tolerance=1e-3")
     many = solve("swell", *given, "output.times={start=0, stop=60, number=601}")
     few = solve("swell", *given, "output.times=[0.0, 0.001, 60.0]")
-    assert few.section_error == pytest.approx(many.section_error, rel=1e-12)
+    assert few.solution.ship_error == pytest.approx(many.solution.ship_error, rel=1e-12)
 
 
 def test_what_a_section_makes_impossible_is_refused() -> None:
@@ -211,10 +216,10 @@ def test_what_a_section_makes_impossible_is_refused() -> None:
 
 
 def test_heavy_damping_keeps_the_default_tolerance() -> None:
-    solution = solve("swell", "roll.damping_ratio=1e6")
-    assert solution.reasons == ()
+    result = solve("swell", "roll.damping_ratio=1e6")
+    assert result.reasons == ()
     # φ ≈ k a (1 − cos ωt)/(2 (n/k) ω): the slowest wave, but the first ones have not yet died away.
-    assert abs(solution.statistics.largest_angle) < 2e-6 * 0.1
+    assert abs(result.solution.statistics.largest_angle) < 2e-6 * 0.1
 
 
 @pytest.mark.mpi

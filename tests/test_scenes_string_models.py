@@ -24,23 +24,23 @@ def read(tmp_path: Path, text: str) -> StringScene:
 def test_defaults(tmp_path: Path) -> None:
     scene = read(tmp_path, SINE)
     assert scene.method == "series"
-    assert scene.string.resistance.is_uniform
+    assert scene.string.physical.has_closed_form
     assert (scene.positions[0], scene.positions[-1], len(scene.positions)) == (0.0, 2.0, 101)
     assert scene.times[0] == 0.0
-    assert scene.times[-1] == pytest.approx(6.4 * scene.string.travel_time)
+    assert scene.times[-1] == pytest.approx(6.4 * scene.string.physical.travel_time)
 
 
 def test_a_bare_resistance_is_uniform_and_a_table_varies(tmp_path: Path) -> None:
     uniform = read(tmp_path, SINE.replace("0.5\n", "0.5\nresistance = 0.2\n", 1))
     assert (uniform.string.resistance.bottom, uniform.string.resistance.top) == (0.2, 0.2)
-    assert uniform.string.damping == 0.4
+    assert uniform.string.physical.damping == 0.4
     varied = read(tmp_path, SINE.replace("0.5\n", "0.5\nresistance = { bottom = 0.1, top = 0.3 }\n", 1))
     assert varied.method == "field"
 
 
 def test_liquid_changes_gravity_and_damping_alone(tmp_path: Path) -> None:
     text = SINE.replace("0.5\n", "0.5\nresistance = 0.2\nadded_mass = 0.3\ndisplaced_mass = 0.1\n", 1)
-    string = read(tmp_path, text).string
+    string = read(tmp_path, text).string.physical
     assert string.has_closed_form
     assert string.apparent_gravity == pytest.approx(9.81 * 0.4 / 0.8, rel=1e-15)
     assert string.damping == pytest.approx(0.2 / 0.8, rel=1e-15)

@@ -11,12 +11,11 @@ from functools import cache
 import numpy as np
 
 from hydroelastic.benchmarks.cases import Case
-from hydroelastic.modal.string.hanging_string import HangingString as ClosedForm
+from hydroelastic.fem.string.solution import FIELD_FRONT_MARGIN
 from hydroelastic.modal.string.response import string_response
+from hydroelastic.physics.string import HangingString
 from hydroelastic.scenes.models.string import StringScene
-from hydroelastic.scenes.string.fronts import BESIDE, front_distance
-from hydroelastic.scenes.string.motion import end_motion
-from hydroelastic.scenes.string.series import closed_form
+from hydroelastic.scenes.string.physics import end_motion
 
 MOTIONS = ("smooth", "ramp", "sine", "step")
 _GIVEN = {
@@ -34,7 +33,7 @@ TERMS = (4, 16, 64, 256, 1024, 4096)
 
 def string_scene(motion: str, tolerance: float, method: str) -> StringScene:
     """Return the scene of a motion."""
-    travel = ClosedForm(length=1.0).travel_time
+    travel = HangingString(length=1.0, linear_density=1.0).travel_time
     return StringScene.model_validate(
         {
             "string": {"length": 1.0, "linear_density": 1.0, "resistance": 0.5},
@@ -52,8 +51,8 @@ def string_scene(motion: str, tolerance: float, method: str) -> StringScene:
 def compared(motion: str) -> np.ndarray:
     """Return which points are compared, shape (heights, times)."""
     scene = string_scene(motion, 1e-6, "series")
-    distance = front_distance(scene.string, np.array(scene.positions), np.array(scene.times))
-    return np.asarray(distance > BESIDE["field"])
+    distance = scene.string.physical.front_distance(np.array(scene.positions), np.array(scene.times))
+    return np.asarray(distance > FIELD_FRONT_MARGIN)
 
 
 @cache
@@ -64,7 +63,7 @@ def exact(motion: str) -> np.ndarray:
     """
     scene = string_scene(motion, 1e-6, "series")
     response = string_response(
-        closed_form(scene), end_motion(scene), np.array(scene.positions), np.array(scene.times), tolerance=1e-15
+        scene.string.physical, end_motion(scene), np.array(scene.positions), np.array(scene.times), tolerance=1e-15
     )
     return response.values[compared(motion)]
 

@@ -9,11 +9,10 @@ from hydroelastic.benchmarks.cases import Answer, Case
 from hydroelastic.benchmarks.string.cases import compared, string_scene
 from hydroelastic.benchmarks.tank.hydroelastic import versions as versions
 from hydroelastic.modal.string.partial_sum import partial_sum
+from hydroelastic.modal.string.solution import StringSolution
 from hydroelastic.scenes.models.string import StringScene
-from hydroelastic.scenes.string.field import solve_string_field
-from hydroelastic.scenes.string.motion import end_motion
-from hydroelastic.scenes.string.results import StringSolution
-from hydroelastic.scenes.string.series import closed_form, solve_series
+from hydroelastic.scenes.string.physics import end_motion
+from hydroelastic.scenes.string.solve import solve_series, solve_string_field
 
 
 def prepare(case: Case) -> tuple[Case, StringScene]:
@@ -28,7 +27,7 @@ def solve(prepared: tuple[Case, StringScene]) -> Answer:
     case, scene = prepared
     if case.code == "string sum":
         values = partial_sum(
-            closed_form(scene), end_motion(scene), np.array(scene.positions), np.array(scene.times), case.terms
+            scene.string.physical, end_motion(scene), np.array(scene.positions), np.array(scene.times), case.terms
         )
         return Answer(values=tuple(values[compared(case.tank)].tolist()), unknowns=case.terms)
     field = case.code == "string field"

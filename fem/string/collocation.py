@@ -1,13 +1,13 @@
-"""Collocation at Gauss's points for M w'' + C w' + K w = F(t): order 2s with s stages, and no damping of its own.
+"""Collocation at Gauss points for M w'' + C w' + K w = F(t): order 2s with s stages, and no numerical damping.
 
 With Butcher's matrix a, nodes c and weights b of the interval [t, t + h] the accelerations A of the stages satisfy
 
     M A + C (v + h a A) + K (w + h c v + h² a² A) = F(t + c h),
     v ← v + h bᵀA,    w ← w + h v + h² bᵀa A.
 
-In the eigenvectors of a they part into one system M + hλC + h²λ²K for each eigenvalue λ, of which one in each conjugate
-pair is solved; all have Re λ > 0. On a linear problem without loads a step is the diagonal Padé approximant of the
-exponential: energy is kept where C = 0, and never grows.
+In the eigenvectors of a they decouple into one system M + hλC + h²λ²K for each eigenvalue λ, of which one in each
+conjugate pair is solved; all have Re λ > 0. On a linear problem without loads a step is the diagonal Padé approximant
+of the exponential: energy is kept where C = 0, and never grows.
 
 Source: E. Hairer and G. Wanner, Solving Ordinary Differential Equations II, IV.5, IV.8.
 """
@@ -31,14 +31,14 @@ Solve = Callable[[NDArray[np.complex128]], NDArray[np.complex128]]
 
 @dataclass(frozen=True, kw_only=True)
 class GaussRule:
-    """A rule of collocation in the eigenvectors of its matrix, one of each conjugate pair.
+    """A collocation rule in the eigenvectors of its matrix, one of each conjugate pair.
 
     Attributes:
         nodes: c, shape (stages,).
         eigenvalues: λ with Im λ ≥ 0, shape (systems,).
         to_systems: loads of the systems from those of the stages, shape (systems, stages).
-        velocity: what the solution of each system adds to v, over h; twice its real part counts for a pair.
-        displacement: what it adds to w, over h².
+        velocity: weights of the solutions of the systems in the increment of v over h, doubled for conjugate pairs.
+        displacement: the same of w over h².
     """
 
     nodes: NDArray[np.float64]
@@ -49,7 +49,7 @@ class GaussRule:
 
 
 def gauss_rule(stages: int) -> GaussRule:
-    """The rule of order twice the number of stages."""
+    """Return the rule of order twice the number of stages."""
     points, weights = legendre.leggauss(stages)
     nodes = 0.5 * (points + 1.0)
     powers = np.arange(1, stages + 1)
@@ -70,7 +70,7 @@ def gauss_rule(stages: int) -> GaussRule:
 
 
 class Collocation:
-    """Steps of one oscillating system.
+    """Time steps of one oscillating system.
 
     Args:
         mass: M, symmetric and positive.
@@ -142,7 +142,7 @@ class Collocation:
         self.factorizations += len(self._solvers)
 
     def _system(self, scaled: complex) -> Solve:
-        """Of M + hλC + h²λ²K, turned so that its real part is positive: pivots need no search."""
+        """Return the solver of M + hλC + h²λ²K, turned so that its real part is positive definite: no pivoting."""
         if abs(scaled.imag) < 1e-12 * abs(scaled):
             return self._real_system(scaled.real)
         # The angles of the three terms become −θ, 0 and θ, and that of λ is acute.

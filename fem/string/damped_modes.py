@@ -19,11 +19,11 @@ from slepc4py import SLEPc
 
 from hydroelastic.fem.direct import configure_direct
 from hydroelastic.fem.modes import EigenSolverError
-from hydroelastic.fem.string.model import StringModel, scaled_string
 from hydroelastic.fem.string.modes import MODE_DEGREE, StringModes, mode_pencils, rounding, string_modes
 from hydroelastic.fem.string.pencil import StringPencil
 from hydroelastic.fem.string.probe import StringProbe
 from hydroelastic.meshes.interrupts import interrupts_deferred
+from hydroelastic.physics.string import HangingString
 
 _RESIDUAL = 1e-12
 
@@ -46,7 +46,7 @@ class DampedModes:
 
 def damped_modes(
     comm: MPI.Comm,
-    model: StringModel,
+    string: HangingString,
     count: int,
     positions: NDArray[np.float64],
     *,
@@ -54,18 +54,18 @@ def damped_modes(
     degree: int = MODE_DEGREE,
     quadratic: bool = False,
 ) -> DampedModes:
-    """The roots of smallest magnitude.
+    """Return the free motions with the roots of smallest magnitude.
 
     Args:
         comm: communicator.
-        model: the string.
-        count: how many roots, a conjugate pair being one; the two real roots of an aperiodic motion are two, and the
-            fast one may lie far from zero.
+        string: the string.
+        count: number of roots, a conjugate pair counted once; an aperiodic mode has two real roots, of which the fast
+            one may lie far from zero.
         positions: x of the shapes, m, from 0 to the length, shape (positions,).
-        elements: of equal travel time; by default enough for about thirteen digits.
-        degree: of the polynomials.
+        elements: number of elements of equal travel time; by default enough for about thirteen digits.
+        degree: polynomial degree.
         quadratic: solve the quadratic problem even where the drag is in proportion to the mass. Near a double root it
-            can tell p to half of the digits only.
+            gives half of the digits of p only.
 
     Returns:
         The motions (collective).
@@ -73,14 +73,13 @@ def damped_modes(
     Raises:
         EigenSolverError: if SLEPc does not deliver them.
     """
-    string = scaled_string(model)
     if string.uniform_damping is not None and not quadratic:
-        undamped = string_modes(comm, model, count, positions, elements=elements, degree=degree)
-        return _from_undamped(undamped, string.uniform_damping / string.time_unit)
+        undamped = string_modes(comm, string, count, positions, elements=elements, degree=degree)
+        return _from_undamped(undamped, string.uniform_damping)
     pencil, richer = mode_pencils(comm, string, count, elements, degree)
     roots, vectors = _quadratic_pairs(pencil, count)
     closer, _ = _quadratic_pairs(richer, count)
-    probe = StringProbe(pencil, np.asarray(positions, float) / model.length)
+    probe = StringProbe(pencil, np.asarray(positions, float) / string.length)
     tip = StringProbe(pencil, np.zeros(1))
     differences = np.min(np.abs(roots[:, None] - closer), axis=1)
     rounded = np.array([_rounding(pencil, root, *parts) for root, parts in zip(roots, vectors, strict=True)])
@@ -97,7 +96,7 @@ def damped_modes(
 
 
 def _from_undamped(modes: StringModes, damping: float) -> DampedModes:
-    """Both roots of p² + 2αp + ω² = 0 of each mode; −α + σ would lose the slow one to cancellation."""
+    """Return both roots of p² + 2αp + ω² = 0 of each mode, the slow one without the cancellation of −α + σ."""
     frequencies = modes.frequencies
     root = np.sqrt((frequencies - damping) * (frequencies + damping) + 0j)
     over = root.imag != 0.0
@@ -115,7 +114,7 @@ def _from_undamped(modes: StringModes, damping: float) -> DampedModes:
 def _quadratic_pairs(
     pencil: StringPencil, count: int
 ) -> tuple[NDArray[np.complex128], list[tuple[PETSc.Vec, PETSc.Vec]]]:
-    """Roots on and above the real axis, and the real and imaginary parts of their vectors (collective)."""
+    """Return roots on and above the real axis, and the real and imaginary parts of their vectors (collective)."""
     solver = SLEPc.PEP().create(pencil.comm)
     solver.setOperators([pencil.stiffness, pencil.resistance, pencil.mass])
     solver.setProblemType(SLEPc.PEP.ProblemType.HERMITIAN)
@@ -146,7 +145,7 @@ def _quadratic_pairs(
 
 
 def _rounding(pencil: StringPencil, root: complex, real: PETSc.Vec, imaginary: PETSc.Vec) -> float:
-    """What rounding of K may change p by: φᵀδKφ over φᵀ(2pM + C)φ, the root of it next to a double root."""
+    """Return the change of p by rounding of K: φᵀδKφ over φᵀ(2pM + C)φ, the root of it next to a double root."""
     change = rounding(pencil.stiffness, real) + rounding(pencil.stiffness, imaginary)
     mass, resistance = (
         _product(matrix, real, real) - _product(matrix, imaginary, imaginary) + 2j * _product(matrix, real, imaginary)

@@ -1,4 +1,4 @@
-"""How the upper end of a string moves, as the field solution wants to know it."""
+"""Motion of the upper end of a string as the field solution uses it."""
 
 from __future__ import annotations
 
@@ -31,12 +31,12 @@ class EndMotion(Protocol):
 
 
 def after(function: Callable[[ArrayLike], NDArray[np.float64]], time: float) -> float:
-    """The limit of a function from the right."""
+    """Return the limit of a function from the right."""
     return float(np.asarray(function(np.nextafter(time, np.inf))))
 
 
 def jumps(motion: EndMotion, time: float) -> tuple[float, float]:
-    """By how much f and f' jump at a break (m, m/s)."""
+    """Return the jumps of f, m, and f', m/s, at a break."""
     value, slope = after(motion.value, time), after(motion.slope, time)
     if time <= motion.breaks[0]:
         return value, slope

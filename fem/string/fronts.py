@@ -1,7 +1,7 @@
-"""Where fronts are on the string, and how large a softened one is off.
+"""Errors of a smoothed motion of the string next to its wave fronts.
 
-A break of the motion sets out along the string at once and is reflected at both ends: it passes a place s away from the
-lower end, in time, at S − s, S + s, 3S − s … with S the travel time along the whole string. Its height changes like
+A break of the motion starts a front that both ends reflect: it passes a point at the travel time s from the lower end
+at S − s, S + s, 3S − s … with S the travel time along the whole string. Its height changes like
 (T m)^{−1/4}, and decays with the resistance.
 """
 
@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.fem.string.end_motion import EndMotion, after, jumps
-from hydroelastic.fem.string.model import ScaledString
-from hydroelastic.fem.string.soft_motion import SoftMotion
+from hydroelastic.fem.string.smoothed_motion import SmoothedMotion
+from hydroelastic.physics.string import HangingString
 
-# Largest error of a softened step, and of its first three integrals, in units of 1, 1/ω₀, 1/ω₀², 1/ω₀³: from 5 to 11
+# Largest error of a smoothed step, and of its first three integrals, in units of 1, 1/ω₀, 1/ω₀², 1/ω₀³: from 5 to 11
 # digits 0.50, 0.33, 0.13 to 0.14 and 0.12 to 0.15 within 3/ω₀ of the middle, and farther away all below 0.3/(ω₀t).
 _LARGEST = (0.51, 0.35, 0.15, 0.16)
 _RINGING = 0.3
@@ -25,50 +25,47 @@ _CLOSE = 1e-4
 
 
 def front_errors(
-    string: ScaledString,
+    string: HangingString,
     motion: EndMotion,
-    soft: SoftMotion,
+    smoothed: SmoothedMotion,
     positions: NDArray[np.float64],
     times: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """How far values next to a front may be off.
+    """Return error bounds of the values next to fronts.
 
-    To compare two softenings does not tell it everywhere: in the middle of a step both have the mean of both sides, and
-    the ripples beside it pass through zero.
+    The difference of two smoothings does not show the error everywhere: in the middle of a step both have the mean of
+    its sides, and the ripples beside it pass through zero.
 
     Args:
-        string: what hangs.
+        string: the string.
         motion: of its upper end.
-        soft: the motion that the values follow.
-        positions: x in units of the length, shape (positions,).
+        smoothed: the motion that the values follow.
+        positions: x, m, shape (positions,).
         times: s, shape (times,).
 
     Returns:
-        In metres, shape (positions, times).
+        Bounds, m, shape (positions, times).
     """
-    whole = string.travel_time * string.time_unit
+    whole, travel = string.travel_time, string.travel_times(positions)
     bottom, slope = string.tension
-    speed = np.sqrt(bottom + slope * positions)
-    travel = string.travel_times(positions) * string.time_unit
-    damping = string.smallest_damping / string.time_unit
+    root = np.sqrt(bottom + slope * positions)
     # At the lower end the tension may vanish: the height is that at the width of the front.
-    width = 1.0 / soft.middle / string.time_unit
-    blunt = np.maximum(speed, abs(slope) / sqrt(string.mass) * width)
-    height = np.sqrt(max(sqrt(bottom + slope), float(blunt.max())) / blunt)[:, None]
+    blunt = np.maximum(root, abs(slope) / sqrt(string.inertia) / smoothed.middle)
+    height = np.sqrt(max(sqrt(bottom + slope * string.length), float(blunt.max())) / blunt)[:, None]
     errors = np.zeros((len(positions), len(times)))
     for start in motion.breaks:
-        jumped = (*jumps(motion, start), *_bends(motion, start, _CLOSE / soft.middle))
+        jumped = (*jumps(motion, start), *_bends(motion, start, _CLOSE / smoothed.middle))
         since = times - start
         away = _nearest_passage(whole, travel, since)
-        decay = np.exp(-damping * np.maximum(since, 0.0) - 0.5 * (away / soft.width) ** 2)
-        ringing = _RINGING / np.maximum(soft.middle * away, 1e-3)
+        decay = np.exp(-string.smallest_damping * np.maximum(since, 0.0) - 0.5 * (away / smoothed.width) ** 2)
+        ringing = _RINGING / np.maximum(smoothed.middle * away, 1e-3)
         for order, (jump, largest) in enumerate(zip(jumped, _LARGEST, strict=True)):
-            errors += abs(jump) / soft.middle**order * np.minimum(largest, ringing) * height * decay
+            errors += abs(jump) / smoothed.middle**order * np.minimum(largest, ringing) * height * decay
     return errors
 
 
 def _nearest_passage(whole: float, travel: NDArray[np.float64], since: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Time to the passage next to a time, of the front that set out at zero, shape (positions, times)."""
+    """Return the time to the nearest passage of the front that started at zero, s, shape (positions, times)."""
     period = 2.0 * whole
     nearest = np.full((len(travel), len(since)), np.inf)
     for first in (whole - travel, whole + travel):
@@ -78,7 +75,7 @@ def _nearest_passage(whole: float, travel: NDArray[np.float64], since: NDArray[n
 
 
 def _bends(motion: EndMotion, time: float, near: float) -> tuple[float, float]:
-    """By how much the second derivative of f jumps, and about how much the third does."""
+    """Return the jump of f'', m/s², and about that of f''', m/s³."""
     first = after(motion.curvature, time)
     later = (float(np.asarray(motion.curvature(time + near))) - first) / near
     if time <= motion.breaks[0]:

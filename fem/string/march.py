@@ -20,7 +20,7 @@ from hydroelastic.fem.string.pencil import StringPencil
 from hydroelastic.fem.string.probe import StringProbe
 
 STAGES = 4
-"""Of the collocation: order 8."""
+"""Stages of the collocation: order 8."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,8 +30,8 @@ class March:
     Attributes:
         values: U at the positions, m, shape (positions, times).
         energies: of w, ½∫m w_t² + ½M w_t² + ½∫T w_x², in units of ρgl² with w in metres over l, shape (times,).
-        steps: taken.
-        factorizations: of complex systems.
+        steps: number of time steps.
+        factorizations: number of factorized complex systems.
     """
 
     values: NDArray[np.float64]
@@ -41,30 +41,30 @@ class March:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Pace:
-    """How long steps are.
+class StepControl:
+    """Length of the time steps.
 
     Attributes:
-        longest: s, while waves of a break of the motion are on their way.
-        quiet: time after a break, s, at which they have died away; infinite without resistance.
+        longest: largest step while waves from a break of the motion travel, s.
+        quiet: time after a break when they have decayed, s; infinite without resistance.
     """
 
     longest: float
     quiet: float = inf
 
 
-# How much longer steps are when only the motion itself, and slow decays, are left to follow.
+# Factor on the steps when only the motion itself and slow decays remain.
 _STRETCH = 10.0
 
 
-def schedule(motion: EndMotion, times: NDArray[np.float64], pace: Pace) -> list[tuple[float, float, int]]:
+def schedule(motion: EndMotion, times: NDArray[np.float64], control: StepControl) -> list[tuple[float, float, int]]:
     """Intervals between output times, breaks and beginnings of quiet: start, end, number of steps."""
     first, last = float(motion.breaks[0]), float(times[-1])
     starts = np.array([float(time) for time in motion.breaks])
-    stops = {*map(float, times), *starts, *(starts + pace.quiet)}
+    stops = {*map(float, times), *starts, *(starts + control.quiet)}
     known = np.array(sorted(stop for stop in stops if first <= stop <= last))
     since = known - starts[np.searchsorted(starts, known, side="right") - 1]
-    steps = np.where(since >= pace.quiet, _STRETCH * pace.longest, pace.longest)
+    steps = np.where(since >= control.quiet, _STRETCH * control.longest, control.longest)
     counts = np.maximum(1, np.ceil(np.diff(known) / steps[:-1] - 1e-9)).astype(int)
     return list(zip(known[:-1].tolist(), known[1:].tolist(), counts.tolist(), strict=True))
 
@@ -74,22 +74,22 @@ def march(
     probe: StringProbe,
     motion: EndMotion,
     times: NDArray[np.float64],
-    pace: Pace,
+    control: StepControl,
     *,
     stages: int = STAGES,
 ) -> March:
-    """Move the string (collective).
+    """Integrate the motion of the string in time (collective).
 
     Args:
-        pencil: the string.
-        probe: the positions of the values.
+        pencil: matrices of the string.
+        probe: evaluates fields at the positions of the values.
         motion: of the upper end; at rest before its first break.
         times: output times, s, not before the first break, increasing, shape (times,).
-        pace: of the steps.
+        control: length of the steps.
         stages: of the collocation.
 
     Returns:
-        The values.
+        Displacements and energies at the output times.
     """
     unit, size = pencil.string.time_unit, len(pencil.free)
     collocation = Collocation(pencil.mass, pencil.resistance, pencil.stiffness, stages)
@@ -98,7 +98,7 @@ def march(
     velocity: NDArray[np.float64] = np.zeros(size)
     values, energies = {}, {}
     breaks, wanted = set(motion.breaks), set(times)
-    intervals = schedule(motion, times, pace)
+    intervals = schedule(motion, times, control)
     for start, end, count in [*intervals, (float(times[-1]), None, 0)]:
         if start in breaks:
             jump, kick = jumps(motion, start)

@@ -15,15 +15,15 @@ from slepc4py import SLEPc
 
 from hydroelastic.fem.direct import configure_direct
 from hydroelastic.fem.modes import EigenSolverError
-from hydroelastic.fem.string.model import ScaledString, StringModel, scaled_string
 from hydroelastic.fem.string.pencil import StringPencil, build_string_pencil, string_nodes
 from hydroelastic.fem.string.probe import StringProbe
 from hydroelastic.meshes.interrupts import interrupts_deferred
+from hydroelastic.physics.string import HangingString
 
 MODE_DEGREE = 10
-"""Of the polynomials on which modes are sought."""
+"""Polynomial degree for modes."""
 
-# Polynomials of two degrees more are so much closer that what they change is the error.
+# Polynomials two degrees higher are so much more accurate that the change is the error.
 _RICHER = 2
 _RESIDUAL = 1e-12
 
@@ -45,22 +45,22 @@ class StringModes:
 
 def string_modes(
     comm: MPI.Comm,
-    model: StringModel,
+    string: HangingString,
     count: int,
     positions: NDArray[np.float64],
     *,
     elements: int | None = None,
     degree: int = MODE_DEGREE,
 ) -> StringModes:
-    """Lowest modes without resistance.
+    """Return the lowest modes without resistance.
 
     Args:
         comm: communicator.
-        model: the string.
-        count: how many modes.
+        string: the string.
+        count: number of modes.
         positions: x of the shapes, m, from 0 to the length, shape (positions,).
-        elements: of equal travel time; by default enough for about fourteen digits.
-        degree: of the polynomials.
+        elements: number of elements of equal travel time; by default enough for about fourteen digits.
+        degree: polynomial degree.
 
     Returns:
         The modes (collective).
@@ -68,13 +68,12 @@ def string_modes(
     Raises:
         EigenSolverError: if SLEPc does not deliver them.
     """
-    string = scaled_string(model)
     pencil, richer = mode_pencils(comm, string, count, elements, degree)
     squares, vectors = undamped_pairs(pencil, count)
     closer, _ = undamped_pairs(richer, count)
     frequencies, better = np.sqrt(squares), np.sqrt(closer)
     rounded = [0.5 * rounding(pencil.stiffness, vector) for vector in vectors] / frequencies
-    probe = StringProbe(pencil, np.asarray(positions, float) / model.length)
+    probe = StringProbe(pencil, np.asarray(positions, float) / string.length)
     tip = StringProbe(pencil, np.zeros(1))
     shapes = [probe.values(vector) * np.sign(tip.values(vector)[0]) for vector in vectors]
     last_place = 4.0 * np.finfo(float).eps * frequencies
@@ -86,9 +85,9 @@ def string_modes(
 
 
 def mode_pencils(
-    comm: MPI.Comm, string: ScaledString, count: int, elements: int | None, degree: int
+    comm: MPI.Comm, string: HangingString, count: int, elements: int | None, degree: int
 ) -> tuple[StringPencil, StringPencil]:
-    """Matrices on one mesh with polynomials of a degree, and of a higher one to judge it by (collective)."""
+    """Return matrices on one mesh with polynomials of a degree, and of a higher one for the error (collective)."""
     # With degree 10, one and a half half-waves in an element leave thirteen digits.
     nodes = string_nodes(string, elements or 3 + (2 * count) // 3)
     return (
@@ -98,7 +97,7 @@ def mode_pencils(
 
 
 def undamped_pairs(pencil: StringPencil, count: int) -> tuple[NDArray[np.float64], list[PETSc.Vec]]:
-    """The lowest ω² of Kφ = ω²Mφ without dimensions, and φ with φᵀMφ = 1 (collective)."""
+    """Return the lowest dimensionless ω² of Kφ = ω²Mφ, and φ with φᵀMφ = 1 (collective)."""
     if not 1 <= count <= pencil.size:
         raise EigenSolverError(f"{count} modes are asked of {pencil.size} unknowns")
     solver = SLEPc.EPS().create(pencil.comm)
@@ -125,10 +124,10 @@ def undamped_pairs(pencil: StringPencil, count: int) -> tuple[NDArray[np.float64
 
 
 def rounding(stiffness: PETSc.Mat, vector: PETSc.Vec) -> float:
-    """By how much rounding of the entries of K may change φᵀKφ, their errors taken as independent (collective).
+    """Return the change of φᵀKφ by independent rounding of the entries of K (collective).
 
-    Measured against Bessel's zeros on 40 to 450 unknowns: the lowest frequencies are off by up to 3.6 times what the
-    diagonal alone makes with half a unit in the last place.
+    Measured against Bessel's zeros on 40 to 450 unknowns: the errors of the lowest frequencies are up to 3.6 times
+    those from half a unit in the last place of the diagonal alone.
     """
     diagonal = stiffness.getDiagonal()
     terms = diagonal.array_r * vector.array_r**2

@@ -1,9 +1,8 @@
-"""The matrices of the hanging string on polynomials of one degree, its upper end held.
+"""Matrices of the hanging string on polynomials of one degree, its upper end fixed.
 
     M = ∫m u v + M_tip u v|₀,    C = ∫2λ u v,    K = ∫T u_x v_x
 
-K is positive also where T vanishes at the free end, for u = 0 at the upper one; that condition is built in by leaving
-its unknown out.
+K is positive definite also where T vanishes at the free end, for u = 0 at the upper one, whose unknown is left out.
 """
 
 from __future__ import annotations
@@ -19,18 +18,18 @@ from petsc4py import PETSc
 
 from hydroelastic.fem.kernels import compiled_form
 from hydroelastic.fem.liquid import assembled
-from hydroelastic.fem.string.model import ScaledString
 from hydroelastic.meshes.line import graded_nodes, line_mesh, travel_nodes
+from hydroelastic.physics.string import HangingString
 
 
 @dataclass(frozen=True, kw_only=True)
 class StringPencil:
-    """The string as matrices on its free unknowns.
+    """Dimensionless matrices of a string on its free unknowns.
 
     Attributes:
-        string: what hangs, without dimensions.
+        string: the string, in SI units; the matrices are those of the dimensionless one.
         space: polynomials on the line, the unknown of the upper end included.
-        degree: of the polynomials.
+        degree: polynomial degree.
         free: owned unknowns but that of the upper end.
         mass: M.
         resistance: C.
@@ -39,7 +38,7 @@ class StringPencil:
         resistance_load: own entries of C·1.
     """
 
-    string: ScaledString
+    string: HangingString
     space: fem.FunctionSpace
     degree: int
     free: NDArray[np.int32]
@@ -69,17 +68,18 @@ class StringPencil:
         return self.mass.createVecRight()
 
 
-def string_nodes(string: ScaledString, elements: int) -> NDArray[np.float64]:
-    """Nodes with equal travel times, and more towards the end next to a zero of the tension outside the string."""
-    return graded_nodes(travel_nodes(elements, *string.tension), *string.tension)
+def string_nodes(string: HangingString, elements: int) -> NDArray[np.float64]:
+    """Return nodes with equal travel times, graded towards an end next to a zero of the tension outside the string."""
+    tension = string.dimensionless().tension
+    return graded_nodes(travel_nodes(elements, *tension), *tension)
 
 
-def build_string_pencil(comm: MPI.Comm, string: ScaledString, degree: int, nodes: NDArray[np.float64]) -> StringPencil:
+def build_string_pencil(comm: MPI.Comm, string: HangingString, degree: int, nodes: NDArray[np.float64]) -> StringPencil:
     """Assemble the matrices (collective).
 
     Args:
         comm: communicator.
-        string: what hangs.
+        string: the string.
         degree: of the polynomials.
         nodes: of the mesh, from 0 to 1.
     """
@@ -87,13 +87,14 @@ def build_string_pencil(comm: MPI.Comm, string: ScaledString, degree: int, nodes
     owned = space.dofmap.index_map.size_local
     places = space.tabulate_dof_coordinates()[:owned, 0]
     lowest, highest = np.flatnonzero(places == nodes[0]), np.flatnonzero(places == nodes[-1])
-    kernel = _Kernel(space, degree)
-    mass = kernel.matrix(mass=(string.mass, 0.0))
+    kernel, scaled = _Kernel(space, degree), string.dimensionless()
+    mass = kernel.matrix(mass=(scaled.inertia, 0.0))
     first = mass.getOwnershipRange()[0]
     for tip in lowest:
-        mass.setValue(tip + first, tip + first, string.tip_mass, addv=PETSc.InsertMode.ADD_VALUES)
+        mass.setValue(tip + first, tip + first, scaled.tip_mass, addv=PETSc.InsertMode.ADD_VALUES)
     mass.assemble()
-    resistance = kernel.matrix(mass=string.resistance)
+    bottom, top = scaled.resistance
+    resistance = kernel.matrix(mass=(2.0 * bottom, 2.0 * (top - bottom)))
     free = np.setdiff1d(np.arange(owned, dtype=np.int32), highest).astype(np.int32)
     rows = PETSc.IS().createGeneral((free + first).astype(PETSc.IntType), comm=mass.comm)
 
@@ -109,7 +110,7 @@ def build_string_pencil(comm: MPI.Comm, string: ScaledString, degree: int, nodes
         free=free,
         mass=restricted(mass),
         resistance=restricted(resistance),
-        stiffness=restricted(kernel.matrix(stiffness=string.tension)),
+        stiffness=restricted(kernel.matrix(stiffness=scaled.tension)),
         mass_load=_row_sums(mass)[free],
         resistance_load=_row_sums(resistance)[free],
     )

@@ -1,4 +1,4 @@
-"""Values of fields on a string at chosen places, by the polynomials of the elements."""
+"""Values of fields on a string at given positions, by the polynomials of the elements."""
 
 from __future__ import annotations
 
@@ -50,14 +50,14 @@ class StringProbe:
         self._result = self._matrix.createVecLeft()
 
     def values(self, field: PETSc.Vec) -> NDArray[np.float64]:
-        """Values of a field of free unknowns, shape (positions,) (collective)."""
+        """Return the values of a field of free unknowns, shape (positions,) (collective)."""
         self._matrix.mult(field, self._result)
         whole = np.concatenate(self._comm.allgather(self._result.array_r.copy()))
         return np.asarray(whole[self._order])
 
 
 def _free_numbers(pencil: StringPencil) -> NDArray[np.int32]:
-    """Number among all free unknowns of each local one, ghosts included; −1 at the upper end (collective)."""
+    """Return the global number of each local free unknown, ghosts included; −1 at the upper end (collective)."""
     numbers = fem.Function(pencil.space)
     numbers.x.array[:] = -1.0
     first, last = pencil.mass.getOwnershipRange()

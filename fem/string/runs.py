@@ -1,4 +1,4 @@
-"""Motions of a string at chosen resolutions of its waves."""
+"""Motions of one string at chosen resolutions of its waves."""
 
 from __future__ import annotations
 
@@ -12,28 +12,28 @@ from numpy.typing import NDArray
 
 from hydroelastic.fem.string.end_motion import EndMotion
 from hydroelastic.fem.string.fronts import front_errors
-from hydroelastic.fem.string.march import March, Pace, march, schedule
-from hydroelastic.fem.string.model import StringModel, scaled_string
+from hydroelastic.fem.string.march import March, StepControl, march, schedule
 from hydroelastic.fem.string.pencil import StringPencil, build_string_pencil, string_nodes
 from hydroelastic.fem.string.probe import StringProbe
-from hydroelastic.fem.string.soft_motion import SoftMotion
+from hydroelastic.fem.string.smoothed_motion import SmoothedMotion
+from hydroelastic.physics.string import HangingString
 
 DEGREE = 10
-"""Of the polynomials."""
-# Errors of a wave grow with the way it goes, in its own lengths, and fall with a power of the radians in an element
-# (twice the degree) or a step (twice the stages): the same errors at shorter waves take a little less of both.
+"""Polynomial degree."""
+# Errors of a wave grow with the distance travelled in wavelengths, and fall with a power of the phase per element
+# (twice the degree) or per step (twice the stages): for the same errors shorter waves need slightly less phase in both.
 _ELEMENT_ORDER = 2 * DEGREE
 _STEP_ORDER = 8
 
 
 @dataclass(frozen=True, kw_only=True)
 class Resolution:
-    """Of waves as fast as the softened motion makes.
+    """Resolution of the fastest waves that the smoothed motion excites.
 
     Attributes:
-        reach: of the softening, s.
-        element: radians of the fastest waves in an element.
-        step: radians in a step.
+        reach: reach of the smoothing, s.
+        element: phase of the fastest waves over an element, rad.
+        step: their phase over a time step, rad.
     """
 
     reach: float
@@ -41,7 +41,7 @@ class Resolution:
     step: float = 1.2
 
     def closer(self, ratio: float) -> Resolution:
-        """Of waves shorter by a ratio, as well as these."""
+        """Return the resolution that keeps the errors with a reach, and waves, shorter by a ratio."""
         return replace(
             self,
             reach=ratio * self.reach,
@@ -50,14 +50,14 @@ class Resolution:
         )
 
     def suited(self, space: float, time: float, share: float) -> Resolution:
-        """With elements and steps whose errors, now known, will be about a thirtieth of what is allowed."""
+        """Return elements and steps whose errors will be about a thirtieth of the share allowed, from those known."""
         target = share / 30.0
         element = (target / max(space, 1e-3 * target)) ** (1.0 / _ELEMENT_ORDER)
         step = (target / max(time, 1e-3 * target)) ** (1.0 / _STEP_ORDER)
         return replace(self, element=self.element * element, step=self.step * step)
 
     def tighter(self, ratio: float, *, space: bool, time: bool) -> Resolution:
-        """With shorter elements or steps."""
+        """Return the resolution with shorter elements or steps, or both."""
         return replace(
             self, element=self.element * (ratio if space else 1.0), step=self.step * (ratio if time else 1.0)
         )
@@ -68,71 +68,67 @@ class StringRuns:
 
     Args:
         comm: communicator.
-        model: the string.
+        string: the string.
         motion: of its upper end.
         positions: x, m, shape (positions,).
         times: s, increasing, shape (times,).
-        tolerance: absolute, m, which sets the digits of the softening.
+        tolerance: absolute, m, which sets the digits of the smoothing.
     """
 
     def __init__(
         self,
         comm: MPI.Comm,
-        model: StringModel,
+        string: HangingString,
         motion: EndMotion,
         positions: NDArray[np.float64],
         times: NDArray[np.float64],
         tolerance: float,
     ) -> None:
-        """Take the dimensions out of the string."""
+        """Choose the digits of the smoothing."""
         self._comm, self._motion, self._times = comm, motion, times
-        self.string = scaled_string(model)
-        self._positions: NDArray[np.float64] = np.asarray(positions / model.length, dtype=np.float64)
+        self.string, self._positions = string, positions
         sample = np.concatenate([times, np.linspace(times[0], times[-1], 64)])
         largest = max(tolerance, float(np.max(np.abs(np.asarray(motion.value(sample))))))
         self._digits = float(np.clip(log10(largest / tolerance) + 2.5, 3.0, 13.0))
         self._cut = largest * 10.0**-self._digits
-        self._soft: dict[float, SoftMotion] = {}
+        self._smoothed: dict[float, SmoothedMotion] = {}
         self._meshes: dict[int, tuple[StringPencil, StringProbe]] = {}
         self.seconds = {"mesh": 0.0, "motion": 0.0}
         self.marches = 0
 
-    @property
-    def travel_time(self) -> float:
-        """Of a wave along the string, s."""
-        return self.string.travel_time * self.string.time_unit
-
-    def soft(self, resolution: Resolution) -> SoftMotion:
-        """The motion as softly as a resolution wants it."""
-        if resolution.reach not in self._soft:
-            self._soft[resolution.reach] = SoftMotion(self._motion, resolution.reach, self._digits)
-        return self._soft[resolution.reach]
+    def smoothed(self, resolution: Resolution) -> SmoothedMotion:
+        """Return the motion with the smoothing of a resolution."""
+        if resolution.reach not in self._smoothed:
+            self._smoothed[resolution.reach] = SmoothedMotion(self._motion, resolution.reach, self._digits)
+        return self._smoothed[resolution.reach]
 
     def elements(self, resolution: Resolution) -> int:
-        """Of equal travel time."""
-        return int(np.ceil(self.soft(resolution).highest * self.travel_time / resolution.element))
+        """Return the number of elements of equal travel time."""
+        return int(np.ceil(self.smoothed(resolution).highest * self.string.travel_time / resolution.element))
 
-    def pace(self, resolution: Resolution) -> Pace:
-        """Of the steps: waves decay like e^{−αt} at the least, α the smallest damping along the string."""
-        damping = self.string.smallest_damping / self.string.time_unit
+    def step_control(self, resolution: Resolution) -> StepControl:
+        """Return the step lengths: waves decay at least like e^{−αt}, α the smallest damping along the string."""
+        damping = self.string.smallest_damping
         quiet = self._digits * log(10.0) / damping if damping > 0.0 else inf
-        return Pace(longest=resolution.step / self.soft(resolution).highest, quiet=quiet)
+        return StepControl(longest=resolution.step / self.smoothed(resolution).highest, quiet=quiet)
 
     def steps(self, resolution: Resolution) -> int:
-        """Of time."""
-        return sum(count for _, _, count in schedule(self.soft(resolution), self._times, self.pace(resolution)))
+        """Return the number of time steps."""
+        return sum(
+            count for _, _, count in schedule(self.smoothed(resolution), self._times, self.step_control(resolution))
+        )
 
     def move(self, resolution: Resolution, elements: int | None = None) -> March:
         """Compute the motion (collective).
 
         Args:
-            resolution: of its waves.
-            elements: instead of those of the resolution.
+            resolution: resolution of its waves.
+            elements: number of elements, in place of that of the resolution.
         """
         started = perf_counter()
         pencil, probe = self._on_mesh(elements or self.elements(resolution))
         meshed = perf_counter()
-        result = march(pencil, probe, self.soft(resolution), self._times, self.pace(resolution))
+        result = march(pencil, probe, self.smoothed(resolution), self._times, self.step_control(resolution))
         self.seconds["mesh"] += meshed - started
         self.seconds["motion"] += perf_counter() - meshed
         self.marches += 1
@@ -141,15 +137,15 @@ class StringRuns:
     def _on_mesh(self, elements: int) -> tuple[StringPencil, StringProbe]:
         if elements not in self._meshes:
             pencil = build_string_pencil(self._comm, self.string, DEGREE, string_nodes(self.string, elements))
-            self._meshes[elements] = pencil, StringProbe(pencil, self._positions)
+            self._meshes[elements] = pencil, StringProbe(pencil, np.divide(self._positions, self.string.length))
         return self._meshes[elements]
 
     def front_errors(self, resolution: Resolution) -> NDArray[np.float64]:
-        """Of the values next to fronts, m, shape (positions, times)."""
-        fronts = front_errors(self.string, self._motion, self.soft(resolution), self._positions, self._times)
-        # What is beyond the digits of the softening is the same whatever its reach.
+        """Return the errors of the values next to fronts, m, shape (positions, times)."""
+        fronts = front_errors(self.string, self._motion, self.smoothed(resolution), self._positions, self._times)
+        # What is beyond the digits of the smoothing is the same whatever its reach.
         return fronts + self._cut
 
     def pencil(self, resolution: Resolution) -> StringPencil:
-        """The string on the mesh of a resolution (collective)."""
+        """Return the matrices on the mesh of a resolution (collective)."""
         return self._on_mesh(self.elements(resolution))[0]

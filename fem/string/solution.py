@@ -1,279 +1,108 @@
-"""The motion of the hanging string to a tolerance: reach of the softening, mesh and step chosen by their own errors.
-
-Fronts limit what a mesh of one fineness can give: an error of order s·2n/(2n + 1) in the mean for degree n, with s = ½
-after a step, 1½ after a ramp and 2½ after a motion that starts with a jump of its acceleration. The motion is therefore
-softened at its breaks (`soft_motion`), and the errors told apart by three causes:
-
-    cause   made smaller by                                            estimated by
-    front   less reach of the softening, a finer mesh, shorter steps   the last changes; within a front its height
-    space   more elements                                              a mesh of four fifths of the elements
-    time    shorter steps                                              Richardson's extrapolation from steps twice and
-                                                                       four times as long
-
-Before a front comes within reach the string is at rest but for ripples of the size of the tolerance.
-"""
+"""Field solution of a hanging string: free motions, and the motion under a moving upper end."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from math import sqrt
+from collections.abc import Callable
+from time import perf_counter
 
 import numpy as np
 from mpi4py import MPI
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
+from hydroelastic.fem.string.damped_modes import damped_modes
 from hydroelastic.fem.string.end_motion import EndMotion
-from hydroelastic.fem.string.march import March
-from hydroelastic.fem.string.model import StringModel
-from hydroelastic.fem.string.runs import DEGREE, Resolution, StringRuns
+from hydroelastic.fem.string.response import field_response
+from hydroelastic.modal.string.solution import FreeMotions, StringSolution
+from hydroelastic.physics.string import HangingString
 
-# Part of the tolerance for each cause.
-_SHARE = 1.0 / 3.0
-_COARSER = 0.8
-_TIGHTER = 0.75
-_CLOSER = sqrt(0.5)
-# Of the travel time of a wave along the string.
-_FIRST_REACH = 0.35
-_MOST_TIGHTENINGS = 6
-_CAUTION = 4.0
+FIELD_FRONT_MARGIN = 0.05
+"""`StringSolution.front_margin` of a field solution."""
 
-
-@dataclass(frozen=True, kw_only=True)
-class StringSizes:
-    """How large the last solution was.
-
-    Attributes:
-        elements: of the mesh.
-        degree: of the polynomials.
-        unknowns: free ones.
-        steps: of time.
-        reach: within which of a front values are softened, s.
-        marches: motions computed in all, to choose and to judge.
-    """
-
-    elements: int
-    degree: int
-    unknowns: int
-    steps: int
-    reach: float
-    marches: int
+# Of the tolerance: the largest displacement is known after the solution only, the largest f before.
+_SHARE = 0.5
+_SAMPLES = 400
+# Beyond these the last digits, or a front, are not worth minutes.
+_MOST_UNKNOWNS = 5_000
+_STEPS_PER_TRAVEL_TIME = 3_500
 
 
-@dataclass(frozen=True, kw_only=True)
-class StringErrors:
-    """The largest estimated error of each cause, m.
-
-    Attributes:
-        front: of the softening of fronts, of the values that are judged.
-        space: of the mesh.
-        time: of the steps.
-        time_order: observed in three steps; rounding lowers it.
-    """
-
-    front: float
-    space: float
-    time: float
-    time_order: float
-
-
-@dataclass(frozen=True, kw_only=True)
-class StringSolution:
-    """How the string moves.
-
-    Attributes:
-        values: U at the positions and times, m, shape (positions, times).
-        errors: estimate of their absolute errors, m, shape (positions, times).
-        causes: the largest ones by cause.
-        tolerance: asked, m.
-        problem: why the tolerance is not reached everywhere; empty where it is.
-        sizes: of the last solution.
-        seconds: by stage.
-    """
-
-    values: NDArray[np.float64]
-    errors: NDArray[np.float64]
-    causes: StringErrors
-    tolerance: float
-    problem: str
-    sizes: StringSizes
-    seconds: dict[str, float]
-
-    @property
-    def converged(self) -> bool:
-        """Whether all errors are estimated below the tolerance."""
-        return not self.problem
-
-
-def string_solution(
+def field_solution(
     comm: MPI.Comm,
-    model: StringModel,
-    motion: EndMotion,
-    positions: ArrayLike,
-    times: ArrayLike,
-    *,
-    tolerance: float,
-    judged: NDArray[np.bool_] | None = None,
-    most_unknowns: int = 4_000,
-    most_steps: int = 8_000,
-) -> StringSolution:
-    """Move the upper end of a string that was at rest.
-
-    Args:
-        comm: communicator.
-        model: the string.
-        motion: of its upper end.
-        positions: x, m, up from the lower end, shape (positions,).
-        times: s, from the start of the motion, increasing, shape (times,).
-        tolerance: absolute, m.
-        judged: values that are to keep the tolerance, shape (positions, times), all by default: next to fronts it would
-            cost more the nearer they are, and after a step it cannot be kept.
-        most_unknowns: of a mesh.
-        most_steps: of a march.
-
-    Returns:
-        The motion (collective).
-
-    Raises:
-        ValueError: if positions, times or the tolerance are out of range.
-    """
-    places, moments = np.atleast_1d(np.asarray(positions, float)), np.atleast_1d(np.asarray(times, float))
-    _check(model, motion, places, moments, tolerance)
-    runs = StringRuns(comm, model, motion, places, moments, tolerance)
-    share = _SHARE * tolerance
-    if judged is None:
-        judged = np.ones((len(places), len(moments)), dtype=bool)
-    checked, front = _refined(runs, share, judged, most_unknowns, most_steps)
-    space, time = checked.worst
-    largest = float(front[judged].max(initial=0.0))
-    causes = StringErrors(front=largest, space=space, time=time, time_order=checked.order)
-    values, errors = checked.values.copy(), front + space + time
-    held = places == model.length
-    values[held], errors[held] = np.asarray(motion.value(moments)), 0.0
-    pencil = runs.pencil(checked.resolution)
-    return StringSolution(
-        values=values,
-        errors=errors,
-        causes=causes,
-        tolerance=tolerance,
-        problem=_problem(causes, front[judged], share, checked.resolution.reach),
-        sizes=StringSizes(
-            elements=pencil.cell_count,
-            degree=DEGREE,
-            unknowns=pencil.size,
-            steps=checked.steps,
-            reach=checked.resolution.reach,
-            marches=runs.marches,
-        ),
-        seconds=runs.seconds,
-    )
-
-
-def _check(
-    model: StringModel,
+    string: HangingString,
     motion: EndMotion,
     positions: NDArray[np.float64],
     times: NDArray[np.float64],
+    *,
     tolerance: float,
-) -> None:
-    if not (len(positions) and positions.min() >= 0.0 and positions.max() <= model.length):
-        raise ValueError(f"positions must lie from 0 to {model.length:g} m, and be at least one")
-    first = motion.breaks[0]
-    if not (len(times) and np.all(np.diff(times) > 0.0) and times[0] >= first and times[-1] <= motion.end):
-        raise ValueError(f"times must increase from {first:g} s at the least to {motion.end:g} s at the most")
-    if not tolerance > 0.0:
-        raise ValueError(f"tolerance is {tolerance:g} m: it must be above zero")
+    modes: int,
+    report: Callable[[str], None] = lambda _message: None,
+) -> StringSolution:
+    """Solve for free motions and displacements, to the tolerance away from wave fronts (collective).
 
+    Args:
+        comm: communicator.
+        string: the string.
+        motion: of its upper end, from rest at t = 0.
+        positions: heights x above the lower end, m, shape (positions,).
+        times: t, s, increasing, shape (times,).
+        tolerance: asked error of the displacement, relative to the largest one.
+        modes: number of free motions.
+        report: called with a word on what is being done.
 
-@dataclass(frozen=True, kw_only=True)
-class _Checked:
-    """A solution with one softening, and the errors of its mesh and step at each place and time."""
-
-    values: NDArray[np.float64]
-    space: NDArray[np.float64]
-    time: NDArray[np.float64]
-    order: float
-    steps: int
-    resolution: Resolution
-
-    @property
-    def worst(self) -> tuple[float, float]:
-        return float(self.space.max()), float(self.time.max())
-
-
-def _checked(runs: StringRuns, resolution: Resolution, known: March | None = None) -> _Checked:
-    """Solve, unless that is done, and judge mesh and step."""
-    fine = known or runs.move(resolution)
-    double, fourfold = (runs.move(resolution.tighter(factor, space=False, time=True)) for factor in (2.0, 4.0))
-    coarse = runs.move(resolution, elements=int(_COARSER * runs.elements(resolution)))
-    last, before = np.abs(fine.values - double.values), np.abs(double.values - fourfold.values)
-    tiny = np.finfo(float).tiny
-    order = float(np.log2(max(before.max(), tiny) / max(last.max(), tiny)))
-    return _Checked(
-        values=fine.values,
-        space=np.abs(fine.values - coarse.values),
-        # Below order one a smaller step is not known to be better.
-        time=last / (2.0 ** np.clip(order, 1.0, 8.0) - 1.0),
-        order=order,
-        steps=fine.steps,
-        resolution=resolution,
+    Raises:
+        EigenSolverError: if SLEPc does not deliver the free motions.
+        ValueError: if positions, times or the tolerance are out of range.
+    """
+    started = perf_counter()
+    report("free motions")
+    free_motions = field_free_motions(comm, string, modes, positions)
+    seconds = perf_counter() - started
+    report("response")
+    judged = string.front_distance(positions, times) >= FIELD_FRONT_MARGIN
+    # Between the times of the output f may be larger than at any of them.
+    sampled = np.concatenate([times, np.linspace(0.0, times[-1], _SAMPLES)])
+    largest = float(np.abs(motion.value(sampled)).max())
+    response = field_response(
+        comm,
+        string,
+        motion,
+        positions,
+        times,
+        tolerance=_SHARE * tolerance * (largest or 1.0),
+        judged=judged if judged.any() else None,
+        most_unknowns=_MOST_UNKNOWNS,
+        most_steps=int(_STEPS_PER_TRAVEL_TIME * (1.0 + times[-1] / string.travel_time)),
+    )
+    # Nothing moves before the first front; the field has ripples of the size of the tolerance there.
+    still = times < string.arrival_times(positions)[:, None]
+    return StringSolution(
+        string=string,
+        positions=positions,
+        times=times,
+        displacement=np.where(still, 0.0, response.values),
+        absolute_error=np.where(still, 0.0, response.errors),
+        free_motions=free_motions,
+        tolerance=tolerance,
+        front_margin=FIELD_FRONT_MARGIN,
+        size={
+            "cells": response.sizes.elements,
+            "degree": response.sizes.degree,
+            "dofs": response.sizes.unknowns,
+            "steps": response.sizes.steps,
+        },
+        seconds={"modes": seconds, **response.seconds},
     )
 
 
-def _settled(runs: StringRuns, resolution: Resolution, share: float, known: March | None = None) -> _Checked:
-    """Tighten mesh and step until their errors are below a part of the tolerance, or no longer fall."""
-    checked = _checked(runs, resolution, known)
-    for _ in range(_MOST_TIGHTENINGS):
-        space, time = checked.worst
-        if max(space, time) <= share:
-            break
-        tighter = checked.resolution.tighter(_TIGHTER, space=space > share, time=time > share)
-        attempt = _checked(runs, tighter)
-        if 1.5 * max(attempt.worst) > max(space, time):
-            break
-        checked = attempt
-    return checked
+def field_free_motions(
+    comm: MPI.Comm, string: HangingString, count: int, positions: NDArray[np.float64]
+) -> FreeMotions:
+    """Return the free motions of smallest |p|, with the real parts of their shapes (collective).
 
-
-def _refined(
-    runs: StringRuns, share: float, judged: NDArray[np.bool_], most_unknowns: int, most_steps: int
-) -> tuple[_Checked, NDArray[np.float64]]:
-    """Take back the reach of the softening until its errors are below a part of the tolerance, or the limits are met.
-
-    Returns:
-        The solution, and its errors by fronts at each place and time.
+    Raises:
+        EigenSolverError: if SLEPc does not deliver them.
     """
-    checked = _settled(runs, Resolution(reach=_FIRST_REACH * runs.travel_time), share)
-    resolution, values, last = checked.resolution.suited(*checked.worst, share), checked.values, None
-    front = np.full(values.shape, np.inf)
-    change, ratio = np.zeros(values.shape), 1.0
-    while last is None or front[judged].max(initial=0.0) > share:
-        finer = resolution.closer(_CLOSER)
-        large = runs.elements(finer) * DEGREE > most_unknowns or runs.steps(finer) > most_steps
-        # Without a second softening nothing is known about the first.
-        if large and last is not None:
-            break
-        last = runs.move(finer)
-        before, change = change, np.abs(last.values - values)
-        if before[judged].any():
-            ratio = float(change[judged].max() / before[judged].max())
-        # Changes fall faster and faster, so that the next one bounds the error; one may pass through zero.
-        front = np.maximum(change, ratio * before) * min(1.0, _CAUTION * ratio)
-        front = np.maximum(front, runs.front_errors(finer))
-        resolution, values = finer, last.values
-    if last is not None:
-        checked = _settled(runs, resolution, share, last)
-    return checked, front
-
-
-def _problem(causes: StringErrors, front: NDArray[np.float64], share: float, reach: float) -> str:
-    """Why the tolerance is not reached everywhere."""
-    problems = []
-    if causes.front > share:
-        problems.append(
-            f"{np.count_nonzero(front > share)} of {front.size} values lie nearer than about {reach:.2g} s to a front,"
-            f" which is resolved to {causes.front:.2g} m with the unknowns and steps allowed"
-        )
-    for name, value in (("mesh", causes.space), ("step", causes.time)):
-        if value > share:
-            problems.append(f"the error of the {name} stays at {value:.2g} m")
-    return "; ".join(problems)
+    found = damped_modes(comm, string, count, positions)
+    shapes = found.shapes.real
+    largest = np.abs(shapes).max(axis=1, keepdims=True)
+    return FreeMotions(roots=found.roots, errors=found.errors, shapes=shapes / np.where(largest > 0.0, largest, 1.0))

@@ -1,4 +1,4 @@
-"""How the swings of a free roll grow smaller, and the coefficients that naval architects take from them."""
+"""Decay of free roll: swing ratios, and the extinction coefficients of Froude and Bertin."""
 
 from __future__ import annotations
 
@@ -12,9 +12,8 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 from scipy.special import hyp2f1, lambertw
 
-from hydroelastic.modal.roll.motion import Roll
-from hydroelastic.modal.roll.quadratic import check_quadratic_damping
 from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.ship import Ship
 
 _TOLERANCE = 1e-13
 # Of 2dA: below, the argument of Lambert's W lies so near −1/e that it takes digits.
@@ -23,7 +22,7 @@ _LAMBERT_FROM = 1.0
 
 @dataclass(frozen=True, kw_only=True)
 class FroudeCoefficients:
-    """δφ = aφ_m + bφ_m²: what a swing loses in half a cycle, by the mean φ_m of the swings before and after.
+    """Extinction δφ = aφ_m + bφ_m² of a swing in half a cycle, by the mean φ_m of the swings before and after.
 
     Attributes:
         linear: a, dimensionless.
@@ -34,14 +33,14 @@ class FroudeCoefficients:
     quadratic: float
 
 
-def linear_decrement(roll: Roll) -> float:
+def linear_decrement(ship: Ship) -> float:
     """Return the ratio of a swing to the one before, half a cycle earlier, with linear damping: e^{−πn/√(k² − n²)}.
 
     Raises:
         ValueError: from critical damping on, where there are no further swings.
     """
-    _check_oscillates(roll)
-    return math.exp(-math.pi * roll.damping / roll.damped_frequency)
+    _check_oscillates(ship)
+    return math.exp(-math.pi * ship.damping / ship.damped_frequency)
 
 
 def quadratic_decrement(quadratic_damping: float, amplitude: float) -> float:
@@ -63,8 +62,8 @@ def quadratic_decrement(quadratic_damping: float, amplitude: float) -> float:
     Raises:
         ValueError: if an argument is negative or not finite.
     """
-    check_quadratic_damping(quadratic_damping)
-    _check_amplitude(amplitude)
+    _check_from_zero("quadratic_damping", quadratic_damping)
+    _check_from_zero("amplitude", amplitude)
     doubled = 2 * quadratic_damping
     a = doubled * amplitude
     if a == 0:
@@ -76,14 +75,13 @@ def quadratic_decrement(quadratic_damping: float, amplitude: float) -> float:
     return float(brentq(lambda b: b * math.sqrt(hyp2f1(1, 2, 3, b)) - root, 0.0, a, xtol=1e-300, rtol=1e-15)) / doubled
 
 
-def swing_amplitudes(roll: Roll, quadratic_damping: float, amplitude: float, count: int) -> FloatArray:
+def swing_amplitudes(ship: Ship, amplitude: float, count: int) -> FloatArray:
     """Return the successive swings |φ|, half a cycle each, of a ship released from rest at an angle.
 
     In closed form where one of both dampings is 0; otherwise by integration from swing to swing, to about 1e-12.
 
     Args:
-        roll: the ship, with its linear damping.
-        quadratic_damping: d, 1/rad, from 0.
+        ship: the ship.
         amplitude: the first swing, rad, from 0.
         count: how many more.
 
@@ -93,39 +91,37 @@ def swing_amplitudes(roll: Roll, quadratic_damping: float, amplitude: float, cou
     Raises:
         ValueError: if an argument is negative or not finite, or the linear damping is critical or more.
     """
-    _check_oscillates(roll)
-    check_quadratic_damping(quadratic_damping)
-    _check_amplitude(amplitude)
+    _check_oscillates(ship)
+    _check_from_zero("amplitude", amplitude)
     if count < 0:
         raise ValueError(f"count is {count}; it must be 0 or more")
-    if quadratic_damping == 0:
-        return amplitude * linear_decrement(roll) ** np.arange(count + 1.0)
+    if ship.quadratic_damping == 0:
+        return amplitude * linear_decrement(ship) ** np.arange(count + 1.0)
     swings = [float(amplitude)]
     for _ in range(count):
-        if roll.damping == 0:
-            swings.append(quadratic_decrement(quadratic_damping, swings[-1]))
+        if ship.damping == 0:
+            swings.append(quadratic_decrement(ship.quadratic_damping, swings[-1]))
         else:
-            swings.append(_next_swing(roll, quadratic_damping, swings[-1]))
+            swings.append(_next_swing(ship, swings[-1]))
     return np.array(swings)
 
 
-def froude_coefficients(roll: Roll, quadratic_damping: float) -> FroudeCoefficients:
+def froude_coefficients(ship: Ship) -> FroudeCoefficients:
     """Return a = 2 tanh(πn/(2√(k² − n²))) and b = 4d/3.
 
     Each is that of its damping alone: a exactly, b but for a relative (2dφ_m)²/15. Together they hold for small n/k and
     dφ_m, where a → πn/k.
 
     Raises:
-        ValueError: if d is negative or not finite, or the linear damping is critical or more.
+        ValueError: if the linear damping is critical or more.
     """
-    _check_oscillates(roll)
-    check_quadratic_damping(quadratic_damping)
-    linear = 2 * math.tanh(math.pi * roll.damping / (2 * roll.damped_frequency))
-    return FroudeCoefficients(linear=linear, quadratic=4 / 3 * quadratic_damping)
+    _check_oscillates(ship)
+    linear = 2 * math.tanh(math.pi * ship.damping / (2 * ship.damped_frequency))
+    return FroudeCoefficients(linear=linear, quadratic=4 / 3 * ship.quadratic_damping)
 
 
-def damping_from_froude(natural_frequency: float, coefficients: FroudeCoefficients) -> tuple[Roll, float]:
-    """Return the ship and d, 1/rad, that have given coefficients: the inverse of `froude_coefficients`.
+def damping_from_froude(natural_frequency: float, coefficients: FroudeCoefficients) -> Ship:
+    """Return the ship that has given coefficients: the inverse of `froude_coefficients`.
 
     Args:
         natural_frequency: k, rad/s.
@@ -137,9 +133,11 @@ def damping_from_froude(natural_frequency: float, coefficients: FroudeCoefficien
     if not 0 <= coefficients.linear < 2:
         raise ValueError(f"linear is {coefficients.linear}; it must be 0 or more, and less than 2")
     ratio = 2 / math.pi * math.atanh(coefficients.linear / 2)
-    quadratic_damping = 3 / 4 * coefficients.quadratic
-    check_quadratic_damping(quadratic_damping)
-    return Roll(natural_frequency, natural_frequency * ratio / math.hypot(1, ratio)), quadratic_damping
+    return Ship(
+        natural_frequency=natural_frequency,
+        damping=natural_frequency * ratio / math.hypot(1, ratio),
+        quadratic_damping=3 / 4 * coefficients.quadratic,
+    )
 
 
 def fit_froude(swings: npt.ArrayLike) -> FroudeCoefficients:
@@ -161,26 +159,24 @@ def fit_froude(swings: npt.ArrayLike) -> FroudeCoefficients:
     return FroudeCoefficients(linear=float(linear), quadratic=float(quadratic))
 
 
-def equivalent_roll_damping(roll: Roll, quadratic_damping: float, amplitude: float) -> float:
+def equivalent_roll_damping(ship: Ship, amplitude: float) -> float:
     """Return the linear damping that takes as much energy from a harmonic roll with k: n + (4/(3π)) d k A, 1/s.
 
     Args:
-        roll: the ship, with its linear damping n.
-        quadratic_damping: d, 1/rad, from 0.
+        ship: the ship.
         amplitude: A, rad, from 0.
 
     Raises:
-        ValueError: if an argument is negative or not finite.
+        ValueError: if the amplitude is negative or not finite.
     """
-    check_quadratic_damping(quadratic_damping)
-    _check_amplitude(amplitude)
-    return roll.damping + 4 / (3 * math.pi) * quadratic_damping * roll.natural_frequency * amplitude
+    _check_from_zero("amplitude", amplitude)
+    return ship.damping + 4 / (3 * math.pi) * ship.quadratic_damping * ship.natural_frequency * amplitude
 
 
-def _next_swing(roll: Roll, quadratic_damping: float, amplitude: float) -> float:
+def _next_swing(ship: Ship, amplitude: float) -> float:
     # From A = 1 in the time kt: φ falls until it turns, with φ' < 0 and |φ'|φ' = −φ'².
-    linear = 2 * roll.damping / roll.natural_frequency
-    quadratic = quadratic_damping * amplitude
+    linear = 2 * ship.damping / ship.natural_frequency
+    quadratic = ship.quadratic_damping * amplitude
 
     def derivatives(_: float, state: Any) -> tuple[float, float]:
         angle, rate = float(state[0]), float(state[1])
@@ -192,21 +188,21 @@ def _next_swing(roll: Roll, quadratic_damping: float, amplitude: float) -> float
     turn.terminal = True  # type: ignore[attr-defined]
     turn.direction = 1.0  # type: ignore[attr-defined]
     # Nothing takes longer than half a cycle of the linear motion but strong quadratic damping, by 1 + d A at most.
-    longest = 2 * math.pi * (1 + quadratic) * roll.natural_frequency / roll.damped_frequency
+    longest = 2 * math.pi * (1 + quadratic) * ship.natural_frequency / ship.damped_frequency
     result = solve_ivp(
         derivatives, (0.0, longest), (1.0, 0.0), method="DOP853", rtol=_TOLERANCE, atol=_TOLERANCE, events=turn
     )
     return -amplitude * float(result.y_events[0][0][0])
 
 
-def _check_oscillates(roll: Roll) -> None:
-    if roll.damping >= roll.natural_frequency:
+def _check_oscillates(ship: Ship) -> None:
+    if ship.damping >= ship.natural_frequency:
         raise ValueError(
-            f"damping is {roll.damping}; a ship swings back and forth only below its natural_frequency, "
-            f"{roll.natural_frequency}"
+            f"damping is {ship.damping}; a ship swings back and forth only below its natural_frequency, "
+            f"{ship.natural_frequency}"
         )
 
 
-def _check_amplitude(amplitude: float) -> None:
-    if not 0 <= amplitude < math.inf:
-        raise ValueError(f"amplitude is {amplitude}; it must be finite, and 0 or more")
+def _check_from_zero(name: str, value: float) -> None:
+    if not 0 <= value < math.inf:
+        raise ValueError(f"{name} is {value}; it must be finite, and 0 or more")

@@ -1,4 +1,4 @@
-"""What statistics ask of a roll motion, however it was found, and places that miss none of its swings."""
+"""A roll motion in closed form or integrated, and times between which it has no unseen swings."""
 
 from __future__ import annotations
 
@@ -8,8 +8,10 @@ from typing import Protocol
 import numpy as np
 import numpy.typing as npt
 
-from hydroelastic.modal.roll.motion import Roll, RollMotion, WaveTrain, locate
+from hydroelastic.modal.roll.motion import RollMotion
 from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.ship import Ship
+from hydroelastic.physics.wave import WaveTrain
 
 MOST_KNOTS = 20_000_000
 """Of `roll_knots`: beyond, arrays would no longer fit into memory."""
@@ -19,7 +21,7 @@ class RollPath(Protocol):
     """A whole motion: `LinearRollPath` or `QuadraticRollPath`."""
 
     @property
-    def roll(self) -> Roll:
+    def ship(self) -> Ship:
         """The ship, with its linear damping."""
 
     @property
@@ -30,7 +32,7 @@ class RollPath(Protocol):
         """Return angle, rate and acceleration at any times."""
 
 
-def roll_knots(roll: Roll, train: WaveTrain, start: float, end: float, per_period: int) -> FloatArray:
+def roll_knots(ship: Ship, train: WaveTrain, start: float, end: float, per_period: int) -> FloatArray:
     """Return times from start to end, among them those at which waves begin, at most a fraction of a period apart.
 
     The period is the shorter one of the wave and of the ship's free motion. Within half a period, a rate (or angle)
@@ -39,7 +41,7 @@ def roll_knots(roll: Roll, train: WaveTrain, start: float, end: float, per_perio
     decays.
 
     Args:
-        roll: the ship.
+        ship: the ship.
         train: the waves.
         start: first time, s, from 0.
         end: last time, s.
@@ -51,8 +53,8 @@ def roll_knots(roll: Roll, train: WaveTrain, start: float, end: float, per_perio
     starts = train.starts
     edges = np.concatenate([[start], starts[(starts > start) & (starts < end)], [end]])
     lengths = np.diff(edges)
-    number, _ = locate(starts, edges[:-1])
-    frequency = np.maximum(np.append(train.frequencies, 0.0)[number], roll.damped_frequency)
+    number, _ = train.locate(edges[:-1])
+    frequency = np.maximum(np.append(train.frequencies, 0.0)[number], ship.damped_frequency)
     counts = np.ceil(np.maximum(per_period * lengths * frequency / (2 * np.pi), per_period))
     if counts.sum() > MOST_KNOTS:
         raise ValueError(
@@ -63,6 +65,6 @@ def roll_knots(roll: Roll, train: WaveTrain, start: float, end: float, per_perio
     index = np.arange(whole.sum()) - np.repeat(np.cumsum(whole) - whole, whole)
     inner = np.repeat(edges[:-1], whole) + index * np.repeat(lengths / counts, whole)
     cells = lengths / counts
-    halvings = math.ceil(math.log2(max(float(cells.max()) * roll.fastest_decay, 1.0)))
+    halvings = math.ceil(math.log2(max(float(cells.max()) * ship.fastest_decay, 1.0)))
     layers = edges[:-1, None] + cells[:, None] * 0.5 ** np.arange(1, halvings + 1)
     return np.unique(np.concatenate([inner, layers.ravel(), [end]]))

@@ -10,8 +10,9 @@ import numpy as np
 import numpy.typing as npt
 
 from hydroelastic.modal.beam.paper_model import Erratum, PrintedAndCorrected
-from hydroelastic.modal.roll.motion import Roll, WaveTrain
 from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.ship import Ship
+from hydroelastic.physics.wave import WaveTrain
 
 ROLL_SOURCE = 'I. A. Bobrova, "Operational method for problems of physics on oscillatory processes" (in Russian)'
 
@@ -29,14 +30,14 @@ class RollSlip(enum.Enum):
 ALL_ROLL_SLIPS = frozenset(RollSlip)
 """The motion as printed."""
 
-PRINTED_ROLL = Roll(math.pi / 6, 0.6 * math.pi / 6)
+PRINTED_ROLL = Ship(natural_frequency=math.pi / 6, damping=0.6 * math.pi / 6)
 """The ship of the printed example, free period 12 s, with the first of its dampings, 0.6 k; the other one is 0.96 k."""
 
-PRINTED_TRAIN = WaveTrain(np.array([8.2, 7.7, 7.5, 8.5, 7.7]), np.ones(5))
+PRINTED_TRAIN = WaveTrain(periods=np.array([8.2, 7.7, 7.5, 8.5, 7.7]), slopes=np.ones(5))
 """The waves of the printed example, for a unit slope."""
 
 
-def printed_roll_constants(roll: Roll, period: float) -> dict[str, PrintedAndCorrected]:
+def printed_roll_constants(ship: Ship, period: float) -> dict[str, PrintedAndCorrected]:
     """Return the constants of one wave, φ = aλ[sin(ωτ + α) + (ω/k₁) e^{−nτ} sin(k₁τ + β)], as printed and corrected.
 
     With k₁ = √(k² − n²), dimensionless:
@@ -46,17 +47,17 @@ def printed_roll_constants(roll: Roll, period: float) -> dict[str, PrintedAndCor
         beta     β = arctan(2nk₁/(2n² − k² + ω²)),      atan2(2nk₁, 2n² − k² + ω²) in [0, π]
 
     Args:
-        roll: the ship.
+        ship: the ship.
         period: T of the wave, s.
 
     Raises:
         ValueError: if the damping is critical or more, for which the paper has no formula, or the period is not
             finite and positive, or the period is the free one and n = 0.
     """
-    _check_paper_treats(roll)
+    _check_paper_treats(ship)
     if not 0 < period < math.inf:
         raise ValueError(f"period is {period}; it must be finite and positive")
-    printed, corrected = _Wave(roll, period, ALL_ROLL_SLIPS), _Wave(roll, period, ())
+    printed, corrected = _Wave(ship, period, ALL_ROLL_SLIPS), _Wave(ship, period, ())
     return {
         "lambda": PrintedAndCorrected(printed=printed.amplitude, corrected=corrected.amplitude),
         "alpha": PrintedAndCorrected(printed=printed.alpha, corrected=corrected.alpha),
@@ -65,7 +66,7 @@ def printed_roll_constants(roll: Roll, period: float) -> dict[str, PrintedAndCor
 
 
 def paper_roll_angle(
-    roll: Roll, train: WaveTrain, times: npt.ArrayLike, slips: Collection[RollSlip] = ALL_ROLL_SLIPS
+    ship: Ship, train: WaveTrain, times: npt.ArrayLike, slips: Collection[RollSlip] = ALL_ROLL_SLIPS
 ) -> FloatArray:
     """Return φ of the paper's sum over waves, each with three branches, with some of the printed slips.
 
@@ -76,7 +77,7 @@ def paper_roll_angle(
     Printed is aλ(ω/k₁) e^{−n(t − t_{i−1})} [sin(k₁(t − t_{i−1}) + β) − e^{−nT} sin(k₁(t − t_{i−1}) + β)].
 
     Args:
-        roll: the ship.
+        ship: the ship.
         train: the waves.
         times: t, s, of any shape.
         slips: which formulas are taken as printed. Without any the sum is `roll_response`.
@@ -87,12 +88,12 @@ def paper_roll_angle(
     Raises:
         ValueError: if the damping is critical or more, or 0 in resonance, for which the paper has no formula.
     """
-    _check_paper_treats(roll)
+    _check_paper_treats(ship)
     times = np.asarray(times, float)
     angle = np.zeros(times.shape)
     for number, slope in enumerate(train.slopes):
         start, end = train.starts[number : number + 2]
-        wave = _Wave(roll, float(train.periods[number]), slips)
+        wave = _Wave(ship, float(train.periods[number]), slips)
         within, after = (times >= start) & (times < end), times >= end
         angle[within] += slope * wave.within(times[within] - start)
         angle[after] += slope * wave.after(times[after] - start)
@@ -102,10 +103,10 @@ def paper_roll_angle(
 class _Wave:
     """A wave of unit slope: the constants of its motion, and its branches within and after the wave."""
 
-    def __init__(self, roll: Roll, period: float, slips: Collection[RollSlip]) -> None:
-        self.roll, self.period, self.slips = roll, period, slips
+    def __init__(self, ship: Ship, period: float, slips: Collection[RollSlip]) -> None:
+        self.ship, self.period, self.slips = ship, period, slips
         self.omega = omega = 2 * math.pi / period
-        k, n, own = roll.natural_frequency, roll.damping, roll.damped_frequency
+        k, n, own = ship.natural_frequency, ship.damping, ship.damped_frequency
         damping = 2 * n * omega / (k if RollSlip.LAMBDA in slips else k**2)
         stiffness = 1 - (omega / k) ** 2
         if not (stiffness or damping):
@@ -126,8 +127,8 @@ class _Wave:
         return self._free(local, local) - self._free(decaying, swinging)
 
     def _free(self, decaying: FloatArray, swinging: FloatArray) -> FloatArray:
-        own = self.roll.damped_frequency
-        motion = np.exp(-self.roll.damping * decaying) * np.sin(own * swinging + self.beta)
+        own = self.ship.damped_frequency
+        motion = np.exp(-self.ship.damping * decaying) * np.sin(own * swinging + self.beta)
         return np.asarray(self.amplitude * self.omega / own * motion)
 
 
@@ -135,11 +136,11 @@ def _phase(rise: float, run: float, principal: bool) -> float:
     return math.atan(rise / run) if principal and run else math.atan2(rise, run)
 
 
-def _check_paper_treats(roll: Roll) -> None:
-    if roll.damping >= roll.natural_frequency:
+def _check_paper_treats(ship: Ship) -> None:
+    if ship.damping >= ship.natural_frequency:
         raise ValueError(
-            f"damping is {roll.damping}; the paper treats only less than the natural_frequency, "
-            f"{roll.natural_frequency}"
+            f"damping is {ship.damping}; the paper treats only less than the natural_frequency, "
+            f"{ship.natural_frequency}"
         )
 
 

@@ -12,8 +12,10 @@ import numpy.typing as npt
 from scipy.integrate import OdeSolution, solve_ivp
 
 from hydroelastic.modal.roll.knots import roll_knots
-from hydroelastic.modal.roll.motion import Roll, RollMotion, WaveTrain, locate
+from hydroelastic.modal.roll.motion import RollMotion
 from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.ship import Ship
+from hydroelastic.physics.wave import WaveTrain
 
 LEAST_TOLERANCE = 1e-11
 """Of `quadratic_roll_path`: the finer steps then come near to what SciPy allows."""
@@ -26,13 +28,16 @@ _LONGEST_STEP, _LONGEST_DECAY = 6.0, 3.0
 _COMPARED_PER_PERIOD = 16
 
 
+class RollIntegrationError(ValueError):
+    """The integration in time does not reach its tolerance, or its end."""
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class QuadraticRollPath:
     """The whole motion of a ship with quadratic damping.
 
     Attributes:
-        roll: the ship, with its linear damping.
-        quadratic_damping: d, 1/rad.
+        ship: the ship.
         train: the waves.
         end: last time, s.
         solutions: φ and φ' as functions of the time since each wave began, the free motion last.
@@ -41,8 +46,7 @@ class QuadraticRollPath:
         rate_error: that of the rate, rad/s.
     """
 
-    roll: Roll
-    quadratic_damping: float
+    ship: Ship
     train: WaveTrain
     end: float
     solutions: tuple[OdeSolution, ...]
@@ -63,16 +67,15 @@ class QuadraticRollPath:
         if wrong.any():
             raise ValueError(f"times contain {times[wrong][0]}; they must be finite and at most {self.end}")
         angle, rate = _evaluate(self.solutions, self.train, times)
-        k, n = self.roll.natural_frequency, self.roll.damping
+        k, n = self.ship.natural_frequency, self.ship.damping
         acceleration = (
-            k**2 * (self.train.slope(times) - angle) - 2 * n * rate - self.quadratic_damping * np.abs(rate) * rate
+            k**2 * (self.train.slope(times) - angle) - 2 * n * rate - self.ship.quadratic_damping * np.abs(rate) * rate
         )
         return RollMotion(times=times, angle=angle, rate=rate, acceleration=acceleration)
 
 
 def quadratic_roll_path(
-    roll: Roll,
-    quadratic_damping: float,
+    ship: Ship,
     train: WaveTrain,
     end: float,
     angle: float = 0.0,
@@ -85,8 +88,7 @@ def quadratic_roll_path(
     are refined until two motions agree.
 
     Args:
-        roll: the ship, with its linear damping.
-        quadratic_damping: d, 1/rad, from 0.
+        ship: the ship.
         train: the waves; the motion after them is free.
         end: last time, s.
         angle: φ at t = 0, rad.
@@ -94,37 +96,36 @@ def quadratic_roll_path(
         tolerance: largest error of the angle, relative to the largest angle, from `LEAST_TOLERANCE` to 0.01.
 
     Raises:
-        ValueError: if an argument is not finite or out of its range, or the tolerance is not reached.
+        RollIntegrationError: if the tolerance is not reached.
+        ValueError: if an argument is not finite or out of its range.
     """
     for name, value in (("angle", angle), ("rate", rate)):
         if not math.isfinite(value):
             raise ValueError(f"{name} is {value}; it must be finite")
-    check_quadratic_damping(quadratic_damping)
     if not 0 < end < math.inf:
         raise ValueError(f"end is {end}; it must be finite and positive")
     if not LEAST_TOLERANCE <= tolerance <= 0.01:
         raise ValueError(f"tolerance is {tolerance}; it must lie between {LEAST_TOLERANCE:g} and 0.01")
 
-    compared = roll_knots(roll, train, 0.0, end, _COMPARED_PER_PERIOD)
+    compared = roll_knots(ship, train, 0.0, end, _COMPARED_PER_PERIOD)
     steps = _FIRST_STEPS * tolerance
-    coarse = _integrate(roll, quadratic_damping, train, end, (angle, rate), steps)
+    coarse = _integrate(ship, train, end, (angle, rate), steps)
     before = _evaluate(coarse, train, compared)
     while True:
         steps *= _REFINEMENT
-        solutions = _integrate(roll, quadratic_damping, train, end, (angle, rate), steps)
+        solutions = _integrate(ship, train, end, (angle, rate), steps)
         after = _evaluate(solutions, train, compared)
         angle_error, rate_error = np.abs(after - before).max(axis=1)
         largest = np.abs(after[0]).max()
         if angle_error <= tolerance * largest:
             break
         if steps * _REFINEMENT < _LEAST_STEPS:
-            raise ValueError(
+            raise RollIntegrationError(
                 f"tolerance is {tolerance:g}; up to {end:g} s no better than {angle_error / largest:.1g} is reached"
             )
         before = after
     return QuadraticRollPath(
-        roll=roll,
-        quadratic_damping=quadratic_damping,
+        ship=ship,
         train=train,
         end=end,
         solutions=solutions,
@@ -133,15 +134,8 @@ def quadratic_roll_path(
     )
 
 
-def check_quadratic_damping(quadratic_damping: float) -> None:
-    """Raise ValueError unless d, 1/rad, is finite and from 0."""
-    if not 0 <= quadratic_damping < math.inf:
-        raise ValueError(f"quadratic_damping is {quadratic_damping}; it must be finite, and 0 or more")
-
-
 def _integrate(
-    roll: Roll,
-    quadratic_damping: float,
+    ship: Ship,
     train: WaveTrain,
     end: float,
     state: tuple[float, float],
@@ -150,15 +144,15 @@ def _integrate(
     starts = train.starts
     begun = int(np.searchsorted(starts, end))
     durations = np.minimum(np.append(starts[1:], np.inf), end)[:begun] - starts[:begun]
-    largest = max(float(np.abs(train.slopes).max(initial=0.0)), abs(state[0]), abs(state[1]) / roll.natural_frequency)
+    largest = max(float(np.abs(train.slopes).max(initial=0.0)), abs(state[0]), abs(state[1]) / ship.natural_frequency)
     # A ship that nothing moves has no scale of its own.
     scale = tolerance * (largest or 1.0)
     solutions = []
     for duration, frequency, slope in zip(
         durations, np.append(train.frequencies, 0.0), np.append(train.slopes, 0.0), strict=False
     ):
-        stage = _Stage(roll, quadratic_damping, float(frequency), float(slope), tolerance)
-        solution, state = stage.solve(state, float(duration), (scale, scale * roll.natural_frequency))
+        stage = _Stage(ship, float(frequency), float(slope), tolerance)
+        solution, state = stage.solve(state, float(duration), (scale, scale * ship.natural_frequency))
         solutions.append(solution)
     return tuple(solutions)
 
@@ -166,14 +160,14 @@ def _integrate(
 class _Stage:
     """The motion in one wave, or the free motion."""
 
-    def __init__(self, roll: Roll, quadratic_damping: float, frequency: float, slope: float, tolerance: float) -> None:
-        self.stiffness, self.linear = roll.natural_frequency**2, 2 * roll.damping
-        self.quadratic, self.frequency, self.slope = quadratic_damping, frequency, slope
+    def __init__(self, ship: Ship, frequency: float, slope: float, tolerance: float) -> None:
+        self.stiffness, self.linear = ship.natural_frequency**2, 2 * ship.damping
+        self.quadratic, self.frequency, self.slope = ship.quadratic_damping, frequency, slope
         self.tolerance = tolerance
         # The method enlarges its steps tenfold at the start of a piece, where its own estimate of the error vanishes.
-        self.longest_step = _LONGEST_STEP * tolerance ** (1 / 8) / max(frequency, roll.natural_frequency)
-        if roll.damping:
-            self.longest_step = min(self.longest_step, _LONGEST_DECAY / roll.fastest_decay)
+        self.longest_step = _LONGEST_STEP * tolerance ** (1 / 8) / max(frequency, ship.natural_frequency)
+        if ship.damping:
+            self.longest_step = min(self.longest_step, _LONGEST_DECAY / ship.fastest_decay)
 
     def right_side(self, sign: float) -> Callable[[float, Any], tuple[float, float]]:
         """φ' and φ'', with |φ'|φ' continued smoothly from φ' of this sign; as it is if the sign is 0."""
@@ -227,7 +221,7 @@ class _Stage:
                 if result.t[-1] > times[-1]:
                     break
             if not result.success:
-                raise ValueError(f"the integration stops {result.t[-1]:g} s into a wave: {result.message}")
+                raise RollIntegrationError(f"the integration stops {result.t[-1]:g} s into a wave: {result.message}")
             turned = result.status == 1
             state = (float(result.y[0, -1]), 0.0 if turned else float(result.y[1, -1]))
             times.extend(result.t[1:].tolist())
@@ -240,7 +234,7 @@ def _evaluate(solutions: tuple[OdeSolution, ...], train: WaveTrain, times: Float
     state = np.zeros((2, times.size))
     flat = times.ravel()
     # The end of the motion may be the beginning of a wave that is not integrated.
-    number = np.minimum(locate(train.starts, flat)[0], len(solutions) - 1)
+    number = np.minimum(train.locate(flat)[0], len(solutions) - 1)
     number[flat < 0] = -1
     order = np.argsort(number, kind="stable")
     waves, firsts = np.unique(number[order], return_index=True)

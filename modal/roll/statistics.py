@@ -1,4 +1,4 @@
-"""Extremes and statistics of a roll motion: true ones, between the times of any output."""
+"""Extremes and statistics of a roll motion over all times, not those of the output alone."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _CELLS_PER_PERIOD, _GAUSS_POINTS = 4, 8
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class RollStatistics:
-    """What a motion came to between two times.
+    """Statistics of a motion between two times.
 
     Attributes:
         largest_time: when |φ| is largest, s, the first and last time included.
@@ -75,7 +75,7 @@ def roll_statistics(path: RollPath, end: float, start: float = 0.0) -> RollStati
     """
     if not 0 <= start < end < math.inf:
         raise ValueError(f"start is {start} and end {end}; they must be finite, 0 ≤ start < end")
-    knots = roll_knots(path.roll, path.train, start, end, _KNOTS_PER_PERIOD)
+    knots = roll_knots(path.ship, path.train, start, end, _KNOTS_PER_PERIOD)
     extreme_times = _extreme_times(path, knots)
     times = np.concatenate([[start], extreme_times, [end]])
     angles = path.motion(times).angle
@@ -122,7 +122,7 @@ def _swings(path: RollPath, knots: FloatArray, times: FloatArray, angles: FloatA
 
 def _root_mean_square(path: RollPath, start: float, end: float, extreme_times: FloatArray) -> float:
     # Quadratic damping turns its sign at the extremes, so that the motion is smooth between them only.
-    edges = np.union1d(roll_knots(path.roll, path.train, start, end, _CELLS_PER_PERIOD), extreme_times)
+    edges = np.union1d(roll_knots(path.ship, path.train, start, end, _CELLS_PER_PERIOD), extreme_times)
     nodes, weights = np.polynomial.legendre.leggauss(_GAUSS_POINTS)
     half = np.diff(edges) / 2
     angle = path.motion(edges[:-1, None] + half[:, None] * (nodes + 1)).angle

@@ -1,4 +1,4 @@
-"""One wave: how a ship at rest answers a sine that begins."""
+"""Response of a ship at rest to one wave, a sine that begins."""
 
 from __future__ import annotations
 

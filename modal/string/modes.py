@@ -13,13 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.modal.damped_pair import damped_pair
-from hydroelastic.modal.string.forcing import Forcing
-from hydroelastic.modal.string.hanging_string import HangingString
 from hydroelastic.modal.string.quasistatic import Exponential
+from hydroelastic.physics.string import HangingString
+from hydroelastic.physics.string_forcing import Forcing
 
 
 @dataclass(frozen=True, kw_only=True)
-class Launches:
+class FreeMotionJumps:
     """Jumps u (m) of q and v (m/s) of q', as products: modes × factors by factors × starts.
 
     Attributes:
@@ -37,16 +37,16 @@ class Launches:
         return self.factors @ self.displacements[:, start], self.factors @ self.velocities[:, start]
 
 
-def launches(
+def free_motion_jumps(
     string: HangingString,
     forcing: Forcing,
     parts: Sequence[Exponential],
     frequencies: NDArray[np.float64],
     first_mode: int,
-) -> Launches:
-    """Return what the free motions of modes jump by at every start of a piece of the motion.
+) -> FreeMotionJumps:
+    """Return the jumps of the free motions of modes at every start of a piece of the motion.
 
-    It is what the forced part jumps by, with the opposite sign.
+    They are those of the forced part with the opposite sign.
 
     Args:
         string: the string.
@@ -72,7 +72,7 @@ def launches(
         rate = part.weight * part.rate
         displacements += [-part.weight.real * at_start, part.weight.imag * at_start]
         velocities += [-rate.real * at_start, rate.imag * at_start]
-    return Launches(
+    return FreeMotionJumps(
         factors=np.stack(factors, axis=1), displacements=np.stack(displacements), velocities=np.stack(velocities)
     )
 
@@ -81,7 +81,7 @@ def free_coordinates(
     frequencies: NDArray[np.float64],
     damping: float,
     starts: NDArray[np.float64],
-    jumps: Launches,
+    jumps: FreeMotionJumps,
     times: NDArray[np.float64],
 ) -> NDArray[np.float64]:
     """Return q of modes at rising times, shape (modes, times).

@@ -11,13 +11,24 @@ import numpy as np
 from scipy.special import jv
 
 from hydroelastic.modal.beam.paper_model import Erratum, PrintedAndCorrected
+from hydroelastic.modal.bessel_zeros import bessel_zeros
 from hydroelastic.modal.estimate import NoEstimateError
-from hydroelastic.modal.string.hanging_string import HangingString, bessel_ratio, participations
-from hydroelastic.modal.string.motions import Motion, Ramp, Smooth, Step
+from hydroelastic.modal.string.closed_form import (
+    bessel_ratio,
+    first_oscillating_mode,
+    natural_frequencies,
+    natural_frequency,
+    participations,
+    relative_roots,
+    steady_amplitude,
+    transfer,
+)
 from hydroelastic.modal.string.partial_sum import partial_sum
 from hydroelastic.modal.string.resonance import string_resonance
 from hydroelastic.modal.string.response import string_response
 from hydroelastic.modal.string.truncation import weights
+from hydroelastic.physics.string import HangingString
+from hydroelastic.physics.string_motions import Motion, Ramp, Smooth, Step
 
 STRING_SOURCE = (
     'A. N. Obukhov, V. A. Palamarchuk, "On transverse displacements of a string in a medium with resistance '
@@ -29,10 +40,10 @@ TERMS = 4096
 
 def critical_damping(string: HangingString) -> PrintedAndCorrected:
     """Return the damping from which mode 1 is aperiodic (erratum 1): √(gμ₁/2l), Ω₁ = (μ₁/2)√(g/l), 1/s."""
-    zero = float(string.zeros(1)[0])
+    zero = float(bessel_zeros(1)[0])
     return PrintedAndCorrected(
-        printed=math.sqrt(string.gravity / string.length * zero / 2),
-        corrected=string.least_damping_without_oscillation(1),
+        printed=math.sqrt(string.apparent_gravity / string.length * zero / 2),
+        corrected=natural_frequency(string, 1),
     )
 
 
@@ -41,9 +52,9 @@ def lowest_oscillating_mode(string: HangingString) -> PrintedAndCorrected:
 
     Printed: the lowest k with α ≤ √(gμ_k/2l). Corrected: the lowest k with α < Ω_k.
     """
-    zero = 2 * string.length * string.damping**2 / string.gravity
-    printed = int(np.searchsorted(string.zeros(int(zero / math.pi) + 2), zero, side="left")) + 1
-    return PrintedAndCorrected(printed=printed, corrected=string.first_oscillating_mode())
+    zero = 2 * string.length * string.damping**2 / string.apparent_gravity
+    printed = int(np.searchsorted(bessel_zeros(int(zero / math.pi) + 2), zero, side="left")) + 1
+    return PrintedAndCorrected(printed=printed, corrected=first_oscillating_mode(string))
 
 
 def static_series(string: HangingString, exponent: float, position: float) -> PrintedAndCorrected:
@@ -54,7 +65,7 @@ def static_series(string: HangingString, exponent: float, position: float) -> Pr
         exponent: p, 1/s.
         position: x, m.
     """
-    term = position / string.gravity * exponent * (exponent + 2 * string.damping)
+    term = position / string.apparent_gravity * exponent * (exponent + 2 * string.damping)
     return PrintedAndCorrected(printed=1 - term, corrected=1 + term + term**2 / 4)
 
 
@@ -66,7 +77,7 @@ def static_slope(string: HangingString, exponent: float, position: float) -> Pri
         exponent: p, 1/s.
         position: x, m.
     """
-    height, sum_ = position / string.gravity, exponent + string.damping
+    height, sum_ = position / string.apparent_gravity, exponent + string.damping
     term = height * exponent * (exponent + 2 * string.damping)
     return PrintedAndCorrected(printed=-height * sum_, corrected=height * sum_ * (2 + term))
 
@@ -86,14 +97,14 @@ def ramp_motion(string: HangingString, speed: float, position: float, time: floa
         NoEstimateError: if the printed root is not real, or a mode is aperiodic: (28) has no such modes.
     """
     _check_all_oscillate(string)
-    zeros, frequencies = string.zeros(TERMS), string.frequencies(TERMS)
-    under_root = 1 - 4 * string.damping * string.length / (string.gravity * zeros)
+    zeros, frequencies = bessel_zeros(TERMS), natural_frequencies(string, TERMS)
+    under_root = 1 - 4 * string.damping * string.length / (string.apparent_gravity * zeros)
     if under_root[0] <= 0:
         raise NoEstimateError(f"the printed root of mode 1 is that of {under_root[0]:.3g}")
-    value = float(string_response(string, Ramp(speed), position, time).values[0, 0])
+    value = float(string_response(string, Ramp(speed=speed), position, time).values[0, 0])
     damped = np.sqrt((frequencies - string.damping) * (frequencies + string.damping))
     phase = np.arctan2(string.damping**2 - damped**2, 2 * string.damping * damped)
-    shapes = participations(zeros, string.relative_roots([position]))[0] * weights(np.arange(1, TERMS + 1), TERMS)
+    shapes = participations(zeros, relative_roots(string, [position]))[0] * weights(np.arange(1, TERMS + 1), TERMS)
     motion = shapes * math.exp(-string.damping * time) * np.cos(damped * time - phase)
     excess = float(motion @ (1 / (frequencies * np.sqrt(under_root)) - 1 / damped))
     return PrintedAndCorrected(printed=value + speed * excess, corrected=value)
@@ -107,9 +118,9 @@ def sine_amplitude(string: HangingString, omega: float, position: float) -> Prin
         omega: ω, 1/s; μ = R√(ω² − 2iaω).
         position: x, m.
     """
-    corrected = float(string.amplitude(omega, position)[0])
+    corrected = float(steady_amplitude(string, omega, position)[0])
     argument = string.travel_time * np.sqrt(omega**2 - 2j * string.damping * omega)
-    printed = abs(jv(0, argument * float(string.relative_roots(position)))) ** 2
+    printed = abs(jv(0, argument * float(relative_roots(string, position)))) ** 2
     return PrintedAndCorrected(printed=float(printed), corrected=corrected)
 
 
@@ -146,9 +157,9 @@ def smooth_motion(string: HangingString, motion: Smooth, position: float, time: 
         raise NoEstimateError("the printed phases divide by b − a and 2b − a")
     corrected = float(string_response(string, motion, position, time).values[0, 0])
     decay = math.exp(-rate * time)
-    first, second = string.transfer([-rate, -2 * rate], position)[0].real
+    first, second = transfer(string, [-rate, -2 * rate], position)[0].real
     argument = 2 * string.travel_time * np.sqrt(np.array([rate * (rate - 2 * damping)], dtype=complex))
-    printed_second = float(bessel_ratio(argument, string.relative_roots([position]))[0, 0].real)
+    printed_second = float(bessel_ratio(argument, relative_roots(string, [position]))[0, 0].real)
     modes = corrected - motion.amplitude * (1 - 2 * first * decay + second * decay**2)
     sign = math.copysign(1.0, (rate - damping) * (2 * rate - damping))
     forced = motion.amplitude * (1 - 2 * first * decay + printed_second * decay**2)
@@ -164,7 +175,7 @@ def step_motion(string: HangingString, amplitude: float, position: float, time: 
         position: x, m.
         time: t, s.
     """
-    corrected = float(string_response(string, Step(amplitude), position, time).values[0, 0])
+    corrected = float(string_response(string, Step(amplitude=amplitude), position, time).values[0, 0])
     return PrintedAndCorrected(printed=(amplitude + corrected) / 2, corrected=corrected)
 
 
@@ -187,7 +198,7 @@ def few_terms_error(string: HangingString, motion: Motion, terms: int) -> Printe
 
 
 def _check_all_oscillate(string: HangingString) -> None:
-    if string.first_oscillating_mode() > 1:
+    if first_oscillating_mode(string) > 1:
         raise NoEstimateError("mode 1 is aperiodic: the paper has no phases for it")
 
 

@@ -1,14 +1,16 @@
-"""The plain sum of a string's first modes: what the smoothly cut one of `string_response` improves on."""
+"""Sharply cut sum of the first modes of a string, for comparison with the smoothly cut one of `string_response`."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from hydroelastic.modal.string.hanging_string import HangingString, participations
-from hydroelastic.modal.string.modes import free_coordinates, launches
-from hydroelastic.modal.string.motions import Motion
+from hydroelastic.modal.bessel_zeros import bessel_zeros
+from hydroelastic.modal.string.closed_form import natural_frequencies, participations, relative_roots
+from hydroelastic.modal.string.modes import free_coordinates, free_motion_jumps
 from hydroelastic.modal.string.quasistatic import exponentials, forced_part
+from hydroelastic.physics.string import HangingString
+from hydroelastic.physics.string_motions import Motion
 
 
 def partial_sum(
@@ -30,14 +32,14 @@ def partial_sum(
         ValueError: if a position is not on the string, or a mode that must be among the terms is not.
     """
     times = np.atleast_1d(np.asarray(times, dtype=float))
-    ratios = np.atleast_1d(string.relative_roots(positions))
+    ratios = np.atleast_1d(relative_roots(string, positions))
     forcing = motion.forcing
     parts = exponentials(string, forcing)
     least = max((part.mode for part in parts), default=0)
     if terms < max(1, least):
         raise ValueError(f"terms is {terms}: at least {max(1, least)} is allowed, for that mode is met")
-    zeros, frequencies = string.zeros(terms), string.frequencies(terms)
+    zeros, frequencies = bessel_zeros(terms), natural_frequencies(string, terms)
     forced, _ = forced_part(string, forcing, ratios, times)
-    jumps = launches(string, forcing, parts, frequencies, first_mode=1)
+    jumps = free_motion_jumps(string, forcing, parts, frequencies, first_mode=1)
     free = free_coordinates(frequencies, string.damping, forcing.starts, jumps, times)
     return np.asarray(forced + participations(zeros, ratios) @ free)

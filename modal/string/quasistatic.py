@@ -7,9 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from hydroelastic.modal.bessel_zeros import bessel_zeros
+from hydroelastic.modal.string.closed_form import bessel_ratio, free_roots, natural_frequencies, participations
 from hydroelastic.modal.string.divided_exponential import divided_exponential, divided_exponential_bound
-from hydroelastic.modal.string.forcing import Forcing
-from hydroelastic.modal.string.hanging_string import HangingString, bessel_ratio, participations
+from hydroelastic.physics.string import HangingString
+from hydroelastic.physics.string_forcing import Forcing
 
 # A mode is taken out of h(x, s) where ζ = R√(−s² − 2αs) is nearer than this to its μ_k (zeros are 3.1 apart) …
 NEAR_A_POLE = 0.5
@@ -45,7 +47,7 @@ def exponentials(string: HangingString, forcing: Forcing) -> list[Exponential]:
         argument = complex(string.travel_time * np.sqrt(-rate * (rate + 2 * string.damping)))
         # μ_k = π(k − 1/4) + 1/(8πk) …, so that rounding gives the nearest one.
         nearest = max(1, round(argument.real / np.pi + 0.25))
-        close = abs(argument - string.zeros(nearest)[-1]) < NEAR_A_POLE
+        close = abs(argument - bessel_zeros(nearest)[-1]) < NEAR_A_POLE
         found.append(Exponential(rate=rate, weight=weight, argument=argument, mode=nearest if close else 0))
     return found
 
@@ -69,7 +71,7 @@ def forced_part(
     """
     left, right, size_left, size_right = _polynomial_part(string, forcing, ratios, times)
     for exponential in exponentials(string, forcing):
-        shape = participations(string.zeros(exponential.mode)[-1:], ratios)
+        shape = participations(bessel_zeros(exponential.mode)[-1:], ratios)
         static = _regular_transfer(string, exponential, ratios, shape)
         motion = exponential.weight * np.exp(exponential.rate * times)
         left += [static.real, -static.imag]
@@ -114,7 +116,7 @@ def static_terms(string: HangingString, ratios: NDArray[np.float64]) -> list[NDA
     second = (height + 1) / 4 - 1
     third = (height**2 + height + 1) / 36 - 1 / 4 - second
     terms = [np.ones_like(height), fall, fall * second, fall * third]
-    return [term * (string.length / string.gravity) ** order for order, term in enumerate(terms)]
+    return [term * (string.length / string.apparent_gravity) ** order for order, term in enumerate(terms)]
 
 
 def _regular_transfer(
@@ -125,7 +127,7 @@ def _regular_transfer(
         return _transfer(np.array([exponential.argument]), ratios)[:, 0]
     angles = 2 * np.pi * (np.arange(CIRCLE_POINTS) + 0.5) / CIRCLE_POINTS
     circle = exponential.argument + CIRCLE_RADIUS * np.exp(1j * angles)
-    zero = string.zeros(exponential.mode)[-1]
+    zero = bessel_zeros(exponential.mode)[-1]
     pole = zero**2 / ((zero - circle) * (zero + circle))
     return np.asarray((_transfer(circle, ratios) - shape * pole).mean(axis=1))
 
@@ -139,8 +141,8 @@ def _met_mode(
     string: HangingString, exponential: Exponential, times: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the whole motion u'' + 2αu' + Ω²u = Ω² Re(c e^{st}) of the mode from rest, and its size for rounding."""
-    frequency = float(string.frequencies(exponential.mode)[-1])
-    nodes = (exponential.rate, *string.roots(exponential.mode)[-1])
+    frequency = float(natural_frequencies(string, exponential.mode)[-1])
+    nodes = (exponential.rate, *free_roots(string, exponential.mode)[-1])
     values = exponential.weight * divided_exponential(nodes, times)
     bound = abs(exponential.weight) * divided_exponential_bound(nodes, times)
     phase = 2 + (abs(exponential.rate) + frequency) * times / PHASE_SHARE

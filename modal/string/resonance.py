@@ -13,7 +13,8 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 from scipy.special import j1
 
-from hydroelastic.modal.string.hanging_string import HangingString
+from hydroelastic.modal.string.closed_form import natural_frequencies, natural_frequency, steady_amplitude
+from hydroelastic.physics.string import HangingString
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,7 +45,7 @@ def string_resonance(string: HangingString, number: int) -> StringResonance:
     Raises:
         ValueError: if the number is below 1.
     """
-    natural = string.least_damping_without_oscillation(number)
+    natural = natural_frequency(string, number)
     zero = natural * string.travel_time
     squared = (natural - string.damping) * (natural + string.damping)
     peak, amplitude, estimate = natural, math.inf, math.inf
@@ -69,7 +70,7 @@ def nearest_resonance(string: HangingString, omega: float) -> StringResonance:
     """
     if not (omega >= 0 and math.isfinite(omega)):
         raise ValueError(f"omega is {omega}: it must be finite and not negative")
-    frequencies = string.frequencies(int(omega * string.travel_time / math.pi) + 2)
+    frequencies = natural_frequencies(string, int(omega * string.travel_time / math.pi) + 2)
     return string_resonance(string, int(np.argmin(np.abs(frequencies - omega))) + 1)
 
 
@@ -79,7 +80,7 @@ def _peak(string: HangingString, natural: float) -> tuple[float, float]:
     low, high = max(0.0, natural - half), natural + half
 
     def height(omega: float) -> float:
-        return float(string.amplitude(omega, 0.0)[0])
+        return float(steady_amplitude(string, omega, 0.0)[0])
 
     # The peak is as narrow as α: Brent's method is given its neighbourhood.
     grid = np.unique(np.concatenate([np.linspace(low, high, 65), natural + string.damping * np.linspace(-2, 2, 41)]))

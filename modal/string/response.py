@@ -12,17 +12,19 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from hydroelastic.modal.string.forcing import Forcing
-from hydroelastic.modal.string.hanging_string import HangingString, participations
-from hydroelastic.modal.string.modes import free_coordinates, launches
+from hydroelastic.modal.bessel_zeros import bessel_zeros
+from hydroelastic.modal.string.closed_form import participations, relative_roots
+from hydroelastic.modal.string.modes import free_coordinates, free_motion_jumps
 from hydroelastic.modal.string.quasistatic import Exponential, exponentials, forced_part
 from hydroelastic.modal.string.rounding import Rounding
 from hydroelastic.modal.string.truncation import Truncation, fewest_terms, weights
+from hydroelastic.physics.string import HangingString
+from hydroelastic.physics.string_forcing import Forcing
+from hydroelastic.physics.string_motions import Motion
 
 EPS = float(np.finfo(float).eps)
 FEWEST_TERMS = 128
@@ -36,25 +38,13 @@ WORK = 2**22
 LEAST_OF_MOST_TERMS, LARGEST_OF_MOST_TERMS = 12, 16
 
 
-class UpperEnd(Protocol):
-    """A motion of the upper end: those of `modal/string/motions.py`."""
-
-    @property
-    def forcing(self) -> Forcing:
-        """The motion as pieces of polynomials and exponentials."""
-
-    @property
-    def end(self) -> float:
-        """Last time at which it is known, s; or infinity."""
-
-
 @dataclass(frozen=True, kw_only=True, eq=False)
 class StringResponse:
     """Displacements of a string.
 
     Attributes:
         values: U(x, t), m, shape (positions, times).
-        errors: estimates of their absolute errors, m: what the cut sum loses next to a front, and rounding.
+        errors: estimates of their absolute errors, m, from truncation, which is large next to a front, and rounding.
         terms: the largest number of modes that was used.
     """
 
@@ -65,7 +55,7 @@ class StringResponse:
 
 def string_response(
     string: HangingString,
-    motion: UpperEnd,
+    motion: Motion,
     positions: ArrayLike,
     times: ArrayLike,
     *,
@@ -76,13 +66,13 @@ def string_response(
 
     Args:
         string: the string.
-        motion: f(t) of its upper end, from `modal/string/motions.py`.
+        motion: f(t) of its upper end, from `physics/string_motions.py`.
         positions: x above the free lower end, m, shape (positions,) or one.
         times: t, s, not negative, shape (times,) or one, in any order.
-        tolerance: aim of the error of the cut sum, in units of the largest |f| until then. Next to fronts it
-            may be missed; the errors returned tell.
-        most_terms: modes at the most; by default 65536 for a few points, and fewer, from 4096, for large grids and
-            long tables.
+        tolerance: of the truncation error, relative to the largest |f| until then. Next to fronts it may not be
+            reached, as the errors returned show.
+        most_terms: largest number of modes; by default 65536 for a few points, and fewer, from 4096, for large grids
+            and long tables.
 
     Returns:
         Values, their errors and the number of modes. Exactly 0 before the front, f(t) at the upper end.
@@ -93,7 +83,7 @@ def string_response(
     """
     positions, times = np.atleast_1d(np.asarray(positions, float)), np.atleast_1d(np.asarray(times, float))
     _check(motion, times, tolerance, most_terms)
-    ratios = string.relative_roots(positions)
+    ratios = relative_roots(string, positions)
     across, along = np.argsort(ratios, kind="stable"), np.argsort(times, kind="stable")
     values = np.zeros((len(positions), len(times)))
     errors = np.zeros_like(values)
@@ -119,7 +109,7 @@ def string_response(
     return StringResponse(values=values, errors=errors, terms=terms)
 
 
-def _check(motion: UpperEnd, times: NDArray[np.float64], tolerance: float, most_terms: int | None) -> None:
+def _check(motion: Motion, times: NDArray[np.float64], tolerance: float, most_terms: int | None) -> None:
     if not (np.isfinite(times) & (times >= 0)).all():
         raise ValueError(f"times has {times[~(np.isfinite(times) & (times >= 0))][0]}: finite times from 0 are allowed")
     if times.size and times.max() > motion.end:
@@ -143,7 +133,7 @@ def _portions(order: NDArray[np.int_]) -> Iterator[NDArray[np.int_]]:
 
 
 def _affordable(series: int, needed: float) -> int:
-    """Return the modes at the most for a tile of so many positions, times and pieces; four times as many if needed."""
+    """Return the largest number of modes for a tile of so many positions, times and pieces."""
     power = max((WORK // series).bit_length(), LEAST_OF_MOST_TERMS)
     extra = max(0, min(2, math.ceil(math.log2(max(needed, 1))) - power))
     return 1 << min(power + extra, LARGEST_OF_MOST_TERMS)
@@ -174,9 +164,9 @@ class _Tile:
         parts: its exponentials.
         ratios: r, rising, shape (positions,).
         times: s, rising, shape (times,).
-        tolerance: aim of the error of the cut sum, m.
+        tolerance: of the truncation error, m.
         needed: the fewest modes at each time, shape (times,).
-        most_terms: modes at the most.
+        most_terms: largest number of modes.
     """
 
     string: HangingString
@@ -230,9 +220,9 @@ class _Tile:
 
     def _octave(self, start: int, stop: int, pending: NDArray[np.bool_], rounding: Rounding) -> _Octave:
         """Return modes start + 1 … stop at all positions, and at the times that are pending (zero at the others)."""
-        zeros = self.string.zeros(stop)[start:]
+        zeros = bessel_zeros(stop)[start:]
         frequencies = np.divide(zeros, self.string.travel_time)
-        jumps = launches(self.string, self.forcing, self.parts, frequencies, start + 1)
+        jumps = free_motion_jumps(self.string, self.forcing, self.parts, frequencies, start + 1)
         shapes = participations(zeros, self.ratios)
         wanted = pending.any(axis=0)
         coordinates = np.zeros((len(zeros), len(self.times)))

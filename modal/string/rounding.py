@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hydroelastic.modal.string.hanging_string import HangingString
-from hydroelastic.modal.string.modes import Launches
+from hydroelastic.modal.string.modes import FreeMotionJumps
+from hydroelastic.physics.string import HangingString
 
 EPS = float(np.finfo(float).eps)
 
@@ -41,7 +41,7 @@ class Rounding:
         # Squares of the sizes of aperiodic modes; of oscillating ones; of these times Ω.
         self._sums = np.zeros((3, len(ratios)))
 
-    def add(self, frequencies: NDArray[np.float64], jumps: Launches, shapes: NDArray[np.float64]) -> None:
+    def add(self, frequencies: NDArray[np.float64], jumps: FreeMotionJumps, shapes: NDArray[np.float64]) -> None:
         """Take in modes: their frequencies (1/s), jumps, and shapes (positions, modes)."""
         excess = (frequencies - self._damping) * (frequencies + self._damping)
         oscillating = excess > 0

@@ -1,12 +1,12 @@
-"""How many modes a point needs: the error of a smoothly cut sum of modes, by its distance from the fronts.
+"""Truncation error of a smoothly cut sum of modes at a point, by its distance from the wave fronts.
 
-Every break of the upper end's motion sends a front down the string, which the free end and then the upper end throw
-back: the motion is smooth in (x, t) but for t/R = t_j/R + odd ∓ r. The sum of modes k is cut by weights
+Every break of the upper end's motion sends a front down the string, which both ends reflect: the motion is smooth in
+(x, t) but for t/R = t_j/R + odd ∓ r. The sum of modes k is cut by weights
 
     w_k = ½ erfc(√(D ln 10) (2k/N − 1)),
 
-so that what is lost is the tail from N/2: at the distance d (in units of R) from such a line, with half a term a of
-k = N/2 that decays as k^{−p},
+so that the truncation error is the tail from N/2: at the distance d (in units of R) from such a line, with half a term
+a of k = N/2 that decays as k^{−p},
 
     (N/2) a |E_p(iπNd/2)| e^{−(πNd/4)²/(D ln 10)},
 
@@ -24,10 +24,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import erfc
 
-from hydroelastic.modal.string.forcing import Forcing
-from hydroelastic.modal.string.hanging_string import HangingString
-from hydroelastic.modal.string.modes import launches
+from hydroelastic.modal.string.modes import free_motion_jumps
 from hydroelastic.modal.string.quasistatic import Exponential
+from hydroelastic.physics.string import HangingString
+from hydroelastic.physics.string_forcing import Forcing
 
 DIGITS = 15.0
 EDGE = math.sqrt(DIGITS * math.log(10))
@@ -35,7 +35,7 @@ EDGE = math.sqrt(DIGITS * math.log(10))
 MODES_PER_ANGLE = 8.0
 # e^{−45} is below rounding: what has fallen so far needs no modes.
 NOTHING_LEFT = 45.0
-FEW_LAUNCHES = 8
+FEW_STARTS = 8
 CELLS_PER_UNIT = 4
 MOST_CELLS = 2**21
 
@@ -64,7 +64,7 @@ def fewest_terms(
 
 @dataclass(frozen=True, kw_only=True)
 class Truncation:
-    """Estimates of what sums of modes lose.
+    """Estimates of the truncation error of sums of modes.
 
     Attributes:
         string: the string.
@@ -91,11 +91,11 @@ class Truncation:
         Returns:
             Absolute estimates, shape (points,).
         """
-        sizes, decay = self._launched(terms)
+        sizes, decay = self._sizes_at_starts(terms)
         starts = np.divide(self.forcing.starts, self.string.travel_time)
         known = np.searchsorted(starts, self.times[-1] / self.string.travel_time, side="right")
         tail = _Tail(terms=terms, decay=decay, damping=self.string.damping * self.string.travel_time)
-        sums = tail.few if known <= FEW_LAUNCHES else tail.many
+        sums = tail.few if known <= FEW_STARTS else tail.many
         time, ratio = self.times[columns] / self.string.travel_time, self.ratios[rows]
         total = np.zeros(len(rows))
         for sign in (1.0, -1.0):
@@ -104,12 +104,12 @@ class Truncation:
             total += way * sums(time - 1 + sign * ratio, starts[:known], sizes[:known])
         return total * self._envelope(terms)[rows]
 
-    def _launched(self, terms: int) -> tuple[NDArray[np.float64], float]:
-        """Return the sizes of what every start gives mode N/2, m, and the power p at which terms decay there."""
+    def _sizes_at_starts(self, terms: int) -> tuple[NDArray[np.float64], float]:
+        """Return the amplitudes that every start gives mode N/2, m, and the power p at which terms decay there."""
         numbers = np.array([terms / 2, terms])
         frequencies = np.multiply(numbers - 0.25, math.pi / self.string.travel_time)
         # Numbered beyond all: no mode is left out.
-        jumps = launches(self.string, self.forcing, self.parts, frequencies, first_mode=2**62)
+        jumps = free_motion_jumps(self.string, self.forcing, self.parts, frequencies, first_mode=2**62)
         u, v = jumps.factors @ jumps.displacements, jumps.factors @ jumps.velocities
         root = np.sqrt(np.maximum(frequencies**2 - self.string.damping**2, frequencies**2 / 4))[:, None]
         sizes = np.hypot(u, (v + self.string.damping * u) / root)

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from functools import cached_property
-from math import sqrt
 from pathlib import Path
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
 from pydantic import (
     BeforeValidator,
@@ -24,6 +23,9 @@ from hydroelastic.scenes.models.string_checks import STAGES
 from hydroelastic.scenes.models.title import Title
 from hydroelastic.scenes.models.values import OR_SWEEP, NumberFromZero, Sweep, ascending_values, kind_of
 
+if TYPE_CHECKING:
+    from hydroelastic.physics.string import HangingString as PhysicalString
+
 MOST_POSITIONS, MOST_TIMES = 100_000, 1_000_000
 DEFAULT_POSITIONS = 101
 DEFAULT_TIMES = 241
@@ -37,11 +39,6 @@ class Resistance(SceneModel):
 
     bottom: NumberFromZero = Field(description="λ at the free end, kg/(m·s)")
     top: NumberFromZero = Field(description="λ at the upper end, kg/(m·s)")
-
-    @property
-    def is_uniform(self) -> bool:
-        """Whether it is the same everywhere."""
-        return self.bottom == self.top
 
 
 def _uniform(value: Any) -> Any:
@@ -73,31 +70,25 @@ class HangingString(SceneModel):
     )
 
     @property
-    def inertia(self) -> float:
-        """Mass that moves, per length, kg/m."""
-        return self.linear_density + self.added_mass
+    def physical(self) -> PhysicalString:
+        """The string in SI units, and what follows from its numbers.
 
-    @property
-    def apparent_gravity(self) -> float:
-        """What g becomes where liquid carries and burdens the string, g(ρ − ρ_d)/(ρ + m_a), m/s²."""
-        return self.gravity * (self.linear_density - self.displaced_mass) / self.inertia
+        Raises:
+            ValueError: if it is not under tension; the checks of a scene refuse that first.
+        """
+        # NumPy is not needed to read a scene of another kind.
+        from hydroelastic.physics.string import HangingString as PhysicalString
 
-    @property
-    def damping(self) -> float:
-        """Mean α = λ/(ρ + m_a), 1/s."""
-        return 0.5 * (self.resistance.bottom + self.resistance.top) / self.inertia
-
-    @property
-    def travel_time(self) -> float:
-        """R, the time in which a wave runs along the string, s; 2√(l/g') without a body on its end."""
-        # √x falls by as much as the body's weight lifts it: 2√(l/g') (√(1 + b) − √b), b its weight over the string's.
-        weight = (self.tip_mass - self.tip_displaced_mass) / (self.length * (self.linear_density - self.displaced_mass))
-        return 2.0 * sqrt(self.length / self.apparent_gravity) / (sqrt(1.0 + weight) + sqrt(weight))
-
-    @property
-    def has_closed_form(self) -> bool:
-        """Whether Bessel functions and exponentials solve it: nothing on its end, and a uniform resistance."""
-        return self.tip_mass == 0.0 and self.resistance.is_uniform
+        return PhysicalString(
+            length=self.length,
+            linear_density=self.linear_density,
+            gravity=self.gravity,
+            resistance=(self.resistance.bottom, self.resistance.top),
+            tip_mass=self.tip_mass,
+            added_mass=self.added_mass,
+            displaced_mass=self.displaced_mass,
+            tip_displaced_mass=self.tip_displaced_mass,
+        )
 
 
 class RampMotion(SceneModel):
@@ -216,7 +207,7 @@ class StringScene(SceneInFolder):
         """When the displacement is reported, s."""
         if self.output.times is not None:
             return self.output.times
-        last = DEFAULT_TRAVEL_TIMES * self.string.travel_time
+        last = DEFAULT_TRAVEL_TIMES * self.string.physical.travel_time
         last = last if self.table is None else min(last, self.table[-1][0])
         return Sweep(start=0.0, stop=last, number=DEFAULT_TIMES).values
 
@@ -238,7 +229,7 @@ class StringScene(SceneInFolder):
         """How the response is found."""
         if self.accuracy.method != "auto":
             return self.accuracy.method
-        return "series" if self.string.has_closed_form else "field"
+        return "series" if self.string.physical.has_closed_form else "field"
 
     @model_validator(mode="after")
     def _parts_fit(self) -> StringScene:

@@ -50,7 +50,7 @@ def liquid_lets_the_string_hang(scene: StringScene) -> Iterator[InitErrorDetails
 
 def method_is_there(scene: StringScene) -> Iterator[InitErrorDetails]:
     """The series needs a uniform resistance and a free lower end."""
-    if scene.accuracy.method == "series" and not scene.string.has_closed_form:
+    if scene.accuracy.method == "series" and not scene.string.physical.has_closed_form:
         yield misfit(
             ("accuracy", "method"),
             "series",
@@ -98,7 +98,7 @@ def table_can_be_followed(scene: StringScene) -> Iterator[InitErrorDetails]:
 
 def waves_arrive(scene: StringScene) -> Iterator[InitErrorDetails]:
     """A wave runs along the string in a time that can be written."""
-    travel = scene.string.travel_time
+    travel = scene.string.physical.travel_time
     longest = LARGEST / LONGEST["series"]
     if travel > longest:
         wrong = f"a wave would take {travel:g} s along the string"
@@ -125,7 +125,7 @@ def output_lies_within(scene: StringScene) -> Iterator[InitErrorDetails]:
             allowed=f"up to {table[-1][0]:g} s",
         )
     number = LONGEST[scene.method]
-    longest = number * scene.string.travel_time
+    longest = number * scene.string.physical.travel_time
     if times[-1] > longest:
         yield misfit(
             ("output", "times"),
@@ -144,7 +144,7 @@ def output_lies_within(scene: StringScene) -> Iterator[InitErrorDetails]:
 
 def motion_is_not_too_fast(scene: StringScene) -> Iterator[InitErrorDetails]:
     """Rates lie within what terms or elements can follow."""
-    travel, motion = scene.string.travel_time, scene.motion
+    travel, motion = scene.string.physical.travel_time, scene.motion
     limit = (FASTEST if scene.method == "series" else FASTEST_FIELD) / travel
     rates: list[tuple[tuple[str, str], float]] = []
     if motion.kind == "sine":
@@ -155,7 +155,7 @@ def motion_is_not_too_fast(scene: StringScene) -> Iterator[InitErrorDetails]:
         if rate > limit:
             yield misfit(place, rate, "it is too fast for waves on this string", allowed=f"up to {limit:g} 1/s here")
     heaviest = max(scene.string.resistance.bottom, scene.string.resistance.top)
-    most = FASTEST / travel * scene.string.inertia
+    most = FASTEST / travel * scene.string.physical.inertia
     if heaviest > most:
         yield misfit(("string", "resistance"), heaviest, "it is too large", allowed=f"up to {most:g} kg/(m·s) here")
 

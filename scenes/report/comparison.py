@@ -15,7 +15,7 @@ from hydroelastic.scenes.output.sections import Section
 from hydroelastic.scenes.read import Scene
 
 if TYPE_CHECKING:
-    from hydroelastic.scenes.roll.solve import RollSolution
+    from hydroelastic.scenes.roll.results import RollResult
 
 
 def comparison_of(scene: Scene, outcome: Outcome) -> tuple[Section, ...] | str:
@@ -50,7 +50,7 @@ def _tank(scene: TankScene, outcome: Outcome) -> tuple[Section, ...] | str:
 
 
 def _string(scene: StringScene, outcome: Outcome) -> tuple[Section, ...] | str:
-    if not scene.string.has_closed_form:
+    if not scene.string.physical.has_closed_form:
         return "With a tip mass or a resistance that varies there is no series to compare with."
     if scene.method == "series":
         return (
@@ -58,9 +58,9 @@ def _string(scene: StringScene, outcome: Outcome) -> tuple[Section, ...] | str:
             "given by the command hydroelastic compare."
         )
     from hydroelastic.scenes.string.compare import compared, comparison_section
-    from hydroelastic.scenes.string.series import solve_series
+    from hydroelastic.scenes.string.solve import solve_series
 
-    return (comparison_section(compared(outcome.solution, solve_series(scene))),)
+    return (comparison_section(compared(outcome.solution.solution, solve_series(scene))),)
 
 
 def _thread(scene: ThreadScene, outcome: Outcome) -> Iterator[Section]:
@@ -73,10 +73,10 @@ def _thread(scene: ThreadScene, outcome: Outcome) -> Iterator[Section]:
     yield from comparison_sections(thread_differences(outcome.solution, estimates))
 
 
-def _roll(solution: RollSolution) -> tuple[Section, ...] | str:
+def _roll(result: RollResult) -> tuple[Section, ...] | str:
     from hydroelastic.scenes.roll.compare import paper_section, untreated_by_paper
 
-    untreated = untreated_by_paper(solution)
+    untreated = untreated_by_paper(result)
     if untreated:
         return f"The solution is a closed form; the paper's formulas do not treat this motion: {untreated}."
-    return (paper_section(solution),)
+    return (paper_section(result),)

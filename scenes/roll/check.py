@@ -1,20 +1,20 @@
-"""What the scene of a rolling ship will be modelled as, said before anything is solved."""
+"""Model and method of the scene of a rolling ship, shown before anything is solved."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from math import pi
 
-from hydroelastic.modal.roll.motion import Roll
 from hydroelastic.scenes.models.roll import RollScene
 from hydroelastic.scenes.output.digits import number
 from hydroelastic.scenes.output.sections import Row, Section
+from hydroelastic.scenes.roll.physics import rolling_ship
 from hydroelastic.scenes.roll.section_file import section_scene
 from hydroelastic.scenes.roll.summary import regime
 
 
 def check_roll(scene: RollScene) -> Iterator[Section]:
-    """Yield the equation, its constants, what is unknown, the waves and the method.
+    """Yield the equation, its constants, the unknowns, the waves and the method.
 
     Args:
         scene: a validated scene; nothing is solved.
@@ -51,10 +51,10 @@ def _ship(scene: RollScene) -> Iterator[str]:
             unit = "1/s" if scene.roll.damping is not None else "k"
             yield f"n on top of that: {number(given)} {unit}."
     else:
-        roll = Roll(frequency, scene.damping(frequency) or 0.0)
+        ship = rolling_ship(scene, None)
         yield (
-            f"k = {number(frequency)} rad/s (T = {number(2.0 * pi / frequency)} s), n = {number(roll.damping)} 1/s = "
-            f"{number(roll.damping / frequency)} k: {regime(roll)}."
+            f"k = {number(frequency)} rad/s (T = {number(2.0 * pi / frequency)} s), n = {number(ship.damping)} 1/s = "
+            f"{number(ship.damping / frequency)} k: {regime(ship)}."
         )
         times = scene.times(frequency)
         yield f"{len(times)} times until {number(times[-1])} s."

@@ -6,40 +6,41 @@ import numpy as np
 
 from hydroelastic.modal.roll.paper import ALL_ROLL_SLIPS, ROLL_SOURCE, RollSlip, paper_roll_angle
 from hydroelastic.scenes.output.sections import Section
-from hydroelastic.scenes.roll.solve import RollSolution
+from hydroelastic.scenes.roll.results import RollResult
 
-# Of the largest angle: what the sums of sines of the paper differ by without any slip.
+# Of the largest angle: rounding of the paper's sums of sines without any slip.
 _ROUNDING = 1e-11
 
 
-def untreated_by_paper(solution: RollSolution) -> str:
+def untreated_by_paper(result: RollResult) -> str:
     """Return why the paper's formulas do not treat a motion; empty if they do."""
-    roll, train, given = solution.roll, solution.train, solution.scene.roll
-    if given.quadratic_damping:
+    ship, train, given = result.solution.ship, result.solution.train, result.scene.roll
+    if ship.quadratic_damping:
         return "damping is quadratic"
-    if roll.damping >= roll.natural_frequency:
+    if ship.damping >= ship.natural_frequency:
         return "damping is critical or more"
     if given.angle or given.rate:
         return "the ship is not at rest when the first wave begins"
     if not len(train.periods):
         return "there are no waves"
-    if roll.damping == 0.0 and (train.frequencies == roll.natural_frequency).any():
+    if ship.damping == 0.0 and (train.frequencies == ship.natural_frequency).any():
         return "a wave meets the undamped ship in resonance"
     return ""
 
 
-def paper_section(solution: RollSolution) -> Section:
-    """Return what each of the paper's slips costs, and all of them together.
+def paper_section(result: RollResult) -> Section:
+    """Return the error from each of the paper's slips, and from all of them together.
 
     Args:
-        solution: of a motion that the paper treats.
+        result: of a motion that the paper treats.
     """
+    solution = result.solution
     exact, times = solution.motion.angle, solution.motion.times
     largest = float(np.abs(exact).max())
     printed = [("all formulas as printed", ALL_ROLL_SLIPS), *((slip.value, {slip}) for slip in RollSlip)]
     rows = []
     for name, slips in (*printed, ("all of them corrected", frozenset[RollSlip]())):
-        angle = paper_roll_angle(solution.roll, solution.train, times, slips)
+        angle = paper_roll_angle(solution.ship, solution.train, times, slips)
         difference = float(np.abs(angle - exact).max())
         small = difference <= _ROUNDING * largest
         rows.append(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from hydroelastic.scenes.output.summary_variables import SummaryNames
-from hydroelastic.scenes.roll.solve import RollSolution
+from hydroelastic.scenes.roll.results import RollResult
 
 if TYPE_CHECKING:
     import xarray
@@ -17,12 +17,12 @@ ROLL_NAMES = SummaryNames(
 )
 
 
-def roll_dataset(solution: RollSolution) -> xarray.Dataset:
+def roll_dataset(result: RollResult) -> xarray.Dataset:
     """Return the slope of the waves and the angle of the ship with its derivatives, SI units."""
     # xarray takes a while to import.
     import xarray
 
-    motion = solution.motion
+    solution, motion = result.solution, result.solution.motion
     return xarray.Dataset(
         {
             "wave_slope": (

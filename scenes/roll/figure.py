@@ -8,15 +8,16 @@ import numpy as np
 
 from hydroelastic.fem.pictures.options import PictureOptions
 from hydroelastic.scenes.output.curve_style import BLUE, GREEN, GREY, VERMILLION, Sheets, dress
-from hydroelastic.scenes.roll.solve import RollSolution
+from hydroelastic.scenes.roll.results import RollResult
 
 _WAVES = "#999999"
 
 
-def draw_roll(solution: RollSolution, folder: Path, options: PictureOptions) -> None:
+def draw_roll(result: RollResult, folder: Path, options: PictureOptions) -> None:
     """Draw ``roll.png`` into an existing folder: slope of the waves, angle and rate over time."""
+    solution = result.solution
     motion, statistics = solution.motion, solution.statistics
-    sheets = Sheets(folder=folder, title=solution.scene.title, options=options)
+    sheets = Sheets(folder=folder, title=result.scene.title, options=options)
     with sheets.sheet("roll", "roll", width=11.0, height=8.0) as figure:
         waves, upper, lower = figure.subplots(3, 1, sharex=True, height_ratios=(1, 2, 1))
         slope = np.degrees(solution.train.slope(motion.times))
@@ -25,7 +26,7 @@ def draw_roll(solution: RollSolution, folder: Path, options: PictureOptions) -> 
         largest = float(np.degrees(statistics.largest_angle))
         label = f"largest: {largest:.4g}° at {statistics.largest_time:.4g} s".replace("-", "−")
         upper.plot([statistics.largest_time], [largest], "o", color=VERMILLION, markersize=6, label=label)
-        for place, level in enumerate(np.degrees(solution.scene.output.levels)):
+        for place, level in enumerate(np.degrees(result.scene.output.levels)):
             for side in (level, -level):
                 name = "levels whose exceedances are counted" if place == 0 and side > 0 else None
                 upper.axhline(side, color=GREY, linewidth=0.8, linestyle="--", label=name)

@@ -6,14 +6,14 @@ from pathlib import Path
 
 import numpy as np
 
-from hydroelastic.scenes.roll.solve import RollSolution
+from hydroelastic.scenes.roll.results import RollResult
 
 COLUMNS = ("time", "wave_slope", "angle", "rate", "acceleration")
 
 
-def write_roll_files(solution: RollSolution, folder: Path) -> None:
+def write_roll_files(result: RollResult, folder: Path) -> None:
     """Write ``response.csv``, one row for each time, into an existing folder; SI units."""
-    motion = solution.motion
+    solution, motion = result.solution, result.solution.motion
     values = (motion.times, solution.train.slope(motion.times), motion.angle, motion.rate, motion.acceleration)
     np.savetxt(
         folder / "response.csv",

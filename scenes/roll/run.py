@@ -17,7 +17,7 @@ run_roll = StagedRun(
     summarize=summarize_roll,
     write=write_roll_files,
     dataset=LabelledResults(arrays=roll_dataset, names=ROLL_NAMES),
-    draw=lambda solution, folder, options, _report: draw_roll(solution, folder, options),
+    draw=lambda result, folder, options, _report: draw_roll(result, folder, options),
     heeds=OF_CURVES,
     sections=lambda _solution, summary: roll_sections(summary),
     cost=roll_cost,

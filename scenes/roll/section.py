@@ -20,6 +20,7 @@ import numpy as np
 from mpi4py import MPI
 from scipy.optimize import root_scalar
 
+from hydroelastic.fem.bodies.rigid_float import principal_motions
 from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.scenes.errors import UnsolvedError
@@ -29,7 +30,6 @@ from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.radiation import solve_radiation
 from hydroelastic.scenes.open_water.resonance import solve_resonance
 from hydroelastic.scenes.open_water.results import RadiationTable
-from hydroelastic.scenes.tank.float_summary import float_rows
 from hydroelastic.scenes.tank.solve import solve_scene
 
 # Of the tolerance asked: a step of the root finder that changes k by less is the last.
@@ -70,8 +70,8 @@ def section_roll(scene: TankScene, comm: MPI.Comm, watch: Stopwatch, report: Rep
     Args:
         scene: a tank or open water with one body, a float that may roll and floats upright.
         comm: MPI communicator.
-        watch: told the time.
-        report: told what is being done.
+        watch: records the time by stage.
+        report: called with a word on what is being done.
 
     Raises:
         UnsolvedError: if the field solution does not keep its tolerance or shows no roll of its own.
@@ -85,27 +85,39 @@ def _in_a_tank(scene: TankScene, comm: MPI.Comm, watch: Stopwatch, report: Repor
         solution = solve_scene(scene, comm=comm, report=report)
     if solution.reasons:
         raise UnsolvedError(f"the section was not solved to its tolerance: {'; '.join(solution.reasons)}")
-    (row,) = float_rows(solution, {})
-    mode = next((mode for mode in row["modes"] if mode["motion"] == "roll"), None)
-    if mode is None or mode["omega"] is None:
-        raise UnsolvedError(f"the section has no mode of roll{'' if mode is None else ': ' + mode['note']}")
+    mode = next((mode for mode in solution.float_modes if mode.motion == "roll"), None)
+    if mode is None or mode.index is None:
+        raise UnsolvedError(f"the section has no mode of roll{'' if mode is None else ': ' + mode.reason}")
+    eigenvalue = float(solution.modes.eigenvalues[mode.index])
+    natural = solution.omega(eigenvalue)
+    body = solution.tank.floats[mode.body]
+    _, stiffnesses, inertias = principal_motions(body, body.motions)
+    roll = body.motions.index("roll")
+    # Per unit of length a moment of inertia is a density times the fourth power of a length.
+    unit = solution.units.density * solution.units.length**4
+    added = (float(stiffnesses[roll]) / eigenvalue - float(inertias[roll])) * unit
+    inertia = _inertia(scene)
     return SectionRoll(
         title=scene.title,
-        natural_frequency=mode["omega"],
-        relative_error=mode["relative_error"],
+        natural_frequency=natural,
+        relative_error=float(solution.relative_errors[mode.index]),
         damping=None,
-        stiffness=mode["omega"] ** 2 * (row["moment_of_inertia"] + mode["added_mass"]),
-        inertia=row["moment_of_inertia"],
-        added_inertia=mode["added_mass"],
+        stiffness=natural**2 * (inertia + added),
+        inertia=inertia,
+        added_inertia=added,
         wave_damping=None,
-        followers=tuple(motion for motion in row["motions"] if motion != "roll"),
+        followers=tuple(motion for motion in body.motions if motion != "roll"),
     )
 
 
+def _inertia(scene: TankScene) -> float:
+    """Moment of inertia of the body about its centre of mass, kg·m."""
+    at_rest = placed_float(scene, 0).hydrostatics
+    return at_rest.mass * at_rest.radius_of_gyration**2
+
+
 def _in_open_water(scene: TankScene, comm: MPI.Comm, watch: Stopwatch) -> SectionRoll:
-    placed = placed_float(scene, 0)
-    at_rest = placed.hydrostatics
-    stiffness, inertia = placed.roll_stiffness, at_rest.mass * at_rest.radius_of_gyration**2
+    stiffness, inertia = placed_float(scene, 0).roll_stiffness, _inertia(scene)
 
     def radiation(omega: float) -> tuple[RadiationTable, float]:
         with watch.stage("section"):

@@ -1,4 +1,4 @@
-"""What the scene of a hanging string will be modelled as, said before anything is solved."""
+"""Model and method of the scene of a hanging string, shown before anything is solved."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _MOTIONS = {
 
 
 def check_string(scene: StringScene) -> Iterator[Section]:
-    """Yield the equation, its constants, what is unknown, the motion of the upper end and the method.
+    """Yield the equation, its constants, the unknowns, the motion of the upper end and the method.
 
     Args:
         scene: a validated scene; nothing is solved.
@@ -34,7 +34,7 @@ def _unknowns(scene: StringScene) -> Iterator[Row]:
     yield "T: none", "string", "the tension is the weight that hangs below, and known"
     string = scene.string
     ways = []
-    if string.damping:
+    if string.physical.damping:
         ways.append("its resistance λ")
     if string.added_mass or string.displaced_mass or string.tip_displaced_mass:
         ways.append("the masses that it adds and displaces")
@@ -52,9 +52,9 @@ def _string(scene: StringScene) -> Iterator[str]:
         yield f"A body of M = {number(string.tip_mass)} kg{displaced} hangs on the free end and moves with it."
     resistance = string.resistance
     drag = number(resistance.bottom)
-    drag += "" if resistance.is_uniform else f" to {number(resistance.top)}"
-    whole = string.travel_time
-    yield f"λ = {drag} kg/(m·s), mean α = {number(string.damping)} 1/s, αR = {number(string.damping * whole)}."
+    drag += "" if resistance.bottom == resistance.top else f" to {number(resistance.top)}"
+    whole, damping = string.physical.travel_time, string.physical.damping
+    yield f"λ = {drag} kg/(m·s), mean α = {number(damping)} 1/s, αR = {number(damping * whole)}."
     yield f"A wave takes R = {number(whole)} s from end to end; before its front nothing moves."
 
 
@@ -74,7 +74,7 @@ def _method(scene: StringScene) -> Iterator[str]:
     reasons = []
     if scene.string.tip_mass:
         reasons.append("a body hangs on the end")
-    if not scene.string.resistance.is_uniform:
+    if scene.string.resistance.bottom != scene.string.resistance.top:
         reasons.append("the resistance varies")
     why = f", for {' and '.join(reasons)}" if reasons else ""
     yield (

@@ -9,14 +9,14 @@ from mpi4py import MPI
 from pydantic import ValidationError
 
 from hydroelastic.fem.stopwatch import Report
+from hydroelastic.modal.string.solution import StringSolution
 from hydroelastic.scenes.errors import Problem, SceneError, scene_error
 from hydroelastic.scenes.models.string import StringScene
 from hydroelastic.scenes.output.outcome import Outcome
 from hydroelastic.scenes.output.provenance import Summary
 from hydroelastic.scenes.output.sections import Section
-from hydroelastic.scenes.string.field import solve_string_field
-from hydroelastic.scenes.string.results import StringSolution
-from hydroelastic.scenes.string.series import solve_series
+from hydroelastic.scenes.string.results import StringResult
+from hydroelastic.scenes.string.solve import solve_series, solve_string_field
 from hydroelastic.scenes.string.summary import summarize_string
 from hydroelastic.scenes.string.tables import string_cost
 
@@ -26,13 +26,13 @@ def compare_string(scene: StringScene, *, report: Report = lambda _message: None
 
     Args:
         scene: with a uniform resistance and nothing on the free end.
-        report: told what is being done.
+        report: called with a word on what is being done.
 
     Raises:
         SceneError: if there is no series, or the motion is too fast or too long for a field solution.
         UnsolvedError: if the eigen-solver of the field solution fails.
     """
-    if not scene.string.has_closed_form:
+    if not scene.string.physical.has_closed_form:
         raise SceneError(
             Problem(
                 key="[string]",
@@ -42,11 +42,12 @@ def compare_string(scene: StringScene, *, report: Report = lambda _message: None
             )
         )
     comm = MPI.COMM_WORLD
-    field = solve_string_field(_as_field(scene), comm, report)
+    as_field = _as_field(scene)
+    field = StringResult(scene=as_field, solution=solve_string_field(as_field, comm, report))
     report("series")
     series = solve_series(scene)
     summary = summarize_string(field, comm, import_seconds=0.0)
-    summary["comparison"] = compared(field, series)
+    summary["comparison"] = compared(field.solution, series)
     sections = (comparison_section(summary["comparison"]),)
     return Outcome(solution=field, summary=summary, sections=sections, cost=string_cost(summary))
 
@@ -62,7 +63,7 @@ def _as_field(scene: StringScene) -> StringScene:
 
 
 def compared(field: StringSolution, series: StringSolution) -> Summary:
-    """Return the differences of two solutions of one scene, and what each took.
+    """Return the differences of two solutions of one scene, and the time of each.
 
     Args:
         field: the field solution.
@@ -71,14 +72,16 @@ def compared(field: StringSolution, series: StringSolution) -> Summary:
     scale = series.largest or 1.0
     difference = np.abs(field.displacement - series.displacement) / scale
     away = ~field.beside_fronts
-    count = min(len(field.motions.roots), len(series.motions.roots))
-    roots = np.abs(field.motions.roots[:count] - series.motions.roots[:count]) / np.abs(series.motions.roots[:count])
+    count = min(len(field.free_motions.roots), len(series.free_motions.roots))
+    roots = np.abs(field.free_motions.roots[:count] - series.free_motions.roots[:count]) / np.abs(
+        series.free_motions.roots[:count]
+    )
     found: dict[str, Any] = {
         "displacement": float(difference[away].max(initial=0.0)),
         "displacement_estimate": field.relative_error,
         "displacement_root_mean_square": float(np.sqrt(np.mean(difference**2))),
         "modes": float(roots.max(initial=0.0)),
-        "modes_estimate": field.mode_error,
+        "modes_estimate": field.frequency_error,
         "field_seconds": sum(field.seconds.values()),
         "series_seconds": sum(series.seconds.values()),
     }

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hydroelastic.scenes.output.summary_variables import SummaryNames
-from hydroelastic.scenes.string.results import StringSolution
+from hydroelastic.scenes.string.results import StringResult
 
 if TYPE_CHECKING:
     import xarray
@@ -20,12 +20,12 @@ STRING_NAMES = SummaryNames(
 )
 
 
-def string_dataset(solution: StringSolution) -> xarray.Dataset:
+def string_dataset(result: StringResult) -> xarray.Dataset:
     """Return displacement, its error, and the free motions, SI units."""
     # xarray takes a while to import.
     import xarray
 
-    motions = solution.motions
+    solution, motions = result.solution, result.solution.free_motions
     where = ("position", "time")
     return xarray.Dataset(
         {

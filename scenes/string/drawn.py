@@ -1,41 +1,38 @@
-"""The motion of a string as it is drawn: at places and times of its own where a scene asks for few of them."""
+"""The motion of a string for pictures: at more positions and times where a scene asks for few."""
 
 from __future__ import annotations
 
 import numpy as np
 
+from hydroelastic.modal.string.solution import Floats, StringSolution
 from hydroelastic.scenes.models.string import DEFAULT_POSITIONS, DEFAULT_TIMES
-from hydroelastic.scenes.string.results import Floats, StringSolution
+from hydroelastic.scenes.string.results import StringResult
+from hydroelastic.scenes.string.solve import solve_series
 
-# From so many times on a motion is smooth as it is; from so many places on a shape is.
+# With so many times a motion, and with so many positions a shape, is smooth as it is.
 _ENOUGH_TIMES = 61
 _ENOUGH_POSITIONS = 61
 
 
-def as_drawn(solution: StringSolution) -> StringSolution:
-    """Return the same motion with more places and times between the asked ones, which are among them.
+def as_drawn(result: StringResult) -> StringSolution:
+    """Return the same motion at more positions and times, those asked included.
 
     A series is summed once more. A field solution would take its whole time again: it is drawn as it is.
 
     Args:
-        solution: as the scene asks for it.
+        result: as the scene asks for it.
     """
-    scene = solution.scene
+    scene, solution = result.scene, result.solution
     few_positions = len(solution.positions) < _ENOUGH_POSITIONS
     few_times = len(solution.times) < _ENOUGH_TIMES
     if scene.method != "series" or not (few_positions or few_times):
         return solution
-    from hydroelastic.scenes.string.series import solve_series
-
-    grid: dict[str, tuple[float, ...]] = {}
+    positions, times = solution.positions, solution.times
     if few_positions:
-        own = scene.string.length * np.linspace(0.0, 1.0, DEFAULT_POSITIONS) ** 2
-        grid["positions"] = tuple(map(float, np.union1d(solution.positions, own)))
+        positions = np.union1d(positions, scene.string.length * np.linspace(0.0, 1.0, DEFAULT_POSITIONS) ** 2)
     if few_times:
-        own = np.linspace(0.0, solution.times[-1], DEFAULT_TIMES)
-        grid["times"] = tuple(map(float, np.union1d(solution.times, own)))
-    output = scene.output.model_copy(update=grid)
-    return solve_series(scene.model_copy(update={"output": output}))
+        times = np.union1d(times, np.linspace(0.0, times[-1], DEFAULT_TIMES))
+    return solve_series(scene, positions, times)
 
 
 def columns_of(solution: StringSolution, times: Floats) -> list[int]:
@@ -43,11 +40,12 @@ def columns_of(solution: StringSolution, times: Floats) -> list[int]:
     return sorted({int(np.argmin(np.abs(solution.times - time))) for time in times})
 
 
-def jumps_in_animation(solution: StringSolution) -> tuple[str, ...]:
-    """Say what an animation lacks, and which key gives it."""
+def jumps_in_animation(result: StringResult) -> tuple[str, ...]:
+    """Return why there is no animation, or a coarse one, and which key gives it."""
+    solution = result.solution
     if solution.times[-1] == 0.0:
         return ('the string is not animated: give [output] key "times" times after 0',)
-    if solution.scene.method != "series" and len(solution.times) < _ENOUGH_TIMES:
+    if result.scene.method != "series" and len(solution.times) < _ENOUGH_TIMES:
         return (
             f"the animation has {len(solution.times)} pages only, one for each time of the field solution: give "
             f'[output] key "times" {_ENOUGH_TIMES} or more',

@@ -8,6 +8,7 @@ from typing import Any, Literal
 import numpy as np
 
 from hydroelastic.fem.pictures.options import PictureOptions
+from hydroelastic.modal.string.solution import Floats, StringSolution
 from hydroelastic.scenes.output.curve_style import (
     COLOURS,
     DASHES,
@@ -20,8 +21,7 @@ from hydroelastic.scenes.output.curve_style import (
 from hydroelastic.scenes.output.line_sequence import frame_numbers
 from hydroelastic.scenes.string.drawn import as_drawn, columns_of
 from hydroelastic.scenes.string.frames import HEIGHT, animate_string, draw_frames
-from hydroelastic.scenes.string.fronts import travel_times
-from hydroelastic.scenes.string.results import Floats, StringSolution
+from hydroelastic.scenes.string.results import StringResult
 
 _SHOWN_SHAPES = 9
 _SHOWN_MODES = 5
@@ -38,21 +38,21 @@ _EXTENDED: dict[tuple[bool, bool], Literal["neither", "min", "max", "both"]] = {
 _FEW_POSITIONS = 20
 
 
-def draw_string(solution: StringSolution, folder: Path, options: PictureOptions) -> None:
+def draw_string(result: StringResult, folder: Path, options: PictureOptions) -> None:
     """Draw ``space_time.png``, ``shapes.png``, ``modes.png``, and frames in ``frames/``, into an existing folder.
 
     ``motion.gif`` is drawn if asked.
     """
-    sheets = Sheets(folder=folder, title=solution.scene.title, options=options)
-    drawn = as_drawn(solution)
+    sheets = Sheets(folder=folder, title=result.scene.title, options=options)
+    times, drawn = result.solution.times, as_drawn(result)
     if len(drawn.positions) > 1 and len(drawn.times) > 1:
         _draw_space_time(drawn, sheets)
         _draw_modes(drawn, sheets)
-    _draw_shapes(drawn, solution.times, sheets)
-    if solution.scene.output.frames:
+    _draw_shapes(drawn, times, sheets)
+    if result.scene.output.frames:
         (folder / "frames").mkdir()
-        numbers = frame_numbers(solution.scene.output.frames, len(solution.times))
-        draw_frames(drawn, columns_of(drawn, solution.times[numbers]), folder / "frames", options)
+        numbers = frame_numbers(result.scene.output.frames, len(times))
+        draw_frames(drawn, columns_of(drawn, times[numbers]), folder / "frames", options)
     if options.animate:
         animate_string(drawn, folder / "motion.gif", options)
 
@@ -76,9 +76,14 @@ def _draw_space_time(solution: StringSolution, sheets: Sheets) -> None:
             rasterized=True,
         )
         figure.colorbar(picture, ax=axes, label="displacement U, m", extend=_EXTENDED[beyond])
-        string = solution.scene.string
-        arrival = string.travel_time - travel_times(string, solution.positions)
-        axes.plot(arrival, solution.positions, "--", color="black", linewidth=1.0, label="first wave front")
+        axes.plot(
+            solution.string.arrival_times(solution.positions),
+            solution.positions,
+            "--",
+            color="black",
+            linewidth=1.0,
+            label="first wave front",
+        )
         axes.grid(visible=False)
         axes.set_xlim(solution.times[0], solution.times[-1])
         dress(axes, "time t, s", HEIGHT)
@@ -119,7 +124,7 @@ def _draw_shapes(solution: StringSolution, times: Floats, sheets: Sheets) -> Non
 
 
 def _draw_modes(solution: StringSolution, sheets: Sheets) -> None:
-    motions = solution.motions
+    motions = solution.free_motions
     with sheets.sheet("modes", "free motions", width=6.5, height=7.5) as figure:
         axes = figure.subplots()
         axes.axvline(0.0, color=GREY, linewidth=0.8)

@@ -7,19 +7,20 @@ from pathlib import Path
 
 import numpy as np
 
+from hydroelastic.modal.string.solution import FreeMotions, StringSolution
 from hydroelastic.scenes.output.line_sequence import Frame, frame_numbers, write_sequence
-from hydroelastic.scenes.string.results import StringSolution
+from hydroelastic.scenes.string.results import StringResult
 
 COLUMNS = ("time", "position", "displacement", "absolute_error")
 
 
-def write_string_files(solution: StringSolution, folder: Path) -> None:
+def write_string_files(result: StringResult, folder: Path) -> None:
     """Write ``response.csv``, ``modes.csv`` and ``fields/`` into an existing folder; SI units."""
-    _write_response(solution, folder / "response.csv")
-    _write_modes(solution, folder / "modes.csv")
-    if solution.scene.output.frames:
+    _write_response(result.solution, folder / "response.csv")
+    _write_modes(result.solution.free_motions, folder / "modes.csv")
+    if result.scene.output.frames:
         (folder / "fields").mkdir()
-        write_sequence(folder / "fields", "string", _frames(solution))
+        write_sequence(folder / "fields", "string", _frames(result.solution, result.scene.output.frames))
 
 
 def _write_response(solution: StringSolution, file: Path) -> None:
@@ -31,9 +32,8 @@ def _write_response(solution: StringSolution, file: Path) -> None:
     np.savetxt(file, rows, delimiter=",", fmt=formats, header=",".join(COLUMNS), comments="", encoding="utf-8")
 
 
-def _write_modes(solution: StringSolution, file: Path) -> None:
-    motions = solution.motions
-    relative = motions.errors / np.abs(motions.roots)
+def _write_modes(motions: FreeMotions, file: Path) -> None:
+    relative = motions.relative_errors
     rows = np.column_stack(
         [np.arange(1, len(relative) + 1), motions.frequencies, motions.roots.real, motions.roots.imag, relative]
     )
@@ -42,9 +42,9 @@ def _write_modes(solution: StringSolution, file: Path) -> None:
     np.savetxt(file, rows, delimiter=",", fmt=formats, header=header, comments="", encoding="utf-8")
 
 
-def _frames(solution: StringSolution) -> Iterator[Frame]:
+def _frames(solution: StringSolution, count: int) -> Iterator[Frame]:
     """The string at each frame as a line in the plane."""
-    for number in frame_numbers(solution.scene.output.frames, len(solution.times)):
+    for number in frame_numbers(count, len(solution.times)):
         moved = solution.displacement[:, number]
         points = np.column_stack([moved, solution.positions, np.zeros(len(moved))])
         data = {"displacement": moved, "absolute_error": solution.absolute_error[:, number]}

@@ -10,9 +10,9 @@ import numpy as np
 
 from hydroelastic.fem.pictures.gif import FRAMES, SECONDS, write_gif
 from hydroelastic.fem.pictures.options import PictureOptions
+from hydroelastic.modal.string.solution import StringSolution
 from hydroelastic.scenes.output.curve_style import BLUE, curve_style, dress
 from hydroelastic.scenes.string.drawn import columns_of
-from hydroelastic.scenes.string.results import StringSolution
 
 if TYPE_CHECKING:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -55,7 +55,7 @@ def _frames(
         axes = figure.subplots()
         reach = 1.05 * max(solution.largest, 1e-300)
         axes.set_xlim(-reach, reach)
-        axes.set_ylim(0.0, 1.02 * solution.scene.string.length)
+        axes.set_ylim(0.0, 1.02 * solution.string.length)
         (line,) = axes.plot([], [], color=BLUE, linewidth=2.0)
         (end,) = axes.plot([], [], "s", color="black", markersize=6)
         dress(axes, "displacement U, m", HEIGHT, legend="")

@@ -18,7 +18,7 @@ run_string = StagedRun(
     summarize=summarize_string,
     write=write_string_files,
     dataset=LabelledResults(arrays=string_dataset, names=STRING_NAMES),
-    draw=lambda solution, folder, options, _report: draw_string(solution, folder, options),
+    draw=lambda result, folder, options, _report: draw_string(result, folder, options),
     lacking=jumps_in_animation,
     heeds=OF_CURVES | OF_MOTIONS,
     sections=lambda _solution, summary: string_sections(summary),

@@ -7,42 +7,42 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from hydroelastic.modal.string.closed_form import first_oscillating_mode, natural_frequency, steady_amplitude
 from hydroelastic.modal.string.resonance import nearest_resonance
-from hydroelastic.scenes.models.string import SineMotion
+from hydroelastic.modal.string.solution import FreeMotions, StringSolution
+from hydroelastic.physics.string import HangingString
+from hydroelastic.scenes.models.string import SineMotion, StringScene
 from hydroelastic.scenes.output.provenance import Summary, framed_summary
-from hydroelastic.scenes.string.fronts import BESIDE
-from hydroelastic.scenes.string.results import StringMotions, StringSolution
-from hydroelastic.scenes.string.series import closed_form
+from hydroelastic.scenes.string.results import StringResult
 
 if TYPE_CHECKING:
     from mpi4py import MPI
 
 
-def summarize_string(solution: StringSolution, comm: MPI.Comm, *, import_seconds: float) -> Summary:
+def summarize_string(result: StringResult, comm: MPI.Comm, *, import_seconds: float) -> Summary:
     """Build the summary of a solved scene (collective: peak memory is summed over processes).
 
     Args:
-        solution: the motion.
+        result: the solved scene.
         comm: the processes.
         import_seconds: time spent importing libraries.
 
     Returns:
         The content of ``summary.json``.
     """
-    scene = solution.scene
+    scene, solution = result.scene, result.solution
     content = {
         "method": scene.method,
-        "string": _string(solution),
-        "modes": modes(solution.motions),
+        "string": _string(solution.string),
+        "modes": modes(solution.free_motions),
         "response": _response(solution),
-        "steady": _steady(solution),
+        "steady": _steady(scene, solution),
     }
-    return framed_summary(solution, content, solution.size, comm, import_seconds)
+    return framed_summary(result, content, solution.size, comm, import_seconds)
 
 
-def _string(solution: StringSolution) -> dict[str, Any]:
+def _string(string: HangingString) -> dict[str, Any]:
     """What is known beforehand; the criterion of oscillation is that of a uniform string with a free end."""
-    string = solution.scene.string
     found: dict[str, Any] = {
         "travel_time": string.travel_time,
         "damping": string.damping,
@@ -51,13 +51,12 @@ def _string(solution: StringSolution) -> dict[str, Any]:
         "critical_resistance": None,
     }
     if string.has_closed_form:
-        exact = closed_form(solution.scene)
-        found["first_oscillating_mode"] = exact.first_oscillating_mode()
-        found["critical_resistance"] = exact.least_damping_without_oscillation(1) * string.inertia
+        found["first_oscillating_mode"] = first_oscillating_mode(string)
+        found["critical_resistance"] = natural_frequency(string, 1) * string.inertia
     return found
 
 
-def modes(motions: StringMotions) -> list[dict[str, Any]]:
+def modes(motions: FreeMotions) -> list[dict[str, Any]]:
     """Return one entry for each free motion."""
     return [
         {
@@ -66,9 +65,9 @@ def modes(motions: StringMotions) -> list[dict[str, Any]]:
             "damped_omega": float(root.imag),
             "decay": float(-root.real),
             "kind": "oscillating" if root.imag > 0.0 else "aperiodic",
-            "relative_error": float(error / abs(root)),
+            "relative_error": float(error),
         }
-        for root, frequency, error in zip(motions.roots, motions.frequencies, motions.errors, strict=True)
+        for root, frequency, error in zip(motions.roots, motions.frequencies, motions.relative_errors, strict=True)
     ]
 
 
@@ -85,20 +84,19 @@ def _response(solution: StringSolution) -> dict[str, Any]:
         "absolute_error": float(solution.absolute_error[solution.judged].max()),
         "relative_error": solution.relative_error,
         "beside_fronts": {
-            "within": BESIDE[solution.scene.method],
+            "within": solution.front_margin,
             "points": int(beside.sum()),
             "absolute_error": float(solution.absolute_error[beside].max(initial=0.0)),
         },
     }
 
 
-def _steady(solution: StringSolution) -> dict[str, Any] | None:
+def _steady(scene: StringScene, solution: StringSolution) -> dict[str, Any] | None:
     """The amplitude A(x) of the steady motion under a sine; infinite in resonance without damping, there null."""
-    scene = solution.scene
-    if not isinstance(scene.motion, SineMotion) or not scene.string.has_closed_form:
+    string, given = solution.string, scene.motion
+    if not isinstance(given, SineMotion) or not string.has_closed_form:
         return None
-    string, given = closed_form(scene), scene.motion
-    amplitude = abs(given.amplitude) * string.amplitude(given.omega, solution.positions)
+    amplitude = abs(given.amplitude) * steady_amplitude(string, given.omega, solution.positions)
     resonance = nearest_resonance(string, given.omega)
     return {
         "positions": solution.positions.tolist(),

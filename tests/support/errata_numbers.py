@@ -7,8 +7,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from uniform_strings import uniform_string
 
-from hydroelastic.modal import HangingString, PrintedAndCorrected, Ramp, Roll, Sine, Smooth, Step, roll_response
+from hydroelastic.modal import HangingString, PrintedAndCorrected, Ramp, Ship, Sine, Smooth, Step, roll_response
 from hydroelastic.modal.roll.paper import (
     ALL_ROLL_SLIPS,
     PRINTED_ROLL,
@@ -47,7 +48,7 @@ def row(number: Number) -> str:
 
 
 def _string(damping: float, length: float = 1.0) -> HangingString:
-    return HangingString(length=length, damping=damping)
+    return uniform_string(length=length, damping=damping)
 
 
 STRING_NUMBERS = (
@@ -61,21 +62,25 @@ STRING_NUMBERS = (
     Number(
         13,
         "U/Δ, smooth, a = 2, b = 1.6 1/s, x = 0.3 m, t = 1.2 s",
-        lambda: smooth_motion(_string(2.0), Smooth(1.0, 1.6), 0.3, 1.2),
+        lambda: smooth_motion(_string(2.0), Smooth(amplitude=1.0, rate=1.6), 0.3, 1.2),
     ),
     Number(
         14,
         "U/Δ, smooth, a = 1, b = 1.2 1/s, x = 0.05 m, t = 0.6 s",
-        lambda: smooth_motion(_string(1.0), Smooth(1.0, 1.2), 0.05, 0.6),
+        lambda: smooth_motion(_string(1.0), Smooth(amplitude=1.0, rate=1.2), 0.05, 0.6),
     ),
     Number(15, "U/Δ, step, a = 0, x = 0.25 m, t = 1.1 s", lambda: step_motion(_string(0.0), 1.0, 0.25, 1.1)),
-    Number(16, "error of 3 terms, ramp, a = 0", lambda: few_terms_error(_string(0.0), Ramp(1.0), 3)),
+    Number(16, "error of 3 terms, ramp, a = 0", lambda: few_terms_error(_string(0.0), Ramp(speed=1.0), 3)),
     Number(
         16,
         "error of 3 terms, sine of 10 √(g/l), a = 0",
-        lambda: few_terms_error(_string(0.0), Sine(1.0, 10.0 * math.sqrt(9.81)), 3),
+        lambda: few_terms_error(_string(0.0), Sine(amplitude=1.0, omega=10.0 * math.sqrt(9.81)), 3),
     ),
-    Number(16, "error of 3 terms, step, a = √(g/l)", lambda: few_terms_error(_string(math.sqrt(9.81)), Step(1.0), 3)),
+    Number(
+        16,
+        "error of 3 terms, step, a = √(g/l)",
+        lambda: few_terms_error(_string(math.sqrt(9.81)), Step(amplitude=1.0), 3),
+    ),
 )
 
 
@@ -97,14 +102,20 @@ def _angle(time: float) -> PrintedAndCorrected:
 def _at_critical_damping() -> PrintedAndCorrected:
     """φ at 20 s; the paper has none."""
     k = PRINTED_ROLL.natural_frequency
-    return PrintedAndCorrected(printed=math.nan, corrected=float(roll_response(Roll(k, k), PRINTED_TRAIN, 20.0).angle))
+    return PrintedAndCorrected(
+        printed=math.nan,
+        corrected=float(roll_response(Ship(natural_frequency=k, damping=k), PRINTED_TRAIN, 20.0).angle),
+    )
 
 
 def _difference_of_dampings() -> PrintedAndCorrected:
     """Between n = 0.6 k and 0.96 k; the paper sees none."""
     times = np.linspace(0.0, 54.6, 10921)
     k = PRINTED_ROLL.natural_frequency
-    one, other = (roll_response(Roll(k, factor * k), PRINTED_TRAIN, times).angle for factor in (0.6, 0.96))
+    one, other = (
+        roll_response(Ship(natural_frequency=k, damping=factor * k), PRINTED_TRAIN, times).angle
+        for factor in (0.6, 0.96)
+    )
     return PrintedAndCorrected(printed=0.0, corrected=float(np.abs(one - other).max()))
 
 

@@ -11,25 +11,27 @@ import numpy as np
 import numpy.typing as npt
 from scipy.linalg import expm
 
-from hydroelastic.modal import Roll, WaveTrain
+from hydroelastic.modal import Ship, WaveTrain
 
 K = math.pi / 6
-TRAIN = WaveTrain([8.2, 7.7, 7.5, 8.5, 7.7], [0.03, -0.05, 0.045, 0.06, 0.02])
-PRINTED = WaveTrain(TRAIN.periods, np.ones(5))
+TRAIN = WaveTrain(periods=[8.2, 7.7, 7.5, 8.5, 7.7], slopes=[0.03, -0.05, 0.045, 0.06, 0.02])
+PRINTED = WaveTrain(periods=TRAIN.periods, slopes=np.ones(5))
 
 _REFERENCE = json.loads((Path(__file__).parents[1] / "reference" / "string_and_roll.json").read_text(encoding="utf-8"))
 SHIPS: dict[str, Any] = {case["id"]: case for case in _REFERENCE["cases"] if case["paper"] == "004"}
 
 
-def reference_ship(name: str) -> tuple[Roll, WaveTrain, float]:
+def reference_ship(name: str) -> tuple[Ship, WaveTrain, float]:
     """Return ship, waves and time of a reference case."""
     inputs = SHIPS[name]["inputs"]
-    train = WaveTrain([float(period) for period in inputs["T"]], [float(slope) for slope in inputs["slope"]])
-    return Roll(float(inputs["k"]), float(inputs["n"])), train, float(inputs["t"])
+    train = WaveTrain(
+        periods=[float(period) for period in inputs["T"]], slopes=[float(slope) for slope in inputs["slope"]]
+    )
+    return Ship(natural_frequency=float(inputs["k"]), damping=float(inputs["n"])), train, float(inputs["t"])
 
 
 def exponential_motion(
-    roll: Roll, train: WaveTrain, times: npt.ArrayLike, angle: float = 0.0, rate: float = 0.0
+    roll: Ship, train: WaveTrain, times: npt.ArrayLike, angle: float = 0.0, rate: float = 0.0
 ) -> npt.NDArray[np.float64]:
     """Return φ and φ' at times from 0, shape (2, times), by exponentials of the matrix of (φ, φ', sin ωτ, cos ωτ)."""
     times = np.atleast_1d(np.asarray(times, float))

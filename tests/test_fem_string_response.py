@@ -9,9 +9,9 @@ from numpy.polynomial import chebyshev
 from scipy.integrate import quad
 from string_closed_forms import FREQUENCIES, Motion, ramp, sine, smooth, step
 
-from hydroelastic.fem.string.model import StringModel
-from hydroelastic.fem.string.soft_motion import SoftMotion
-from hydroelastic.fem.string.solution import string_solution
+from hydroelastic.fem.string.response import field_response
+from hydroelastic.fem.string.smoothed_motion import SmoothedMotion
+from hydroelastic.physics.string import HangingString
 
 COMM = MPI.COMM_WORLD
 MOTIONS = {"ramp": ramp(), "sine": sine(1.7), "smooth": smooth(2.0), "step": step(), "fast": smooth(15.0)}
@@ -20,8 +20,8 @@ POSITIONS = np.array([0.0, 0.04, 0.1, 0.25, 0.36, 0.5, 0.7, 0.9])
 TIMES = np.array([0.5, 1.1, 1.7, 2.8, 3.3, 4.7])
 
 
-def plain(damping: float) -> StringModel:
-    return StringModel(length=1.0, linear_density=1.0, gravity=1.0, resistance=(damping, damping))
+def plain(damping: float) -> HangingString:
+    return HangingString(length=1.0, linear_density=1.0, gravity=1.0, resistance=(damping, damping))
 
 
 @pytest.mark.parametrize("damping", [0.0, float(FREQUENCIES[0]), 9.0])
@@ -30,7 +30,7 @@ def test_closed_forms_are_met_to_the_tolerance(name: str, damping: float) -> Non
     motion = MOTIONS[name]
     exact = motion.answer(damping, POSITIONS, TIMES)
     for tolerance in (1e-3, 1e-5):
-        solution = string_solution(COMM, plain(damping), motion, POSITIONS, TIMES, tolerance=tolerance)
+        solution = field_response(COMM, plain(damping), motion, POSITIONS, TIMES, tolerance=tolerance)
         errors = np.abs(solution.values - exact)
         assert solution.converged, solution.problem
         assert errors.max() <= tolerance
@@ -42,26 +42,26 @@ def test_closed_forms_are_met_to_the_tolerance(name: str, damping: float) -> Non
 @pytest.mark.mpi
 def test_smooth_motion_to_seven_digits_in_si_units() -> None:
     # U(0.36 m, 0.9 s) of a metre of string with damping 0.5 1/s moved by (1 − e^{−4t})² m: a series of 20 digits.
-    model = StringModel(length=1.0, linear_density=2.0, resistance=(1.0, 1.0))
-    solution = string_solution(COMM, model, smooth(4.0), [0.36], [0.9], tolerance=1e-7)
+    model = HangingString(length=1.0, linear_density=2.0, resistance=(1.0, 1.0))
+    solution = field_response(COMM, model, smooth(4.0), [0.36], [0.9], tolerance=1e-7)
     assert solution.values[0, 0] == pytest.approx(1.0619715878918396711, abs=1e-9)
     assert solution.converged
 
 
 def test_other_lengths_and_gravities() -> None:
-    model = StringModel(length=25.0, linear_density=0.3, resistance=(0.09, 0.09))
-    solution = string_solution(COMM, model, step(), [4.0], [5.2], tolerance=1e-7)
+    model = HangingString(length=25.0, linear_density=0.3, resistance=(0.09, 0.09))
+    solution = field_response(COMM, model, step(), [4.0], [5.2], tolerance=1e-7)
     # A series of 20 digits.
     assert solution.values[0, 0] == pytest.approx(1.2385595747368938928, abs=1e-8)
 
 
 def test_what_hardly_moves_and_what_moves_long() -> None:
     # α = 200 1/s for 50 s, and a slow sine after 300 s: the steady parts of series of 20 digits.
-    heavy = StringModel(length=1.0, linear_density=1.0, resistance=(200.0, 200.0))
-    solution = string_solution(COMM, heavy, ramp(), [0.3], [50.0], tolerance=1e-3)
+    heavy = HangingString(length=1.0, linear_density=1.0, resistance=(200.0, 200.0))
+    solution = field_response(COMM, heavy, ramp(), [0.3], [50.0], tolerance=1e-3)
     assert solution.values[0, 0] == pytest.approx(26.146073912107334526, abs=1e-5)
-    slow = StringModel(length=1.0, linear_density=1.0, resistance=(0.5, 0.5))
-    solution = string_solution(COMM, slow, sine(0.01), [0.2], [300.0], tolerance=1e-3)
+    slow = HangingString(length=1.0, linear_density=1.0, resistance=(0.5, 0.5))
+    solution = field_response(COMM, slow, sine(0.01), [0.2], [300.0], tolerance=1e-3)
     assert solution.values[0, 0] == pytest.approx(0.14192842121993356893, abs=1e-6)
     assert solution.sizes.steps < 10_000
 
@@ -70,7 +70,7 @@ def test_what_hardly_moves_and_what_moves_long() -> None:
 def test_silence_before_the_front_but_for_ripples() -> None:
     times = np.array([0.2, 0.5, 0.9])
     for motion in (step(), ramp(), smooth(4.0)):
-        solution = string_solution(COMM, plain(0.1), motion, [0.0, 0.1], times, tolerance=1e-6)
+        solution = field_response(COMM, plain(0.1), motion, [0.0, 0.1], times, tolerance=1e-6)
         # At 0.1 the front passes after 1.37.
         assert np.all(np.abs(solution.values) <= 1e-6)
         assert solution.converged
@@ -80,7 +80,7 @@ def test_values_in_a_front_are_not_claimed() -> None:
     # At x = 0.25 the front of a step passes at t = 1: what is given is the mean of both sides, off by half of the jump.
     damping = 0.2
     jump = 0.25**-0.25 * np.exp(-damping)
-    solution = string_solution(
+    solution = field_response(
         COMM, plain(damping), step(), [0.25], [1.0], tolerance=1e-4, most_unknowns=1500, most_steps=3000
     )
     assert not solution.converged
@@ -88,19 +88,19 @@ def test_values_in_a_front_are_not_claimed() -> None:
     assert solution.values[0, 0] == pytest.approx(0.5 * jump, abs=0.02)
     assert solution.errors[0, 0] > 0.5 * jump
     # A smooth start is no worse for it than its square.
-    soft = string_solution(COMM, plain(damping), smooth(2.0), [0.25], [1.0], tolerance=1e-4)
+    soft = field_response(COMM, plain(damping), smooth(2.0), [0.25], [1.0], tolerance=1e-4)
     assert soft.converged
     assert abs(soft.values[0, 0]) <= soft.errors[0, 0]
 
 
 def test_the_upper_end_moves_as_it_is_told() -> None:
-    solution = string_solution(COMM, plain(0.1), step(), [0.5, 1.0], [0.7, 1.5], tolerance=1e-4)
+    solution = field_response(COMM, plain(0.1), step(), [0.5, 1.0], [0.7, 1.5], tolerance=1e-4)
     np.testing.assert_array_equal(solution.values[1], 1.0)
     np.testing.assert_array_equal(solution.errors[1], 0.0)
 
 
 def test_steady_oscillation_with_all_options() -> None:
-    model = StringModel(
+    model = HangingString(
         length=2.0,
         linear_density=0.8,
         resistance=(1.5, 0.9),
@@ -113,7 +113,7 @@ def test_steady_oscillation_with_all_options() -> None:
     positions = np.array([0.0, 0.3, 1.1, 1.8])
     # Free motions decay like e^{−0.9t} at the least, so that 1e-9 of them is left.
     times = np.array([24.0, 24.3])
-    solution = string_solution(COMM, model, sine(omega), positions, times, tolerance=1e-6)
+    solution = field_response(COMM, model, sine(omega), positions, times, tolerance=1e-6)
     amplitude = steady(model, omega, positions)
     exact = np.imag(amplitude[:, None] * np.exp(1j * omega * times))
     assert solution.converged
@@ -122,7 +122,7 @@ def test_steady_oscillation_with_all_options() -> None:
     assert np.abs(amplitude - steady(model, omega, positions, tip=0.0)).max() > 0.05
 
 
-def steady(model: StringModel, omega: float, positions: np.ndarray, tip: float | None = None) -> np.ndarray:
+def steady(model: HangingString, omega: float, positions: np.ndarray, tip: float | None = None) -> np.ndarray:
     """U e^{−iωt} of U(l) = e^{iωt} by Chebyshev's polynomials at points: (TU')' = (−mω² + 2iωλ)U, TU'(0) = −Mω²U(0)."""
     size = 40
     points = -np.cos(np.pi * np.arange(size + 1) / size)
@@ -145,7 +145,7 @@ def steady(model: StringModel, omega: float, positions: np.ndarray, tip: float |
 @pytest.mark.parametrize("order", [0, 1, 2])
 def test_soft_motion_is_a_convolution(order: int) -> None:
     motion = MOTIONS["fast"]
-    soft = SoftMotion(motion, 0.3, 8.0)
+    soft = SmoothedMotion(motion, 0.3, 8.0)
 
     def kernel(t: float) -> float:
         width = 0.3 / np.sqrt(16.0 * np.log(10.0))
@@ -171,7 +171,7 @@ def test_soft_motion_is_a_convolution(order: int) -> None:
 
 
 def test_a_step_is_softened_with_its_jump() -> None:
-    soft = SoftMotion(step(), 0.2, 9.0)
+    soft = SmoothedMotion(step(), 0.2, 9.0)
     times = np.linspace(-0.2, 0.2, 2001)
     # From 0 to 1, odd about ½; rate and curvature are those of the kernel.
     np.testing.assert_allclose(soft.value(times) + soft.value(times)[::-1], 1.0, atol=1e-8)
@@ -202,7 +202,7 @@ def test_tables_with_an_end() -> None:
         2.0,
     )
     times, positions = np.array([1.3, 2.0]), np.array([0.1, 0.6])
-    solution = string_solution(COMM, plain(0.2), table, positions, times, tolerance=1e-5)
+    solution = field_response(COMM, plain(0.2), table, positions, times, tolerance=1e-5)
     exact = np.zeros((2, 2))
     for knot, kink in zip(knots[:-1], np.diff(rates, prepend=0.0), strict=True):
         for number, time in enumerate(times):
@@ -226,4 +226,4 @@ def test_tables_with_an_end() -> None:
 )
 def test_bad_arguments_are_refused(positions: list[float], times: list[float], tolerance: float, name: str) -> None:
     with pytest.raises(ValueError, match=name):
-        string_solution(COMM, plain(0.0), ramp(), positions, times, tolerance=tolerance)
+        field_response(COMM, plain(0.0), ramp(), positions, times, tolerance=tolerance)

@@ -1,4 +1,4 @@
-"""Motions of the upper end as pieces of cubic polynomials plus exponentials: what the response is built of."""
+"""Motions of the upper end of a string as pieces of cubic polynomials plus exponentials."""
 
 from __future__ import annotations
 

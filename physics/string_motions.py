@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import CubicSpline
 
-from hydroelastic.modal.string.forcing import DERIVATIVES, Forcing, one_piece
+from hydroelastic.physics.string_forcing import DERIVATIVES, Forcing, one_piece
 
 MOST_SAMPLES = 2**16
 FEWEST_SAMPLES = 17
@@ -32,7 +32,7 @@ class Motion(Protocol):
 
 
 class _Values:
-    """Values and derivatives of a motion, for t > 0."""
+    """Values and derivatives of a motion for t > 0, from its pieces and exponentials."""
 
     def value(self: Motion, times: ArrayLike) -> NDArray[np.float64]:
         """Return f, m, at times from 0, s; at 0 the limit from the right."""
@@ -66,7 +66,7 @@ class _Endless(_Values):
         return math.inf
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Ramp(_Endless):
     """f = V t.
 
@@ -83,7 +83,7 @@ class Ramp(_Endless):
         return Forcing(starts=starts, derivatives=derivatives)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Step(_Endless):
     """f = Δ from t = 0.
 
@@ -100,7 +100,7 @@ class Step(_Endless):
         return Forcing(starts=starts, derivatives=derivatives)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Sine(_Endless):
     """f = Δ sin ωt.
 
@@ -124,7 +124,7 @@ class Sine(_Endless):
         )
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Smooth(_Endless):
     """f = Δ(1 − e^{−βt})².
 
@@ -154,8 +154,8 @@ class Smooth(_Endless):
         )
 
 
-@dataclass(frozen=True, eq=False)
-class Given(_Values):
+@dataclass(frozen=True, kw_only=True, eq=False)
+class TabulatedMotion(_Values):
     """A motion by pieces of polynomials up to the third degree; made by `tabulated` and `sampled`.
 
     Attributes:
@@ -167,7 +167,9 @@ class Given(_Values):
     end: float
 
 
-def tabulated(times: ArrayLike, values: ArrayLike, interpolation: Literal["linear", "cubic"] = "linear") -> Given:
+def tabulated(
+    times: ArrayLike, values: ArrayLike, interpolation: Literal["linear", "cubic"] = "linear"
+) -> TabulatedMotion:
     """Return the motion that goes through a table.
 
     Args:
@@ -204,7 +206,7 @@ def sampled(
     end: float,
     tolerance: float = 1e-9,
     breaks: ArrayLike = (),
-) -> Given:
+) -> TabulatedMotion:
     """Return a motion that follows a function, by C² cubic splines between its breaks.
 
     Intervals are halved until the spline meets the function at three points in each of them.
@@ -233,13 +235,13 @@ def sampled(
     return _splines([_sample(function, *span, tolerance) for span in pairwise(edges)])
 
 
-def _linear(times: NDArray[np.float64], values: NDArray[np.float64]) -> Given:
+def _linear(times: NDArray[np.float64], values: NDArray[np.float64]) -> TabulatedMotion:
     derivatives = np.zeros((DERIVATIVES, len(times) - 1))
     derivatives[0], derivatives[1] = values[:-1], np.diff(values) / np.diff(times)
-    return Given(forcing=Forcing(starts=times[:-1], derivatives=derivatives), end=float(times[-1]))
+    return TabulatedMotion(forcing=Forcing(starts=times[:-1], derivatives=derivatives), end=float(times[-1]))
 
 
-def _splines(tables: list[tuple[NDArray[np.float64], NDArray[np.float64]]]) -> Given:
+def _splines(tables: list[tuple[NDArray[np.float64], NDArray[np.float64]]]) -> TabulatedMotion:
     """Return the motion that is a C² spline through each of the tables, which follow one another."""
     parts = []
     for times, values in tables:
@@ -247,7 +249,7 @@ def _splines(tables: list[tuple[NDArray[np.float64], NDArray[np.float64]]]) -> G
         parts.append(np.array([spline(times[:-1], order) for order in range(DERIVATIVES)]))
     starts = np.concatenate([times[:-1] for times, _ in tables])
     forcing = Forcing(starts=starts, derivatives=np.concatenate(parts, axis=1))
-    return Given(forcing=forcing, end=float(tables[-1][0][-1]))
+    return TabulatedMotion(forcing=forcing, end=float(tables[-1][0][-1]))
 
 
 def _sample(

@@ -1,4 +1,4 @@
-"""A motion of the upper end with its breaks rounded off, so that fields can follow it to many digits.
+"""A motion of the upper end smoothed at its breaks, so that field solutions resolve it to many digits.
 
     f_d = f ∗ φ,    φ(t) = sin(ω₀t)/(πt) e^{−t²/2w²},    w = d/L,  ω₀ = L²/d,  L² = 2D ln 10
 
@@ -24,8 +24,8 @@ _POINTS, _WEIGHTS = legendre.leggauss(12)
 _PANEL = 6.0
 
 
-class SoftMotion:
-    """A motion that starts before its first break, as smoothly as a number of digits wants.
+class SmoothedMotion:
+    """A motion smoothed at its breaks to a number of digits; it starts before its first break.
 
     Args:
         motion: f.
@@ -51,11 +51,11 @@ class SoftMotion:
         self._jumps = np.array([jumps(motion, time) for time in self._centres])
         self._starts, self._ends = _merged(self._centres - reach, self._centres + reach)
         self._places, self._weights = self._panels()
-        # f, f' and f'' at the places, when they are asked for.
+        # Weighted f, f' and f'' at the nodes, once they are needed.
         self._samples: dict[int, NDArray[np.float64]] = {}
 
     def _panels(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Places and weights of a quadrature between breaks, as far as values near them reach."""
+        """Return nodes and weights of a quadrature between breaks, within twice the reach of them."""
         places, weights = [], []
         for low, high in zip(*_merged(self._centres - 2.0 * self.reach, self._centres + 2.0 * self.reach), strict=True):
             low = max(low, self._centres[0])
@@ -69,7 +69,7 @@ class SoftMotion:
 
     @property
     def breaks(self) -> NDArray[np.float64]:
-        """Where what is changed begins and ends; jumps there are beyond the D-th digit."""
+        """Times where the smoothed intervals begin and end, s; jumps there are beyond the D-th digit."""
         return np.sort(np.concatenate([self._starts, self._ends]))
 
     @property
@@ -79,17 +79,17 @@ class SoftMotion:
 
     def value(self, times: ArrayLike) -> NDArray[np.float64]:
         """f_d, m."""
-        return self._softened(times, 0)
+        return self._smoothed(times, 0)
 
     def slope(self, times: ArrayLike) -> NDArray[np.float64]:
         """f_d', m/s."""
-        return self._softened(times, 1)
+        return self._smoothed(times, 1)
 
     def curvature(self, times: ArrayLike) -> NDArray[np.float64]:
         """f_d'', m/s²."""
-        return self._softened(times, 2)
+        return self._smoothed(times, 2)
 
-    def _softened(self, times: ArrayLike, order: int) -> NDArray[np.float64]:
+    def _smoothed(self, times: ArrayLike, order: int) -> NDArray[np.float64]:
         shape = np.shape(times)
         flat = np.atleast_1d(np.asarray(times, float)).ravel()
         window = np.searchsorted(self._starts, flat, side="right") - 1
@@ -103,7 +103,7 @@ class SoftMotion:
         return result.reshape(shape)
 
     def _around(self, time: float, order: int) -> float:
-        """The convolution, and what the jumps add to derivatives."""
+        """Return the convolution, with the contribution of the jumps to derivatives."""
         if order not in self._samples:
             self._samples[order] = self._weights * self._known(self._places, order)
         # Panels are cut where the kernel is below the D-th digit.
@@ -120,7 +120,7 @@ class SoftMotion:
         return total
 
     def _known(self, times: NDArray[np.float64], order: int) -> NDArray[np.float64]:
-        """f or a derivative, beyond its end by its last parabola."""
+        """Return f or a derivative; beyond the end of f by its last parabola."""
         motion, end = self._motion, self._motion.end
         known = np.minimum(times, end)
         past = np.maximum(times - end, 0.0)
@@ -146,6 +146,6 @@ class SoftMotion:
 
 
 def _merged(starts: NDArray[np.float64], ends: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Intervals of increasing starts and ends, those that meet taken together."""
+    """Return intervals of increasing starts and ends, overlapping ones merged."""
     apart = starts[1:] > ends[:-1]
     return starts[np.append(True, apart)], ends[np.append(apart, True)]

@@ -1,15 +1,15 @@
-"""The motion of the upper end of a hanging string, from the words of a scene."""
+"""The motion of the upper end in a scene of a hanging string, in SI units; `string.physical` is the string."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from hydroelastic.modal.string.motions import Given, Ramp, Sine, Smooth, Step, tabulated
+from hydroelastic.physics.string_motions import Ramp, Sine, Smooth, Step, TabulatedMotion, tabulated
 from hydroelastic.scenes.models.string import RampMotion, SineMotion, SmoothMotion, StepMotion, StringScene, TableMotion
 
 
-def end_motion(scene: StringScene) -> Ramp | Sine | Smooth | Step | Given:
-    """Return how the upper end moves."""
+def end_motion(scene: StringScene) -> Ramp | Sine | Smooth | Step | TabulatedMotion:
+    """Return the motion of the upper end."""
     motion = scene.motion
     if isinstance(motion, RampMotion):
         return Ramp(speed=motion.speed)

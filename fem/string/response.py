@@ -1,0 +1,279 @@
+"""Adaptive motion of the hanging string: smoothing of fronts, mesh and time step chosen by their estimated errors.
+
+Fronts limit the accuracy on a uniform mesh: the error is of order s·2n/(2n + 1) in the mean for degree n, with s = ½
+after a step, 1½ after a ramp and 2½ after a motion that starts with a jump of its acceleration. The motion is therefore
+smoothed at its breaks (`smoothed_motion.py`), and errors are estimated separately for three causes:
+
+    cause   reduced by                                                 estimated by
+    front   less reach of the smoothing, a finer mesh, shorter steps   the last changes; within a front its height
+    space   more elements                                              a mesh of four fifths of the elements
+    time    shorter steps                                              Richardson's extrapolation from steps twice and
+                                                                       four times as long
+
+Before a front comes within reach the string is at rest but for ripples of the size of the tolerance.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import sqrt
+
+import numpy as np
+from mpi4py import MPI
+from numpy.typing import ArrayLike, NDArray
+
+from hydroelastic.fem.string.end_motion import EndMotion
+from hydroelastic.fem.string.march import March
+from hydroelastic.fem.string.runs import DEGREE, Resolution, StringRuns
+from hydroelastic.physics.string import HangingString
+
+# Part of the tolerance for each cause.
+_SHARE = 1.0 / 3.0
+_COARSER = 0.8
+_TIGHTER = 0.75
+_CLOSER = sqrt(0.5)
+# Of the travel time of a wave along the string.
+_FIRST_REACH = 0.35
+_MOST_TIGHTENINGS = 6
+_CAUTION = 4.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class FieldSizes:
+    """Size of the last discretisation.
+
+    Attributes:
+        elements: number of elements.
+        degree: polynomial degree.
+        unknowns: number of free unknowns.
+        steps: number of time steps.
+        reach: time from a front within which values are smoothed, s.
+        marches: number of motions computed in all, trials and error estimates included.
+    """
+
+    elements: int
+    degree: int
+    unknowns: int
+    steps: int
+    reach: float
+    marches: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class ErrorsByCause:
+    """Largest estimated error of each cause.
+
+    Attributes:
+        front: error from the smoothing of fronts, of the values that are judged, m.
+        space: discretisation error in space, m.
+        time: discretisation error in time, m.
+        time_order: order observed with three step lengths; rounding lowers it.
+    """
+
+    front: float
+    space: float
+    time: float
+    time_order: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class FieldResponse:
+    """Displacements of the string and their errors.
+
+    Attributes:
+        values: U at the positions and times, m, shape (positions, times).
+        errors: estimate of their absolute errors, m, shape (positions, times).
+        causes: the largest errors by cause.
+        tolerance: asked, m.
+        problem: why the tolerance is not reached everywhere; empty if it is.
+        sizes: size of the last discretisation.
+        seconds: time by stage.
+    """
+
+    values: NDArray[np.float64]
+    errors: NDArray[np.float64]
+    causes: ErrorsByCause
+    tolerance: float
+    problem: str
+    sizes: FieldSizes
+    seconds: dict[str, float]
+
+    @property
+    def converged(self) -> bool:
+        """Whether all errors are estimated below the tolerance."""
+        return not self.problem
+
+
+def field_response(
+    comm: MPI.Comm,
+    string: HangingString,
+    motion: EndMotion,
+    positions: ArrayLike,
+    times: ArrayLike,
+    *,
+    tolerance: float,
+    judged: NDArray[np.bool_] | None = None,
+    most_unknowns: int = 4_000,
+    most_steps: int = 8_000,
+) -> FieldResponse:
+    """Return the motion of a string at rest whose upper end is moved.
+
+    Args:
+        comm: communicator.
+        string: the string.
+        motion: of its upper end.
+        positions: x, m, up from the lower end, shape (positions,).
+        times: s, from the start of the motion, increasing, shape (times,).
+        tolerance: absolute, m.
+        judged: values that must keep the tolerance, shape (positions, times), all by default: the cost grows towards
+            fronts, and at the front of a step no tolerance can be kept.
+        most_unknowns: largest number of unknowns of a mesh.
+        most_steps: largest number of time steps.
+
+    Returns:
+        The displacements (collective).
+
+    Raises:
+        ValueError: if positions, times or the tolerance are out of range.
+    """
+    places, moments = np.atleast_1d(np.asarray(positions, float)), np.atleast_1d(np.asarray(times, float))
+    _check(string, motion, places, moments, tolerance)
+    runs = StringRuns(comm, string, motion, places, moments, tolerance)
+    share = _SHARE * tolerance
+    if judged is None:
+        judged = np.ones((len(places), len(moments)), dtype=bool)
+    checked, front = _refined(runs, share, judged, most_unknowns, most_steps)
+    space, time = checked.worst
+    largest = float(front[judged].max(initial=0.0))
+    causes = ErrorsByCause(front=largest, space=space, time=time, time_order=checked.order)
+    values, errors = checked.values.copy(), front + space + time
+    held = places == string.length
+    values[held], errors[held] = np.asarray(motion.value(moments)), 0.0
+    pencil = runs.pencil(checked.resolution)
+    return FieldResponse(
+        values=values,
+        errors=errors,
+        causes=causes,
+        tolerance=tolerance,
+        problem=_problem(causes, front[judged], share, checked.resolution.reach),
+        sizes=FieldSizes(
+            elements=pencil.cell_count,
+            degree=DEGREE,
+            unknowns=pencil.size,
+            steps=checked.steps,
+            reach=checked.resolution.reach,
+            marches=runs.marches,
+        ),
+        seconds=runs.seconds,
+    )
+
+
+def _check(
+    string: HangingString,
+    motion: EndMotion,
+    positions: NDArray[np.float64],
+    times: NDArray[np.float64],
+    tolerance: float,
+) -> None:
+    if not (len(positions) and positions.min() >= 0.0 and positions.max() <= string.length):
+        raise ValueError(f"positions must lie from 0 to {string.length:g} m, and be at least one")
+    first = motion.breaks[0]
+    if not (len(times) and np.all(np.diff(times) > 0.0) and times[0] >= first and times[-1] <= motion.end):
+        raise ValueError(f"times must increase from {first:g} s at the least to {motion.end:g} s at the most")
+    if not tolerance > 0.0:
+        raise ValueError(f"tolerance is {tolerance:g} m: it must be above zero")
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Checked:
+    """A solution with one smoothing, and the errors of its mesh and step at each position and time."""
+
+    values: NDArray[np.float64]
+    space: NDArray[np.float64]
+    time: NDArray[np.float64]
+    order: float
+    steps: int
+    resolution: Resolution
+
+    @property
+    def worst(self) -> tuple[float, float]:
+        return float(self.space.max()), float(self.time.max())
+
+
+def _checked(runs: StringRuns, resolution: Resolution, known: March | None = None) -> _Checked:
+    """Solve, unless the solution is known, and estimate the errors of mesh and step."""
+    fine = known or runs.move(resolution)
+    double, fourfold = (runs.move(resolution.tighter(factor, space=False, time=True)) for factor in (2.0, 4.0))
+    coarse = runs.move(resolution, elements=int(_COARSER * runs.elements(resolution)))
+    last, before = np.abs(fine.values - double.values), np.abs(double.values - fourfold.values)
+    tiny = np.finfo(float).tiny
+    order = float(np.log2(max(before.max(), tiny) / max(last.max(), tiny)))
+    return _Checked(
+        values=fine.values,
+        space=np.abs(fine.values - coarse.values),
+        # Below order one a smaller step is not known to be better.
+        time=last / (2.0 ** np.clip(order, 1.0, 8.0) - 1.0),
+        order=order,
+        steps=fine.steps,
+        resolution=resolution,
+    )
+
+
+def _settled(runs: StringRuns, resolution: Resolution, share: float, known: March | None = None) -> _Checked:
+    """Tighten mesh and step until their errors are below a part of the tolerance, or no longer fall."""
+    checked = _checked(runs, resolution, known)
+    for _ in range(_MOST_TIGHTENINGS):
+        space, time = checked.worst
+        if max(space, time) <= share:
+            break
+        tighter = checked.resolution.tighter(_TIGHTER, space=space > share, time=time > share)
+        attempt = _checked(runs, tighter)
+        if 1.5 * max(attempt.worst) > max(space, time):
+            break
+        checked = attempt
+    return checked
+
+
+def _refined(
+    runs: StringRuns, share: float, judged: NDArray[np.bool_], most_unknowns: int, most_steps: int
+) -> tuple[_Checked, NDArray[np.float64]]:
+    """Reduce the reach of the smoothing until its errors are below a part of the tolerance, or the limits are met.
+
+    Returns:
+        The solution, and its errors from fronts, m, shape (positions, times).
+    """
+    checked = _settled(runs, Resolution(reach=_FIRST_REACH * runs.string.travel_time), share)
+    resolution, values, last = checked.resolution.suited(*checked.worst, share), checked.values, None
+    front = np.full(values.shape, np.inf)
+    change, ratio = np.zeros(values.shape), 1.0
+    while last is None or front[judged].max(initial=0.0) > share:
+        finer = resolution.closer(_CLOSER)
+        large = runs.elements(finer) * DEGREE > most_unknowns or runs.steps(finer) > most_steps
+        # Without a second smoothing nothing is known about the first.
+        if large and last is not None:
+            break
+        last = runs.move(finer)
+        before, change = change, np.abs(last.values - values)
+        if before[judged].any():
+            ratio = float(change[judged].max() / before[judged].max())
+        # Changes fall faster and faster, so that the next one bounds the error; one may pass through zero.
+        front = np.maximum(change, ratio * before) * min(1.0, _CAUTION * ratio)
+        front = np.maximum(front, runs.front_errors(finer))
+        resolution, values = finer, last.values
+    if last is not None:
+        checked = _settled(runs, resolution, share, last)
+    return checked, front
+
+
+def _problem(causes: ErrorsByCause, front: NDArray[np.float64], share: float, reach: float) -> str:
+    """Why the tolerance is not reached everywhere."""
+    problems = []
+    if causes.front > share:
+        problems.append(
+            f"{np.count_nonzero(front > share)} of {front.size} values lie nearer than about {reach:.2g} s to a front,"
+            f" which is resolved to {causes.front:.2g} m with the unknowns and steps allowed"
+        )
+    for name, value in (("mesh", causes.space), ("step", causes.time)):
+        if value > share:
+            problems.append(f"the error of the {name} stays at {value:.2g} m")
+    return "; ".join(problems)

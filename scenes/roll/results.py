@@ -1,0 +1,44 @@
+"""The solution of the scene of a rolling ship, and why it may not keep what was asked."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from hydroelastic.fem.kept_tolerance import kept_tolerance
+from hydroelastic.modal.roll.solution import RollSolution
+from hydroelastic.scenes.models.roll import RollScene
+
+if TYPE_CHECKING:
+    from hydroelastic.scenes.roll.section import SectionRoll
+
+
+@dataclass(frozen=True, kw_only=True)
+class RollResult:
+    """A solved scene.
+
+    Attributes:
+        scene: the scene.
+        solution: the motion; the error of its ship is that of the section.
+        section: roll of the section by its field solution; ``None`` without one.
+        seconds: time by stage.
+    """
+
+    scene: RollScene
+    solution: RollSolution
+    section: SectionRoll | None
+    seconds: dict[str, float]
+
+    @property
+    def reasons(self) -> tuple[str, ...]:
+        """Why the solution does not keep the tolerance; empty if it does."""
+        solution, tolerance = self.solution, self.scene.accuracy.tolerance
+        relative = solution.relative_error
+        if relative <= tolerance:
+            return ()
+        by_section = solution.ship_error > solution.angle_error
+        cause = "; most of it comes from the section: ask for a smaller tolerance there" if by_section else ""
+        return (
+            f"the angle has an estimated error of {relative:.1e} of the largest one, above the tolerance "
+            f"{tolerance:g}; {kept_tolerance(relative)}{cause}",
+        )

@@ -8,7 +8,7 @@ from mpi4py import MPI
 from thread_truth import true_error
 
 from hydroelastic.fem.thread.knots import at_knots, knots_along
-from hydroelastic.modal.thread.stream_profiles import Interpolation, TabulatedStream
+from hydroelastic.physics.stream import Interpolation, TabulatedStream
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.models.thread_parts import LiquidStream
 from hydroelastic.scenes.thread.equilibrium import FoundEquilibrium, find_equilibrium

@@ -10,13 +10,13 @@ import pytest
 from mpi4py import MPI
 from thread_motions import chain, follow, free, liquid, swing
 
-from hydroelastic.fem.thread.model import ThreadModel
 from hydroelastic.fem.thread.motion import move_thread
 from hydroelastic.fem.thread.motion_errors import halved, measure_motion
 from hydroelastic.fem.thread.motion_plan import EndCourse, MotionPlan
 from hydroelastic.fem.thread.motion_results import ThreadMotion
-from hydroelastic.fem.thread.pace import Pace
 from hydroelastic.fem.thread.shedding import Shedding
+from hydroelastic.fem.thread.step_control import StepControl
+from hydroelastic.physics.thread import Thread
 
 # Before the tip of case D05 is whipped.
 TIMES = (0.0, 0.25, 0.5, 1.0)
@@ -76,7 +76,7 @@ def test_halved() -> None:
 
 def test_pace() -> None:
     """Equal steps land on the stop; those that failed are halved, and grow again."""
-    pace = Pace(0.3, None)
+    pace = StepControl(0.3, None)
     assert pace.next(1.0) == pytest.approx(0.25)
     assert pace.shorter(0.25, np.inf) == 0.125
     assert pace.next(1.0) == 0.125
@@ -84,8 +84,8 @@ def test_pace() -> None:
     assert pace.next(1.0) == 0.25
     assert not pace.exhausted(1e-3)
     assert pace.exhausted(1e-5)
-    assert Pace(0.3, 1e-6).accepts(1e-6)
-    assert not Pace(0.3, 1e-6).accepts(2e-6)
+    assert StepControl(0.3, 1e-6).accepts(1e-6)
+    assert not StepControl(0.3, 1e-6).accepts(2e-6)
 
 
 @pytest.mark.parametrize("rigidity", [np.inf, 400.0])
@@ -140,7 +140,7 @@ def test_plans_that_are_refused(changes: dict[str, Any], message: str) -> None:
         ),
     ],
 )
-def test_plans_that_do_not_fit(model: ThreadModel, changes: dict[str, Any], message: str) -> None:
+def test_plans_that_do_not_fit(model: Thread, changes: dict[str, Any], message: str) -> None:
     """Before anything is solved."""
     with pytest.raises(ValueError, match=message):
         MotionPlan(times=np.array([0.0, 1.0]), step=0.1, **changes).check(model)
@@ -169,7 +169,7 @@ def test_shared_free_thread_with_loads() -> None:
     """Forces at nodes between elements, both ends free."""
     down = np.array([0.0, -1.0])
     model = chain(**liquid())
-    model = ThreadModel(
+    model = Thread(
         dimension=2,
         length=1.0,
         ends=(free([0.0, 9.0]), free([0.3, 0.0])),

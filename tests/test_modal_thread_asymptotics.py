@@ -20,12 +20,12 @@ from hydroelastic.modal.thread.critical import (
     towed_body_exponent,
 )
 from hydroelastic.modal.thread.drag_dominated import drag_dominated
-from hydroelastic.modal.thread.load import ThreadLoad
 from hydroelastic.modal.thread.march import march_back, march_tail
-from hydroelastic.modal.thread.stream_profiles import ShearedStream, TabulatedStream, UniformStream, VeeringStream
 from hydroelastic.modal.thread.tension_at_height import tension_dominated_at_height
 from hydroelastic.modal.thread.tension_dominated import pulled_up_in_uniform_stream, tension_dominated
 from hydroelastic.modal.thread.weightless import weightless_thread
+from hydroelastic.physics.stream import ShearedStream, TabulatedStream, UniformStream, VeeringStream
+from hydroelastic.physics.thread_load import ThreadLoad
 
 HALVES = np.array([0.1, 0.05, 0.025])
 

@@ -11,8 +11,8 @@ from mpi4py import MPI
 from pydantic import ValidationError
 from scipy.optimize import root_scalar
 
-from hydroelastic.modal.thread.load import ThreadLoad
 from hydroelastic.modal.thread.march import march_back
+from hydroelastic.physics.thread_load import ThreadLoad
 from hydroelastic.scenes.errors import UnsolvedError
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.thread import starts

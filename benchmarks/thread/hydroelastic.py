@@ -22,11 +22,11 @@ from hydroelastic.benchmarks.thread.cases import (
     top_displacement,
 )
 from hydroelastic.fem.thread.equilibrium import solve_on_mesh
-from hydroelastic.fem.thread.model import PointLoad, ThreadEnd, ThreadModel
 from hydroelastic.fem.thread.motion import MovingStart, move_from_rest, move_thread
 from hydroelastic.fem.thread.motion_plan import EndCourse, MotionPlan
 from hydroelastic.fem.thread.profile import start_from
 from hydroelastic.modal.thread.catenary import elastic_catenary
+from hydroelastic.physics.thread import PointLoad, Thread, ThreadEnd
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.models.thread_analyses import ThreadMotion
 from hydroelastic.scenes.thread.equilibrium import FoundEquilibrium, find_equilibrium
@@ -150,7 +150,7 @@ def _swing(case: Case) -> Answer:
     none = np.zeros(2)
     top = ThreadEnd(load=PointLoad(force=none), held=(True, True), position=none)
     body = PointLoad(force=np.array([0.0, -CHAIN.tip_weight]), mass=CHAIN.tip_mass)
-    model = ThreadModel(
+    model = Thread(
         dimension=2,
         length=CHAIN.length,
         ends=(top, ThreadEnd(load=body, held=(False, False), position=none)),

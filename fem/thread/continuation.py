@@ -17,11 +17,11 @@ from mpi4py import MPI
 from numpy.typing import NDArray
 
 from hydroelastic.fem.thread.equilibrium import Equilibrium, Start, natural_units, solve_on_mesh
-from hydroelastic.fem.thread.model import PointLoad, ThreadModel
 from hydroelastic.fem.thread.newton import ThreadSolverError
 from hydroelastic.fem.thread.nodes import first_nodes
 from hydroelastic.fem.thread.profile import start_from, thread_profile
 from hydroelastic.fem.thread.table import line_table
+from hydroelastic.physics.thread import PointLoad, Thread
 
 # Where a ramp begins; the smallest and the first step on it.
 _FIRST = 1e-3
@@ -63,7 +63,7 @@ class RampedEquilibrium:
 
 
 def solve_with_ramps(
-    comm: MPI.Comm, model: ThreadModel, nodes: NDArray[np.float64], start: Start, *, degree: int
+    comm: MPI.Comm, model: Thread, nodes: NDArray[np.float64], start: Start, *, degree: int
 ) -> RampedEquilibrium:
     """Solve on one mesh: at once, else with turning clamps, growing drag, growing stiffness or rigidity.
 
@@ -85,7 +85,7 @@ def solve_with_ramps(
         return RampedEquilibrium(_solve_unfolded(comm, model, nodes, start, degree), "", 0)
     except ThreadSolverError as error:
         reasons.append(f"at once: {error}")
-    ramps: dict[str, Callable[[float], ThreadModel]] = {}
+    ramps: dict[str, Callable[[float], Thread]] = {}
     if any(end.clamp is not None for end in model.ends):
         ramps["turning clamps"] = lambda part: with_turned_clamps(model, part, start)
     if model.drags and model.stream is not None:
@@ -103,7 +103,7 @@ def solve_with_ramps(
     raise ThreadSolverError("; ".join(reasons))
 
 
-def start_with_fading_rigidity(comm: MPI.Comm, model: ThreadModel, start: Start, *, degree: int) -> Start:
+def start_with_fading_rigidity(comm: MPI.Comm, model: Thread, start: Start, *, degree: int) -> Start:
     """The shape of a slack thread that resists bending less and less: near that without, hooks of it included.
 
     Args:
@@ -127,7 +127,7 @@ def start_with_fading_rigidity(comm: MPI.Comm, model: ThreadModel, start: Start,
     return Start(position=profile.position, force=profile.tension_at)
 
 
-def with_drag(model: ThreadModel, part: float) -> ThreadModel:
+def with_drag(model: Thread, part: float) -> Thread:
     """The thread with a part of all its drags.
 
     Args:
@@ -149,7 +149,7 @@ def with_drag(model: ThreadModel, part: float) -> ThreadModel:
     )
 
 
-def with_stiffness(model: ThreadModel, part: float, force: float) -> ThreadModel:
+def with_stiffness(model: Thread, part: float, force: float) -> Thread:
     """The thread with more stretch: 1/EA is that of the thread and (1 − part)/force.
 
     Args:
@@ -161,7 +161,7 @@ def with_stiffness(model: ThreadModel, part: float, force: float) -> ThreadModel
     return replace(model, axial_rigidity=1.0 / compliance if compliance > 0.0 else inf)
 
 
-def with_turned_clamps(model: ThreadModel, part: float, start: Start) -> ThreadModel:
+def with_turned_clamps(model: Thread, part: float, start: Start) -> Thread:
     """The thread with clamps turned by a part of the angle from the direction of a start to their own.
 
     Args:
@@ -204,7 +204,7 @@ def _turned(
 
 
 def _solve_unfolded(
-    comm: MPI.Comm, model: ThreadModel, nodes: NDArray[np.float64], start: Start, degree: int
+    comm: MPI.Comm, model: Thread, nodes: NDArray[np.float64], start: Start, degree: int
 ) -> Equilibrium:
     equilibrium = solve_on_mesh(comm, model, nodes, start, degree=degree)
     if model.bends:
@@ -233,7 +233,7 @@ def _refuse_fold(equilibrium: Equilibrium) -> None:
 
 def _ramped(
     comm: MPI.Comm,
-    at: Callable[[float], ThreadModel],
+    at: Callable[[float], Thread],
     nodes: NDArray[np.float64],
     start: Start,
     degree: int,

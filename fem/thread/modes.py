@@ -182,8 +182,7 @@ def _roots(equilibrium: Equilibrium, modes: list[_Mode], chosen: NDArray[np.bool
 def _total_mass(operators: ThreadOperators) -> float:
     """(m + ma) L + Σ (M_k + M_a,k) in the units of the matrix M."""
     model = operators.equilibrium.forms.model
-    loads = [*model.loads.values(), *(end.load for end in model.ends)]
-    total = (model.mass + model.added_mass) * model.length + sum(load.mass + load.added_mass for load in loads)
+    total = (model.mass + model.added_mass) * model.length + sum(load.mass + load.added_mass for load in model.bodies)
     return float(total * (operators.equilibrium.units.time / operators.time_unit) ** 2)
 
 

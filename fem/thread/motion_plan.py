@@ -9,8 +9,8 @@ from math import isfinite
 import numpy as np
 from numpy.typing import NDArray
 
-from hydroelastic.fem.thread.model import ThreadModel
 from hydroelastic.fem.thread.shedding import Shedding
+from hydroelastic.physics.thread import Thread
 
 VectorOfTime = Callable[[float], NDArray[np.float64]]
 
@@ -92,7 +92,7 @@ class MotionPlan:
         if self.still_speed is not None and not self.still_speed > 0.0:
             raise ValueError(f"still_speed is {self.still_speed}: it must be positive")
 
-    def check(self, model: ThreadModel) -> None:
+    def check(self, model: Thread) -> None:
         """Refuse what does not fit a thread.
 
         Raises:

@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 from hydroelastic.fem.thread.continuation import solve_with_ramps
 from hydroelastic.fem.thread.equilibrium import Along, Equilibrium, Start
 from hydroelastic.fem.thread.knots import at_knots, knots_along
-from hydroelastic.fem.thread.model import ThreadModel
 from hydroelastic.fem.thread.newton import ThreadSolverError
 from hydroelastic.fem.thread.nodes import first_nodes
 from hydroelastic.fem.thread.profile import ThreadProfile, start_from, thread_profile
 from hydroelastic.fem.thread.rounding import ThreadRounding, thread_rounding
+from hydroelastic.physics.thread import Thread
 
 # Of the characteristic tension: what of compression is rounding.
 COMPRESSION = 1e-8
@@ -81,7 +81,7 @@ class ThreadSolution:
 
 
 def solve_thread(
-    comm: MPI.Comm, model: ThreadModel, start: Start, *, tolerance: float = 1e-6, degree: int = 5
+    comm: MPI.Comm, model: Thread, start: Start, *, tolerance: float = 1e-6, degree: int = 5
 ) -> ThreadSolution:
     """Solve a thread at rest until positions, tensions, reactions and moments are within a tolerance.
 

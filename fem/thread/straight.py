@@ -15,9 +15,10 @@ from petsc4py import PETSc
 from hydroelastic.fem.kernels import compiled_form
 from hydroelastic.fem.thread.equilibrium import Equilibrium, fixed_components
 from hydroelastic.fem.thread.forms import ThreadForms, ThreadState
-from hydroelastic.fem.thread.model import ThreadModel, Units
 from hydroelastic.fem.thread.operators import free_unknowns
 from hydroelastic.fem.thread.space import ThreadSpace
+from hydroelastic.fem.thread.units import Units
+from hydroelastic.physics.thread import Thread
 
 # Residual of the equations beside the largest force: what interpolation of a smooth tension leaves is below it.
 _BALANCE = 1e-8
@@ -25,7 +26,7 @@ _BALANCE = 1e-8
 
 def straight_equilibrium(
     comm: MPI.Comm,
-    model: ThreadModel,
+    model: Thread,
     nodes: NDArray[np.float64],
     tension: float | Callable[[NDArray[np.float64]], NDArray[np.float64]],
     *,
@@ -81,7 +82,7 @@ def straight_equilibrium(
     return equilibrium
 
 
-def _units(model: ThreadModel, tension: float) -> Units:
+def _units(model: Thread, tension: float) -> Units:
     force = max(tension, model.flexural_rigidity / model.length**2)
     if force == 0.0:
         raise ValueError("tension is zero and so is flexural_rigidity: nothing keeps the thread straight")

@@ -11,11 +11,11 @@ from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from hydroelastic.modal.thread.asymptotics import NoAsymptoticError
-from hydroelastic.modal.thread.load import UP, ThreadLoad
 from hydroelastic.modal.thread.panel_quadrature import PanelQuadrature
 from hydroelastic.modal.thread.shape import NoTensionError, ThreadShape
-from hydroelastic.modal.thread.stream_profiles import UniformStream
 from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.stream import UniformStream
+from hydroelastic.physics.thread_load import UP, ThreadLoad
 
 _DIRECTIONS = 361
 # Of the stream: changes above it are not small.

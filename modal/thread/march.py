@@ -17,9 +17,9 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import root, root_scalar
 
 from hydroelastic.modal.thread.critical import critical_direction
-from hydroelastic.modal.thread.load import UP, ThreadLoad
 from hydroelastic.modal.thread.shape import NoTensionError, ThreadShape
 from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.thread_load import UP, ThreadLoad
 
 Force = ArrayLike | Callable[[FloatArray], ArrayLike]
 

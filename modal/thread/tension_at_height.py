@@ -11,9 +11,9 @@ from numpy.typing import ArrayLike
 from scipy.optimize import root
 
 from hydroelastic.modal.thread.asymptotics import NoAsymptoticError
-from hydroelastic.modal.thread.load import ThreadLoad
 from hydroelastic.modal.thread.panel_quadrature import PanelQuadrature
 from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.thread_load import ThreadLoad
 
 _LARGEST = 0.5
 _PANELS = 16

@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from hydroelastic.modal.thread.asymptotics import AsymptoticThread, NoAsymptoticError
-from hydroelastic.modal.thread.load import ThreadLoad
 from hydroelastic.modal.thread.panel_quadrature import PanelQuadrature
 from hydroelastic.modal.thread.shape import ThreadShape
 from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.thread_load import ThreadLoad
 
 # Above it no order is any better than the one before.
 _LARGEST = 0.5

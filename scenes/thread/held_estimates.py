@@ -10,9 +10,9 @@ import numpy as np
 
 from hydroelastic.modal.thread.catenary import catenary_between, elastic_catenary
 from hydroelastic.modal.thread.shape import ThreadShape
-from hydroelastic.modal.thread.stream_profiles import UniformStream
 from hydroelastic.modal.thread.taut import taut_thread
 from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.stream import UniformStream
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.models.thread_parts import FixedEnd
 from hydroelastic.scenes.thread.estimate import Found, ShapeEstimate, attempted, places_of, require, require_bare_thread

@@ -11,8 +11,8 @@ from mpi4py import MPI
 
 from hydroelastic.modal.thread.clamp_layer import ClampLayer
 from hydroelastic.modal.thread.critical import critical_direction, towed_body_exponent
-from hydroelastic.modal.thread.stream_profiles import UniformStream
 from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.stream import UniformStream
 from hydroelastic.scenes.errors import UnsolvedError
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.models.thread_analyses import EndName

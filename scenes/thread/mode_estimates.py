@@ -19,8 +19,8 @@ from hydroelastic.modal.thread.modes import (
     sagging_cable_frequencies,
     tensioned_beam_frequencies,
 )
-from hydroelastic.modal.thread.stream_profiles import UniformStream
 from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.stream import UniformStream
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.models.thread_analyses import ThreadModes, ThreadStability
 from hydroelastic.scenes.models.thread_parts import FixedEnd, FreeEnd

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import inf
 from typing import Any
@@ -10,15 +10,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hydroelastic.fem.thread.model import PointLoad, ThreadEnd, ThreadModel
-from hydroelastic.modal.thread.load import ThreadLoad
-from hydroelastic.modal.thread.stream_profiles import (
+from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.stream import (
     ShearedStream,
     Stream,
     TabulatedStream,
     UniformStream,
     VeeringStream,
 )
+from hydroelastic.physics.thread import PointLoad, Thread, ThreadEnd
+from hydroelastic.physics.thread_load import ThreadLoad
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.models.thread_parts import CarriedBody, FixedEnd, FreeEnd, SurfaceEnd
 from hydroelastic.scenes.thread.frame import Frame
@@ -41,13 +42,16 @@ class _StreamInFrame:
     def _axes(self) -> Array:
         return Frame(self.frame.direction, 3).axes
 
-    def velocity_at(self, points: Array) -> Array:
+    def velocity_at(self, points: FloatArray) -> FloatArray:
         axes = self._axes
         return np.asarray(self.stream.velocity_at(points @ axes) @ axes.T)
 
-    def gradient_at(self, points: Array) -> Array:
+    def gradient_at(self, points: FloatArray) -> FloatArray:
         axes = self._axes
         return np.asarray(axes @ self.stream.gradient_at(points @ axes) @ axes.T)
+
+    def times(self, factor: float) -> _StreamInFrame:
+        return replace(self, stream=self.stream.times(factor))
 
 
 def stream_of(scene: ThreadScene) -> Stream | None:
@@ -115,7 +119,7 @@ def body_drag(scene: ThreadScene, body: CarriedBody) -> float:
     return 0.5 * scene.density * body.drag_area
 
 
-def model_of(scene: ThreadScene, frame: Frame) -> ThreadModel:
+def model_of(scene: ThreadScene, frame: Frame) -> Thread:
     """The thread as the field solution takes it.
 
     Args:
@@ -149,7 +153,7 @@ def model_of(scene: ThreadScene, frame: Frame) -> ThreadModel:
             taper=given.taper if isinstance(given, FreeEnd) else 0.0,
         )
 
-    return ThreadModel(
+    return Thread(
         dimension=frame.dimension,
         length=thread.length,
         ends=(end(scene.ends.a), end(scene.ends.b)),

@@ -12,8 +12,8 @@ from scipy.optimize import root_scalar
 
 from hydroelastic.modal.thread.asymptotics import AsymptoticThread, NoAsymptoticError
 from hydroelastic.modal.thread.shape import ThreadShape
-from hydroelastic.modal.thread.stream_profiles import UniformStream
 from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.stream import UniformStream
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.models.thread_parts import FixedEnd, FreeEnd
 from hydroelastic.scenes.thread.estimate import places_of, require, require_bare_thread

@@ -12,11 +12,11 @@ import numpy as np
 from hydroelastic.modal.thread.asymptotics import AsymptoticThread
 from hydroelastic.modal.thread.drag_dominated import drag_dominated
 from hydroelastic.modal.thread.shape import ThreadShape
-from hydroelastic.modal.thread.stream_profiles import ShearedStream, Stream, TabulatedStream, VeeringStream
 from hydroelastic.modal.thread.tension_at_height import ThreadAtHeight, tension_dominated_at_height
 from hydroelastic.modal.thread.tension_dominated import tension_dominated
 from hydroelastic.modal.thread.weightless import weightless_thread
 from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.stream import ShearedStream, Stream, TabulatedStream, VeeringStream
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.thread.estimate import (
     Found,

@@ -15,8 +15,8 @@ from hydroelastic.modal.thread.critical import (
     nearly_critical_tail,
 )
 from hydroelastic.modal.thread.shape import ThreadShape
-from hydroelastic.modal.thread.stream_profiles import ShearedStream
 from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.stream import ShearedStream
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.thread.estimate import Found, ShapeEstimate, attempted, require
 from hydroelastic.scenes.thread.model import load_of, stream_of

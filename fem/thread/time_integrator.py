@@ -45,7 +45,7 @@ class Guidance:
     set_stream: Callable[[float], None]
 
 
-class ThreadMover:
+class TimeIntegrator:
     """A thread that moves.
 
     Args:

@@ -13,7 +13,7 @@ _FIRST_PART = 0.125
 _HALVINGS = 12
 
 
-class Pace:
+class StepControl:
     """Lengths of steps.
 
     Args:

@@ -14,9 +14,9 @@ from thread_motions import CHAIN_OMEGA, chain, follow, free, held, liquid, swing
 from hydroelastic.fem.thread.equilibrium import Start, solve_on_mesh
 from hydroelastic.fem.thread.motion import MovingStart, move_from_rest
 from hydroelastic.fem.thread.motion_plan import EndCourse, MotionPlan, ThreadMotionError
-from hydroelastic.fem.thread.shedding import Shedding
 from hydroelastic.physics.stream import UniformStream
 from hydroelastic.physics.thread import Thread
+from hydroelastic.physics.thread_motion import VortexShedding
 
 G = 9.81
 FREE_COURSE = EndCourse()
@@ -222,7 +222,7 @@ def test_vortices_push_across() -> None:
             straight(np.array([0.0, 0.0, 1.0])),
             [0.0, 2.0],
             step,
-            shedding=Shedding(lift=lift, wave_number=number, phase=0.3),
+            shedding=VortexShedding(lift=lift, wave_number=number, phase=0.3),
         ).velocities[-1, 1, :2]
         for step in (0.02, 0.01)
     ]

@@ -14,9 +14,9 @@ from hydroelastic.fem.thread.motion import move_thread
 from hydroelastic.fem.thread.motion_errors import halved, measure_motion
 from hydroelastic.fem.thread.motion_plan import EndCourse, MotionPlan
 from hydroelastic.fem.thread.motion_results import ThreadMotion
-from hydroelastic.fem.thread.shedding import Shedding
 from hydroelastic.fem.thread.step_control import StepControl
 from hydroelastic.physics.thread import Thread
+from hydroelastic.physics.thread_motion import VortexShedding
 
 # Before the tip of case D05 is whipped.
 TIMES = (0.0, 0.25, 0.5, 1.0)
@@ -131,7 +131,7 @@ def test_plans_that_are_refused(changes: dict[str, Any], message: str) -> None:
     [
         (chain(mass=0.0), {}, "mass is 0.0"),
         (chain(reactive="lighthill", added_mass=1.0), {"dissipation": 0.5}, "lighthill"),
-        (chain(), {"shedding": Shedding(lift=1.0, wave_number=1.0)}, "shedding"),
+        (chain(), {"shedding": VortexShedding(lift=1.0, wave_number=1.0)}, "shedding"),
         (chain(), {"ends": (EndCourse(release=(1.0,)), EndCourse())}, "release of end A has 1 times"),
         (
             chain(reactive="lighthill", added_mass=1.0),
@@ -149,7 +149,7 @@ def test_plans_that_do_not_fit(model: Thread, changes: dict[str, Any], message: 
 def test_shedding_must_be_finite() -> None:
     """Each of its numbers."""
     with pytest.raises(ValueError, match="lift is inf"):
-        Shedding(lift=np.inf, wave_number=1.0)
+        VortexShedding(lift=np.inf, wave_number=1.0)
 
 
 @pytest.mark.mpi

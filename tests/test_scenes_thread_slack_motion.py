@@ -13,6 +13,7 @@ import pytest
 from mpi4py import MPI
 from thread_motions import follow, free, held
 
+from hydroelastic.fem.thread import motion_refinement as motion_module
 from hydroelastic.fem.thread.force_scale import force_scale
 from hydroelastic.fem.thread.motion import MovingStart
 from hydroelastic.fem.thread.motion_errors import MeasuredMotion, Run, measure_motion
@@ -21,7 +22,6 @@ from hydroelastic.fem.thread.time_integrator import TimeIntegrator
 from hydroelastic.physics.thread import Thread
 from hydroelastic.scenes.errors import UnsolvedError
 from hydroelastic.scenes.models.thread import ThreadScene
-from hydroelastic.scenes.thread import motion as motion_module
 from hydroelastic.scenes.thread.results import ThreadSolutionOfScene
 from hydroelastic.scenes.thread.solve import solve_thread_scene
 

@@ -9,8 +9,8 @@ from math import isfinite
 import numpy as np
 from numpy.typing import NDArray
 
-from hydroelastic.fem.thread.shedding import Shedding
 from hydroelastic.physics.thread import Thread
+from hydroelastic.physics.thread_motion import VortexShedding
 
 VectorOfTime = Callable[[float], NDArray[np.float64]]
 
@@ -70,7 +70,7 @@ class MotionPlan:
     stream_factor: Callable[[float], float] | None = None
     breaks: tuple[float, ...] = ()
     dissipation: float | None = None
-    shedding: Shedding | None = None
+    shedding: VortexShedding | None = None
     grid: NDArray[np.float64] | None = None
     still_speed: float | None = None
     tension_at_start: bool = False

@@ -9,7 +9,7 @@ from hydroelastic.scenes.models.thread_analyses import ThreadModes, ThreadMotion
 from hydroelastic.scenes.models.thread_parts import FixedEnd, FreeEnd, SurfaceEnd
 from hydroelastic.scenes.output.digits import number
 from hydroelastic.scenes.output.sections import Row, Section
-from hydroelastic.scenes.thread.frame import frame_of
+from hydroelastic.scenes.thread.physics import frame_of
 
 
 def check_thread(scene: ThreadScene) -> Iterator[Section]:

@@ -8,15 +8,16 @@ from typing import Any
 
 import numpy as np
 
-from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.thread.estimate import (
+from hydroelastic.modal.thread.estimate import (
     Found,
     Inapplicable,
     ShapeEstimate,
     ThreadEstimate,
     ValueEstimate,
-    places_of,
 )
+from hydroelastic.scenes.output.provenance import Summary
+from hydroelastic.scenes.thread.estimates import compared_places
+from hydroelastic.scenes.thread.measured import measured
 from hydroelastic.scenes.thread.results import ThreadSolutionOfScene
 
 # What a theory leaves out is known by its leading term, or by the last one that it keeps: taken twice.
@@ -67,7 +68,7 @@ def _beside(difference: float, error: float, left_out: float, size: float) -> di
 
 def _shape(solution: ThreadSolutionOfScene, found: ShapeEstimate) -> dict[str, Any]:
     rest, shape = solution.rest, found.shape
-    chosen = slice(None) if len(shape.s) == len(places_of(solution.scene)) else [0, -1]
+    chosen = slice(None) if len(shape.s) == len(compared_places(solution.scene)) else [0, -1]
     positions = np.vstack([rest.end_positions[:1], rest.positions, rest.end_positions[1:]])[chosen]
     tensions = np.concatenate([rest.end_tensions[:1], rest.tensions, rest.end_tensions[1:]])[chosen]
     apart = float(np.linalg.norm(shape.positions - positions, axis=1).max())
@@ -85,7 +86,7 @@ def _shape(solution: ThreadSolutionOfScene, found: ShapeEstimate) -> dict[str, A
 
 def _values(solution: ThreadSolutionOfScene, found: ValueEstimate) -> dict[str, Any]:
     """Only those values that the field solution has, too."""
-    measured = found.measure(solution, found.values)
+    fields = measured(solution, found)
     entries = [
         {
             "number": number,
@@ -94,11 +95,11 @@ def _values(solution: ThreadSolutionOfScene, found: ValueEstimate) -> dict[str, 
             **_beside(float(abs(value - field)), float(error), float(left_out), float(abs(value))),
         }
         for number, (value, field, error, left_out) in enumerate(
-            zip(found.values, measured.values, measured.errors, found.left_out, strict=True), 1
+            zip(found.values, fields.values, fields.errors, found.left_out, strict=True), 1
         )
         if isfinite(error)
     ]
-    return {**_head(found), "quantity": found.quantity, "compared": entries}
+    return {**_head(found), "quantity": found.label, "compared": entries}
 
 
 def _plain(value: Any) -> Any:

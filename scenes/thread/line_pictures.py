@@ -14,7 +14,6 @@ from hydroelastic.fem.pictures.line_view import LineView, line_view
 from hydroelastic.fem.thread.modes import ThreadModes
 from hydroelastic.scenes.models.thread_parts import FixedEnd
 from hydroelastic.scenes.output.line_sequence import frame_numbers
-from hydroelastic.scenes.thread.model import stream_of
 from hydroelastic.scenes.thread.results import Floats, FollowedMotion, ThreadSolutionOfScene
 
 # Points for each element of a curve that is drawn.
@@ -114,7 +113,7 @@ def _in_time(
 def _view(
     solution: ThreadSolutionOfScene, points: Floats, values: Floats, unit: str, quantity: str = "tension"
 ) -> LineView:
-    stream = stream_of(solution.scene)
+    stream = solution.thread.stream
     return line_view(points, values, quantity, unit, None if stream is None else stream.velocity_at)
 
 

@@ -1,21 +1,20 @@
-"""What older theories say of a thread: a shape, or values, with the order of a theory and what it leaves out."""
+"""Estimates of a thread by closed and asymptotic forms: a shape or values, with the order and the truncation error."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any, TypeAlias
+from math import inf
+from typing import Any, Literal, TypeAlias
 
-import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.modal.thread.asymptotics import NoAsymptoticError
+from hydroelastic.modal.thread.library_warnings import suppressed_library_warnings
 from hydroelastic.modal.thread.shape import NoTensionError, ThreadShape
 from hydroelastic.physics.arrays import FloatArray
-from hydroelastic.scenes.models.thread import ThreadScene
-from hydroelastic.scenes.thread.quiet import libraries_silent
-from hydroelastic.scenes.thread.results import ThreadSolutionOfScene
+from hydroelastic.physics.thread import Thread
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,7 +38,7 @@ class ThreadEstimate:
 
 @dataclass(frozen=True, kw_only=True)
 class ShapeEstimate(ThreadEstimate):
-    """Positions and contact forces at the places of `places_of`, or at both ends only.
+    """Positions and contact forces at the places that were asked for, or at both ends only.
 
     Attributes:
         shape: the thread.
@@ -52,17 +51,19 @@ class ShapeEstimate(ThreadEstimate):
     force_left_out: float = 0.0
 
 
-@dataclass(frozen=True)
-class Measured:
-    """Values of the field solution that an estimate is of.
-
-    Attributes:
-        values: NaN where there is none, shape (values,).
-        errors: estimates of their absolute errors, shape (values,).
-    """
-
-    values: NDArray[Any]
-    errors: FloatArray
+Quantity: TypeAlias = Literal[
+    "frequency",
+    "frequency in the plane",
+    "frequency out of the plane",
+    "root",
+    "divergence speed",
+    "flutter speed",
+    "moment at A",
+    "moment at B",
+    "exponent of the approach",
+]
+"""Angular frequencies, rad/s, of all modes or of those in or out of the plane of the thread; roots λ, 1/s; speeds, m/s;
+bending moments at clamps, N·m; the exponent with which the angle to the critical line falls with the tension."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -70,21 +71,23 @@ class ValueEstimate(ThreadEstimate):
     """Single values, real or complex.
 
     Attributes:
-        quantity: what they are, with their unit.
+        quantity: which.
+        label: symbol or words for the quantity, with its unit.
         values: shape (values,).
         left_out: estimates of their absolute errors, shape (values,).
-        measure: finds them in the field solution, from it and the values of the estimate.
+        analysis: number of the analysis of modes or of stability that it is an estimate of, from 0.
     """
 
-    quantity: str
+    quantity: Quantity
+    label: str
     values: NDArray[Any]
     left_out: FloatArray
-    measure: Callable[[ThreadSolutionOfScene, NDArray[Any]], Measured]
+    analysis: int = 0
 
 
 @dataclass(frozen=True)
 class Inapplicable:
-    """A theory that does not fit the scene.
+    """A theory that does not apply to the thread.
 
     Attributes:
         name: of the theory.
@@ -98,11 +101,11 @@ class Inapplicable:
 Found: TypeAlias = ShapeEstimate | ValueEstimate | Inapplicable
 
 
-def attempted(name: str, find: Callable[[], ShapeEstimate | ValueEstimate]) -> Found:
+def estimate_or_reason(name: str, find: Callable[[], ShapeEstimate | ValueEstimate]) -> Found:
     """Return an estimate with the seconds it took, or why there is none."""
     begin = time.perf_counter()
     try:
-        with libraries_silent():
+        with suppressed_library_warnings():
             found = find()
     except (NoAsymptoticError, NoTensionError) as error:
         return Inapplicable(name, str(error))
@@ -121,43 +124,18 @@ def require(condition: bool, reason: str) -> None:
         raise NoAsymptoticError(reason)
 
 
-def places_of(scene: ThreadScene) -> FloatArray:
-    """Places at which shapes are compared: those of the scene between both ends, m, shape (positions + 2,)."""
-    return np.array([0.0, *scene.positions, scene.thread.length])
-
-
-def require_bare_thread(scene: ThreadScene, *, stretch: bool) -> None:
-    """Refuse what no theory of the shape knows: bending, bodies on the thread, the reaction of a liquid.
+def require_bare_thread(thread: Thread, *, stretch: bool) -> None:
+    """Refuse threads that no theory of the shape covers: with bending, bodies, or the reaction of a liquid.
 
     Args:
-        scene: the scene.
+        thread: the thread.
         stretch: whether the thread may stretch.
 
     Raises:
         NoAsymptoticError: with the reason.
     """
-    thread = scene.thread
     require(thread.flexural_rigidity == 0.0, "the thread resists bending")
-    require(not scene.load, "there are bodies on the thread")
+    require(not thread.loads, "there are bodies on the thread")
     require(thread.reactive == "none", "the liquid reacts on the bends of the thread")
     require(thread.stretch_drag == "none", "the drag follows the stretch")
-    require(stretch or thread.axial_rigidity is None, "the thread stretches")
-
-
-def nearest(values: NDArray[Any], field: NDArray[Any], errors: FloatArray) -> Measured:
-    """Of each value the nearest one of a field solution; none for values beyond its largest one.
-
-    Args:
-        values: of an estimate, shape (values,).
-        field: those of the field solution, shape (n,).
-        errors: of these, shape (n,).
-    """
-    found = np.full(len(values), np.nan, dtype=np.asarray(field).dtype)
-    found_errors = np.full(len(values), np.nan)
-    if len(field) == 0:
-        return Measured(found, found_errors)
-    # The last one that was asked for is still found where the estimate of it is a little too large.
-    reached = np.flatnonzero(np.abs(values) <= 1.02 * np.max(np.abs(field)))
-    chosen = np.argmin(np.abs(values[reached, None] - field[None, :]), axis=1)
-    found[reached], found_errors[reached] = field[chosen], errors[chosen]
-    return Measured(found, found_errors)
+    require(stretch or thread.axial_rigidity == inf, "the thread stretches")

@@ -11,7 +11,7 @@ from scipy.integrate import IntegrationWarning
 
 
 @contextmanager
-def libraries_silent() -> Iterator[None]:
+def suppressed_library_warnings() -> Iterator[None]:
     """Keep the warnings of NumPy and SciPy from the terminal; their errors go on."""
     with np.errstate(all="ignore"), warnings.catch_warnings():
         warnings.filterwarnings("ignore", category=RuntimeWarning)

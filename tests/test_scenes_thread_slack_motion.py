@@ -17,7 +17,7 @@ from hydroelastic.fem.thread import motion_refinement as motion_module
 from hydroelastic.fem.thread.force_scale import force_scale
 from hydroelastic.fem.thread.motion import MovingStart
 from hydroelastic.fem.thread.motion_errors import MeasuredMotion, Run, measure_motion
-from hydroelastic.fem.thread.motion_plan import EndCourse, MotionPlan, ThreadMotionError
+from hydroelastic.fem.thread.motion_plan import MotionPlan, PrescribedEnd, ThreadMotionError
 from hydroelastic.fem.thread.time_integrator import TimeIntegrator
 from hydroelastic.physics.thread import Thread
 from hydroelastic.scenes.errors import UnsolvedError
@@ -49,14 +49,14 @@ def solve(asked: ThreadScene) -> ThreadSolutionOfScene:
 def attempts(monkeypatch: pytest.MonkeyPatch) -> list[float]:
     """Lengths of all steps that are tried; too many of them are an error."""
     taken: list[float] = []
-    attempt = TimeIntegrator.attempt
+    solve_step = TimeIntegrator.solve_step
 
-    def counted(mover: TimeIntegrator, length: float) -> int | None:
+    def counted(integrator: TimeIntegrator, length: float) -> int | None:
         taken.append(length)
         assert len(taken) < MOST_ATTEMPTS, "the motion grinds"
-        return attempt(mover, length)
+        return solve_step(integrator, length)
 
-    monkeypatch.setattr(TimeIntegrator, "attempt", counted)
+    monkeypatch.setattr(TimeIntegrator, "solve_step", counted)
     return taken
 
 
@@ -151,8 +151,8 @@ def test_a_stiff_thread_that_becomes_slack_is_given_up(attempts: list[float]) ->
     """The upper end is pushed down faster than the heavy bob falls."""
     bob = free([0.0, -BOB], mass=1e5)
     model = Thread(dimension=2, length=1.0, ends=(held([0.0, 0.0]), bob), weight=9.81, mass=1.0, axial_rigidity=1e12)
-    lead = EndCourse(position=lambda time: np.array([0.02 * time**2, -20.0 * time**2]))
+    lead = PrescribedEnd(position=lambda time: np.array([0.02 * time**2, -20.0 * time**2]))
     hanging = MovingStart(position=lambda s: np.outer(s, [0.0, -1.0]))
     with pytest.raises(ThreadMotionError, match=r"slack.*flexural_rigidity"):
-        follow(model, 4, hanging, [0.0, 0.5], 0.05, tolerance=1e-5, ends=(lead, EndCourse()))
+        follow(model, 4, hanging, [0.0, 0.5], 0.05, tolerance=1e-5, ends=(lead, PrescribedEnd()))
     assert len(attempts) > 100

@@ -25,7 +25,7 @@ from hydroelastic.fem.thread.equilibrium import solve_on_mesh
 from hydroelastic.fem.thread.equilibrium_search import FoundEquilibrium
 from hydroelastic.fem.thread.frame import Frame
 from hydroelastic.fem.thread.motion import MovingStart, move_from_rest, move_thread
-from hydroelastic.fem.thread.motion_plan import EndCourse, MotionPlan
+from hydroelastic.fem.thread.motion_plan import MotionPlan, PrescribedEnd
 from hydroelastic.fem.thread.motion_refinement import follow_motion
 from hydroelastic.fem.thread.motion_request import MotionRequest
 from hydroelastic.fem.thread.profile import start_from
@@ -128,7 +128,7 @@ def _moved(case: Case, scene: ThreadScene, found: FoundEquilibrium) -> Answer:
     plan = MotionPlan(
         times=np.array([0.0, *TENSION_TIMES]),
         step=case.step,
-        ends=(EndCourse(), EndCourse(position=top)),
+        ends=(PrescribedEnd(), PrescribedEnd(position=top)),
         breaks=(PERIOD,),
     )
     nodes = np.linspace(0.0, line.length, case.segments + 1, dtype=np.float64)

@@ -15,23 +15,22 @@ from numpy.typing import NDArray
 from hydroelastic.fem.thread.equilibrium import Along, Equilibrium, in_space
 from hydroelastic.fem.thread.force_scale import force_scale
 from hydroelastic.fem.thread.forms import ThreadForms
-from hydroelastic.fem.thread.motion_plan import EndCourse, MotionPlan, ThreadMotionError, VectorOfTime
+from hydroelastic.fem.thread.motion_plan import MotionPlan, PrescribedEnd, ThreadMotionError, VectorOfTime
 from hydroelastic.fem.thread.motion_results import SLACK, StepHistory, ThreadMotion, at_step_ends, find_slack
-from hydroelastic.fem.thread.shedding import SheddingLoad
 from hydroelastic.fem.thread.space import ThreadSpace
 from hydroelastic.fem.thread.step import GeneralisedAlpha
 from hydroelastic.fem.thread.step_control import StepControl
-from hydroelastic.fem.thread.time_integrator import Guidance, TimeIntegrator
+from hydroelastic.fem.thread.time_integrator import ExternalActions, TimeIntegrator
 from hydroelastic.fem.thread.units import Units
+from hydroelastic.fem.thread.vortex_shedding import SheddingLoad
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.stream import Stream
 from hydroelastic.physics.thread import Thread
 
-# Of the force unit: less compression at the start passes as the thread turns.
+# Of the unit of force: smaller compression at the start vanishes as the thread turns.
 _SLACK_AT_START = 1e-3
-# How often a step may be shortened while the thread is slack: its folds are the faster the shorter they are, and
-# no step resolves them.
-_MOST_REFUSED_SLACK = 100
+# How often a step may be shortened while the thread is slack: shorter folds move faster, and no step resolves them.
+_MOST_REJECTED_SLACK = 100
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -92,7 +91,7 @@ def move_thread(
     *,
     degree: int = 2,
 ) -> ThreadMotion:
-    """Follow a thread from given positions and velocities.
+    """Solve for the motion of a thread from given positions and velocities.
 
     Args:
         comm: communicator.
@@ -119,7 +118,7 @@ def move_thread(
 
 
 def move_from_rest(equilibrium: Equilibrium, plan: MotionPlan) -> ThreadMotion:
-    """Follow a thread from where it is at rest.
+    """Solve for the motion of a thread from rest.
 
     Args:
         equilibrium: the thread at rest; its model may hang in another stream than the plan's factor gives.
@@ -148,7 +147,7 @@ def _make_integrator(model: Thread, units: Units, space: ThreadSpace, plan: Moti
         scaled, set_factor = replace(scaled, stream=stream), stream.set_factor
     forms = ThreadForms(scaled, space)
     factor = plan.stream_factor
-    guidance = Guidance(
+    actions = ExternalActions(
         ends=(_scaled_course(plan.ends[0], units), _scaled_course(plan.ends[1], units)),
         stream=None if factor is None else lambda time: factor(time * units.time),
         set_stream=set_factor,
@@ -159,10 +158,10 @@ def _make_integrator(model: Thread, units: Units, space: ThreadSpace, plan: Moti
         given = replace(plan.shedding, lift=lift, wave_number=plan.shedding.wave_number * units.length)
         shedding = SheddingLoad(forms, given)
     alpha = None if plan.dissipation is None else GeneralisedAlpha(plan.dissipation)
-    return TimeIntegrator(forms, guidance, alpha=alpha, shedding=shedding)
+    return TimeIntegrator(forms, actions, alpha=alpha, shedding=shedding)
 
 
-def _scaled_course(course: EndCourse, units: Units) -> EndCourse:
+def _scaled_course(prescribed: PrescribedEnd, units: Units) -> PrescribedEnd:
     def scaled(function: VectorOfTime | None, unit: float) -> VectorOfTime | None:
         if function is None:
             return None
@@ -173,9 +172,9 @@ def _scaled_course(course: EndCourse, units: Units) -> EndCourse:
 
         return at
 
-    release = None if course.release is None else tuple(time / units.time for time in course.release)
-    return EndCourse(
-        position=scaled(course.position, units.length), force=scaled(course.force, units.force), release=release
+    release = None if prescribed.release is None else tuple(time / units.time for time in prescribed.release)
+    return PrescribedEnd(
+        position=scaled(prescribed.position, units.length), force=scaled(prescribed.force, units.force), release=release
     )
 
 
@@ -196,7 +195,7 @@ def _fastest_stream(model: Thread, positions: NDArray[np.float64], velocities: N
 
 @dataclass
 class _Record:
-    """What steps leave, in the units of the forms."""
+    """Results of all steps, in the units of the forms."""
 
     ends: list[float] = field(default_factory=list)
     energies: list[NDArray[np.float64]] = field(default_factory=list)
@@ -204,20 +203,20 @@ class _Record:
     reactions: list[NDArray[np.float64]] = field(default_factory=list)
     tensions: list[NDArray[np.float64]] = field(default_factory=list)
     solutions: list[int] = field(default_factory=list)
-    # Tensions and reactions at the start and just after breaks, where they are known, by the number of steps before.
+    # Tensions and reactions at the start and just after discontinuities, where known, by the number of steps before.
     starts: dict[int, tuple[NDArray[np.float64], NDArray[np.float64]] | None] = field(default_factory=dict)
     # Number of steps before, positions, velocities.
     output: list[tuple[int, NDArray[np.float64], NDArray[np.float64]]] = field(default_factory=list)
 
 
 class _Run:
-    """One motion: from stop to stop, each step as long as its control allows."""
+    """One motion, in steps that end at all output times and discontinuities."""
 
     def __init__(self, integrator: TimeIntegrator, units: Units, plan: MotionPlan, length: float) -> None:
         self._integrator, self._units, self._plan, self._length = integrator, units, plan, length
         self._record = _Record()
         self._control = StepControl(plan.step / units.time, plan.tolerance if plan.grid is None else None)
-        self._jerked, self._refused, self._refused_slack = 0.0, 0, 0
+        self._velocity_change, self._rejected, self._rejected_slack = 0.0, 0, 0
         self._rate_age = 0.0
 
     def go(self, *, place: bool) -> ThreadMotion:
@@ -225,13 +224,13 @@ class _Run:
         stops, breaks = self._plan.stops()
         wanted = {float(time) for time in self._plan.times}
         integrator.time = float(self._plan.times[0]) / unit
-        moved = integrator.place() if place else 0.0
+        moved = integrator.project_positions() if place else 0.0
         if moved is None:
             self._fail(
                 "there is no thread near the given positions, or its tension is undetermined; give positions with "
                 "|r_s| = 1 nearby, and more thread than the distance of its held ends"
             )
-        self._begin(jerk=True, look_for_slack=self._plan.tension_at_start)
+        self._begin(velocities_jump=True, look_for_slack=self._plan.tension_at_start)
         self._record.ends.append(integrator.time)
         self._record.energies.append(integrator.energies())
         self._output()
@@ -239,29 +238,29 @@ class _Run:
         for stop in stops:
             still = self._reach(stop / unit)
             if stop in breaks and still is None:
-                self._begin(jerk=stop in self._plan.breaks)
+                self._begin(velocities_jump=stop in self._plan.breaks)
             if stop in wanted or still is not None:
                 self._output()
             if still is not None:
                 break
         return self._result(moved * self._length if moved else 0.0, still)
 
-    def _begin(self, *, jerk: bool, look_for_slack: bool = False) -> None:
-        """Velocities, accelerations and tensions at the start, or after a break."""
+    def _begin(self, *, velocities_jump: bool, look_for_slack: bool = False) -> None:
+        """Consistent velocities, accelerations and tensions at the start, or after a discontinuity."""
         integrator = self._integrator
-        if jerk:
-            jerked = integrator.start()
-            if jerked is None:
+        if velocities_jump:
+            velocity_change = integrator.project_velocities()
+            if velocity_change is None:
                 self._fail("no impulse of the ends gives the thread the velocities asked for")
             else:
-                self._jerked = max(self._jerked, jerked)
+                self._velocity_change = max(self._velocity_change, velocity_change)
         if look_for_slack and not integrator.forms.model.bends:
             self._refuse_slack()
-        tensions = integrator.accelerate()
+        tensions = integrator.solve_accelerations()
         if tensions is None:
             self._fail("the accelerations are undetermined; is the thread straight between two held ends?")
         else:
-            # The rate of Lighthill's momentum is more than the acceleration's part of it.
+            # The rate of Lighthill's momentum has terms besides that of the acceleration.
             known = integrator.forms.model.reactive != "lighthill"
             steps = len(self._record.work)
             self._record.starts[steps] = (tensions, integrator.start_reactions()) if known else None
@@ -284,7 +283,7 @@ class _Run:
         return f"{float(np.min(tensions)) * self._units.force:.4g} N at s = {place:.4g} m"
 
     def _reach(self, stop: float) -> float | None:
-        """Go on to a time; to an earlier one where the thread is still."""
+        """Take steps up to a time, or to an earlier one at which the thread is at rest."""
         integrator, plan = self._integrator, self._plan
         while stop - integrator.time > 1e-9 * self._control.longest:
             length = self._take(self._next(stop))
@@ -299,32 +298,32 @@ class _Run:
         """Length of the next step."""
         now, grid = self._integrator.time, self._plan.grid
         if grid is None:
-            return self._control.next(stop - now)
+            return self._control.next_length(stop - now)
         beyond = grid[grid / self._units.time > now + 1e-9 * self._control.longest]
         return min(stop, float(beyond[0]) / self._units.time if len(beyond) else stop) - now
 
     def _take(self, length: float) -> float:
-        """One step, shorter where it must be."""
+        """Take one step, shortened until its error is acceptable."""
         integrator, control, record = self._integrator, self._control, self._record
         while True:
-            solutions = integrator.attempt(length)
-            error = (
-                inf if solutions is None else integrator.roughness(length, self._rate_age) if control.adaptive else 0.0
-            )
-            if solutions is not None and control.accepts(error):
+            solutions = integrator.solve_step(length)
+            error = inf if solutions is None else 0.0
+            if control.adaptive and solutions is not None:
+                error = integrator.local_error(length, self._rate_age)
+            if solutions is not None and control.is_acceptable(error):
                 break
-            self._refused += 1
-            length = control.shorter(length, error)
+            self._rejected += 1
+            length = control.reject(length, error)
             slack = self._slack()
             if slack is not None:
-                self._refused_slack += 1
-                if self._refused_slack > _MOST_REFUSED_SLACK:
+                self._rejected_slack += 1
+                if self._rejected_slack > _MOST_REJECTED_SLACK:
                     self._fail(
                         f"the thread is slack, with {self._worst(slack)}: it folds faster than steps can follow, of "
-                        f"which {self._refused_slack} had to be shortened; give it flexural_rigidity, or ask for an "
+                        f"which {self._rejected_slack} had to be shortened; give it flexural_rigidity, or ask for an "
                         "earlier last time"
                     )
-            if control.exhausted(length):
+            if control.is_too_short(length):
                 self._fail(
                     "Newton's method did not converge in steps however short; look for slack or a fold before this "
                     "time, give the thread flexural rigidity, or refine the mesh"
@@ -339,11 +338,11 @@ class _Run:
         record.reactions.append(reactions)
         record.tensions.append(tensions)
         record.solutions.append(solutions or 0)
-        control.done(length, error)
+        control.accept(length, error)
         return length
 
     def _slack(self) -> NDArray[np.float64] | None:
-        """Tensions of the last step, if the thread was in compression and does not bend."""
+        """Tensions of the last step, if the thread was in compression and has no bending stiffness."""
         tensions = self._record.tensions[-1] if self._record.tensions else None
         if tensions is None or self._integrator.forms.model.bends or np.min(tensions) > -SLACK:
             return None
@@ -391,8 +390,8 @@ class _Run:
             force_scale=force_scale(model, _fastest_stream(model, positions, velocities)) * units.force,
             history=history,
             moved=moved,
-            jerked=self._jerked * speed,
-            refused=self._refused,
+            velocity_change=self._velocity_change * speed,
+            rejected=self._rejected,
             slack=()
             if self._integrator.forms.model.bends
             else find_slack(history.ends, nodes, history.tensions, units.force),

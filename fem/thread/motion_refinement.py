@@ -15,13 +15,13 @@ from hydroelastic.fem.thread.equilibrium import solve_on_mesh
 from hydroelastic.fem.thread.equilibrium_search import find_equilibrium
 from hydroelastic.fem.thread.followed_motion import FollowedMotion, followed_motion
 from hydroelastic.fem.thread.frame import Frame
+from hydroelastic.fem.thread.initial_mesh import initial_nodes
 from hydroelastic.fem.thread.motion import MovingStart, move_from_rest, move_thread
 from hydroelastic.fem.thread.motion_errors import MeasuredMotion, halved, measure_motion
-from hydroelastic.fem.thread.motion_plan import EndCourse, MotionPlan, ThreadMotionError
+from hydroelastic.fem.thread.motion_plan import MotionPlan, PrescribedEnd, ThreadMotionError
 from hydroelastic.fem.thread.motion_request import MotionRequest
 from hydroelastic.fem.thread.motion_results import ThreadMotion
 from hydroelastic.fem.thread.newton import ThreadSolverError
-from hydroelastic.fem.thread.nodes import first_nodes
 from hydroelastic.fem.thread.profile import start_from
 from hydroelastic.fem.thread.refinement import ThreadSolution
 from hydroelastic.physics.thread import Thread, ThreadEnd
@@ -75,7 +75,7 @@ def follow_motion(
         return nodes, plan
 
     found = adaptive_solve(
-        (first_nodes(frame.thread(thread), start_from(rest.profile)), _plan(thread, frame, request)),
+        (initial_nodes(frame.thread(thread), start_from(rest.profile)), _plan(thread, frame, request)),
         solve,
         lambda found: ErrorEstimate(discretization=found.error),
         refine,
@@ -136,11 +136,11 @@ def _plan(thread: Thread, frame: Frame, request: MotionRequest) -> MotionPlan:
     )
 
 
-def _course(end: ThreadEnd, frame: Frame, moves: tuple[EndDisplacement, ...], release: float) -> EndCourse:
+def _course(end: ThreadEnd, frame: Frame, moves: tuple[EndDisplacement, ...], release: float) -> PrescribedEnd:
     def position(time: float) -> Array:
         return frame.inside(end.position + sum(move(time) for move in moves))
 
-    return EndCourse(
+    return PrescribedEnd(
         position=position if moves else None,
         release=(release,) * frame.dimension if isfinite(release) else None,
     )

@@ -91,7 +91,7 @@ class ThreadProfile:
         return best, place
 
     def reactions(self) -> NDArray[np.float64]:
-        """Forces on the thread by what holds its ends A and B, N, shape (2, dimension); zero where nothing is held."""
+        """Reactions on the ends A and B, N, shape (2, dimension); zero in components that are not held."""
         ends = self.position_table.at(self.nodes[[0, -1]])
         pulls = np.array([-self.force[0, 0], self.force[-1, 1]])
         for index, end in enumerate(self.model.ends):
@@ -121,7 +121,7 @@ class ThreadProfile:
 
 
 def thread_profile(equilibrium: Equilibrium) -> ThreadProfile:
-    """Evaluate a thread at rest.
+    """Evaluate a thread at rest as tables in SI units.
 
     Args:
         equilibrium: the field solution.
@@ -156,7 +156,7 @@ def thread_profile(equilibrium: Equilibrium) -> ThreadProfile:
 
 
 def start_from(profile: ThreadProfile) -> Start:
-    """Begin at another solution of the same thread.
+    """Return a start from a solution of the same thread.
 
     Args:
         profile: of that solution.

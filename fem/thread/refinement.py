@@ -12,27 +12,27 @@ from numpy.typing import NDArray
 from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
 from hydroelastic.fem.thread.continuation import solve_with_ramps
 from hydroelastic.fem.thread.equilibrium import Along, Equilibrium, Start
+from hydroelastic.fem.thread.initial_mesh import initial_nodes
 from hydroelastic.fem.thread.knots import at_knots, knots_along
 from hydroelastic.fem.thread.newton import ThreadSolverError
-from hydroelastic.fem.thread.nodes import first_nodes
 from hydroelastic.fem.thread.profile import ThreadProfile, start_from, thread_profile
 from hydroelastic.fem.thread.rounding import ThreadRounding, thread_rounding
 from hydroelastic.physics.thread import Thread
 
-# Of the characteristic tension: what of compression is rounding.
+# Compression below this part of the characteristic tension is rounding.
 COMPRESSION = 1e-8
 # Rounding of a solution, relative: measured 1e-13 for straight threads, whose discrete solution is exact.
 ROUNDING = 1e-12
-# Of the largest force: what is not for want of elements.
+# Compression above this part of the largest force is not an error of discretization.
 _FOLDED = 0.05
-# Inner places of an element at which two solutions are compared.
+# Inner points of an element at which two solutions are compared.
 _PLACES = np.arange(1, 8) / 8.0
 _MOST_ROUNDS = 12
 # Meshes after which nodes need no longer be where the thread passes kinks of its stream.
 _SETTLED = 6
 _MOST_PARTS = 8
 _MOST_ELEMENTS = 4_000
-# The part of the tolerance that elements are cut for.
+# Error at which refined elements aim, of the tolerance.
 _AIM = 0.3
 
 
@@ -160,7 +160,7 @@ def solve_thread(
         return finer if len(finer) <= _MOST_ELEMENTS else None
 
     found = adaptive_solve(
-        with_knots(first_nodes(model, start), start.position),
+        with_knots(initial_nodes(model, start), start.position),
         solve,
         lambda pair: ErrorEstimate(discretization=inf) if pair.knots_moved else pair.error,
         refine,
@@ -217,7 +217,7 @@ _NOTHING = ThreadRounding(position=0.0, tension=0.0, reaction=0.0, moment=0.0)
 
 
 class _Comparison:
-    """Differences of a solution to that on the halves of its elements."""
+    """Differences of a solution from that on halved elements."""
 
     def __init__(self, coarse: ThreadProfile, fine: ThreadProfile, characteristic: float) -> None:
         """Take the differences; `characteristic` is the characteristic tension, N."""
@@ -240,7 +240,7 @@ class _Comparison:
         self.largest = max(float(np.max(np.linalg.norm(fine.force, axis=2))), characteristic)
 
     def errors(self, rounding: ThreadRounding = _NOTHING) -> ThreadErrors:
-        """What is stated: the differences and rounding."""
+        """Return the estimated errors: the differences and rounding."""
         position = max(_size(self._inner), _size(self._nodal)) + ROUNDING * self.length + rounding.position
         # With a kink of the load two errors of its integral may agree by chance: what a polynomial misses counts too.
         missed = float(np.sum(_tail(self.fine))) + ROUNDING * self.largest
@@ -256,7 +256,7 @@ class _Comparison:
         return ThreadErrors(position=position, tension=tension, reaction=reaction, moment=moment, relative=max(parts))
 
     def parts(self, tolerance: float, degree: int) -> NDArray[np.int64]:
-        """Into how many each element is to be cut.
+        """Return into how many parts each element is to be divided.
 
         The shape of an element between its nodes is its own, of order p + 1; so is the change of the contact force
         along it, where the load has kinks; where the thread bends its tension, N along a tangent of order p, too. If

@@ -19,13 +19,13 @@ class AsymptoticThread:
         shape: positions and contact forces.
         order: of the last terms that are kept.
         small: the small parameter of the expansion.
-        position_left_out: estimate of the largest error of a position, m: the next term, or the last one times the
+        position_truncation: estimate of the largest error of a position, m: the next term, or the last one times the
             small parameter.
-        force_left_out: the same of a contact force, N.
+        force_truncation: the same of a contact force, N.
     """
 
     shape: ThreadShape
     order: int
     small: float
-    position_left_out: float
-    force_left_out: float
+    position_truncation: float
+    force_truncation: float

@@ -140,7 +140,7 @@ class NearlyCriticalTail:
         across: how far upstream of the tail, m.
         lengths: arc length from the tail, m.
         small: largest change of the stream, of it.
-        angle_left_out: estimate of the error of the angles: their change times the change of the stream.
+        angle_truncation: estimate of the error of the angles: their change times the change of the stream.
     """
 
     angles: FloatArray
@@ -148,7 +148,7 @@ class NearlyCriticalTail:
     across: FloatArray
     lengths: FloatArray
     small: float
-    angle_left_out: float
+    angle_truncation: float
 
 
 def nearly_critical_tail(
@@ -205,5 +205,5 @@ def nearly_critical_tail(
         across=sums[chosen, 0],
         lengths=sums[chosen, 1],
         small=small,
-        angle_left_out=small * float(np.abs(change).max(initial=0.0)),
+        angle_truncation=small * float(np.abs(change).max(initial=0.0)),
     )

@@ -80,8 +80,8 @@ def drag_dominated(
         shape=shape,
         order=order,
         small=small,
-        position_left_out=factor * float(np.linalg.norm(shape.positions - other.positions, axis=1).max()),
-        force_left_out=factor * float(np.linalg.norm(shape.forces - other.forces, axis=1).max()),
+        position_truncation=factor * float(np.linalg.norm(shape.positions - other.positions, axis=1).max()),
+        force_truncation=factor * float(np.linalg.norm(shape.forces - other.forces, axis=1).max()),
     )
 
 

@@ -42,13 +42,13 @@ class ShapeEstimate(ThreadEstimate):
 
     Attributes:
         shape: the thread.
-        position_left_out: estimate of the largest error of a position, m.
-        force_left_out: the same of a contact force, N.
+        position_truncation: estimate of the largest error of a position, m.
+        force_truncation: the same of a contact force, N.
     """
 
     shape: ThreadShape
-    position_left_out: float = 0.0
-    force_left_out: float = 0.0
+    position_truncation: float = 0.0
+    force_truncation: float = 0.0
 
 
 Quantity: TypeAlias = Literal[
@@ -74,14 +74,14 @@ class ValueEstimate(ThreadEstimate):
         quantity: which.
         label: symbol or words for the quantity, with its unit.
         values: shape (values,).
-        left_out: estimates of their absolute errors, shape (values,).
+        truncation: estimates of their absolute errors, shape (values,).
         analysis: number of the analysis of modes or of stability that it is an estimate of, from 0.
     """
 
     quantity: Quantity
     label: str
     values: NDArray[Any]
-    left_out: FloatArray
+    truncation: FloatArray
     analysis: int = 0
 
 

@@ -84,6 +84,6 @@ def _taut(thread: Thread, places: FloatArray) -> ShapeEstimate:
         parameter="|q|L/T",
         small=slope,
         shape=shape,
-        position_left_out=slope * sag + tension / rigidity * sag,
-        force_left_out=(slope**2 + tension / rigidity) * tension,
+        position_truncation=slope * sag + tension / rigidity * sag,
+        force_truncation=(slope**2 + tension / rigidity) * tension,
     )

@@ -67,7 +67,7 @@ def _clamp(thread: Thread, number: int, force: FloatArray) -> ValueEstimate:
         quantity="moment at B" if number else "moment at A",
         label=f"moment at {'AB'[number]}, N·m",
         values=np.array([layer.moment]),
-        left_out=np.array([layer.small * layer.moment]),
+        truncation=np.array([layer.small * layer.moment]),
     )
 
 
@@ -98,5 +98,5 @@ def _towed(thread: Thread) -> ValueEstimate:
         quantity="exponent of the approach",
         label="exponent k of angle ∝ Tᵏ",
         values=np.array([exponent]),
-        left_out=np.array([NEAR_CRITICAL * abs(exponent)]),
+        truncation=np.array([NEAR_CRITICAL * abs(exponent)]),
     )

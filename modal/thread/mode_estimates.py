@@ -107,7 +107,7 @@ def _taut_string(thread: Thread, count: int, analysis: int) -> ValueEstimate:
         quantity="frequency",
         label=_OMEGA,
         values=values,
-        left_out=np.zeros(count),
+        truncation=np.zeros(count),
         analysis=analysis,
     )
 
@@ -127,7 +127,7 @@ def _beam(thread: Thread, count: int, analysis: int) -> ValueEstimate:
         quantity="frequency",
         label=_OMEGA,
         values=values,
-        left_out=abs(stretch - 1.0) * values,
+        truncation=abs(stretch - 1.0) * values,
         analysis=analysis,
     )
 
@@ -150,7 +150,7 @@ def _chain(thread: Thread, count: int, analysis: int) -> ValueEstimate:
         quantity="frequency",
         label=_OMEGA,
         values=values,
-        left_out=np.zeros(count),
+        truncation=np.zeros(count),
         analysis=analysis,
     )
 
@@ -176,7 +176,7 @@ def _cable(thread: Thread, count: int, analysis: int, out_of_plane: bool) -> Val
         quantity="frequency out of the plane" if out_of_plane else "frequency in the plane",
         label=_OMEGA,
         values=values,
-        left_out=_NEXT_IN_SAG * sag**2 * values,
+        truncation=_NEXT_IN_SAG * sag**2 * values,
         analysis=analysis,
     )
 
@@ -278,7 +278,7 @@ def _axial(thread: Thread, count: int, analysis: int) -> ValueEstimate:
         quantity="root",
         label=_LAMBDA,
         values=values,
-        left_out=(straight.stretch + (_GALERKIN if thread.bends else 0.0)) * np.abs(values),
+        truncation=(straight.stretch + (_GALERKIN if thread.bends else 0.0)) * np.abs(values),
         analysis=analysis,
     )
 
@@ -295,7 +295,7 @@ def _threshold(thread: Thread, factors: Sequence[float], analysis: int, kind: _K
         quantity="divergence speed" if kind == "divergence" else "flutter speed",
         label=f"speed of {kind}, m/s",
         values=np.array([speed]),
-        left_out=np.array([(straight.stretch + (_MERGED if merged else 0.0)) * speed]),
+        truncation=np.array([(straight.stretch + (_MERGED if merged else 0.0)) * speed]),
         analysis=analysis,
     )
 

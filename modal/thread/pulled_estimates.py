@@ -61,8 +61,8 @@ def _estimate(name: str, pulled: PulledThread, found: AsymptoticThread, paramete
         parameter=parameter,
         small=found.small,
         shape=pulled.shape(found.shape),
-        position_left_out=found.position_left_out,
-        force_left_out=found.force_left_out,
+        position_truncation=found.position_truncation,
+        force_truncation=found.force_truncation,
     )
 
 
@@ -128,8 +128,8 @@ def _at_height(thread: Thread, places: FloatArray) -> ShapeEstimate:
                 s=np.array([0.0, length]), positions=pulled.start + up * found.positions, forces=up * found.forces
             )
         ),
-        position_left_out=found.position_left_out,
-        force_left_out=found.force_left_out,
+        position_truncation=found.position_truncation,
+        force_truncation=found.force_truncation,
     )
 
 

@@ -92,8 +92,8 @@ def _nearly_critical(thread: Thread, places: FloatArray) -> ShapeEstimate:
         parameter="change of the stream along the thread, of it",
         small=solution.small,
         shape=pulled.shape(shape_at(_shape(found, pulled.start, along, down), pulled.places)),
-        position_left_out=solution.angle_left_out * thread.length,
-        force_left_out=solution.small**2 * float(solution.tensions.max()),
+        position_truncation=solution.angle_truncation * thread.length,
+        force_truncation=solution.small**2 * float(solution.tensions.max()),
     )
 
 

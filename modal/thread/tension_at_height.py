@@ -33,8 +33,8 @@ class ThreadAtHeight:
         forces: contact force, N, shape (n, 3).
         length: L, m.
         small: ε, the load on the thread, of its tension.
-        position_left_out: estimate of the largest error of a position, m: first-order displacement times ε.
-        force_left_out: the same of a contact force, N.
+        position_truncation: estimate of the largest error of a position, m: first-order displacement times ε.
+        force_truncation: the same of a contact force, N.
     """
 
     levels: FloatArray
@@ -42,8 +42,8 @@ class ThreadAtHeight:
     forces: FloatArray
     length: float
     small: float
-    position_left_out: float
-    force_left_out: float
+    position_truncation: float
+    force_truncation: float
 
 
 def tension_dominated_at_height(
@@ -110,8 +110,8 @@ def tension_dominated_at_height(
         forces=force + first_force,
         length=length,
         small=small,
-        position_left_out=small * float(np.linalg.norm(first_place, axis=1).max()),
-        force_left_out=small * float(np.linalg.norm(first_force, axis=1).max()),
+        position_truncation=small * float(np.linalg.norm(first_place, axis=1).max()),
+        force_truncation=small * float(np.linalg.norm(first_force, axis=1).max()),
     )
 
 

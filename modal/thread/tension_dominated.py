@@ -88,8 +88,8 @@ def tension_dominated(
         ),
         order=order,
         small=small,
-        position_left_out=_left_out(position_terms, order, small),
-        force_left_out=_left_out(force_terms, order, small),
+        position_truncation=_left_out(position_terms, order, small),
+        force_truncation=_left_out(force_terms, order, small),
     )
 
 

@@ -7,7 +7,7 @@ from mpi4py import MPI
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.output.outcome import Outcome
 from hydroelastic.scenes.output.stopwatch import Report
-from hydroelastic.scenes.thread.compared import comparison_sections
+from hydroelastic.scenes.thread.comparison_tables import comparison_sections
 from hydroelastic.scenes.thread.differences import thread_differences
 from hydroelastic.scenes.thread.estimates import thread_estimates
 from hydroelastic.scenes.thread.solve import solve_thread_scene

@@ -79,8 +79,8 @@ def _shape(solution: ThreadSolutionOfScene, found: ShapeEstimate) -> dict[str, A
         "end_positions": shape.positions[ends].tolist(),
         "end_tensions": shape.tensions[ends].tolist(),
         "smallest_tension": float(shape.tensions.min()),
-        "position": _beside(apart, rest.position_error, found.position_left_out, solution.scene.thread.length),
-        "tension": _beside(pulled, rest.tension_error, found.force_left_out, float(np.max(tensions))),
+        "position": _beside(apart, rest.position_error, found.position_truncation, solution.scene.thread.length),
+        "tension": _beside(pulled, rest.tension_error, found.force_truncation, float(np.max(tensions))),
     }
 
 
@@ -95,7 +95,7 @@ def _values(solution: ThreadSolutionOfScene, found: ValueEstimate) -> dict[str, 
             **_beside(float(abs(value - field)), float(error), float(left_out), float(abs(value))),
         }
         for number, (value, field, error, left_out) in enumerate(
-            zip(found.values, fields.values, fields.errors, found.left_out, strict=True), 1
+            zip(found.values, fields.values, fields.errors, found.truncation, strict=True), 1
         )
         if isfinite(error)
     ]

@@ -28,7 +28,7 @@ class SheddingLoad:
     """
 
     def __init__(self, forms: ThreadForms, shedding: VortexShedding) -> None:
-        """Make the ways, zero at first."""
+        """Set all ways to zero."""
         mesh, degree = forms.space.mesh, forms.space.quadrature_degree
         self._forms, self._shedding = forms, shedding
         element = basix.ufl.quadrature_element("interval", degree=degree)
@@ -55,9 +55,9 @@ class SheddingLoad:
         return size * ufl.cross(tangent(position), across)
 
     def set_step(self, step: float) -> None:
-        """Take another step."""
+        """Set the length of the step."""
         self._half_step.value = 0.5 * step
 
     def advance(self) -> None:
-        """Go on to the end of the step."""
+        """Advance to the end of the step."""
         self._way.interpolate(self._next)

@@ -1,4 +1,4 @@
-"""What the asymptotic solutions of a thread have in common."""
+"""Type and error of the asymptotic solutions of a thread."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ class NoAsymptoticError(ValueError):
 
 @dataclass(frozen=True)
 class AsymptoticThread:
-    """An asymptotic solution, and how much it leaves out.
+    """An asymptotic solution with its truncation error.
 
     Attributes:
         shape: positions and contact forces.

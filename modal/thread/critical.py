@@ -110,7 +110,7 @@ def critical_line(load: ThreadLoad, length: float, s: ArrayLike, start: ArrayLik
 
 
 def towed_body_exponent(weight: float, normal_load: float, tangential_load: float) -> float:
-    """Return k of f + f_c = C Tᵏ(1 + …), by which a thread comes to the critical line away from a body at its end.
+    """Return k of f + f_c = C Tᵏ(1 + …), with which a thread approaches the critical line away from a body at its end.
 
     k = −(w sin f_c + 2Rₙ sin f_c cos f_c)/(w sin f_c + Rₜ cos² f_c). The layer at the body is T_B/|q| thick.
 

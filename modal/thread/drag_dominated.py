@@ -15,10 +15,10 @@ from hydroelastic.modal.thread.shape import ThreadShape
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.thread_load import UP, ThreadLoad
 
-# First-order changes of the angle, of sin f, and of ln T: above it the second order is not smaller.
+# Largest first-order change of the angle, of sin f and of ln T: above it the second order is not smaller.
 _LARGEST = 0.5
 _TOLERANCE = 1e-12
-# Parallel to rounding of what the user types.
+# Vectors are parallel up to this rounding of the input.
 _PARALLEL = 1e-9
 
 
@@ -148,7 +148,7 @@ class _Plane:
         )
 
     def terms(self, height: float, levels: FloatArray) -> tuple[dict[str, FloatArray], dict[str, FloatArray]]:
-        """Return angle, logarithm of the tension, x and s at levels above A: without weight, and what weight adds."""
+        """Return angle, logarithm of the tension, x and s at levels above A: without weight, and changes by weight."""
         solution = self._solve(height).sol
         angle, first, turned, x, s, more_x, more_s = solution(levels)
         base = solution(0.0)[3:]

@@ -17,7 +17,7 @@ from hydroelastic.physics.stream import UniformStream
 from hydroelastic.physics.thread import Thread
 
 _CATENARY, _TAUT = "catenary", "nearly taut thread"
-# Above it the sag is not small: δ = L/c − 1 is 0.01 there.
+# Largest small parameter: δ = L/c − 1 is 0.01 there.
 _LARGEST = 0.5
 
 
@@ -65,7 +65,7 @@ def _catenary(thread: Thread, places: FloatArray) -> ShapeEstimate:
 
 
 def _taut(thread: Thread, places: FloatArray) -> ShapeEstimate:
-    """To leading order: the next one changes T by ε², as the first order of the slope leaves the length as it is."""
+    """Leading order; the next one changes T by ε², since the first order of the slope does not change the length."""
     a, b = fixed_ends(thread)
     require_bare_thread(thread, stretch=True)
     stream = thread.stream

@@ -1,4 +1,4 @@
-"""Layers of a thread: where it is clamped, and where it comes to the critical line away from a towed body."""
+"""Boundary layers of a thread: at clamps, and where it approaches the critical line away from a towed body."""
 
 from __future__ import annotations
 

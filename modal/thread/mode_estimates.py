@@ -35,9 +35,9 @@ _Kind = Literal["divergence", "flutter"]
 _OMEGA, _LAMBDA = "ω, rad/s", "λ, 1/s"
 _STRING, _BEAM, _CHAIN = "taut string", "pinned beam under tension", "hanging chain"
 _CABLE, _AXIAL = "Irvine and Caughey's cable", "thread in a stream along it"
-# Sag to span above which a cable does not sag little.
+# Largest ratio of sag to span.
 _LARGEST_SAG = 0.125
-# Of sag², the next terms, relative: measured 0.02 to 3.85, the largest of the first antisymmetric mode in the plane.
+# Next terms of the series, relative to sag²: measured 0.02 to 3.85, that of the first antisymmetric mode in the plane.
 _NEXT_IN_SAG = 4.0
 # Angles below this, and lengths of the chord, are rounding of the input.
 _ROUNDING = 1e-9
@@ -77,7 +77,7 @@ def stability_estimates(thread: Thread, factors: Sequence[float], analysis: int 
 
 
 def _line(thread: Thread) -> tuple[float, float]:
-    """Tension of a thread that is stretched straight between its ends, N, and the length of it, of the unstretched."""
+    """Tension of a thread stretched straight between its ends, N, and its length relative to the unstretched one."""
     a, b = fixed_ends(thread)
     require(thread.weight == 0.0 and not thread.loads, "weight bends the thread")
     rigidity, given = thread.axial_rigidity, thread.tension
@@ -89,7 +89,7 @@ def _line(thread: Thread) -> tuple[float, float]:
 
 
 def _still(thread: Thread) -> None:
-    """Refuse what moves or damps the liquid beyond its added mass."""
+    """Refuse threads in a stream or with viscous drag."""
     require(thread.stream is None, "the liquid streams")
     require(thread.viscous_drag == 0.0, "the viscous drag damps the motion")
 
@@ -201,7 +201,7 @@ class _Along:
 
     @property
     def order(self) -> dict[str, Any]:
-        """Of an estimate: exact unless the thread stretches."""
+        """Order and small parameter of an estimate: exact unless the thread stretches."""
         return {"order": 0, "parameter": "T/EA", "small": self.stretch} if self.stretch else {"order": None}
 
     @property
@@ -220,7 +220,7 @@ class _Along:
 
 
 def _ends_of(thread: Thread) -> Ends:
-    """How two fixed ends are held, along the chord if clamped."""
+    """Return how two fixed ends are held; clamps must be along the chord."""
     chord = np.subtract(*reversed(fixed_ends(thread)))
     clamps = [end.clamp for end in thread.ends if end.clamp is not None]
     require(len(clamps) != 1, "one end alone is clamped")

@@ -1,4 +1,4 @@
-"""A thread that is held at one end and pulled at the other, seen from the end that is held."""
+"""A thread that is held at one end and pulled at the other, with arc lengths from the held end."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from hydroelastic.physics.stream import UniformStream
 from hydroelastic.physics.thread import Thread, ThreadEnd
 
 LEVELS = 513
-"""Heights at which a shape is found by heights: a cubic between them is wrong by 1e-9 of the length."""
+"""Number of heights at which shapes are evaluated: the error of a cubic between them is 1e-9 of the length."""
 
-# Of the length, in what is found by iteration.
+# Tolerance of iterations, of the length.
 _FOUND = 1e-12
 _MOST_ROUNDS = 100
 
@@ -90,7 +90,7 @@ class PulledThread:
         return ThreadShape(s=places, positions=found.positions[::-1], forces=-found.forces[::-1])
 
     def pulled_by_its_force(self, find: Callable[[FloatArray], AsymptoticThread]) -> AsymptoticThread:
-        """The shape whose end lies where the force at its end is that which it was found with.
+        """The shape that is consistent with the force at the position of its end.
 
         Args:
             find: the shape by the force at the end.

@@ -102,7 +102,7 @@ def _weightless(thread: Thread, places: FloatArray) -> ShapeEstimate:
 
 
 def _at_height(thread: Thread, places: FloatArray) -> ShapeEstimate:
-    """The thread whose end lies at a height, for the height at which it has its length."""
+    """The thread from a given height of its end, with the height that gives its length."""
     pulled, length = pulled_thread(thread, places), thread.length
     force = pulled.force
     up = np.array([1.0, 1.0, np.sign(force(pulled.start)[2])])

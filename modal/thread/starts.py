@@ -23,7 +23,7 @@ from hydroelastic.physics.thread import Thread, ThreadEnd
 _TOLERANCE = 1e-7
 # A thread of length up to this many chords is nearly straight.
 _TAUT = 1.02
-# Of a load beside its parts: below, they cancel and no direction is left.
+# A total load below this part of the weight has no certain direction: its parts cancel.
 _CANCELLED = 1e-6
 
 
@@ -154,7 +154,7 @@ def _under_the_surface(
 
 
 def _bracket(height: Callable[[float], float], size: float) -> tuple[float, float]:
-    """Lifts between which the end passes its height, from upwards of the unit to downwards of it."""
+    """Bracket of the vertical force with which the end is at its height, from large upward to large downward forces."""
     lifts = [
         sign * size * 4.0**power for sign, powers in ((1.0, range(6, -7, -1)), (-1.0, range(-6, 7))) for power in powers
     ]

@@ -1,4 +1,4 @@
-"""A thread with a free tail, on which nothing pulls: near the critical line, in a uniform stream on it."""
+"""A thread with a free tail without force: on the critical line in a uniform stream, near it in a sheared one."""
 
 from __future__ import annotations
 

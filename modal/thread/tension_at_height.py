@@ -17,7 +17,7 @@ from hydroelastic.physics.thread_load import ThreadLoad
 
 _LARGEST = 0.5
 _PANELS = 16
-# Of the matrix for the end's first-order displacement, beside 1: below it a straight thread is neutrally stable.
+# Determinant of the equations of the end's first-order displacement below which a straight thread is neutrally stable.
 _SINGULAR = 1e-6
 # Of the height: central differences of the end force, with errors of 1e-10 of it.
 _DIFFERENCE = 1e-5

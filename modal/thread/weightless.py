@@ -13,7 +13,7 @@ from hydroelastic.modal.thread.shape import ThreadShape
 from hydroelastic.physics.stream import UniformStream
 from hydroelastic.physics.thread_load import ThreadLoad
 
-# Of the end force: less across the stream is rounding.
+# Components across the stream below this part of the end force are rounding.
 _LEAST = 1e-14
 
 

@@ -1,4 +1,4 @@
-"""The field solution of a thread in a stream beside asymptotic solutions and closed forms."""
+"""Comparison of the field solution of a thread with asymptotic solutions and closed forms."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from hydroelastic.scenes.thread.tables import thread_cost
 
 
 def compare_thread(scene: ThreadScene, *, report: Report = lambda _message: None) -> Outcome:
-    """Solve a scene and set all estimates that fit it beside the solution; writes nothing (collective).
+    """Solve a scene and compare the solution with all estimates that apply; writes nothing (collective).
 
     Args:
         scene: the scene; its motions in time are left out, of which there is no estimate.

@@ -1,4 +1,4 @@
-"""The field solution of a thread beside estimates: differences, the error of the one and what the others leave out."""
+"""Differences of the field solution of a thread from estimates, beside the errors of both."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ from hydroelastic.scenes.thread.estimates import compared_places
 from hydroelastic.scenes.thread.measured import measured
 from hydroelastic.scenes.thread.results import ThreadSolutionOfScene
 
-# What a theory leaves out is known by its leading term, or by the last one that it keeps: taken twice.
+# Factor of truncation errors, which are estimated by the leading term that is left out, or by the last one kept.
 _LEFT_OUT = 2.0
-# Of the length, of the largest tension and of values: differences below are rounding of the estimates.
+# Rounding of the estimates, of the length, of the largest tension and of values.
 _ROUNDING = 1e-12
 
 
 def thread_differences(solution: ThreadSolutionOfScene, estimates: Sequence[Found]) -> Summary:
-    """Return how far each estimate is from the field solution, JSON-ready.
+    """Return the difference of each estimate from the field solution, JSON-ready.
 
     A difference is explained if it is not larger than the estimated error of the field solution and twice the estimate
     of what the theory leaves out, together.
@@ -85,7 +85,7 @@ def _shape(solution: ThreadSolutionOfScene, found: ShapeEstimate) -> dict[str, A
 
 
 def _values(solution: ThreadSolutionOfScene, found: ValueEstimate) -> dict[str, Any]:
-    """Only those values that the field solution has, too."""
+    """Compare the values that the field solution has, too."""
     fields = measured(solution, found)
     entries = [
         {

@@ -33,7 +33,7 @@ def tension_unit(tensions: Floats) -> tuple[str, float]:
 
 
 def smooth_curve(nodes: Floats, points: Floats) -> Floats:
-    """Points on a curve through all nodes, that does not swing about a kink."""
+    """Return points on a curve through all nodes that does not overshoot at kinks."""
     fine = np.interp(np.linspace(0.0, len(nodes) - 1.0, _SMOOTH * (len(nodes) - 1) + 1), np.arange(len(nodes)), nodes)
     return _interpolated(nodes, points, fine)
 
@@ -88,7 +88,7 @@ def tensions_at_rest(solution: ThreadSolutionOfScene) -> tuple[Floats, str]:
     """Tensions in their unit, and its name."""
     rest = solution.rest
     name, size = tension_unit(rest.tensions)
-    # What is smaller than its error is nothing, and has no colour.
+    # Tensions below their error are drawn as zero.
     known = np.abs(rest.tensions) > rest.tension_error
     return np.where(known, rest.tensions, 0.0) / size, name
 
@@ -152,7 +152,7 @@ def _drawn(
 
 
 def _interpolated(nodes: Floats, values: np.ndarray, s: Floats) -> np.ndarray:
-    """Values at places between nodes, on curves that do not swing about kinks."""
+    """Return values between nodes on curves that do not overshoot at kinks."""
     if np.iscomplexobj(values):
         return _interpolated(nodes, values.real, s) + 1j * _interpolated(nodes, values.imag, s)
     return np.asarray(Akima1DInterpolator(nodes, values, method="makima")(s))

@@ -1,4 +1,4 @@
-"""From the scene of a thread to physical values in SI units."""
+"""Conversion of the scene of a thread to physical values in SI units."""
 
 from __future__ import annotations
 

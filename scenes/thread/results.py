@@ -25,7 +25,7 @@ _TENSION_KNOWN = 0.1
 
 @dataclass(frozen=True, kw_only=True)
 class ThreadSolutionOfScene:
-    """All that a scene asks of a thread.
+    """Results of all analyses of a scene.
 
     Attributes:
         scene: the scene.
@@ -51,12 +51,12 @@ class ThreadSolutionOfScene:
 
     @cached_property
     def s(self) -> Floats:
-        """Places along the thread at which the equilibrium is told, m."""
+        """Arc lengths at which the equilibrium is reported, m."""
         return np.array(self.scene.positions)
 
     @property
     def reasons(self) -> tuple[str, ...]:
-        """Why the answer does not keep what was asked; empty if it does."""
+        """Reasons why the results are not within the tolerances; empty if they are."""
         tolerance = self.scene.accuracy.tolerance
         judged = [("equilibrium", "of its positions and forces", self.rest.relative_error, tolerance)]
         for modes in self.modes:

@@ -23,10 +23,10 @@ from case_files import write_cases
 from random_threads import KINDS, all_numbers, random_thread
 from thread_truth import true_error
 
+from hydroelastic.fem.thread.equilibrium_search import FoundEquilibrium
 from hydroelastic.scenes.errors import UnsolvedError
 from hydroelastic.scenes.models.thread import ThreadScene
-from hydroelastic.scenes.thread.equilibrium import FoundEquilibrium, find_equilibrium
-from hydroelastic.scenes.thread.frame import frame_of
+from hydroelastic.scenes.thread.solve import equilibrium_of
 
 # One in so many is solved by another way too.
 EVERY = 12
@@ -55,7 +55,7 @@ def measured(kind: str, number: int) -> dict[str, Any]:
     row: dict[str, Any] = {"kind": kind, "number": number}
     begin = time.perf_counter()
     try:
-        found = find_equilibrium(MPI.COMM_WORLD, scene, frame_of(scene))
+        found = equilibrium_of(MPI.COMM_WORLD, scene)
     except UnsolvedError as error:
         return row | {"status": "failed", "seconds": time.perf_counter() - begin, "reason": str(error)}
     seconds = time.perf_counter() - begin

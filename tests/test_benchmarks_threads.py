@@ -33,8 +33,8 @@ from hydroelastic.benchmarks.thread.cases import (
 from hydroelastic.benchmarks.thread.report import THREAD_COLUMNS, threads_csv, threads_markdown
 from hydroelastic.benchmarks.workers import start_worker
 from hydroelastic.modal.thread.catenary import elastic_catenary
-from hydroelastic.modal.thread.load import ThreadLoad
-from hydroelastic.modal.thread.stream_profiles import ShearedStream
+from hydroelastic.physics.stream import ShearedStream
+from hydroelastic.physics.thread_load import ThreadLoad
 
 _REFERENCE = Path(__file__).parent / "reference"
 

@@ -12,12 +12,12 @@ from scipy.integrate import solve_bvp
 from thread_field_cases import free_with, held_at, start_by
 
 from hydroelastic.fem.thread.equilibrium import Start, solve_on_mesh
-from hydroelastic.fem.thread.model import ThreadModel
 from hydroelastic.fem.thread.profile import thread_profile
 from hydroelastic.fem.thread.refinement import ThreadSolution, solve_thread
-from hydroelastic.modal.thread.load import ThreadLoad
 from hydroelastic.modal.thread.march import MarchedThread, march_back
-from hydroelastic.modal.thread.stream_profiles import UniformStream
+from hydroelastic.physics.stream import UniformStream
+from hydroelastic.physics.thread import Thread
+from hydroelastic.physics.thread_load import ThreadLoad
 
 COMM = MPI.COMM_WORLD
 LENGTH, WEIGHT, NORMAL, TANGENTIAL = 100.0, 3.0, 12.3, 0.6
@@ -31,9 +31,9 @@ def rigidity(thickness: float) -> float:
     return (thickness * LENGTH) ** 2 * 1500.0
 
 
-def clamped(thickness: float) -> ThreadModel:
+def clamped(thickness: float) -> Thread:
     """A thread that is clamped upright and pulled at its upper end, in a stream."""
-    return ThreadModel(
+    return Thread(
         dimension=2,
         length=LENGTH,
         ends=(held_at([0.0, 0.0], np.array([0.0, 1.0])), free_with(FORCE[[0, 2]])),

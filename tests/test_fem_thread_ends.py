@@ -14,14 +14,14 @@ from thread_field_cases import free_with, held_at, model_of, start_by, start_of
 from hydroelastic.fem.thread import newton as thread_newton
 from hydroelastic.fem.thread.continuation import solve_with_ramps
 from hydroelastic.fem.thread.equilibrium import Start, solve_on_mesh
-from hydroelastic.fem.thread.model import PointLoad, ThreadEnd, ThreadModel
+from hydroelastic.fem.thread.initial_mesh import initial_nodes
 from hydroelastic.fem.thread.newton import ThreadSolverError
-from hydroelastic.fem.thread.nodes import first_nodes
 from hydroelastic.fem.thread.profile import thread_profile
 from hydroelastic.fem.thread.refinement import CompressionError, solve_thread
-from hydroelastic.modal.thread.load import ThreadLoad
 from hydroelastic.modal.thread.march import march_back, march_tail
-from hydroelastic.modal.thread.stream_profiles import ShearedStream, TabulatedStream
+from hydroelastic.physics.stream import ShearedStream, TabulatedStream
+from hydroelastic.physics.thread import PointLoad, Thread, ThreadEnd
+from hydroelastic.physics.thread_load import ThreadLoad
 
 COMM = MPI.COMM_WORLD
 
@@ -75,7 +75,7 @@ def test_buoy_on_the_surface() -> None:
     end = ThreadEnd(load=buoy, held=(False, False, True), position=np.array([0.0, 0.0, surface]))
     # What holds the anchor bears the drag on it, too.
     anchor = replace(held_at([0.0, 0.0, 0.0]), load=PointLoad(force=np.zeros(3), drag=10.0))
-    model = ThreadModel(
+    model = Thread(
         dimension=3,
         length=120.0,
         ends=(anchor, end),
@@ -148,7 +148,7 @@ def test_failures_say_how() -> None:
 
 def test_first_nodes() -> None:
     model = replace(model_of("S07"), loads={123.0: PointLoad(force=np.array([0.0, -1.0]))})
-    nodes = first_nodes(model, start_of("S07"))
+    nodes = initial_nodes(model, start_of("S07"))
     assert nodes[0] == 0.0
     assert nodes[-1] == model.length
     assert 123.0 in nodes
@@ -156,7 +156,7 @@ def test_first_nodes() -> None:
     light = replace(model_of("S08"), ends=(held_at([0.0, 0.0]), free_with([0.0, -1.0])))
     tail = Start(position=start_of("S08").position, force=lambda s: 1.0 + 4.4 * (light.length - s))
     # A twentieth of T/|q|, |q| at most w + kn U².
-    assert np.diff(first_nodes(light, tail))[-1] <= 0.05 / (8.89 + 13.299375 * 4.0)
+    assert np.diff(initial_nodes(light, tail))[-1] <= 0.05 / (8.89 + 13.299375 * 4.0)
 
 
 @pytest.mark.parametrize(

@@ -7,12 +7,12 @@ import pytest
 from mpi4py import MPI
 from thread_truth import true_error
 
+from hydroelastic.fem.thread.equilibrium_search import FoundEquilibrium
 from hydroelastic.fem.thread.knots import at_knots, knots_along
-from hydroelastic.modal.thread.stream_profiles import Interpolation, TabulatedStream
+from hydroelastic.physics.stream import Interpolation, TabulatedStream
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.models.thread_parts import LiquidStream
-from hydroelastic.scenes.thread.equilibrium import FoundEquilibrium, find_equilibrium
-from hydroelastic.scenes.thread.frame import frame_of
+from hydroelastic.scenes.thread.solve import equilibrium_of
 
 LEVELS = (0.0, 1.0, 2.5, 3.0)
 ROWS = ((0.0, 0.0, 0.0), (1.0, 0.2, 0.0), (1.5, 0.0, 0.0), (0.2, 0.4, 0.0))
@@ -101,7 +101,7 @@ def in_a_tabulated_stream(interpolation: str, seed: int) -> tuple[ThreadScene, F
             "ends": {"b": {"kind": "free", "weight": -float(draw.uniform(3000.0, 8000.0))}},
         }
     )  # fmt: skip
-    return scene, find_equilibrium(MPI.COMM_WORLD, scene, frame_of(scene))
+    return scene, equilibrium_of(MPI.COMM_WORLD, scene)
 
 
 @pytest.mark.parametrize(

@@ -16,14 +16,14 @@ from thread_mode_cases import COMM, in_axial_flow, straight_pair, straight_threa
 from hydroelastic.fem.thread.eigenpairs import eigenpairs, roots_near_zero
 from hydroelastic.fem.thread.equilibrium import Equilibrium, Start, solve_on_mesh
 from hydroelastic.fem.thread.hyperbolicity import IllPosedError
-from hydroelastic.fem.thread.model import PointLoad, Reactive, ThreadModel
 from hydroelastic.fem.thread.modes import Roots, ThreadModes, thread_modes
 from hydroelastic.fem.thread.operators import thread_operators
 from hydroelastic.modal.thread.catenary import catenary_between, elastic_catenary
-from hydroelastic.modal.thread.stream_profiles import UniformStream
+from hydroelastic.physics.stream import UniformStream
+from hydroelastic.physics.thread import PointLoad, Reactive, Thread
 
 
-def pair_from(model: ThreadModel, start: Start, elements: int, degree: int = 3) -> tuple[Equilibrium, Equilibrium]:
+def pair_from(model: Thread, start: Start, elements: int, degree: int = 3) -> tuple[Equilibrium, Equilibrium]:
     """An equilibrium on a mesh and on one half as fine."""
     fine, coarse = (
         solve_on_mesh(COMM, model, np.linspace(0.0, model.length, count + 1), start, degree=degree)
@@ -46,7 +46,7 @@ def taut_frequencies(count: int) -> Any:
     return np.arange(1, count + 1) * np.pi / given["L"] * speed
 
 
-def taut_string(**options: Any) -> ThreadModel:
+def taut_string(**options: Any) -> Thread:
     """M01."""
     given = inputs("M01")
     return straight_thread(**({"length": given["L"], "mass": given["m"], "added_mass": given["ma"]} | options))
@@ -157,10 +157,10 @@ def test_quadratic_drag_in_a_liquid_at_rest() -> None:
     assert len(modes.aperiodic.values) == 0
 
 
-def sagging_cable(name: str, **options: Any) -> tuple[ThreadModel, Start]:
+def sagging_cable(name: str, **options: Any) -> tuple[Thread, Start]:
     """M05, in three dimensions."""
     given = inputs(name)
-    model = ThreadModel(
+    model = Thread(
         **(
             {
                 "dimension": 3,
@@ -206,7 +206,7 @@ def test_lighthill_reaction_keeps_energy() -> None:
     # With the liquid's kinetic energy ma |V_n|²/2 and no drag an inextensible thread has a Lagrangian: all motions
     # about a stable equilibrium have Re λ = 0, also on a curved thread in a stream that is not along it.
     ends = (held_at([0.0, 0.0, 0.0]), held_at([1.0, 0.0, 0.0]))
-    model = ThreadModel(
+    model = Thread(
         dimension=3,
         length=1.1,
         ends=ends,
@@ -227,7 +227,7 @@ def test_lighthill_reaction_keeps_energy() -> None:
     assert np.max(np.abs(modes.oscillating.values.real) / modes.frequencies) < 1e-7
 
 
-def moored_in_a_stream(**options: Any) -> tuple[ThreadModel, Start]:
+def moored_in_a_stream(**options: Any) -> tuple[Thread, Start]:
     """M11, a buoy above a thread, in three dimensions."""
     given = inputs("M11")
     model = model_of("M11", 3, mass=given["m"], **options)

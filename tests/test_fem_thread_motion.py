@@ -15,9 +15,9 @@ from scipy.special import ellipk
 from thread_cases import inputs, results, tolerance, worst_difference
 from thread_motions import chain, extrapolated, follow, free, held, liquid, swing
 
-from hydroelastic.fem.thread.model import ThreadModel
 from hydroelastic.fem.thread.motion import MovingStart
 from hydroelastic.fem.thread.motion_results import ThreadMotion
+from hydroelastic.physics.thread import Thread
 
 
 @cache
@@ -31,7 +31,7 @@ def test_pendulum_limit() -> None:
     """The period of a thread of little mass with a body is that of a pendulum."""
     period, angle = results("D01")["period"], np.deg2rad(60.0)
     assert period == pytest.approx(4.0 / np.sqrt(9.81) * ellipk(np.sin(angle / 2.0) ** 2), rel=1e-12)
-    model = ThreadModel(dimension=2, length=1.0, ends=(held([0, 0]), free([0.0, -9.81], mass=1.0)), mass=1e-8)
+    model = Thread(dimension=2, length=1.0, ends=(held([0, 0]), free([0.0, -9.81], mass=1.0)), mass=1e-8)
     start = MovingStart(position=lambda s: np.outer(s, [np.sin(angle), -np.cos(angle)]))
     late = []
     for count in (100, 200, 400):
@@ -49,7 +49,7 @@ def test_free_fall_follows_the_two_laws() -> None:
     given = inputs("D03")
     angle = np.deg2rad(given["theta_deg"])
     along, across = np.array([np.cos(angle), np.sin(angle)]), np.array([-np.sin(angle), np.cos(angle)])
-    model = ThreadModel(
+    model = Thread(
         dimension=2,
         length=given["L"],
         ends=(free([0.0, 0.0]), free([0.0, 0.0])),

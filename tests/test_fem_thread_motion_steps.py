@@ -10,13 +10,13 @@ import pytest
 from mpi4py import MPI
 from thread_motions import chain, follow, free, liquid, swing
 
-from hydroelastic.fem.thread.model import ThreadModel
 from hydroelastic.fem.thread.motion import move_thread
 from hydroelastic.fem.thread.motion_errors import halved, measure_motion
-from hydroelastic.fem.thread.motion_plan import EndCourse, MotionPlan
+from hydroelastic.fem.thread.motion_plan import MotionPlan, PrescribedEnd
 from hydroelastic.fem.thread.motion_results import ThreadMotion
-from hydroelastic.fem.thread.pace import Pace
-from hydroelastic.fem.thread.shedding import Shedding
+from hydroelastic.fem.thread.step_control import StepControl
+from hydroelastic.physics.thread import Thread
+from hydroelastic.physics.thread_motion import VortexShedding
 
 # Before the tip of case D05 is whipped.
 TIMES = (0.0, 0.25, 0.5, 1.0)
@@ -74,18 +74,18 @@ def test_halved() -> None:
     assert halved(np.array([0.0, 1.0, 4.0])).tolist() == [0.0, 0.5, 1.0, 2.5, 4.0]
 
 
-def test_pace() -> None:
+def test_step_control() -> None:
     """Equal steps land on the stop; those that failed are halved, and grow again."""
-    pace = Pace(0.3, None)
-    assert pace.next(1.0) == pytest.approx(0.25)
-    assert pace.shorter(0.25, np.inf) == 0.125
-    assert pace.next(1.0) == 0.125
-    pace.done(0.125, 0.0)
-    assert pace.next(1.0) == 0.25
-    assert not pace.exhausted(1e-3)
-    assert pace.exhausted(1e-5)
-    assert Pace(0.3, 1e-6).accepts(1e-6)
-    assert not Pace(0.3, 1e-6).accepts(2e-6)
+    control = StepControl(0.3, None)
+    assert control.next_length(1.0) == pytest.approx(0.25)
+    assert control.reject(0.25, np.inf) == 0.125
+    assert control.next_length(1.0) == 0.125
+    control.accept(0.125, 0.0)
+    assert control.next_length(1.0) == 0.25
+    assert not control.is_too_short(1e-3)
+    assert control.is_too_short(1e-5)
+    assert StepControl(0.3, 1e-6).is_acceptable(1e-6)
+    assert not StepControl(0.3, 1e-6).is_acceptable(2e-6)
 
 
 @pytest.mark.parametrize("rigidity", [np.inf, 400.0])
@@ -131,16 +131,16 @@ def test_plans_that_are_refused(changes: dict[str, Any], message: str) -> None:
     [
         (chain(mass=0.0), {}, "mass is 0.0"),
         (chain(reactive="lighthill", added_mass=1.0), {"dissipation": 0.5}, "lighthill"),
-        (chain(), {"shedding": Shedding(lift=1.0, wave_number=1.0)}, "shedding"),
-        (chain(), {"ends": (EndCourse(release=(1.0,)), EndCourse())}, "release of end A has 1 times"),
+        (chain(), {"shedding": VortexShedding(lift=1.0, wave_number=1.0)}, "shedding"),
+        (chain(), {"ends": (PrescribedEnd(release=(1.0,)), PrescribedEnd())}, "release of end A has 1 times"),
         (
             chain(reactive="lighthill", added_mass=1.0),
-            {"ends": (EndCourse(release=(1.0, 1.0)), EndCourse())},
+            {"ends": (PrescribedEnd(release=(1.0, 1.0)), PrescribedEnd())},
             "release: not with reactive",
         ),
     ],
 )
-def test_plans_that_do_not_fit(model: ThreadModel, changes: dict[str, Any], message: str) -> None:
+def test_plans_that_do_not_fit(model: Thread, changes: dict[str, Any], message: str) -> None:
     """Before anything is solved."""
     with pytest.raises(ValueError, match=message):
         MotionPlan(times=np.array([0.0, 1.0]), step=0.1, **changes).check(model)
@@ -149,7 +149,7 @@ def test_plans_that_do_not_fit(model: ThreadModel, changes: dict[str, Any], mess
 def test_shedding_must_be_finite() -> None:
     """Each of its numbers."""
     with pytest.raises(ValueError, match="lift is inf"):
-        Shedding(lift=np.inf, wave_number=1.0)
+        VortexShedding(lift=np.inf, wave_number=1.0)
 
 
 @pytest.mark.mpi
@@ -169,7 +169,7 @@ def test_shared_free_thread_with_loads() -> None:
     """Forces at nodes between elements, both ends free."""
     down = np.array([0.0, -1.0])
     model = chain(**liquid())
-    model = ThreadModel(
+    model = Thread(
         dimension=2,
         length=1.0,
         ends=(free([0.0, 9.0]), free([0.3, 0.0])),

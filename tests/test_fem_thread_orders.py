@@ -10,13 +10,13 @@ from scipy.integrate import solve_ivp
 from thread_field_cases import model_of, start_of
 
 from hydroelastic.fem.thread.equilibrium import solve_on_mesh
-from hydroelastic.fem.thread.model import Reactive, ThreadModel
 from hydroelastic.fem.thread.profile import ThreadProfile, thread_profile
+from hydroelastic.physics.thread import Reactive, Thread
 
 COMM = MPI.COMM_WORLD
 
 
-def solved(model: ThreadModel, name: str, elements: int, degree: int) -> ThreadProfile:
+def solved(model: Thread, name: str, elements: int, degree: int) -> ThreadProfile:
     nodes = np.linspace(0.0, model.length, elements + 1)
     return thread_profile(solve_on_mesh(COMM, model, nodes, start_of(name, model.dimension), degree=degree))
 

@@ -8,9 +8,7 @@ from mpi4py import MPI
 
 from hydroelastic.fem.thread.refinement import ThreadSolution
 from hydroelastic.scenes.models.thread import ThreadScene
-from hydroelastic.scenes.thread.equilibrium import find_equilibrium
-from hydroelastic.scenes.thread.frame import frame_of
-from hydroelastic.scenes.thread.solve import solve_thread_scene
+from hydroelastic.scenes.thread.solve import equilibrium_of, solve_thread_scene
 
 DIGITS = 50
 # Length, distance of the ends, weight per length, EA, height and place of the first end.
@@ -43,7 +41,7 @@ def scene(
 
 def solved(case: tuple[float, float, float, float | None, float], tolerance: float) -> ThreadSolution:
     asked = scene(*case, tolerance)
-    return find_equilibrium(MPI.COMM_WORLD, asked, frame_of(asked)).solution
+    return equilibrium_of(MPI.COMM_WORLD, asked).solution
 
 
 def exact(case: tuple[float, float, float, float | None, float]) -> tuple[Decimal, Decimal]:

@@ -12,15 +12,15 @@ from thread_cases import results
 from thread_mode_cases import COMM, in_axial_flow, straight_thread
 
 from hydroelastic.fem.thread.hyperbolicity import IllPosedError
-from hydroelastic.fem.thread.model import ThreadModel
 from hydroelastic.fem.thread.spectrum import branches
 from hydroelastic.fem.thread.stability import Stability, stability
 from hydroelastic.fem.thread.straight import straight_equilibrium
-from hydroelastic.modal.thread.stream_profiles import UniformStream
+from hydroelastic.physics.stream import UniformStream
+from hydroelastic.physics.thread import Thread
 
 
 def sweep(
-    model_at: Callable[[float], ThreadModel],
+    model_at: Callable[[float], Thread],
     values: list[float],
     *,
     tension: float = 0.0,
@@ -96,7 +96,7 @@ def test_cantilever_with_a_blunt_end(share: float) -> None:
     assert found.thresholds[0].growing == (0, 1)
 
 
-def string(speed: float) -> ThreadModel:
+def string(speed: float) -> Thread:
     """A string of m = M = T = 1."""
     return straight_thread(mass=1.0, added_mass=1.0, reactive="lighthill", stream=UniformStream((speed, 0.0, 0.0)))
 

@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 from thread_field_cases import free_with, held_at, model_of, start_by, start_of
 
 from hydroelastic.fem.thread.equilibrium import Start, solve_on_mesh
-from hydroelastic.fem.thread.model import PointLoad, Stream, ThreadEnd, ThreadModel
 from hydroelastic.fem.thread.profile import ThreadProfile, thread_profile
-from hydroelastic.modal.thread.load import ThreadLoad
 from hydroelastic.modal.thread.march import march_back
-from hydroelastic.modal.thread.stream_profiles import TabulatedStream
+from hydroelastic.physics.stream import Stream, TabulatedStream
+from hydroelastic.physics.thread import PointLoad, Thread, ThreadEnd
+from hydroelastic.physics.thread_load import ThreadLoad
 
 COMM = MPI.COMM_WORLD
 LENGTH = 150.0
@@ -40,7 +40,7 @@ class MovedStream:
         return self.matrix @ self.stream.gradient_at(points @ self.matrix) @ self.matrix.T
 
 
-def thread(**changes: object) -> ThreadModel:
+def thread(**changes: object) -> Thread:
     """An anchored buoy in a sheared stream that turns, with a weight on its line."""
     options: dict[str, object] = {
         "dimension": 3,
@@ -53,10 +53,10 @@ def thread(**changes: object) -> ThreadModel:
         "stream": STREAM,
         "loads": {50.0: HEAVE},
     }
-    return ThreadModel(**(options | changes))  # type: ignore[arg-type]
+    return Thread(**(options | changes))  # type: ignore[arg-type]
 
 
-def solved(model: ThreadModel, start: Start, degree: int = 3) -> ThreadProfile:
+def solved(model: Thread, start: Start, degree: int = 3) -> ThreadProfile:
     return thread_profile(solve_on_mesh(COMM, model, model.length * PARTS, start, degree=degree))
 
 
@@ -71,7 +71,7 @@ def original(start: Start) -> ThreadProfile:
     return solved(thread(), start)
 
 
-def turned(model: ThreadModel, matrix: NDArray[np.float64]) -> ThreadModel:
+def turned(model: Thread, matrix: NDArray[np.float64]) -> Thread:
     def load(of: PointLoad) -> PointLoad:
         return replace(of, force=matrix @ of.force)
 

@@ -20,12 +20,12 @@ from hydroelastic.modal.thread.critical import (
     towed_body_exponent,
 )
 from hydroelastic.modal.thread.drag_dominated import drag_dominated
-from hydroelastic.modal.thread.load import ThreadLoad
 from hydroelastic.modal.thread.march import march_back, march_tail
-from hydroelastic.modal.thread.stream_profiles import ShearedStream, TabulatedStream, UniformStream, VeeringStream
 from hydroelastic.modal.thread.tension_at_height import tension_dominated_at_height
 from hydroelastic.modal.thread.tension_dominated import pulled_up_in_uniform_stream, tension_dominated
 from hydroelastic.modal.thread.weightless import weightless_thread
+from hydroelastic.physics.stream import ShearedStream, TabulatedStream, UniformStream, VeeringStream
+from hydroelastic.physics.thread_load import ThreadLoad
 
 HALVES = np.array([0.1, 0.05, 0.025])
 
@@ -69,8 +69,8 @@ def test_tension_dominated_orders(axial_rigidity: float) -> None:
             off = np.linalg.norm(found.shape.positions[1:] - place.positions, axis=1).max()
             list_of_errors.append(float(off))
             # What is said to be left out is so within a factor of three.
-            assert 1 / 3 < off / found.position_left_out < 3
-            assert np.linalg.norm(found.shape.forces[0] - exact.forces[0]) < 3 * found.force_left_out
+            assert 1 / 3 < off / found.position_truncation < 3
+            assert np.linalg.norm(found.shape.forces[0] - exact.forces[0]) < 3 * found.force_truncation
     assert [order_of(HALVES, errors[order]) for order in (0, 1, 2)] == pytest.approx([1, 2, 3], abs=0.1)
 
 
@@ -124,8 +124,8 @@ def test_thread_that_ends_at_a_height_in_a_field_of_force() -> None:
         exact = march_back(load, found.length, field, tolerance=1e-9)
         errors["place"].append(float(np.linalg.norm(found.positions[-1] - exact.positions[-1])))
         errors["force"].append(float(np.linalg.norm(found.forces[0] - exact.forces[0])))
-        assert errors["place"][-1] < 3 * found.position_left_out
-        assert errors["force"][-1] < 3 * found.force_left_out
+        assert errors["place"][-1] < 3 * found.position_truncation
+        assert errors["force"][-1] < 3 * found.force_truncation
     for name, values in errors.items():
         assert order_of(HALVES, values) == pytest.approx(2.0, abs=0.15), name
 
@@ -156,7 +156,7 @@ def test_drag_dominated_orders(given: str) -> None:
             exact = march_back(load, float(found.shape.s[-1]), force, tolerance=1e-11)
             off = float(np.linalg.norm(found.shape.positions[-1] - exact.positions[-1]))
             list_of_errors.append(off)
-            assert off < 3 * found.position_left_out
+            assert off < 3 * found.position_truncation
     assert order_of(HALVES, errors[0]) == pytest.approx(1.0, abs=0.15)
     assert order_of(HALVES, errors[1]) == pytest.approx(2.0, abs=0.15)
 
@@ -216,7 +216,7 @@ def test_nearly_uniform_stream_over_a_free_tail(weight: float) -> None:
         angle = -side * math.atan2(thread.forces[0, 2], thread.forces[0, 0])
         errors["angle"].append(abs(angle - tail.angles[-1]))
         errors["zero"].append(abs(angle - critical_angle(weight, 13.3 * 4)))
-        assert errors["angle"][-1] < 3 * tail.angle_left_out
+        assert errors["angle"][-1] < 3 * tail.angle_truncation
     assert order_of(HALVES, errors["zero"]) == pytest.approx(1.0, abs=0.1)
     for name in ("angle", "tension", "across"):
         assert order_of(HALVES, errors[name]) == pytest.approx(2.0, abs=0.15), name

@@ -12,11 +12,11 @@ from thread_shooting import shoot
 
 from hydroelastic.modal.thread.catenary import catenary_between, elastic_catenary
 from hydroelastic.modal.thread.critical import critical_direction
-from hydroelastic.modal.thread.load import ThreadLoad
 from hydroelastic.modal.thread.march import MarchedThread, march_back, march_tail
 from hydroelastic.modal.thread.shape import NoTensionError
-from hydroelastic.modal.thread.stream_profiles import ShearedStream, TabulatedStream, UniformStream
 from hydroelastic.modal.thread.taut import taut_tension, taut_thread
+from hydroelastic.physics.stream import ShearedStream, TabulatedStream, UniformStream
+from hydroelastic.physics.thread_load import ThreadLoad
 
 # A march accumulates some ten times its tolerance.
 MARCH = 1e-12

@@ -11,14 +11,15 @@ from mpi4py import MPI
 from pydantic import ValidationError
 from scipy.optimize import root_scalar
 
-from hydroelastic.modal.thread.load import ThreadLoad
+from hydroelastic.modal.thread import starts
+from hydroelastic.modal.thread.estimate import Inapplicable, estimate_or_reason
 from hydroelastic.modal.thread.march import march_back
+from hydroelastic.modal.thread.starts import thread_starts
+from hydroelastic.physics.thread_load import ThreadLoad
 from hydroelastic.scenes.errors import UnsolvedError
 from hydroelastic.scenes.models.thread import ThreadScene
-from hydroelastic.scenes.thread import starts
-from hydroelastic.scenes.thread.estimate import Inapplicable, attempted
+from hydroelastic.scenes.thread.physics import thread_of
 from hydroelastic.scenes.thread.solve import solve_thread_scene
-from hydroelastic.scenes.thread.starts import thread_starts
 
 
 def held(length: float, chord: float = 1.0, **thread: Any) -> dict[str, Any]:
@@ -90,7 +91,7 @@ def test_a_slack_thread_without_weight_in_a_stream_along_it() -> None:
         }
     )
     refused: list[str] = []
-    names = [start.name for start in thread_starts(scene, refused)]
+    names = [start.name for start in thread_starts(thread_of(scene), refused)]
     assert "hanging catenary" not in names
     assert refused[-1] == "hanging catenary: a slack thread without weight does not hang"
     with pytest.raises(UnsolvedError) as unsolved:
@@ -106,12 +107,12 @@ def fails_like_a_library() -> Any:
 def test_messages_of_libraries_do_not_pass(monkeypatch: pytest.MonkeyPatch) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        found = attempted("a theory", fails_like_a_library)
+        found = estimate_or_reason("a theory", fails_like_a_library)
         assert isinstance(found, Inapplicable)
         assert found.reason == "its equations have no finite solution here that could be found"
         monkeypatch.setattr(starts, "catenary_between", lambda *_: fails_like_a_library())
         refused: list[str] = []
-        assert list(thread_starts(ThreadScene.model_validate(held(2.0)), refused)) == []
+        assert list(thread_starts(thread_of(ThreadScene.model_validate(held(2.0))), refused)) == []
     assert refused == [
         f"{name}: its equations have no finite solution that could be found"
         for name in ("catenary", "hanging catenary")

@@ -9,13 +9,13 @@ from random_threads import all_numbers, random_thread
 from thread_truth import true_error
 
 from hydroelastic.fem.thread.equilibrium import Start
+from hydroelastic.fem.thread.equilibrium_search import FoundEquilibrium
 from hydroelastic.fem.thread.refinement import CompressionError, solve_thread
 from hydroelastic.modal.thread.clamp_layer import ClampLayer
 from hydroelastic.scenes.errors import UnsolvedError
 from hydroelastic.scenes.models.thread import ThreadScene
-from hydroelastic.scenes.thread.equilibrium import FoundEquilibrium, find_equilibrium
-from hydroelastic.scenes.thread.frame import frame_of
-from hydroelastic.scenes.thread.model import model_of
+from hydroelastic.scenes.thread.physics import frame_of, thread_of
+from hydroelastic.scenes.thread.solve import equilibrium_of
 
 TOLERANCE = 1e-6
 # What a march or a shot with steps of 1e-12 is good for.
@@ -25,7 +25,7 @@ QUICK = all_numbers(0.07)
 
 def solved(data: dict[str, Any]) -> FoundEquilibrium:
     scene = ThreadScene.model_validate(data)
-    return find_equilibrium(MPI.COMM_WORLD, scene, frame_of(scene))
+    return equilibrium_of(MPI.COMM_WORLD, scene)
 
 
 def fixed(*position: float, **more: Any) -> dict[str, Any]:
@@ -124,8 +124,8 @@ def test_light_body_at_the_end(part: float, sign: float) -> None:
 def test_arch_is_refused() -> None:
     """From above its ends a thread without rigidity comes to stand as an arch, in compression."""
     scene = ThreadScene.model_validate(scene_of(1.5, 1.0, fixed(1.0, 0.0, 0.0)))
-    model = model_of(scene, frame_of(scene))
-    hanging = find_equilibrium(MPI.COMM_WORLD, scene, frame_of(scene)).solution.profile
+    model = frame_of(scene).thread(thread_of(scene))
+    hanging = equilibrium_of(MPI.COMM_WORLD, scene).solution.profile
     arch = Start(
         position=lambda s: hanging.position(s) * [1.0, -1.0], force=lambda s: np.asarray(-hanging.tension_at(s))
     )

@@ -16,10 +16,11 @@ from mpi4py import MPI
 from PIL import Image
 from thread_cases import inputs, results
 
+from hydroelastic.physics.stream import TabulatedStream
 from hydroelastic.scenes.command_line import main
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.read import read_scene
-from hydroelastic.scenes.thread.model import with_stream_times
+from hydroelastic.scenes.thread.physics import thread_of
 from hydroelastic.scenes.thread.results import ThreadSolutionOfScene
 from hydroelastic.scenes.thread.run import run_thread
 from hydroelastic.scenes.thread.solve import solve_thread_scene
@@ -145,10 +146,10 @@ def test_a_plane_need_not_pass_through_the_origin() -> None:
 
 def test_a_stream_by_a_table_grows_like_any_other() -> None:
     table = "stream={density = 1000.0, profile = [[-10.0, 1.0, 0.0], [10.0, 2.0, 0.5]]}"
-    scene = thread_scene("fluttering_hose", table, "analysis=[]")
-    assert scene.profile == ((-10.0, 1.0, 0.0), (10.0, 2.0, 0.5))
-    assert with_stream_times(scene, 2.0).profile == ((-10.0, 2.0, 0.0), (10.0, 4.0, 1.0))
-    assert not with_stream_times(scene, 0.0).streams
+    thread = thread_of(thread_scene("fluttering_hose", table, "analysis=[]"))
+    faster = TabulatedStream((-10.0, 10.0), ((2.0, 0.0, 0.0), (4.0, 1.0, 0.0)))
+    assert thread.in_stream_times(2.0).stream == faster
+    assert thread.in_stream_times(0.0).stream is None
 
 
 def clamped(axial_rigidity: float | None, **changes: Any) -> ThreadScene:

@@ -13,15 +13,15 @@ import pytest
 from mpi4py import MPI
 from thread_motions import follow, free, held
 
+from hydroelastic.fem.thread import motion_refinement as motion_module
 from hydroelastic.fem.thread.force_scale import force_scale
-from hydroelastic.fem.thread.model import ThreadModel
 from hydroelastic.fem.thread.motion import MovingStart
 from hydroelastic.fem.thread.motion_errors import MeasuredMotion, Run, measure_motion
-from hydroelastic.fem.thread.motion_plan import EndCourse, MotionPlan, ThreadMotionError
-from hydroelastic.fem.thread.mover import ThreadMover
+from hydroelastic.fem.thread.motion_plan import MotionPlan, PrescribedEnd, ThreadMotionError
+from hydroelastic.fem.thread.time_integrator import TimeIntegrator
+from hydroelastic.physics.thread import Thread
 from hydroelastic.scenes.errors import UnsolvedError
 from hydroelastic.scenes.models.thread import ThreadScene
-from hydroelastic.scenes.thread import motion as motion_module
 from hydroelastic.scenes.thread.results import ThreadSolutionOfScene
 from hydroelastic.scenes.thread.solve import solve_thread_scene
 
@@ -49,14 +49,14 @@ def solve(asked: ThreadScene) -> ThreadSolutionOfScene:
 def attempts(monkeypatch: pytest.MonkeyPatch) -> list[float]:
     """Lengths of all steps that are tried; too many of them are an error."""
     taken: list[float] = []
-    attempt = ThreadMover.attempt
+    solve_step = TimeIntegrator.solve_step
 
-    def counted(mover: ThreadMover, length: float) -> int | None:
+    def counted(integrator: TimeIntegrator, length: float) -> int | None:
         taken.append(length)
         assert len(taken) < MOST_ATTEMPTS, "the motion grinds"
-        return attempt(mover, length)
+        return solve_step(integrator, length)
 
-    monkeypatch.setattr(ThreadMover, "attempt", counted)
+    monkeypatch.setattr(TimeIntegrator, "solve_step", counted)
     return taken
 
 
@@ -100,9 +100,9 @@ def test_a_free_fall_is_converged(tolerance: float) -> None:
 
 
 def test_the_force_scale_is_the_largest_force() -> None:
-    def model(**given: Any) -> ThreadModel:
+    def model(**given: Any) -> Thread:
         options: dict[str, Any] = {"ends": (held([0.0, 0.0]), free([0.0, 0.0]))} | given
-        return ThreadModel(dimension=2, length=2.0, **options)
+        return Thread(dimension=2, length=2.0, **options)
 
     drag = {"normal_drag": 3.0, "viscous_drag": 0.5}
     loaded = (held([0.0, 0.0]), free([3.0, 4.0], drag=2.0))
@@ -150,11 +150,9 @@ def test_a_start_that_is_not_slack_is_followed(height: float) -> None:
 def test_a_stiff_thread_that_becomes_slack_is_given_up(attempts: list[float]) -> None:
     """The upper end is pushed down faster than the heavy bob falls."""
     bob = free([0.0, -BOB], mass=1e5)
-    model = ThreadModel(
-        dimension=2, length=1.0, ends=(held([0.0, 0.0]), bob), weight=9.81, mass=1.0, axial_rigidity=1e12
-    )
-    lead = EndCourse(position=lambda time: np.array([0.02 * time**2, -20.0 * time**2]))
+    model = Thread(dimension=2, length=1.0, ends=(held([0.0, 0.0]), bob), weight=9.81, mass=1.0, axial_rigidity=1e12)
+    lead = PrescribedEnd(position=lambda time: np.array([0.02 * time**2, -20.0 * time**2]))
     hanging = MovingStart(position=lambda s: np.outer(s, [0.0, -1.0]))
     with pytest.raises(ThreadMotionError, match=r"slack.*flexural_rigidity"):
-        follow(model, 4, hanging, [0.0, 0.5], 0.05, tolerance=1e-5, ends=(lead, EndCourse()))
+        follow(model, 4, hanging, [0.0, 0.5], 0.05, tolerance=1e-5, ends=(lead, PrescribedEnd()))
     assert len(attempts) > 100

@@ -22,17 +22,19 @@ from hydroelastic.benchmarks.thread.cases import (
     top_displacement,
 )
 from hydroelastic.fem.thread.equilibrium import solve_on_mesh
-from hydroelastic.fem.thread.model import PointLoad, ThreadEnd, ThreadModel
+from hydroelastic.fem.thread.equilibrium_search import FoundEquilibrium
+from hydroelastic.fem.thread.frame import Frame
 from hydroelastic.fem.thread.motion import MovingStart, move_from_rest, move_thread
-from hydroelastic.fem.thread.motion_plan import EndCourse, MotionPlan
+from hydroelastic.fem.thread.motion_plan import MotionPlan, PrescribedEnd
+from hydroelastic.fem.thread.motion_refinement import follow_motion
+from hydroelastic.fem.thread.motion_request import MotionRequest
 from hydroelastic.fem.thread.profile import start_from
 from hydroelastic.modal.thread.catenary import elastic_catenary
+from hydroelastic.physics.thread import PointLoad, Thread, ThreadEnd
+from hydroelastic.physics.thread_motion import EndDisplacement
 from hydroelastic.scenes.models.thread import ThreadScene
-from hydroelastic.scenes.models.thread_analyses import ThreadMotion
-from hydroelastic.scenes.thread.equilibrium import FoundEquilibrium, find_equilibrium
-from hydroelastic.scenes.thread.frame import Frame
-from hydroelastic.scenes.thread.model import model_of
-from hydroelastic.scenes.thread.motion import motion_of
+from hydroelastic.scenes.thread.physics import thread_of
+from hydroelastic.scenes.thread.solve import equilibrium_of
 
 Array = NDArray[np.float64]
 
@@ -57,9 +59,9 @@ def solve(case: Case) -> Answer:
         return _catenary(line)
     if case.tank == JUMPER:
         scene = thread_scene(line, _REST if case.variant == "one run" else case.tolerance)
-        found = find_equilibrium(MPI.COMM_WORLD, scene, _PLANE)
+        found = equilibrium_of(MPI.COMM_WORLD, scene)
         return _certified(case, scene, found) if case.variant == "certified" else _moved(case, scene, found)
-    found = find_equilibrium(MPI.COMM_WORLD, thread_scene(line, case.tolerance), _PLANE)
+    found = equilibrium_of(MPI.COMM_WORLD, thread_scene(line, case.tolerance))
     forces = found.solution.profile.force
     return Answer(
         values=tuple(map(float, (*forces[0, 0], *forces[-1, 1]))),
@@ -104,15 +106,13 @@ def _catenary(line: BenchmarkLine) -> Answer:
 
 
 def _certified(case: Case, scene: ThreadScene, found: FoundEquilibrium) -> Answer:
-    """The jumper by the scene's own analysis, which halves steps and elements to tell its errors."""
-    asked = ThreadMotion.model_validate(
-        {
-            "times": tuple(map(float, TENSION_TIMES)),
-            "move": [{"end": "b", "amplitude": (AMPLITUDE, 0.0, 0.0), "omega": 2.0 * np.pi / PERIOD, "rise": PERIOD}],
-            "tolerance": case.tolerance,
-        }
+    """The jumper by the solution to a tolerance, which halves steps and elements to estimate its errors."""
+    swayed = EndDisplacement(amplitude=(AMPLITUDE, 0.0, 0.0), omega=2.0 * np.pi / PERIOD, rise=PERIOD)
+    request = MotionRequest(
+        times=tuple(map(float, TENSION_TIMES)), displacements=((), (swayed,)), tolerance=case.tolerance
     )
-    motion = motion_of(MPI.COMM_WORLD, scene, _PLANE, found.solution, asked)
+    tolerance = scene.accuracy.tolerance
+    motion = follow_motion(MPI.COMM_WORLD, thread_of(scene), _PLANE, found.solution, request, rest_tolerance=tolerance)
     estimate = (motion.step_error + motion.mesh_error) / scene.thread.length
     tension = motion.tension_error / float(np.abs(motion.tensions).max())
     words = f"estimates: positions {estimate:.1e}, tensions {tension:.1e}"
@@ -128,13 +128,13 @@ def _moved(case: Case, scene: ThreadScene, found: FoundEquilibrium) -> Answer:
     plan = MotionPlan(
         times=np.array([0.0, *TENSION_TIMES]),
         step=case.step,
-        ends=(EndCourse(), EndCourse(position=top)),
+        ends=(PrescribedEnd(), PrescribedEnd(position=top)),
         breaks=(PERIOD,),
     )
     nodes = np.linspace(0.0, line.length, case.segments + 1, dtype=np.float64)
     start = start_from(found.solution.profile)
     # At rest on its own mesh: a thread that is interpolated begins to ring along itself.
-    rest = solve_on_mesh(MPI.COMM_WORLD, model_of(scene, _PLANE), nodes, start, degree=_DEGREE)
+    rest = solve_on_mesh(MPI.COMM_WORLD, _PLANE.thread(thread_of(scene)), nodes, start, degree=_DEGREE)
     history = move_from_rest(rest, plan).history
     pulls = np.linalg.norm(history.reactions[:, 1], axis=1)
     values = np.interp(TENSION_TIMES, history.ends, pulls)
@@ -150,7 +150,7 @@ def _swing(case: Case) -> Answer:
     none = np.zeros(2)
     top = ThreadEnd(load=PointLoad(force=none), held=(True, True), position=none)
     body = PointLoad(force=np.array([0.0, -CHAIN.tip_weight]), mass=CHAIN.tip_mass)
-    model = ThreadModel(
+    model = Thread(
         dimension=2,
         length=CHAIN.length,
         ends=(top, ThreadEnd(load=body, held=(False, False), position=none)),

@@ -1,9 +1,8 @@
-"""A thread at rest by steps, where Newton's method fails at once: clamps turn, or drag or a stiffness grow to what they
-are.
+"""Continuation in the angle of clamps, drag or stiffness to a thread at rest, where Newton's method fails at once.
 
-Of a thread that bends the equations on a mesh have solutions besides those of the thread, in which its direction turns
-by two right angles at a node. There κ lies along the thread, does not turn it either way, and grows without bound as
-elements get smaller. Newton's method finds them where a start is far from the direction of a clamp.
+For a thread with bending stiffness the discrete equations have spurious solutions whose direction turns by two right
+angles at a node. There κ lies along the thread and grows without bound on finer meshes. Newton's method finds them
+where a start is far from the direction of a clamp.
 """
 
 from __future__ import annotations
@@ -17,18 +16,18 @@ from mpi4py import MPI
 from numpy.typing import NDArray
 
 from hydroelastic.fem.thread.equilibrium import Equilibrium, Start, natural_units, solve_on_mesh
-from hydroelastic.fem.thread.model import PointLoad, ThreadModel
+from hydroelastic.fem.thread.initial_mesh import initial_nodes
 from hydroelastic.fem.thread.newton import ThreadSolverError
-from hydroelastic.fem.thread.nodes import first_nodes
 from hydroelastic.fem.thread.profile import start_from, thread_profile
 from hydroelastic.fem.thread.table import line_table
+from hydroelastic.physics.thread import PointLoad, Thread
 
-# Where a ramp begins; the smallest and the first step on it.
+# Where a continuation starts; its smallest and its first step.
 _FIRST = 1e-3
 _SMALLEST_STEP = 1e-2
 _STEP = 0.25
 _GROWTH = 1.5
-# A thread that stretches may fold within an element, where its length passes through zero.
+# An extensible thread may fold within an element, where |r_s| passes through zero.
 _CRUSHED = 0.5
 _INNER = (np.arange(12) + 0.5) / 12.0
 _MOST_STEPS = 60
@@ -37,9 +36,9 @@ _NEAR = 1e-4
 # Directions whose cosine is below this are opposite: no plane is given in which one turns to the other.
 _OPPOSITE = -1.0 + 1e-4
 
-# Places at which a start is looked at.
+# Number of places at which a start is evaluated.
 _LOOKS = 33
-# Flexural rigidities by force and length², one after the other.
+# Sequence of flexural rigidities, in units of force times length².
 _FADING = (1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5)
 
 
@@ -49,12 +48,12 @@ class FoldError(ThreadSolverError):
 
 @dataclass(frozen=True)
 class RampedEquilibrium:
-    """An equilibrium and the way to it.
+    """An equilibrium and the continuation to it.
 
     Attributes:
         equilibrium: of the thread itself.
-        ramp: what changed: nothing, the clamp, the drag, the stiffness, or the flexural rigidity.
-        steps: equilibria on the way, failures included.
+        ramp: name of the continuation, empty if none was needed.
+        steps: number of equilibria on the way, failed ones included.
     """
 
     equilibrium: Equilibrium
@@ -63,9 +62,9 @@ class RampedEquilibrium:
 
 
 def solve_with_ramps(
-    comm: MPI.Comm, model: ThreadModel, nodes: NDArray[np.float64], start: Start, *, degree: int
+    comm: MPI.Comm, model: Thread, nodes: NDArray[np.float64], start: Start, *, degree: int
 ) -> RampedEquilibrium:
-    """Solve on one mesh: at once, else with turning clamps, growing drag, growing stiffness or rigidity.
+    """Solve on one mesh: directly, else by continuation in clamps, drag, stiffness or rigidity.
 
     Args:
         comm: communicator.
@@ -78,14 +77,14 @@ def solve_with_ramps(
         The equilibrium (collective).
 
     Raises:
-        ThreadSolverError: where all fail; says how each of them did.
+        ThreadSolverError: where all fail, with the reason of each.
     """
     reasons = []
     try:
         return RampedEquilibrium(_solve_unfolded(comm, model, nodes, start, degree), "", 0)
     except ThreadSolverError as error:
         reasons.append(f"at once: {error}")
-    ramps: dict[str, Callable[[float], ThreadModel]] = {}
+    ramps: dict[str, Callable[[float], Thread]] = {}
     if any(end.clamp is not None for end in model.ends):
         ramps["turning clamps"] = lambda part: with_turned_clamps(model, part, start)
     if model.drags and model.stream is not None:
@@ -103,8 +102,8 @@ def solve_with_ramps(
     raise ThreadSolverError("; ".join(reasons))
 
 
-def start_with_fading_rigidity(comm: MPI.Comm, model: ThreadModel, start: Start, *, degree: int) -> Start:
-    """The shape of a slack thread that resists bending less and less: near that without, hooks of it included.
+def start_with_fading_rigidity(comm: MPI.Comm, model: Thread, start: Start, *, degree: int) -> Start:
+    """The shape of a slack thread by continuation to smaller and smaller flexural rigidity.
 
     Args:
         comm: communicator.
@@ -121,13 +120,13 @@ def start_with_fading_rigidity(comm: MPI.Comm, model: ThreadModel, start: Start,
     force = natural_units(model, start, np.arange(_LOOKS) * model.length / (_LOOKS - 1)).force
     for part in _FADING:
         bent = replace(model, flexural_rigidity=part * force * model.length**2)
-        found = _solve_unfolded(comm, bent, first_nodes(bent, start), start, degree)
+        found = _solve_unfolded(comm, bent, initial_nodes(bent, start), start, degree)
         profile = thread_profile(found)
         start = start_from(profile)
     return Start(position=profile.position, force=profile.tension_at)
 
 
-def with_drag(model: ThreadModel, part: float) -> ThreadModel:
+def with_drag(model: Thread, part: float) -> Thread:
     """The thread with a part of all its drags.
 
     Args:
@@ -149,7 +148,7 @@ def with_drag(model: ThreadModel, part: float) -> ThreadModel:
     )
 
 
-def with_stiffness(model: ThreadModel, part: float, force: float) -> ThreadModel:
+def with_stiffness(model: Thread, part: float, force: float) -> Thread:
     """The thread with more stretch: 1/EA is that of the thread and (1 − part)/force.
 
     Args:
@@ -161,7 +160,7 @@ def with_stiffness(model: ThreadModel, part: float, force: float) -> ThreadModel
     return replace(model, axial_rigidity=1.0 / compliance if compliance > 0.0 else inf)
 
 
-def with_turned_clamps(model: ThreadModel, part: float, start: Start) -> ThreadModel:
+def with_turned_clamps(model: Thread, part: float, start: Start) -> Thread:
     """The thread with clamps turned by a part of the angle from the direction of a start to their own.
 
     Args:
@@ -204,7 +203,7 @@ def _turned(
 
 
 def _solve_unfolded(
-    comm: MPI.Comm, model: ThreadModel, nodes: NDArray[np.float64], start: Start, degree: int
+    comm: MPI.Comm, model: Thread, nodes: NDArray[np.float64], start: Start, degree: int
 ) -> Equilibrium:
     equilibrium = solve_on_mesh(comm, model, nodes, start, degree=degree)
     if model.bends:
@@ -233,7 +232,7 @@ def _refuse_fold(equilibrium: Equilibrium) -> None:
 
 def _ramped(
     comm: MPI.Comm,
-    at: Callable[[float], ThreadModel],
+    at: Callable[[float], Thread],
     nodes: NDArray[np.float64],
     start: Start,
     degree: int,

@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 
 from hydroelastic.fem.thread.force_scale import force_scale
 from hydroelastic.fem.thread.forms import ThreadForms, ThreadState
-from hydroelastic.fem.thread.model import ThreadModel, Units
 from hydroelastic.fem.thread.newton import NewtonSolver
 from hydroelastic.fem.thread.space import ThreadSpace
+from hydroelastic.fem.thread.units import Units
+from hydroelastic.physics.thread import Thread
 
 Along = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 
@@ -53,7 +54,7 @@ class Equilibrium:
         residual: what is left of the equations, owned unknowns; none where the solution was given.
     """
 
-    model: ThreadModel
+    model: Thread
     units: Units
     space: ThreadSpace
     forms: ThreadForms
@@ -79,7 +80,7 @@ def split_state(function: Any) -> ThreadState:
 
 
 def solve_on_mesh(
-    comm: MPI.Comm, model: ThreadModel, nodes: NDArray[np.float64], start: Start, *, degree: int = 3
+    comm: MPI.Comm, model: Thread, nodes: NDArray[np.float64], start: Start, *, degree: int = 3
 ) -> Equilibrium:
     """Solve the equations of the thread at rest on one mesh.
 
@@ -130,7 +131,7 @@ def solve_on_mesh(
     )
 
 
-def natural_units(model: ThreadModel, start: Start, nodes: NDArray[np.float64]) -> Units:
+def natural_units(model: Thread, start: Start, nodes: NDArray[np.float64]) -> Units:
     """The thread's length, its characteristic tension, and the time in which the stream passes it.
 
     Args:
@@ -177,7 +178,7 @@ def interpolate_start(solution: Any, start: Start, units: Units) -> None:
         solution.x.array[np.asarray(places)] = part.x.array
 
 
-def _between_ends(model: ThreadModel, start: Start) -> Start:
+def _between_ends(model: Thread, start: Start) -> Start:
     """The start with its ends where they are held; to move the end nodes alone would fold the elements there."""
     places = start.position(np.array([0.0, model.length]))
     held = np.array([np.where(end.held, end.position, place) for end, place in zip(model.ends, places, strict=True)])
@@ -190,7 +191,7 @@ def _between_ends(model: ThreadModel, start: Start) -> Start:
     return Start(position=position, force=start.force, curvature=start.curvature)
 
 
-def fixed_components(model: ThreadModel, space: ThreadSpace) -> list[Any]:
+def fixed_components(model: Thread, space: ThreadSpace) -> list[Any]:
     """Boundary conditions: held components of the ends, and no curvature where an end that bends is not clamped.
 
     Args:
@@ -212,7 +213,7 @@ def fixed_components(model: ThreadModel, space: ThreadSpace) -> list[Any]:
     return conditions
 
 
-def _check_nodes(model: ThreadModel, nodes: NDArray[np.float64]) -> None:
+def _check_nodes(model: Thread, nodes: NDArray[np.float64]) -> None:
     length = model.length
     if len(nodes) < 2 or nodes[0] != 0.0 or abs(nodes[-1] - length) > 1e-12 * length or np.any(np.diff(nodes) <= 0.0):
         raise ValueError(f"nodes: {len(nodes)} values; they must increase from 0 to the length {length}")

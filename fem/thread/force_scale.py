@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from math import inf
 
-from hydroelastic.fem.thread.model import ThreadModel
+from hydroelastic.physics.thread import Thread
 
 # Stretch whose force counts where nothing else acts on a thread.
 _STRETCH = 1e-6
 
 
-def force_scale(model: ThreadModel, speed: float) -> float:
+def force_scale(model: Thread, speed: float) -> float:
     """The largest force that acts on a thread: |F| + k u² of a body, |w| L, (kn u + nv) u L, EI/L², ma u² if reactive.
 
     Args:
@@ -20,10 +20,9 @@ def force_scale(model: ThreadModel, speed: float) -> float:
     Returns:
         The force; where nothing acts on the thread that which stretches it by a millionth, zero if it cannot stretch.
     """
-    bodies = (*model.loads.values(), *(end.load for end in model.ends))
     reactive = 0.0 if model.reactive == "none" else model.added_mass * speed**2
     largest = max(
-        *(float(sum(part**2 for part in body.force) ** 0.5) + body.drag * speed**2 for body in bodies),
+        *(float(sum(part**2 for part in body.dead_force) ** 0.5) + body.drag * speed**2 for body in model.bodies),
         abs(model.weight) * model.length,
         (model.normal_drag * speed + model.viscous_drag) * speed * model.length,
         model.flexural_rigidity / model.length**2,

@@ -21,9 +21,9 @@ from typing import Any
 import ufl
 from dolfinx import fem
 
-from hydroelastic.fem.thread.model import PointLoad, ThreadModel
 from hydroelastic.fem.thread.space import ThreadSpace
 from hydroelastic.fem.thread.stream import StreamField
+from hydroelastic.physics.thread import PointLoad, Thread
 
 # Speeds below this part of the unit of speed act as if smooth: √(v² + ν²) has a derivative at rest.
 _SMOOTHED_SPEED = 1e-8
@@ -61,14 +61,14 @@ class ThreadForms:
         dead_force: those of the model.
     """
 
-    def __init__(self, model: ThreadModel, space: ThreadSpace) -> None:
+    def __init__(self, model: Thread, space: ThreadSpace) -> None:
         """Make the functions of what is known at nodes."""
         self.model, self.space = model, space
         self.stream = None
         if model.stream is not None and (model.drags or model.reactive != "none"):
             self.stream = StreamField(space.mesh, model.dimension, model.stream, space.quadrature_degree)
         loads: dict[float, PointLoad] = {0.0: model.ends[0].load, model.length: model.ends[1].load, **model.loads}
-        self.point_force = space.at_nodes({s: load.force for s, load in loads.items()}, space.vectors)
+        self.point_force = space.at_nodes({s: load.dead_force for s, load in loads.items()}, space.vectors)
         self.dead_force = self.point_force.copy()
         self._drag = self._at_nodes({s: load.drag for s, load in loads.items()})
         self._mass = self._at_nodes({s: load.mass for s, load in loads.items()})
@@ -224,7 +224,7 @@ class ThreadForms:
             if all(end.held):
                 continue
             tau = trace
-            pulled = end.load.drag > 0.0 or end.load.force.any()
+            pulled = end.load.drag > 0.0 or end.load.dead_force.any()
             if pulled and not self.model.bends and not any(end.held):
                 force = self.point_load(position, velocity)
                 tau = self._normal * force / _length(force)

@@ -24,11 +24,11 @@ _ROUNDING = 1e-9
 
 
 class IllPosedError(ValueError):
-    """Short waves grow without limit; says where, and why."""
+    """Short waves grow without limit; the message says where, and why."""
 
 
 def require_real_wave_speeds(equilibrium: Equilibrium) -> None:
-    """Refuse what no mesh can resolve.
+    """Refuse equilibria whose small motions no mesh resolves.
 
     Args:
         equilibrium: about which the thread moves.

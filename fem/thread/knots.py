@@ -1,4 +1,4 @@
-"""Nodes where the thread passes heights at which its stream has a kink: inside elements polynomials would miss it.
+"""Nodes where the thread passes heights at which its stream has a kink, which polynomials do not approximate well.
 
 Between rows of a table the stream is smooth; at them a derivative jumps, the first one of straight lines, the second of
 monotone cubics, the third of a spline. An element with such a place inside has an error of low order, which depends on
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from hydroelastic.fem.thread.equilibrium import Along
 
-# Looks at each element for a passage.
+# Number of samples on each element in search of a passage.
 _LOOKS = 16
 _BISECTIONS = 50
 # Of the smaller element beside it: a node this near is moved to the passage, otherwise there is another one.

@@ -139,7 +139,7 @@ def thread_modes(
 
 
 class _Mode:
-    """What is told of one eigenpair."""
+    """Root, error, damping and shape of one eigenpair."""
 
     def __init__(
         self,
@@ -182,8 +182,7 @@ def _roots(equilibrium: Equilibrium, modes: list[_Mode], chosen: NDArray[np.bool
 def _total_mass(operators: ThreadOperators) -> float:
     """(m + ma) L + Σ (M_k + M_a,k) in the units of the matrix M."""
     model = operators.equilibrium.forms.model
-    loads = [*model.loads.values(), *(end.load for end in model.ends)]
-    total = (model.mass + model.added_mass) * model.length + sum(load.mass + load.added_mass for load in loads)
+    total = (model.mass + model.added_mass) * model.length + sum(load.mass + load.added_mass for load in model.bodies)
     return float(total * (operators.equilibrium.units.time / operators.time_unit) ** 2)
 
 
@@ -196,7 +195,7 @@ def _shape(operators: ThreadOperators, pair: Eigenpair) -> NDArray[np.complex128
 
 
 def _along(operators: ThreadOperators, vector: PETSc.Vec, normal: NDArray[np.float64]) -> PETSc.Vec:
-    """The part of a motion in one direction."""
+    """Part of a motion in one direction."""
     function = operators.function(vector)
     _, places = function.function_space.sub(0).collapse()
     displacement = function.x.array[places].reshape(-1, len(normal))
@@ -208,7 +207,7 @@ def _along(operators: ThreadOperators, vector: PETSc.Vec, normal: NDArray[np.flo
 
 
 def _plane_normal(equilibrium: Equilibrium) -> NDArray[np.float64] | None:
-    """Of the only plane in which the thread lies, or nothing (collective)."""
+    """Normal of the only plane in which the thread lies, or ``None`` (collective)."""
     if equilibrium.space.dimension == 2:
         return None
     points = line_table(equilibrium.solution, equilibrium.space.nodes, 0).values.reshape(-1, 3)

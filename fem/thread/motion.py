@@ -15,20 +15,22 @@ from numpy.typing import NDArray
 from hydroelastic.fem.thread.equilibrium import Along, Equilibrium, in_space
 from hydroelastic.fem.thread.force_scale import force_scale
 from hydroelastic.fem.thread.forms import ThreadForms
-from hydroelastic.fem.thread.model import Stream, ThreadModel, Units
-from hydroelastic.fem.thread.motion_plan import EndCourse, MotionPlan, ThreadMotionError, VectorOfTime
+from hydroelastic.fem.thread.motion_plan import MotionPlan, PrescribedEnd, ThreadMotionError, VectorOfTime
 from hydroelastic.fem.thread.motion_results import SLACK, StepHistory, ThreadMotion, at_step_ends, find_slack
-from hydroelastic.fem.thread.mover import Guidance, ThreadMover
-from hydroelastic.fem.thread.pace import Pace
-from hydroelastic.fem.thread.shedding import SheddingLoad
 from hydroelastic.fem.thread.space import ThreadSpace
 from hydroelastic.fem.thread.step import GeneralisedAlpha
+from hydroelastic.fem.thread.step_control import StepControl
+from hydroelastic.fem.thread.time_integrator import ExternalActions, TimeIntegrator
+from hydroelastic.fem.thread.units import Units
+from hydroelastic.fem.thread.vortex_shedding import SheddingLoad
+from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.stream import Stream
+from hydroelastic.physics.thread import Thread
 
-# Of the force unit: less compression at the start passes as the thread turns.
+# Of the unit of force: smaller compression at the start vanishes as the thread turns.
 _SLACK_AT_START = 1e-3
-# How often a step may be shortened while the thread is slack: its folds are the faster the shorter they are, and
-# no step resolves them.
-_MOST_REFUSED_SLACK = 100
+# How often a step may be shortened while the thread is slack: shorter folds move faster, and no step resolves them.
+_MOST_REJECTED_SLACK = 100
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,7 +49,7 @@ class MovingStart:
 
 @dataclass
 class _TimedStream:
-    """A stream times a factor that changes."""
+    """A stream times a factor that changes in time."""
 
     stream: Stream
     factor: float = 1.0
@@ -59,35 +61,37 @@ class _TimedStream:
     def set_factor(self, factor: float) -> None:
         self.factor = factor
 
-    def velocity_at(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    def velocity_at(self, points: FloatArray) -> FloatArray:
         return self.factor * self.stream.velocity_at(points)
 
-    def gradient_at(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    def gradient_at(self, points: FloatArray) -> FloatArray:
         return self.factor * self.stream.gradient_at(points)
 
+    def times(self, factor: float) -> _TimedStream:
+        return replace(self, factor=factor * self.factor)
 
-def motion_units(model: ThreadModel) -> Units:
+
+def motion_units(model: Thread) -> Units:
     """The thread's length, the largest force that acts on it, and the time of a transverse wave under that.
 
     The stream counts with its speed at z = 0; without any force, 1 N.
     """
-    bodies = (*model.loads.values(), *(end.load for end in model.ends))
     speed = 0.0 if model.stream is None else float(np.linalg.norm(model.stream.velocity_at(np.zeros((1, 3)))))
     force = force_scale(model, speed) or 1.0
-    inertia = (model.mass + model.added_mass) * model.length + sum(body.mass + body.added_mass for body in bodies)
+    inertia = (model.mass + model.added_mass) * model.length + sum(body.mass + body.added_mass for body in model.bodies)
     return Units(length=model.length, force=force, time=float(np.sqrt(inertia * model.length / force)))
 
 
 def move_thread(
     comm: MPI.Comm,
-    model: ThreadModel,
+    model: Thread,
     nodes: NDArray[np.float64],
     start: MovingStart,
     plan: MotionPlan,
     *,
     degree: int = 2,
 ) -> ThreadMotion:
-    """Follow a thread from given positions and velocities.
+    """Solve for the motion of a thread from given positions and velocities.
 
     Args:
         comm: communicator.
@@ -106,15 +110,15 @@ def move_thread(
     """
     units = motion_units(model)
     space = ThreadSpace(comm, np.asarray(nodes / model.length, dtype=np.float64), degree, model.dimension, model.bends)
-    mover = _make_mover(model, units, space, plan)
-    _interpolate(mover.step.before, start.position, units.length, units.length)
+    integrator = _make_integrator(model, units, space, plan)
+    _interpolate(integrator.step.before, start.position, units.length, units.length)
     if start.velocity is not None:
-        _interpolate(mover.step.speed, start.velocity, units.length, units.length / units.time)
-    return _Run(mover, units, plan, model.length).go(place=True)
+        _interpolate(integrator.step.speed, start.velocity, units.length, units.length / units.time)
+    return _Run(integrator, units, plan, model.length).go(place=True)
 
 
 def move_from_rest(equilibrium: Equilibrium, plan: MotionPlan) -> ThreadMotion:
-    """Follow a thread from where it is at rest.
+    """Solve for the motion of a thread from rest.
 
     Args:
         equilibrium: the thread at rest; its model may hang in another stream than the plan's factor gives.
@@ -129,12 +133,12 @@ def move_from_rest(equilibrium: Equilibrium, plan: MotionPlan) -> ThreadMotion:
     """
     model = equilibrium.model
     units = replace(equilibrium.units, time=motion_units(model).time)
-    mover = _make_mover(model, units, equilibrium.space, plan)
-    mover.step.before.x.array[:] = equilibrium.solution.x.array
-    return _Run(mover, units, plan, model.length).go(place=False)
+    integrator = _make_integrator(model, units, equilibrium.space, plan)
+    integrator.step.before.x.array[:] = equilibrium.solution.x.array
+    return _Run(integrator, units, plan, model.length).go(place=False)
 
 
-def _make_mover(model: ThreadModel, units: Units, space: ThreadSpace, plan: MotionPlan) -> ThreadMover:
+def _make_integrator(model: Thread, units: Units, space: ThreadSpace, plan: MotionPlan) -> TimeIntegrator:
     plan.check(model)
     scaled = units.scaled(model)
     set_factor: Callable[[float], None] = lambda factor: None  # noqa: E731
@@ -143,7 +147,7 @@ def _make_mover(model: ThreadModel, units: Units, space: ThreadSpace, plan: Moti
         scaled, set_factor = replace(scaled, stream=stream), stream.set_factor
     forms = ThreadForms(scaled, space)
     factor = plan.stream_factor
-    guidance = Guidance(
+    actions = ExternalActions(
         ends=(_scaled_course(plan.ends[0], units), _scaled_course(plan.ends[1], units)),
         stream=None if factor is None else lambda time: factor(time * units.time),
         set_stream=set_factor,
@@ -154,10 +158,10 @@ def _make_mover(model: ThreadModel, units: Units, space: ThreadSpace, plan: Moti
         given = replace(plan.shedding, lift=lift, wave_number=plan.shedding.wave_number * units.length)
         shedding = SheddingLoad(forms, given)
     alpha = None if plan.dissipation is None else GeneralisedAlpha(plan.dissipation)
-    return ThreadMover(forms, guidance, alpha=alpha, shedding=shedding)
+    return TimeIntegrator(forms, actions, alpha=alpha, shedding=shedding)
 
 
-def _scaled_course(course: EndCourse, units: Units) -> EndCourse:
+def _scaled_course(prescribed: PrescribedEnd, units: Units) -> PrescribedEnd:
     def scaled(function: VectorOfTime | None, unit: float) -> VectorOfTime | None:
         if function is None:
             return None
@@ -168,9 +172,9 @@ def _scaled_course(course: EndCourse, units: Units) -> EndCourse:
 
         return at
 
-    release = None if course.release is None else tuple(time / units.time for time in course.release)
-    return EndCourse(
-        position=scaled(course.position, units.length), force=scaled(course.force, units.force), release=release
+    release = None if prescribed.release is None else tuple(time / units.time for time in prescribed.release)
+    return PrescribedEnd(
+        position=scaled(prescribed.position, units.length), force=scaled(prescribed.force, units.force), release=release
     )
 
 
@@ -181,7 +185,7 @@ def _interpolate(function: Any, along: Along, length: float, unit: float) -> Non
     function.x.array[np.asarray(places)] = part.x.array
 
 
-def _fastest_stream(model: ThreadModel, positions: NDArray[np.float64], velocities: NDArray[np.float64]) -> float:
+def _fastest_stream(model: Thread, positions: NDArray[np.float64], velocities: NDArray[np.float64]) -> float:
     """The largest speed of the liquid past the thread, of positions and velocities of shape (..., dimension)."""
     past = -in_space(velocities.reshape(-1, model.dimension))
     if model.stream is not None:
@@ -191,7 +195,7 @@ def _fastest_stream(model: ThreadModel, positions: NDArray[np.float64], velociti
 
 @dataclass
 class _Record:
-    """What steps leave, in the units of the forms."""
+    """Results of all steps, in the units of the forms."""
 
     ends: list[float] = field(default_factory=list)
     energies: list[NDArray[np.float64]] = field(default_factory=list)
@@ -199,72 +203,72 @@ class _Record:
     reactions: list[NDArray[np.float64]] = field(default_factory=list)
     tensions: list[NDArray[np.float64]] = field(default_factory=list)
     solutions: list[int] = field(default_factory=list)
-    # Tensions and reactions at the start and just after breaks, where they are known, by the number of steps before.
+    # Tensions and reactions at the start and just after discontinuities, where known, by the number of steps before.
     starts: dict[int, tuple[NDArray[np.float64], NDArray[np.float64]] | None] = field(default_factory=dict)
     # Number of steps before, positions, velocities.
     output: list[tuple[int, NDArray[np.float64], NDArray[np.float64]]] = field(default_factory=list)
 
 
 class _Run:
-    """One motion: from stop to stop, each step as long as its pace allows."""
+    """One motion, in steps that end at all output times and discontinuities."""
 
-    def __init__(self, mover: ThreadMover, units: Units, plan: MotionPlan, length: float) -> None:
-        self._mover, self._units, self._plan, self._length = mover, units, plan, length
+    def __init__(self, integrator: TimeIntegrator, units: Units, plan: MotionPlan, length: float) -> None:
+        self._integrator, self._units, self._plan, self._length = integrator, units, plan, length
         self._record = _Record()
-        self._pace = Pace(plan.step / units.time, plan.tolerance if plan.grid is None else None)
-        self._jerked, self._refused, self._refused_slack = 0.0, 0, 0
+        self._control = StepControl(plan.step / units.time, plan.tolerance if plan.grid is None else None)
+        self._velocity_change, self._rejected, self._rejected_slack = 0.0, 0, 0
         self._rate_age = 0.0
 
     def go(self, *, place: bool) -> ThreadMotion:
-        mover, unit = self._mover, self._units.time
+        integrator, unit = self._integrator, self._units.time
         stops, breaks = self._plan.stops()
         wanted = {float(time) for time in self._plan.times}
-        mover.time = float(self._plan.times[0]) / unit
-        moved = mover.place() if place else 0.0
+        integrator.time = float(self._plan.times[0]) / unit
+        moved = integrator.project_positions() if place else 0.0
         if moved is None:
             self._fail(
                 "there is no thread near the given positions, or its tension is undetermined; give positions with "
                 "|r_s| = 1 nearby, and more thread than the distance of its held ends"
             )
-        self._begin(jerk=True, look_for_slack=self._plan.tension_at_start)
-        self._record.ends.append(mover.time)
-        self._record.energies.append(mover.energies())
+        self._begin(velocities_jump=True, look_for_slack=self._plan.tension_at_start)
+        self._record.ends.append(integrator.time)
+        self._record.energies.append(integrator.energies())
         self._output()
         still = None
         for stop in stops:
             still = self._reach(stop / unit)
             if stop in breaks and still is None:
-                self._begin(jerk=stop in self._plan.breaks)
+                self._begin(velocities_jump=stop in self._plan.breaks)
             if stop in wanted or still is not None:
                 self._output()
             if still is not None:
                 break
         return self._result(moved * self._length if moved else 0.0, still)
 
-    def _begin(self, *, jerk: bool, look_for_slack: bool = False) -> None:
-        """Velocities, accelerations and tensions at the start, or after a break."""
-        mover = self._mover
-        if jerk:
-            jerked = mover.start()
-            if jerked is None:
+    def _begin(self, *, velocities_jump: bool, look_for_slack: bool = False) -> None:
+        """Consistent velocities, accelerations and tensions at the start, or after a discontinuity."""
+        integrator = self._integrator
+        if velocities_jump:
+            velocity_change = integrator.project_velocities()
+            if velocity_change is None:
                 self._fail("no impulse of the ends gives the thread the velocities asked for")
             else:
-                self._jerked = max(self._jerked, jerked)
-        if look_for_slack and not mover.forms.model.bends:
+                self._velocity_change = max(self._velocity_change, velocity_change)
+        if look_for_slack and not integrator.forms.model.bends:
             self._refuse_slack()
-        tensions = mover.accelerate()
+        tensions = integrator.solve_accelerations()
         if tensions is None:
             self._fail("the accelerations are undetermined; is the thread straight between two held ends?")
         else:
-            # The rate of Lighthill's momentum is more than the acceleration's part of it.
-            known = mover.forms.model.reactive != "lighthill"
+            # The rate of Lighthill's momentum has terms besides that of the acceleration.
+            known = integrator.forms.model.reactive != "lighthill"
             steps = len(self._record.work)
-            self._record.starts[steps] = (tensions, mover.start_reactions()) if known else None
-        self._pace.restart()
+            self._record.starts[steps] = (tensions, integrator.start_reactions()) if known else None
+        self._control.restart()
         self._rate_age = 0.0
 
     def _refuse_slack(self) -> None:
-        tensions = self._mover.tension_without_stretch()
+        tensions = self._integrator.tension_without_stretch()
         if tensions is None or np.min(tensions) > -_SLACK_AT_START:
             return
         self._fail(
@@ -275,91 +279,93 @@ class _Run:
 
     def _worst(self, tensions: NDArray[np.float64]) -> str:
         """The lowest tension and its place, in words."""
-        place = float(self._mover.forms.space.nodes[np.argmin(tensions)]) * self._length
+        place = float(self._integrator.forms.space.nodes[np.argmin(tensions)]) * self._length
         return f"{float(np.min(tensions)) * self._units.force:.4g} N at s = {place:.4g} m"
 
     def _reach(self, stop: float) -> float | None:
-        """Go on to a time; to an earlier one where the thread is still."""
-        mover, plan = self._mover, self._plan
-        while stop - mover.time > 1e-9 * self._pace.longest:
+        """Take steps up to a time, or to an earlier one at which the thread is at rest."""
+        integrator, plan = self._integrator, self._plan
+        while stop - integrator.time > 1e-9 * self._control.longest:
             length = self._take(self._next(stop))
-            if stop - mover.time < 1e-9 * length:
-                mover.time = stop
-            self._record.ends[-1] = mover.time
-            if plan.still_speed is not None and mover.speed() * self._length / self._units.time < plan.still_speed:
-                return mover.time
+            if stop - integrator.time < 1e-9 * length:
+                integrator.time = stop
+            self._record.ends[-1] = integrator.time
+            if plan.still_speed is not None and integrator.speed() * self._length / self._units.time < plan.still_speed:
+                return integrator.time
         return None
 
     def _next(self, stop: float) -> float:
         """Length of the next step."""
-        now, grid = self._mover.time, self._plan.grid
+        now, grid = self._integrator.time, self._plan.grid
         if grid is None:
-            return self._pace.next(stop - now)
-        beyond = grid[grid / self._units.time > now + 1e-9 * self._pace.longest]
+            return self._control.next_length(stop - now)
+        beyond = grid[grid / self._units.time > now + 1e-9 * self._control.longest]
         return min(stop, float(beyond[0]) / self._units.time if len(beyond) else stop) - now
 
     def _take(self, length: float) -> float:
-        """One step, shorter where it must be."""
-        mover, pace, record = self._mover, self._pace, self._record
+        """Take one step, shortened until its error is acceptable."""
+        integrator, control, record = self._integrator, self._control, self._record
         while True:
-            solutions = mover.attempt(length)
-            error = inf if solutions is None else mover.roughness(length, self._rate_age) if pace.adaptive else 0.0
-            if solutions is not None and pace.accepts(error):
+            solutions = integrator.solve_step(length)
+            error = inf if solutions is None else 0.0
+            if control.adaptive and solutions is not None:
+                error = integrator.local_error(length, self._rate_age)
+            if solutions is not None and control.is_acceptable(error):
                 break
-            self._refused += 1
-            length = pace.shorter(length, error)
+            self._rejected += 1
+            length = control.reject(length, error)
             slack = self._slack()
             if slack is not None:
-                self._refused_slack += 1
-                if self._refused_slack > _MOST_REFUSED_SLACK:
+                self._rejected_slack += 1
+                if self._rejected_slack > _MOST_REJECTED_SLACK:
                     self._fail(
                         f"the thread is slack, with {self._worst(slack)}: it folds faster than steps can follow, of "
-                        f"which {self._refused_slack} had to be shortened; give it flexural_rigidity, or ask for an "
+                        f"which {self._rejected_slack} had to be shortened; give it flexural_rigidity, or ask for an "
                         "earlier last time"
                     )
-            if pace.exhausted(length):
+            if control.is_too_short(length):
                 self._fail(
                     "Newton's method did not converge in steps however short; look for slack or a fold before this "
                     "time, give the thread flexural rigidity, or refine the mesh"
                 )
-        tensions, (reactions, end_powers) = mover.tensions(), mover.reactions()
-        work = length * np.append(mover.powers(), end_powers.sum())
-        mover.accept(length)
+        tensions, (reactions, end_powers) = integrator.tensions(), integrator.reactions()
+        work = length * np.append(integrator.powers(), end_powers.sum())
+        integrator.accept(length)
         self._rate_age = 0.5 * length
-        record.ends.append(mover.time)
-        record.energies.append(mover.energies())
+        record.ends.append(integrator.time)
+        record.energies.append(integrator.energies())
         record.work.append(work)
         record.reactions.append(reactions)
         record.tensions.append(tensions)
         record.solutions.append(solutions or 0)
-        pace.done(length, error)
+        control.accept(length, error)
         return length
 
     def _slack(self) -> NDArray[np.float64] | None:
-        """Tensions of the last step, if the thread was in compression and does not bend."""
+        """Tensions of the last step, if the thread was in compression and has no bending stiffness."""
         tensions = self._record.tensions[-1] if self._record.tensions else None
-        if tensions is None or self._mover.forms.model.bends or np.min(tensions) > -SLACK:
+        if tensions is None or self._integrator.forms.model.bends or np.min(tensions) > -SLACK:
             return None
         return tensions
 
     def _output(self) -> None:
-        self._record.output.append((len(self._record.work), *self._mover.state()))
+        self._record.output.append((len(self._record.work), *self._integrator.state()))
 
     def _fail(self, cause: str) -> None:
-        time = self._mover.time * self._units.time
+        time = self._integrator.time * self._units.time
         raise ThreadMotionError(f"the motion cannot be followed beyond t = {time:.6g} s: {cause}")
 
     def _result(self, moved: float, still: float | None) -> ThreadMotion:
         units, record, length = self._units, self._record, self._length
         speed, work = length / units.time, units.force * length
-        nodes = self._mover.forms.space.nodes * length
+        nodes = self._integrator.forms.space.nodes * length
         ends = np.array(record.ends)
         tensions, reactions = (
             at_step_ends(
                 ends,
                 np.array(middles),
                 {step: None if known is None else known[part] for step, known in record.starts.items()},
-                self._mover.force_part,
+                self._integrator.force_part,
             )
             for part, middles in enumerate((record.tensions, record.reactions))
         )
@@ -374,7 +380,7 @@ class _Run:
         rows = [steps for steps, _, _ in record.output]
         positions = np.array([positions for _, positions, _ in record.output])
         velocities = np.array([velocities for _, _, velocities in record.output])
-        model = self._mover.forms.model
+        model = self._integrator.forms.model
         return ThreadMotion(
             times=history.ends[rows],
             nodes=nodes,
@@ -384,10 +390,10 @@ class _Run:
             force_scale=force_scale(model, _fastest_stream(model, positions, velocities)) * units.force,
             history=history,
             moved=moved,
-            jerked=self._jerked * speed,
-            refused=self._refused,
+            velocity_change=self._velocity_change * speed,
+            rejected=self._rejected,
             slack=()
-            if self._mover.forms.model.bends
+            if self._integrator.forms.model.bends
             else find_slack(history.ends, nodes, history.tensions, units.force),
             still=None if still is None else still * units.time,
         )

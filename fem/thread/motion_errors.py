@@ -1,4 +1,4 @@
-"""How far a motion of a thread may be from the exact one: the same motion with every step, or every element, in two."""
+"""Errors of a motion of a thread, estimated by halving all steps and all elements."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ class MeasuredMotion:
 
     @property
     def error(self) -> float:
-        """Of positions, by steps and, if that was looked at, by elements, m."""
+        """Error of positions by steps and, if estimated, by elements, m."""
         return self.steps.positions + (0.0 if self.mesh is None else self.mesh.positions)
 
     def tension_change(self, start: float, end: float) -> float:
@@ -62,14 +62,14 @@ class MeasuredMotion:
 
 
 def halved(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Increasing numbers and the middles between them."""
+    """Return increasing numbers with the middles between them."""
     result = np.empty(2 * len(values) - 1)
     result[::2], result[1::2] = values, 0.5 * (values[1:] + values[:-1])
     return result
 
 
 def motion_difference(first: ThreadMotion, second: ThreadMotion, every: int = 1) -> MotionDifference:
-    """How far two motions are from each other.
+    """Largest differences of two motions.
 
     Args:
         first: a motion.
@@ -90,7 +90,7 @@ def motion_difference(first: ThreadMotion, second: ThreadMotion, every: int = 1)
 
 
 def measure_motion(run: Run, plan: MotionPlan, *, mesh: bool = False) -> MeasuredMotion:
-    """Follow a motion twice, with steps as planned and with all of them halved; and on halved elements if asked.
+    """Solve for a motion with steps as planned, with all of them halved and, if asked, on halved elements.
 
     Args:
         run: follows a plan on a mesh whose elements are cut in so many parts (collective).

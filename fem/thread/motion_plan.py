@@ -1,4 +1,4 @@
-"""What is asked of the motion of a thread: output times, steps, how its ends are led, when they are let go."""
+"""A motion of a thread in the coordinates of a solution: output times, steps, prescribed ends, releases."""
 
 from __future__ import annotations
 
@@ -9,26 +9,26 @@ from math import isfinite
 import numpy as np
 from numpy.typing import NDArray
 
-from hydroelastic.fem.thread.model import ThreadModel
-from hydroelastic.fem.thread.shedding import Shedding
+from hydroelastic.physics.thread import Thread
+from hydroelastic.physics.thread_motion import VortexShedding
 
 VectorOfTime = Callable[[float], NDArray[np.float64]]
 
 
 class ThreadMotionError(RuntimeError):
-    """The motion could not be followed; says when, why, and what to do."""
+    """The motion could not be solved for; the message says when, why, and what to do."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class EndCourse:
-    """How an end is led in time.
+class PrescribedEnd:
+    """Prescribed position or force of an end by the time, and its release.
 
     Attributes:
         position: of the end in m by the time in s, shape (dimension,), of which the held components are asked; the
             model's position without it.
         force: the dead force on the end in N by the time, shape (dimension,), in place of the model's.
-        release: when each held component is let go, s, shape (dimension,); infinite for never. A clamp is let go with
-            the last component.
+        release: when each held component is released, s, shape (dimension,); infinite for never. A clamp is released
+            with the last component.
     """
 
     position: VectorOfTime | None = None
@@ -36,7 +36,7 @@ class EndCourse:
     release: tuple[float, ...] | None = None
 
     def held(self, held: tuple[bool, ...], time: float) -> tuple[bool, ...]:
-        """Which components are still held just after a time, of those held at first."""
+        """Return which components are still held just after a time, of those held at first."""
         if self.release is None:
             return held
         return tuple(kept and time < let_go for kept, let_go in zip(held, self.release, strict=True))
@@ -44,39 +44,39 @@ class EndCourse:
 
 @dataclass(frozen=True, kw_only=True)
 class MotionPlan:
-    """What is asked of a motion.
+    """A motion to be solved for.
 
     Attributes:
         times: of the output, s, increasing; the first is that of the start.
         step: the longest step, s; that of all steps without `tolerance`, up to landing on output times.
-        tolerance: of the error of positions that a step adds, of the thread's length; steps then follow it.
-        ends: how A and B are led.
+        tolerance: error of positions that a step may add, relative to the length; the steps adapt to it.
+        ends: of A and B.
         stream_factor: by the time in s, times the model's stream; the pressure gradient of a stream that changes is
             not in the equations, so it must change slowly.
         breaks: times at which velocities or accelerations of the ends, forces, or the stream's rate jump.
-        dissipation: spectral radius at infinite frequency of generalised alpha, which damps what steps do not resolve;
-            the midpoint rule, which keeps the energy, without it.
-        shedding: of vortices.
+        dissipation: spectral radius at infinite frequency of the generalised-α method, which damps frequencies that the
+            steps do not resolve; without it the midpoint rule, which conserves energy.
+        shedding: vortices, if any.
         grid: times at which steps end, s, increasing, in place of `step` and `tolerance`.
-        still_speed: m/s; the motion ends once no component of a velocity is larger, after at least one step. Long steps
-            get there with `dissipation` only: the midpoint rule rings.
+        still_speed: m/s; the motion ends when no component of a velocity is larger, after at least one step. With long
+            steps this needs `dissipation`: the midpoint rule keeps oscillating.
         tension_at_start: whether a thread without flexural rigidity is refused that would be in compression at once.
     """
 
     times: NDArray[np.float64]
     step: float
     tolerance: float | None = None
-    ends: tuple[EndCourse, EndCourse] = (EndCourse(), EndCourse())
+    ends: tuple[PrescribedEnd, PrescribedEnd] = (PrescribedEnd(), PrescribedEnd())
     stream_factor: Callable[[float], float] | None = None
     breaks: tuple[float, ...] = ()
     dissipation: float | None = None
-    shedding: Shedding | None = None
+    shedding: VortexShedding | None = None
     grid: NDArray[np.float64] | None = None
     still_speed: float | None = None
     tension_at_start: bool = False
 
     def __post_init__(self) -> None:
-        """Refuse what cannot be followed."""
+        """Check the ranges."""
         times = np.asarray(self.times, dtype=np.float64)
         if times.ndim != 1 or len(times) < 2 or not np.all(np.isfinite(times)) or np.any(np.diff(times) <= 0.0):
             raise ValueError(f"times are {self.times}: at least two are needed, finite and increasing")
@@ -92,8 +92,8 @@ class MotionPlan:
         if self.still_speed is not None and not self.still_speed > 0.0:
             raise ValueError(f"still_speed is {self.still_speed}: it must be positive")
 
-    def check(self, model: ThreadModel) -> None:
-        """Refuse what does not fit a thread.
+    def check(self, model: Thread) -> None:
+        """Check that the plan fits a thread.
 
         Raises:
             ValueError: with what does not fit.
@@ -104,19 +104,19 @@ class MotionPlan:
             raise ValueError('dissipation: reactive "lighthill" needs the midpoint rule, leave dissipation out')
         if self.shedding is not None and (model.dimension == 2 or model.normal_drag == 0.0):
             raise ValueError("shedding: its force is across the plane of the thread, and needs dimension 3 and drag")
-        if model.reactive != "none" and any(course.release is not None for course in self.ends):
+        if model.reactive != "none" and any(prescribed.release is not None for prescribed in self.ends):
             raise ValueError(
                 f'release: not with reactive "{model.reactive}", whose terms at an end that is let go are new'
             )
-        for name, course in zip("AB", self.ends, strict=True):
-            if course.release is not None and len(course.release) != model.dimension:
+        for name, prescribed in zip("AB", self.ends, strict=True):
+            if prescribed.release is not None and len(prescribed.release) != model.dimension:
                 raise ValueError(
-                    f"release of end {name} has {len(course.release)} times: there must be {model.dimension}"
+                    f"release of end {name} has {len(prescribed.release)} times: there must be {model.dimension}"
                 )
 
     def stops(self) -> tuple[list[float], list[float]]:
-        """Times at which steps end, and those among them where the motion breaks, after the start."""
+        """Return the times after the start at which steps end, and those among them with discontinuities."""
         first, last = float(self.times[0]), float(self.times[-1])
-        releases = [time for course in self.ends for time in course.release or ()]
+        releases = [time for prescribed in self.ends for time in prescribed.release or ()]
         breaks = sorted({float(time) for time in (*self.breaks, *releases) if first < time < last})
         return sorted({*map(float, self.times[1:]), *breaks}), breaks

@@ -1,4 +1,4 @@
-"""What a motion of a thread leaves: the thread at the output times, and numbers of every step."""
+"""Results of a motion of a thread: the thread at the output times, and values of every step."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True, kw_only=True)
 class StepHistory:
-    """Numbers of all steps, SI; n steps.
+    """Values of all n steps, SI.
 
     Attributes:
         ends: times at which steps end, with that of the start before them, s, shape (n + 1,).
@@ -33,9 +33,9 @@ class StepHistory:
 
     @property
     def imbalance(self) -> NDArray[np.float64]:
-        """Growth of the energy less the work of all forces, in each step, J, shape (n,).
+        """Change of the energy less the work of all forces, in each step, J, shape (n,).
 
-        By the midpoint rule it is rounding.
+        With the midpoint rule it is rounding.
         """
         growth: NDArray[np.float64] = np.diff(self.energies.sum(axis=1)) - self.work.sum(axis=1)
         return growth
@@ -43,7 +43,7 @@ class StepHistory:
 
 @dataclass(frozen=True, kw_only=True)
 class Slack:
-    """A time in which a part of the thread is in compression, which a thread that does not bend cannot take.
+    """A time in which a part of the thread is in compression, which a thread without bending stiffness cannot carry.
 
     Attributes:
         start: first end of a step with compression, s.
@@ -70,11 +70,11 @@ class ThreadMotion:
         tensions: at breaks just after them, shape (times, nodes).
         force_scale: the largest force that acted on the thread, N, see `force_scale`.
         history: numbers of all steps.
-        moved: how far the given positions were moved to be those of a thread, m.
-        jerked: by how much given velocities were changed, at the start and at breaks, m/s, at most.
-        refused: steps that were tried again, shorter.
+        moved: largest change of given positions to consistent ones, m.
+        velocity_change: largest change of velocities to consistent ones, at the start and at discontinuities, m/s.
+        rejected: number of steps that were repeated with a shorter length.
         slack: times in compression.
-        still: time at which the thread was still, if that was asked for and reached, s.
+        still: time at which the thread came to rest, s, if that was asked for and reached.
     """
 
     times: NDArray[np.float64]
@@ -85,8 +85,8 @@ class ThreadMotion:
     force_scale: float
     history: StepHistory
     moved: float
-    jerked: float
-    refused: int
+    velocity_change: float
+    rejected: int
     slack: tuple[Slack, ...]
     still: float | None
 
@@ -98,7 +98,7 @@ SLACK = 1e-8
 def find_slack(
     times: NDArray[np.float64], nodes: NDArray[np.float64], tensions: NDArray[np.float64], force: float
 ) -> tuple[Slack, ...]:
-    """Times in which the lowest tension is below zero.
+    """Find the times in which the lowest tension is below zero.
 
     Args:
         times: shape (n,).
@@ -125,7 +125,7 @@ def at_step_ends(
     starts: dict[int, NDArray[np.float64] | None],
     part: float = 0.5,
 ) -> NDArray[np.float64]:
-    """Forces at the ends of steps from those in their middles, just after where breaks are.
+    """Forces at the ends of steps from those at their midpoints; at discontinuities just after them.
 
     The midpoint rule leaves an error of the first order in forces of constraint whose sign changes from step to step:
     the mean of two neighbours is free of it, and belongs to the end between them.

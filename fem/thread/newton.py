@@ -15,7 +15,7 @@ from petsc4py import PETSc
 
 from hydroelastic.fem.kernels import compiled_form
 
-# Of the thread's length: what a node moves in one step at most.
+# Largest displacement of a node in one step, of the thread's length.
 STEP_LIMIT = 0.3
 # The last step of a position and the residual, in units of the length and of the characteristic tension.
 STEP_TOLERANCE = 1e-10
@@ -23,7 +23,7 @@ RESIDUAL_TOLERANCE = 1e-9
 # Layers of bending that are far shorter than the thread leave more by rounding: where steps no longer lessen it.
 _ROUNDING = 1e-6
 _MOST_STEPS = 40
-# A step may make the residual grow by this: far from the solution it does so on good ways too.
+# A step may increase the residual by this factor: far from the solution converging iterations do so too.
 _GROWTH = 10.0
 _MOST_HALVINGS = 6
 _ROOM = 200
@@ -31,7 +31,7 @@ _PREFIX = "hydroelastic_thread_"
 
 
 class ThreadSolverError(RuntimeError):
-    """No equilibrium was found; says why."""
+    """No equilibrium was found; the message says why."""
 
 
 class NewtonSolver:
@@ -187,7 +187,7 @@ class NewtonSolver:
         return vector
 
     def _words(self, reason: int, count: int) -> str:
-        """Why SNES stopped."""
+        """Return the reason why SNES stopped."""
         reasons = PETSc.SNES.ConvergedReason
         if reason == reasons.DIVERGED_LINEAR_SOLVE or not np.isfinite(self._length):
             return f"the linear system of Newton's step {count + 1} is singular"

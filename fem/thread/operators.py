@@ -205,8 +205,7 @@ def _curvature_scale(equilibrium: Equilibrium, free: NDArray[np.int32], matrix: 
 def _time_unit(equilibrium: Equilibrium) -> float:
     """√(mass/stiffness) in the units of the forms, whose length is one."""
     model, space = equilibrium.forms.model, equilibrium.space
-    loads = [*model.loads.values(), *(end.load for end in model.ends)]
-    mass = (model.mass + model.added_mass) * model.length + sum(load.mass + load.added_mass for load in loads)
+    mass = (model.mass + model.added_mass) * model.length + sum(load.mass + load.added_mass for load in model.bodies)
     if mass == 0.0:
         raise ValueError("mass and added_mass are zero: a thread that vibrates has a mass, or carries one")
     _, dofs = space.mixed.sub(1).collapse()

@@ -26,8 +26,8 @@ from scipy.optimize import minimize_scalar
 from hydroelastic.fem.kernels import compiled_expression, compiled_form
 from hydroelastic.fem.thread.equilibrium import Equilibrium, Start, in_space
 from hydroelastic.fem.thread.forms import ThreadState
-from hydroelastic.fem.thread.model import ThreadModel
 from hydroelastic.fem.thread.table import LineTable, gather_elements, line_table
+from hydroelastic.physics.thread import Thread
 
 # Samples of the tension on each element to find the smallest one.
 _SAMPLES = 16
@@ -50,7 +50,7 @@ class ThreadProfile:
             (elements, terms, dimension).
     """
 
-    model: ThreadModel
+    model: Thread
     nodes: NDArray[np.float64]
     position_table: LineTable
     curvature_table: LineTable | None
@@ -91,7 +91,7 @@ class ThreadProfile:
         return best, place
 
     def reactions(self) -> NDArray[np.float64]:
-        """Forces on the thread by what holds its ends A and B, N, shape (2, dimension); zero where nothing is held."""
+        """Reactions on the ends A and B, N, shape (2, dimension); zero in components that are not held."""
         ends = self.position_table.at(self.nodes[[0, -1]])
         pulls = np.array([-self.force[0, 0], self.force[-1, 1]])
         for index, end in enumerate(self.model.ends):
@@ -121,7 +121,7 @@ class ThreadProfile:
 
 
 def thread_profile(equilibrium: Equilibrium) -> ThreadProfile:
-    """Evaluate a thread at rest.
+    """Evaluate a thread at rest as tables in SI units.
 
     Args:
         equilibrium: the field solution.
@@ -156,7 +156,7 @@ def thread_profile(equilibrium: Equilibrium) -> ThreadProfile:
 
 
 def start_from(profile: ThreadProfile) -> Start:
-    """Begin at another solution of the same thread.
+    """Return a start from a solution of the same thread.
 
     Args:
         profile: of that solution.
@@ -225,7 +225,7 @@ def _balance(held: NDArray[np.float64], load: NDArray[np.float64], sizes: NDArra
     return series
 
 
-def _tension(model: ThreadModel, force: NDArray[np.float64], tangents: NDArray[np.float64]) -> NDArray[np.float64]:
+def _tension(model: Thread, force: NDArray[np.float64], tangents: NDArray[np.float64]) -> NDArray[np.float64]:
     along: NDArray[np.float64] = np.sum(force * tangents, axis=-1) / _size(tangents)[..., 0]
     if model.bends:
         return along
@@ -233,13 +233,13 @@ def _tension(model: ThreadModel, force: NDArray[np.float64], tangents: NDArray[n
     return np.copysign(_size(force)[..., 0], along)
 
 
-def _velocity(model: ThreadModel, points: NDArray[np.float64]) -> NDArray[np.float64]:
+def _velocity(model: Thread, points: NDArray[np.float64]) -> NDArray[np.float64]:
     assert model.stream is not None
     axes = [0, 2] if model.dimension == 2 else [0, 1, 2]
-    return model.stream.velocity_at(in_space(points))[:, axes]
+    return np.asarray(model.stream.velocity_at(in_space(points))[:, axes], dtype=np.float64)
 
 
-def _momentum(model: ThreadModel, tangents: NDArray[np.float64], velocity: NDArray[np.float64]) -> NDArray[np.float64]:
+def _momentum(model: Thread, tangents: NDArray[np.float64], velocity: NDArray[np.float64]) -> NDArray[np.float64]:
     """G, or ma W² τ of the moving load."""
     along = np.sum(velocity * tangents, axis=-1, keepdims=True)
     if model.reactive == "moving_load":
@@ -249,7 +249,7 @@ def _momentum(model: ThreadModel, tangents: NDArray[np.float64], velocity: NDArr
 
 
 def _with_momentum(
-    model: ThreadModel,
+    model: Thread,
     balance: NDArray[np.float64],
     velocity: NDArray[np.float64],
     tangents: NDArray[np.float64] | None,

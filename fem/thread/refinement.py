@@ -1,41 +1,47 @@
-"""The thread at rest to a tolerance: two solutions, on a mesh and on its halves, tell each other's error."""
+"""The thread at rest to a tolerance: the error is estimated from solutions on a mesh and on its halves."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
 
 import numpy as np
 from mpi4py import MPI
 from numpy.typing import NDArray
 
+from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
 from hydroelastic.fem.thread.continuation import solve_with_ramps
 from hydroelastic.fem.thread.equilibrium import Along, Equilibrium, Start
+from hydroelastic.fem.thread.initial_mesh import initial_nodes
 from hydroelastic.fem.thread.knots import at_knots, knots_along
-from hydroelastic.fem.thread.model import ThreadModel
 from hydroelastic.fem.thread.newton import ThreadSolverError
-from hydroelastic.fem.thread.nodes import first_nodes
 from hydroelastic.fem.thread.profile import ThreadProfile, start_from, thread_profile
 from hydroelastic.fem.thread.rounding import ThreadRounding, thread_rounding
+from hydroelastic.physics.thread import Thread
 
-# Of the characteristic tension: what of compression is rounding.
+# Compression below this part of the characteristic tension is rounding.
 COMPRESSION = 1e-8
 # Rounding of a solution, relative: measured 1e-13 for straight threads, whose discrete solution is exact.
 ROUNDING = 1e-12
-# Of the largest force: what is not for want of elements.
+# Compression above this part of the largest force is not an error of discretization.
 _FOLDED = 0.05
-# Inner places of an element at which two solutions are compared.
+# Inner points of an element at which two solutions are compared.
 _PLACES = np.arange(1, 8) / 8.0
 _MOST_ROUNDS = 12
 # Meshes after which nodes need no longer be where the thread passes kinks of its stream.
 _SETTLED = 6
 _MOST_PARTS = 8
 _MOST_ELEMENTS = 4_000
-# The part of the tolerance that elements are cut for.
+# Error at which refined elements aim, of the tolerance.
 _AIM = 0.3
 
 
 class CompressionError(ThreadSolverError):
-    """The thread would be in compression, which it cannot bear."""
+    """The thread would be in compression, which a thread without bending stiffness cannot carry."""
+
+
+class NoEquilibriumError(ThreadSolverError):
+    """No equilibrium was found from any start; the message says what was tried."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -81,7 +87,7 @@ class ThreadSolution:
 
 
 def solve_thread(
-    comm: MPI.Comm, model: ThreadModel, start: Start, *, tolerance: float = 1e-6, degree: int = 5
+    comm: MPI.Comm, model: Thread, start: Start, *, tolerance: float = 1e-6, degree: int = 5
 ) -> ThreadSolution:
     """Solve a thread at rest until positions, tensions, reactions and moments are within a tolerance.
 
@@ -110,12 +116,12 @@ def solve_thread(
     def with_knots(nodes: NDArray[np.float64], position: Along) -> NDArray[np.float64]:
         return at_knots(nodes, knots_along(kinks, position, nodes), list(model.loads))
 
-    nodes = with_knots(first_nodes(model, start), start.position)
     elements: list[int] = []
     steps: list[int] = []
     ramps: list[tuple[str, int]] = []
+    last: _Pair | None = None
 
-    def solve() -> tuple[Equilibrium, ThreadProfile]:
+    def on_mesh(nodes: NDArray[np.float64], start: Start) -> tuple[Equilibrium, ThreadProfile]:
         ramped = solve_with_ramps(comm, model, nodes, start, degree=degree)
         elements.append(len(nodes) - 1)
         steps.append(ramped.equilibrium.newton_steps)
@@ -123,52 +129,95 @@ def solve_thread(
             ramps.append((ramped.ramp, ramped.steps))
         return ramped.equilibrium, thread_profile(ramped.equilibrium)
 
-    _, coarse = solve()
-    for _ in range(_MOST_ROUNDS):
-        start, nodes = start_from(coarse), _cut(nodes, np.full(len(nodes) - 1, 2))
-        if len(elements) > 1 and len(nodes) > 2 * _MOST_ELEMENTS:
-            break
-        equilibrium, fine = solve()
+    def solve(nodes: NDArray[np.float64]) -> _Pair:
+        nonlocal last
+        if last is not None and np.array_equal(nodes, last.nodes):
+            coarse = last.fine
+        else:
+            _, coarse = on_mesh(nodes, start if last is None else start_from(last.fine))
+        halves = _cut(nodes, np.full(len(nodes) - 1, 2))
+        equilibrium, fine = on_mesh(halves, start_from(coarse))
         comparison = _Comparison(coarse, fine, equilibrium.units.force)
-        differences = comparison.errors()
-        # Folds depend on the mesh: to refine them leads nowhere.
+        # Folds depend on the mesh: finer meshes do not converge.
         _refuse_compression(fine, _FOLDED * comparison.largest)
-        errors = comparison.errors(thread_rounding(equilibrium))
-        rounded = errors.relative - differences.relative
-        # Finer meshes lessen no rounding.
-        within = differences.relative <= max(tolerance - rounded, rounded)
-        settled = np.array_equal(with_knots(nodes, fine.position), nodes)
-        # A thread that touches the height of a knot passes it on one mesh and not on the next.
-        if within and (settled or len(elements) >= _SETTLED):
-            _refuse_compression(fine, COMPRESSION * equilibrium.units.force)
-            return ThreadSolution(
-                equilibrium=equilibrium,
-                profile=fine,
-                errors=errors,
-                elements=tuple(elements),
-                newton_steps=tuple(steps),
-                ramps=tuple(ramps),
-            )
-        start = start_from(fine)
-        parts = np.ones(len(coarse.nodes) - 1, dtype=np.int64) if within else comparison.parts(tolerance, degree)
-        cut = with_knots(_cut(coarse.nodes, parts), fine.position)
-        if np.array_equal(cut, nodes):
-            coarse = fine
-            continue
-        nodes = cut
-        if len(nodes) > _MOST_ELEMENTS:
-            break
-        _, coarse = solve()
-    raise ThreadSolverError(
-        f"the error is still {errors.relative:.1e} with {elements[-1]} elements, which is more than {tolerance:.1e}"
+        moved = not np.array_equal(with_knots(halves, fine.position), halves)
+        last = _Pair(
+            equilibrium=equilibrium,
+            fine=fine,
+            nodes=halves,
+            comparison=comparison,
+            differences=comparison.errors(),
+            errors=comparison.errors(thread_rounding(equilibrium)),
+            # A thread that touches the height of a knot passes it on one mesh and not on the next.
+            knots_moved=moved and len(elements) < _SETTLED,
+        )
+        return last
+
+    def refine(_nodes: NDArray[np.float64], pair: _Pair) -> NDArray[np.float64] | None:
+        parts = None if pair.error.within(tolerance) else pair.comparison.parts(tolerance, degree)
+        coarse = pair.comparison.coarse.nodes
+        finer = with_knots(coarse if parts is None else _cut(coarse, parts), pair.fine.position)
+        return finer if len(finer) <= _MOST_ELEMENTS else None
+
+    found = adaptive_solve(
+        with_knots(initial_nodes(model, start), start.position),
+        solve,
+        lambda pair: ErrorEstimate(discretization=inf) if pair.knots_moved else pair.error,
+        refine,
+        tolerance,
+        rounds=_MOST_ROUNDS,
     )
+    pair = found.solution
+    if not found.converged:
+        raise ThreadSolverError(
+            f"the error is still {pair.errors.relative:.1e} with {elements[-1]} elements, which is more than "
+            f"{tolerance:.1e}"
+        )
+    _refuse_compression(pair.fine, COMPRESSION * pair.equilibrium.units.force)
+    return ThreadSolution(
+        equilibrium=pair.equilibrium,
+        profile=pair.fine,
+        errors=pair.errors,
+        elements=tuple(elements),
+        newton_steps=tuple(steps),
+        ramps=tuple(ramps),
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Pair:
+    """Solutions on a mesh and on its halves.
+
+    Attributes:
+        equilibrium: on the halves.
+        fine: its profile.
+        nodes: of the halves, m.
+        comparison: of both.
+        differences: of both, without rounding.
+        errors: the differences and rounding.
+        knots_moved: whether knots of the stream lie elsewhere along the thread than the mesh has them.
+    """
+
+    equilibrium: Equilibrium
+    fine: ThreadProfile
+    nodes: NDArray[np.float64]
+    comparison: _Comparison
+    differences: ThreadErrors
+    errors: ThreadErrors
+    knots_moved: bool
+
+    @property
+    def error(self) -> ErrorEstimate:
+        """The relative error; finer meshes do not reduce its rounding."""
+        rounding = self.errors.relative - self.differences.relative
+        return ErrorEstimate(discretization=self.differences.relative, rounding=rounding)
 
 
 _NOTHING = ThreadRounding(position=0.0, tension=0.0, reaction=0.0, moment=0.0)
 
 
 class _Comparison:
-    """Differences of a solution to that on the halves of its elements."""
+    """Differences of a solution from that on halved elements."""
 
     def __init__(self, coarse: ThreadProfile, fine: ThreadProfile, characteristic: float) -> None:
         """Take the differences; `characteristic` is the characteristic tension, N."""
@@ -191,7 +240,7 @@ class _Comparison:
         self.largest = max(float(np.max(np.linalg.norm(fine.force, axis=2))), characteristic)
 
     def errors(self, rounding: ThreadRounding = _NOTHING) -> ThreadErrors:
-        """What is stated: the differences and rounding."""
+        """Return the estimated errors: the differences and rounding."""
         position = max(_size(self._inner), _size(self._nodal)) + ROUNDING * self.length + rounding.position
         # With a kink of the load two errors of its integral may agree by chance: what a polynomial misses counts too.
         missed = float(np.sum(_tail(self.fine))) + ROUNDING * self.largest
@@ -207,7 +256,7 @@ class _Comparison:
         return ThreadErrors(position=position, tension=tension, reaction=reaction, moment=moment, relative=max(parts))
 
     def parts(self, tolerance: float, degree: int) -> NDArray[np.int64]:
-        """Into how many each element is to be cut.
+        """Return into how many parts each element is to be divided.
 
         The shape of an element between its nodes is its own, of order p + 1; so is the change of the contact force
         along it, where the load has kinks; where the thread bends its tension, N along a tangent of order p, too. If

@@ -1,4 +1,4 @@
-"""Rounding of a thread at rest: what is left of its equations, and what a stretch of the whole thread would change.
+"""Rounding errors of a thread at rest, by the residual and by the response to a stretch of the whole thread.
 
 Lengths of elements are differences of positions, so that |r_s| is known to some eps times the number of elements. A
 taut thread answers to a stretch ε with the tension ε/(1/EA + |Pq|²L²/12T³), EA ε if it is nearly straight: 1e-9 of the
@@ -18,7 +18,7 @@ from hydroelastic.fem.thread.table import line_table
 
 @dataclass(frozen=True, kw_only=True)
 class ThreadRounding:
-    """Bounds of rounding, estimated, SI.
+    """Estimated bounds of rounding errors, SI.
 
     Attributes:
         position: of the whole thread, m.

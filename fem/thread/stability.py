@@ -1,4 +1,4 @@
-"""At which stream a thread begins to diverge or to flutter.
+"""Thresholds of divergence and flutter of a thread by the factor of its stream.
 
 A parameter is swept, the speed of the stream say. Divergence is where K becomes singular: a real κ of K y = κ M y
 changes its sign, whatever the damping. Flutter begins where an oscillating root crosses Im axis, or where two roots on
@@ -40,7 +40,7 @@ _REACH = 6.0
 
 @dataclass(frozen=True, kw_only=True)
 class Threshold:
-    """Where the motions change their kind.
+    """A threshold of stability.
 
     Attributes:
         value: of the parameter.
@@ -137,7 +137,7 @@ def _sweep(at: _At, values: NDArray[np.float64]) -> tuple[list[Spectrum], tuple[
 
 
 def _between(at: _At, coarse: _At, low: Spectrum, high: Spectrum) -> list[Threshold]:
-    """All changes between two spectra."""
+    """Find all thresholds between two spectra."""
     found = []
     for kind in _CHANGES:
         for start, end in _brackets(at, low, high, _CHANGES[kind], _HALVINGS):
@@ -155,7 +155,7 @@ _CHANGES: dict[Kind, Callable[[Spectrum], int]] = {
 
 
 def _different(thresholds: list[Threshold]) -> tuple[Threshold, ...]:
-    """In ascending order, those that cannot be told from each other as one."""
+    """Return thresholds in ascending order, those within their errors of each other as one."""
     different: list[Threshold] = []
     for threshold in sorted(thresholds, key=lambda threshold: threshold.value):
         last = different[-1] if different else None
@@ -169,7 +169,7 @@ def _different(thresholds: list[Threshold]) -> tuple[Threshold, ...]:
 def _brackets(
     at: _At, low: Spectrum, high: Spectrum, number: Callable[[Spectrum], int], halvings: int
 ) -> list[tuple[Spectrum, Spectrum]]:
-    """Narrow intervals in which a number changes."""
+    """Return narrow intervals in which a count changes."""
     if number(low) == number(high):
         return []
     if halvings == 0:

@@ -28,7 +28,7 @@ from dolfinx import fem
 
 from hydroelastic.fem.thread.forms import ThreadForms, ThreadState
 
-# A force per length that is not among those of the model, of position, velocity and tangent.
+# A force per length besides those of the model, by position and velocity.
 ExtraLoad = Callable[[Any, Any], Any]
 
 
@@ -50,7 +50,7 @@ class Weights:
 
 
 def midpoint_weights(step: float) -> Weights:
-    """Those of the midpoint rule."""
+    """Return the weights of the midpoint rule."""
     return Weights(0.5 * step, (1.0, 0.0, 0.0), (2.0 / step, -2.0 / step, 0.0))
 
 
@@ -122,7 +122,7 @@ class ThreadStep:
     """
 
     def __init__(self, forms: ThreadForms, *, conservative: bool, extra: ExtraLoad | None = None) -> None:
-        """Write the equations down."""
+        """Set up the equations."""
         self.forms, self.conservative = forms, conservative
         mixed = forms.space.mixed
         self.unknown, self.before, self.speed, self.rate = (fem.Function(mixed) for _ in range(4))
@@ -147,7 +147,7 @@ class ThreadStep:
             self.tension = self._force + forms.constant(forms.model.flexural_rigidity) * ufl.inner(bend, bend)
 
     def set_weights(self, weights: Weights, step: float) -> None:
-        """Take another rule, or another step."""
+        """Set the rule and the length of the step."""
         self._step.value, self._c.value = step, weights.position
         for constants, values in ((self._b, weights.velocity), (self._d, weights.acceleration)):
             for constant, value in zip(constants, values, strict=True):
@@ -175,7 +175,7 @@ class ThreadStep:
         return self._force * 2.0 * self.position.dx(0) / lengths
 
     def _inertia(self) -> Any:
-        """That of the thread and of what it carries."""
+        """Inertia of the thread and of its bodies."""
         forms = self.forms
         own = forms.constant(forms.model.mass) * ufl.inner(self.acceleration, self._test.position)
         return own * forms.space.dx + forms.carried_inertia(self.acceleration, self._test.position)

@@ -1,4 +1,4 @@
-"""Newton's method for one step of a moving thread: the matrices of all steps have the same places."""
+"""Newton's method for one step of a moving thread: the matrices of all steps have the same sparsity pattern."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class HeldUnknowns:
     """
 
     def __init__(self, space: Any, held: list[tuple[int, int, NDArray[np.int32]]]) -> None:
-        """Look the unknowns up."""
+        """Find the numbers of the unknowns."""
         self.values = [fem.Constant(space.mesh, 0.0) for _ in held]
         self.conditions = []
         self.places = []

@@ -11,21 +11,29 @@ from dolfinx.fem import petsc as fem_petsc
 from mpi4py import MPI
 from numpy.typing import NDArray
 from petsc4py import PETSc
+from scipy.integrate import quad
 
 from hydroelastic.fem.kernels import compiled_form
-from hydroelastic.fem.thread.equilibrium import Equilibrium, fixed_components
+from hydroelastic.fem.thread.equilibrium import Equilibrium, Start, fixed_components, solve_on_mesh
 from hydroelastic.fem.thread.forms import ThreadForms, ThreadState
-from hydroelastic.fem.thread.model import ThreadModel, Units
+from hydroelastic.fem.thread.frame import Frame
 from hydroelastic.fem.thread.operators import free_unknowns
+from hydroelastic.fem.thread.profile import thread_profile
+from hydroelastic.fem.thread.refinement import ROUNDING, NoEquilibriumError, ThreadErrors, ThreadSolution
 from hydroelastic.fem.thread.space import ThreadSpace
+from hydroelastic.fem.thread.units import Units
+from hydroelastic.modal.thread.library_warnings import suppressed_library_warnings
+from hydroelastic.physics.thread import Thread
 
 # Residual of the equations beside the largest force: what interpolation of a smooth tension leaves is below it.
 _BALANCE = 1e-8
+# Of the mesh of a straight thread whose tension is given: enough for its first modes.
+_ELEMENTS, _DEGREE = 32, 5
 
 
 def straight_equilibrium(
     comm: MPI.Comm,
-    model: ThreadModel,
+    model: Thread,
     nodes: NDArray[np.float64],
     tension: float | Callable[[NDArray[np.float64]], NDArray[np.float64]],
     *,
@@ -81,7 +89,78 @@ def straight_equilibrium(
     return equilibrium
 
 
-def _units(model: ThreadModel, tension: float) -> Units:
+def equilibrium_on(
+    comm: MPI.Comm, thread: Thread, frame: Frame, nodes: NDArray[np.float64], start: Start | None, degree: int
+) -> Equilibrium:
+    """The equilibrium of a thread on one mesh, near a known one, or straight if its tension is given.
+
+    Args:
+        comm: the processes.
+        thread: in space, SI units.
+        frame: coordinates of the solution.
+        nodes: s of the nodes, m.
+        start: the known equilibrium; not needed where the tension is given.
+        degree: of the positions.
+
+    Raises:
+        ThreadSolverError: where Newton's method fails (collective).
+        NoEquilibriumError: where a thread of given tension is not at rest.
+    """
+    model = frame.thread(thread)
+    if thread.tension is None:
+        assert start is not None
+        return solve_on_mesh(comm, model, nodes, start, degree=degree)
+    try:
+        return straight_equilibrium(comm, model, nodes, tension_along(thread), degree=degree)
+    except ValueError as error:
+        raise NoEquilibriumError(str(error)) from error
+
+
+def tension_along(thread: Thread) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
+    """T(s) in N of a straight thread in space: that given at end B, and weight and friction between there and s."""
+    begin, length, tension = thread.ends[0].position, thread.length, thread.tension
+    way, load = (thread.ends[1].position - begin) / length, thread.distributed_load
+
+    def along(s: float) -> float:
+        return float(load.load((begin + s * way)[None], way[None])[0] @ way)
+
+    def at(s: NDArray[np.float64]) -> NDArray[np.float64]:
+        with suppressed_library_warnings():
+            return np.array([tension + quad(along, place, length)[0] for place in np.ravel(s)]).reshape(np.shape(s))
+
+    return at
+
+
+def solve_with_given_tension(comm: MPI.Comm, thread: Thread, frame: Frame) -> ThreadSolution:
+    """The straight equilibrium of a thread whose tension is given.
+
+    Args:
+        comm: the processes.
+        thread: in space, SI units, with a tension.
+        frame: coordinates of the solution.
+
+    Returns:
+        The equilibrium, which every mesh represents up to rounding (collective).
+
+    Raises:
+        NoEquilibriumError: where weight or drag bend the thread.
+    """
+    nodes: NDArray[np.float64] = np.linspace(0.0, thread.length, _ELEMENTS + 1, dtype=np.float64)
+    found = equilibrium_on(comm, thread, frame, nodes, None, _DEGREE)
+    force, moment = ROUNDING * found.units.force, ROUNDING * thread.flexural_rigidity / thread.length
+    return ThreadSolution(
+        equilibrium=found,
+        profile=thread_profile(found),
+        errors=ThreadErrors(
+            position=ROUNDING * thread.length, tension=force, reaction=force, moment=moment, relative=ROUNDING
+        ),
+        elements=(_ELEMENTS,),
+        newton_steps=(0,),
+        ramps=(),
+    )
+
+
+def _units(model: Thread, tension: float) -> Units:
     force = max(tension, model.flexural_rigidity / model.length**2)
     if force == 0.0:
         raise ValueError("tension is zero and so is flexural_rigidity: nothing keeps the thread straight")

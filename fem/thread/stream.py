@@ -15,7 +15,7 @@ from dolfinx import fem
 from numpy.typing import NDArray
 
 from hydroelastic.fem.kernels import compiled_expression
-from hydroelastic.fem.thread.model import Stream
+from hydroelastic.physics.stream import Stream
 
 
 class _Places:

@@ -1,4 +1,4 @@
-"""What the asymptotic solutions of a thread have in common."""
+"""Type and error of the asymptotic solutions of a thread."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ class NoAsymptoticError(ValueError):
 
 @dataclass(frozen=True)
 class AsymptoticThread:
-    """An asymptotic solution, and how much it leaves out.
+    """An asymptotic solution with its truncation error.
 
     Attributes:
         shape: positions and contact forces.
         order: of the last terms that are kept.
         small: the small parameter of the expansion.
-        position_left_out: estimate of the largest error of a position, m: the next term, or the last one times the
+        position_truncation: estimate of the largest error of a position, m: the next term, or the last one times the
             small parameter.
-        force_left_out: the same of a contact force, N.
+        force_truncation: the same of a contact force, N.
     """
 
     shape: ThreadShape
     order: int
     small: float
-    position_left_out: float
-    force_left_out: float
+    position_truncation: float
+    force_truncation: float

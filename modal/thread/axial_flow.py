@@ -22,7 +22,7 @@ from hydroelastic.physics.arrays import FloatArray
 ComplexArray = NDArray[np.complex128]
 Ends = Literal["pinned", "clamped", "clamped-free"]
 
-# Times that the displacement vanishes at the upstream end and at the downstream one.
+# Order of the zero of the displacement at the upstream and at the downstream end.
 _ZEROS: dict[Ends, tuple[int, int]] = {"pinned": (1, 1), "clamped": (2, 2), "clamped-free": (2, 0)}
 # Polynomials in the Galerkin solution: from 14 on, flutter speeds do not change in 8 digits.
 _POLYNOMIALS = 20
@@ -94,7 +94,7 @@ class AxialFlowBeam:
     taper: float = 0.0
 
     def __post_init__(self) -> None:
-        """Refuse what is no beam."""
+        """Check the ranges."""
         for name in ("length", "flexural_rigidity", "mass", "added_mass"):
             value = getattr(self, name)
             if not (math.isfinite(value) and value > 0):
@@ -200,7 +200,7 @@ class AxialFlowBeam:
 
     @property
     def _neutral(self) -> bool:
-        """Whether nothing takes energy away, so that stable oscillations neither decay nor grow."""
+        """Whether energy is conserved, so that stable oscillations neither decay nor grow."""
         return self.ends != "clamped-free" or self.taper == 1
 
     def _exponents(self, speed: float) -> ComplexArray:

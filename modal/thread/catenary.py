@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import brentq, root
 
-from hydroelastic.modal.thread.load import UP
 from hydroelastic.modal.thread.shape import NoTensionError, ThreadShape
 from hydroelastic.modal.thread.taut import taut_tension
 from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.thread_load import UP
 
 # sinh(x)/x − 1 by its series below: at 0.5 the first term left out is 1e-17 of the sum.
 _SERIES = 0.5

@@ -31,7 +31,7 @@ class ClampLayer:
     length: float
 
     def __post_init__(self) -> None:
-        """Refuse what is no layer."""
+        """Check the ranges."""
         for name in ("flexural_rigidity", "tension", "length"):
             if not (math.isfinite(getattr(self, name)) and getattr(self, name) > 0):
                 raise ValueError(f"{name} is {getattr(self, name)}: it must be finite and positive")
@@ -47,7 +47,7 @@ class ClampLayer:
 
     @property
     def small(self) -> float:
-        """√(EI/T)/L: the relative order of what is left out of the moment."""
+        """√(EI/T)/L: order of the relative truncation error of the moment."""
         return self.decay_length / self.length
 
     @property

@@ -11,11 +11,11 @@ from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from hydroelastic.modal.thread.asymptotics import NoAsymptoticError
-from hydroelastic.modal.thread.load import UP, ThreadLoad
 from hydroelastic.modal.thread.panel_quadrature import PanelQuadrature
 from hydroelastic.modal.thread.shape import NoTensionError, ThreadShape
-from hydroelastic.modal.thread.stream_profiles import UniformStream
 from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.stream import UniformStream
+from hydroelastic.physics.thread_load import UP, ThreadLoad
 
 _DIRECTIONS = 361
 # Of the stream: changes above it are not small.
@@ -110,7 +110,7 @@ def critical_line(load: ThreadLoad, length: float, s: ArrayLike, start: ArrayLik
 
 
 def towed_body_exponent(weight: float, normal_load: float, tangential_load: float) -> float:
-    """Return k of f + f_c = C Tᵏ(1 + …), by which a thread comes to the critical line away from a body at its end.
+    """Return k of f + f_c = C Tᵏ(1 + …), with which a thread approaches the critical line away from a body at its end.
 
     k = −(w sin f_c + 2Rₙ sin f_c cos f_c)/(w sin f_c + Rₜ cos² f_c). The layer at the body is T_B/|q| thick.
 
@@ -140,7 +140,7 @@ class NearlyCriticalTail:
         across: how far upstream of the tail, m.
         lengths: arc length from the tail, m.
         small: largest change of the stream, of it.
-        angle_left_out: estimate of the error of the angles: their change times the change of the stream.
+        angle_truncation: estimate of the error of the angles: their change times the change of the stream.
     """
 
     angles: FloatArray
@@ -148,7 +148,7 @@ class NearlyCriticalTail:
     across: FloatArray
     lengths: FloatArray
     small: float
-    angle_left_out: float
+    angle_truncation: float
 
 
 def nearly_critical_tail(
@@ -205,5 +205,5 @@ def nearly_critical_tail(
         across=sums[chosen, 0],
         lengths=sums[chosen, 1],
         small=small,
-        angle_left_out=small * float(np.abs(change).max(initial=0.0)),
+        angle_truncation=small * float(np.abs(change).max(initial=0.0)),
     )

@@ -11,14 +11,14 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from hydroelastic.modal.thread.asymptotics import AsymptoticThread, NoAsymptoticError
-from hydroelastic.modal.thread.load import ThreadLoad
 from hydroelastic.modal.thread.shape import ThreadShape
 from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.thread_load import UP, ThreadLoad
 
-# First-order changes of the angle, of sin f, and of ln T: above it the second order is not smaller.
+# Largest first-order change of the angle, of sin f and of ln T: above it the second order is not smaller.
 _LARGEST = 0.5
 _TOLERANCE = 1e-12
-# Parallel to rounding of what the user types.
+# Vectors are parallel up to this rounding of the input.
 _PARALLEL = 1e-9
 
 
@@ -80,8 +80,8 @@ def drag_dominated(
         shape=shape,
         order=order,
         small=small,
-        position_left_out=factor * float(np.linalg.norm(shape.positions - other.positions, axis=1).max()),
-        force_left_out=factor * float(np.linalg.norm(shape.forces - other.forces, axis=1).max()),
+        position_truncation=factor * float(np.linalg.norm(shape.positions - other.positions, axis=1).max()),
+        force_truncation=factor * float(np.linalg.norm(shape.forces - other.forces, axis=1).max()),
     )
 
 
@@ -95,7 +95,8 @@ class _Plane:
             raise NoAsymptoticError("the drag must be quadratic, with a normal part and without a viscous one")
         if load.stream is None:
             raise NoAsymptoticError("there is no stream")
-        velocities = load.stream.profile(start[2] + self.up * np.linspace(0, extent, 65))
+        self.stream = load.stream
+        velocities = self._velocities(np.linspace(0, extent, 65))
         fastest = velocities[np.argmax(np.linalg.norm(velocities, axis=1))]
         speed = float(np.linalg.norm(fastest))
         if speed == 0:
@@ -113,6 +114,10 @@ class _Plane:
         self.angle = math.atan2(abs(force[2]), float(force @ self.along))
         self.constant = math.log(size) - self._logarithm(self.angle)
 
+    def _velocities(self, heights: FloatArray) -> FloatArray:
+        """Return u, m/s, at heights, m, reckoned from the start along the force, shape (n,); shape (n, 3)."""
+        return self.stream.velocity_at(self.start + np.outer(self.up * heights, UP))
+
     def _logarithm(self, angle: float) -> float:
         """Return G."""
         return self.friction * math.copysign(1.0, 0.5 * math.pi - angle) * (1 / math.tan(angle) + angle - 0.5 * math.pi)
@@ -123,7 +128,7 @@ class _Plane:
         def slope(z: float, y: FloatArray) -> list[float]:
             angle, first, turned = y[:3]
             sine, cosine = math.sin(angle), math.cos(angle)
-            velocity = float(self.load.stream.profile([self.start[2] + self.up * z])[0] @ self.along)  # type: ignore[union-attr]
+            velocity = float(self._velocities(np.array([z]))[0] @ self.along)
             drag = self.load.normal_drag * velocity * abs(velocity)
             inverse, growth = math.exp(-self.constant), math.exp(-self._logarithm(angle))
             change = turned * sine * growth
@@ -143,7 +148,7 @@ class _Plane:
         )
 
     def terms(self, height: float, levels: FloatArray) -> tuple[dict[str, FloatArray], dict[str, FloatArray]]:
-        """Return angle, logarithm of the tension, x and s at levels above A: without weight, and what weight adds."""
+        """Return angle, logarithm of the tension, x and s at levels above A: without weight, and changes by weight."""
         solution = self._solve(height).sol
         angle, first, turned, x, s, more_x, more_s = solution(levels)
         base = solution(0.0)[3:]

@@ -17,15 +17,15 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import root, root_scalar
 
 from hydroelastic.modal.thread.critical import critical_direction
-from hydroelastic.modal.thread.load import UP, ThreadLoad
 from hydroelastic.modal.thread.shape import NoTensionError, ThreadShape
 from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.thread_load import UP, ThreadLoad
 
 Force = ArrayLike | Callable[[FloatArray], ArrayLike]
 
 # Of the largest force on the thread: below, the direction N/|N| is lost in rounding after a few steps.
 _LEAST_TENSION = 1e-9
-# Of the length: distance from a free tail at which the thread is still taken to be straight.
+# Distance from a free tail within which the thread is taken as straight, of the length.
 _TAIL = 1e-5
 # First distances of B from A, of the length.
 _GUESSES = (1.0, 0.7, 0.3)
@@ -163,7 +163,7 @@ def _placed(
     for guess in _GUESSES:
         try:
             marched = march(start + length * guess * direction)
-            # Where the profile has breaks a march is off by some ten tolerances.
+            # Where the profile has breaks the error of the integration is some ten tolerances.
             for improved, allowed in ((_shifted, 1), (_at_height, 100), (_anywhere, 100)):
                 marched = improved(march, marched, start, length, tolerance)
                 if _miss(marched, start, length) < allowed * tolerance:
@@ -176,7 +176,7 @@ def _placed(
 def _shifted(
     march: Callable[[FloatArray], MarchedThread], marched: MarchedThread, start: FloatArray, length: float, _: float
 ) -> MarchedThread:
-    """Move B as A is to be moved: the answer where neither stream nor force depends on the place."""
+    """Translate the thread: exact where neither stream nor force depends on the position."""
     return march(marched.positions[-1] + start - marched.positions[0])
 
 
@@ -187,14 +187,14 @@ def _at_height(
     length: float,
     tolerance: float,
 ) -> MarchedThread:
-    """Find the height of B: all that is not known where stream and forces depend on the height only."""
+    """Find the height of B, the only unknown where stream and forces depend on the height alone."""
     end = marched.positions[-1]
 
     def miss(height: float) -> float:
         return float(march(np.array([end[0], end[1], height])).positions[0, 2] - start[2])
 
     off = float(marched.positions[0, 2] - start[2])
-    # At its height already: two different heights are needed to begin with.
+    # B is at its height already; the secant method needs two different heights.
     if abs(off) <= tolerance * length:
         return marched
     found = root_scalar(miss, method="secant", x0=end[2], x1=end[2] - off, xtol=10 * tolerance * length)

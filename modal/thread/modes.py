@@ -15,7 +15,7 @@ from hydroelastic.modal.bessel_zeros import bessel_zeros
 from hydroelastic.modal.bracketed_roots import bracketed_roots, sign_change_roots
 from hydroelastic.physics.arrays import FloatArray
 
-# Places at which the determinant of a chain is looked at, between two roots that are π apart in travel time.
+# Samples of the determinant of a chain between two roots, which are π apart in travel time.
 _PLACES_PER_ROOT = 16
 
 
@@ -104,7 +104,7 @@ def chain_frequencies(
 
 
 def damped_exponents(frequencies: ArrayLike, damping: float, mass: float) -> NDArray[np.complex128]:
-    """Return λ = −c/(2m) ± √((c/2m)² − ω_n²) of modes under a damping c per length that is the same everywhere.
+    """Return λ = −c/(2m) ± √((c/2m)² − ω_n²) of modes under a uniform damping c per length.
 
     Args:
         frequencies: ω_n without damping, 1/s, shape (n,).

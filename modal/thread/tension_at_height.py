@@ -11,13 +11,13 @@ from numpy.typing import ArrayLike
 from scipy.optimize import root
 
 from hydroelastic.modal.thread.asymptotics import NoAsymptoticError
-from hydroelastic.modal.thread.load import ThreadLoad
 from hydroelastic.modal.thread.panel_quadrature import PanelQuadrature
 from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.thread_load import ThreadLoad
 
 _LARGEST = 0.5
 _PANELS = 16
-# Of the matrix for the end's first-order displacement, beside 1: below it a straight thread is neutrally stable.
+# Determinant of the equations of the end's first-order displacement below which a straight thread is neutrally stable.
 _SINGULAR = 1e-6
 # Of the height: central differences of the end force, with errors of 1e-10 of it.
 _DIFFERENCE = 1e-5
@@ -33,8 +33,8 @@ class ThreadAtHeight:
         forces: contact force, N, shape (n, 3).
         length: L, m.
         small: ε, the load on the thread, of its tension.
-        position_left_out: estimate of the largest error of a position, m: first-order displacement times ε.
-        force_left_out: the same of a contact force, N.
+        position_truncation: estimate of the largest error of a position, m: first-order displacement times ε.
+        force_truncation: the same of a contact force, N.
     """
 
     levels: FloatArray
@@ -42,8 +42,8 @@ class ThreadAtHeight:
     forces: FloatArray
     length: float
     small: float
-    position_left_out: float
-    force_left_out: float
+    position_truncation: float
+    force_truncation: float
 
 
 def tension_dominated_at_height(
@@ -110,8 +110,8 @@ def tension_dominated_at_height(
         forces=force + first_force,
         length=length,
         small=small,
-        position_left_out=small * float(np.linalg.norm(first_place, axis=1).max()),
-        force_left_out=small * float(np.linalg.norm(first_force, axis=1).max()),
+        position_truncation=small * float(np.linalg.norm(first_place, axis=1).max()),
+        force_truncation=small * float(np.linalg.norm(first_force, axis=1).max()),
     )
 
 

@@ -8,12 +8,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from hydroelastic.modal.thread.asymptotics import AsymptoticThread, NoAsymptoticError
-from hydroelastic.modal.thread.load import ThreadLoad
 from hydroelastic.modal.thread.panel_quadrature import PanelQuadrature
 from hydroelastic.modal.thread.shape import ThreadShape
 from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.thread_load import ThreadLoad
 
-# Above it no order is any better than the one before.
+# Small parameter above which no order is more accurate than the one before.
 _LARGEST = 0.5
 _PANELS = 16
 
@@ -88,13 +88,13 @@ def tension_dominated(
         ),
         order=order,
         small=small,
-        position_left_out=_left_out(position_terms, order, small),
-        force_left_out=_left_out(force_terms, order, small),
+        position_truncation=_left_out(position_terms, order, small),
+        force_truncation=_left_out(force_terms, order, small),
     )
 
 
 def _knots(load: ThreadLoad, length: float, direction: FloatArray, begin: FloatArray, places: FloatArray) -> FloatArray:
-    """Return what is asked for, where the straight thread meets breaks of the stream, and places between."""
+    """Return knots: the places, where the straight thread meets breaks of the stream, and places between."""
     breaks = np.array(load.stream.breaks if load.stream is not None else (), dtype=float)
     crossings = (breaks - begin[2]) / direction[2] if direction[2] != 0 else np.empty(0)
     inside = crossings[(crossings > 0) & (crossings < length)]

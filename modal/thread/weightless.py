@@ -9,11 +9,11 @@ from numpy.typing import ArrayLike
 
 from hydroelastic.modal.thread.asymptotics import NoAsymptoticError
 from hydroelastic.modal.thread.catenary import catenary_coordinates
-from hydroelastic.modal.thread.load import ThreadLoad
 from hydroelastic.modal.thread.shape import ThreadShape
-from hydroelastic.modal.thread.stream_profiles import UniformStream
+from hydroelastic.physics.stream import UniformStream
+from hydroelastic.physics.thread_load import ThreadLoad
 
-# Of the end force: less across the stream is rounding.
+# Components across the stream below this part of the end force are rounding.
 _LEAST = 1e-14
 
 

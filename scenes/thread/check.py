@@ -1,4 +1,4 @@
-"""What the scene of a thread will be modelled as, said before anything is solved."""
+"""Description of the model of a thread before anything is solved."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from hydroelastic.scenes.models.thread_analyses import ThreadModes, ThreadMotion
 from hydroelastic.scenes.models.thread_parts import FixedEnd, FreeEnd, SurfaceEnd
 from hydroelastic.scenes.output.digits import number
 from hydroelastic.scenes.output.sections import Row, Section
-from hydroelastic.scenes.thread.frame import frame_of
+from hydroelastic.scenes.thread.physics import frame_of
 
 
 def check_thread(scene: ThreadScene) -> Iterator[Section]:
-    """Yield the equations, what is unknown, what holds and loads the thread, and what is asked.
+    """Yield the equations, unknown fields, stream, ends and loads, and analyses.
 
     Args:
         scene: a validated scene; nothing is solved.

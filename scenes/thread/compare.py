@@ -1,4 +1,4 @@
-"""The field solution of a thread in a stream beside asymptotic solutions and closed forms."""
+"""Comparison of the field solution of a thread with asymptotic solutions and closed forms."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from mpi4py import MPI
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.output.outcome import Outcome
-from hydroelastic.scenes.thread.compared import comparison_sections
+from hydroelastic.scenes.thread.comparison_tables import comparison_sections
 from hydroelastic.scenes.thread.differences import thread_differences
 from hydroelastic.scenes.thread.estimates import thread_estimates
 from hydroelastic.scenes.thread.solve import solve_thread_scene
@@ -16,7 +16,7 @@ from hydroelastic.scenes.thread.tables import thread_cost
 
 
 def compare_thread(scene: ThreadScene, *, report: Report = lambda _message: None) -> Outcome:
-    """Solve a scene and set all estimates that fit it beside the solution; writes nothing (collective).
+    """Solve a scene and compare the solution with all estimates that apply; writes nothing (collective).
 
     Args:
         scene: the scene; its motions in time are left out, of which there is no estimate.

@@ -1,4 +1,4 @@
-"""A thread as labelled arrays: its equilibrium and what each analysis gives."""
+"""Labelled arrays of a thread: its equilibrium and the results of all analyses."""
 
 from __future__ import annotations
 
@@ -94,7 +94,7 @@ def _rest_variables(solution: ThreadSolutionOfScene) -> xarray.Dataset:
 
 
 def _said(long_name: str, units: str, absolute_error: float | None = None) -> dict[str, str | float]:
-    """What is said of a variable."""
+    """Attributes of a variable."""
     said: dict[str, str | float] = {"units": units, "long_name": long_name}
     return said if absolute_error is None else said | {"absolute_error": absolute_error}
 

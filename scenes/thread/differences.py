@@ -1,4 +1,4 @@
-"""The field solution of a thread beside estimates: differences, the error of the one and what the others leave out."""
+"""Differences of the field solution of a thread from estimates, beside the errors of both."""
 
 from __future__ import annotations
 
@@ -8,25 +8,26 @@ from typing import Any
 
 import numpy as np
 
-from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.thread.estimate import (
+from hydroelastic.modal.thread.estimate import (
     Found,
     Inapplicable,
     ShapeEstimate,
     ThreadEstimate,
     ValueEstimate,
-    places_of,
 )
+from hydroelastic.scenes.output.provenance import Summary
+from hydroelastic.scenes.thread.estimates import compared_places
+from hydroelastic.scenes.thread.measured import measured
 from hydroelastic.scenes.thread.results import ThreadSolutionOfScene
 
-# What a theory leaves out is known by its leading term, or by the last one that it keeps: taken twice.
+# Factor of truncation errors, which are estimated by the leading term that is left out, or by the last one kept.
 _LEFT_OUT = 2.0
-# Of the length, of the largest tension and of values: differences below are rounding of the estimates.
+# Rounding of the estimates, of the length, of the largest tension and of values.
 _ROUNDING = 1e-12
 
 
 def thread_differences(solution: ThreadSolutionOfScene, estimates: Sequence[Found]) -> Summary:
-    """Return how far each estimate is from the field solution, JSON-ready.
+    """Return the difference of each estimate from the field solution, JSON-ready.
 
     A difference is explained if it is not larger than the estimated error of the field solution and twice the estimate
     of what the theory leaves out, together.
@@ -67,7 +68,7 @@ def _beside(difference: float, error: float, left_out: float, size: float) -> di
 
 def _shape(solution: ThreadSolutionOfScene, found: ShapeEstimate) -> dict[str, Any]:
     rest, shape = solution.rest, found.shape
-    chosen = slice(None) if len(shape.s) == len(places_of(solution.scene)) else [0, -1]
+    chosen = slice(None) if len(shape.s) == len(compared_places(solution.scene)) else [0, -1]
     positions = np.vstack([rest.end_positions[:1], rest.positions, rest.end_positions[1:]])[chosen]
     tensions = np.concatenate([rest.end_tensions[:1], rest.tensions, rest.end_tensions[1:]])[chosen]
     apart = float(np.linalg.norm(shape.positions - positions, axis=1).max())
@@ -78,14 +79,14 @@ def _shape(solution: ThreadSolutionOfScene, found: ShapeEstimate) -> dict[str, A
         "end_positions": shape.positions[ends].tolist(),
         "end_tensions": shape.tensions[ends].tolist(),
         "smallest_tension": float(shape.tensions.min()),
-        "position": _beside(apart, rest.position_error, found.position_left_out, solution.scene.thread.length),
-        "tension": _beside(pulled, rest.tension_error, found.force_left_out, float(np.max(tensions))),
+        "position": _beside(apart, rest.position_error, found.position_truncation, solution.scene.thread.length),
+        "tension": _beside(pulled, rest.tension_error, found.force_truncation, float(np.max(tensions))),
     }
 
 
 def _values(solution: ThreadSolutionOfScene, found: ValueEstimate) -> dict[str, Any]:
-    """Only those values that the field solution has, too."""
-    measured = found.measure(solution, found.values)
+    """Compare the values that the field solution has, too."""
+    fields = measured(solution, found)
     entries = [
         {
             "number": number,
@@ -94,11 +95,11 @@ def _values(solution: ThreadSolutionOfScene, found: ValueEstimate) -> dict[str, 
             **_beside(float(abs(value - field)), float(error), float(left_out), float(abs(value))),
         }
         for number, (value, field, error, left_out) in enumerate(
-            zip(found.values, measured.values, measured.errors, found.left_out, strict=True), 1
+            zip(found.values, fields.values, fields.errors, found.truncation, strict=True), 1
         )
         if isfinite(error)
     ]
-    return {**_head(found), "quantity": found.quantity, "compared": entries}
+    return {**_head(found), "quantity": found.label, "compared": entries}
 
 
 def _plain(value: Any) -> Any:

@@ -127,7 +127,7 @@ def _plot_mode(axes: Axes, nodes: Floats, shape: NDArray[np.complex128]) -> None
 
 
 def _draw_stability(sweep: Stability, sheets: Sheets, name: str) -> None:
-    """Real and imaginary parts of the roots against the stream; of a conjugate pair the one that turns forwards."""
+    """Draw real and imaginary parts of the roots against the stream; of a conjugate pair that with Im λ > 0."""
     with sheets.sheet(name, "free motions exp(λt) against the stream", width=8.0, height=7.5) as figure:
         upper, lower = figure.subplots(2, 1, sharex=True)
         for number, branch in enumerate(_different(sweep.roots)):

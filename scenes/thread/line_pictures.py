@@ -14,7 +14,6 @@ from hydroelastic.fem.pictures.line_view import LineView, line_view
 from hydroelastic.fem.thread.modes import ThreadModes
 from hydroelastic.scenes.models.thread_parts import FixedEnd
 from hydroelastic.scenes.output.line_sequence import frame_numbers
-from hydroelastic.scenes.thread.model import stream_of
 from hydroelastic.scenes.thread.results import Floats, FollowedMotion, ThreadSolutionOfScene
 
 # Points for each element of a curve that is drawn.
@@ -34,7 +33,7 @@ def tension_unit(tensions: Floats) -> tuple[str, float]:
 
 
 def smooth_curve(nodes: Floats, points: Floats) -> Floats:
-    """Points on a curve through all nodes, that does not swing about a kink."""
+    """Return points on a curve through all nodes that does not overshoot at kinks."""
     fine = np.interp(np.linspace(0.0, len(nodes) - 1.0, _SMOOTH * (len(nodes) - 1) + 1), np.arange(len(nodes)), nodes)
     return _interpolated(nodes, points, fine)
 
@@ -89,7 +88,7 @@ def tensions_at_rest(solution: ThreadSolutionOfScene) -> tuple[Floats, str]:
     """Tensions in their unit, and its name."""
     rest = solution.rest
     name, size = tension_unit(rest.tensions)
-    # What is smaller than its error is nothing, and has no colour.
+    # Tensions below their error are drawn as zero.
     known = np.abs(rest.tensions) > rest.tension_error
     return np.where(known, rest.tensions, 0.0) / size, name
 
@@ -114,7 +113,7 @@ def _in_time(
 def _view(
     solution: ThreadSolutionOfScene, points: Floats, values: Floats, unit: str, quantity: str = "tension"
 ) -> LineView:
-    stream = stream_of(solution.scene)
+    stream = solution.thread.stream
     return line_view(points, values, quantity, unit, None if stream is None else stream.velocity_at)
 
 
@@ -153,7 +152,7 @@ def _drawn(
 
 
 def _interpolated(nodes: Floats, values: np.ndarray, s: Floats) -> np.ndarray:
-    """Values at places between nodes, on curves that do not swing about kinks."""
+    """Return values between nodes on curves that do not overshoot at kinks."""
     if np.iscomplexobj(values):
         return _interpolated(nodes, values.real, s) + 1j * _interpolated(nodes, values.imag, s)
     return np.asarray(Akima1DInterpolator(nodes, values, method="makima")(s))

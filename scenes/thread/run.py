@@ -5,10 +5,10 @@ from __future__ import annotations
 from hydroelastic.fem.pictures.options import OF_CURVES, OF_FIELDS, OF_MOTIONS
 from hydroelastic.scenes.output.dataset import LabelledResults
 from hydroelastic.scenes.output.staged_run import StagedRun
+from hydroelastic.scenes.thread.animation import jumps_in_animation
 from hydroelastic.scenes.thread.dataset import THREAD_NAMES, thread_dataset
 from hydroelastic.scenes.thread.figures import draw_thread
 from hydroelastic.scenes.thread.files import write_thread_files
-from hydroelastic.scenes.thread.moving import jumps_in_animation
 from hydroelastic.scenes.thread.solve import solve_thread_scene
 from hydroelastic.scenes.thread.summary import summarize_thread
 from hydroelastic.scenes.thread.tables import thread_cost, thread_sections

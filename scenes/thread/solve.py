@@ -1,19 +1,32 @@
-"""All that a scene asks of a thread."""
+"""Everything that a scene asks of a thread."""
 
 from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 import numpy as np
 from mpi4py import MPI
 
+from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.stopwatch import Report, Stopwatch
-from hydroelastic.fem.thread.profile import ThreadProfile
+from hydroelastic.fem.thread.equilibrium_search import FoundEquilibrium, find_equilibrium
+from hydroelastic.fem.thread.followed_motion import FollowedMotion
+from hydroelastic.fem.thread.hyperbolicity import IllPosedError
+from hydroelastic.fem.thread.mode_refinement import modes_to_tolerance, stability_in_growing_stream
+from hydroelastic.fem.thread.motion_plan import ThreadMotionError
+from hydroelastic.fem.thread.motion_refinement import follow_motion
+from hydroelastic.fem.thread.newton import ThreadSolverError
+from hydroelastic.fem.thread.refinement import NoEquilibriumError
+from hydroelastic.fem.thread.resting_thread import resting_thread
+from hydroelastic.scenes.errors import UnsolvedError
 from hydroelastic.scenes.models import thread_analyses as analyses
 from hydroelastic.scenes.models.thread import ThreadScene
-from hydroelastic.scenes.thread.equilibrium import FoundEquilibrium, find_equilibrium
-from hydroelastic.scenes.thread.frame import Frame, frame_of
-from hydroelastic.scenes.thread.modes import modes_of, stability_of
-from hydroelastic.scenes.thread.motion import motion_of
-from hydroelastic.scenes.thread.results import FollowedMotion, RestingThread, ThreadSolutionOfScene
+from hydroelastic.scenes.thread.physics import frame_of, motion_request_of, thread_of
+from hydroelastic.scenes.thread.results import ThreadSolutionOfScene
+
+_ILL_POSED = {"modes": "the modes are", "stability": "the stability is"}
+_NOT_FOUND = {"modes": "the modes could not be found", "stability": "the stability could not be followed"}
 
 
 def solve_thread_scene(scene: ThreadScene, comm: MPI.Comm, report: Report) -> ThreadSolutionOfScene:
@@ -22,7 +35,7 @@ def solve_thread_scene(scene: ThreadScene, comm: MPI.Comm, report: Report) -> Th
     Args:
         scene: the scene.
         comm: the processes.
-        report: told what is being done.
+        report: is called with the name of each step.
 
     Returns:
         The solution (collective).
@@ -30,24 +43,30 @@ def solve_thread_scene(scene: ThreadScene, comm: MPI.Comm, report: Report) -> Th
     Raises:
         UnsolvedError: if a part of it cannot be solved.
     """
-    watch, frame = Stopwatch(), frame_of(scene)
+    watch, thread, frame, tolerance = Stopwatch(), thread_of(scene), frame_of(scene), scene.accuracy.tolerance
     report("equilibrium")
     with watch.stage("equilibrium"):
-        found = find_equilibrium(comm, scene, frame)
+        found = equilibrium_of(comm, scene)
+    rest = found.solution
     modes, sweeps, motions = [], [], []
-    for analysis in scene.analysis:
-        report(analysis.kind)
-        with watch.stage(analysis.kind):
-            if isinstance(analysis, analyses.ThreadModes):
-                modes.append(modes_of(comm, scene, frame, found.solution, analysis))
-            elif isinstance(analysis, analyses.ThreadStability):
-                sweeps.append(stability_of(comm, scene, frame, found.solution, analysis))
+    for asked in scene.analysis:
+        report(asked.kind)
+        with watch.stage(asked.kind), _failures_in_words(asked):
+            if isinstance(asked, analyses.ThreadModes):
+                damping = asked.velocity_damping
+                modes.append(
+                    modes_to_tolerance(comm, thread, frame, rest, asked.count, tolerance, velocity_damping=damping)
+                )
+            elif isinstance(asked, analyses.ThreadStability):
+                sweeps.append(stability_in_growing_stream(comm, thread, frame, rest, asked.factors))
             else:
-                motions.append(motion_of(comm, scene, frame, found.solution, analysis))
+                request = motion_request_of(scene, asked)
+                motions.append(follow_motion(comm, thread, frame, rest, request, rest_tolerance=tolerance))
     return ThreadSolutionOfScene(
         scene=scene,
+        thread=thread,
         frame=frame,
-        rest=_resting(scene, frame, found),
+        rest=resting_thread(found, frame, np.array(scene.positions)),
         modes=tuple(modes),
         stability=tuple(sweeps),
         motions=tuple(motions),
@@ -56,40 +75,30 @@ def solve_thread_scene(scene: ThreadScene, comm: MPI.Comm, report: Report) -> Th
     )
 
 
-def _resting(scene: ThreadScene, frame: Frame, found: FoundEquilibrium) -> RestingThread:
-    profile, errors = found.solution.profile, found.solution.errors
-    s, ends = np.array(scene.positions), profile.nodes[[0, -1]]
-    smallest, place = profile.smallest_tension()
-    return RestingThread(
-        positions=frame.places(profile.position(s)),
-        tensions=profile.tension_at(s),
-        forces=frame.outside(profile.contact_force(s)),
-        curvatures=_curvatures(profile, s),
-        end_positions=frame.places(profile.position(ends)),
-        end_tensions=np.array([profile.tension[0, 0], profile.tension[-1, 1]]),
-        reactions=frame.outside(profile.reactions()),
-        end_moments=profile.end_moments(),
-        largest_tension=float(np.max(profile.tension)),
-        smallest_tension=smallest,
-        smallest_at=place,
-        position_error=errors.position,
-        tension_error=errors.tension,
-        reaction_error=errors.reaction,
-        moment_error=errors.moment,
-        relative_error=errors.relative,
-        start=found.start,
-        newton_steps=found.solution.newton_steps,
-        failed_starts=found.failed,
-    )
+@contextmanager
+def _failures_in_words(asked: analyses.ThreadAnalysis | None = None) -> Iterator[None]:
+    """Raise what the solvers raise as an `UnsolvedError` that says which part of the scene failed."""
+    try:
+        yield
+    except NoEquilibriumError as error:
+        still = isinstance(asked, analyses.ThreadMotion) and asked.start == "still_liquid"
+        raise UnsolvedError(f'start = "still_liquid": without the stream {error}' if still else str(error)) from error
+    except IllPosedError as error:
+        assert asked is not None
+        raise UnsolvedError(f"{_ILL_POSED[asked.kind]} ill-posed: {error}") from error
+    except (EigenSolverError, ThreadMotionError, ThreadSolverError) as error:
+        words = _NOT_FOUND.get(asked.kind) if asked else None
+        raise UnsolvedError(f"{words}: {error}" if words else str(error)) from error
 
 
-def _curvatures(profile: ThreadProfile, s: np.ndarray) -> np.ndarray:
-    """|r_ss|, of a thread that does not bend by the second derivative of its positions."""
-    if profile.curvature_table is not None:
-        return np.asarray(np.linalg.norm(profile.curvature_table.at(s), axis=1))
-    slope, second = profile.position_table.at(s, 1), profile.position_table.at(s, 2)
-    along = np.sum(slope * second, axis=1) / np.sum(slope**2, axis=1)
-    return np.asarray(np.linalg.norm(second - along[:, None] * slope, axis=1) / np.sum(slope**2, axis=1))
+def equilibrium_of(comm: MPI.Comm, scene: ThreadScene) -> FoundEquilibrium:
+    """Return the equilibrium of a scene in its frame (collective).
+
+    Raises:
+        UnsolvedError: if none is found.
+    """
+    with _failures_in_words():
+        return find_equilibrium(comm, thread_of(scene), frame_of(scene), scene.accuracy.tolerance)
 
 
 def _size(found: FoundEquilibrium, motions: list[FollowedMotion]) -> dict[str, int]:

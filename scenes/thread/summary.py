@@ -1,4 +1,4 @@
-"""The answer to the scene of a thread as one JSON-ready value."""
+"""The summary of the scene of a thread as one JSON-ready value."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def _equilibrium(solution: ThreadSolutionOfScene) -> dict[str, Any]:
 
 
 def _modes(modes: ThreadModes) -> dict[str, Any]:
-    """Motions that oscillate, and those that do not up to the magnitude of the last of them."""
+    """Oscillating motions, and aperiodic ones up to the magnitude of the last of them."""
     return {
         "oscillating": [_root(modes.oscillating, place) for place in range(len(modes.oscillating.values))],
         "aperiodic": [_root(modes.aperiodic, place) for place in range(len(modes.aperiodic.values))],

@@ -1,4 +1,4 @@
-"""The tables of a thread that a person reads."""
+"""Tables of the results of a thread."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from hydroelastic.scenes.output.digits import counted, number, with_certain_digi
 from hydroelastic.scenes.output.provenance import Summary
 from hydroelastic.scenes.output.sections import Row, Section
 
-# What the summary's names of starts mean; the others are said as they are.
+# Words for names of starts; others are printed as they are.
 _STARTS = {
     "march": "the thread integrated from its free end",
     "taut": "a taut thread",
@@ -57,7 +57,7 @@ def _equilibrium(summary: Summary) -> Section:
 
 
 def _certain(values: list[float], error: float) -> str:
-    """Numbers with their certain digits; what is smaller than the error is 0."""
+    """Return numbers with their certain digits; 0 if smaller than the error."""
     return ", ".join(
         "0" if abs(value) <= error else with_certain_digits(value, max(error / abs(value), 1e-13)) for value in values
     )
@@ -152,7 +152,7 @@ def _motion(motion: Summary, summary: Summary) -> Section:
 
 
 def _slack(times: list[Summary]) -> Iterator[str]:
-    """A loud word where the thread would be in compression."""
+    """Return a warning where the thread would be in compression."""
     if not times:
         return
     worst = min(times, key=lambda entry: float(entry["tension"]))

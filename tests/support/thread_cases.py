@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from hydroelastic.modal.thread.load import ThreadLoad
-from hydroelastic.modal.thread.stream_profiles import ShearedStream, Stream, UniformStream, VeeringStream
+from hydroelastic.physics.stream import ShearedStream, Stream, UniformStream, VeeringStream
+from hydroelastic.physics.thread_load import ThreadLoad
 
 _FILE = Path(__file__).parents[1] / "reference" / "thread.json"
 CASES: dict[str, dict[str, Any]] = {case["id"]: case for case in json.loads(_FILE.read_text(encoding="utf-8"))["cases"]}

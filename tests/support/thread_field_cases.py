@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 from thread_cases import inputs, load_of, stream_of
 
 from hydroelastic.fem.thread.equilibrium import Start
-from hydroelastic.fem.thread.model import PointLoad, ThreadEnd, ThreadModel
 from hydroelastic.modal.thread.catenary import catenary_between
 from hydroelastic.modal.thread.march import march_back, march_tail
 from hydroelastic.modal.thread.shape import ThreadShape
+from hydroelastic.physics.thread import PointLoad, Thread, ThreadEnd
 
 
 def axes_of(dimension: int) -> list[int]:
@@ -34,7 +34,7 @@ def free_with(force: Any, drag: float = 0.0, taper: float = 0.0) -> ThreadEnd:
     )
 
 
-def model_of(name: str, dimension: int = 2, **changes: Any) -> ThreadModel:
+def model_of(name: str, dimension: int = 2, **changes: Any) -> Thread:
     """The thread of a reference case."""
     given = inputs(name)
     axes = axes_of(dimension)
@@ -62,7 +62,7 @@ def model_of(name: str, dimension: int = 2, **changes: Any) -> ThreadModel:
         "reactive": given.get("ma_reactive", "none"),
         "stream": stream_of(name),
     }
-    return ThreadModel(**(options | changes))
+    return Thread(**(options | changes))
 
 
 def start_of(name: str, dimension: int = 2) -> Start:

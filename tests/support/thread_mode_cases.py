@@ -10,9 +10,9 @@ from mpi4py import MPI
 from numpy.typing import NDArray
 
 from hydroelastic.fem.thread.equilibrium import Equilibrium
-from hydroelastic.fem.thread.model import PointLoad, Reactive, ThreadEnd, ThreadModel
 from hydroelastic.fem.thread.straight import straight_equilibrium
-from hydroelastic.modal.thread.stream_profiles import UniformStream
+from hydroelastic.physics.stream import UniformStream
+from hydroelastic.physics.thread import PointLoad, Reactive, Thread, ThreadEnd
 
 COMM = MPI.COMM_WORLD
 
@@ -26,7 +26,7 @@ def straight_thread(
     load: PointLoad | None = None,
     taper: float = 0.0,
     **options: Any,
-) -> ThreadModel:
+) -> Thread:
     """A thread from the origin in a direction, `load` at its end B."""
     along = np.array(direction)
 
@@ -40,10 +40,10 @@ def straight_thread(
             taper=taper if number == 1 else 0.0,
         )
 
-    return ThreadModel(dimension=len(along), length=length, ends=(end(0), end(1)), **options)
+    return Thread(dimension=len(along), length=length, ends=(end(0), end(1)), **options)
 
 
-def in_axial_flow(speed: float, share: float, reactive: Reactive = "lighthill", **options: Any) -> ThreadModel:
+def in_axial_flow(speed: float, share: float, reactive: Reactive = "lighthill", **options: Any) -> Thread:
     """A thread of unit length and EI along x in a stream along it, U L √(M/EI) = `speed`, M/(m + M) = `share`."""
     return straight_thread(
         mass=1.0 - share,
@@ -56,7 +56,7 @@ def in_axial_flow(speed: float, share: float, reactive: Reactive = "lighthill", 
 
 
 def straight_pair(
-    model: ThreadModel,
+    model: Thread,
     tension: float | Callable[[NDArray[np.float64]], NDArray[np.float64]],
     elements: int = 40,
     degree: int = 3,

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from scipy.special import j0, y0
 from thread_cases import inputs, results
 
-from hydroelastic.fem.thread.model import PointLoad, ThreadEnd, ThreadModel
 from hydroelastic.fem.thread.motion import MovingStart, move_thread
 from hydroelastic.fem.thread.motion_plan import MotionPlan
 from hydroelastic.fem.thread.motion_results import ThreadMotion
+from hydroelastic.physics.thread import PointLoad, Thread, ThreadEnd
 
 
 def held(position: Any, **rest: Any) -> ThreadEnd:
@@ -28,14 +28,14 @@ def free(force: Any, **rest: Any) -> ThreadEnd:
     return ThreadEnd(load=PointLoad(force=pull, **rest), held=(False,) * len(pull), position=0.0 * pull)
 
 
-def chain(dimension: int = 2, **changes: Any) -> ThreadModel:
+def chain(dimension: int = 2, **changes: Any) -> Thread:
     """The hanging thread of case D05 with its body, without liquid unless it is given."""
     given = inputs("D05")
     down = np.zeros(dimension)
     down[-1] = -given["W_tip"]
     options: dict[str, Any] = {"weight": given["w"], "mass": given["m"]} | changes
     ends = (held(np.zeros(dimension)), free(down, mass=given["M_tip"]))
-    return ThreadModel(dimension=dimension, length=given["L"], ends=ends, **options)
+    return Thread(dimension=dimension, length=given["L"], ends=ends, **options)
 
 
 def liquid() -> dict[str, Any]:
@@ -74,7 +74,7 @@ CHAIN_OMEGA = 3.40352409229
 """First frequency of the chain without liquid, as case D05 states it."""
 
 
-def follow(model: ThreadModel, elements: int, start: MovingStart, times: Any, step: float, **rest: Any) -> ThreadMotion:
+def follow(model: Thread, elements: int, start: MovingStart, times: Any, step: float, **rest: Any) -> ThreadMotion:
     """The motion on equal elements of second degree."""
     degree = rest.pop("degree", 2)
     comm = rest.pop("comm", MPI.COMM_WORLD)

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from scipy.integrate import solve_ivp
 from scipy.optimize import root
 
-from hydroelastic.modal.thread.load import ThreadLoad
+from hydroelastic.physics.thread_load import ThreadLoad
 
 
 @dataclass(frozen=True)

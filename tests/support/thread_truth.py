@@ -12,10 +12,10 @@ from hydroelastic.fem.thread.equilibrium import solve_on_mesh
 from hydroelastic.fem.thread.profile import start_from, thread_profile
 from hydroelastic.fem.thread.refinement import ThreadSolution
 from hydroelastic.modal.thread.march import march_back, march_tail
+from hydroelastic.physics.thread import PointLoad
 from hydroelastic.scenes.models.thread import ThreadScene
-from hydroelastic.scenes.models.thread_parts import CarriedBody, FixedEnd
-from hydroelastic.scenes.thread.frame import frame_of
-from hydroelastic.scenes.thread.model import body_drag, dead_force, load_of
+from hydroelastic.scenes.models.thread_parts import FixedEnd
+from hydroelastic.scenes.thread.physics import frame_of, thread_of
 
 PLACES = 40
 # Of each step of a march.
@@ -54,39 +54,37 @@ def _finer(solution: ThreadSolution, s: np.ndarray) -> tuple[np.ndarray, np.ndar
 
 
 def _shot(scene: ThreadScene, solution: ThreadSolution, s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    a, b = scene.ends.a, scene.ends.b
-    assert isinstance(a, FixedEnd)
-    assert isinstance(b, FixedEnd)
+    thread = thread_of(scene)
+    a, b = (end.position for end in thread.ends)
     guess = frame_of(scene).outside(solution.profile.force[0, 0])
-    rigidity = scene.thread.axial_rigidity or np.inf
-    shot = shoot(load_of(scene), scene.thread.length, a.position, b.position, rigidity, guess)
+    shot = shoot(thread.distributed_load, thread.length, a, b, thread.axial_rigidity, guess)
     assert shot.miss < 1e-9
     return shot.positions(s), np.linalg.norm(shot.forces(s), axis=1)
 
 
 def _marched(scene: ThreadScene, s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    a, b, load = scene.ends.a, scene.ends.b, load_of(scene)
-    assert isinstance(a, FixedEnd)
-    assert isinstance(b, CarriedBody)
-    rigidity, length = scene.thread.axial_rigidity or np.inf, scene.thread.length
+    thread = thread_of(scene)
+    load, length, rigidity = thread.distributed_load, thread.length, thread.axial_rigidity
+    start = thread.ends[0].position
 
-    def force_on(body: CarriedBody, place: np.ndarray) -> np.ndarray:
-        drag = body_drag(scene, body)
+    def force_on(body: PointLoad, place: np.ndarray) -> np.ndarray:
         velocity = np.zeros(3) if load.stream is None else load.stream.velocity_at(np.asarray(place)[None])[0]
-        return np.asarray(dead_force(body) + drag * np.linalg.norm(velocity) * velocity)
+        drag = body.drag * np.linalg.norm(velocity) * velocity
+        return np.asarray(body.force + np.array([0.0, 0.0, -body.weight]) + drag)
 
-    if np.any(force_on(b, np.array(a.position))):
-        points = [(body.at, lambda place, body=body: force_on(body, place)) for body in scene.load]
+    b = thread.ends[1].load
+    if np.any(force_on(b, start)):
+        points = [(at, lambda place, body=body: force_on(body, place)) for at, body in thread.loads.items()]
         shape = march_back(
             load,
             length,
             lambda place: force_on(b, place),
             point_forces=points,
             axial_rigidity=rigidity,
-            start=a.position,
+            start=start,
             tolerance=MARCH,
         )
     else:
-        shape = march_tail(load, length, axial_rigidity=rigidity, start=a.position, tolerance=MARCH)
+        shape = march_tail(load, length, axial_rigidity=rigidity, start=start, tolerance=MARCH)
     found = shape.at(s)
     return found.positions, found.tensions

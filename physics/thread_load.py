@@ -1,4 +1,4 @@
-"""Load of a steady stream, and of its weight, on a thread at rest."""
+"""Load per length on a thread at rest: its weight in the liquid, and the drag of a steady stream."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hydroelastic.modal.thread.stream_profiles import Stream
 from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.stream import Stream
 
 UP = np.array([0.0, 0.0, 1.0])
 
@@ -23,7 +23,7 @@ class ThreadLoad:
         normal_drag: kₙ = ρ Cₙ d/2, N s²/m³.
         tangential_drag: kₜ = ρ π Cₜ d/2, N s²/m³.
         viscous_drag: νₙ, N s/m².
-        stream: u, or None for water at rest.
+        stream: u; ``None`` for a liquid at rest.
     """
 
     weight: float
@@ -33,7 +33,7 @@ class ThreadLoad:
     stream: Stream | None = None
 
     def __post_init__(self) -> None:
-        """Refuse what is no drag."""
+        """Check the ranges."""
         if not math.isfinite(self.weight):
             raise ValueError(f"weight is {self.weight}: it must be finite")
         for name in ("normal_drag", "tangential_drag", "viscous_drag"):
@@ -78,7 +78,7 @@ class ThreadLoad:
         along, _, tangential, normal, quadratic = self._parts(points, tau)
         by_stream = quadratic @ normal + self.viscous_drag * normal
         by_stream += 2 * self.tangential_drag * np.abs(along) * tangential
-        return by_stream @ self.stream.gradient_at(points)
+        return by_stream @ self.stream.gradient_at(np.asarray(points, dtype=float))
 
     def load_by_tangent(self, points: ArrayLike, tangents: ArrayLike) -> FloatArray:
         """Return ∂q/∂τ at fixed r, of the formula of q, for any change of τ; that of a unit vector is τ's P dτ.

@@ -7,8 +7,7 @@ with the relative velocity u_n across the thread and a phase at each point of it
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from math import isfinite, pi
+from math import pi
 from typing import Any
 
 import basix.ufl
@@ -17,27 +16,7 @@ from dolfinx import fem
 
 from hydroelastic.fem.kernels import compiled_expression
 from hydroelastic.fem.thread.forms import ThreadForms, tangent
-
-
-@dataclass(frozen=True, kw_only=True)
-class Shedding:
-    """Vortices of a thread.
-
-    Attributes:
-        lift: c = ρ d C_L/2, kg/m².
-        wave_number: n = St/d, cycles per metre of the liquid's way, 1/m.
-        phase: ψ.
-    """
-
-    lift: float
-    wave_number: float
-    phase: float = 0.0
-
-    def __post_init__(self) -> None:
-        """Refuse what is no number."""
-        for name in ("lift", "wave_number", "phase"):
-            if not isfinite(getattr(self, name)):
-                raise ValueError(f"{name} is {getattr(self, name)}: it must be finite")
+from hydroelastic.physics.thread_motion import VortexShedding
 
 
 class SheddingLoad:
@@ -48,8 +27,8 @@ class SheddingLoad:
         shedding: in the units of the forms.
     """
 
-    def __init__(self, forms: ThreadForms, shedding: Shedding) -> None:
-        """Make the ways, zero at first."""
+    def __init__(self, forms: ThreadForms, shedding: VortexShedding) -> None:
+        """Set all ways to zero."""
         mesh, degree = forms.space.mesh, forms.space.quadrature_degree
         self._forms, self._shedding = forms, shedding
         element = basix.ufl.quadrature_element("interval", degree=degree)
@@ -76,9 +55,9 @@ class SheddingLoad:
         return size * ufl.cross(tangent(position), across)
 
     def set_step(self, step: float) -> None:
-        """Take another step."""
+        """Set the length of the step."""
         self._half_step.value = 0.5 * step
 
     def advance(self) -> None:
-        """Go on to the end of the step."""
+        """Advance to the end of the step."""
         self._way.interpolate(self._next)

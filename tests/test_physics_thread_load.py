@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from hydroelastic.modal.thread.load import ThreadLoad
-from hydroelastic.modal.thread.stream_profiles import (
+from hydroelastic.physics.stream import (
     ShearedStream,
     Stream,
     TabulatedStream,
     UniformStream,
     VeeringStream,
 )
+from hydroelastic.physics.thread_load import ThreadLoad
 
 LEVELS = (-2.0, 0.0, 1.0, 4.0)
 ROWS = ((0.2, 0.0, 0.0), (0.5, 0.3, 0.0), (1.5, -0.2, 0.1), (1.0, 0.4, 0.0))
@@ -37,8 +37,14 @@ def test_gradient_is_that_of_the_velocity(stream: Stream) -> None:
         expected = (stream.velocity_at(POINTS + step) - stream.velocity_at(POINTS - step)) / (2 * STEP)
         # Rounding of the difference, eps/STEP, and its own error, STEP² u'''.
         assert stream.gradient_at(POINTS)[:, :, axis] == pytest.approx(expected, abs=1e-9)
-    levels = np.linspace(-3, 2, 4001)
-    assert stream.largest_speed(-3, 2) == pytest.approx(np.linalg.norm(stream.profile(levels), axis=1).max(), rel=1e-3)
+
+
+@pytest.mark.parametrize("stream", STREAMS, ids=lambda stream: type(stream).__name__)
+def test_a_stream_times_a_factor_has_its_velocities_and_gradients_multiplied(stream: Stream) -> None:
+    faster = stream.times(2.5)
+    # Rounding of interpolation, all kinds of which are linear, or homogeneous, in the rows.
+    assert faster.velocity_at(POINTS) == pytest.approx(2.5 * stream.velocity_at(POINTS), abs=1e-14)
+    assert faster.gradient_at(POINTS) == pytest.approx(2.5 * stream.gradient_at(POINTS), abs=1e-14)
 
 
 def test_table_holds_its_rows_and_is_constant_beyond() -> None:

@@ -1,4 +1,4 @@
-"""A thread that is held at one end and pulled at the other, seen from the end that is held."""
+"""A thread that is held at one end and pulled at the other, with arc lengths from the held end."""
 
 from __future__ import annotations
 
@@ -11,19 +11,16 @@ from scipy.interpolate import CubicSpline
 from scipy.optimize import root_scalar
 
 from hydroelastic.modal.thread.asymptotics import AsymptoticThread, NoAsymptoticError
+from hydroelastic.modal.thread.estimate import require, require_bare_thread
 from hydroelastic.modal.thread.shape import ThreadShape
-from hydroelastic.modal.thread.stream_profiles import UniformStream
 from hydroelastic.physics.arrays import FloatArray
-from hydroelastic.scenes.models.thread import ThreadScene
-from hydroelastic.scenes.models.thread_parts import FixedEnd, FreeEnd
-from hydroelastic.scenes.thread.estimate import places_of, require, require_bare_thread
-from hydroelastic.scenes.thread.model import body_drag, stream_of
-from hydroelastic.scenes.thread.starts import force_on
+from hydroelastic.physics.stream import UniformStream
+from hydroelastic.physics.thread import Thread, ThreadEnd
 
 LEVELS = 513
-"""Heights at which a shape is found by heights: a cubic between them is wrong by 1e-9 of the length."""
+"""Number of heights at which shapes are evaluated: the error of a cubic between them is 1e-9 of the length."""
 
-# Of the length, in what is found by iteration.
+# Tolerance of iterations, of the length.
 _FOUND = 1e-12
 _MOST_ROUNDS = 100
 
@@ -38,96 +35,99 @@ _Thread = TypeVar("_Thread", bound=_OfSomeLength)
 
 @dataclass(frozen=True)
 class PulledThread:
-    """A thread seen from its fixed end.
+    """A thread with arc lengths from its fixed end.
 
     Attributes:
-        scene: the scene.
+        thread: in space, SI units, with one fixed and one free end.
+        places_from_a: where the shape is wanted, m from end A.
     """
 
-    scene: ThreadScene
+    thread: Thread
+    places_from_a: FloatArray
 
     @staticmethod
-    def fits(scene: ThreadScene) -> bool:
+    def fits(thread: Thread) -> bool:
         """Whether one end is fixed and the other one free."""
-        return {scene.ends.a.kind, scene.ends.b.kind} == {"fixed", "free"}
+        a, b = thread.ends
+        return (a.is_fixed and b.is_free) or (a.is_free and b.is_fixed)
 
     @property
     def reverse(self) -> bool:
         """Whether end A is the free one."""
-        return isinstance(self.scene.ends.a, FreeEnd)
+        return self.thread.ends[0].is_free
 
     @property
     def start(self) -> FloatArray:
         """Position of the fixed end, m."""
-        held = self.scene.ends.b if self.reverse else self.scene.ends.a
-        assert isinstance(held, FixedEnd)
-        return np.array(held.position)
+        return self.thread.ends[1 if self.reverse else 0].position
 
     @property
-    def free(self) -> FreeEnd:
+    def free(self) -> ThreadEnd:
         """The free end."""
-        free = self.scene.ends.a if self.reverse else self.scene.ends.b
-        assert isinstance(free, FreeEnd)
-        return free
+        return self.thread.ends[0 if self.reverse else 1]
+
+    def force(self, position: FloatArray) -> FloatArray:
+        """Return the force on the free end if it is at a position, N, shape (3,)."""
+        return self.free.load.force_at(position, self.thread.stream)
 
     @property
     def force_varies(self) -> bool:
         """Whether the force at the end depends on where that is."""
-        still = stream_of(self.scene) is None or isinstance(stream_of(self.scene), UniformStream)
-        return not still and body_drag(self.scene, self.free) > 0.0
+        still = self.thread.stream is None or isinstance(self.thread.stream, UniformStream)
+        return not still and self.free.load.drag > 0.0
 
     @property
     def places(self) -> FloatArray:
         """Where the shape is wanted, m from the fixed end."""
-        places = places_of(self.scene)
-        return np.asarray(self.scene.thread.length - places[::-1]) if self.reverse else places
+        places = self.places_from_a
+        return np.asarray(self.thread.length - places[::-1]) if self.reverse else places
 
     def shape(self, found: ThreadShape) -> ThreadShape:
-        """The shape as the scene counts, from end A."""
+        """The shape with arc lengths from end A."""
         if not self.reverse:
             return found
-        places = self.scene.thread.length - found.s[::-1]
+        places = self.thread.length - found.s[::-1]
         return ThreadShape(s=places, positions=found.positions[::-1], forces=-found.forces[::-1])
 
     def pulled_by_its_force(self, find: Callable[[FloatArray], AsymptoticThread]) -> AsymptoticThread:
-        """The shape whose end lies where the force at its end is that which it was found with.
+        """The shape that is consistent with the force at the position of its end.
 
         Args:
             find: the shape by the force at the end.
         """
-        force, level = force_on(self.scene, self.free), float(self.start[2])
-        first = force(self.start)
+        level, first = float(self.start[2]), self.force(self.start)
         if not self.force_varies:
             return find(first)
         size = float(np.linalg.norm(first))
         require(size > 0.0, "no force pulls at the end")
 
         def found_at(height: float) -> AsymptoticThread:
-            return find(force(np.array([0.0, 0.0, height])))
+            return find(self.force(np.array([0.0, 0.0, height])))
 
         def miss(height: float) -> float:
             return float(found_at(height).shape.positions[-1, 2]) - height
 
-        length = self.scene.thread.length
+        length = self.thread.length
         guess = level + length * first[2] / size
         solved = root_scalar(miss, x0=guess, x1=guess - 0.01 * length, xtol=_FOUND * length, method="secant")
         require(solved.converged, "no end lies where it is pulled that way")
         return found_at(solved.root)
 
 
-def pulled_thread(scene: ThreadScene, *, stretch: bool = False) -> PulledThread:
-    """Return the thread of a scene as pulled at its free end.
+def pulled_thread(thread: Thread, places: FloatArray, *, stretch: bool = False) -> PulledThread:
+    """Return a thread as pulled at its free end.
 
     Args:
-        scene: the scene.
+        thread: in space, SI units.
+        places: arc lengths at which shapes are wanted, m from end A.
         stretch: whether it may stretch.
 
     Raises:
         NoAsymptoticError: if it is none, or has what no theory of it knows.
     """
-    require(PulledThread.fits(scene), "not one end is fixed and the other one free")
-    require_bare_thread(scene, stretch=stretch)
-    return PulledThread(scene)
+    require(PulledThread.fits(thread), "not one end is fixed and the other one free")
+    require_bare_thread(thread, stretch=stretch)
+    return PulledThread(thread, places)
 
 
 def shape_at(shape: ThreadShape, places: FloatArray) -> ThreadShape:

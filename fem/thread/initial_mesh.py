@@ -1,4 +1,4 @@
-"""First meshes of a thread: fine where its direction changes within a short length."""
+"""Initial meshes of a thread: fine where its direction changes within a short length."""
 
 from __future__ import annotations
 
@@ -8,22 +8,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.fem.thread.equilibrium import Start, in_space
-from hydroelastic.fem.thread.model import ThreadModel
+from hydroelastic.physics.thread import Thread
 
 # Elements of a thread without layers.
 _ELEMENTS = 16
-# By which the direction may turn on an element.
+# Largest turn of the direction on an element, rad.
 _TURN = 0.3
 # At a light end the direction changes within T/|q|: the first element is this part of it.
 _END_PART = 0.05
 # Of the length: no element is made shorter than this at once.
 _SHORTEST = 1e-7
-# Places on each element at which a start is looked at.
+# Number of places on each element at which a start is evaluated.
 _PLACES = 5
 
 
-def first_nodes(model: ThreadModel, start: Start) -> NDArray[np.float64]:
-    """Nodes of a first mesh: point loads, graded layers at ends and loads, short elements where the start bends.
+def initial_nodes(model: Thread, start: Start) -> NDArray[np.float64]:
+    """Nodes of an initial mesh: point loads, graded layers at ends and loads, short elements where the start bends.
 
     A light end, of tension T under a load q per length, has a layer of thickness T/|q|; a thread that bends has one of
     thickness √(EI/T) where it is clamped, hinged or loaded. Elements grow with their distance from there.
@@ -64,7 +64,7 @@ def _turn(start: Start, first: float, last: float) -> float:
     return float(np.sum(np.linalg.norm(np.diff(units, axis=0), axis=1))) * (_PLACES - 1) / (_PLACES - 2)
 
 
-def _layer(model: ThreadModel, start: Start, s: float) -> float:
+def _layer(model: Thread, start: Start, s: float) -> float:
     tension = float(np.abs(start.force(np.array([s]))[0]))
     if model.bends:
         largest = max(tension, float(np.max(np.abs(start.force(_places(0.0, model.length))))) * 1e-3)

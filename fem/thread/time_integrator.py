@@ -17,13 +17,13 @@ from numpy.typing import NDArray
 from petsc4py import PETSc
 
 from hydroelastic.fem.kernels import compiled_expression, compiled_form
+from hydroelastic.fem.thread.consistent_state import ConsistentState
 from hydroelastic.fem.thread.forms import ThreadForms
-from hydroelastic.fem.thread.instant import ThreadInstant
-from hydroelastic.fem.thread.motion_plan import EndCourse
-from hydroelastic.fem.thread.shedding import SheddingLoad
+from hydroelastic.fem.thread.motion_plan import PrescribedEnd
 from hydroelastic.fem.thread.step import GeneralisedAlpha, ThreadStep, midpoint_weights
 from hydroelastic.fem.thread.step_solver import HeldUnknowns, StepSolver
 from hydroelastic.fem.thread.table import gather_elements
+from hydroelastic.fem.thread.vortex_shedding import SheddingLoad
 
 _ENDS = np.array([[0.0], [1.0]])
 # Of the unit of time, for one-sided differences of how an end is led.
@@ -31,50 +31,50 @@ _DIFFERENCE = 1e-4
 
 
 @dataclass(frozen=True)
-class Guidance:
-    """What acts on a thread from outside by the time, in the units of its forms.
+class ExternalActions:
+    """Prescribed ends and the stream by the time, in the units of the forms.
 
     Attributes:
-        ends: how A and B are led.
-        stream: factor of the stream by the time, nothing for a steady one.
-        set_stream: takes the factor.
+        ends: of A and B.
+        stream: factor of the stream by the time, ``None`` for a steady one.
+        set_stream: sets the factor.
     """
 
-    ends: tuple[EndCourse, EndCourse]
+    ends: tuple[PrescribedEnd, PrescribedEnd]
     stream: Callable[[float], float] | None
     set_stream: Callable[[float], None]
 
 
-class ThreadMover:
-    """A thread that moves.
+class TimeIntegrator:
+    """State of a moving thread, and steps in time.
 
     Args:
         forms: of the thread.
-        guidance: what acts on it by the time.
-        alpha: generalised alpha, or nothing for the midpoint rule.
+        actions: prescribed ends and stream by the time.
+        alpha: parameters of the generalised-α method, ``None`` for the midpoint rule.
         shedding: the force of vortices.
 
     Attributes:
         time: of the state.
         step: the equations of a step, with the state in `before` and `speed`.
-        force_part: of a step, at which its forces belong.
+        force_part: part of a step at which the equilibrium of forces holds.
     """
 
     def __init__(
         self,
         forms: ThreadForms,
-        guidance: Guidance,
+        actions: ExternalActions,
         *,
         alpha: GeneralisedAlpha | None = None,
         shedding: SheddingLoad | None = None,
     ) -> None:
         """Compile the forms."""
-        self.forms, self._guidance, self._alpha, self._shedding = forms, guidance, alpha, shedding
+        self.forms, self._actions, self._alpha, self._shedding = forms, actions, alpha, shedding
         self.time = 0.0
         self.force_part = 0.5 if alpha is None else 1.0 - alpha.force_shift
         self.step = ThreadStep(forms, conservative=alpha is None, extra=shedding)
-        self._solver = StepSolver(self.step.residual, self.step.unknown, self._look_up_stream)
-        self._instant = ThreadInstant(self.step)
+        self._solver = StepSolver(self.step.residual, self.step.unknown, self._update_stream)
+        self._consistent = ConsistentState(self.step)
         space = forms.space
         self._places = np.asarray(space.mixed.sub(0).collapse()[1])
         self._force_places = np.asarray(space.mixed.sub(1).collapse()[1])
@@ -88,75 +88,75 @@ class ThreadMover:
         self._sample = compiled_expression(ufl.as_vector(state), _ENDS)
         self._tension = compiled_expression(self.step.tension, _ENDS)
         self._cells = np.arange(space.mesh.topology.index_map(1).size_local, dtype=np.int32)
-        self._held = self._hold()
+        self._held = self._held_now()
 
     def _places_of_end(self, facets: NDArray[np.int32]) -> list[NDArray[np.int32]]:
         mixed = self.forms.space.mixed
         return [fem.locate_dofs_topological(mixed.sub(0).sub(axis), 0, facets) for axis in range(self._dimension)]
 
-    def _hold(self) -> HeldUnknowns:
-        """Components that are held just after the present time."""
+    def _held_now(self) -> HeldUnknowns:
+        """Unknowns that are held just after the present time."""
         model = self.forms.model
-        held, straight, self._led = [], [], []
-        for index, (end, course) in enumerate(zip(model.ends, self._guidance.ends, strict=True)):
-            kept = course.held(end.held, self.time)
+        held, straight, self._prescribed = [], [], []
+        for index, (end, prescribed) in enumerate(zip(model.ends, self._actions.ends, strict=True)):
+            kept = prescribed.held(end.held, self.time)
             for axis in (axis for axis in range(self._dimension) if kept[axis]):
                 held.append((0, axis, self._facets[index]))
-                self._led.append((index, axis))
+                self._prescribed.append((index, axis))
             let_go = any(end.held) and not any(kept)
             if model.bends and (end.clamp is None or let_go):
                 straight += [(2, axis, self._facets[index]) for axis in range(self._dimension)]
         return HeldUnknowns(self.forms.space.mixed, held + straight)
 
-    def _lead(self, component: Callable[[Callable[[float], float]], float]) -> None:
-        """Give the held components a value each, from the component of the end's position by the time."""
+    def _prescribe(self, component: Callable[[Callable[[float], float]], float]) -> None:
+        """Set the values of held components, each by a function of the component of the end's position by the time."""
         # The values of the curvature follow those of the ends and stay zero.
         values = iter(self._held.values)
-        for index, axis in self._led:
+        for index, axis in self._prescribed:
             next(values).value = component(partial(self._end_position, index, axis))
 
     def _end_position(self, index: int, axis: int, time: float) -> float:
-        course = self._guidance.ends[index]
-        position = self.forms.model.ends[index].position if course.position is None else course.position(time)
+        prescribed = self._actions.ends[index]
+        position = self.forms.model.ends[index].position if prescribed.position is None else prescribed.position(time)
         return float(position[axis])
 
-    def _look_up_stream(self) -> None:
+    def _update_stream(self) -> None:
         if self.forms.stream is not None:
             self.forms.stream.update(self.step.position)
 
-    def _act(self, time: float) -> None:
-        """Forces and stream at a time."""
-        if self._guidance.stream is not None:
-            self._guidance.set_stream(self._guidance.stream(time))
-        for index, course in enumerate(self._guidance.ends):
-            if course.force is not None:
+    def _apply_loads(self, time: float) -> None:
+        """Set prescribed forces and the stream at a time."""
+        if self._actions.stream is not None:
+            self._actions.set_stream(self._actions.stream(time))
+        for index, prescribed in enumerate(self._actions.ends):
+            if prescribed.force is not None:
                 vectors = self.forms.space.vectors
                 nodes = fem.locate_dofs_topological(vectors, 0, self._facets[index])
-                self.forms.point_force.x.array.reshape(-1, self._dimension)[nodes] = course.force(time)
+                self.forms.point_force.x.array.reshape(-1, self._dimension)[nodes] = prescribed.force(time)
 
-    def place(self) -> float | None:
-        """Move the positions to where the thread is not stretched, if it cannot be, and its held ends are.
+    def project_positions(self) -> float | None:
+        """Move the positions to the nearest ones that satisfy the held ends and, if inextensible, |r_s| = 1.
 
         Returns:
-            The largest change, nothing where there is no such place (collective).
+            The largest change, ``None`` where there is no solution (collective).
         """
-        self._lead(lambda position: position(self.time))
+        self._prescribe(lambda position: position(self.time))
         before = self.step.before.x.array
         if self.forms.model.axial_rigidity < inf:
             self._held.set(before)
             return 0.0
-        if not self._instant.place(self._held):
+        if not self._consistent.project_positions(self._held):
             return None
         return self._replace(before, self.step.unknown.x.array)
 
-    def start(self) -> float | None:
-        """Change the velocities to what the held ends and a thread that cannot stretch allow, as a jerk does.
+    def project_velocities(self) -> float | None:
+        """Change the velocities, as by an impulse, to the nearest ones that the held ends and inextensibility allow.
 
         Returns:
-            The largest change, nothing where the impulse has no solution (collective).
+            The largest change, ``None`` where the impulse has no solution (collective).
         """
-        self._lead(lambda position: _slope(position, self.time))
-        if not self._instant.start(self._held):
+        self._prescribe(lambda position: _slope(position, self.time))
+        if not self._consistent.project_velocities(self._held):
             return None
         return self._replace(self.step.speed.x.array, self.step.unknown.x.array)
 
@@ -165,16 +165,16 @@ class ThreadMover:
         old[self._places] = new[self._places]
         return float(self.forms.space.mesh.comm.allreduce(float(change), op=MPI.MAX))
 
-    def accelerate(self) -> NDArray[np.float64] | None:
-        """Find accelerations, axial force and curvature of the present state.
+    def solve_accelerations(self) -> NDArray[np.float64] | None:
+        """Solve for accelerations, axial force and curvature in the present state.
 
         Returns:
-            Tension at the nodes, nothing where there is no solution (collective).
+            Tension at the nodes, ``None`` where there is no solution (collective).
         """
-        self._held = self._hold()
-        self._act(self.time)
-        self._lead(lambda position: _curvature(position, self.time))
-        if not self._instant.accelerate(self._held):
+        self._held = self._held_now()
+        self._apply_loads(self.time)
+        self._prescribe(lambda position: _curvature(position, self.time))
+        if not self._consistent.solve_accelerations(self._held):
             return None
         self._keep_rate(self.step.unknown.x.array)
         before = self.step.before.x.array
@@ -183,38 +183,38 @@ class ThreadMover:
         return self.tensions()
 
     def tension_without_stretch(self) -> NDArray[np.float64] | None:
-        """Tension at the nodes that the present state asks of a thread that does not stretch, at once.
+        """Tension at the nodes in the present state if the thread were inextensible.
 
-        One that stretches has none at first where it begins with its length.
+        An extensible thread that starts with its unstretched length has none at first.
 
         Returns:
-            Shape (nodes,), nothing where there is no solution (collective).
+            Shape (nodes,), ``None`` where there is no solution (collective).
         """
-        self._held = self._hold()
-        self._act(self.time)
-        self._lead(lambda position: _curvature(position, self.time))
-        return self.tensions() if self._instant.accelerate(self._held, unstretched=True) else None
+        self._held = self._held_now()
+        self._apply_loads(self.time)
+        self._prescribe(lambda position: _curvature(position, self.time))
+        return self.tensions() if self._consistent.solve_accelerations(self._held, unstretched=True) else None
 
     def _keep_rate(self, values: NDArray[np.float64]) -> None:
         self.step.rate.x.array[self._places] = values[self._places]
 
-    def attempt(self, length: float) -> int | None:
+    def solve_step(self, length: float) -> int | None:
         """Solve the equations of a step from the present state.
 
         Args:
             length: of the step.
 
         Returns:
-            Number of linear systems, nothing where Newton's method fails (collective).
+            Number of linear systems solved, ``None`` where Newton's method fails (collective).
         """
         alpha = self._alpha
         weights = midpoint_weights(length) if alpha is None else alpha.weights(length)
         self.step.set_weights(weights, length)
         if self._shedding is not None:
             self._shedding.set_step(length)
-        self._act(self.time + self.force_part * length)
+        self._apply_loads(self.time + self.force_part * length)
         start, end = self.time, self.time + length
-        self._lead(lambda position: (position(end) - position(start)) / length)
+        self._prescribe(lambda position: (position(end) - position(start)) / length)
         places, unknown = self._places, self.step.unknown.x.array
         old = unknown.copy()
         unknown[places] = self.step.speed.x.array[places] + 0.5 * length * self.step.rate.x.array[places]
@@ -223,15 +223,15 @@ class ThreadMover:
             unknown[:] = old
         return solutions
 
-    def roughness(self, length: float, rate_age: float) -> float:
-        """Error of the positions that the attempted step adds, Δt³ |r_ttt|/12, by how much the acceleration changed.
+    def local_error(self, length: float, rate_age: float) -> float:
+        """Error of positions that the step adds, Δt³ |r_ttt|/12, by the change of the acceleration (collective).
 
         Args:
             length: of the step.
-            rate_age: time between the acceleration that is known and the beginning of the step.
+            rate_age: time from the known acceleration to the beginning of the step.
         """
         change = np.max(np.abs(self._new_rate(length) - self.step.rate.x.array)[self._places], initial=0.0)
-        # Between middles of steps by the midpoint rule, between ends by generalised alpha.
+        # Between midpoints of steps with the midpoint rule, between their ends with generalised α.
         between = rate_age + 0.5 * length if self._alpha is None else length
         local = length**3 / 12.0 * float(change) / between
         return float(self.forms.space.mesh.comm.allreduce(local, op=MPI.MAX))
@@ -244,7 +244,7 @@ class ThreadMover:
         return _combine(self._alpha.end_acceleration(length), (mean, speed, rate))
 
     def accept(self, length: float) -> None:
-        """Take the attempted step."""
+        """Advance the state by the solved step."""
         places, before = self._places, self.step.before.x.array
         mean, speed, rate = self.step.unknown.x.array, self.step.speed.x.array, self.step.rate.x.array
         if self._shedding is not None:
@@ -285,13 +285,13 @@ class ThreadMover:
         return self._reactions(self._solver.reaction)
 
     def start_reactions(self) -> NDArray[np.float64]:
-        """Forces on the held ends by the accelerations that were found last, shape (2, dimension) (collective)."""
-        return self._reactions(self._instant.reaction)[0]
+        """Forces on the held ends with the last accelerations, shape (2, dimension) (collective)."""
+        return self._reactions(self._consistent.reaction)[0]
 
     def _reactions(self, reaction: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         forces, powers = np.zeros((2, self._dimension)), np.zeros(2)
         mean = self.step.unknown.x.array
-        for index, axis in self._led:
+        for index, axis in self._prescribed:
             for place in self._end_places[index][axis]:
                 if place < len(reaction):
                     forces[index, axis] = reaction[place]

@@ -1,4 +1,4 @@
-"""What an animation of a thread lacks."""
+"""Notes on animations of a thread: too few times, or nothing that moves."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ _ENOUGH_TIMES = 24
 
 
 def jumps_in_animation(solution: ThreadSolutionOfScene) -> tuple[str, ...]:
-    """Say what an animation of a thread lacks, and which key gives it: a motion is known at the asked times alone."""
+    """Return notes with the key to set: a motion is known at the output times alone."""
     oscillating = any(len(modes.oscillating.values) for modes in solution.modes)
     if not (solution.motions or oscillating):
         return ('nothing of this scene is animated: ask for an [[analysis]] with kind = "modes" or "motion"',)

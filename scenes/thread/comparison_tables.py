@@ -1,4 +1,4 @@
-"""The tables of a thread beside older theories that a person reads."""
+"""Tables of the comparison of a thread with estimates."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _NOT_EXPLAINED = (
 
 
 def comparison_sections(comparison: Summary) -> Iterator[Section]:
-    """Yield the tables of shapes, of values and of what does not fit the scene.
+    """Yield the tables of shapes, of values and of estimates that do not apply.
 
     Args:
         comparison: of `thread_differences`.
@@ -30,7 +30,7 @@ def comparison_sections(comparison: Summary) -> Iterator[Section]:
 
 
 def _inapplicable(comparison: Summary) -> Section:
-    """What does not fit, by reasons."""
+    """Estimates that do not apply, by reasons."""
     names: dict[str, list[str]] = {}
     for entry in comparison["inapplicable"]:
         names.setdefault(entry["reason"], []).append(entry["name"])

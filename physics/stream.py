@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal, Protocol, get_args
 
@@ -17,43 +18,74 @@ from hydroelastic.physics.arrays import FloatArray
 Vector = tuple[float, float, float]
 Interpolation = Literal["linear", "monotone", "spline", "cubic"]
 
-# Places between two rows of a table at which its speed is looked at.
-_PLACES_PER_ROW = 16
-
 
 class Stream(Protocol):
-    """A steady stream that depends on the height only."""
+    """Velocity u(r) of the undisturbed liquid, steady."""
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Heights at which some derivative of the profile jumps, m, increasing."""
+        """Heights at which a derivative of u jumps, m, increasing."""
 
+    def velocity_at(self, points: FloatArray) -> FloatArray:
+        """Return u, m/s, at points, m, shape (n, 3); shape (n, 3)."""
+
+    def gradient_at(self, points: FloatArray) -> FloatArray:
+        """Return ∂uᵢ/∂xⱼ, 1/s, at points, m, shape (n, 3); shape (n, 3, 3)."""
+
+    def times(self, factor: float) -> Stream:
+        """Return the field with all velocities multiplied by a factor."""
+
+
+@dataclass(frozen=True)
+class ScaledStream:
+    """A velocity field in other units of length and time.
+
+    Attributes:
+        stream: in SI units.
+        length: unit of length, m.
+        time: unit of time, s.
+    """
+
+    stream: Stream
+    length: float
+    time: float
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Heights at which a derivative of u jumps, in the units, increasing."""
+        return tuple(height / self.length for height in self.stream.breaks)
+
+    def velocity_at(self, points: FloatArray) -> FloatArray:
+        """Return u at points of shape (n, 3), both in the units; shape (n, 3)."""
+        return self.stream.velocity_at(points * self.length) * (self.time / self.length)
+
+    def gradient_at(self, points: FloatArray) -> FloatArray:
+        """Return ∂uᵢ/∂xⱼ at points of shape (n, 3), both in the units; shape (n, 3, 3)."""
+        return self.stream.gradient_at(points * self.length) * self.time
+
+    def times(self, factor: float) -> ScaledStream:
+        """Return the field with all velocities multiplied by a factor."""
+        return replace(self, stream=self.stream.times(factor))
+
+
+class _OfHeight(ABC):
+    """Velocity in space from a profile u(z)."""
+
+    breaks: tuple[float, ...] = ()
+
+    @abstractmethod
     def profile(self, levels: ArrayLike) -> FloatArray:
         """Return u, m/s, at heights, m, shape (n,); shape (n, 3)."""
 
+    @abstractmethod
     def slope(self, levels: ArrayLike) -> FloatArray:
         """Return du/dz, 1/s, at heights, m, shape (n,); shape (n, 3)."""
 
     def velocity_at(self, points: ArrayLike) -> FloatArray:
         """Return u, m/s, at points, m, shape (n, 3); shape (n, 3)."""
-
-    def gradient_at(self, points: ArrayLike) -> FloatArray:
-        """Return ∂uᵢ/∂xⱼ, 1/s, at points, m, shape (n, 3); shape (n, 3, 3)."""
-
-    def largest_speed(self, low: float, high: float) -> float:
-        """Return the largest |u|, m/s, at heights from ``low`` to ``high``, m."""
-
-
-class _OfHeight:
-    """Fields in space from a profile in z."""
-
-    breaks: tuple[float, ...] = ()
-
-    def velocity_at(self: Stream, points: ArrayLike) -> FloatArray:
-        """Return u, m/s, at points, m, shape (n, 3); shape (n, 3)."""
         return self.profile(np.asarray(points, dtype=float)[:, 2])
 
-    def gradient_at(self: Stream, points: ArrayLike) -> FloatArray:
+    def gradient_at(self, points: ArrayLike) -> FloatArray:
         """Return ∂uᵢ/∂xⱼ, 1/s, at points, m, shape (n, 3); shape (n, 3, 3)."""
         places = np.asarray(points, dtype=float)
         gradient = np.zeros((len(places), 3, 3))
@@ -66,6 +98,11 @@ def _vector(values: Sequence[float], name: str) -> Vector:
     if len(vector) != 3 or not all(map(math.isfinite, vector)):
         raise ValueError(f"{name} is {values}: it must have three finite components, x, y and z")
     return vector
+
+
+def _times(factor: float, vector: Vector) -> Vector:
+    x, y, z = vector
+    return factor * x, factor * y, factor * z
 
 
 def _finite(value: float, name: str) -> None:
@@ -84,8 +121,12 @@ class UniformStream(_OfHeight):
     velocity: Vector
 
     def __post_init__(self) -> None:
-        """Refuse what is no vector."""
+        """Check that they are vectors."""
         object.__setattr__(self, "velocity", _vector(self.velocity, "velocity"))
+
+    def times(self, factor: float) -> UniformStream:
+        """Return the stream with all velocities multiplied by a factor."""
+        return replace(self, velocity=_times(factor, self.velocity))
 
     def profile(self, levels: ArrayLike) -> FloatArray:
         """Return u, m/s, at heights, m, shape (n,); shape (n, 3)."""
@@ -94,10 +135,6 @@ class UniformStream(_OfHeight):
     def slope(self, levels: ArrayLike) -> FloatArray:
         """Return du/dz = 0 at heights, shape (n,); shape (n, 3)."""
         return np.zeros((np.size(levels), 3))
-
-    def largest_speed(self, low: float, high: float) -> float:
-        """Return |U|, m/s."""
-        return math.hypot(*self.velocity)
 
 
 @dataclass(frozen=True)
@@ -115,10 +152,14 @@ class ShearedStream(_OfHeight):
     level: float = 0.0
 
     def __post_init__(self) -> None:
-        """Refuse what is no vector."""
+        """Check that they are vectors."""
         object.__setattr__(self, "velocity", _vector(self.velocity, "velocity"))
         object.__setattr__(self, "gradient", _vector(self.gradient, "gradient"))
         _finite(self.level, "level")
+
+    def times(self, factor: float) -> ShearedStream:
+        """Return the stream with all velocities multiplied by a factor."""
+        return replace(self, velocity=_times(factor, self.velocity), gradient=_times(factor, self.gradient))
 
     def profile(self, levels: ArrayLike) -> FloatArray:
         """Return u, m/s, at heights, m, shape (n,); shape (n, 3)."""
@@ -128,10 +169,6 @@ class ShearedStream(_OfHeight):
     def slope(self, levels: ArrayLike) -> FloatArray:
         """Return du/dz, 1/s, at heights, shape (n,); shape (n, 3)."""
         return np.tile(self.gradient, (np.size(levels), 1))
-
-    def largest_speed(self, low: float, high: float) -> float:
-        """Return the largest |u|, m/s, between two heights, m: |u| is convex, so that it is at one of them."""
-        return float(np.linalg.norm(self.profile([low, high]), axis=1).max())
 
 
 @dataclass(frozen=True)
@@ -147,9 +184,13 @@ class VeeringStream(_OfHeight):
     rate: float
 
     def __post_init__(self) -> None:
-        """Refuse what is no number."""
+        """Check that they are finite."""
         _finite(self.speed, "speed")
         _finite(self.rate, "rate")
+
+    def times(self, factor: float) -> VeeringStream:
+        """Return the stream with all velocities multiplied by a factor."""
+        return replace(self, speed=factor * self.speed)
 
     def profile(self, levels: ArrayLike) -> FloatArray:
         """Return u, m/s, at heights, m, shape (n,); shape (n, 3)."""
@@ -160,10 +201,6 @@ class VeeringStream(_OfHeight):
         """Return du/dz, 1/s, at heights, m, shape (n,); shape (n, 3)."""
         angles = self.rate * np.asarray(levels, dtype=float)
         return self.speed * self.rate * np.stack([-np.sin(angles), np.cos(angles), np.zeros_like(angles)], axis=-1)
-
-    def largest_speed(self, low: float, high: float) -> float:
-        """Return |U|, m/s."""
-        return abs(self.speed)
 
 
 @dataclass(frozen=True)
@@ -184,7 +221,7 @@ class TabulatedStream(_OfHeight):
     interpolation: Interpolation = "linear"
 
     def __post_init__(self) -> None:
-        """Refuse tables that are none."""
+        """Check heights, shapes and the interpolation."""
         levels = tuple(float(level) for level in self.levels)
         velocities = tuple(_vector(row, "velocities") for row in self.velocities)
         if len(levels) < 2 or not np.isfinite(levels).all() or (np.diff(levels) <= 0).any():
@@ -212,6 +249,10 @@ class TabulatedStream(_OfHeight):
     def _held(self, levels: ArrayLike) -> FloatArray:
         return np.clip(np.asarray(levels, dtype=float), self.levels[0], self.levels[-1])
 
+    def times(self, factor: float) -> TabulatedStream:
+        """Return the stream with all velocities multiplied by a factor."""
+        return replace(self, velocities=tuple(_times(factor, row) for row in self.velocities))
+
     def profile(self, levels: ArrayLike) -> FloatArray:
         """Return u, m/s, at heights, m, shape (n,); shape (n, 3)."""
         heights = self._held(levels)
@@ -229,10 +270,3 @@ class TabulatedStream(_OfHeight):
             inside = (np.diff(self.velocities, axis=0) / np.diff(self.levels)[:, None])[rows]
         within = (heights >= self.levels[0]) & (heights < self.levels[-1])
         return np.where(within[..., None], inside, 0.0)
-
-    def largest_speed(self, low: float, high: float) -> float:
-        """Return the largest |u|, m/s, between two heights, m; of cubics at 16 places between rows."""
-        rows = np.asarray(self.levels)
-        fine = (rows[:-1, None] + np.diff(rows)[:, None] * np.linspace(0, 1, _PLACES_PER_ROW)).ravel()
-        heights = np.concatenate([[low, high], fine[(fine > low) & (fine < high)]])
-        return float(np.linalg.norm(self.profile(heights), axis=1).max())

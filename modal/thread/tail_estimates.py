@@ -1,4 +1,4 @@
-"""A thread with a free tail, on which nothing pulls: near the critical line, in a uniform stream on it."""
+"""A thread with a free tail without force: on the critical line in a uniform stream, near it in a sheared one."""
 
 from __future__ import annotations
 
@@ -14,33 +14,36 @@ from hydroelastic.modal.thread.critical import (
     critical_line,
     nearly_critical_tail,
 )
+from hydroelastic.modal.thread.estimate import Found, ShapeEstimate, estimate_or_reason, require
+from hydroelastic.modal.thread.pulled import LEVELS, PulledThread, of_length, pulled_thread, shape_at
 from hydroelastic.modal.thread.shape import ThreadShape
-from hydroelastic.modal.thread.stream_profiles import ShearedStream
 from hydroelastic.physics.arrays import FloatArray
-from hydroelastic.scenes.models.thread import ThreadScene
-from hydroelastic.scenes.thread.estimate import Found, ShapeEstimate, attempted, require
-from hydroelastic.scenes.thread.model import load_of, stream_of
-from hydroelastic.scenes.thread.pulled import LEVELS, PulledThread, of_length, pulled_thread, shape_at
-from hydroelastic.scenes.thread.starts import force_on
+from hydroelastic.physics.stream import ShearedStream
+from hydroelastic.physics.thread import Thread
 
 _LINE, _NEARLY = "critical line of a free tail", "nearly critical line of a free tail"
 
 
-def tail_estimates(scene: ThreadScene) -> Iterator[Found]:
-    """Yield what is known of the shape of a thread with a free tail, or why it is not."""
-    yield attempted(_LINE, partial(_critical, scene))
-    yield attempted(_NEARLY, partial(_nearly_critical, scene))
+def tail_estimates(thread: Thread, places: FloatArray) -> Iterator[Found]:
+    """Yield estimates of the shape of a thread with a free tail, or why there are none.
+
+    Args:
+        thread: in space, SI units.
+        places: arc lengths at which shapes are wanted, m.
+    """
+    yield estimate_or_reason(_LINE, partial(_critical, thread, places))
+    yield estimate_or_reason(_NEARLY, partial(_nearly_critical, thread, places))
 
 
-def _tailed(scene: ThreadScene) -> PulledThread:
-    pulled = pulled_thread(scene)
-    require(not np.any(force_on(scene, pulled.free)(pulled.start)), "a force or a body pulls at the tail")
+def _tailed(thread: Thread, places: FloatArray) -> PulledThread:
+    pulled = pulled_thread(thread, places)
+    require(not np.any(pulled.force(pulled.start)), "a force or a body pulls at the tail")
     return pulled
 
 
-def _critical(scene: ThreadScene) -> ShapeEstimate:
-    pulled = _tailed(scene)
-    shape = critical_line(load_of(scene), scene.thread.length, pulled.places, pulled.start)
+def _critical(thread: Thread, places: FloatArray) -> ShapeEstimate:
+    pulled = _tailed(thread, places)
+    shape = critical_line(thread.distributed_load, thread.length, pulled.places, pulled.start)
     return ShapeEstimate(name=_LINE, order=None, shape=pulled.shape(shape))
 
 
@@ -62,15 +65,15 @@ class _Tail:
         return float(self.solution.lengths[-1])
 
 
-def _nearly_critical(scene: ThreadScene) -> ShapeEstimate:
-    pulled, load, stream = _tailed(scene), load_of(scene), stream_of(scene)
+def _nearly_critical(thread: Thread, places: FloatArray) -> ShapeEstimate:
+    pulled, load, stream = _tailed(thread, places), thread.distributed_load, thread.stream
     require(isinstance(stream, ShearedStream), "the stream is not sheared linearly")
     assert isinstance(stream, ShearedStream)
     require(load.viscous_drag == 0.0, "the drag is not quadratic")
     velocity, gradient = np.array(stream.velocity), np.array(stream.gradient)
     along = velocity / np.linalg.norm(velocity) if velocity.any() else gradient / np.linalg.norm(gradient)
     require(not np.cross(along, gradient).any(), "the stream turns with the height")
-    down = 1.0 if scene.weight > 0.0 else -1.0
+    down = 1.0 if thread.weight > 0.0 else -1.0
 
     def tail(height: float) -> _Tail:
         speed = float(stream.profile([pulled.start[2] - down * height])[0] @ along)
@@ -78,10 +81,10 @@ def _nearly_critical(scene: ThreadScene) -> ShapeEstimate:
         heights = np.linspace(0.0, height, LEVELS)
         changes = [down * float(gradient @ along) / speed]
         normal, tangential = (drag * speed**2 for drag in (load.normal_drag, load.tangential_drag))
-        return _Tail(heights, nearly_critical_tail(scene.weight, normal, tangential, changes, heights))
+        return _Tail(heights, nearly_critical_tail(thread.weight, normal, tangential, changes, heights))
 
     direction, _ = critical_direction(load, pulled.start)
-    found = of_length(tail, scene.thread.length, scene.thread.length * abs(float(direction[2])))
+    found = of_length(tail, thread.length, thread.length * abs(float(direction[2])))
     solution = found.solution
     return ShapeEstimate(
         name=_NEARLY,
@@ -89,8 +92,8 @@ def _nearly_critical(scene: ThreadScene) -> ShapeEstimate:
         parameter="change of the stream along the thread, of it",
         small=solution.small,
         shape=pulled.shape(shape_at(_shape(found, pulled.start, along, down), pulled.places)),
-        position_left_out=solution.angle_left_out * scene.thread.length,
-        force_left_out=solution.small**2 * float(solution.tensions.max()),
+        position_truncation=solution.angle_truncation * thread.length,
+        force_truncation=solution.small**2 * float(solution.tensions.max()),
     )
 
 

@@ -1,4 +1,4 @@
-"""What libraries say of iterations that fail is no word for a user: results are looked at, and judged, instead."""
+"""Warnings of NumPy and SciPy about iterations that fail: suppressed where the results are checked instead."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from scipy.integrate import IntegrationWarning
 
 
 @contextmanager
-def libraries_silent() -> Iterator[None]:
-    """Keep the warnings of NumPy and SciPy from the terminal; their errors go on."""
+def suppressed_library_warnings() -> Iterator[None]:
+    """Suppress warnings of NumPy and SciPy; their errors are raised."""
     with np.errstate(all="ignore"), warnings.catch_warnings():
         warnings.filterwarnings("ignore", category=RuntimeWarning)
         warnings.filterwarnings("ignore", category=IntegrationWarning)

@@ -1,10 +1,10 @@
-"""A moving thread at one instant: positions and velocities that its constraints allow, accelerations, axial force.
+"""Consistent initial state of a moving thread: positions and velocities that satisfy its constraints, accelerations.
 
 Given positions r* are moved, and given velocities v* changed, as little as possible in the mean: with forces P
 
     ∫ η·(r − r*) + ∫ P τ·η_s = 0,  ∫ μ (|r_s| − 1) = 0,      ∫ η·M (v − v*) + ∫ P τ·η_s = 0,  ∫ μ τ·v_s = 0,
 
-the second being the impulse that acts where an end is jerked. Accelerations a and the axial force S follow from the
+the second being the impulse where the velocity of an end jumps. Accelerations a and the axial force S follow from the
 equations of motion with the second derivative of |r_s| = 1, τ·a_s + |P v_s|²/|r_s| = 0, or with the law of stretch.
 """
 
@@ -22,19 +22,19 @@ from hydroelastic.fem.thread.forms import ThreadState, tangent
 from hydroelastic.fem.thread.step import ThreadStep
 from hydroelastic.fem.thread.step_solver import HeldUnknowns, StepSolver
 
-# Of the unit of time. Velocities and accelerations count for convergence by how far they move the thread in it.
-_BLINK = 1e-4
+# Of the unit of time: convergence of velocities and accelerations is judged by the displacements in this time.
+_SHORT_TIME = 1e-4
 
 
-class ThreadInstant:
-    """Systems for the state of a thread at one instant.
+class ConsistentState:
+    """Equations of the state of a thread at one time.
 
     Args:
         step: whose `before` and `speed` are the state; its `unknown` is used.
     """
 
     def __init__(self, step: ThreadStep) -> None:
-        """Nothing is compiled before it is needed."""
+        """Keep the step; equations are compiled when they are needed."""
         self._step, self._forms = step, step.forms
         self._tests = ufl.TestFunctions(step.forms.space.mixed)
         self._unknown = step.unknown
@@ -45,27 +45,27 @@ class ThreadInstant:
         """Forces on the thread where it is held, by the last accelerations."""
         return self._solvers["accelerate"].reaction
 
-    def place(self, held: HeldUnknowns) -> bool:
+    def project_positions(self, held: HeldUnknowns) -> bool:
         """Solve for the positions that are nearest to `before`; the result is in the unknown."""
         self._unknown.x.array[:] = self._step.before.x.array
-        return self._solve("place", held, self._placing, 1.0)
+        return self._solve("place", held, self._position_equations, 1.0)
 
-    def start(self, held: HeldUnknowns) -> bool:
+    def project_velocities(self, held: HeldUnknowns) -> bool:
         """Solve for the velocities that are nearest to `speed`; the result is in the unknown."""
         self._unknown.x.array[:] = 0.0
-        return self._solve("start", held, self._starting, _BLINK)
+        return self._solve("start", held, self._velocity_equations, _SHORT_TIME)
 
-    def accelerate(self, held: HeldUnknowns, *, unstretched: bool = False) -> bool:
+    def solve_accelerations(self, held: HeldUnknowns, *, unstretched: bool = False) -> bool:
         """Solve for accelerations, axial force and curvature; the result is in the unknown.
 
         Args:
-            held: unknowns that are given.
-            unstretched: as if the thread could not stretch.
+            held: prescribed unknowns.
+            unstretched: whether the thread is taken as inextensible.
         """
         self._unknown.x.array[:] = 0.0
         if unstretched and self._forms.model.axial_rigidity < inf:
-            return self._solve("unstretched", held, partial(self._accelerating, inf), _BLINK**2)
-        return self._solve("accelerate", held, self._accelerating, _BLINK**2)
+            return self._solve("unstretched", held, partial(self._acceleration_equations, inf), _SHORT_TIME**2)
+        return self._solve("accelerate", held, self._acceleration_equations, _SHORT_TIME**2)
 
     def _solve(self, name: str, held: HeldUnknowns, equations: Any, step: float) -> bool:
         if name not in self._solvers:
@@ -82,7 +82,7 @@ class ThreadInstant:
     def _parts(self) -> tuple[Any, Any]:
         return ufl.split(self._unknown)[0], ufl.split(self._unknown)[1]
 
-    def _placing(self) -> Any:
+    def _position_equations(self) -> Any:
         old = ufl.split(self._step.before)[0]
         position, force = self._parts()
         form = ufl.inner(position - old, self._tests[0]) + force * ufl.inner(tangent(position), self._tests[0].dx(0))
@@ -91,7 +91,7 @@ class ThreadInstant:
             form + self._forms.stretch(ThreadState(position, force), ThreadState(None, self._tests[1])) + self._rest()
         )
 
-    def _starting(self) -> Any:
+    def _velocity_equations(self) -> Any:
         forms = self._forms
         position, speed = ufl.split(self._step.before)[0], ufl.split(self._step.speed)[0]
         velocity, impulse = self._parts()
@@ -99,19 +99,19 @@ class ThreadInstant:
         form = forms.inertia(position, velocity - speed, self._tests[0])
         form += impulse * ufl.inner(tau, self._tests[0].dx(0)) * forms.space.dx
         if forms.model.axial_rigidity < inf:
-            # What stretches takes no jerk.
+            # An extensible thread has no impulsive tension.
             form += impulse * self._tests[1] * forms.space.dx
         else:
             form += self._tests[1] * ufl.inner(tau, velocity.dx(0)) * forms.space.dx
         return form + self._rest()
 
     def _rest(self) -> Any:
-        """No curvature is asked for here."""
+        """The curvature is not needed here: zero."""
         if not self._forms.model.bends:
             return 0
         return ufl.inner(ufl.split(self._unknown)[2], self._tests[2]) * self._forms.space.dx
 
-    def _accelerating(self, rigidity: float | None = None) -> Any:
+    def _acceleration_equations(self, rigidity: float | None = None) -> Any:
         step, forms = self._step, self._forms
         position, speed = ufl.split(step.before)[0], ufl.split(step.speed)[0]
         acceleration, force = self._parts()

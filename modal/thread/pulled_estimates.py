@@ -5,28 +5,25 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
-from math import inf
 
 import numpy as np
 
 from hydroelastic.modal.thread.asymptotics import AsymptoticThread
 from hydroelastic.modal.thread.drag_dominated import drag_dominated
+from hydroelastic.modal.thread.estimate import (
+    Found,
+    ShapeEstimate,
+    estimate_or_reason,
+    require,
+)
+from hydroelastic.modal.thread.pulled import LEVELS, PulledThread, of_length, pulled_thread, shape_at
 from hydroelastic.modal.thread.shape import ThreadShape
-from hydroelastic.modal.thread.stream_profiles import ShearedStream, Stream, TabulatedStream, VeeringStream
 from hydroelastic.modal.thread.tension_at_height import ThreadAtHeight, tension_dominated_at_height
 from hydroelastic.modal.thread.tension_dominated import tension_dominated
 from hydroelastic.modal.thread.weightless import weightless_thread
 from hydroelastic.physics.arrays import FloatArray
-from hydroelastic.scenes.models.thread import ThreadScene
-from hydroelastic.scenes.thread.estimate import (
-    Found,
-    ShapeEstimate,
-    attempted,
-    require,
-)
-from hydroelastic.scenes.thread.model import load_of, stream_of
-from hydroelastic.scenes.thread.pulled import LEVELS, PulledThread, of_length, pulled_thread, shape_at
-from hydroelastic.scenes.thread.starts import force_on
+from hydroelastic.physics.stream import ShearedStream, Stream, TabulatedStream, VeeringStream
+from hydroelastic.physics.thread import Thread
 
 _NAMES = {
     "tension": "tension-dominated, order {order}",
@@ -37,18 +34,24 @@ _NAMES = {
 _TENSION, _WEIGHT = "ε = ∫|q| ds/T", "change of angle and of ln T by the weight"
 
 
-def pulled_estimates(scene: ThreadScene) -> Iterator[Found]:
-    """Yield what is known of the shape of a thread with one fixed and one free end, or why it is not.
+def pulled_estimates(thread: Thread, places: FloatArray) -> Iterator[Found]:
+    """Yield estimates of the shape of a thread with one fixed and one free end, or why there are none.
 
-    The force of a body is that of the stream at its own depth, which is found with the shape.
+    The drag of a body at the end is that of the stream at its own depth, which is found with the shape.
+
+    Args:
+        thread: in space, SI units.
+        places: arc lengths at which shapes are wanted, m.
     """
     for order in (0, 1, 2):
-        yield attempted(_NAMES["tension"].format(order=order), partial(_tension_dominated, scene, order))
-    if PulledThread.fits(scene) and PulledThread(scene).force_varies:
-        yield attempted(_NAMES["height"], partial(_at_height, scene))
+        yield estimate_or_reason(
+            _NAMES["tension"].format(order=order), partial(_tension_dominated, thread, places, order)
+        )
+    if PulledThread.fits(thread) and PulledThread(thread, places).force_varies:
+        yield estimate_or_reason(_NAMES["height"], partial(_at_height, thread, places))
     for order in (0, 1):
-        yield attempted(_NAMES["drag"].format(order=order), partial(_drag_dominated, scene, order))
-    yield attempted(_NAMES["weightless"], partial(_weightless, scene))
+        yield estimate_or_reason(_NAMES["drag"].format(order=order), partial(_drag_dominated, thread, places, order))
+    yield estimate_or_reason(_NAMES["weightless"], partial(_weightless, thread, places))
 
 
 def _estimate(name: str, pulled: PulledThread, found: AsymptoticThread, parameter: str) -> ShapeEstimate:
@@ -58,22 +61,22 @@ def _estimate(name: str, pulled: PulledThread, found: AsymptoticThread, paramete
         parameter=parameter,
         small=found.small,
         shape=pulled.shape(found.shape),
-        position_left_out=found.position_left_out,
-        force_left_out=found.force_left_out,
+        position_truncation=found.position_truncation,
+        force_truncation=found.force_truncation,
     )
 
 
-def _tension_dominated(scene: ThreadScene, order: int) -> ShapeEstimate:
-    pulled, load = pulled_thread(scene, stretch=True), load_of(scene)
+def _tension_dominated(thread: Thread, places: FloatArray, order: int) -> ShapeEstimate:
+    pulled, load = pulled_thread(thread, places, stretch=True), thread.distributed_load
 
     def find(force: FloatArray) -> AsymptoticThread:
         return tension_dominated(
             load,
-            scene.thread.length,
+            thread.length,
             force,
             pulled.places,
             order=order,
-            axial_rigidity=scene.thread.axial_rigidity or inf,
+            axial_rigidity=thread.axial_rigidity,
             start=pulled.start,
         )
 
@@ -81,30 +84,32 @@ def _tension_dominated(scene: ThreadScene, order: int) -> ShapeEstimate:
     return _estimate(name, pulled, pulled.pulled_by_its_force(find), _TENSION)
 
 
-def _drag_dominated(scene: ThreadScene, order: int) -> ShapeEstimate:
-    pulled, load = pulled_thread(scene), load_of(scene)
+def _drag_dominated(thread: Thread, places: FloatArray, order: int) -> ShapeEstimate:
+    pulled, load = pulled_thread(thread, places), thread.distributed_load
 
     def find(force: FloatArray) -> AsymptoticThread:
-        found = drag_dominated(load, force, length=scene.thread.length, order=order, count=LEVELS, start=pulled.start)
+        found = drag_dominated(load, force, length=thread.length, order=order, count=LEVELS, start=pulled.start)
         return replace(found, shape=shape_at(found.shape, pulled.places))
 
     return _estimate(_NAMES["drag"].format(order=order), pulled, pulled.pulled_by_its_force(find), _WEIGHT)
 
 
-def _weightless(scene: ThreadScene) -> ShapeEstimate:
-    pulled = pulled_thread(scene)
-    force = force_on(scene, pulled.free)(pulled.start)
-    shape = weightless_thread(load_of(scene), scene.thread.length, force, pulled.places, pulled.start)
+def _weightless(thread: Thread, places: FloatArray) -> ShapeEstimate:
+    pulled = pulled_thread(thread, places)
+    force = pulled.force(pulled.start)
+    shape = weightless_thread(thread.distributed_load, thread.length, force, pulled.places, pulled.start)
     return ShapeEstimate(name=_NAMES["weightless"], order=None, shape=pulled.shape(shape))
 
 
-def _at_height(scene: ThreadScene) -> ShapeEstimate:
-    """The thread whose end lies at a height, for the height at which it has its length."""
-    pulled, length = pulled_thread(scene), scene.thread.length
-    force = force_on(scene, pulled.free)
+def _at_height(thread: Thread, places: FloatArray) -> ShapeEstimate:
+    """The thread from a given height of its end, with the height that gives its length."""
+    pulled, length = pulled_thread(thread, places), thread.length
+    force = pulled.force
     up = np.array([1.0, 1.0, np.sign(force(pulled.start)[2])])
     require(up[2] != 0.0, "no force pulls the end up or down")
-    load = replace(load_of(scene), weight=up[2] * scene.weight, stream=_from(stream_of(scene), pulled.start[2], up[2]))
+    load = replace(
+        thread.distributed_load, weight=up[2] * thread.weight, stream=_from(thread.stream, pulled.start[2], up[2])
+    )
 
     def at(height: float) -> ThreadAtHeight:
         def end_force(place: FloatArray) -> FloatArray:
@@ -123,8 +128,8 @@ def _at_height(scene: ThreadScene) -> ShapeEstimate:
                 s=np.array([0.0, length]), positions=pulled.start + up * found.positions, forces=up * found.forces
             )
         ),
-        position_left_out=found.position_left_out,
-        force_left_out=found.force_left_out,
+        position_truncation=found.position_truncation,
+        force_truncation=found.force_truncation,
     )
 
 

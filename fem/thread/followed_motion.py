@@ -1,0 +1,133 @@
+"""A motion of a thread in space, with its estimated errors."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydroelastic.fem.thread.frame import Frame
+from hydroelastic.fem.thread.motion_errors import MeasuredMotion
+from hydroelastic.fem.thread.motion_results import Slack
+from hydroelastic.fem.thread.refinement import ThreadSolution
+
+Array = NDArray[np.float64]
+
+# Of the acting forces: smaller tensions, as of a thread in free fall, are negligible.
+_TENSION_LEAST = 0.01
+
+
+@dataclass(frozen=True, kw_only=True)
+class Extremes:
+    """Tensions at the ends of all steps of a motion, between the output times too; n ends.
+
+    Attributes:
+        end_tensions: at A and B, N, shape (n, 2).
+        lowest: along the thread, N, shape (n,).
+        lowest_at: where that is, m along the thread, shape (n,).
+        highest: along the thread, N, shape (n,).
+        highest_at: where that is, m along the thread, shape (n,).
+        force_scale: the largest force that acted on the thread, N.
+        error: estimated, of all of them and of what lies between the steps, N.
+    """
+
+    end_tensions: Array
+    lowest: Array
+    lowest_at: Array
+    highest: Array
+    highest_at: Array
+    force_scale: float
+    error: float
+
+    @property
+    def size(self) -> float:
+        """The tension in whose parts errors of tensions are judged: the largest one, N."""
+        return max(float(np.max(self.highest)), _TENSION_LEAST * self.force_scale)
+
+
+@dataclass(frozen=True, kw_only=True)
+class FollowedMotion:
+    """A motion in time.
+
+    Attributes:
+        times: s, shape (times,).
+        nodes: s of the nodes, m, shape (nodes,).
+        positions: r, m, shape (times, nodes, 3).
+        tensions: T, N, shape (times, nodes).
+        step_error: largest change of a position by halving all steps, m.
+        mesh_error: the same by halving all elements, m.
+        tension_error: largest change of a tension at the output times by both, N.
+        steps: in time, of the last run.
+        step_ends: times at which energies are told, s, shape (steps + 1,).
+        energies: kinetic, of weight and dead forces, of stretch, of bending, J, shape (steps + 1, 4).
+        drag_work: of the drag by then, J, shape (steps + 1,).
+        extremes: tensions at `step_ends`.
+        slack: times in which some of the thread was in compression, by more than the error of its tension then.
+        distance_to_rest: largest distance of the last shape from the equilibrium, m.
+    """
+
+    times: Array
+    nodes: Array
+    positions: Array
+    tensions: Array
+    step_error: float
+    mesh_error: float
+    tension_error: float
+    steps: int
+    step_ends: Array
+    energies: Array
+    drag_work: Array
+    extremes: Extremes
+    slack: tuple[Slack, ...]
+    distance_to_rest: float
+
+    @property
+    def position_error(self) -> float:
+        """Estimated, of all positions, m."""
+        return self.step_error + self.mesh_error
+
+
+def followed_motion(frame: Frame, rest: ThreadSolution, found: MeasuredMotion) -> FollowedMotion:
+    """Return a measured motion in space, with its estimated errors.
+
+    Args:
+        frame: coordinates of the solution.
+        rest: the equilibrium.
+        found: the motion, with its difference by halved elements.
+    """
+    motion, history = found.motion, found.motion.history
+    assert found.mesh is not None
+    tensions = history.tensions
+    final = motion.positions[-1] - rest.profile.position(motion.nodes)
+    return FollowedMotion(
+        times=motion.times,
+        nodes=motion.nodes,
+        positions=frame.places(motion.positions),
+        tensions=motion.tensions,
+        step_error=found.steps.positions,
+        mesh_error=found.mesh.positions,
+        tension_error=found.steps.tensions + found.mesh.tensions,
+        steps=len(history.solutions),
+        step_ends=history.ends,
+        energies=history.energies,
+        drag_work=np.concatenate([[0.0], np.cumsum(history.work[:, 0])]),
+        extremes=Extremes(
+            end_tensions=tensions[:, [0, -1]],
+            lowest=tensions.min(axis=1),
+            lowest_at=motion.nodes[tensions.argmin(axis=1)],
+            highest=tensions.max(axis=1),
+            highest_at=motion.nodes[tensions.argmax(axis=1)],
+            force_scale=motion.force_scale,
+            error=float(found.tension_changes.max()) + _between_steps(tensions),
+        ),
+        # Near a free end the tension is as small as its error.
+        slack=tuple(slack for slack in motion.slack if slack.tension < -found.tension_change(slack.start, slack.end)),
+        distance_to_rest=float(np.max(np.linalg.norm(final, axis=1))),
+    )
+
+
+def _between_steps(tensions: Array) -> float:
+    """What extremes at the ends of steps leave out between them, N: less than they change by leaving out every other
+    step, which a curve does four times as much."""
+    return float(max(tensions.max() - tensions[::2].max(), tensions[::2].min() - tensions.min()))

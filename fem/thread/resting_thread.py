@@ -1,0 +1,104 @@
+"""A thread at rest in space, at given arc lengths, with its estimated errors."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydroelastic.fem.thread.equilibrium_search import FoundEquilibrium
+from hydroelastic.fem.thread.frame import Frame
+from hydroelastic.fem.thread.profile import ThreadProfile
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class RestingThread:
+    """A thread at rest, at given arc lengths ("positions").
+
+    Attributes:
+        positions: r, m, shape (positions, 3).
+        tensions: T, N, shape (positions,).
+        forces: contact force N, N, shape (positions, 3).
+        curvatures: |r_ss|, 1/m, shape (positions,).
+        end_positions: of A and B, m, shape (2, 3).
+        end_tensions: at A and B, N, shape (2,).
+        reactions: forces on the thread by what holds A and B, N, shape (2, 3).
+        end_moments: EI κ at A and B, N·m, shape (2,).
+        largest_tension: of the whole thread, N.
+        smallest_tension: of the whole thread, N.
+        smallest_at: where that is, m along the thread.
+        position_error: estimated, of all positions, m.
+        tension_error: estimated, of all tensions, N.
+        reaction_error: estimated, of reactions, N.
+        moment_error: estimated, of the end moments, N·m.
+        relative_error: the largest of them, of length, largest force and largest moment.
+        start: how Newton's method was begun.
+        newton_steps: on each of the meshes.
+        failed_starts: why starts before it did not lead to a thread under tension.
+    """
+
+    positions: Array
+    tensions: Array
+    forces: Array
+    curvatures: Array
+    end_positions: Array
+    end_tensions: Array
+    reactions: Array
+    end_moments: Array
+    largest_tension: float
+    smallest_tension: float
+    smallest_at: float
+    position_error: float
+    tension_error: float
+    reaction_error: float
+    moment_error: float
+    relative_error: float
+    start: str
+    newton_steps: tuple[int, ...]
+    failed_starts: tuple[str, ...]
+
+
+def resting_thread(found: FoundEquilibrium, frame: Frame, s: Array) -> RestingThread:
+    """Return an equilibrium in space.
+
+    Args:
+        found: the equilibrium.
+        frame: coordinates of the solution.
+        s: arc lengths from end A, m, shape (positions,).
+    """
+    profile, errors = found.solution.profile, found.solution.errors
+    ends = profile.nodes[[0, -1]]
+    smallest, place = profile.smallest_tension()
+    return RestingThread(
+        positions=frame.places(profile.position(s)),
+        tensions=profile.tension_at(s),
+        forces=frame.outside(profile.contact_force(s)),
+        curvatures=_curvatures(profile, s),
+        end_positions=frame.places(profile.position(ends)),
+        end_tensions=np.array([profile.tension[0, 0], profile.tension[-1, 1]]),
+        reactions=frame.outside(profile.reactions()),
+        end_moments=profile.end_moments(),
+        largest_tension=float(np.max(profile.tension)),
+        smallest_tension=smallest,
+        smallest_at=place,
+        position_error=errors.position,
+        tension_error=errors.tension,
+        reaction_error=errors.reaction,
+        moment_error=errors.moment,
+        relative_error=errors.relative,
+        start=found.start,
+        newton_steps=found.solution.newton_steps,
+        failed_starts=found.failed,
+    )
+
+
+def _curvatures(profile: ThreadProfile, s: Array) -> Array:
+    """|r_ss|, of a thread that does not bend by the second derivative of its positions."""
+    if profile.curvature_table is not None:
+        return np.asarray(np.linalg.norm(profile.curvature_table.at(s), axis=1))
+    slope, second = profile.position_table.at(s, 1), profile.position_table.at(s, 2)
+    along = np.sum(slope * second, axis=1) / np.sum(slope**2, axis=1)
+    return np.asarray(np.linalg.norm(second - along[:, None] * slope, axis=1) / np.sum(slope**2, axis=1))

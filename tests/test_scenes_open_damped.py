@@ -10,7 +10,6 @@ from mpi4py import MPI
 from open_cases import GRAVITY, RADIUS, SLOW, THIN_LIQUIDS, circle, circle_omega
 from open_tables import open_scene
 
-from hydroelastic.modal import float_profile
 from hydroelastic.modal.floats.complex_moments import complex_wave_moment
 from hydroelastic.modal.floats.endless_float import endless_float
 from hydroelastic.modal.floats.profiles import Profile
@@ -88,6 +87,14 @@ def test_second_pole_of_the_exponential() -> None:
     assert found.table.residuals.max() <= 1e-9
     assert found.error <= 1e-3
     assert_honest(found, profile)
+
+
+def test_search_and_count_agree_on_a_circle() -> None:
+    # Its sway has resonances beside those of the water around a circle that is held, poles of H.
+    found = damped(circle(1e-4, "heave", "sway"), count=4)
+    assert found.reasons == ()
+    assert found.table.labels == ("heave", "sway", "heave", "sway")
+    assert found.table.counted == 5
 
 
 @SLOW

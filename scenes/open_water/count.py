@@ -2,7 +2,8 @@
 
 The small matrix D(λ) = K − λ(M_b + H(λ)) of the bodies is singular at resonances, and has poles where the water
 could oscillate by itself if the bodies were held. Around a region the phase of det D turns once for every resonance
-within and back for every pole. H comes from solutions on the rim, on a reduced basis, and not from any eigenvector.
+within and back for every pole; poles of H in `damped` are zeros of another determinant, which makes up for them. H
+comes from solutions on the rim, on a reduced basis, and not from any eigenvector.
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ def zeros_in(solver: Solver, rim: Callable[[np.ndarray], np.ndarray]) -> int | N
     Returns:
         The winding number of det D; ``None`` where its phase cannot be followed.
     """
-    prepare(solver, rim)
+    _prepare(solver, rim)
     places = 4.0 * np.arange(_FIRST) / _FIRST
     phases = _phases(solver, rim(places))
     for _ in range(_HALVINGS):
@@ -63,8 +64,8 @@ def _unseen(solver: Solver, omegas: np.ndarray) -> np.ndarray:
     return unseen
 
 
-def prepare(solver: Solver, rim: Callable[[np.ndarray], np.ndarray]) -> None:
-    """Solve on a rim wherever the basis is not good enough yet (collective)."""
+def _prepare(solver: Solver, rim: Callable[[np.ndarray], np.ndarray]) -> None:
+    """Solve on a rim wherever the basis is not good enough yet."""
     points = rim(4.0 * np.arange(_JUDGED) / _JUDGED)
     squares = [solver.model.squared_frequency(omega) for omega in points]
     if not solver.basis_size:
@@ -80,10 +81,13 @@ def prepare(solver: Solver, rim: Callable[[np.ndarray], np.ndarray]) -> None:
 def _phases(solver: Solver, omegas: np.ndarray) -> np.ndarray:
     """det D over its magnitude at some ω."""
     squares = np.array([solver.model.squared_frequency(omega) for omega in omegas])
-    added = solver.hydrodynamics(squares)
+    if isinstance(solver, OpenSolver):
+        added, water = solver.hydrodynamics(squares), np.ones(len(squares))
+    else:
+        added, water = solver.continued(squares)
     dynamics = solver.model.stiffness - squares[:, None, None] * (solver.model.mass + added)
     # Rows and columns of unlike motions are brought to one scale, which changes no phase.
     scales = 1.0 / np.sqrt(np.abs(np.einsum("nii->ni", dynamics)))
     determinants = np.linalg.det(dynamics * scales[:, None] * scales[:, :, None])
-    phases: np.ndarray = determinants / np.abs(determinants)
+    phases: np.ndarray = determinants / np.abs(determinants) * water
     return phases

@@ -44,11 +44,12 @@ _MOST_STEPS = 20
 _MOST_SOLUTIONS = 8
 # Of ω: the difference quotient of an analytic matrix errs by its square.
 _DIFFERENCE = 1e-4
-# Newton's method begins at points of these distances in ln|ω| and in arg ω, and goes so far from them, of |λ|.
-_STARTS = (0.1, 0.08)
+# Of |λ|, from where Newton's method begins.
 _FARTHEST = 0.25
 # The same resonance from two starts.
 _SAME = 1e-6
+# Of the largest excitation; a mesh that is not symmetric excites this little.
+_UNFELT = 1e-3
 
 
 def mirror_angle(damping: float) -> float:
@@ -81,30 +82,45 @@ class _Waves:
     pressures: np.ndarray
     scattering: np.ndarray
 
-    def without_leaving(self, responses: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """H at λ̄ of motions beside which no wave leaves, and (a, b) of a unit of each, shape (body unknowns, …).
+    def without_leaving(self, responses: np.ndarray) -> _Motions:
+        """Motions beside which no wave leaves.
 
         Args:
             responses: LᵀT⁻¹L.
         """
         count = len(responses) - len(self.pressures)
         excitation = self.pressures + responses[count:, :count]
-        amplitudes = -np.linalg.solve(self.scattering + responses[count:, count:], excitation)
-        hydrodynamic: np.ndarray = responses[:count, :count] + excitation.T @ amplitudes
-        return hydrodynamic, np.hstack([np.eye(count), amplitudes.T])
+        scattering = self.scattering + responses[count:, count:]
+        amplitudes = -np.linalg.solve(scattering, excitation)
+        return _Motions(
+            hydrodynamic=responses[:count, :count] + excitation.T @ amplitudes,
+            unknowns=np.hstack([np.eye(count), amplitudes.T]),
+            excitation=excitation,
+            scattering=scattering,
+        )
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Mirrored:
-    """Motions at λ̄ beside which no wave leaves, on the basis.
+class _Motions:
+    """Motions at λ̄ beside which no wave leaves: H, (a, b) of a unit of each, shape (body unknowns, …), X, and W."""
+
+    hydrodynamic: np.ndarray
+    unknowns: np.ndarray
+    excitation: np.ndarray
+    scattering: np.ndarray
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Reduced:
+    """The same on the basis.
 
     Attributes:
-        hydrodynamic: H, shape (body unknowns, body unknowns).
+        motions: them.
         loads: Fa − gb of a unit of each, shape (body unknowns, own free unknowns).
         coordinates: of T⁻¹(Fa − gb), shape (body unknowns, basis).
     """
 
-    hydrodynamic: np.ndarray
+    motions: _Motions
     loads: np.ndarray
     coordinates: np.ndarray
 
@@ -124,6 +140,8 @@ class DampedSolver:
         with watch.stage("solve"):
             self._direct: ShiftedSolver = model.pencil.solver()
         self._reduced = ReducedPencil(model.pencil)
+        # Whether the motions of bodies excite even and odd waves, at the frequencies that were judged.
+        self._felt = np.zeros(2, dtype=bool)
 
     @property
     def basis_size(self) -> int:
@@ -144,29 +162,35 @@ class DampedSolver:
             self._direct.shift(mirrored)
             solutions = np.array([self._direct.solve(load) for load in waves.loads])
         with self._watch.stage("reduce"):
-            _, motions = waves.without_leaving(self.model.pencil.products(waves.loads, solutions))
-            self._reduced.add(mirrored, motions @ solutions, motions @ waves.loads)
+            unknowns = waves.without_leaving(self.model.pencil.products(waves.loads, solutions)).unknowns
+            self._reduced.add(mirrored, unknowns @ solutions, unknowns @ waves.loads)
 
     def hydrodynamics(self, squares: np.ndarray) -> np.ndarray:
         """H at many λ on the basis, shape (λ, body unknowns, body unknowns) (collective)."""
-        return np.array([self._mirrored(square.conjugate()).hydrodynamic.conj() for square in squares])
+        return np.array([self._mirrored(square.conjugate()).motions.hydrodynamic.conj() for square in squares])
+
+    def continued(self, squares: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The same, and det W over its magnitude, which vanishes where H has poles (collective).
+
+        Waves that no motion feels, as a body with a symmetry has them, are left out.
+        """
+        found = [self._mirrored(square.conjugate()).motions for square in squares]
+        water = [np.linalg.slogdet(one.scattering[np.ix_(self._felt, self._felt)])[0] for one in found]
+        return np.array([one.hydrodynamic.conj() for one in found]), np.array(water).conj()
 
     def hydrodynamic(self, squared: complex) -> tuple[np.ndarray, float]:
         """H at λ on the basis, and the largest relative residual of its motions (collective)."""
         found = self._mirrored(squared.conjugate())
+        sizes = np.abs(found.motions.excitation).max(axis=1)
+        self._felt |= sizes > _UNFELT * sizes.max()
         with self._watch.stage("reduce"):
             misfits = self._reduced.misfits(squared.conjugate(), found.loads, found.coordinates)
         # Far from the axis hardly anything of H is left to the elements.
-        sizes = np.abs(np.diag(self.model.mass + found.hydrodynamic))
-        return found.hydrodynamic.conj(), float((misfits / np.sqrt(sizes)).max())
+        whole = np.abs(np.diag(self.model.mass + found.motions.hydrodynamic))
+        return found.motions.hydrodynamic.conj(), float((misfits / np.sqrt(whole)).max())
 
-    def root(self, start: complex, *, farthest: float = _FARTHEST) -> Root | None:
-        """The resonance next to a λ by Newton's method on the basis; ``None`` if that leads away (collective).
-
-        Args:
-            start: λ.
-            farthest: from it, relative.
-        """
+    def root(self, start: complex) -> Root | None:
+        """The resonance next to a λ by Newton's method on the basis; ``None`` if that leads away (collective)."""
         squared = start
         for _ in range(_MOST_STEPS):
             own, *around = self.hydrodynamics(squared * np.array([1.0, 1.0 - _DIFFERENCE, 1.0 + _DIFFERENCE]))
@@ -177,7 +201,7 @@ class DampedSolver:
             # Rounding of one process must not lead it elsewhere than the others.
             step, bodies = self.model.pencil.comm.bcast((complex(steps[nearest]), vectors[:, nearest]))
             squared += step
-            if abs(squared - start) > farthest * abs(start):
+            if abs(squared - start) > _FARTHEST * abs(start):
                 return None
             if abs(step) <= _STEP * abs(squared):
                 return Root(
@@ -230,16 +254,20 @@ class DampedSolver:
             scattering=np.diag([-2j * power, 2j * power]) - own,
         )
 
-    def _mirrored(self, mirrored: complex) -> _Mirrored:
+    def _mirrored(self, mirrored: complex) -> _Reduced:
         waves = self._waves(mirrored)
         with self._watch.stage("reduce"):
             projected = self._reduced.project(waves.loads)
             coordinates = self._reduced.solve(mirrored, projected)
-        hydrodynamic, motions = waves.without_leaving(projected @ coordinates.T)
-        return _Mirrored(hydrodynamic=hydrodynamic, loads=motions @ waves.loads, coordinates=motions @ coordinates)
+        motions = waves.without_leaving(projected @ coordinates.T)
+        return _Reduced(
+            motions=motions, loads=motions.unknowns @ waves.loads, coordinates=motions.unknowns @ coordinates
+        )
 
 
-def damped_resonances(solver: DampedSolver, region: Region, shallowest: float, known: list[complex]) -> list[complex]:
+def damped_resonances(
+    solver: DampedSolver, region: Region, shallowest: float, known: list[complex], spacing: float
+) -> list[complex]:
     """Resonances of a region on the basis, rad/s, by ascending |ω| (collective).
 
     Args:
@@ -247,10 +275,11 @@ def damped_resonances(solver: DampedSolver, region: Region, shallowest: float, k
         region: where.
         shallowest: −Im ω/Re ω above which all of it is searched.
         known: ω in rad/s of those that are known roughly.
+        spacing: distance in ln ω of the points at which Newton's method begins.
     """
     unit = solver.model.basin.units.frequency
     found: list[complex] = []
-    for start in (*known, *_starts(region, shallowest)):
+    for start in (*known, *_starts(region, shallowest, spacing)):
         root = solver.root(solver.model.squared_frequency(start))
         if root is None:
             continue
@@ -260,10 +289,10 @@ def damped_resonances(solver: DampedSolver, region: Region, shallowest: float, k
     return sorted(found, key=abs)
 
 
-def _starts(region: Region, shallowest: float) -> list[complex]:
+def _starts(region: Region, shallowest: float, spacing: float) -> list[complex]:
     """Points all over the damped part of a region, rad/s."""
-    angles = np.arange(atan(shallowest), atan(region.damping) + _STARTS[1], _STARTS[1])
+    angles = np.arange(atan(shallowest), atan(region.damping) + spacing, spacing)
     highest = region.highest * np.sqrt(1.0 + region.damping**2)
-    sizes = np.exp(np.arange(np.log(region.lowest), np.log(highest), _STARTS[0]))
+    sizes = np.exp(np.arange(np.log(region.lowest), np.log(highest), spacing))
     points = (complex(size * np.exp(-1j * angle)) for size in sizes for angle in angles)
     return [point for point in points if region.lowest <= point.real <= region.highest]

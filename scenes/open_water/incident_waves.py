@@ -144,7 +144,7 @@ def surface_integrals(model: OpenModel, waves: Sequence[Plane | Standing]) -> tu
         values = np.array([value for value, _ in fields])
         gradients = np.array([gradient for _, gradient in fields])
         flux = (gradients * surface.normals).sum(axis=2)
-        # An even wave has no flux through a slit in the middle, and what rounding leaves of it would grow with the wave.
+        # An even wave has no flux through a slit in the middle; what rounding leaves of it would grow with the wave.
         flux[np.abs(flux) < _ROUNDING * np.linalg.norm(gradients, axis=2)] = 0.0
         fluxes += surface.loads(flux)[:, pencil.free]
         own += surface.integrals(values, flux)

@@ -14,7 +14,7 @@ from hydroelastic.scenes.models.open_analyses import MOST_DAMPING_ANYWHERE, Reso
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.attempts import Attempt, attempted_over
 from hydroelastic.scenes.open_water.basin import open_basin
-from hydroelastic.scenes.open_water.count import Solver, prepare, zeros_in
+from hydroelastic.scenes.open_water.count import Solver, zeros_in
 from hydroelastic.scenes.open_water.damped import DampedSolver, damped_resonances, mirror_angle
 from hydroelastic.scenes.open_water.model import FRAMES, Band, OpenModel, first_resolution, open_model
 from hydroelastic.scenes.open_water.motion_scale import motion_scale
@@ -46,6 +46,8 @@ _NARROWER = (0.93, 0.85)
 _STIFF = 4.0
 # The search far below the axis begins at this part of where that near it ends.
 _OVERLAP = 0.9
+# Distances of the points at which it begins, in ln ω; it goes on until as many are found as there are.
+_SPACINGS = (0.1, 0.05, 0.025)
 # A mesh for some resonances alone holds frequencies so far beside them.
 _AROUND = 1.1
 # The same resonance from two targets.
@@ -247,8 +249,12 @@ def _damped_resonances(
     model = open_model(comm, rough, band, resolution, watch, angle=mirror_angle(region.damping))
     solver = DampedSolver(model, watch)
     with watch.stage("resonances"):
-        prepare(solver, region.rim)
-        return solver, damped_resonances(solver, region, _OVERLAP * MOST_DAMPING_ANYWHERE, known)
+        counted = zeros_in(solver, region.rim)
+        for spacing in _SPACINGS:
+            known = damped_resonances(solver, region, _OVERLAP * MOST_DAMPING_ANYWHERE, known, spacing)
+            if counted is None or len(known) >= counted:
+                break
+        return solver, known
 
 
 def _closed_region(region: Region, found: _Found, asked: Resonance) -> Region:

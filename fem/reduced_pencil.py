@@ -98,12 +98,16 @@ class ReducedPencil:
 
         D⁻¹ stands for (A − λM)⁻¹, with which the square would be the relative error of fᵀψ (collective).
         """
-        laplace, mass = self._images
-        rest = (loads - coordinates @ (laplace - eigenvalue * mass)) * self._weights
         responses = np.abs(np.einsum("lv,lv->l", self.project(loads), coordinates))
         # A load that moves hardly any water is compared with the others.
         floor = max(_NO_RESPONSE * float(responses.max(initial=0.0)), np.finfo(float).tiny)
-        return np.array([self._norm(left) for left in rest]) / np.sqrt(np.maximum(responses, floor))
+        return self.misfits(eigenvalue, loads, coordinates) / np.sqrt(np.maximum(responses, floor))
+
+    def misfits(self, eigenvalue: complex, loads: np.ndarray, coordinates: np.ndarray) -> np.ndarray:
+        """|rᵀ D⁻¹ r̄|^{1/2} of the same, not compared with anything (collective)."""
+        laplace, mass = self._images
+        rest = (loads - coordinates @ (laplace - eigenvalue * mass)) * self._weights
+        return np.array([self._norm(left) for left in rest])
 
     def _norm(self, vector: np.ndarray) -> float:
         return float(np.sqrt(self._pencil.comm.allreduce(np.vdot(vector, vector).real, op=MPI.SUM)))

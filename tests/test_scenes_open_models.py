@@ -168,7 +168,7 @@ def test_ends_that_are_guided_need_walls() -> None:
         (RESPONSE | {"elastic_modes": 3}, 'It belongs to kind = "radiation"'),
         ({"kind": "resonance", "count": 0}, "it is too small"),
         ({"kind": "resonance", "below": -1.0}, "it is too small"),
-        ({"kind": "resonance", "largest_damping": 1.5}, "it is too large"),
+        ({"kind": "resonance", "largest_damping": 2.5}, "it is too large"),
         (DECAY | {"displacement": 0.0}, "let go where it rests"),
         (DECAY | {"displacement": {"roll": 0.1}}, 'Add "roll" to its motions'),
         (DECAY | {"displacement": "high"}, "it is not a number"),

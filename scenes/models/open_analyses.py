@@ -18,6 +18,9 @@ from hydroelastic.scenes.models.infinity import ZeroOrMoreOrInfinite
 from hydroelastic.scenes.models.problems import problem
 from hydroelastic.scenes.models.values import DISTINCT, MOST_VALUES, OR_SWEEP, NumberFromZero, kind_of
 
+MOST_DAMPING_ANYWHERE = 0.7
+"""−Im ω/Re ω up to which resonances are found in water of any depth."""
+
 
 class Radiation(SceneModel):
     """Added mass, radiation damping and excitation forces."""
@@ -52,8 +55,8 @@ class Resonance(SceneModel):
     below: PositiveNumber | None = Field(
         default=None, description="frequency, rad/s; all whose Re ω is below it are asked for"
     )
-    largest_damping: Annotated[float, Strict(), Field(ge=1e-6, le=1)] = Field(
-        default=0.5, description="largest −Im ω/Re ω that is looked for"
+    largest_damping: Annotated[float, Strict(), Field(ge=1e-6, le=2)] = Field(
+        default=0.5, description="largest −Im ω/Re ω that is looked for; above 0.7 all liquids must be endless"
     )
 
 

@@ -8,7 +8,7 @@ from math import inf, isinf, sqrt
 from pydantic_core import InitErrorDetails
 
 from hydroelastic.scenes.models.bodies import Float
-from hydroelastic.scenes.models.open_analyses import Decay
+from hydroelastic.scenes.models.open_analyses import MOST_DAMPING_ANYWHERE, Decay, Resonance
 from hydroelastic.scenes.models.problems import misfit
 from hydroelastic.scenes.models.tank_parts import TankParts
 
@@ -94,6 +94,20 @@ def frequencies_and_times_can_be_resolved(scene: TankParts) -> Iterator[InitErro
                 late[0],
                 "the waves that matter so late are too long beside the length that is drawn",
                 allowed=f"0 to {1.0 / slowest:.3g} s",
+            )
+
+
+def fast_decay_is_sought_in_endless_liquids(scene: TankParts) -> Iterator[InitErrorDetails]:
+    """Yield resonance analyses that reach to where water of finite depth has not been continued."""
+    finite = [layer.depth for layer in scene.layers if not isinf(layer.depth)]
+    for index, analysis in enumerate(scene.analysis if scene.is_open and finite else ()):
+        if isinstance(analysis, Resonance) and analysis.largest_damping > MOST_DAMPING_ANYWHERE:
+            yield misfit(
+                ("analysis", index, "largest_damping"),
+                analysis.largest_damping,
+                "resonances that die out so fast are found in endless liquids alone, and one here has a finite depth",
+                allowed=f"at most {MOST_DAMPING_ANYWHERE:g}",
+                remedy=f"Ask for at most {MOST_DAMPING_ANYWHERE:g}, or make each depth inf",
             )
 
 

@@ -14,6 +14,7 @@ from hydroelastic.scenes.models.float_checks import CHECKS_OF_FLOATS_AT_REST, fl
 from hydroelastic.scenes.models.open_checks import (
     beams_in_open_water_are_free,
     bodies_span,
+    fast_decay_is_sought_in_endless_liquids,
     frequencies_and_times_can_be_resolved,
     open_water_has_bodies_and_waves,
     tanks_with_walls_end,
@@ -312,7 +313,12 @@ _Check: TypeAlias = Callable[["TankParts"], Iterator[InitErrorDetails]]
 
 STAGES: tuple[tuple[_Check, ...], ...] = (
     (_densities_are_in_order, _bodies_have_their_level, _meshes_are_those_of_beams, tanks_with_walls_end),
-    (open_water_has_bodies_and_waves, what_decays_is_a_float, frequencies_and_times_can_be_resolved),
+    (
+        open_water_has_bodies_and_waves,
+        what_decays_is_a_float,
+        frequencies_and_times_can_be_resolved,
+        fast_decay_is_sought_in_endless_liquids,
+    ),
     (
         _depths_fit_the_length,
         _beams_are_not_too_short,

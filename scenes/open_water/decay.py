@@ -33,8 +33,9 @@ from hydroelastic.scenes.open_water.basin import open_basin
 from hydroelastic.scenes.open_water.model import Band, OpenModel, open_model
 from hydroelastic.scenes.open_water.motion_scale import motion_scale
 from hydroelastic.scenes.open_water.ray import RayIntegral, RayMotion, ray_between
+from hydroelastic.scenes.open_water.region import Region
 from hydroelastic.scenes.open_water.released import ReleasedModel, released_added_mass, released_model
-from hydroelastic.scenes.open_water.resonance import ANGLE, Region, resonance_errors, rough_resonances
+from hydroelastic.scenes.open_water.resonance import ANGLE, resonance_errors, rough_resonances
 from hydroelastic.scenes.open_water.results import DecayTable
 from hydroelastic.scenes.open_water.slow_waves import is_endless, slowest_meshed
 

@@ -21,6 +21,7 @@ from mpi4py import MPI
 from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.open_water.resonances import Eigenpair, ResonanceSearch
 from hydroelastic.fem.stopwatch import Stopwatch
+from hydroelastic.scenes.models.open_analyses import MOST_DAMPING_ANYWHERE
 from hydroelastic.scenes.open_water.incident_waves import Plane
 from hydroelastic.scenes.open_water.model import Band, OpenModel, first_resolution, open_model
 from hydroelastic.scenes.open_water.released import rough_scene
@@ -168,26 +169,30 @@ def _largest_response(solution: OpenSolution, table: ResponseTable) -> tuple[int
 
 
 def _resonant(problem: _Problem, table: ResonanceTable, number: int) -> Iterator[OpenField]:
-    """The slowest resonances, each with its dominant motion of 1 m or 1 rad; one that is not found again has none."""
-    omegas = [complex(omega) for omega in table.omega[:_MOST_FIELDS]]
-    if not omegas:
+    """The slowest resonances, each with its dominant motion of 1 m or 1 rad; none of one that is not found again, or
+    dies out so fast that its waves grow outwards out of sight."""
+    places = [place for place, omega in enumerate(table.omega) if -omega.imag <= MOST_DAMPING_ANYWHERE * omega.real]
+    shown = {place: complex(table.omega[place]) for place in places[:_MOST_FIELDS]}
+    if not shown:
         return
+    omegas = list(shown.values())
     sizes = [abs(omega) for omega in omegas]
-    motions = 1 + max(table.dofs.index(label) for label in table.labels[:_MOST_FIELDS])
+    motions = 1 + max(table.dofs.index(table.labels[place]) for place in shown)
     # Of a wave k ~ ω²: its imaginary part is twice that of ω, relative to the real one.
     fastest = max(-2.0 * omega.imag / omega.real for omega in omegas)
     radians = min(_RADIANS, log(_GROWTH) / fastest)
     model = problem.model(min(sizes), max(sizes), motions=motions, radians=radians, angle=ANGLE)
     search = ResonanceSearch(model.pencil, model.stiffness, model.mass)
-    for place, (omega, label) in enumerate(zip(omegas, table.labels, strict=False), 1):
+    for place, omega in shown.items():
+        label = table.labels[place]
         pair = _found_again(search, model.squared_frequency(omega), problem.watch)
         if pair is None:
             continue
         own = model.scale.dofs.index(label)
         unit = 1.0 / (model.scale.turn @ pair.bodies)[own]
         yield OpenField(
-            name=f"resonance_{number}_{place:03d}",
-            title=f"Resonance {place}: ω = {omega.real:.5g} − {-omega.imag:.3g}i rad/s, {motion_name(label)}",
+            name=f"resonance_{number}_{place + 1:03d}",
+            title=f"Resonance {place + 1}: ω = {omega.real:.5g} − {-omega.imag:.3g}i rad/s, {motion_name(label)}",
             amplitude=_unit_motion(model, own),
             model=model,
             squared=pair.eigenvalue,

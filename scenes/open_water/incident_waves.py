@@ -12,15 +12,21 @@ and by Green's theorem on the bodies, with g = ∫ρ (∂φ/∂n) q and ∂ψ/�
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from math import sqrt
 
 import numpy as np
 
+from hydroelastic.modal.liquid.endless_wave import EndlessWave
 from hydroelastic.modal.liquid.travelling_waves import TravellingWave
 from hydroelastic.scenes.open_water.basin import OpenBasin
 from hydroelastic.scenes.open_water.model import OpenModel
 
 RIGHTWARD, LEFTWARD = 1, -1
+
+# Of the basin's length, and of the gradient of a wave.
+_ROUNDING = 1e-13
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,6 +48,27 @@ class Plane:
     def elevation(self) -> float:
         """Elevation at the surface on which the wave travels, over the ψ to which Z is scaled."""
         return self.wave.top_elevation if self.wave.on_top else self.wave.elevation
+
+
+@dataclass(frozen=True, kw_only=True)
+class Standing:
+    """A wave that comes from both sides and leaves to both, even or odd about the middle of the basin, in its units.
+
+    (φ₊ ± φ₋)/√2 of planes whose phase is 0 there: what they have in common cannot cancel where they are large.
+    """
+
+    wave: EndlessWave
+    odd: bool
+
+    def field(self, points: np.ndarray, layers: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """As of `Plane`."""
+        value, slope = self.wave.profile(points[..., 1], above=layers > 0)
+        wavenumber = self.wave.wavenumber
+        away = points[..., 0] - 0.5
+        x = wavenumber * np.where(np.abs(away) < _ROUNDING, 0.0, away)
+        cosine, sine = sqrt(2.0) * np.cos(x), sqrt(2.0) * np.sin(x)
+        phase, along = (1j * sine, 1j * wavenumber * cosine) if self.odd else (cosine, -wavenumber * sine)
+        return phase * value, np.stack([along * value, phase * slope], axis=-1)
 
 
 def planes(waves: tuple[TravellingWave, ...]) -> list[Plane]:
@@ -101,7 +128,13 @@ class Incidence:
 
 
 def incidence(model: OpenModel, waves: list[Plane]) -> Incidence:
-    """Integrate waves over the bodies' surfaces (collective)."""
+    """What planes do to the bodies (collective)."""
+    fluxes, pressures, own = surface_integrals(model, waves)
+    return Incidence(planes=waves, fluxes=fluxes, pressures=pressures, own=own)
+
+
+def surface_integrals(model: OpenModel, waves: Sequence[Plane | Standing]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Integrate waves over the bodies' surfaces: fluxes, pressures and own of `Incidence` (collective)."""
     pencil = model.pencil
     fluxes = np.zeros((len(waves), len(pencil.free)), dtype=complex)
     own = np.zeros((len(waves), len(waves)), dtype=complex)
@@ -109,8 +142,11 @@ def incidence(model: OpenModel, waves: list[Plane]) -> Incidence:
     for surface in model.wetted:
         fields = [plane.field(surface.points, surface.layers) for plane in waves]
         values = np.array([value for value, _ in fields])
-        flux = np.array([(gradient * surface.normals).sum(axis=1) for _, gradient in fields])
+        gradients = np.array([gradient for _, gradient in fields])
+        flux = (gradients * surface.normals).sum(axis=2)
+        # An even wave has no flux through a slit in the middle; what rounding leaves of it would grow with the wave.
+        flux[np.abs(flux) < _ROUNDING * np.linalg.norm(gradients, axis=2)] = 0.0
         fluxes += surface.loads(flux)[:, pencil.free]
         own += surface.integrals(values, flux)
         pressures.append(surface.integrals(values, surface.shapes))
-    return Incidence(planes=waves, fluxes=fluxes, pressures=np.hstack(pressures), own=own)
+    return fluxes, np.hstack(pressures), own

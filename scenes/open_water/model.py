@@ -58,7 +58,7 @@ NO_WATER = 1e-6
 
 # In the frames ψ oscillates about as fast as it decays, and errors of opposite phase cancel. Measured on circles at Ka
 # from 0.05 to 10 at three tolerances: the energy missed is 9 to 140 times the error.
-_FRAMES = 0.2
+FRAMES = 0.2
 # Beyond so many radians of an interface wave the upper surface does not feel it.
 _UNFELT = 20.0
 
@@ -130,12 +130,19 @@ class OpenModel:
         matrix: np.ndarray = block_diag(*(body.mass for body in self.pencil.bodies))
         return matrix
 
-    def energies_missed(self, potentials: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Estimate ∫ρ|∇(ψ − ψ_h)|² of some ψ away from tips and at them, each of shape (potentials,) (collective)."""
+    def energies_missed(
+        self, potentials: np.ndarray, frames: np.ndarray | float = FRAMES
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Estimate ∫ρ|∇(ψ − ψ_h)|² of some ψ away from tips and at them, each of shape (potentials,).
+
+        Args:
+            potentials: ψ on own free unknowns, shape (potentials, unknowns).
+            frames: part of it that counts in the frames, of each ψ or of all (collective).
+        """
         pencil, mesh = self.pencil, self.pencil.liquid.tank.mesh
         vectors = [pencil.vector(part) for psi in potentials for part in (psi.real, psi.imag)]
         cells = cell_errors(pencil.liquid, vectors).reshape(len(potentials), 2, -1).sum(axis=1)
-        cells = cells * np.where(self._in_frames, _FRAMES, 1.0)
+        cells = cells * np.where(self._in_frames, np.reshape(frames, (-1, 1)), 1.0)
         corners = tip_points(self.basin.tank, half=False)
         tips = cells_at(mesh, corners) if len(corners) else np.zeros(cells.shape[1], dtype=bool)
         at_tips = mesh.comm.allreduce(cells[:, tips].sum(axis=1), op=MPI.SUM)

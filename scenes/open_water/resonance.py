@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import tan
+from math import sqrt
 
 import numpy as np
 from mpi4py import MPI
@@ -14,19 +14,22 @@ from hydroelastic.fem.tank.error_estimates import FrequencyErrors, boundary_erro
 from hydroelastic.fem.tank.field_model import whole_bodies
 from hydroelastic.fem.tank.resolution import Resolution, rounding_error
 from hydroelastic.fem.truncation import truncation_errors
-from hydroelastic.scenes.models.open_analyses import Resonance
+from hydroelastic.scenes.models.open_analyses import MOST_DAMPING_ANYWHERE, Resonance
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.attempts import Attempt, attempted_over
 from hydroelastic.scenes.open_water.basin import open_basin
-from hydroelastic.scenes.open_water.count import zeros_in
-from hydroelastic.scenes.open_water.model import Band, OpenModel, first_resolution, open_model
+from hydroelastic.scenes.open_water.count import Solver, zeros_in
+from hydroelastic.scenes.open_water.damped import DampedSolver, damped_resonances, mirror_angle
+from hydroelastic.scenes.open_water.model import FRAMES, Band, OpenModel, first_resolution, open_model
 from hydroelastic.scenes.open_water.motion_scale import motion_scale
+from hydroelastic.scenes.open_water.region import Region
 from hydroelastic.scenes.open_water.released import released_model, rough_scene
 from hydroelastic.scenes.open_water.results import ResonanceTable
 from hydroelastic.scenes.open_water.solver import OpenSolver
 
 ANGLE = 1.3
-"""α of the complex scaling: resonances with −Im ω/Re ω below tan(α/2) = 0.76 are uncovered in deep water."""
+"""α of the complex scaling: resonances with −Im ω/Re ω below tan(α/2) = 0.76 are uncovered in deep water; beyond
+`MOST_DAMPING_ANYWHERE` they are those of `damped`."""
 
 # A resonance does not move with α; what the search takes for one moves less than this.
 _STILL = 1e-2
@@ -41,45 +44,16 @@ _NARROWER = (0.93, 0.85)
 # Shapes of beams that vibrate faster than this times the region take part as if they were rigid, and are left out
 # where resonances are only to be found.
 _STIFF = 4.0
+# The search far below the axis begins at this part of where that near it ends.
+_OVERLAP = 0.9
+# Distances of the points at which it begins, in ln ω; it goes on until as many are found as there are.
+_SPACINGS = (0.1, 0.05, 0.025)
+# A mesh for some resonances alone holds frequencies so far beside them.
+_AROUND = 1.1
 # The same resonance from two targets.
 _SAME = 1e-6
 # Bodies with a smaller part in a motion rest while the water moves by itself.
 _AT_REST = 1e-8
-
-
-@dataclass(frozen=True, kw_only=True)
-class Region:
-    """Where resonances are looked for: lowest < Re ω < highest, −Im ω < damping · Re ω, in rad/s."""
-
-    lowest: float
-    highest: float
-    damping: float
-
-    def holds(self, omega: complex) -> bool:
-        """Whether a frequency lies within."""
-        return self.lowest < omega.real < self.highest and -omega.imag < self.damping * omega.real
-
-    def rim(self, places: np.ndarray) -> np.ndarray:
-        """Points around it at places from 0 to 4, a unit for each side, counterclockwise; the upper side is a little
-        above the axis."""
-        corners = [
-            self.lowest * (1.0 - 1j * self.damping),
-            self.highest * (1.0 - 1j * self.damping),
-            self.highest * (1.0 + 0.02j),
-            self.lowest * (1.0 + 0.02j),
-        ]
-        points = []
-        for place in places:
-            side, part = int(place) % 4, float(place) % 1.0
-            start, end = corners[side], corners[(side + 1) % 4]
-            # Equal ratios along the axis, equal steps across it.
-            along = side % 2 == 0
-            points.append(start * (end / start) ** part if along else start + part * (end - start))
-        return np.array(points)
-
-    def words(self) -> str:
-        """The region in words."""
-        return f"{self.lowest:.4g} < Re ω < {self.highest:.4g} rad/s, −Im ω < {self.damping:g} Re ω"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -123,14 +97,19 @@ def solve_resonance(comm: MPI.Comm, scene: TankScene, asked: Resonance, watch: S
     if not expected:
         return _nothing(scene)
     region = _region(expected, asked)
-    band = Band(lowest=region.lowest, highest=region.highest)
     coarse, known = rough_resonances(comm, scene, expected, region, watch)
+    damped = None
+    if region.damping > MOST_DAMPING_ANYWHERE:
+        damped, known = _damped_resonances(comm, scene, coarse.resolution, region, known, watch)
     values = known[: asked.count]
+    band, angle = Band(lowest=region.lowest, highest=region.highest), ANGLE
+    if damped:
+        band, angle = _around(values, region)
 
     def solve(resolution: Resolution) -> Attempt[_Found]:
-        model = open_model(comm, scene, band, resolution, watch, angle=ANGLE)
+        model = open_model(comm, scene, band, resolution, watch, angle=angle)
         with watch.stage("resonances"):
-            search = ResonanceSearch(model.pencil, model.stiffness, model.mass)
+            search = DampedSolver(model, watch) if damped else _outgoing_search(model)
             pairs = [search.refined(model.squared_frequency(omega)) for omega in values]
         with watch.stage("errors"):
             causes = resonance_errors(model, pairs)
@@ -139,7 +118,8 @@ def solve_resonance(comm: MPI.Comm, scene: TankScene, asked: Resonance, watch: S
     attempt = attempted_over(scene, band, solve)
     found = attempt.result
     with watch.stage("count"):
-        closed, counted = _counted(OpenSolver(coarse, watch), _closed_region(region, found, asked))
+        solver = damped or OpenSolver(coarse, watch)
+        closed, counted = _counted(solver, _closed_region(region, found, asked))
     within = sum(map(closed.holds, known))
     reasons: tuple[str, ...] = ()
     if counted is None:
@@ -173,7 +153,7 @@ def _nothing(scene: TankScene) -> ResonanceSolution:
     return ResonanceSolution(table=table, model=None, error=0.0, reasons=())
 
 
-def _counted(solver: OpenSolver, region: Region) -> tuple[Region, int | None]:
+def _counted(solver: Solver, region: Region) -> tuple[Region, int | None]:
     """Count in a region, or in a narrower one where a resonance lies on its rim (collective)."""
     for damping in (1.0, *_NARROWER):
         narrower = replace(region, damping=damping * region.damping)
@@ -185,11 +165,22 @@ def _counted(solver: OpenSolver, region: Region) -> tuple[Region, int | None]:
 
 def _region(expected: list[float], asked: Resonance) -> Region:
     highest = asked.below if asked.below is not None else _ABOVE * expected[min(asked.count, len(expected)) - 1]
-    return Region(
-        lowest=_BELOW * min(expected[0], highest),
-        highest=highest,
-        damping=min(asked.largest_damping, 0.95 * tan(0.5 * ANGLE)),
-    )
+    lowest, damping = _BELOW * min(expected[0], highest), asked.largest_damping
+    if damping > MOST_DAMPING_ANYWHERE:
+        # What dies out fast has a small Re ω for its |ω|.
+        lowest /= sqrt(1.0 + damping**2)
+    return Region(lowest=lowest, highest=highest, damping=damping)
+
+
+def _around(values: list[complex], region: Region) -> tuple[Band, float]:
+    """The frequencies of a mesh for some resonances of a region alone, and α of its scaling."""
+    sizes = [abs(omega) for omega in values] or [region.lowest, region.highest]
+    damping = max((-omega.imag / omega.real for omega in values), default=region.damping)
+    return Band(lowest=min(sizes) / _AROUND, highest=max(sizes) * _AROUND), mirror_angle(damping)
+
+
+def _outgoing_search(model: OpenModel) -> ResonanceSearch:
+    return ResonanceSearch(model.pencil, model.stiffness, model.mass)
 
 
 def rough_resonances(
@@ -224,7 +215,7 @@ def rough_resonances(
 def _search(model: OpenModel, targets: list[float], region: Region) -> list[complex]:
     """ω of the resonances in a region in which bodies move, rad/s, by ascending |ω| (collective)."""
     unit = model.basin.units.frequency
-    search = ResonanceSearch(model.pencil, model.stiffness, model.mass)
+    search = _outgoing_search(model)
     found: list[complex] = []
     for target in targets:
         # Beside the axis, on which the waves' own spectrum begins.
@@ -234,6 +225,36 @@ def _search(model: OpenModel, targets: list[float], region: Region) -> list[comp
             if not known and pair.drift < _STILL and pair.participation > _AT_REST and region.holds(omega):
                 found.append(omega)
     return sorted(found, key=abs)
+
+
+def _damped_resonances(
+    comm: MPI.Comm, scene: TankScene, resolution: Resolution, region: Region, known: list[complex], watch: Stopwatch
+) -> tuple[DampedSolver, list[complex]]:
+    """Resonances of a region that reaches far below the axis, with little accuracy (collective).
+
+    Args:
+        comm: MPI communicator.
+        scene: with endless liquids.
+        resolution: whose shapes of beams are taken.
+        region: where.
+        known: those near the axis, rad/s.
+        watch: told the time.
+
+    Returns:
+        The solver, and ω in rad/s by ascending |ω|.
+    """
+    rough = rough_scene(scene)
+    band = Band(lowest=region.lowest, highest=region.highest * sqrt(1.0 + region.damping**2))
+    resolution = replace(first_resolution(rough, band), shapes=resolution.shapes)
+    model = open_model(comm, rough, band, resolution, watch, angle=mirror_angle(region.damping))
+    solver = DampedSolver(model, watch)
+    with watch.stage("resonances"):
+        counted = zeros_in(solver, region.rim)
+        for spacing in _SPACINGS:
+            known = damped_resonances(solver, region, _OVERLAP * MOST_DAMPING_ANYWHERE, known, spacing)
+            if counted is None or len(known) >= counted:
+                break
+        return solver, known
 
 
 def _closed_region(region: Region, found: _Found, asked: Resonance) -> Region:
@@ -249,7 +270,10 @@ def resonance_errors(model: OpenModel, pairs: list[Eigenpair]) -> FrequencyError
     count = len(pairs)
     if not pairs:
         return FrequencyErrors(liquid=np.zeros(0), tips=np.zeros(0), truncation=np.zeros(0), rounding=np.zeros(0))
-    away, tips = model.energies_missed(np.array([pair.potential for pair in pairs]))
+    # The faster a resonance dies out, the less do errors in the frames cancel.
+    omegas = np.sqrt(np.array([pair.eigenvalue for pair in pairs]))
+    frames = np.where(-omegas.imag > MOST_DAMPING_ANYWHERE * omegas.real, 1.0, FRAMES)
+    away, tips = model.energies_missed(np.array([pair.potential for pair in pairs]), frames)
     norms = np.array([abs(pair.norm) for pair in pairs])
     drifts = np.array([pair.drift for pair in pairs])
     tank = model.basin.tank

@@ -1,0 +1,42 @@
+"""The part of the complex plane in which resonances ω − iγ are looked for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True, kw_only=True)
+class Region:
+    """Where resonances are looked for: lowest < Re ω < highest, −Im ω < damping · Re ω, in rad/s."""
+
+    lowest: float
+    highest: float
+    damping: float
+
+    def holds(self, omega: complex) -> bool:
+        """Whether a frequency lies within."""
+        return self.lowest < omega.real < self.highest and -omega.imag < self.damping * omega.real
+
+    def rim(self, places: np.ndarray) -> np.ndarray:
+        """Points around it at places from 0 to 4, a unit for each side, counterclockwise; the upper side is a little
+        above the axis."""
+        corners = [
+            self.lowest * (1.0 - 1j * self.damping),
+            self.highest * (1.0 - 1j * self.damping),
+            self.highest * (1.0 + 0.02j),
+            self.lowest * (1.0 + 0.02j),
+        ]
+        points = []
+        for place in places:
+            side, part = int(place) % 4, float(place) % 1.0
+            start, end = corners[side], corners[(side + 1) % 4]
+            # Equal ratios along the axis, equal steps across it.
+            along = side % 2 == 0
+            points.append(start * (end / start) ** part if along else start + part * (end - start))
+        return np.array(points)
+
+    def words(self) -> str:
+        """The region in words."""
+        return f"{self.lowest:.4g} < Re ω < {self.highest:.4g} rad/s, −Im ω < {self.damping:g} Re ω"

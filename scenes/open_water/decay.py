@@ -34,7 +34,6 @@ from hydroelastic.scenes.open_water.resonance import ANGLE, Region, resonance_er
 from hydroelastic.scenes.open_water.results import DecayTable
 from hydroelastic.scenes.open_water.slow_waves import is_endless, slowest_meshed
 from hydroelastic.scenes.output.stopwatch import Stopwatch
-from hydroelastic.scenes.tank.certainty import FrequencyErrors
 from hydroelastic.scenes.tank.field_model import whole_bodies
 from hydroelastic.scenes.tank.plan import Resolution
 
@@ -134,14 +133,9 @@ def solve_decay(comm: MPI.Comm, scene: TankScene, asked: Decay, watch: Stopwatch
             watch=watch,
         )
         found = integral.followed(times * unit, endless=is_endless(scene))
-        own, size = found.errors, np.abs(initial).max()
-        causes = FrequencyErrors(
-            liquid=(own.liquid + rung.result.errors + np.abs(rung.result.motion[-1] + found.motion[-1] - initial).max())
-            / size,
-            tips=own.tips / size,
-            truncation=own.truncation / size,
-            rounding=own.rounding / size,
-        )
+        size = np.abs(initial).max()
+        missed = np.abs(rung.result.motion[-1] + found.motion[-1] - initial).max()
+        causes = replace(found.errors, liquid=found.errors.liquid + rung.result.errors + missed).scaled(1.0 / size)
         return Attempt(result=_Waves(model=model, found=found), causes=causes, resolution=resolution)
 
     waves = attempted_over(scene, band, solve).result
@@ -238,13 +232,7 @@ def _rung(
             phases[row] = swing * (1.0 + abs(omega) * scaled)
         found = _Ringing(motion=motion, errors=causes.total @ phases, fastest=max(map(abs, omegas), default=1.0))
         weights = phases.max(axis=1) / (_SHARE * np.abs(initial).max())
-        weighed = FrequencyErrors(
-            liquid=causes.liquid * weights,
-            tips=causes.tips * weights,
-            truncation=causes.truncation * weights,
-            rounding=causes.rounding * weights,
-        )
-        return Attempt(result=found, causes=weighed, resolution=resolution)
+        return Attempt(result=found, causes=causes.scaled(weights), resolution=resolution)
 
     return attempted_over(scene, band, solve)
 

@@ -26,6 +26,7 @@ from hydroelastic.scenes.models.open_analyses import Decay
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.attempts import Attempt, attempted_over
 from hydroelastic.scenes.open_water.basin import open_basin
+from hydroelastic.scenes.open_water.fast_waves import fastest_meshed
 from hydroelastic.scenes.open_water.model import Band, OpenModel, open_model
 from hydroelastic.scenes.open_water.motion_scale import motion_scale
 from hydroelastic.scenes.open_water.ray import RayIntegral, RayMotion, ray_between
@@ -39,8 +40,8 @@ from hydroelastic.scenes.tank.plan import Resolution
 
 # Resonances are looked for up to this angle from the real axis.
 _SEARCHED = 0.54
-# The meshes go so far above the highest resonance, and that of the resonances so far below the lowest one.
-_ABOVE, _BELOW = 3.0, 0.7
+# The mesh of the resonances goes so far below the lowest one.
+_BELOW = 0.7
 # The resonances have this part of the tolerance.
 _SHARE = 0.5
 # A part of the momentum below which it is rounding.
@@ -110,11 +111,11 @@ def solve_decay(comm: MPI.Comm, scene: TankScene, asked: Decay, watch: Stopwatch
     region = Region(lowest=0.2 * expected[0], highest=1.3 * expected[-1], damping=tan(_SEARCHED))
     _, resonances = rough_resonances(comm, scene, expected, region, watch)
     ray = ray_between(resonances)
-    highest = _ABOVE * expected[-1]
     # The last one tells what the sum misses of the initial displacement.
     times = np.array([*asked.times, 0.0])
-    rung = _rung(comm, scene, asked, [omega for omega in resonances if -np.angle(omega) < ray.angle], highest, watch)
     band = ray_band(scene, asked, expected)
+    within = [omega for omega in resonances if -np.angle(omega) < ray.angle]
+    rung = _rung(comm, scene, asked, within, band.highest, watch)
 
     def solve(resolution: Resolution) -> Attempt[_Waves]:
         # Dry modes are judged at the resonances, and both parts move in the same ones.
@@ -151,7 +152,10 @@ def ray_band(scene: TankScene, asked: Decay, expected: list[float]) -> Band:
         expected: about those at which the bodies oscillate, rad/s, ascending.
     """
     latest = max(*asked.times, 1.0 / expected[-1])
-    return Band(lowest=min(slowest_meshed(scene, latest), expected[0]), highest=_ABOVE * expected[-1])
+    return Band(
+        lowest=min(slowest_meshed(scene, latest), expected[0]),
+        highest=fastest_meshed(expected[-1], scene.accuracy.tolerance),
+    )
 
 
 def _solution(asked: Decay, rung: _Ringing, waves: _Waves) -> DecaySolution:

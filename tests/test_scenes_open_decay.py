@@ -126,6 +126,27 @@ def test_thin_float_with_its_tail(densities: tuple[float, ...]) -> None:
     assert found.table.tail == pytest.approx(-4.0 / pi * 0.1 / reduced * 0.1, rel=5e-3)
 
 
+@pytest.mark.parametrize("tolerance", [1e-3, pytest.param(1e-6, marks=pytest.mark.slow)])
+def test_long_exponential_between_two_liquids(tolerance: float) -> None:
+    """Twenty decay lengths on either side: the basin is tall, and waves above those of the mesh count."""
+    layers = TwoLayers(density_below=1000.0, density_above=800.0, depth_below=inf, gravity=G)
+    times = np.array([0.0, 0.5, 3.0, 20.0, 100.0, 10000.0])
+    scene = _scene(
+        tolerance, densities=(1000.0, 800.0), shape="exponential", half_width=0.554, tail=1e-9, boundary="thin"
+    )
+    found = _released(scene, times)
+    expected = released_float(float_profile("exponential", 0.554, 1.0, 1e-9), layers, times).heave
+    error = np.abs(found.table.displacement[:, 0] / 0.1 - expected)
+    # An estimate of 1 is exact; measured 14 and 31 by the largest of both.
+    assert error.max() < found.error < tolerance
+    assert np.all(error < 3.0 * found.table.absolute_error / 0.1)
+    assert found.error < 60.0 * error.max()
+    # The first mesh keeps the tolerance, and is as large as told. It was refined to 158 000 unknowns, and fell short.
+    told = decay_cost(scene, Decay(displacement=Release(heave=0.1), times=tuple(times)))
+    assert told.unknowns == pytest.approx(found.model.pencil.size, rel=0.3)
+    assert found.solved < 30
+
+
 def test_no_such_tail_over_a_bed() -> None:
     scene = _scene(1e-3, depth=2.0, shape="parabola", half_width=0.1, boundary="thin")
     layers = TwoLayers(density_below=1000.0, depth_below=2.0, gravity=G)

@@ -121,7 +121,7 @@ def solve_decay(comm: MPI.Comm, scene: TankScene, asked: Decay, watch: Stopwatch
         # Dry modes are judged at the resonances, and both parts move in the same ones.
         resolution = replace(resolution, shapes=rung.resolution.shapes)
         limit = _limit(comm, scene, resolution, watch)
-        model = open_model(comm, scene, band, resolution, watch, angle=ANGLE)
+        model = open_model(comm, scene, band, resolution, watch, angle=ray.scaling)
         unit = model.basin.units.frequency
         initial = _initial(model, asked)
         integral = RayIntegral(

@@ -97,7 +97,7 @@ def test_few_factorizations_and_one_alive(monkeypatch: pytest.MonkeyPatch) -> No
 # Processor time and peak memory of decay analyses, measured on one core.
 @pytest.mark.parametrize(
     ("name", "tolerance", "seconds", "memory"),
-    [("open_interface", 1e-6, 35.0, 857 * 2**20), ("open_interface", 1e-4, 14.3, 405 * 2**20)],
+    [("open_interface", 1e-6, 26.0, 782 * 2**20), ("open_interface", 1e-4, 12.0, 435 * 2**20)],
 )
 def test_cost_is_told_before(name: str, tolerance: float, seconds: float, memory: float) -> None:
     scene = read_scene(name, [f"accuracy.tolerance={tolerance}"])
@@ -137,7 +137,7 @@ def test_long_exponential_between_two_liquids(tolerance: float) -> None:
     found = _released(scene, times)
     expected = released_float(float_profile("exponential", 0.554, 1.0, 1e-9), layers, times).heave
     error = np.abs(found.table.displacement[:, 0] / 0.1 - expected)
-    # An estimate of 1 is exact; measured 14 and 31 by the largest of both.
+    # Never below the error, and not far above it: of a sum of magnitudes a twentieth counts.
     assert error.max() < found.error < tolerance
     assert np.all(error < 3.0 * found.table.absolute_error / 0.1)
     assert found.error < 60.0 * error.max()

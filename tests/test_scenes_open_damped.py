@@ -10,6 +10,7 @@ from mpi4py import MPI
 from open_cases import GRAVITY, RADIUS, SLOW, THIN_LIQUIDS, circle, circle_omega
 from open_tables import open_scene
 
+from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.modal.floats.complex_moments import complex_wave_moment
 from hydroelastic.modal.floats.endless_float import endless_float
 from hydroelastic.modal.floats.profiles import Profile
@@ -25,7 +26,6 @@ from hydroelastic.scenes.open_water.incident_waves import Plane, Standing
 from hydroelastic.scenes.open_water.model import Band, first_resolution, open_model
 from hydroelastic.scenes.open_water.resonance import ResonanceSolution, solve_resonance
 from hydroelastic.scenes.open_water.solver import OpenSolver
-from hydroelastic.fem.stopwatch import Stopwatch
 
 DEEP = THIN_LIQUIDS["deep"]
 

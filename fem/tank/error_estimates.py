@@ -45,6 +45,10 @@ class FrequencyErrors:
         """All causes together."""
         return self.liquid + self.tips + self.truncation + self.rounding
 
+    def scaled(self, factors: float | np.ndarray) -> FrequencyErrors:
+        """What they make of something that moves by so many times each, shape (modes,) or one for all."""
+        return FrequencyErrors(**{cause.name: getattr(self, cause.name) * factors for cause in fields(self)})
+
     def largest(self, cause: str) -> float:
         """The largest over the modes of one cause."""
         return float(getattr(self, cause).max(initial=0.0))

@@ -32,11 +32,11 @@ from hydroelastic.fem.open_water.complex_direct import ShiftedSolver
 from hydroelastic.fem.open_water.complex_scaling import complex_product
 from hydroelastic.fem.open_water.resonances import Eigenpair
 from hydroelastic.fem.reduced_pencil import ReducedPencil
+from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.modal.liquid.endless_wave import EndlessWave
 from hydroelastic.scenes.open_water.incident_waves import Standing, surface_integrals
 from hydroelastic.scenes.open_water.model import OpenModel
 from hydroelastic.scenes.open_water.region import Region
-from hydroelastic.fem.stopwatch import Stopwatch
 
 # Newton's method: its last step and the number of steps on one basis, and how often a solution is added to that.
 _STEP = 1e-11

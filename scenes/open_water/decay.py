@@ -21,7 +21,6 @@ from mpi4py import MPI
 
 from hydroelastic.fem.open_water.resonances import Eigenpair, ResonanceSearch
 from hydroelastic.fem.stopwatch import Stopwatch
-from hydroelastic.fem.tank.error_estimates import FrequencyErrors
 from hydroelastic.fem.tank.field_model import whole_bodies
 from hydroelastic.fem.tank.resolution import Resolution
 from hydroelastic.scenes.errors import Problem as WrongInput
@@ -30,6 +29,7 @@ from hydroelastic.scenes.models.open_analyses import Decay
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.attempts import Attempt, attempted_over
 from hydroelastic.scenes.open_water.basin import open_basin
+from hydroelastic.scenes.open_water.fast_waves import fastest_meshed
 from hydroelastic.scenes.open_water.model import Band, OpenModel, open_model
 from hydroelastic.scenes.open_water.motion_scale import motion_scale
 from hydroelastic.scenes.open_water.ray import RayIntegral, RayMotion, ray_between
@@ -41,8 +41,8 @@ from hydroelastic.scenes.open_water.slow_waves import is_endless, slowest_meshed
 
 # Resonances are looked for up to this angle from the real axis.
 _SEARCHED = 0.54
-# The meshes go so far above the highest resonance, and that of the resonances so far below the lowest one.
-_ABOVE, _BELOW = 3.0, 0.7
+# The mesh of the resonances goes so far below the lowest one.
+_BELOW = 0.7
 # The resonances have this part of the tolerance.
 _SHARE = 0.5
 # A part of the momentum below which it is rounding.
@@ -112,17 +112,17 @@ def solve_decay(comm: MPI.Comm, scene: TankScene, asked: Decay, watch: Stopwatch
     region = Region(lowest=0.2 * expected[0], highest=1.3 * expected[-1], damping=tan(_SEARCHED))
     _, resonances = rough_resonances(comm, scene, expected, region, watch)
     ray = ray_between(resonances)
-    highest = _ABOVE * expected[-1]
     # The last one tells what the sum misses of the initial displacement.
     times = np.array([*asked.times, 0.0])
-    rung = _rung(comm, scene, asked, [omega for omega in resonances if -np.angle(omega) < ray.angle], highest, watch)
     band = ray_band(scene, asked, expected)
+    within = [omega for omega in resonances if -np.angle(omega) < ray.angle]
+    rung = _rung(comm, scene, asked, within, band.highest, watch)
 
     def solve(resolution: Resolution) -> Attempt[_Waves]:
         # Dry modes are judged at the resonances, and both parts move in the same ones.
         resolution = replace(resolution, shapes=rung.resolution.shapes)
         limit = _limit(comm, scene, resolution, watch)
-        model = open_model(comm, scene, band, resolution, watch, angle=ANGLE)
+        model = open_model(comm, scene, band, resolution, watch, angle=ray.scaling)
         unit = model.basin.units.frequency
         initial = _initial(model, asked)
         integral = RayIntegral(
@@ -135,14 +135,9 @@ def solve_decay(comm: MPI.Comm, scene: TankScene, asked: Decay, watch: Stopwatch
             watch=watch,
         )
         found = integral.followed(times * unit, endless=is_endless(scene))
-        own, size = found.errors, np.abs(initial).max()
-        causes = FrequencyErrors(
-            liquid=(own.liquid + rung.result.errors + np.abs(rung.result.motion[-1] + found.motion[-1] - initial).max())
-            / size,
-            tips=own.tips / size,
-            truncation=own.truncation / size,
-            rounding=own.rounding / size,
-        )
+        size = np.abs(initial).max()
+        missed = np.abs(rung.result.motion[-1] + found.motion[-1] - initial).max()
+        causes = replace(found.errors, liquid=found.errors.liquid + rung.result.errors + missed).scaled(1.0 / size)
         return Attempt(result=_Waves(model=model, found=found), causes=causes, resolution=resolution)
 
     waves = attempted_over(scene, band, solve).result
@@ -158,7 +153,10 @@ def ray_band(scene: TankScene, asked: Decay, expected: list[float]) -> Band:
         expected: about those at which the bodies oscillate, rad/s, ascending.
     """
     latest = max(*asked.times, 1.0 / expected[-1])
-    return Band(lowest=min(slowest_meshed(scene, latest), expected[0]), highest=_ABOVE * expected[-1])
+    return Band(
+        lowest=min(slowest_meshed(scene, latest), expected[0]),
+        highest=fastest_meshed(expected[-1], scene.accuracy.tolerance),
+    )
 
 
 def _solution(asked: Decay, rung: _Ringing, waves: _Waves) -> DecaySolution:
@@ -239,13 +237,7 @@ def _rung(
             phases[row] = swing * (1.0 + abs(omega) * scaled)
         found = _Ringing(motion=motion, errors=causes.total @ phases, fastest=max(map(abs, omegas), default=1.0))
         weights = phases.max(axis=1) / (_SHARE * np.abs(initial).max())
-        weighed = FrequencyErrors(
-            liquid=causes.liquid * weights,
-            tips=causes.tips * weights,
-            truncation=causes.truncation * weights,
-            rounding=causes.rounding * weights,
-        )
-        return Attempt(result=found, causes=weighed, resolution=resolution)
+        return Attempt(result=found, causes=causes.scaled(weights), resolution=resolution)
 
     return attempted_over(scene, band, solve)
 

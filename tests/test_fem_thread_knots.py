@@ -11,7 +11,7 @@ from hydroelastic.fem.thread.equilibrium_search import FoundEquilibrium
 from hydroelastic.fem.thread.knots import at_knots, knots_along
 from hydroelastic.physics.stream import Interpolation, TabulatedStream
 from hydroelastic.scenes.models.thread import ThreadScene
-from hydroelastic.scenes.models.thread_parts import LiquidStream
+from hydroelastic.scenes.models.thread_tables import LiquidStream
 from hydroelastic.scenes.thread.solve import equilibrium_of
 
 LEVELS = (0.0, 1.0, 2.5, 3.0)

@@ -5,15 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import pairwise
 from math import pi, radians, sqrt
-from typing import TYPE_CHECKING
 
 from pydantic_core import InitErrorDetails
 
 from hydroelastic.scenes.models.bodies import LARGEST
 from hydroelastic.scenes.models.problems import misfit
-
-if TYPE_CHECKING:
-    from hydroelastic.scenes.models.roll import RollScene
+from hydroelastic.scenes.models.roll_parts import RollParts
 
 MOST_WAVES = 100_000
 
@@ -39,7 +36,7 @@ LEAST_QUADRATIC_TOLERANCE = 1e-11
 """What the integration in time keeps at best."""
 
 
-def frequency_is_given_once(scene: RollScene) -> Iterator[InitErrorDetails]:
+def frequency_is_given_once(scene: RollParts) -> Iterator[InitErrorDetails]:
     """One of the period, the frequency and a section tells how the ship rolls by itself."""
     roll = scene.roll
     given = [name for name in ("natural_period", "natural_frequency", "section") if getattr(roll, name) is not None]
@@ -59,7 +56,7 @@ def frequency_is_given_once(scene: RollScene) -> Iterator[InitErrorDetails]:
         )
 
 
-def waves_can_be_read(scene: RollScene) -> Iterator[InitErrorDetails]:
+def waves_can_be_read(scene: RollParts) -> Iterator[InitErrorDetails]:
     """Waves stand in the scene or in a table of positive periods."""
     if scene.train is None:
         return
@@ -80,7 +77,7 @@ def waves_can_be_read(scene: RollScene) -> Iterator[InitErrorDetails]:
             return
 
 
-def something_moves(scene: RollScene) -> Iterator[InitErrorDetails]:
+def something_moves(scene: RollParts) -> Iterator[InitErrorDetails]:
     """There are waves, or the ship is let go."""
     if not scene.waves and scene.roll.angle == scene.roll.rate == 0.0:
         yield misfit(
@@ -91,7 +88,7 @@ def something_moves(scene: RollScene) -> Iterator[InitErrorDetails]:
         yield misfit(place, None, f"there are {len(scene.waves)} waves", allowed=f"up to {MOST_WAVES}")
 
 
-def waves_are_not_too_steep(scene: RollScene) -> Iterator[InitErrorDetails]:
+def waves_are_not_too_steep(scene: RollParts) -> Iterator[InitErrorDetails]:
     """No wave is steeper than one that breaks: that catches degrees, too."""
     for number, (_, slope) in enumerate(scene.waves):
         if abs(slope) <= STEEPEST:
@@ -108,7 +105,7 @@ def waves_are_not_too_steep(scene: RollScene) -> Iterator[InitErrorDetails]:
         return
 
 
-def rates_are_comparable(scene: RollScene) -> Iterator[InitErrorDetails]:
+def rates_are_comparable(scene: RollParts) -> Iterator[InitErrorDetails]:
     """Periods and damping lie within what double precision follows."""
     frequency = scene.natural_frequency
     if frequency is None:
@@ -128,7 +125,7 @@ def rates_are_comparable(scene: RollScene) -> Iterator[InitErrorDetails]:
         yield misfit(("roll", key), getattr(scene.roll, key), "it is too large", allowed=f"n up to {HEAVIEST:g} k")
 
 
-def motion_can_be_followed(scene: RollScene) -> Iterator[InitErrorDetails]:
+def motion_can_be_followed(scene: RollParts) -> Iterator[InitErrorDetails]:
     """The motion ends after t = 0, and not after more oscillations, or steps of an integrator, than are worth it."""
     frequency = scene.natural_frequency
     if scene.output.times is not None and scene.output.times[-1] == 0.0:
@@ -158,7 +155,7 @@ def motion_can_be_followed(scene: RollScene) -> Iterator[InitErrorDetails]:
         )
 
 
-def _steps(scene: RollScene, frequency: float, last: float) -> float:
+def _steps(scene: RollParts, frequency: float, last: float) -> float:
     """About how many steps an explicit integrator takes: ten in a radian of the fastest oscillation or decay.
 
     Where quadratic damping rules, d φ'² = k² a holds the rate, and decays are as fast as d|φ'|.
@@ -173,7 +170,7 @@ def _steps(scene: RollScene, frequency: float, last: float) -> float:
     return waves + fastest * rest
 
 
-def levels_differ(scene: RollScene) -> Iterator[InitErrorDetails]:
+def levels_differ(scene: RollParts) -> Iterator[InitErrorDetails]:
     """Levels of angle go up, and are not too many."""
     levels = scene.output.levels
     if len(levels) > MOST_LEVELS:

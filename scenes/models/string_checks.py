@@ -4,15 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 from pydantic_core import InitErrorDetails
 
 from hydroelastic.scenes.models.bodies import LARGEST
 from hydroelastic.scenes.models.problems import misfit
-
-if TYPE_CHECKING:
-    from hydroelastic.scenes.models.string import StringScene
+from hydroelastic.scenes.models.string_parts import StringParts
 
 MOST_POINTS = 1_000_000
 """Places times times of one response."""
@@ -29,7 +26,7 @@ LONGEST = {"series": 1e4, "field": 200.0}
 """Largest time of a response in travel times of a wave along the string, by method."""
 
 
-def liquid_lets_the_string_hang(scene: StringScene) -> Iterator[InitErrorDetails]:
+def liquid_lets_the_string_hang(scene: StringParts) -> Iterator[InitErrorDetails]:
     """A string that is lighter than the liquid it displaces would rise."""
     string = scene.string
     if string.displaced_mass >= string.linear_density:
@@ -48,7 +45,7 @@ def liquid_lets_the_string_hang(scene: StringScene) -> Iterator[InitErrorDetails
         )
 
 
-def method_is_there(scene: StringScene) -> Iterator[InitErrorDetails]:
+def method_is_there(scene: StringParts) -> Iterator[InitErrorDetails]:
     """The series needs a uniform resistance and a free lower end."""
     if scene.accuracy.method == "series" and not scene.string.physical.has_closed_form:
         yield misfit(
@@ -59,7 +56,7 @@ def method_is_there(scene: StringScene) -> Iterator[InitErrorDetails]:
         )
 
 
-def table_can_be_followed(scene: StringScene) -> Iterator[InitErrorDetails]:
+def table_can_be_followed(scene: StringParts) -> Iterator[InitErrorDetails]:
     """A motion by a table has one table, whose times go up from 0."""
     motion = scene.motion
     if motion.kind != "table":
@@ -96,7 +93,7 @@ def table_can_be_followed(scene: StringScene) -> Iterator[InitErrorDetails]:
             return
 
 
-def waves_arrive(scene: StringScene) -> Iterator[InitErrorDetails]:
+def waves_arrive(scene: StringParts) -> Iterator[InitErrorDetails]:
     """A wave runs along the string in a time that can be written."""
     travel = scene.string.physical.travel_time
     longest = LARGEST / LONGEST["series"]
@@ -106,7 +103,7 @@ def waves_arrive(scene: StringScene) -> Iterator[InitErrorDetails]:
         yield misfit(("string", "length"), scene.string.length, wrong, allowed=f"up to {longest:g} s", remedy=remedy)
 
 
-def output_lies_within(scene: StringScene) -> Iterator[InitErrorDetails]:
+def output_lies_within(scene: StringParts) -> Iterator[InitErrorDetails]:
     """Places lie on the string, times within the table of the motion; and there are not too many of both."""
     length, times = scene.string.length, scene.times
     if scene.positions[-1] > length:
@@ -142,7 +139,7 @@ def output_lies_within(scene: StringScene) -> Iterator[InitErrorDetails]:
         )
 
 
-def motion_is_not_too_fast(scene: StringScene) -> Iterator[InitErrorDetails]:
+def motion_is_not_too_fast(scene: StringParts) -> Iterator[InitErrorDetails]:
     """Rates lie within what terms or elements can follow."""
     travel, motion = scene.string.physical.travel_time, scene.motion
     limit = (FASTEST if scene.method == "series" else FASTEST_FIELD) / travel

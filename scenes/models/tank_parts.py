@@ -95,7 +95,7 @@ class MeshFile(SceneModel):
 
 
 class TankParts(SceneModel):
-    """The parts of the scene of a tank, each allowed for itself; `TankScene` sees to it that they fit together."""
+    """The parts of the scene of a tank, each allowed for itself; `TankScene` checks that they fit."""
 
     kind: Literal["tank"] = Field(default="tank", description="kind of the scene")
     title: Title = Field(default="", description="title of tables and images")

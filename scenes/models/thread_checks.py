@@ -5,17 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import pairwise
 from math import dist, hypot
-from typing import TYPE_CHECKING
 
 from pydantic_core import InitErrorDetails
 
 from hydroelastic.scenes.models.problems import misfit
 from hydroelastic.scenes.models.thread_analyses import ThreadMotion, ThreadStability
 from hydroelastic.scenes.models.thread_motion_checks import motion_can_be_followed
-from hydroelastic.scenes.models.thread_parts import CarriedBody, FixedEnd
-
-if TYPE_CHECKING:
-    from hydroelastic.scenes.models.thread import ThreadScene
+from hydroelastic.scenes.models.thread_parts import ThreadParts
+from hydroelastic.scenes.models.thread_tables import CarriedBody, FixedEnd
 
 MOST_PROFILE_ROWS = 10_000
 MOST_LOADS = 100
@@ -28,7 +25,7 @@ LEAST_SLACK = 1e-9
 _WAYS = "velocity (and shear), veer, profile or file"
 
 
-def stream_is_given_once(scene: ThreadScene) -> Iterator[InitErrorDetails]:
+def stream_is_given_once(scene: ThreadParts) -> Iterator[InitErrorDetails]:
     """One way of saying how the liquid streams, and a profile that can be read."""
     stream = scene.stream
     if stream is None:
@@ -58,7 +55,7 @@ def stream_is_given_once(scene: ThreadScene) -> Iterator[InitErrorDetails]:
             return
 
 
-def liquid_acts_on_something(scene: ThreadScene) -> Iterator[InitErrorDetails]:
+def liquid_acts_on_something(scene: ThreadParts) -> Iterator[InitErrorDetails]:
     """Coefficients of the liquid need a liquid and a diameter."""
     thread = scene.thread
     if thread.viscous_drag > 0.0 and scene.stream is None:
@@ -93,7 +90,7 @@ def liquid_acts_on_something(scene: ThreadScene) -> Iterator[InitErrorDetails]:
         )
 
 
-def bodies_lie_on_the_thread(scene: ThreadScene) -> Iterator[InitErrorDetails]:
+def bodies_lie_on_the_thread(scene: ThreadParts) -> Iterator[InitErrorDetails]:
     """Bodies and places of the report lie on the thread, bodies at places of their own."""
     length = scene.thread.length
     places = [load.at for load in scene.load]
@@ -127,7 +124,7 @@ def bodies_lie_on_the_thread(scene: ThreadScene) -> Iterator[InitErrorDetails]:
         )
 
 
-def clamps_need_rigidity(scene: ThreadScene) -> Iterator[InitErrorDetails]:
+def clamps_need_rigidity(scene: ThreadParts) -> Iterator[InitErrorDetails]:
     """A thread that does not resist bending cannot be clamped."""
     for name, end in (("a", scene.ends.a), ("b", scene.ends.b)):
         if end.kind != "fixed" or end.clamp is None:
@@ -143,7 +140,7 @@ def clamps_need_rigidity(scene: ThreadScene) -> Iterator[InitErrorDetails]:
             yield misfit(("ends", name, "clamp"), None, "it has no direction", allowed="a vector other than 0")
 
 
-def something_is_held(scene: ThreadScene) -> Iterator[InitErrorDetails]:
+def something_is_held(scene: ThreadParts) -> Iterator[InitErrorDetails]:
     """Without a fixed end nothing keeps the thread from drifting off."""
     if scene.ends.a.kind != "fixed" and scene.ends.b.kind != "fixed":
         yield misfit(
@@ -154,7 +151,7 @@ def something_is_held(scene: ThreadScene) -> Iterator[InitErrorDetails]:
         )
 
 
-def tension_is_determined(scene: ThreadScene) -> Iterator[InitErrorDetails]:
+def tension_is_determined(scene: ThreadParts) -> Iterator[InitErrorDetails]:
     """Two fixed ends of a thread that does not stretch must leave it longer than their distance."""
     a, b = scene.ends.a, scene.ends.b
     if a.kind != "fixed" or b.kind != "fixed" or scene.thread.axial_rigidity is not None:
@@ -180,7 +177,7 @@ def tension_is_determined(scene: ThreadScene) -> Iterator[InitErrorDetails]:
         )
 
 
-def given_tension_is_needed(scene: ThreadScene) -> Iterator[InitErrorDetails]:
+def given_tension_is_needed(scene: ThreadParts) -> Iterator[InitErrorDetails]:
     """A tension is given only where nothing else tells it, and where the thread does not leave that state."""
     given = scene.thread.tension
     if given is None:
@@ -208,7 +205,7 @@ def given_tension_is_needed(scene: ThreadScene) -> Iterator[InitErrorDetails]:
         )
 
 
-def something_pulls(scene: ThreadScene) -> Iterator[InitErrorDetails]:
+def something_pulls(scene: ThreadParts) -> Iterator[InitErrorDetails]:
     """A slack thread without flexural rigidity takes a shape by its load alone."""
     if scene.thread.flexural_rigidity > 0.0:
         return
@@ -236,12 +233,12 @@ def something_pulls(scene: ThreadScene) -> Iterator[InitErrorDetails]:
             )
 
 
-def _pulls(scene: ThreadScene, body: object) -> bool:
+def _pulls(scene: ThreadParts, body: object) -> bool:
     weight, area = getattr(body, "weight", 0.0), getattr(body, "drag_area", 0.0)
     return bool(weight != 0.0 or (area > 0.0 and scene.streams))
 
 
-def _slack_along_a_line(scene: ThreadScene) -> Iterator[InitErrorDetails]:
+def _slack_along_a_line(scene: ThreadParts) -> Iterator[InitErrorDetails]:
     """A slack thread whose whole load acts along the chord folds: part of it has no tension, and no shape."""
     a, b = scene.ends.a, scene.ends.b
     if not isinstance(a, FixedEnd) or not isinstance(b, FixedEnd) or scene.load:
@@ -268,7 +265,7 @@ def _slack_along_a_line(scene: ThreadScene) -> Iterator[InitErrorDetails]:
         )
 
 
-def reactive_tail_is_stiff(scene: ThreadScene) -> Iterator[InitErrorDetails]:
+def reactive_tail_is_stiff(scene: ThreadParts) -> Iterator[InitErrorDetails]:
     """A tail without tension in a stream along it has a reactive model only if it resists bending."""
     if scene.thread.reactive == "none" or scene.thread.flexural_rigidity > 0.0:
         return
@@ -283,7 +280,7 @@ def reactive_tail_is_stiff(scene: ThreadScene) -> Iterator[InitErrorDetails]:
             )
 
 
-def analyses_can_be_done(scene: ThreadScene) -> Iterator[InitErrorDetails]:
+def analyses_can_be_done(scene: ThreadParts) -> Iterator[InitErrorDetails]:
     """Motions need mass, stability a stream."""
     for number, analysis in enumerate(scene.analysis):
         if isinstance(analysis, ThreadStability) and not scene.streams:

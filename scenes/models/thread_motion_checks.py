@@ -5,22 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import pairwise
 from math import dist, hypot
-from typing import TYPE_CHECKING
 
 from pydantic_core import InitErrorDetails
 
 from hydroelastic.scenes.models.problems import misfit
 from hydroelastic.scenes.models.thread_analyses import EndMotion, ThreadMotion
-from hydroelastic.scenes.models.thread_parts import FixedEnd, SurfaceEnd
-
-if TYPE_CHECKING:
-    from hydroelastic.scenes.models.thread import ThreadScene
+from hydroelastic.scenes.models.thread_parts import ThreadParts
+from hydroelastic.scenes.models.thread_tables import FixedEnd, SurfaceEnd
 
 LEAST_MOTION_ROWS, MOST_MOTION_ROWS = 4, 20_000
 
 
 def motion_can_be_followed(
-    scene: ThreadScene, motion: ThreadMotion, where: tuple[str | int, ...]
+    scene: ThreadParts, motion: ThreadMotion, where: tuple[str | int, ...]
 ) -> Iterator[InitErrorDetails]:
     """Only fixed ends are moved or let go; what starts straight has a free end."""
     ends = {"a": scene.ends.a, "b": scene.ends.b}
@@ -41,7 +38,7 @@ def motion_can_be_followed(
         yield from _straight_start(scene, motion, where)
 
 
-def _releases(scene: ThreadScene, motion: ThreadMotion, where: tuple[str | int, ...]) -> Iterator[InitErrorDetails]:
+def _releases(scene: ThreadParts, motion: ThreadMotion, where: tuple[str | int, ...]) -> Iterator[InitErrorDetails]:
     """Each end is let go once, within the motion; the model of a moving liquid cannot follow it."""
     ends = [release.end for release in motion.release]
     for place, release in enumerate(motion.release):
@@ -58,7 +55,7 @@ def _releases(scene: ThreadScene, motion: ThreadMotion, where: tuple[str | int, 
             )
 
 
-def _integrator(scene: ThreadScene, motion: ThreadMotion, where: tuple[str | int, ...]) -> Iterator[InitErrorDetails]:
+def _integrator(scene: ThreadParts, motion: ThreadMotion, where: tuple[str | int, ...]) -> Iterator[InitErrorDetails]:
     """Generalised α damps fast stretching, and knows no momentum of the liquid."""
     if motion.integrator != "generalized_alpha":
         return
@@ -75,7 +72,7 @@ def _integrator(scene: ThreadScene, motion: ThreadMotion, where: tuple[str | int
 
 
 def _straight_start(
-    scene: ThreadScene, motion: ThreadMotion, where: tuple[str | int, ...]
+    scene: ThreadParts, motion: ThreadMotion, where: tuple[str | int, ...]
 ) -> Iterator[InitErrorDetails]:
     """A straight thread must be as its ends are held."""
     a, b = scene.ends.a, scene.ends.b
@@ -104,7 +101,7 @@ def _straight_start(
 
 
 def _table(
-    scene: ThreadScene, motion: ThreadMotion, move: EndMotion, key: tuple[str | int, ...]
+    scene: ThreadParts, motion: ThreadMotion, move: EndMotion, key: tuple[str | int, ...]
 ) -> Iterator[InitErrorDetails]:
     """The motion of an end by a table begins at t = 0 and lasts as long as it is asked for."""
     if move.file is None:

@@ -1,154 +1,133 @@
-"""Parts of the scene of a thread in a stream as frozen values: thread, stream, loads, ends. SI units."""
+"""The scene of a flexible thread in a stream. SI units."""
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Annotated, Literal, TypeAlias
+from functools import cached_property
+from math import pi
+from typing import Annotated, Literal
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import Field, Strict
 
-from hydroelastic.scenes.models.bodies import AnyNumber, PositiveNumber, SceneModel
-from hydroelastic.scenes.models.values import NumberFromZero, kind_of
+from hydroelastic.scenes.models.bodies import SceneModel
+from hydroelastic.scenes.models.folder import SceneInFolder
+from hydroelastic.scenes.models.number_files import read_columns
+from hydroelastic.scenes.models.thread_analyses import EndMotion, ThreadAnalysis, ThreadMotion
+from hydroelastic.scenes.models.thread_tables import Ends, FlexibleThread, LiquidStream, PointOnThread
+from hydroelastic.scenes.models.title import Title
+from hydroelastic.scenes.models.values import OR_SWEEP, NumberFromZero, Sweep, ascending_values
 
-Vector: TypeAlias = tuple[AnyNumber, AnyNumber, AnyNumber]
-Horizontal: TypeAlias = tuple[AnyNumber, AnyNumber]
-
-STANDARD_GRAVITY = 9.81
+MOST_POSITIONS = 100_000
+DEFAULT_POSITIONS = 101
 
 
-class FlexibleThread(SceneModel):
-    """A uniform thread: line, wire, chain, hose."""
+class ThreadOutput(SceneModel):
+    """Where the thread is reported."""
 
-    length: PositiveNumber = Field(description="length without stretch, m")
-    diameter: PositiveNumber | None = Field(
-        default=None, description="diameter that drag, added mass and buoyancy are reckoned with, m"
-    )
-    mass: NumberFromZero = Field(default=0.0, description="mass per length, kg/m")
-    weight: AnyNumber | None = Field(
+    positions: Annotated[tuple[NumberFromZero, ...], *ascending_values(MOST_POSITIONS)] | None = Field(
         default=None,
-        description="weight per length in the liquid, N/m, negative for a buoyant thread; by default that of the mass "
-        "less that of the liquid in its place, which the diameter tells",
+        description=f"distances from end A along the thread, m, {OR_SWEEP}; by default {DEFAULT_POSITIONS} of them",
     )
-    gravity: PositiveNumber = Field(default=STANDARD_GRAVITY, description="acceleration of gravity, m/s²")
-    axial_rigidity: PositiveNumber | None = Field(default=None, description="EA, N; by default it does not stretch")
-    flexural_rigidity: NumberFromZero = Field(default=0.0, description="EI, N·m²")
-    tension: NumberFromZero | None = Field(
-        default=None,
-        description="tension at end B, N, of a straight thread between fixed ends that does not stretch; there its "
-        "length does not tell it",
-    )
-    normal_drag: NumberFromZero = Field(
-        default=0.0, description="drag coefficient Cn across the thread, of ρ d |u_n| u_n/2; 1 to 1.5 for most lines"
-    )
-    tangential_drag: NumberFromZero = Field(
-        default=0.0, description="drag coefficient Ct along the thread, of ρ π d |u_t| u_t/2; 0.01 to 0.03 for most"
-    )
-    viscous_drag: NumberFromZero = Field(
-        default=0.0, description="force across the thread by length and velocity, linear, N·s/m²"
-    )
-    added_mass: NumberFromZero = Field(
-        default=0.0, description="added-mass coefficient across the thread, of ρ π d²/4; 1 for a round one"
-    )
-    reactive: Literal["none", "moving_load", "lighthill"] = Field(
-        default="none",
-        description="what of the liquid's reaction in a stream along the thread is modelled beyond added mass: "
-        "nothing, the added mass as a load that moves with the stream, or Lighthill's momentum",
-    )
-    stretch_drag: Literal["none", "volume"] = Field(
-        default="none", description="whether the drag follows the diameter of a thread that stretches at equal volume"
+    frames: Annotated[int, Strict(), Field(ge=0, le=1000)] = Field(
+        default=12, description="pictures of a motion, evenly spread over its times; 0 for none"
     )
 
 
-class Veer(SceneModel):
-    """A stream of one speed whose direction turns with the height."""
+class ThreadAccuracy(SceneModel):
+    """What is asked of the answer."""
 
-    speed: PositiveNumber = Field(description="speed, m/s")
-    rate: AnyNumber = Field(description="angle by height, anticlockwise from x at z = 0, rad/m")
-
-
-class LiquidStream(SceneModel):
-    """The liquid, and how it streams: uniform, sheared, turning, or by a table. Without any of them it is at rest."""
-
-    density: PositiveNumber = Field(description="density of the liquid, kg/m³")
-    velocity: Horizontal | None = Field(default=None, description="(x, y) of the velocity at the height level, m/s")
-    shear: Horizontal | None = Field(
-        default=None, description="by how much (x, y) of the velocity grow with the height, 1/s"
-    )
-    level: AnyNumber = Field(default=0.0, description="height at which velocity holds, m")
-    veer: Veer | None = Field(default=None, description="stream of one speed whose direction turns with the height")
-    profile: tuple[Vector, ...] | None = Field(
-        default=None,
-        description="2 to 10 000 rows of height, m, and (x, y) of the velocity, m/s, upwards; constant beyond them",
-    )
-    file: Path | None = Field(
-        default=None,
-        description="text file with three columns, height in m and (x, y) of the velocity in m/s, upwards; relative "
-        "to the folder of the scene",
-    )
-    interpolation: Literal["linear", "monotone", "spline", "cubic"] = Field(
-        default="linear",
-        description="between the rows of a profile: straight lines; monotone cubics, which do not overshoot the rows, "
-        "and whose slope is continuous, not their curvature; a cubic spline, whose curvature is continuous and zero at "
-        'the outer rows, and which may overshoot; "cubic" is an older name of "monotone"',
+    tolerance: Annotated[float, Strict(), Field(ge=1e-11, le=1e-1)] = Field(
+        default=1e-6,
+        description="asked error of positions relative to the length, of tensions relative to the largest one, and of "
+        "frequencies",
     )
 
 
-class CarriedBody(SceneModel):
-    """What a thread carries at a point."""
+class ThreadParts(SceneInFolder):
+    """The parts of the scene of a thread in a stream, each allowed for itself; `ThreadScene` checks that they fit."""
 
-    weight: AnyNumber = Field(default=0.0, description="weight in the liquid, N; negative for a buoy")
-    drag_area: NumberFromZero = Field(default=0.0, description="drag coefficient times area, of ρ C A |u| u/2, m²")
-    mass: NumberFromZero = Field(default=0.0, description="mass, kg")
-    added_mass: NumberFromZero = Field(default=0.0, description="mass of liquid that moves along, kg")
+    kind: Literal["thread"] = Field(default="thread", description="kind of the scene")
+    title: Title = Field(default="", description="title of tables and images")
+    thread: FlexibleThread = Field(description="the thread")
+    stream: LiquidStream | None = Field(default=None, description="the liquid; none in empty space")
+    load: tuple[PointOnThread, ...] = Field(default=(), description="bodies on the thread")
+    ends: Ends = Field(description="how the ends are held")
+    analysis: tuple[ThreadAnalysis, ...] = Field(default=(), description="what is asked besides the equilibrium")
+    output: ThreadOutput = Field(default=ThreadOutput(), description="where the thread is reported")
+    accuracy: ThreadAccuracy = Field(default=ThreadAccuracy(), description="what is asked of the answer")
 
+    @property
+    def density(self) -> float:
+        """Density of the liquid, kg/m³; 0 in empty space."""
+        return 0.0 if self.stream is None else self.stream.density
 
-class PointOnThread(CarriedBody):
-    """A body on the thread."""
+    @property
+    def displaced_mass(self) -> float:
+        """Mass of the liquid in the place of the thread, per length, kg/m."""
+        diameter = self.thread.diameter or 0.0
+        return self.density * pi * diameter**2 / 4.0
 
-    at: PositiveNumber = Field(description="distance from end A along the thread without stretch, m")
+    @property
+    def weight(self) -> float:
+        """w, weight per length in the liquid, N/m, down positive."""
+        if self.thread.weight is not None:
+            return self.thread.weight
+        return (self.thread.mass - self.displaced_mass) * self.thread.gravity
 
+    @property
+    def normal_drag(self) -> float:
+        """kn = ρ Cn d/2, N·s²/m³."""
+        return 0.5 * self.density * self.thread.normal_drag * (self.thread.diameter or 0.0)
 
-class FixedEnd(SceneModel):
-    """An end held in place, by an anchor, a ship, a wall."""
+    @property
+    def tangential_drag(self) -> float:
+        """kt = ρ π Ct d/2, N·s²/m³."""
+        return 0.5 * self.density * pi * self.thread.tangential_drag * (self.thread.diameter or 0.0)
 
-    kind: Literal["fixed"] = Field(default="fixed", description="kind of the end")
-    position: Vector = Field(default=(0.0, 0.0, 0.0), description="place (x, y, z), m")
-    clamp: Vector | None = Field(
-        default=None,
-        description="direction in which the thread leaves end A, or arrives at end B, clamped; it needs flexural "
-        "rigidity; by default the end turns freely",
-    )
+    @property
+    def added_mass(self) -> float:
+        """Added mass across the thread per length, kg/m."""
+        return self.thread.added_mass * self.displaced_mass
 
+    @property
+    def profile(self) -> tuple[tuple[float, ...], ...] | None:
+        """Rows of height, m, and (x, y) of the velocity, m/s, of a stream by a table; else ``None``.
 
-class FreeEnd(CarriedBody):
-    """An end that moves freely, with a force or a body on it."""
+        Raises:
+            ValueError: if its file cannot be read.
+        """
+        if self.stream is None or (self.stream.file is None and self.stream.profile is None):
+            return None
+        return self.stream.profile if self.stream.profile is not None else self._rows_of_file
 
-    kind: Literal["free"] = Field(default="free", description="kind of the end")
-    force: Vector = Field(default=(0.0, 0.0, 0.0), description="dead force on the end, N")
-    taper: NumberFromZero = Field(
-        default=0.0, le=1.0, description="shape of the end in a reactive liquid: 0 blunt, 1 tapered to nothing"
-    )
+    @cached_property
+    def _rows_of_file(self) -> tuple[tuple[float, ...], ...]:
+        assert self.stream is not None
+        assert self.stream.file is not None
+        return tuple(read_columns(self._folder / self.stream.file, 3))
 
+    def table_of(self, move: EndMotion) -> tuple[tuple[float, ...], ...]:
+        """Return the rows of time, s, and displacement (x, y, z), m, of an end's motion; empty without a file.
 
-class SurfaceEnd(CarriedBody):
-    """An end on a buoy that keeps it at a height and lets it drift."""
+        Raises:
+            ValueError: if the file cannot be read.
+        """
+        return () if move.file is None else tuple(read_columns(self._folder / move.file, 4))
 
-    kind: Literal["surface"] = Field(default="surface", description="kind of the end")
-    level: AnyNumber = Field(default=0.0, description="height at which the end is kept, m")
-    force: Horizontal = Field(default=(0.0, 0.0), description="(x, y) of a dead force on the end, N")
+    @property
+    def motions(self) -> tuple[ThreadMotion, ...]:
+        """The motions in time that are asked for."""
+        return tuple(analysis for analysis in self.analysis if isinstance(analysis, ThreadMotion))
 
+    @property
+    def streams(self) -> bool:
+        """Whether the liquid moves."""
+        stream = self.stream
+        given = None if stream is None else (stream.velocity, stream.shear, stream.veer, stream.profile, stream.file)
+        return given is not None and any(part is not None for part in given)
 
-End: TypeAlias = Annotated[
-    Annotated[FixedEnd, Tag("fixed")] | Annotated[FreeEnd, Tag("free")] | Annotated[SurfaceEnd, Tag("surface")],
-    Discriminator(kind_of),
-]
-"""How an end is held: the key ``kind`` tells."""
-
-
-class Ends(SceneModel):
-    """Both ends of a thread."""
-
-    a: End = Field(
-        default=FixedEnd(), description="the end from which lengths are reckoned, by default fixed at the origin"
-    )
-    b: End = Field(description="the other end")
+    @property
+    def positions(self) -> tuple[float, ...]:
+        """Where the thread is reported, m along it from end A."""
+        if self.output.positions is not None:
+            return self.output.positions
+        return Sweep(start=0.0, stop=self.thread.length, number=DEFAULT_POSITIONS).values

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hydroelastic.modal.string.solution import Floats, StringSolution
-from hydroelastic.scenes.models.string import DEFAULT_POSITIONS, DEFAULT_TIMES
+from hydroelastic.scenes.models.string_parts import DEFAULT_POSITIONS, DEFAULT_TIMES
 from hydroelastic.scenes.string.results import StringResult
 from hydroelastic.scenes.string.solve import solve_series
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from hydroelastic.physics.string_motions import Ramp, Sine, Smooth, Step, TabulatedMotion, tabulated
-from hydroelastic.scenes.models.string import RampMotion, SineMotion, SmoothMotion, StepMotion, StringScene, TableMotion
+from hydroelastic.scenes.models.string import StringScene
+from hydroelastic.scenes.models.string_parts import RampMotion, SineMotion, SmoothMotion, StepMotion, TableMotion
 
 
 def end_motion(scene: StringScene) -> Ramp | Sine | Smooth | Step | TabulatedMotion:

@@ -11,7 +11,8 @@ from hydroelastic.modal.string.closed_form import first_oscillating_mode, natura
 from hydroelastic.modal.string.resonance import nearest_resonance
 from hydroelastic.modal.string.solution import FreeMotions, StringSolution
 from hydroelastic.physics.string import HangingString
-from hydroelastic.scenes.models.string import SineMotion, StringScene
+from hydroelastic.scenes.models.string import StringScene
+from hydroelastic.scenes.models.string_parts import SineMotion
 from hydroelastic.scenes.output.provenance import Summary, framed_summary
 from hydroelastic.scenes.string.results import StringResult
 

@@ -12,7 +12,7 @@ from hydroelastic.fem.pictures.gif import FRAMES, SECONDS
 from hydroelastic.fem.pictures.line import DrawnLine, animate_line, draw_lines
 from hydroelastic.fem.pictures.line_view import LineView, line_view
 from hydroelastic.fem.thread.modes import ThreadModes
-from hydroelastic.scenes.models.thread_parts import FixedEnd
+from hydroelastic.scenes.models.thread_tables import FixedEnd
 from hydroelastic.scenes.output.line_sequence import frame_numbers
 from hydroelastic.scenes.thread.results import Floats, FollowedMotion, ThreadSolutionOfScene
 

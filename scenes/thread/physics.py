@@ -14,7 +14,7 @@ from hydroelastic.physics.thread import PointLoad, Thread, ThreadEnd
 from hydroelastic.physics.thread_motion import EndDisplacement, VortexShedding
 from hydroelastic.scenes.models import thread_analyses as analyses
 from hydroelastic.scenes.models.thread import ThreadScene
-from hydroelastic.scenes.models.thread_parts import CarriedBody, FixedEnd, FreeEnd, SurfaceEnd
+from hydroelastic.scenes.models.thread_tables import CarriedBody, FixedEnd, FreeEnd, SurfaceEnd
 
 
 def thread_of(scene: ThreadScene) -> Thread:

@@ -14,7 +14,7 @@ from hydroelastic.fem.thread.refinement import ThreadSolution
 from hydroelastic.modal.thread.march import march_back, march_tail
 from hydroelastic.physics.thread import PointLoad
 from hydroelastic.scenes.models.thread import ThreadScene
-from hydroelastic.scenes.models.thread_parts import FixedEnd
+from hydroelastic.scenes.models.thread_tables import FixedEnd
 from hydroelastic.scenes.thread.physics import frame_of, thread_of
 
 PLACES = 40

@@ -34,7 +34,7 @@ GUIDES = {
 }
 UNITS = (
     *("m", "s", "kg", "N", "1/s", "m²", "rad", "rad/s", "rad/m", "1/rad", "degrees", "m/s", "m/s²", "kg/m³", "kg/m²"),
-    *("kg/m", "kg/(m·s)", "N·m", "N·m/rad", "N·m²", "N/m", "N·s/m²"),
+    *("kg/m", "kg/(m·s)", "N·m", "N·m/rad", "N·m²", "N/m", "N·s/m²", "N/m²"),
 )
 UNIT = re.compile(rf"(?:^|, )({'|'.join(map(re.escape, sorted(UNITS, key=len, reverse=True)))})(?=$|[;,])")
 SWEEP_TITLE = "Values as a table"
@@ -105,8 +105,10 @@ def sections_of(root: type[BaseModel]) -> list[Section]:
     found: dict[type[BaseModel], Section] = {}
     for section in _walk(root, ""):
         if section.model in found:
-            found[section.model].headers += section.headers
-            found[section.model].note = ""
+            known = found[section.model].headers
+            if section.headers[0] not in known:
+                known += section.headers
+                found[section.model].note = ""
         else:
             found[section.model] = section
     return list(found.values())

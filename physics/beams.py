@@ -8,6 +8,9 @@ from itertools import pairwise
 from math import fsum, isfinite
 from typing import Literal
 
+import numpy as np
+
+from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.motions import Level
 from hydroelastic.physics.scales import Scales
 
@@ -108,6 +111,11 @@ class Beam:
             return self.sections[0].mass_per_length
         return fsum(part.length * part.mass_per_length for part in self.sections) / self.length
 
+    @property
+    def has_even_mass(self) -> bool:
+        """Whether its mass per length is the same everywhere."""
+        return len({part.mass_per_length for part in self.sections}) == 1
+
     def scaled(self, units: Scales, start: float, end: float) -> Beam:
         """Return the beam in other units, between given ends in these units."""
         # One section fills the whole length to the last digit.
@@ -175,6 +183,14 @@ class Beam:
             )
             parts.append(replace(owner, length=right - left))
         return tuple(parts)
+
+    def rigidity_of(self, span: int, fractions: FloatArray) -> FloatArray:
+        """EI at fractions of the length of a span, N·m, in their shape."""
+        return np.full_like(fractions, self.spans[span].flexural_rigidity)
+
+    def mass_of(self, span: int, fractions: FloatArray) -> FloatArray:
+        """m at fractions of the length of a span, kg/m², in their shape."""
+        return np.full_like(fractions, self.spans[span].mass_per_length)
 
     def node_of(self, joint: Joint) -> int:
         """Number of the edge at which a joint lies."""

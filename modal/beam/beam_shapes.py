@@ -69,9 +69,9 @@ def _closed_shapes(beam: Beam, count: int) -> BeamShapes:
 
 def _computed_shapes(beam: Beam, count: int) -> BeamShapes:
     modes = even_modes(beam, count)
-    length, masses = beam.length, np.array([part.mass_per_length for part in beam.spans])
+    length = beam.length
     # Exactly diagonal where it is so.
-    mass = modes.products(masses) if np.any(masses != masses[0]) else masses[0] * np.eye(len(modes.labels))
+    mass = beam.mass_per_length * np.eye(len(modes.labels)) if beam.has_even_mass else modes.products(beam)
     scale = float(np.sqrt(length))
     return BeamShapes(
         labels=modes.labels,

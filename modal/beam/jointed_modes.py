@@ -1,6 +1,8 @@
-"""Dry modes of a stepped, jointed or hinged beam with free ends: piecewise polynomials from one singular-value problem.
+"""Dry modes of a beam with free ends whose rigidity and mass vary, step, or that has joints and hinges: piecewise
+polynomials from one singular-value problem.
 
-The unknowns are what carries strain: the curvature w″ of each smooth span, in orthonormal Legendre polynomials, and the
+The unknowns are what carries strain: the curvature w″ of each smooth span, in polynomials that are orthonormal in the
+strain energy, those of Legendre where the rigidity is constant, and the
 slope jump of each elastic joint. Scaled by the roots of their stiffnesses they have the strain energy |y|²; the
 deflection that follows from them, without its rigid part and weighed with the root of the mass, is B y, exact at Gauss
 points. So with B = Σ uₙ σₙ vₙᵀ
@@ -20,7 +22,7 @@ from typing import Literal
 
 import numpy as np
 from numpy.polynomial import legendre
-from scipy.linalg import lapack, qr
+from scipy.linalg import lapack, qr, solve_triangular
 
 from hydroelastic.modal.beam.dry_modes import RIGID_SHAPES
 from hydroelastic.physics.arrays import FloatArray
@@ -31,6 +33,10 @@ Side = Literal["left", "right"]
 
 # LAPACK's JOBA = 'F': columns of any sizes.
 _FULL = 2
+# Gauss points beyond the degree: exact for rigidities and masses that are cubic.
+_MORE_POINTS = 3
+# Points of a span at which the slowest wave is looked for.
+_SAMPLES = np.linspace(0.005, 0.995, 100)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,8 +74,7 @@ class JointedModes:
     def wavenumbers(self) -> FloatArray:
         """κ = (m λ/EI)^{1/4} of the highest mode in each span, 1/m."""
         highest = float(self.squared_frequencies.max(initial=0.0))
-        parts = self.beam.spans
-        return np.array([(part.mass_per_length * highest / part.flexural_rigidity) ** 0.25 for part in parts])
+        return highest**0.25 * _slowness(self.beam)
 
     def shapes(self, x: FloatArray, derivative: int = 0, side: Side = "right") -> FloatArray:
         """Evaluate w of all modes or a derivative of it.
@@ -102,11 +107,11 @@ class JointedModes:
         return values
 
     def bending_moments(self, x: FloatArray, side: Side = "right") -> FloatArray:
-        """EI w″ of all modes, N per metre of width for w in metres; continuous, 0 at hinges and free ends."""
+        """EI w″ of all modes of a beam of uniform sections, N per metre of width for w in metres; continuous."""
         return self._rigidities(x, side) * self.shapes(x, 2, side)
 
     def shear_forces(self, x: FloatArray, side: Side = "right") -> FloatArray:
-        """(EI w″)′ of all modes; continuous, 0 at free ends."""
+        """(EI w″)′ of all modes of a beam of uniform sections; continuous, 0 at free ends."""
         return self._rigidities(x, side) * self.shapes(x, 3, side)
 
     def _rigidities(self, x: FloatArray, side: Side) -> FloatArray:
@@ -114,12 +119,14 @@ class JointedModes:
         found: FloatArray = np.array([part.flexural_rigidity for part in self.beam.spans])[owners]
         return found
 
-    def products(self, densities: FloatArray) -> FloatArray:
-        """∫d wᵢ wⱼ for a weight d that is constant on each span, shape (modes, modes)."""
+    def products(self, beam: Beam) -> FloatArray:
+        """∫m wᵢ wⱼ with the mass of a beam of the same spans, shape (modes, modes)."""
         total = np.zeros((len(self.squared_frequencies),) * 2)
-        for density, part, table in zip(densities, self.beam.spans, self.deflections, strict=True):
-            norms = part.length / (2.0 * np.arange(table.shape[1]) + 1.0)
-            total += density * (table * norms) @ table.T
+        for span, (part, table) in enumerate(zip(beam.spans, self.deflections, strict=True)):
+            nodes, weights = legendre.leggauss(table.shape[1] + _MORE_POINTS)
+            values = table @ legendre.legvander(nodes, table.shape[1] - 1).T
+            mass = beam.mass_of(span, 0.5 * (1.0 + nodes))
+            total += (values * (0.5 * part.length * weights * mass)) @ values.T
         return total
 
 
@@ -185,10 +192,16 @@ def _degrees(beam: Beam, count: int) -> list[int]:
     Modes are counted as half waves, Σ κl/π, and one more for each end of a span. A wave has Legendre coefficients like
     the spherical Bessel functions jₙ(z), z = κh/2, which vanish to rounding a dozen Airy widths beyond n = z.
     """
-    phases = [part.length * (part.mass_per_length / part.flexural_rigidity) ** 0.25 for part in beam.spans]
+    phases = [part.length * slowness for part, slowness in zip(beam.spans, _slowness(beam), strict=True)]
     half_waves = count + 2 + 2 * len(phases)
     waves = [0.5 * pi * half_waves * phase / sum(phases) for phase in phases]
     return [ceil(z + 13.0 * (0.5 * z) ** (1.0 / 3.0)) + 10 for z in waves]
+
+
+def _slowness(beam: Beam) -> FloatArray:
+    """The largest (m/EI)^{1/4} of each span, whose product with λ^{1/4} is the wavenumber of the shortest wave."""
+    ratios = (beam.mass_of(span, _SAMPLES) / beam.rigidity_of(span, _SAMPLES) for span in range(len(beam.spans)))
+    return np.array([float(ratio.max()) ** 0.25 for ratio in ratios])
 
 
 class _Basis:
@@ -201,14 +214,16 @@ class _Basis:
         self.beam, self.degrees = beam, degrees
         self.edges = np.array(beam.edges)
         self.joints = [joint for joint in beam.joints if joint.rotational_stiffness > 0.0]
-        rules = [legendre.leggauss(degree + 3) for degree in degrees]
+        rules = [legendre.leggauss(degree + _MORE_POINTS) for degree in degrees]
         self._local = [nodes for nodes, _ in rules]
         self._weights = [weights for _, weights in rules]
         spans = list(zip(beam.spans, self._local, self._weights, self.edges, strict=False))
         self.x = np.concatenate([left + 0.5 * part.length * (1.0 + t) for part, t, _, left in spans])
+        masses = [beam.mass_of(span, 0.5 * (1.0 + t)) for span, t in enumerate(self._local)]
         self.root_mass = np.concatenate(
-            [np.sqrt(0.5 * part.length * part.mass_per_length * w) for part, _, w, _ in spans]
+            [np.sqrt(0.5 * part.length * mass * w) for mass, (part, _, w, _) in zip(masses, spans, strict=True)]
         )
+        self._orthonormal = [self._orthonormal_polynomials(span) for span in range(len(degrees))]
         self._rows = np.cumsum([0, *(len(nodes) for nodes in self._local)])
         self._columns = np.cumsum([0, *(degree + 1 for degree in degrees)])
         self.size = int(self._columns[-1]) + len(self.joints)
@@ -224,10 +239,21 @@ class _Basis:
             table[:, number] = arm / sqrt(joint.rotational_stiffness)
         return self.root_mass[:, None] * table
 
+    def _orthonormal_polynomials(self, span: int) -> FloatArray:
+        """Legendre coefficients, as columns, of the polynomials of one span with ∫EI pᵢ pⱼ = δᵢⱼ."""
+        half, nodes, degree = 0.5 * self.beam.spans[span].length, self._local[span], self.degrees[span]
+        rigidities = self.beam.rigidity_of(span, 0.5 * (1.0 + nodes))
+        if np.all(rigidities == rigidities[0]):
+            return np.diag(np.sqrt((np.arange(degree + 1) + 0.5) / (half * rigidities[0])))
+        roots = np.sqrt(half * rigidities * self._weights[span])
+        triangle = qr(roots[:, None] * legendre.legvander(nodes, degree), mode="economic")[1]
+        # Of one sign, so that mirror images are.
+        found: FloatArray = solve_triangular(triangle, np.diag(np.sign(np.diag(triangle))))
+        return found
+
     def _deflections(self, span: int, part: Section, degree: int) -> FloatArray:
         """∬ of the orthonormal polynomials of one span, straight on beyond it."""
         half = 0.5 * part.length
-        scale = np.sqrt((2.0 * np.arange(degree + 1) + 1.0) / (part.length * part.flexural_rigidity))
         slopes = legendre.legint(np.eye(degree + 1), lbnd=-1)
         integrals = legendre.legint(slopes, lbnd=-1)
         found = np.zeros((len(self.x), degree + 1))
@@ -237,7 +263,7 @@ class _Basis:
         # Of degree 2 and more nothing is left at the end.
         for number, (slope, end) in enumerate(((2.0, 2.0), (0.0, -2.0 / 3.0))):
             found[self._rows[span + 1] :, number] = half**2 * end + half * slope * beyond
-        return found * scale
+        return found @ self._orthonormal[span]
 
     def rigid_shapes(self) -> tuple[FloatArray, FloatArray]:
         """Weighed rigid shapes, orthonormal, and their parities."""
@@ -297,10 +323,11 @@ class _Basis:
         low grows with κ.
         """
         values = weighed / self.root_mass[:, None]
+        slowness = _slowness(self.beam)
         tables = []
         for span, (part, degree) in enumerate(zip(self.beam.spans, self.degrees, strict=True)):
             table = (0.5 * part.length) ** 2 * legendre.legint(curvatures[span], 2, axis=1)
-            wave = 0.5 * part.length * (part.mass_per_length / part.flexural_rigidity * squared_frequencies) ** 0.25
+            wave = 0.5 * part.length * slowness[span] * squared_frequencies**0.25
             low = np.clip(np.ceil(wave ** (2.0 / 3.0)), 1, degree)
             numbers = np.arange(table.shape[1])
             polynomials = legendre.legvander(self._local[span], degree + 2) * self._weights[span][:, None]
@@ -310,11 +337,10 @@ class _Basis:
 
     def curvature_coefficients(self, amplitudes: FloatArray) -> tuple[FloatArray, ...]:
         """Legendre coefficients on each span of curvatures with the given amplitudes of the columns."""
-        tables = []
-        for span, (part, degree) in enumerate(zip(self.beam.spans, self.degrees, strict=True)):
-            scale = np.sqrt((2.0 * np.arange(degree + 1) + 1.0) / (part.length * part.flexural_rigidity))
-            tables.append(amplitudes[self._columns[span] : self._columns[span + 1]].T * scale)
-        return tuple(tables)
+        return tuple(
+            amplitudes[self._columns[span] : self._columns[span + 1]].T @ polynomials.T
+            for span, polynomials in enumerate(self._orthonormal)
+        )
 
 
 @dataclass(frozen=True, kw_only=True)

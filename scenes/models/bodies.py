@@ -10,17 +10,16 @@ from typing import Annotated, Any, Literal, TypeAlias
 from pydantic import (
     BaseModel,
     ConfigDict,
-    Discriminator,
     Field,
     SerializerFunctionWrapHandler,
     Strict,
-    Tag,
     ValidationError,
     model_serializer,
     model_validator,
 )
 from pydantic_core import InitErrorDetails
 
+from hydroelastic.physics import beams
 from hydroelastic.physics.motions import Level, Motion
 from hydroelastic.scenes.models.problems import misfit
 
@@ -64,6 +63,22 @@ class BeamJoint(SceneModel):
     rotational_stiffness: Annotated[float, Strict(), Field(ge=0, le=LARGEST)] = Field(
         description="moment by a radian of the jump of the slope, per metre of width, N·m/rad; 0 is a hinge"
     )
+
+
+def physical_sections(parts: tuple[BeamSection, ...]) -> tuple[beams.Section, ...]:
+    """Return the sections of a beam."""
+    return tuple(
+        beams.Section(
+            length=part.length, flexural_rigidity=part.flexural_rigidity, mass_per_length=part.mass_per_length
+        )
+        for part in parts
+    )
+
+
+def physical_joints(joints: tuple[BeamJoint, ...]) -> tuple[beams.Joint, ...]:
+    """Return the joints of a beam, from left to right."""
+    ordered = sorted(joints, key=lambda joint: joint.at)
+    return tuple(beams.Joint(at=joint.at, rotational_stiffness=joint.rotational_stiffness) for joint in ordered)
 
 
 UNIFORM_KEYS = ("length", "flexural_rigidity", "mass_per_length")
@@ -123,10 +138,25 @@ class Beam(SceneModel):
         """Its sections, from left to right: one of a uniform beam."""
         return self.sections or (BeamSection(**{key: getattr(self, key) for key in UNIFORM_KEYS}),)
 
+    def location_of(self, number: int, key: str) -> tuple[str | int, ...]:
+        """Return where a value of a section is given."""
+        return ("sections", number, key) if self.sections else (key,)
+
     @property
     def hinges(self) -> tuple[float, ...]:
         """Where the joints without stiffness lie, m from the left end."""
         return tuple(joint.at for joint in self.joints if joint.rotational_stiffness == 0.0)
+
+    def physical(self, level: Level) -> beams.Beam:
+        """Return the beam at a level, in SI units."""
+        return beams.Beam(
+            sections=physical_sections(self.parts),
+            joints=physical_joints(self.joints),
+            start=self.start,
+            level=level,
+            hydrostatic=self.hydrostatic,
+            ends=self.ends,
+        )
 
     @model_validator(mode="before")
     @classmethod
@@ -294,13 +324,3 @@ def _thin_floats(body: Float) -> Iterator[InitErrorDetails]:
             f'a thin float ends in a point or a rounding above and below, shape = "{body.shape}" need not',
             allowed=f'"exact", or shape = {" or ".join(THIN_SHAPES)}',
         )
-
-
-def _kind_of(body: Any) -> str:
-    """Which model a body is read with; what is no table is left to the beam's model to refuse."""
-    kind = body.get("kind", "beam") if isinstance(body, dict) else getattr(body, "kind", "beam")
-    return str(kind)
-
-
-Body: TypeAlias = Annotated[Annotated[Beam, Tag("beam")] | Annotated[Float, Tag("float")], Discriminator(_kind_of)]
-"""Any body: the key ``kind`` tells which, a beam where it is left out."""

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from pydantic_core import InitErrorDetails
 
-from hydroelastic.scenes.models.bodies import THIN_SHAPES, Beam, Float
+from hydroelastic.scenes.models.bodies import THIN_SHAPES, Float
+from hydroelastic.scenes.models.body_kinds import AnyBeam
 from hydroelastic.scenes.models.open_checks import bodies_span
 from hydroelastic.scenes.models.problems import misfit
 
@@ -276,8 +277,8 @@ def _is_float(scene: TankParts, index: int) -> bool:
     return isinstance(scene.body[index], Float)
 
 
-def _box(scene: TankParts, index: int, body: Beam | Float) -> _Box:
-    if isinstance(body, Beam):
+def _box(scene: TankParts, index: int, body: AnyBeam | Float) -> _Box:
+    if not isinstance(body, Float):
         height = scene.height_of(scene.level_of(body))
         return body.start, body.end, height, height
     from hydroelastic.scenes.models.floats import placed_float

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from hydroelastic.physics.beams import Beam, Joint, Section
+from hydroelastic.physics.beams import Beam
 from hydroelastic.physics.tank import Tank, tank
-from hydroelastic.scenes.models import bodies as words
+from hydroelastic.scenes.models.bodies import Float
 from hydroelastic.scenes.models.tank_parts import TankParts
 
 if TYPE_CHECKING:
@@ -31,24 +31,9 @@ def physical_tank(scene: TankParts) -> Tank:
 
 def _body(scene: TankParts, index: int) -> Beam | RigidFloat:
     body = scene.body[index]
-    if isinstance(body, words.Float):
+    if isinstance(body, Float):
         # Contours need SciPy's root finders, which take a while to import.
         from hydroelastic.scenes.models.floats import placed_float
 
         return placed_float(scene, index)
-    joints = sorted(body.joints, key=lambda joint: joint.at)
-    return Beam(
-        sections=tuple(
-            Section(
-                length=part.length,
-                flexural_rigidity=part.flexural_rigidity,
-                mass_per_length=part.mass_per_length,
-            )
-            for part in body.parts
-        ),
-        joints=tuple(Joint(at=joint.at, rotational_stiffness=joint.rotational_stiffness) for joint in joints),
-        start=body.start,
-        level=scene.level_of(body),
-        hydrostatic=body.hydrostatic,
-        ends=body.ends,
-    )
+    return body.physical(scene.level_of(body))

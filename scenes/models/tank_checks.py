@@ -9,7 +9,7 @@ from typing import TypeAlias
 from pydantic_core import InitErrorDetails
 
 from hydroelastic.physics.tank import ROUND_OFF
-from hydroelastic.scenes.models.bodies import Beam
+from hydroelastic.scenes.models.body_kinds import AnyBeam
 from hydroelastic.scenes.models.float_checks import CHECKS_OF_FLOATS_AT_REST, floats_float_in_the_tank
 from hydroelastic.scenes.models.open_checks import (
     beams_in_open_water_are_free,
@@ -148,7 +148,7 @@ def _beams_lie_in_the_tank(scene: TankParts) -> Iterator[InitErrorDetails]:
     place = "stretch that is drawn" if scene.is_open else "tank"
     for index, beam in scene.beams:
         if beam.length > length * (1 + ROUND_OFF):
-            key = "sections" if beam.sections else "length"
+            key = beam.location_of(0, "length")[0]
             yield misfit(("body", index, key), beam.length, f"the beam is longer than the {place} ({length:g} m)")
         elif beam.end > length * (1 + ROUND_OFF):
             yield misfit(
@@ -193,12 +193,11 @@ def _span_name(scene: TankParts) -> str:
 def _groups_are_in_range(scene: TankParts) -> Iterator[InitErrorDetails]:
     for index, beam in scene.beams:
         for number, part in enumerate(beam.parts):
-            where: tuple[str | int, ...] = ("body", index, "sections", number) if beam.sections else ("body", index)
             for key, formula, scale, (least, most) in _groups(scene, beam):
                 value = getattr(part, key)
                 if not least <= value / scale <= most:
                     yield misfit(
-                        (*where, key),
+                        ("body", index, *beam.location_of(number, key)),
                         value,
                         f"{formula} = {value / scale:g} is beyond what double precision can tell apart",
                         allowed=f"{least * scale:.3g} to {most * scale:.3g} for this beam and liquid",
@@ -206,7 +205,7 @@ def _groups_are_in_range(scene: TankParts) -> Iterator[InitErrorDetails]:
         yield from _joints_are_in_range(scene, index, beam)
 
 
-def _joints_are_in_range(scene: TankParts, index: int, beam: Beam) -> Iterator[InitErrorDetails]:
+def _joints_are_in_range(scene: TankParts, index: int, beam: AnyBeam) -> Iterator[InitErrorDetails]:
     below, above = scene.densities_at(scene.level_of(beam))
     least = SOFTEST_JOINT * (below - above) * scene.tank.gravity * beam.length**3
     for number, joint in enumerate(beam.joints):
@@ -257,7 +256,7 @@ def _sections_are_not_too_short(scene: TankParts) -> Iterator[InitErrorDetails]:
                 )
 
 
-def _groups(scene: TankParts, beam: Beam) -> tuple[tuple[str, str, float, tuple[float, float]], ...]:
+def _groups(scene: TankParts, beam: AnyBeam) -> tuple[tuple[str, str, float, tuple[float, float]], ...]:
     below, above = scene.densities_at(scene.level_of(beam))
     jump = "(ρ₂ − ρ₁)" if above else "ρ"
     weight = (below - above) * scene.tank.gravity

@@ -20,13 +20,12 @@ from hydroelastic.scenes.models.bodies import (
     LARGEST,
     MOST_BODIES,
     SMALLEST,
-    Beam,
-    Body,
     Float,
     Level,
     PositiveNumber,
     SceneModel,
 )
+from hydroelastic.scenes.models.body_kinds import AnyBeam, Body
 from hydroelastic.scenes.models.infinity import PositiveOrInfinite
 from hydroelastic.scenes.models.open_analyses import Analysis, Resonance
 from hydroelastic.scenes.models.problems import problem
@@ -163,16 +162,16 @@ class TankParts(SceneModel):
         return (self.analysis or (Resonance(),)) if self.is_open else ()
 
     @property
-    def beams(self) -> tuple[tuple[int, Beam], ...]:
+    def beams(self) -> tuple[tuple[int, AnyBeam], ...]:
         """The beams, each with its index among the bodies."""
-        return tuple((index, body) for index, body in enumerate(self.body) if isinstance(body, Beam))
+        return tuple((index, body) for index, body in enumerate(self.body) if not isinstance(body, Float))
 
     @property
     def floats(self) -> tuple[tuple[int, Float], ...]:
         """The floats, each with its index among the bodies."""
         return tuple((index, body) for index, body in enumerate(self.body) if isinstance(body, Float))
 
-    def level_of(self, body: Beam | Float) -> Level:
+    def level_of(self, body: AnyBeam | Float) -> Level:
         """Return where a body floats; of one modelled liquid there is only the surface."""
         if len(self.layers) == 1:
             return "surface"

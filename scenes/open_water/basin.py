@@ -19,7 +19,8 @@ from hydroelastic.modal.liquid.travelling_waves import TravellingWave, travellin
 from hydroelastic.modal.liquid.two_layer import TwoLayers
 from hydroelastic.physics.scales import Scales
 from hydroelastic.physics.tank import Tank
-from hydroelastic.scenes.models.bodies import Beam, Float
+from hydroelastic.scenes.models.bodies import Float
+from hydroelastic.scenes.models.body_kinds import AnyBeam
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
 
@@ -170,8 +171,8 @@ def open_basin(scene: TankScene, shortest: float, *, drawn: float | None = None)
     )
 
 
-def _moved(body: Beam | Float, shift: float) -> Beam | Float:
-    if isinstance(body, Beam):
+def _moved(body: AnyBeam | Float, shift: float) -> AnyBeam | Float:
+    if not isinstance(body, Float):
         return body.model_copy(update={"start": body.start + shift})
     return body.model_copy(update={"position": body.position + shift})
 
@@ -181,7 +182,7 @@ def _extent(scene: TankScene) -> tuple[float, float, float, float]:
     bounds = []
     for index, body in enumerate(scene.body):
         level = scene.height_of(scene.level_of(body))
-        if isinstance(body, Beam):
+        if not isinstance(body, Float):
             bounds.append((body.start, body.end, min(level, 0.0), max(level, 0.0)))
             continue
         from hydroelastic.scenes.models.floats import placed_float

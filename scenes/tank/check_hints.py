@@ -129,10 +129,9 @@ def _hydrostatics(scene: TankScene) -> Iterator[str]:
 
 def draughts_left_out(scene: TankScene) -> Iterator[str]:
     """Say of which beams the draught counts: mass over density tells it, and the model leaves it out."""
-    for index, beam in scene.beams:
-        level = scene.level_of(beam)
-        draught = beam.mass_per_length / scene.densities_at(level)[0]
-        depth = scene.layers[0 if level == "interface" else -1].depth
+    for index, beam in physical_tank(scene).beams.items():
+        draught = beam.mass_per_length / scene.densities_at(beam.level)[0]
+        depth = scene.layers[0 if beam.level == "interface" else -1].depth
         if draught > _DEEP * min(beam.length, depth):
             compared = "its length" if beam.length <= depth else "the depth below it"
             yield (

@@ -7,7 +7,8 @@ from math import isinf
 
 from hydroelastic.physics.rigid_motions import heave_is_held
 from hydroelastic.physics.tank import Piece, StillLevel
-from hydroelastic.scenes.models.bodies import Beam, Float, Level
+from hydroelastic.scenes.models.bodies import Float, Level
+from hydroelastic.scenes.models.body_kinds import AnyBeam
 from hydroelastic.scenes.models.floats import placed_float
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
@@ -75,7 +76,7 @@ def _open_ends(scene: TankScene) -> Iterator[tuple[str, str, str, str]]:
 
 def _surface_name(scene: TankScene, level: StillLevel, piece: Piece) -> str:
     if piece.body is not None:
-        return f"{scene.body[piece.body].kind} {piece.body + 1}"
+        return f"{scene.body[piece.body].kind.replace('_', ' ')} {piece.body + 1}"
     name = SURFACE_NAMES[level.kind]
     return f"{name}, y = {level.height:g} m" if len(scene.layers) == 2 else name
 
@@ -84,7 +85,7 @@ def _surface_condition(scene: TankScene, level: StillLevel, piece: Piece) -> str
     if piece.body is None:
         return _open_condition(scene, level)
     body = scene.body[piece.body]
-    if isinstance(body, Beam):
+    if not isinstance(body, Float):
         return _beam_condition(scene, level.name, body)
     return _float_condition(scene, level.name, body)
 
@@ -104,7 +105,7 @@ def _surface_elevation(scene: TankScene) -> str:
     return "η" if len(scene.layers) == 1 else "η₁"
 
 
-def _beam_condition(scene: TankScene, level: Level, beam: Beam) -> str:
+def _beam_condition(scene: TankScene, level: Level, beam: AnyBeam) -> str:
     jump = jump_of(scene, level)
     restoring = f" + {jump} g w" if beam.hydrostatic else ""
     if level == "interface":
@@ -117,7 +118,7 @@ def _beam_condition(scene: TankScene, level: Level, beam: Beam) -> str:
     return f"{slopes} = w, {bending}{restoring} − ω² m w = ω² {pressure}; {BEAM_ENDS[beam.ends]}{joints}"
 
 
-def _joint_conditions(beam: Beam) -> Iterator[str]:
+def _joint_conditions(beam: AnyBeam) -> Iterator[str]:
     """What holds at the hinges and at the other joints of a beam."""
     if beam.hinges:
         yield "w″ = 0 at its hinges"
@@ -156,7 +157,7 @@ def _unknowns(scene: TankScene) -> Iterator[Row]:
     for level in physical_tank(scene).levels_from_top:
         yield _elevation_row(scene, level)
     for index, body in enumerate(scene.body):
-        if isinstance(body, Beam):
+        if not isinstance(body, Float):
             yield f"a of beam {index + 1}", f"beam {index + 1}", _beam_basis(scene, index, body)
         else:
             yield f"s of float {index + 1}", f"float {index + 1}", _float_basis(scene, index, body)
@@ -185,7 +186,7 @@ def _elevation_row(scene: TankScene, level: StillLevel) -> tuple[str, str, str]:
     return reasons[scene.top]
 
 
-def _beam_basis(scene: TankScene, index: int, beam: Beam) -> str:
+def _beam_basis(scene: TankScene, index: int, beam: AnyBeam) -> str:
     if beam.ends == "guided":
         return "w = Σ aᵢ φᵢ: elastic shapes cos(nπx/L), n ≥ 1; heave is held by the liquid's volume"
     hinges = ", a turn about each hinge" if beam.hinges else ""
@@ -226,10 +227,12 @@ def _groups(scene: TankScene) -> Iterator[tuple[str, float, str]]:
         what = "depth" if len(scene.layers) == 1 else "depth of the lower liquid"
         yield name, scene.layers[0].depth / length, f"{what} over length of the tank"
     for index, body in enumerate(scene.body):
-        yield from _beam_groups(scene, index, body) if isinstance(body, Beam) else _float_groups(scene, index, body)
+        yield from (
+            _beam_groups(scene, index, body) if not isinstance(body, Float) else _float_groups(scene, index, body)
+        )
 
 
-def _beam_groups(scene: TankScene, index: int, beam: Beam) -> Iterator[tuple[str, float, str]]:
+def _beam_groups(scene: TankScene, index: int, beam: AnyBeam) -> Iterator[tuple[str, float, str]]:
     level = scene.level_of(beam)
     below, above = scene.densities_at(level)
     weight = (below - above) * scene.tank.gravity

@@ -1,0 +1,125 @@
+"""A beam whose flexural rigidity and mass vary along it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TypeAlias
+
+import numpy as np
+
+from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.beams import Beam, Joint, Section
+from hydroelastic.physics.scales import Scales
+
+AlongBeam: TypeAlias = Callable[[FloatArray], FloatArray]
+"""A property of a beam at distances from its left end."""
+
+# Points of each section that tell two beams apart, and how far apart they may be for rounding alone.
+_SAMPLES, _ALIKE = 9, 1e-12
+
+
+@dataclass(frozen=True, kw_only=True)
+class VaryingBeam(Beam):
+    """A beam of which EI(x) and m(x) are smooth within each section; they may jump or kink between two.
+
+    The sections hold their lengths, the flexural rigidity as flexible on the whole and the mean mass: enough for what
+    only needs to know about how stiff the beam is, such as the choice of a mesh.
+
+    Attributes:
+        rigidity: EI at distances from the left end, N·m per metre of width; at the end of two sections it is asked for
+            a little inside of each.
+        mass: m there, kg/m².
+    """
+
+    rigidity: AlongBeam
+    mass: AlongBeam
+
+    @property
+    def is_uniform(self) -> bool:
+        """It has no closed form."""
+        return False
+
+    @property
+    def has_even_mass(self) -> bool:
+        """It is not known to have one."""
+        return False
+
+    def rigidity_of(self, span: int, fractions: FloatArray) -> FloatArray:
+        """EI at fractions of the length of a span, 0 < fraction < 1, N·m."""
+        return self.rigidity(self._places(span, fractions))
+
+    def mass_of(self, span: int, fractions: FloatArray) -> FloatArray:
+        """M at fractions of the length of a span, kg/m²."""
+        return self.mass(self._places(span, fractions))
+
+    def _places(self, span: int, fractions: FloatArray) -> FloatArray:
+        left, right = self.edges[span : span + 2]
+        return left + (right - left) * fractions
+
+    def scaled(self, units: Scales, start: float, end: float) -> VaryingBeam:
+        """Return the beam in other units, between given ends in these units."""
+        stretch = (end - start) / self.length
+        rigidity, mass = self.rigidity, self.mass
+        return replace(
+            self,
+            start=start,
+            sections=tuple(
+                Section(
+                    length=part.length * stretch,
+                    flexural_rigidity=part.flexural_rigidity / units.flexural_rigidity,
+                    mass_per_length=part.mass_per_length / units.mass_per_length,
+                )
+                for part in self.sections
+            ),
+            joints=tuple(
+                Joint(
+                    at=joint.at / units.length,
+                    rotational_stiffness=joint.rotational_stiffness / units.rotational_stiffness,
+                )
+                for joint in self.joints
+            ),
+            rigidity=lambda x: rigidity(x / stretch) / units.flexural_rigidity,
+            mass=lambda x: mass(x / stretch) / units.mass_per_length,
+        )
+
+    def with_even_mass(self) -> VaryingBeam:
+        """Return the beam with a mass per length of 1 everywhere, and its left end at the origin."""
+        sections = tuple(replace(part, mass_per_length=1.0) for part in self.sections)
+        return replace(self, start=0.0, sections=sections, mass=lambda x: np.ones_like(x))
+
+    @cached_property
+    def reversed(self) -> VaryingBeam:
+        """The beam seen from the other side, in its place."""
+        rigidity, mass, length = self.rigidity, self.mass, self.length
+        return replace(
+            self,
+            sections=self.sections[::-1],
+            joints=tuple(replace(joint, at=length - joint.at) for joint in reversed(self.joints)),
+            rigidity=lambda x: rigidity(length - x),
+            mass=lambda x: mass(length - x),
+        )
+
+    @cached_property
+    def is_mirror_image(self) -> bool:
+        """Whether it is its own mirror image, but for rounding."""
+        return self.mirrors(self)
+
+    def mirrors(self, other: object) -> bool:
+        """Whether it is the mirror image of another body, wherever both float, but for rounding."""
+        if not isinstance(other, VaryingBeam) or not super().mirrors(other):
+            return False
+        image = other.reversed
+        return all(
+            np.allclose(own, its, rtol=_ALIKE, atol=0.0)
+            for own, its in zip(self._samples(), image._samples(), strict=True)
+        )
+
+    def _samples(self) -> tuple[FloatArray, FloatArray]:
+        fractions = (np.arange(_SAMPLES) + 0.5) / _SAMPLES
+        spans = range(len(self.edges) - 1)
+        return (
+            np.concatenate([self.rigidity_of(span, fractions) for span in spans]),
+            np.concatenate([self.mass_of(span, fractions) for span in spans]),
+        )

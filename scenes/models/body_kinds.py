@@ -1,0 +1,26 @@
+"""The kinds of bodies that a tank or open water may have."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, TypeAlias
+
+from pydantic import Discriminator, Tag
+
+from hydroelastic.scenes.models.bodies import Beam, Float
+from hydroelastic.scenes.models.varying_beam import VaryingBeam
+
+AnyBeam: TypeAlias = Beam | VaryingBeam
+"""A body that bends."""
+
+
+def _kind_of(body: Any) -> str:
+    """Which model a body is read with; what is no table is left to the beam's model to refuse."""
+    kind = body.get("kind", "beam") if isinstance(body, dict) else getattr(body, "kind", "beam")
+    return str(kind)
+
+
+Body: TypeAlias = Annotated[
+    Annotated[Beam, Tag("beam")] | Annotated[VaryingBeam, Tag("varying_beam")] | Annotated[Float, Tag("float")],
+    Discriminator(_kind_of),
+]
+"""Any body: the key ``kind`` tells which, a beam where it is left out."""

@@ -12,7 +12,7 @@ from petsc4py import PETSc
 
 from hydroelastic.fem.open_water.complex_direct import ShiftedSolver
 from hydroelastic.fem.open_water.complex_scaling import ComplexMatrix, complex_product
-from hydroelastic.fem.reduced_pencil import ReducedPencil
+from hydroelastic.fem.open_water.reduced_pencil import ReducedPencil
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.incident_waves import incidence, planes

@@ -15,7 +15,7 @@ from open_tables import open_scene
 from PIL import Image
 
 from hydroelastic.fem.modes import EigenSolverError
-from hydroelastic.fem.open_water.resonances import ResonanceSearch
+from hydroelastic.fem.open_water.resonance_search import ResonanceSearch
 from hydroelastic.fem.pictures.canvas import NoRendererError
 from hydroelastic.fem.pictures.gif import FRAMES
 from hydroelastic.fem.pictures.options import PictureOptions

@@ -30,8 +30,8 @@ from scipy.linalg import eig
 from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.open_water.complex_direct import ShiftedSolver
 from hydroelastic.fem.open_water.complex_scaling import complex_product
-from hydroelastic.fem.open_water.resonances import Eigenpair
-from hydroelastic.fem.reduced_pencil import ReducedPencil
+from hydroelastic.fem.open_water.reduced_pencil import ReducedPencil
+from hydroelastic.fem.open_water.resonance_search import Eigenpair
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.modal.liquid.endless_wave import EndlessWave
 from hydroelastic.scenes.open_water.incident_waves import Standing, surface_integrals

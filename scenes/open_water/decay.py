@@ -19,7 +19,7 @@ from math import pi, tan
 import numpy as np
 from mpi4py import MPI
 
-from hydroelastic.fem.open_water.resonances import Eigenpair, ResonanceSearch
+from hydroelastic.fem.open_water.resonance_search import Eigenpair, ResonanceSearch
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.fem.tank.field_model import whole_bodies
 from hydroelastic.fem.tank.resolution import Resolution

@@ -19,7 +19,7 @@ import numpy as np
 from mpi4py import MPI
 
 from hydroelastic.fem.modes import EigenSolverError
-from hydroelastic.fem.open_water.resonances import Eigenpair, ResonanceSearch
+from hydroelastic.fem.open_water.resonance_search import Eigenpair, ResonanceSearch
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.scenes.models.open_analyses import MOST_DAMPING_ANYWHERE
 from hydroelastic.scenes.open_water.incident_waves import Plane

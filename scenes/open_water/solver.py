@@ -6,7 +6,7 @@ import numpy as np
 from scipy.linalg import eigvals
 
 from hydroelastic.fem.open_water.complex_direct import ShiftedSolver
-from hydroelastic.fem.reduced_pencil import ReducedPencil
+from hydroelastic.fem.open_water.reduced_pencil import ReducedPencil
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.scenes.open_water.frequency import OpenFrequency, OpenResponse
 from hydroelastic.scenes.open_water.incident_waves import Incidence, incidence, planes

@@ -1,9 +1,9 @@
 """Many frequencies from few factorizations: a reduced basis that grows where it is worst, until it need not grow.
 
-Solutions at the ends and in the middle of a range begin the basis of `fem.reduced_pencil`. Wherever the residual
-between them is largest the problem is solved in full next, which tells the true error there. For functionals of second
-order the error goes like the square of the residual, and the ratio of the two, the largest of those that were seen
-last, carries it to all other frequencies.
+Solutions at the ends and in the middle of a range begin the basis of `fem.open_water.reduced_pencil`. Wherever the
+residual between them is largest the problem is solved in full next, which tells the true error there. For functionals
+of second order the error goes like the square of the residual, and the ratio of the two, the largest of those that were
+seen last, carries it to all other frequencies.
 """
 
 from __future__ import annotations

@@ -108,6 +108,10 @@ class Beam:
             return self.sections[0].mass_per_length
         return fsum(part.length * part.mass_per_length for part in self.sections) / self.length
 
+    def moved(self, shift: float) -> Beam:
+        """Return the same beam further to the right, m."""
+        return replace(self, start=self.start + shift)
+
     def scaled(self, units: Scales, start: float, end: float) -> Beam:
         """Return the beam in other units, between given ends in these units."""
         # One section fills the whole length to the last digit.

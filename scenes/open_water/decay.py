@@ -17,24 +17,25 @@ from dataclasses import dataclass, replace
 from math import pi, tan
 
 import numpy as np
-from mpi4py import MPI
 
+from hydroelastic.fem.open_water.problem import OpenWaterProblem
+from hydroelastic.fem.open_water.requests import DecayRequest
 from hydroelastic.fem.open_water.resonance_search import Eigenpair, ResonanceSearch
-from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.fem.tank.field_model import whole_bodies
 from hydroelastic.fem.tank.resolution import Resolution
-from hydroelastic.scenes.errors import Problem as WrongInput
-from hydroelastic.scenes.errors import SceneError
-from hydroelastic.scenes.models.open_analyses import Decay
-from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.attempts import Attempt, attempted_over
+from hydroelastic.physics.tank import Tank
+from hydroelastic.scenes.open_water.attempts import Attempt, best_over_band
 from hydroelastic.scenes.open_water.basin import open_basin
 from hydroelastic.scenes.open_water.fast_waves import fastest_meshed
 from hydroelastic.scenes.open_water.model import Band, OpenModel, open_model
 from hydroelastic.scenes.open_water.motion_scale import motion_scale
 from hydroelastic.scenes.open_water.ray import RayIntegral, RayMotion, ray_between
 from hydroelastic.scenes.open_water.region import Region
-from hydroelastic.scenes.open_water.released import ReleasedModel, released_added_mass, released_model
+from hydroelastic.scenes.open_water.released import (
+    InfiniteFrequencyLimit,
+    infinite_frequency_added_mass,
+    infinite_frequency_limit,
+)
 from hydroelastic.scenes.open_water.resonance import ANGLE, resonance_errors, rough_resonances
 from hydroelastic.scenes.open_water.results import DecayTable
 from hydroelastic.scenes.open_water.slow_waves import is_endless, slowest_meshed
@@ -49,6 +50,23 @@ _SHARE = 0.5
 _PUSHED = 1e-6
 # Resonances faster than a float alone by more than this are those of beams.
 _FAST = 3.0
+
+
+class UnstableFloatError(ValueError):
+    """A float is unstable and would capsize."""
+
+
+class DriftingFloatError(ValueError):
+    """A release would set a motion going that nothing restores.
+
+    Attributes:
+        motions: names of such motions, sorted.
+    """
+
+    def __init__(self, motions: list[str]) -> None:
+        """Keep the motions."""
+        super().__init__(f"nothing restores {' and '.join(motions)}")
+        self.motions = motions
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -91,75 +109,75 @@ class _Waves:
     found: RayMotion
 
 
-def solve_decay(comm: MPI.Comm, scene: TankScene, asked: Decay, watch: Stopwatch) -> DecaySolution:
-    """Follow a float that is let go, to the scene's tolerance of its initial displacement (collective).
+def solve_decay(problem: OpenWaterProblem, asked: DecayRequest) -> DecaySolution:
+    """Motion after a release, with an error below the tolerance times the initial displacement (collective).
 
     Args:
-        comm: MPI communicator.
-        scene: with open ends.
-        asked: the analysis.
-        watch: told the time.
+        problem: the open water.
+        asked: the release.
 
     Raises:
         EigenSolverError: if SLEPc fails.
-        SceneError: if a float would capsize or drift away.
+        UnstableFloatError: if a float would capsize.
+        DriftingFloatError: if a float would drift away.
     """
-    released = released_model(comm, scene, watch)
-    _check_release(released, asked)
+    limit = infinite_frequency_limit(problem)
+    _check_release(limit, asked)
     # Beams have shapes that vibrate much faster, and bend as if at rest in the motion of the float.
-    fastest = max(released.frequencies(floats=True))
-    expected = [omega for omega in released.frequencies() if omega <= _FAST * fastest]
+    fastest = max(limit.frequencies(floats=True))
+    expected = [omega for omega in limit.frequencies() if omega <= _FAST * fastest]
     region = Region(lowest=0.2 * expected[0], highest=1.3 * expected[-1], damping=tan(_SEARCHED))
-    _, resonances = rough_resonances(comm, scene, expected, region, watch)
+    _, resonances = rough_resonances(problem, expected, region)
     ray = ray_between(resonances)
     # The last one tells what the sum misses of the initial displacement.
     times = np.array([*asked.times, 0.0])
-    band = ray_band(scene, asked, expected)
+    band = ray_band(problem.tank, problem.tolerance, asked, expected)
     within = [omega for omega in resonances if -np.angle(omega) < ray.angle]
-    rung = _rung(comm, scene, asked, within, band.highest, watch)
+    rung = _rung(problem, asked, within, band.highest)
 
     def solve(resolution: Resolution) -> Attempt[_Waves]:
         # Dry modes are judged at the resonances, and both parts move in the same ones.
         resolution = replace(resolution, shapes=rung.resolution.shapes)
-        limit = _limit(comm, scene, resolution, watch)
-        model = open_model(comm, scene, band, resolution, watch, angle=ray.scaling)
+        added = _infinite_frequency_added_mass(problem, resolution)
+        model = open_model(problem, band, resolution, angle=ray.scaling)
         unit = model.basin.units.frequency
         initial = _initial(model, asked)
         integral = RayIntegral(
             model=model,
-            limit=model.scale.unknown_masses(limit),
+            limit=model.scale.unknown_masses(added),
             initial=initial,
             ray=ray,
             band=(band.lowest / unit, band.highest / unit),
             slow=0.5 * expected[0] / unit,
-            watch=watch,
+            watch=problem.watch,
         )
-        found = integral.followed(times * unit, endless=is_endless(scene))
+        found = integral.followed(times * unit, endless=is_endless(problem.tank))
         size = np.abs(initial).max()
         missed = np.abs(rung.result.motion[-1] + found.motion[-1] - initial).max()
         causes = replace(found.errors, liquid=found.errors.liquid + rung.result.errors + missed).scaled(1.0 / size)
         return Attempt(result=_Waves(model=model, found=found), causes=causes, resolution=resolution)
 
-    waves = attempted_over(scene, band, solve).result
+    waves = best_over_band(problem, band, solve).result
     return _solution(asked, rung.result, waves)
 
 
-def ray_band(scene: TankScene, asked: Decay, expected: list[float]) -> Band:
+def ray_band(water: Tank, tolerance: float, asked: DecayRequest, expected: list[float]) -> Band:
     """The frequencies of the ray's mesh.
 
     Args:
-        scene: with open ends.
-        asked: the analysis.
+        water: open water in SI units.
+        tolerance: asked error of the motion over the initial displacement.
+        asked: the release.
         expected: about those at which the bodies oscillate, rad/s, ascending.
     """
     latest = max(*asked.times, 1.0 / expected[-1])
     return Band(
-        lowest=min(slowest_meshed(scene, latest), expected[0]),
-        highest=fastest_meshed(expected[-1], scene.accuracy.tolerance),
+        lowest=min(slowest_meshed(water, latest), expected[0]),
+        highest=fastest_meshed(expected[-1], tolerance),
     )
 
 
-def _solution(asked: Decay, rung: _Ringing, waves: _Waves) -> DecaySolution:
+def _solution(asked: DecayRequest, rung: _Ringing, waves: _Waves) -> DecaySolution:
     """Both parts together."""
     model, found = waves.model, waves.found
     initial = _initial(model, asked)
@@ -177,52 +195,46 @@ def _solution(asked: Decay, rung: _Ringing, waves: _Waves) -> DecaySolution:
     )
 
 
-def _check_release(released: ReleasedModel, asked: Decay) -> None:
+def _check_release(limit: InfiniteFrequencyLimit, asked: DecayRequest) -> None:
     """Refuse what does not come back to where it rests.
 
     Raises:
-        SceneError: if a float would capsize, or if what is let go sets a motion going that nothing restores.
+        UnstableFloatError: if a float would capsize.
+        DriftingFloatError: if the release sets a motion going that nothing restores.
     """
-    restoring = np.diag(released.stiffness)
-    if np.any(restoring[released.of_floats] < 0.0):
-        wrong, remedy = "a float is unstable and would capsize", "Lower its centre of mass"
-    else:
-        loose = restoring == 0.0
-        given = {"heave": asked.displacement.heave, "roll": asked.displacement.roll}
-        own = [label if body == asked.body - 1 else "" for body, label in released.motions]
-        initial = np.array([given.get(label, 0.0) for label in own])
-        pushed = (released.mass + released.added_mass) @ initial
-        if not np.any(np.abs(pushed[loose]) > _PUSHED * np.abs(pushed).max()):
-            return
-        names = sorted({released.motions[place][1] for place in np.flatnonzero(loose)})
-        wrong = f"the float would drift away: nothing restores {' and '.join(names)}, which it sets going"
-        remedy = f"Leave {' and '.join(names)} out of motions, or let go of another motion"
-    raise SceneError(WrongInput(key='[[analysis]] key "displacement"', wrong=wrong, remedy=remedy))
+    restoring = np.diag(limit.stiffness)
+    if np.any(restoring[limit.of_floats] < 0.0):
+        raise UnstableFloatError("a float is unstable and would capsize")
+    loose = restoring == 0.0
+    given = {"heave": asked.heave, "roll": asked.roll}
+    own = [label if body == asked.body else "" for body, label in limit.motions]
+    initial = np.array([given.get(label, 0.0) for label in own])
+    pushed = (limit.mass + limit.added_mass) @ initial
+    if np.any(np.abs(pushed[loose]) > _PUSHED * np.abs(pushed).max()):
+        raise DriftingFloatError(sorted({limit.motions[place][1] for place in np.flatnonzero(loose)}))
 
 
 def _rung(
-    comm: MPI.Comm, scene: TankScene, asked: Decay, resonances: list[complex], highest: float, watch: Stopwatch
+    problem: OpenWaterProblem, asked: DecayRequest, resonances: list[complex], highest: float
 ) -> Attempt[_Ringing]:
     """The resonances' part of the motion, on a mesh for their waves (collective).
 
     Args:
-        comm: MPI communicator.
-        scene: with open ends.
-        asked: the analysis.
+        problem: the open water.
+        asked: the release.
         resonances: those to the right of the ray, rad/s, roughly.
         highest: frequency of the ray's mesh, rad/s: both have the same basin, and the same units.
-        watch: told the time.
     """
     lowest = min((_BELOW * abs(omega) for omega in resonances), default=highest)
     band = Band(lowest=lowest, highest=highest)
     times = np.array([*asked.times, 0.0])
 
     def solve(resolution: Resolution) -> Attempt[_Ringing]:
-        model = open_model(comm, scene, band, resolution, watch, angle=ANGLE)
-        with watch.stage("resonances"):
+        model = open_model(problem, band, resolution, angle=ANGLE)
+        with problem.watch.stage("resonances"):
             search = ResonanceSearch(model.pencil, model.stiffness, model.mass)
             poles = [search.refined(model.squared_frequency(omega)) for omega in resonances]
-        with watch.stage("errors"):
+        with problem.watch.stage("errors"):
             causes = resonance_errors(model, poles)
         initial = _initial(model, asked)
         residues = _residues(model, poles, initial)
@@ -239,7 +251,7 @@ def _rung(
         weights = phases.max(axis=1) / (_SHARE * np.abs(initial).max())
         return Attempt(result=found, causes=causes.scaled(weights), resolution=resolution)
 
-    return attempted_over(scene, band, solve)
+    return best_over_band(problem, band, solve)
 
 
 def _residues(model: OpenModel, poles: list[Eigenpair], initial: np.ndarray) -> list[np.ndarray]:
@@ -249,26 +261,26 @@ def _residues(model: OpenModel, poles: list[Eigenpair], initial: np.ndarray) -> 
     ]
 
 
-def _limit(comm: MPI.Comm, scene: TankScene, resolution: Resolution, watch: Stopwatch) -> np.ndarray:
-    """a(∞) in SI units."""
-    long = open_basin(scene, 0.0)
-    matrix, _ = released_added_mass(comm, scene, resolution.shapes, watch)
+def _infinite_frequency_added_mass(problem: OpenWaterProblem, resolution: Resolution) -> np.ndarray:
+    """a(∞) in SI units, shape (motions, motions) (collective)."""
+    long = open_basin(problem.tank, 0.0)
+    matrix, _ = infinite_frequency_added_mass(problem, resolution.shapes)
     scale = motion_scale(long, whole_bodies(long.tank, resolution.shapes))
     return scale.masses(matrix)
 
 
-def _initial(model: OpenModel, asked: Decay) -> np.ndarray:
+def _initial(model: OpenModel, asked: DecayRequest) -> np.ndarray:
     """a₀ in body unknowns."""
     scale = model.scale
-    own = "" if len(model.pencil.bodies) == 1 else f"body_{asked.body}__"
-    given = {f"{own}heave": asked.displacement.heave, f"{own}roll": asked.displacement.roll}
+    own = "" if len(model.pencil.bodies) == 1 else f"body_{asked.body + 1}__"
+    given = {f"{own}heave": asked.heave, f"{own}roll": asked.roll}
     motions = np.array([given.get(name, 0.0) for name in scale.dofs])
     unknowns: np.ndarray = np.linalg.solve(scale.turn, motions / scale.lengths)
     return unknowns
 
 
 def _table(
-    asked: Decay, model: OpenModel, motion: np.ndarray, errors: np.ndarray, slow: np.ndarray | None
+    asked: DecayRequest, model: OpenModel, motion: np.ndarray, errors: np.ndarray, slow: np.ndarray | None
 ) -> DecayTable:
     scale = model.scale
     # Amplitudes are per metre; the unknowns are per unit of length.
@@ -285,9 +297,9 @@ def _table(
     )
 
 
-def _tail(asked: Decay, model: OpenModel, slow: np.ndarray | None) -> float | None:
+def _tail(asked: DecayRequest, model: OpenModel, slow: np.ndarray | None) -> float | None:
     """T of a ~ T/t² of the motion that was let go; none where the water has a bed, or where two were."""
-    mixed = asked.displacement.heave != 0.0 and asked.displacement.roll != 0.0
+    mixed = asked.heave != 0.0 and asked.roll != 0.0
     if mixed or slow is None:
         return None
     initial = _initial(model, asked)

@@ -108,10 +108,10 @@ class Incidence:
         """Elevation of each wave over its c."""
         return np.array([plane.elevation for plane in self.planes])
 
-    def scene_phases(self, basin: OpenBasin) -> np.ndarray:
-        """Phase of each wave at the basin's left side if it is zero at x = 0 of the scene, with the other sign.
+    def phases_at_origin(self, basin: OpenBasin) -> np.ndarray:
+        """Phase of each wave at the basin's left side if it is zero at x = 0 of the open water, with the other sign.
 
-        A wave e^{±ikx} of the scene is e^{±ikx₀} times that of the basin, whose x begins at x₀.
+        A wave e^{±ikx} of the open water is e^{±ikx₀} times that of the basin, whose x begins at x₀.
         """
         origin = basin.origin / basin.units.length
         return np.array([-plane.direction * plane.wave.wavenumber * origin for plane in self.planes])

@@ -19,7 +19,7 @@ class MotionScale:
     Attributes:
         units: of the dimensionless problem.
         dofs: names of the motions.
-        turn: body unknowns in motions of the scene, as columns: the principal motions of a float are combinations of
+        turn: body unknowns in these motions, as columns: the principal motions of a float are combinations of
             heave and roll where gravity couples these.
         lengths: unit of each motion: that of length, or 1 for roll in rad.
     """

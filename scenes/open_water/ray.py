@@ -142,7 +142,7 @@ class RayIntegral:
         meshed = np.geomspace(low, high, _JUDGED) * self._ray.turned
         # The end of the ray is on the arc already.
         chosen = np.concatenate([meshed, arc(high * self._ray.turned, _ON_ARC)[:-1]])
-        swept = sweep(self._problem(), chosen, self._model.basin.scene.accuracy.tolerance)
+        swept = sweep(self._problem(), chosen, self._model.tolerance)
         with self._watch.stage("motion"):
             least = min(_LOWER / max(float(times.max()), 1.0 / high), 1e-2 * low)
             radii = np.exp(np.arange(np.log(least), np.log(_HIGHER * high), _STEP * self._ray.gap))

@@ -6,15 +6,13 @@ from dataclasses import dataclass, replace
 from math import nan
 
 import numpy as np
-from mpi4py import MPI
 
-from hydroelastic.fem.stopwatch import Stopwatch
+from hydroelastic.fem.open_water.problem import OpenWaterProblem
+from hydroelastic.fem.open_water.requests import ResponseRequest
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors, boundary_error
 from hydroelastic.fem.tank.resolution import Resolution, rounding_error
-from hydroelastic.scenes.models.open_analyses import Response
-from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.attempts import Attempt, attempted_over
+from hydroelastic.scenes.open_water.attempts import Attempt, best_over_band
 from hydroelastic.scenes.open_water.frequency import OpenResponse
 from hydroelastic.scenes.open_water.missed_peaks import missed_peaks
 from hydroelastic.scenes.open_water.model import Band, OpenModel, open_model
@@ -51,30 +49,27 @@ class _Sweep:
     errors: np.ndarray
 
 
-def solve_response(comm: MPI.Comm, scene: TankScene, asked: Response, watch: Stopwatch) -> ResponseSolution:
-    """Solve for the motion in waves to the scene's tolerance (collective).
+def solve_response(problem: OpenWaterProblem, asked: ResponseRequest) -> ResponseSolution:
+    """Solve for the motion in waves to the tolerance of the problem (collective).
 
     Args:
-        comm: MPI communicator.
-        scene: with open ends.
-        asked: the analysis.
-        watch: told the time.
+        problem: the open water.
+        asked: the waves.
     """
     omegas = np.array(asked.omega)
     band = Band(lowest=float(omegas.min()), highest=float(omegas.max()))
-    tolerance = scene.accuracy.tolerance
 
     def solve(resolution: Resolution) -> Attempt[_Sweep]:
-        model = open_model(comm, scene, band, resolution, watch)
-        solver = OpenSolver(model, watch)
+        model = open_model(problem, band, resolution)
+        solver = OpenSolver(model, problem.watch)
         incident = _incident(model, asked)
-        problem = Problem(
+        frequencies = Problem(
             full=lambda omega: solver.response(omega.real, incident),
             reduced=lambda omega: solver.response_between(omega.real, incident),
             difference=lambda one, other: relative_difference(_outcome(one), _outcome(other)),
         )
-        swept = sweep(problem, omegas, tolerance)
-        with watch.stage("errors"):
+        swept = sweep(frequencies, omegas, problem.tolerance)
+        with problem.watch.stage("errors"):
             places = judged_places(omegas)
             causes = [_errors(swept.solutions[place]) for place in places]
         errors = between(omegas, places, np.array([cause.total.max() for cause in causes])) + swept.errors
@@ -84,7 +79,7 @@ def solve_response(comm: MPI.Comm, scene: TankScene, asked: Response, watch: Sto
             resolution=resolution,
         )
 
-    attempt = attempted_over(scene, band, solve)
+    attempt = best_over_band(problem, band, solve)
     found = attempt.result
     model = found.solver.model
     table = _table(asked, model, omegas, found.swept.solutions, found.errors)
@@ -93,7 +88,7 @@ def solve_response(comm: MPI.Comm, scene: TankScene, asked: Response, watch: Sto
     return ResponseSolution(table=table, model=model, error=attempt.error)
 
 
-def _missed(asked: Response, solver: OpenSolver, table: ResponseTable) -> tuple[MissedPeak, ...]:
+def _missed(asked: ResponseRequest, solver: OpenSolver, table: ResponseTable) -> tuple[MissedPeak, ...]:
     """Peaks between the frequencies, by the reduced basis of the sweep (collective)."""
     incident = _incident(solver.model, asked)
 
@@ -104,7 +99,7 @@ def _missed(asked: Response, solver: OpenSolver, table: ResponseTable) -> tuple[
     return missed_peaks(table, solver.resonances_between(), between)
 
 
-def _incident(model: OpenModel, asked: Response) -> list[int]:
+def _incident(model: OpenModel, asked: ResponseRequest) -> list[int]:
     """Places of the waves that come: those to the right are first."""
     count = len(model.basin.scaled_layers.branches)
     return list(range(count)) if asked.waves_from == "left" else list(range(count, 2 * count))
@@ -147,7 +142,7 @@ def _truncation(motions: np.ndarray, model: OpenModel) -> float:
 
 
 def _table(
-    asked: Response, model: OpenModel, omegas: np.ndarray, solutions: list[OpenResponse], errors: np.ndarray
+    asked: ResponseRequest, model: OpenModel, omegas: np.ndarray, solutions: list[OpenResponse], errors: np.ndarray
 ) -> ResponseTable:
     first = solutions[0]
     count = len(first.incident)
@@ -172,25 +167,25 @@ def _table(
 
 
 def _waves(solution: OpenResponse) -> np.ndarray:
-    """Elevations of the waves that leave per incident elevation, both with the phases of the scene, shape (incident,
+    """Elevations of the waves that leave per incident elevation, both with their phases at x = 0, shape (incident,
     waves)."""
     incidence = solution.incidence
-    # A wave of the basin has the scene's phase e^{±ikx₀} at the basin's side.
-    phases = np.exp(1j * incidence.scene_phases(solution.model.basin))
+    # A wave whose phase is zero at x = 0 has the phase e^{±ikx₀} at the basin's side.
+    phases = np.exp(1j * incidence.phases_at_origin(solution.model.basin))
     scaled = incidence.elevations * phases
     ratios: np.ndarray = (solution.outgoing() * scaled[:, None] / scaled[solution.incident]).T
     return ratios
 
 
 def _motions(solution: OpenResponse) -> np.ndarray:
-    """Body unknowns per elevation of a unit of length of the scene's wave, shape (incident, body unknowns)."""
+    """Body unknowns per elevation of a unit of length with its phase at x = 0, shape (incident, body unknowns)."""
     incidence = solution.incidence
-    phases = np.exp(1j * incidence.scene_phases(solution.model.basin))
+    phases = np.exp(1j * incidence.phases_at_origin(solution.model.basin))
     motions: np.ndarray = solution.motions / (incidence.elevations * phases)[solution.incident][:, None]
     return motions
 
 
-def _plates(asked: Response, model: OpenModel, motions: np.ndarray) -> list[PlateDeflection]:
+def _plates(asked: ResponseRequest, model: OpenModel, motions: np.ndarray) -> list[PlateDeflection]:
     plates, first = [], 0
     for index, body in enumerate(model.pencil.bodies):
         own = motions[..., first : first + body.size]

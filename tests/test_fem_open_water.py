@@ -12,13 +12,13 @@ from petsc4py import PETSc
 
 from hydroelastic.fem.open_water.complex_direct import ShiftedSolver
 from hydroelastic.fem.open_water.complex_scaling import ComplexMatrix, complex_product
+from hydroelastic.fem.open_water.field_model import Band, OpenModel, first_resolution, open_model
+from hydroelastic.fem.open_water.incident_waves import incidence, planes
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.reduced_pencil import ReducedPencil
+from hydroelastic.fem.open_water.solver import OpenSolver
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.incident_waves import incidence, planes
-from hydroelastic.scenes.open_water.model import Band, OpenModel, first_resolution, open_model
-from hydroelastic.scenes.open_water.solver import OpenSolver
 
 SECTION_ROWS = stored("open_sections.json")["cases"]
 TWO_LIQUIDS = stored("open_two_liquids.json")["cases"]

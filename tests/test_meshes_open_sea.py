@@ -11,6 +11,8 @@ import pytest
 from open_cases import problem_of, section, slender, stored, two_liquids
 from open_tables import open_scene
 
+from hydroelastic.fem.open_water.basin import OpenBasin, open_basin, reach
+from hydroelastic.fem.open_water.field_model import Band, first_resolution, open_mesh
 from hydroelastic.meshes.geometry import (
     BOTTOM,
     FAR_END,
@@ -26,8 +28,6 @@ from hydroelastic.meshes.geometry import (
 from hydroelastic.meshes.open_sea import Frames, extended, with_far_ends
 from hydroelastic.meshes.tagged_mesh import TaggedMesh
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.basin import OpenBasin, open_basin, reach
-from hydroelastic.scenes.open_water.model import Band, first_resolution, open_mesh
 
 SECTIONS = stored("open_sections.json")["cases"]
 TWO_LIQUIDS = stored("open_two_liquids.json")["cases"]

@@ -13,11 +13,11 @@ import xarray
 from open_cases import problem_of
 from open_tables import CIRCLE, DEEP, FROM_BOTH_SIDES, OIL, arbitrary_solution, open_scene, two_bodies
 
+from hydroelastic.fem.open_water.radiation import solve_radiation
+from hydroelastic.fem.open_water.response import solve_response
 from hydroelastic.scenes.models.open_analyses import Radiation, Response
 from hydroelastic.scenes.open_water.dataset import open_dataset
 from hydroelastic.scenes.open_water.physics import radiation_request, response_request
-from hydroelastic.scenes.open_water.radiation import solve_radiation
-from hydroelastic.scenes.open_water.response import solve_response
 from hydroelastic.scenes.output.dataset import write_dataset
 
 

@@ -15,6 +15,7 @@ from open_tables import open_scene
 from PIL import Image
 
 from hydroelastic.fem.modes import EigenSolverError
+from hydroelastic.fem.open_water.basin import open_basin
 from hydroelastic.fem.open_water.resonance_search import ResonanceSearch
 from hydroelastic.fem.pictures.canvas import NoRendererError
 from hydroelastic.fem.pictures.gif import FRAMES
@@ -22,7 +23,6 @@ from hydroelastic.fem.pictures.options import PictureOptions
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.scenes.models.open_analyses import Radiation, Resonance
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.basin import open_basin
 from hydroelastic.scenes.open_water.field_pictures import draw_fields
 from hydroelastic.scenes.open_water.field_samples import SampledField, sample_field, write_fields
 from hydroelastic.scenes.open_water.fields import OpenField, open_fields

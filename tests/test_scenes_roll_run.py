@@ -225,10 +225,10 @@ def test_heavy_damping_keeps_the_default_tolerance() -> None:
 @pytest.mark.mpi
 def test_a_section_in_open_water_rolls_as_its_resonance_says() -> None:
     from hydroelastic.fem.open_water.requests import ResonanceRequest
+    from hydroelastic.fem.open_water.resonance import solve_resonance
     from hydroelastic.fem.stopwatch import Stopwatch
     from hydroelastic.scenes.models.tank import TankScene
     from hydroelastic.scenes.open_water.physics import open_water_problem
-    from hydroelastic.scenes.open_water.resonance import solve_resonance
     from hydroelastic.scenes.roll.section import section_roll
 
     # A rectangle whose roll makes waves: damping by waves of a per cent.

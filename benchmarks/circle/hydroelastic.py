@@ -9,13 +9,13 @@ from mpi4py import MPI
 from hydroelastic.benchmarks.cases import Answer, Case
 from hydroelastic.benchmarks.circle.cases import DENSITY, GRAVITY, RADIUS, circle_frequency, unit_added_mass
 from hydroelastic.benchmarks.tank.hydroelastic import versions as versions
+from hydroelastic.fem.open_water.radiation import solve_radiation
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.scenes.models.bodies import Float
 from hydroelastic.scenes.models.open_analyses import Radiation
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.tank_parts import Accuracy, Liquid, Tank
 from hydroelastic.scenes.open_water.physics import open_water_problem, radiation_request
-from hydroelastic.scenes.open_water.radiation import solve_radiation
 
 _STRETCH = 10.0  # is drawn only; the answers do not depend on it
 

@@ -42,7 +42,7 @@ def open_requests(scene: TankScene) -> Iterator[str]:
 def decay_cost_words(scene: TankScene, analysis: Decay) -> str:
     """Return what a decay analysis will cost; its first mesh is made."""
     # This needs dolfinx, which takes a second to import.
-    from hydroelastic.scenes.open_water.cost import WITHIN, decay_cost
+    from hydroelastic.fem.open_water.cost import WITHIN, decay_cost
 
     cost = decay_cost(physical_tank(scene), scene.accuracy.tolerance, decay_request(analysis))
     unknowns = f"{round(cost.unknowns, -3):,}".replace(",", " ")

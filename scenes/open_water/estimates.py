@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, ResonanceTable
 from hydroelastic.modal.estimate import NoEstimateError
 from hydroelastic.modal.floats.endless_float import EndlessFloat, endless_float
 from hydroelastic.modal.floats.open_float import OpenFloatEstimate, open_float_estimate, released_float
@@ -16,7 +17,7 @@ from hydroelastic.scenes.models.floats import float_section
 from hydroelastic.scenes.models.open_analyses import Decay, Resonance
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.results import DecayTable, OpenSolution, RadiationTable, ResonanceTable
+from hydroelastic.scenes.open_water.results import OpenSolution
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -19,15 +19,16 @@ import numpy as np
 from mpi4py import MPI
 
 from hydroelastic.fem.modes import EigenSolverError
+from hydroelastic.fem.open_water.field_model import Band, OpenModel, first_resolution, open_model
+from hydroelastic.fem.open_water.incident_waves import Plane
+from hydroelastic.fem.open_water.region import MOST_DAMPING_ANYWHERE
+from hydroelastic.fem.open_water.resonance import ANGLE
 from hydroelastic.fem.open_water.resonance_search import Eigenpair, ResonanceSearch
+from hydroelastic.fem.open_water.results import RadiationTable, ResonanceTable, ResponseTable
+from hydroelastic.fem.open_water.solver import OpenSolver
 from hydroelastic.fem.stopwatch import Stopwatch
-from hydroelastic.scenes.models.open_analyses import MOST_DAMPING_ANYWHERE
-from hydroelastic.scenes.open_water.incident_waves import Plane
-from hydroelastic.scenes.open_water.model import Band, OpenModel, first_resolution, open_model
 from hydroelastic.scenes.open_water.physics import open_water_problem
-from hydroelastic.scenes.open_water.resonance import ANGLE
-from hydroelastic.scenes.open_water.results import OpenSolution, RadiationTable, ResonanceTable, ResponseTable
-from hydroelastic.scenes.open_water.solver import OpenSolver
+from hydroelastic.scenes.open_water.results import OpenSolution
 from hydroelastic.scenes.open_water.tables import motion_name
 
 # Motions and resonances of one analysis that are shown.

@@ -11,13 +11,17 @@ from mpi4py import MPI
 
 from hydroelastic.fem.kept_tolerance import kept_tolerance
 from hydroelastic.fem.memory import hand_back_memory
+from hydroelastic.fem.open_water.decay import DecaySolution, DriftingFloatError, UnstableFloatError, solve_decay
+from hydroelastic.fem.open_water.field_model import OpenModel
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
+from hydroelastic.fem.open_water.radiation import RadiationSolution, solve_radiation
+from hydroelastic.fem.open_water.resonance import ResonanceSolution, solve_resonance
+from hydroelastic.fem.open_water.response import ResponseSolution, solve_response
+from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, ResonanceTable, ResponseTable
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.scenes.errors import Problem, SceneError
 from hydroelastic.scenes.models.open_analyses import Analysis, Decay, Radiation, Response
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.decay import DecaySolution, DriftingFloatError, UnstableFloatError, solve_decay
-from hydroelastic.scenes.open_water.model import OpenModel
 from hydroelastic.scenes.open_water.physics import (
     decay_request,
     open_water_problem,
@@ -25,16 +29,7 @@ from hydroelastic.scenes.open_water.physics import (
     resonance_request,
     response_request,
 )
-from hydroelastic.scenes.open_water.radiation import RadiationSolution, solve_radiation
-from hydroelastic.scenes.open_water.resonance import ResonanceSolution, solve_resonance
-from hydroelastic.scenes.open_water.response import ResponseSolution, solve_response
-from hydroelastic.scenes.open_water.results import (
-    DecayTable,
-    OpenSolution,
-    RadiationTable,
-    ResonanceTable,
-    ResponseTable,
-)
+from hydroelastic.scenes.open_water.results import OpenSolution
 
 # The power of waves is of first order in the error of the field; measured, it is off by less than the tolerance.
 _POWER = 10.0

@@ -7,15 +7,9 @@ from typing import Any
 
 from mpi4py import MPI
 
+from hydroelastic.fem.open_water.results import DIRECTIONS, DecayTable, RadiationTable, ResonanceTable, ResponseTable
 from hydroelastic.scenes.open_water.estimates import endless_comparison, thin_float_comparisons
-from hydroelastic.scenes.open_water.results import (
-    DIRECTIONS,
-    DecayTable,
-    OpenSolution,
-    RadiationTable,
-    ResonanceTable,
-    ResponseTable,
-)
+from hydroelastic.scenes.open_water.results import OpenSolution
 from hydroelastic.scenes.output.json_values import json_ready
 from hydroelastic.scenes.output.provenance import Summary, memory_of_processes, versions
 

@@ -9,16 +9,10 @@ from math import ceil, degrees, inf, isfinite, pi
 
 import numpy as np
 
+from hydroelastic.fem.open_water.results import DecayTable, MissedPeak, RadiationTable, ResonanceTable, ResponseTable
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.estimates import endless_comparison, endless_words
-from hydroelastic.scenes.open_water.results import (
-    DecayTable,
-    MissedPeak,
-    OpenSolution,
-    RadiationTable,
-    ResonanceTable,
-    ResponseTable,
-)
+from hydroelastic.scenes.open_water.results import OpenSolution
 from hydroelastic.scenes.output.digits import beyond_error, number, per_cent, with_certain_digits
 from hydroelastic.scenes.output.provenance import Summary
 from hydroelastic.scenes.output.sections import Row, Section

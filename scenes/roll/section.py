@@ -23,15 +23,15 @@ from scipy.optimize import root_scalar
 from hydroelastic.fem.bodies.rigid_float import principal_motions
 from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
+from hydroelastic.fem.open_water.radiation import solve_radiation
 from hydroelastic.fem.open_water.requests import RadiationRequest, ResonanceRequest
+from hydroelastic.fem.open_water.resonance import solve_resonance
+from hydroelastic.fem.open_water.results import RadiationTable
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.scenes.errors import UnsolvedError
 from hydroelastic.scenes.models.floats import placed_float
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.physics import open_water_problem
-from hydroelastic.scenes.open_water.radiation import solve_radiation
-from hydroelastic.scenes.open_water.resonance import solve_resonance
-from hydroelastic.scenes.open_water.results import RadiationTable
 from hydroelastic.scenes.tank.solve import solve_scene
 
 # Of the tolerance asked: a step of the root finder that changes k by less is the last.

@@ -13,13 +13,13 @@ from mpi4py import MPI
 from open_tables import open_scene
 
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
+from hydroelastic.fem.open_water.radiation import RadiationSolution, solve_radiation
 from hydroelastic.fem.open_water.requests import RadiationRequest, ResponseRequest
+from hydroelastic.fem.open_water.response import ResponseSolution, solve_response
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.modal.liquid.two_layer import TwoLayers
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.physics import open_water_problem
-from hydroelastic.scenes.open_water.radiation import RadiationSolution, solve_radiation
-from hydroelastic.scenes.open_water.response import ResponseSolution, solve_response
 
 FOLDER = Path(__file__).parents[1] / "reference"
 DENSITY = 1000.0

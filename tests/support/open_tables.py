@@ -6,17 +6,17 @@ from typing import Any
 
 import numpy as np
 
-from hydroelastic.scenes.models.bodies import Beam
-from hydroelastic.scenes.models.open_analyses import Decay, Radiation, Resonance, Response
-from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.results import (
+from hydroelastic.fem.open_water.results import (
     DecayTable,
-    OpenSolution,
     PlateDeflection,
     RadiationTable,
     ResonanceTable,
     ResponseTable,
 )
+from hydroelastic.scenes.models.bodies import Beam
+from hydroelastic.scenes.models.open_analyses import Decay, Radiation, Resonance, Response
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.open_water.results import OpenSolution
 
 CIRCLE: dict[str, Any] = {
     "kind": "float",

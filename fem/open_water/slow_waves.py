@@ -18,9 +18,9 @@ from math import isinf, pi, sqrt
 
 import numpy as np
 
+from hydroelastic.fem.open_water.basin import open_basin
 from hydroelastic.modal.tank_estimates import two_layers
 from hydroelastic.physics.tank import Tank
-from hydroelastic.scenes.open_water.basin import open_basin
 
 SPREAD = 2.0
 """The coefficients are taken from the lowest frequency of the mesh to this multiple of it."""

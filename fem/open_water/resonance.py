@@ -7,24 +7,23 @@ from math import sqrt
 
 import numpy as np
 
+from hydroelastic.fem.open_water.argument_principle import Solver, zeros_in
+from hydroelastic.fem.open_water.attempts import Attempt, best_over_band
+from hydroelastic.fem.open_water.basin import open_basin
+from hydroelastic.fem.open_water.damped import DampedSolver, damped_resonances, mirror_angle
+from hydroelastic.fem.open_water.field_model import FRAMES, Band, OpenModel, first_resolution, open_model
+from hydroelastic.fem.open_water.infinite_frequency import infinite_frequency_limit
+from hydroelastic.fem.open_water.motion_scale import motion_scale
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
+from hydroelastic.fem.open_water.region import MOST_DAMPING_ANYWHERE, Region
 from hydroelastic.fem.open_water.requests import ResonanceRequest
 from hydroelastic.fem.open_water.resonance_search import Eigenpair, ResonanceSearch
+from hydroelastic.fem.open_water.results import ResonanceTable
+from hydroelastic.fem.open_water.solver import OpenSolver
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors, boundary_error
 from hydroelastic.fem.tank.field_model import whole_bodies
 from hydroelastic.fem.tank.resolution import Resolution, rounding_error
 from hydroelastic.fem.truncation import truncation_errors
-from hydroelastic.scenes.models.open_analyses import MOST_DAMPING_ANYWHERE
-from hydroelastic.scenes.open_water.attempts import Attempt, best_over_band
-from hydroelastic.scenes.open_water.basin import open_basin
-from hydroelastic.scenes.open_water.count import Solver, zeros_in
-from hydroelastic.scenes.open_water.damped import DampedSolver, damped_resonances, mirror_angle
-from hydroelastic.scenes.open_water.model import FRAMES, Band, OpenModel, first_resolution, open_model
-from hydroelastic.scenes.open_water.motion_scale import motion_scale
-from hydroelastic.scenes.open_water.region import Region
-from hydroelastic.scenes.open_water.released import infinite_frequency_limit
-from hydroelastic.scenes.open_water.results import ResonanceTable
-from hydroelastic.scenes.open_water.solver import OpenSolver
 
 ANGLE = 1.3
 """α of the complex scaling: resonances with −Im ω/Re ω below tan(α/2) = 0.76 are uncovered in deep water; beyond

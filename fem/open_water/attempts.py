@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from typing import Generic, TypeVar
 
 from hydroelastic.fem.memory import hand_back_memory
+from hydroelastic.fem.open_water.basin import open_basin
+from hydroelastic.fem.open_water.field_model import Band, first_resolution
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors, refined
 from hydroelastic.fem.tank.resolution import Resolution, sharpest_exponent, workable_tolerance
-from hydroelastic.scenes.open_water.basin import open_basin
-from hydroelastic.scenes.open_water.model import Band, first_resolution
 
 Result = TypeVar("Result")
 

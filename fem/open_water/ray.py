@@ -20,16 +20,16 @@ from math import pi, sqrt
 
 import numpy as np
 
+from hydroelastic.fem.open_water.fast_waves import FastWaves, arc, fast_waves
+from hydroelastic.fem.open_water.field_model import ANGLE as DEEP_ANGLE
+from hydroelastic.fem.open_water.field_model import OpenModel
+from hydroelastic.fem.open_water.radiation import relative_difference
+from hydroelastic.fem.open_water.resonance import ANGLE
+from hydroelastic.fem.open_water.slow_waves import SPREAD, LongWaves, long_waves
+from hydroelastic.fem.open_water.solver import OpenSolver
+from hydroelastic.fem.open_water.sweep import Problem, Swept, sweep
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors
-from hydroelastic.scenes.open_water.fast_waves import FastWaves, arc, fast_waves
-from hydroelastic.scenes.open_water.model import ANGLE as DEEP_ANGLE
-from hydroelastic.scenes.open_water.model import OpenModel
-from hydroelastic.scenes.open_water.radiation import relative_difference
-from hydroelastic.scenes.open_water.resonance import ANGLE
-from hydroelastic.scenes.open_water.slow_waves import SPREAD, LongWaves, long_waves
-from hydroelastic.scenes.open_water.solver import OpenSolver
-from hydroelastic.scenes.open_water.sweep import Problem, Swept, sweep
 
 # Angles between a ray and the resonances beside it, radians: at least, if there is room, and at most.
 _NARROW, _WIDE = 0.05, 0.12

@@ -6,6 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+MOST_DAMPING_ANYWHERE = 0.7
+"""−Im ω/Re ω up to which resonances are found in water of any depth."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Region:

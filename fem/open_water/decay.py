@@ -18,27 +18,27 @@ from math import pi, tan
 
 import numpy as np
 
-from hydroelastic.fem.open_water.problem import OpenWaterProblem
-from hydroelastic.fem.open_water.requests import DecayRequest
-from hydroelastic.fem.open_water.resonance_search import Eigenpair, ResonanceSearch
-from hydroelastic.fem.tank.field_model import whole_bodies
-from hydroelastic.fem.tank.resolution import Resolution
-from hydroelastic.physics.tank import Tank
-from hydroelastic.scenes.open_water.attempts import Attempt, best_over_band
-from hydroelastic.scenes.open_water.basin import open_basin
-from hydroelastic.scenes.open_water.fast_waves import fastest_meshed
-from hydroelastic.scenes.open_water.model import Band, OpenModel, open_model
-from hydroelastic.scenes.open_water.motion_scale import motion_scale
-from hydroelastic.scenes.open_water.ray import RayIntegral, RayMotion, ray_between
-from hydroelastic.scenes.open_water.region import Region
-from hydroelastic.scenes.open_water.released import (
+from hydroelastic.fem.open_water.attempts import Attempt, best_over_band
+from hydroelastic.fem.open_water.basin import open_basin
+from hydroelastic.fem.open_water.fast_waves import fastest_meshed
+from hydroelastic.fem.open_water.field_model import Band, OpenModel, open_model
+from hydroelastic.fem.open_water.infinite_frequency import (
     InfiniteFrequencyLimit,
     infinite_frequency_added_mass,
     infinite_frequency_limit,
 )
-from hydroelastic.scenes.open_water.resonance import ANGLE, resonance_errors, rough_resonances
-from hydroelastic.scenes.open_water.results import DecayTable
-from hydroelastic.scenes.open_water.slow_waves import is_endless, slowest_meshed
+from hydroelastic.fem.open_water.motion_scale import motion_scale
+from hydroelastic.fem.open_water.problem import OpenWaterProblem
+from hydroelastic.fem.open_water.ray import RayIntegral, RayMotion, ray_between
+from hydroelastic.fem.open_water.region import Region
+from hydroelastic.fem.open_water.requests import DecayRequest
+from hydroelastic.fem.open_water.resonance import ANGLE, resonance_errors, rough_resonances
+from hydroelastic.fem.open_water.resonance_search import Eigenpair, ResonanceSearch
+from hydroelastic.fem.open_water.results import DecayTable
+from hydroelastic.fem.open_water.slow_waves import is_endless, slowest_meshed
+from hydroelastic.fem.tank.field_model import whole_bodies
+from hydroelastic.fem.tank.resolution import Resolution
+from hydroelastic.physics.tank import Tank
 
 # Resonances are looked for up to this angle from the real axis.
 _SEARCHED = 0.54

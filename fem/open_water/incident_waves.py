@@ -18,10 +18,10 @@ from math import sqrt
 
 import numpy as np
 
+from hydroelastic.fem.open_water.basin import OpenBasin
+from hydroelastic.fem.open_water.field_model import OpenModel
 from hydroelastic.modal.liquid.endless_wave import EndlessWave
 from hydroelastic.modal.liquid.travelling_waves import TravellingWave
-from hydroelastic.scenes.open_water.basin import OpenBasin
-from hydroelastic.scenes.open_water.model import OpenModel
 
 RIGHTWARD, LEFTWARD = 1, -1
 

@@ -10,23 +10,23 @@ from mpi4py import MPI
 from open_cases import GRAVITY, RADIUS, SLOW, THIN_LIQUIDS, circle, circle_omega, problem_of
 from open_tables import open_scene
 
+from hydroelastic.fem.open_water.damped import DampedSolver, mirror_angle
+from hydroelastic.fem.open_water.field_model import Band, first_resolution, open_model
+from hydroelastic.fem.open_water.incident_waves import Plane, Standing
 from hydroelastic.fem.open_water.requests import ResonanceRequest
+from hydroelastic.fem.open_water.resonance import ResonanceSolution, solve_resonance
+from hydroelastic.fem.open_water.solver import OpenSolver
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.modal.floats.complex_moments import complex_wave_moment
 from hydroelastic.modal.floats.endless_float import endless_float
-from hydroelastic.modal.floats.profiles import Profile
 from hydroelastic.modal.floats.thin_float import thin_constants
 from hydroelastic.modal.floats.thin_float_radiation import natural_rate
 from hydroelastic.modal.liquid.endless_wave import EndlessWave
 from hydroelastic.modal.liquid.travelling_waves import travelling_waves
 from hydroelastic.modal.liquid.two_layer import TwoLayers
+from hydroelastic.physics.profiles import Profile
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.damped import DampedSolver, mirror_angle
-from hydroelastic.scenes.open_water.incident_waves import Plane, Standing
-from hydroelastic.scenes.open_water.model import Band, first_resolution, open_model
-from hydroelastic.scenes.open_water.resonance import ResonanceSolution, solve_resonance
 from hydroelastic.scenes.open_water.solve import resonance_reasons
-from hydroelastic.scenes.open_water.solver import OpenSolver
 
 DEEP = THIN_LIQUIDS["deep"]
 

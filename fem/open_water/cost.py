@@ -5,7 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import log10, sqrt
 
+from hydroelastic.fem.open_water.decay import ray_band
+from hydroelastic.fem.open_water.field_model import first_mesh, first_resolution
 from hydroelastic.fem.open_water.requests import DecayRequest
+from hydroelastic.fem.open_water.resonance import ANGLE
 from hydroelastic.physics.tank import Tank
 
 WITHIN = 3.0
@@ -48,11 +51,6 @@ def decay_cost(water: Tank, tolerance: float, asked: DecayRequest) -> DecayCost:
     Raises:
         MeshError: if no mesh can be made.
     """
-    # These need dolfinx, which takes a second to import.
-    from hydroelastic.scenes.open_water.decay import ray_band
-    from hydroelastic.scenes.open_water.model import first_mesh, first_resolution
-    from hydroelastic.scenes.open_water.resonance import ANGLE
-
     at_rest = [body.hydrostatics for body in water.floats.values()]
     # Far above the waves liquids add about the mass of the float, and only the logarithm of the frequency matters.
     expected = sorted(sqrt(own.heave_stiffness / (2.0 * own.mass)) for own in at_rest)

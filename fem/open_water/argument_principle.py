@@ -13,8 +13,8 @@ from typing import TypeAlias
 
 import numpy as np
 
-from hydroelastic.scenes.open_water.damped import DampedSolver
-from hydroelastic.scenes.open_water.solver import OpenSolver
+from hydroelastic.fem.open_water.damped import DampedSolver
+from hydroelastic.fem.open_water.solver import OpenSolver
 
 Solver: TypeAlias = OpenSolver | DampedSolver
 

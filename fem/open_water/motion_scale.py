@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import block_diag
 
+from hydroelastic.fem.open_water.basin import OpenBasin
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.physics.scales import Scales
-from hydroelastic.scenes.open_water.basin import OpenBasin
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -14,6 +14,8 @@ from mpi4py import MPI
 from open_cases import problem_of
 
 from hydroelastic.fem.open_water import complex_direct
+from hydroelastic.fem.open_water.cost import WITHIN, decay_cost
+from hydroelastic.fem.open_water.decay import DecaySolution, solve_decay
 from hydroelastic.fem.open_water.requests import DecayRequest
 from hydroelastic.modal.floats.open_float import released_float
 from hydroelastic.modal.liquid.two_layer import TwoLayers
@@ -24,8 +26,6 @@ from hydroelastic.scenes.models.open_analyses import Decay, Release
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.tank_parts import Accuracy, Liquid, Tank
 from hydroelastic.scenes.open_water.check import decay_cost_words, open_requests
-from hydroelastic.scenes.open_water.cost import WITHIN, decay_cost
-from hydroelastic.scenes.open_water.decay import DecaySolution, solve_decay
 from hydroelastic.scenes.open_water.physics import decay_request
 from hydroelastic.scenes.open_water.solve import solve_open
 from hydroelastic.scenes.read import read_scene

@@ -10,6 +10,9 @@ from scipy.linalg import block_diag
 
 from hydroelastic.fem.added_mass import body_responses
 from hydroelastic.fem.liquid import compile_form
+from hydroelastic.fem.open_water.attempts import Attempt, best_attempt
+from hydroelastic.fem.open_water.basin import open_basin, reach
+from hydroelastic.fem.open_water.field_model import ANGLE, GROWTH, NO_WATER, open_mesh
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors, boundary_error, energies_missed
 from hydroelastic.fem.tank.field_model import build_field_model, distributed_mesh, whole_bodies
@@ -21,9 +24,6 @@ from hydroelastic.fem.tank.resolution import (
     workable_tolerance,
 )
 from hydroelastic.physics.scales import Scales
-from hydroelastic.scenes.open_water.attempts import Attempt, best_attempt
-from hydroelastic.scenes.open_water.basin import open_basin, reach
-from hydroelastic.scenes.open_water.model import ANGLE, GROWTH, NO_WATER, open_mesh
 
 # Dry modes of each beam where frequencies are only to be known roughly.
 _SHAPES = 16

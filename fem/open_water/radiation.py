@@ -8,22 +8,22 @@ from math import isfinite, nan
 import numpy as np
 from scipy.linalg import block_diag
 
+from hydroelastic.fem.open_water.attempts import Attempt, best_over_band
+from hydroelastic.fem.open_water.basin import open_basin
+from hydroelastic.fem.open_water.field_model import Band, OpenModel, open_model
+from hydroelastic.fem.open_water.frequency import OpenFrequency
+from hydroelastic.fem.open_water.infinite_frequency import infinite_frequency_added_mass
+from hydroelastic.fem.open_water.motion_scale import motion_scale
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.requests import RadiationRequest
+from hydroelastic.fem.open_water.results import DIRECTIONS, RadiationTable
+from hydroelastic.fem.open_water.solver import OpenSolver
+from hydroelastic.fem.open_water.sweep import Problem, Swept, sweep
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors
 from hydroelastic.fem.tank.field_model import whole_bodies
 from hydroelastic.fem.tank.resolution import Resolution
 from hydroelastic.modal.tank_estimates import two_layers
 from hydroelastic.physics.tank import Tank
-from hydroelastic.scenes.open_water.attempts import Attempt, best_over_band
-from hydroelastic.scenes.open_water.basin import open_basin
-from hydroelastic.scenes.open_water.frequency import OpenFrequency
-from hydroelastic.scenes.open_water.model import Band, OpenModel, open_model
-from hydroelastic.scenes.open_water.motion_scale import motion_scale
-from hydroelastic.scenes.open_water.released import infinite_frequency_added_mass
-from hydroelastic.scenes.open_water.results import DIRECTIONS, RadiationTable
-from hydroelastic.scenes.open_water.solver import OpenSolver
-from hydroelastic.scenes.open_water.sweep import Problem, Swept, sweep
 
 # Heave and pitch of a beam, and one more motion for each hinge, come before its elastic shapes.
 _RIGID = 2

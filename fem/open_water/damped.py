@@ -30,13 +30,13 @@ from scipy.linalg import eig
 from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.open_water.complex_direct import ShiftedSolver
 from hydroelastic.fem.open_water.complex_scaling import complex_product
+from hydroelastic.fem.open_water.field_model import OpenModel
+from hydroelastic.fem.open_water.incident_waves import Standing, surface_integrals
 from hydroelastic.fem.open_water.reduced_pencil import ReducedPencil
+from hydroelastic.fem.open_water.region import Region
 from hydroelastic.fem.open_water.resonance_search import Eigenpair
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.modal.liquid.endless_wave import EndlessWave
-from hydroelastic.scenes.open_water.incident_waves import Standing, surface_integrals
-from hydroelastic.scenes.open_water.model import OpenModel
-from hydroelastic.scenes.open_water.region import Region
 
 # Newton's method: its last step and the number of steps on one basis, and how often a solution is added to that.
 _STEP = 1e-11

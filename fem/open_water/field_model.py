@@ -12,8 +12,10 @@ from scipy.linalg import block_diag
 
 from hydroelastic.fem.cells import cell_corners, cells_at, owned_cells
 from hydroelastic.fem.liquid import Layer, LiquidSpace, liquid_space
+from hydroelastic.fem.open_water.basin import CUT, OpenBasin, Reach, open_basin, reach
 from hydroelastic.fem.open_water.complex_scaling import ComplexScaling, compile_scaled_form
 from hydroelastic.fem.open_water.far_field import FarField
+from hydroelastic.fem.open_water.motion_scale import MotionScale, motion_scale
 from hydroelastic.fem.open_water.pencil import OpenPencil, build_open_pencil
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.wetted_surface import WettedSurface
@@ -38,8 +40,6 @@ from hydroelastic.modal.liquid.travelling_waves import travelling_waves
 from hydroelastic.modal.tank_estimates import two_layers
 from hydroelastic.physics.local_waves import moving_parts
 from hydroelastic.physics.tank import Tank
-from hydroelastic.scenes.open_water.basin import CUT, OpenBasin, Reach, open_basin, reach
-from hydroelastic.scenes.open_water.motion_scale import MotionScale, motion_scale
 
 ANGLE = pi / 3.0
 """α of the complex scaling in deep water. Measured on circles at Ka from 0.05 to 10: 60 degrees is as good as 45 or

@@ -13,7 +13,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from hydroelastic.scenes.open_water.results import Complexes, Floats, MissedPeak, ResponseTable
+from hydroelastic.fem.open_water.results import Complexes, Floats, MissedPeak, ResponseTable
 
 # Of the largest on the curve: by what a peak must differ from the line between its neighbours.
 _DIFFERS = 0.1

@@ -223,7 +223,7 @@ def test_what_does_not_disturb_the_water_sends_no_waves() -> None:
 @pytest.mark.mpi
 def test_two_processes_find_what_one_finds() -> None:
     from hydroelastic.fem.open_water.requests import ResponseRequest
-    from hydroelastic.scenes.open_water.response import solve_response
+    from hydroelastic.fem.open_water.response import solve_response
 
     row = TWO_LIQUIDS[1]
     asked = ResponseRequest(omega=(row["omega"],), positions=5)

@@ -6,11 +6,11 @@ import numpy as np
 from scipy.linalg import eigvals
 
 from hydroelastic.fem.open_water.complex_direct import ShiftedSolver
+from hydroelastic.fem.open_water.field_model import OpenModel
+from hydroelastic.fem.open_water.frequency import OpenFrequency, OpenResponse
+from hydroelastic.fem.open_water.incident_waves import Incidence, incidence, planes
 from hydroelastic.fem.open_water.reduced_pencil import ReducedPencil
 from hydroelastic.fem.stopwatch import Stopwatch
-from hydroelastic.scenes.open_water.frequency import OpenFrequency, OpenResponse
-from hydroelastic.scenes.open_water.incident_waves import Incidence, incidence, planes
-from hydroelastic.scenes.open_water.model import OpenModel
 
 
 class OpenSolver:

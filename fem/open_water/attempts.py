@@ -1,4 +1,4 @@
-"""Solve at a resolution, judge, refine where the error comes from, and keep the best of a few attempts."""
+"""Adaptive resolution: solve, estimate errors by cause, refine where they arise, keep the best of a few attempts."""
 
 from __future__ import annotations
 
@@ -41,12 +41,12 @@ class Attempt(Generic[Result]):
 def best_attempt(
     solve: Callable[[Resolution], Attempt[Result]], first: Resolution, tolerance: float, exponent: float
 ) -> Attempt[Result]:
-    """The first attempt that keeps the tolerance, or the best of a few (collective).
+    """Return the first attempt whose error is below a tolerance, or the most accurate of a few (collective).
 
     Args:
         solve: solves at a resolution.
-        first: where to start.
-        tolerance: asked relative error.
+        first: resolution of the first attempt.
+        tolerance: largest relative error that is accepted.
         exponent: α of ψ ~ r^α at the sharpest tips.
     """
     resolution: Resolution | None = first
@@ -68,7 +68,7 @@ def best_attempt(
 def best_over_band(
     problem: OpenWaterProblem, band: Band, solve: Callable[[Resolution], Attempt[Result]]
 ) -> Attempt[Result]:
-    """The best of a few attempts over a range of frequencies, from the resolution that it needs (collective).
+    """Return the best of a few attempts over a range of frequencies, from the resolution that it needs (collective).
 
     Args:
         problem: the open water.

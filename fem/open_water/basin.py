@@ -1,4 +1,4 @@
-"""Open water as a basin around the bodies, its frames, and how far they reach.
+"""Truncation of open water: a basin around the bodies, the frames of cells around it, and how far they reach.
 
 The basin is a closed tank with all bodies; its walls, and its bottom or lid where a liquid goes on, are then
 surrounded by frames of cells in which coordinates are turned into the complex plane, see `fem.complex_scaling`. Frames
@@ -217,7 +217,7 @@ def reach(
         first: radians of the shortest wave that the first frame holds.
         growth: ratio of the distances of successive frames.
         angle: α.
-        tolerance: asked relative error.
+        tolerance: largest relative error that is accepted.
     """
     longest, shortest = wavenumbers
     decades = log(1.0 / (CUT * tolerance))

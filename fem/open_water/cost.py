@@ -40,13 +40,13 @@ class DecayCost:
     memory: float
 
 
-def decay_cost(water: Tank, tolerance: float, asked: DecayRequest) -> DecayCost:
+def decay_cost(water: Tank, tolerance: float, request: DecayRequest) -> DecayCost:
     """Estimate the cost; gmsh makes the first mesh.
 
     Args:
         water: open water in SI units.
-        tolerance: asked error of the motion over the initial displacement.
-        asked: the release.
+        tolerance: largest error of the motion that is accepted, relative to the initial displacement.
+        request: the release.
 
     Raises:
         MeshError: if no mesh can be made.
@@ -54,7 +54,7 @@ def decay_cost(water: Tank, tolerance: float, asked: DecayRequest) -> DecayCost:
     at_rest = [body.hydrostatics for body in water.floats.values()]
     # Far above the waves liquids add about the mass of the float, and only the logarithm of the frequency matters.
     expected = sorted(sqrt(own.heave_stiffness / (2.0 * own.mass)) for own in at_rest)
-    band = ray_band(water, tolerance, asked, expected)
+    band = ray_band(water, tolerance, request, expected)
     resolution = first_resolution(water, tolerance, band)
     mesh = first_mesh(water, tolerance, band, resolution, angle=ANGLE)
     vertices, cells, degree = len(mesh.points), len(mesh.cells), resolution.degree

@@ -1,4 +1,4 @@
-"""Resonances that die out so fast that the waves which left when all was larger hide them.
+"""Strongly damped resonances, whose outgoing waves grow faster with the distance than complex scaling can follow.
 
 Their conjugate grows as e^{−iω̄t}, and waves only come in. At λ̄, above the axis, the outgoing waves of T = A − λ̄M
 decay with the distance, the faster the further from the axis, and coordinates are turned by a small angle only. With
@@ -130,7 +130,7 @@ class DampedSolver:
 
     Args:
         model: the problem, with coordinates turned by `mirror_angle`.
-        watch: told the time.
+        watch: records the time by stage.
     """
 
     def __init__(self, model: OpenModel, watch: Stopwatch) -> None:

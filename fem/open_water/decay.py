@@ -1,4 +1,4 @@
-"""The motion of bodies in open water after a float is let go at rest on still water.
+"""Free motion of bodies in open water after a float is released at rest on still water.
 
 With p for d/dt and λ = −p², from a displacement a₀
 
@@ -71,13 +71,13 @@ class DriftingFloatError(ValueError):
 
 @dataclass(frozen=True, kw_only=True)
 class DecaySolution:
-    """What a decay analysis found.
+    """Result of a decay analysis.
 
     Attributes:
-        table: the numbers.
-        model: the last problem.
-        error: the largest error over the initial displacement.
-        solved: how many frequencies of the ray were solved in full at last.
+        table: the results in SI units.
+        model: the last field model.
+        error: the largest error relative to the initial displacement.
+        solved: number of frequencies of the ray that were solved in full at the last resolution.
     """
 
     table: DecayTable
@@ -87,8 +87,8 @@ class DecaySolution:
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Ringing:
-    """The resonances to the right of the ray, dimensionless. Shapes: n times, m body unknowns.
+class _ResonantMotion:
+    """The sum over the resonances to the right of the ray, dimensionless. Shapes: n times, m body unknowns.
 
     Attributes:
         motion: Σ 2 Re(rⱼ e^{pⱼt}), shape (n, m).
@@ -109,12 +109,12 @@ class _Waves:
     found: RayMotion
 
 
-def solve_decay(problem: OpenWaterProblem, asked: DecayRequest) -> DecaySolution:
+def solve_decay(problem: OpenWaterProblem, request: DecayRequest) -> DecaySolution:
     """Motion after a release, with an error below the tolerance times the initial displacement (collective).
 
     Args:
         problem: the open water.
-        asked: the release.
+        request: the release.
 
     Raises:
         EigenSolverError: if SLEPc fails.
@@ -122,26 +122,26 @@ def solve_decay(problem: OpenWaterProblem, asked: DecayRequest) -> DecaySolution
         DriftingFloatError: if a float would drift away.
     """
     limit = infinite_frequency_limit(problem)
-    _check_release(limit, asked)
+    _check_release(limit, request)
     # Beams have shapes that vibrate much faster, and bend as if at rest in the motion of the float.
     fastest = max(limit.frequencies(floats=True))
     expected = [omega for omega in limit.frequencies() if omega <= _FAST * fastest]
     region = Region(lowest=0.2 * expected[0], highest=1.3 * expected[-1], damping=tan(_SEARCHED))
     _, resonances = rough_resonances(problem, expected, region)
     ray = ray_between(resonances)
-    # The last one tells what the sum misses of the initial displacement.
-    times = np.array([*asked.times, 0.0])
-    band = ray_band(problem.tank, problem.tolerance, asked, expected)
+    # At t = 0 the sum of both parts should be the initial displacement.
+    times = np.array([*request.times, 0.0])
+    band = ray_band(problem.tank, problem.tolerance, request, expected)
     within = [omega for omega in resonances if -np.angle(omega) < ray.angle]
-    rung = _rung(problem, asked, within, band.highest)
+    resonant = _resonant_motion(problem, request, within, band.highest)
 
     def solve(resolution: Resolution) -> Attempt[_Waves]:
         # Dry modes are judged at the resonances, and both parts move in the same ones.
-        resolution = replace(resolution, shapes=rung.resolution.shapes)
+        resolution = replace(resolution, shapes=resonant.resolution.shapes)
         added = _infinite_frequency_added_mass(problem, resolution)
         model = open_model(problem, band, resolution, angle=ray.scaling)
         unit = model.basin.units.frequency
-        initial = _initial(model, asked)
+        initial = _initial(model, request)
         integral = RayIntegral(
             model=model,
             limit=model.scale.unknown_masses(added),
@@ -153,50 +153,50 @@ def solve_decay(problem: OpenWaterProblem, asked: DecayRequest) -> DecaySolution
         )
         found = integral.followed(times * unit, endless=is_endless(problem.tank))
         size = np.abs(initial).max()
-        missed = np.abs(rung.result.motion[-1] + found.motion[-1] - initial).max()
-        causes = replace(found.errors, liquid=found.errors.liquid + rung.result.errors + missed).scaled(1.0 / size)
+        missed = np.abs(resonant.result.motion[-1] + found.motion[-1] - initial).max()
+        causes = replace(found.errors, liquid=found.errors.liquid + resonant.result.errors + missed).scaled(1.0 / size)
         return Attempt(result=_Waves(model=model, found=found), causes=causes, resolution=resolution)
 
     waves = best_over_band(problem, band, solve).result
-    return _solution(asked, rung.result, waves)
+    return _solution(request, resonant.result, waves)
 
 
-def ray_band(water: Tank, tolerance: float, asked: DecayRequest, expected: list[float]) -> Band:
+def ray_band(water: Tank, tolerance: float, request: DecayRequest, expected: list[float]) -> Band:
     """The frequencies of the ray's mesh.
 
     Args:
         water: open water in SI units.
-        tolerance: asked error of the motion over the initial displacement.
-        asked: the release.
+        tolerance: largest error of the motion that is accepted, relative to the initial displacement.
+        request: the release.
         expected: about those at which the bodies oscillate, rad/s, ascending.
     """
-    latest = max(*asked.times, 1.0 / expected[-1])
+    latest = max(*request.times, 1.0 / expected[-1])
     return Band(
         lowest=min(slowest_meshed(water, latest), expected[0]),
         highest=fastest_meshed(expected[-1], tolerance),
     )
 
 
-def _solution(asked: DecayRequest, rung: _Ringing, waves: _Waves) -> DecaySolution:
-    """Both parts together."""
+def _solution(request: DecayRequest, resonant: _ResonantMotion, waves: _Waves) -> DecaySolution:
+    """The motion in the resonances and that along the ray together."""
     model, found = waves.model, waves.found
-    initial = _initial(model, asked)
-    motion = rung.motion + found.motion
-    # What the sum at t = 0 misses is of high frequency, and fades but for the ringing of beams.
+    initial = _initial(model, request)
+    motion = resonant.motion + found.motion
+    # The difference from the initial displacement at t = 0 is of high frequency, and decays but in vibrating beams.
     missed = np.abs(motion[-1] - initial).max()
     fades = not model.basin.tank.beams
-    times = np.array(asked.times) * model.basin.units.frequency
-    errors = (rung.errors + found.errors.total)[:-1] + missed / (1.0 + fades * (rung.fastest * times) ** 2)
+    times = np.array(request.times) * model.basin.units.frequency
+    errors = (resonant.errors + found.errors.total)[:-1] + missed / (1.0 + fades * (resonant.fastest * times) ** 2)
     return DecaySolution(
-        table=_table(asked, model, motion[:-1], errors, found.slow),
+        table=_table(request, model, motion[:-1], errors, found.slow),
         model=model,
         error=float(errors.max() / np.abs(initial).max()),
         solved=found.solved,
     )
 
 
-def _check_release(limit: InfiniteFrequencyLimit, asked: DecayRequest) -> None:
-    """Refuse what does not come back to where it rests.
+def _check_release(limit: InfiniteFrequencyLimit, request: DecayRequest) -> None:
+    """Refuse a release after which a body does not come back to rest where it was.
 
     Raises:
         UnstableFloatError: if a float would capsize.
@@ -206,37 +206,37 @@ def _check_release(limit: InfiniteFrequencyLimit, asked: DecayRequest) -> None:
     if np.any(restoring[limit.of_floats] < 0.0):
         raise UnstableFloatError("a float is unstable and would capsize")
     loose = restoring == 0.0
-    given = {"heave": asked.heave, "roll": asked.roll}
-    own = [label if body == asked.body else "" for body, label in limit.motions]
+    given = {"heave": request.heave, "roll": request.roll}
+    own = [label if body == request.body else "" for body, label in limit.motions]
     initial = np.array([given.get(label, 0.0) for label in own])
     pushed = (limit.mass + limit.added_mass) @ initial
     if np.any(np.abs(pushed[loose]) > _PUSHED * np.abs(pushed).max()):
         raise DriftingFloatError(sorted({limit.motions[place][1] for place in np.flatnonzero(loose)}))
 
 
-def _rung(
-    problem: OpenWaterProblem, asked: DecayRequest, resonances: list[complex], highest: float
-) -> Attempt[_Ringing]:
-    """The resonances' part of the motion, on a mesh for their waves (collective).
+def _resonant_motion(
+    problem: OpenWaterProblem, request: DecayRequest, resonances: list[complex], highest: float
+) -> Attempt[_ResonantMotion]:
+    """The motion in the resonances to the right of the ray, on a mesh for their waves (collective).
 
     Args:
         problem: the open water.
-        asked: the release.
+        request: the release.
         resonances: those to the right of the ray, rad/s, roughly.
         highest: frequency of the ray's mesh, rad/s: both have the same basin, and the same units.
     """
     lowest = min((_BELOW * abs(omega) for omega in resonances), default=highest)
     band = Band(lowest=lowest, highest=highest)
-    times = np.array([*asked.times, 0.0])
+    times = np.array([*request.times, 0.0])
 
-    def solve(resolution: Resolution) -> Attempt[_Ringing]:
+    def solve(resolution: Resolution) -> Attempt[_ResonantMotion]:
         model = open_model(problem, band, resolution, angle=ANGLE)
         with problem.watch.stage("resonances"):
             search = ResonanceSearch(model.pencil, model.stiffness, model.mass)
             poles = [search.refined(model.squared_frequency(omega)) for omega in resonances]
         with problem.watch.stage("errors"):
             causes = resonance_errors(model, poles)
-        initial = _initial(model, asked)
+        initial = _initial(model, request)
         residues = _residues(model, poles, initial)
         scaled = times * model.basin.units.frequency
         omegas = [complex(np.sqrt(pole.eigenvalue)) for pole in poles]
@@ -247,7 +247,7 @@ def _rung(
             # Of the phase and decay of each.
             swing = 2.0 * np.abs(residue).max() * np.exp(omega.imag * scaled)
             phases[row] = swing * (1.0 + abs(omega) * scaled)
-        found = _Ringing(motion=motion, errors=causes.total @ phases, fastest=max(map(abs, omegas), default=1.0))
+        found = _ResonantMotion(motion=motion, errors=causes.total @ phases, fastest=max(map(abs, omegas), default=1.0))
         weights = phases.max(axis=1) / (_SHARE * np.abs(initial).max())
         return Attempt(result=found, causes=causes.scaled(weights), resolution=resolution)
 
@@ -269,40 +269,40 @@ def _infinite_frequency_added_mass(problem: OpenWaterProblem, resolution: Resolu
     return scale.masses(matrix)
 
 
-def _initial(model: OpenModel, asked: DecayRequest) -> np.ndarray:
+def _initial(model: OpenModel, request: DecayRequest) -> np.ndarray:
     """a₀ in body unknowns."""
     scale = model.scale
-    own = "" if len(model.pencil.bodies) == 1 else f"body_{asked.body + 1}__"
-    given = {f"{own}heave": asked.heave, f"{own}roll": asked.roll}
+    own = "" if len(model.pencil.bodies) == 1 else f"body_{request.body + 1}__"
+    given = {f"{own}heave": request.heave, f"{own}roll": request.roll}
     motions = np.array([given.get(name, 0.0) for name in scale.dofs])
     unknowns: np.ndarray = np.linalg.solve(scale.turn, motions / scale.lengths)
     return unknowns
 
 
 def _table(
-    asked: DecayRequest, model: OpenModel, motion: np.ndarray, errors: np.ndarray, slow: np.ndarray | None
+    request: DecayRequest, model: OpenModel, motion: np.ndarray, errors: np.ndarray, slow: np.ndarray | None
 ) -> DecayTable:
     scale = model.scale
     # Amplitudes are per metre; the unknowns are per unit of length.
     factor = model.basin.units.length
-    times = np.array(asked.times)
+    times = np.array(request.times)
     return DecayTable(
         times=times,
         dofs=scale.dofs,
         displacement=scale.amplitudes(motion) * factor,
-        initial=scale.amplitudes(_initial(model, asked)) * factor,
+        initial=scale.amplitudes(_initial(model, request)) * factor,
         absolute_error=errors * factor,
-        tail=_tail(asked, model, slow),
+        tail=_tail(request, model, slow),
         certified_until=float(times.max()),
     )
 
 
-def _tail(asked: DecayRequest, model: OpenModel, slow: np.ndarray | None) -> float | None:
-    """T of a ~ T/t² of the motion that was let go; none where the water has a bed, or where two were."""
-    mixed = asked.heave != 0.0 and asked.roll != 0.0
+def _tail(request: DecayRequest, model: OpenModel, slow: np.ndarray | None) -> float | None:
+    """T of the tail a ~ T/t² of the released motion; ``None`` over a bed, or if two motions were released."""
+    mixed = request.heave != 0.0 and request.roll != 0.0
     if mixed or slow is None:
         return None
-    initial = _initial(model, asked)
+    initial = _initial(model, request)
     restored = np.flatnonzero(np.diag(model.stiffness) > 0.0)
     own = np.ix_(restored, restored)
     tail = np.zeros(len(initial))

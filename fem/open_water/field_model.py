@@ -1,4 +1,4 @@
-"""The field model of open water for a range of frequencies: basin, frames, mesh, pencil, and how good it is."""
+"""The field model of open water for a range of frequencies: basin, frames, mesh, pencil, and its errors."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ class OpenModel:
         resolution: of the basin.
         reach: of the frames.
         shortest: largest wavenumber of the waves that leave.
-        tolerance: asked relative error.
+        tolerance: largest relative error that is accepted.
         pencil: the dimensionless problem, in units of the basin.
     """
 
@@ -195,7 +195,7 @@ def first_resolution(water: Tank, tolerance: float, band: Band, *, drawn: float 
 
     Args:
         water: open water in SI units.
-        tolerance: asked relative error.
+        tolerance: largest relative error that is accepted.
         band: the frequencies.
         drawn: as for `open_basin`.
     """
@@ -268,7 +268,7 @@ def first_mesh(water: Tank, tolerance: float, band: Band, resolution: Resolution
 
     Args:
         water: open water in SI units.
-        tolerance: asked relative error.
+        tolerance: largest relative error that is accepted.
         band: the frequencies.
         resolution: of the basin.
         angle: α of the complex scaling.

@@ -1,4 +1,4 @@
-"""Incident waves: what they press against the bodies, and the far field of what the bodies send back.
+"""Incident waves: their pressures on the bodies, and amplitudes of radiated and scattered waves far away.
 
 A wave φ± = e^{±ikx} Z(y) travels to the right or to the left. With the fluxes I(φ) of `fem.far_field` an outgoing
 ψ ~ c± e^{±ikx} Z has

@@ -52,10 +52,10 @@ class InfiniteFrequencyLimit:
     motions: tuple[tuple[int, str], ...]
 
     def frequencies(self, *, floats: bool = False) -> list[float]:
-        """Frequencies without waves, rad/s, ascending, of those motions that something restores.
+        """Natural frequencies with this added mass, rad/s, ascending, of the motions that something restores.
 
         Args:
-            floats: whether the floats alone are to move.
+            floats: whether only the floats move.
         """
         chosen = self.of_floats if floats else np.ones(len(self.stiffness), dtype=bool)
         restoring, whole = np.diag(self.stiffness), self.mass + self.added_mass

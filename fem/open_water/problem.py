@@ -20,7 +20,7 @@ class OpenWaterProblem:
     Attributes:
         comm: MPI communicator.
         tank: open water in SI units, with at least one body.
-        tolerance: asked relative error.
+        tolerance: largest relative error that is accepted.
         watch: records the time by stage.
     """
 

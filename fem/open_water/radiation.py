@@ -1,4 +1,4 @@
-"""Added mass, damping and excitation over the frequency, in SI units."""
+"""Added mass, radiation damping and excitation forces over the frequency, in SI units."""
 
 from __future__ import annotations
 
@@ -37,11 +37,11 @@ _JUDGED = 5
 
 @dataclass(frozen=True, kw_only=True)
 class RadiationSolution:
-    """What a radiation analysis found.
+    """Result of a radiation analysis.
 
     Attributes:
-        table: the numbers.
-        model: the last problem; ``None`` where only the limit above the waves was asked.
+        table: the results in SI units.
+        model: the last field model; ``None`` where only limits of frequency were requested.
         error: the largest relative error.
     """
 
@@ -50,17 +50,17 @@ class RadiationSolution:
     error: float
 
 
-def solve_radiation(problem: OpenWaterProblem, asked: RadiationRequest) -> RadiationSolution:
+def solve_radiation(problem: OpenWaterProblem, request: RadiationRequest) -> RadiationSolution:
     """Solve for added mass, damping and excitation to the tolerance of the problem (collective).
 
     Args:
         problem: the open water.
-        asked: frequencies and shapes.
+        request: frequencies and shapes.
     """
-    omegas = np.array([omega for omega in asked.omega if isfinite(omega) and omega > 0.0])
-    shapes = _reported_shapes(open_basin(problem.tank, 0.0).tank, asked.elastic_modes)
+    omegas = np.array([omega for omega in request.omega if isfinite(omega) and omega > 0.0])
+    shapes = _reported_shapes(open_basin(problem.tank, 0.0).tank, request.elastic_modes)
     attempt = _swept(problem, omegas, shapes) if len(omegas) else None
-    return _tabulated(problem, asked, shapes, attempt)
+    return _tabulated(problem, request, shapes, attempt)
 
 
 def _reported_shapes(tank: Tank, elastic: int) -> tuple[int, ...]:
@@ -151,7 +151,7 @@ def joined_errors(causes: list[FrequencyErrors], reduced: float) -> FrequencyErr
 
 def _tabulated(
     problem: OpenWaterProblem,
-    asked: RadiationRequest,
+    request: RadiationRequest,
     shapes: tuple[int, ...],
     attempt: Attempt[_Sweep] | None,
 ) -> RadiationSolution:
@@ -164,17 +164,17 @@ def _tabulated(
     if attempt is not None:
         errors.append(attempt.error)
         swept, in_full = attempt.result.swept.solutions, attempt.result.swept.in_full
-        rows |= {row.omega: row for row in map(_row, _finite(asked), swept, attempt.result.errors, in_full)}
-    if np.inf in asked.omega:
+        rows |= {row.omega: row for row in map(_row, _finite(request), swept, attempt.result.errors, in_full)}
+    if np.inf in request.omega:
         matrix, error = infinite_frequency_added_mass(problem, shapes)
         errors.append(error)
         rows[np.inf] = _limit_row(np.inf, scale.masses(matrix), len(waves), error)
-    if 0.0 in asked.omega:
+    if 0.0 in request.omega:
         rows[0.0] = _slow_row(problem, shapes, len(waves))
         errors.append(rows[0.0].relative_error)
-    ordered = [rows[omega] for omega in asked.omega]
+    ordered = [rows[omega] for omega in request.omega]
     table = RadiationTable(
-        omega=np.array(asked.omega),
+        omega=np.array(request.omega),
         dofs=scale.dofs,
         waves=waves,
         wavenumbers=np.array([row.wavenumbers for row in ordered]),
@@ -194,8 +194,8 @@ def _tabulated(
     return RadiationSolution(table=table, model=attempt.result.model if attempt else None, error=max(errors))
 
 
-def _finite(asked: RadiationRequest) -> list[float]:
-    return [omega for omega in asked.omega if isfinite(omega) and omega > 0.0]
+def _finite(request: RadiationRequest) -> list[float]:
+    return [omega for omega in request.omega if isfinite(omega) and omega > 0.0]
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,4 +1,4 @@
-"""What is left of the motion of a released body beside its resonances: an integral along a ray, on which nothing
+"""The part of the motion after a release that is not in its resonances: an integral along a ray, where nothing
 oscillates.
 
 E is S less that of the bodies with their added mass far above the waves, which adds nothing for t > 0 and makes the
@@ -110,7 +110,7 @@ class RayIntegral:
         ray: where it goes.
         band: lowest and highest frequency of the mesh, dimensionless.
         slow: frequency below which the tail is made.
-        watch: told the time.
+        watch: records the time by stage.
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-"""What may be asked of bodies in open water, SI units."""
+"""Requests to the solvers of open water, SI units."""
 
 from __future__ import annotations
 

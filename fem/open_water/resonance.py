@@ -1,4 +1,4 @@
-"""Complex resonances: where the bodies in open water oscillate by themselves and die out, ω − iγ."""
+"""Complex resonances ω − iγ: free oscillations of bodies in open water that decay by radiating waves."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ ANGLE = 1.3
 _STILL = 1e-2
 # The region searched goes beyond the expected frequencies by these factors.
 _BELOW, _ABOVE = 0.3, 1.25
-# Eigenvalues asked for near each target: a few resonances and the waves that leave around them.
+# Eigenvalues sought near each target: a few resonances and the waves that leave around them.
 _PER_TARGET = 8
 # Error of λ over what it moves by a radian of α; measured on a circle and a thin float it is smaller.
 _DRIFT = 0.1
@@ -56,11 +56,11 @@ _AT_REST = 1e-8
 
 @dataclass(frozen=True, kw_only=True)
 class ResonanceSolution:
-    """What a resonance analysis found.
+    """Result of a resonance analysis.
 
     Attributes:
-        table: the numbers.
-        model: the last problem; ``None`` where nothing restores the bodies.
+        table: the results in SI units.
+        model: the last field model; ``None`` where nothing restores the bodies.
         error: the largest relative error.
         known: number of resonances that were found in the region of the independent count.
         unstable: whether a float is unstable, so that its motion grows and is none of the resonances.
@@ -81,12 +81,12 @@ class _Found:
     pairs: list[Eigenpair]
 
 
-def solve_resonance(problem: OpenWaterProblem, asked: ResonanceRequest) -> ResonanceSolution:
+def solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> ResonanceSolution:
     """Find resonances to the tolerance of the problem, and count them independently (collective).
 
     Args:
         problem: the open water.
-        asked: how many, and where.
+        request: how many, and where.
 
     Raises:
         EigenSolverError: if SLEPc fails.
@@ -95,12 +95,12 @@ def solve_resonance(problem: OpenWaterProblem, asked: ResonanceRequest) -> Reson
     expected = infinite_frequency_limit(problem).frequencies()
     if not expected:
         return _nothing(problem)
-    region = _region(expected, asked)
+    region = _region(expected, request)
     coarse, known = rough_resonances(problem, expected, region)
     damped = None
     if region.damping > MOST_DAMPING_ANYWHERE:
         damped, known = _damped_resonances(problem, coarse.resolution, region, known)
-    values = known[: asked.count]
+    values = known[: request.count]
     band, angle = Band(lowest=region.lowest, highest=region.highest), ANGLE
     if damped:
         band, angle = _around(values, region)
@@ -118,7 +118,7 @@ def solve_resonance(problem: OpenWaterProblem, asked: ResonanceRequest) -> Reson
     found = attempt.result
     with watch.stage("count"):
         solver = damped or OpenSolver(coarse, watch)
-        closed, counted = _counted(solver, _closed_region(region, found, asked))
+        closed, counted = _counted(solver, _closed_region(region, found, request))
     return ResonanceSolution(
         table=_table(found, attempt.causes, counted, closed),
         model=found.model,
@@ -129,7 +129,7 @@ def solve_resonance(problem: OpenWaterProblem, asked: ResonanceRequest) -> Reson
 
 
 def _nothing(problem: OpenWaterProblem) -> ResonanceSolution:
-    """Where nothing restores the bodies."""
+    """The solution where nothing restores the bodies: no resonances."""
     basin = open_basin(problem.tank, 0.0)
     dofs = motion_scale(basin, whole_bodies(basin.tank, (0,) * len(basin.tank.bodies))).dofs
     table = ResonanceTable(
@@ -140,7 +140,7 @@ def _nothing(problem: OpenWaterProblem) -> ResonanceSolution:
         residuals=np.zeros(0),
         relative_error=np.zeros(0),
         counted=0,
-        region="any ω: nothing restores the bodies",
+        region=None,
     )
     return ResonanceSolution(table=table, model=None, error=0.0, known=0, unstable=False)
 
@@ -155,9 +155,9 @@ def _counted(solver: Solver, region: Region) -> tuple[Region, int | None]:
     return region, None
 
 
-def _region(expected: list[float], asked: ResonanceRequest) -> Region:
-    highest = asked.below if asked.below is not None else _ABOVE * expected[min(asked.count, len(expected)) - 1]
-    lowest, damping = _BELOW * min(expected[0], highest), asked.largest_damping
+def _region(expected: list[float], request: ResonanceRequest) -> Region:
+    highest = request.below if request.below is not None else _ABOVE * expected[min(request.count, len(expected)) - 1]
+    lowest, damping = _BELOW * min(expected[0], highest), request.largest_damping
     if damping > MOST_DAMPING_ANYWHERE:
         # What dies out fast has a small Re ω for its |ω|.
         lowest /= sqrt(1.0 + damping**2)
@@ -165,7 +165,7 @@ def _region(expected: list[float], asked: ResonanceRequest) -> Region:
 
 
 def _around(values: list[complex], region: Region) -> tuple[Band, float]:
-    """The frequencies of a mesh for some resonances of a region alone, and α of its scaling."""
+    """The frequencies of a mesh for the given resonances of a region alone, and α of its scaling."""
     sizes = [abs(omega) for omega in values] or [region.lowest, region.highest]
     damping = max((-omega.imag / omega.real for omega in values), default=region.damping)
     return Band(lowest=min(sizes) / _AROUND, highest=max(sizes) * _AROUND), mirror_angle(damping)
@@ -245,9 +245,9 @@ def _damped_resonances(
         return solver, known
 
 
-def _closed_region(region: Region, found: _Found, asked: ResonanceRequest) -> Region:
+def _closed_region(region: Region, found: _Found, request: ResonanceRequest) -> Region:
     """The region of those that are reported: it ends halfway to where the next may be."""
-    if asked.below is not None or len(found.pairs) < asked.count:
+    if request.below is not None or len(found.pairs) < request.count:
         return region
     last = max(np.sqrt(pair.eigenvalue).real for pair in found.pairs) * found.model.basin.units.frequency
     return Region(lowest=region.lowest, highest=min(region.highest, 1.02 * last), damping=region.damping)
@@ -293,5 +293,5 @@ def _table(found: _Found, causes: FrequencyErrors, counted: int | None, region: 
         residuals=np.array([pair.residual for pair in pairs]),
         relative_error=causes.total,
         counted=counted,
-        region=region.words(),
+        region=region,
     )

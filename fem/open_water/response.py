@@ -27,11 +27,11 @@ _TAIL = 0.25
 
 @dataclass(frozen=True, kw_only=True)
 class ResponseSolution:
-    """What a response analysis found.
+    """Result of a response analysis.
 
     Attributes:
-        table: the numbers.
-        model: the last problem.
+        table: the results in SI units.
+        model: the last field model.
         error: the largest relative error.
     """
 
@@ -42,27 +42,27 @@ class ResponseSolution:
 
 @dataclass(frozen=True, kw_only=True)
 class _Sweep:
-    """A sweep at one resolution."""
+    """The responses at all frequencies at one resolution."""
 
     solver: OpenSolver
     swept: Swept[OpenResponse]
     errors: np.ndarray
 
 
-def solve_response(problem: OpenWaterProblem, asked: ResponseRequest) -> ResponseSolution:
+def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> ResponseSolution:
     """Solve for the motion in waves to the tolerance of the problem (collective).
 
     Args:
         problem: the open water.
-        asked: the waves.
+        request: the waves.
     """
-    omegas = np.array(asked.omega)
+    omegas = np.array(request.omega)
     band = Band(lowest=float(omegas.min()), highest=float(omegas.max()))
 
     def solve(resolution: Resolution) -> Attempt[_Sweep]:
         model = open_model(problem, band, resolution)
         solver = OpenSolver(model, problem.watch)
-        incident = _incident(model, asked)
+        incident = _incident(model, request)
         frequencies = Problem(
             full=lambda omega: solver.response(omega.real, incident),
             reduced=lambda omega: solver.response_between(omega.real, incident),
@@ -82,31 +82,32 @@ def solve_response(problem: OpenWaterProblem, asked: ResponseRequest) -> Respons
     attempt = best_over_band(problem, band, solve)
     found = attempt.result
     model = found.solver.model
-    table = _table(asked, model, omegas, found.swept.solutions, found.errors)
+    table = _table(request, model, omegas, found.swept.solutions, found.errors)
     if len(omegas) > FEW:
-        table = replace(table, missed_peaks=_missed(asked, found.solver, table))
+        table = replace(table, missed_peaks=_missed(request, found.solver, table))
     return ResponseSolution(table=table, model=model, error=attempt.error)
 
 
-def _missed(asked: ResponseRequest, solver: OpenSolver, table: ResponseTable) -> tuple[MissedPeak, ...]:
+def _missed(request: ResponseRequest, solver: OpenSolver, table: ResponseTable) -> tuple[MissedPeak, ...]:
     """Peaks between the frequencies, by the reduced basis of the sweep (collective)."""
-    incident = _incident(solver.model, asked)
+    incident = _incident(solver.model, request)
 
     def between(omegas: np.ndarray) -> ResponseTable:
         solutions = [solver.response_between(float(omega), incident)[0] for omega in omegas]
-        return _table(asked, solver.model, omegas, solutions, np.full(len(omegas), nan))
+        return _table(request, solver.model, omegas, solutions, np.full(len(omegas), nan))
 
     return missed_peaks(table, solver.resonances_between(), between)
 
 
-def _incident(model: OpenModel, asked: ResponseRequest) -> list[int]:
+def _incident(model: OpenModel, request: ResponseRequest) -> list[int]:
     """Places of the waves that come: those to the right are first."""
     count = len(model.basin.scaled_layers.branches)
-    return list(range(count)) if asked.waves_from == "left" else list(range(count, 2 * count))
+    return list(range(count)) if request.waves_from == "left" else list(range(count, 2 * count))
 
 
 def _outcome(solution: OpenResponse) -> np.ndarray:
-    """What the accuracy is asked of: elevations of the waves that leave, and motions, per incident elevation."""
+    """The quantities whose error is kept below the tolerance: elevations of the waves that leave, and motions, per
+    incident elevation."""
     elevations = solution.incidence.elevations
     incident = elevations[solution.incident]
     waves = solution.outgoing() * elevations[:, None] / incident
@@ -142,7 +143,7 @@ def _truncation(motions: np.ndarray, model: OpenModel) -> float:
 
 
 def _table(
-    asked: ResponseRequest, model: OpenModel, omegas: np.ndarray, solutions: list[OpenResponse], errors: np.ndarray
+    request: ResponseRequest, model: OpenModel, omegas: np.ndarray, solutions: list[OpenResponse], errors: np.ndarray
 ) -> ResponseTable:
     first = solutions[0]
     count = len(first.incident)
@@ -156,13 +157,13 @@ def _table(
         wavenumbers=np.array([[plane.wave.wavenumber for plane in one.incidence.planes[:count]] for one in solutions])
         / model.basin.units.length,
         dofs=model.scale.dofs,
-        waves_from=asked.waves_from,
+        waves_from=request.waves_from,
         amplitudes=model.scale.amplitudes(motions),
         reflection=waves[:, :, back],
         transmission=waves[:, :, forward],
         energy_residual=np.array([solution.energy_residual() for solution in solutions]),
         relative_error=errors,
-        plates=tuple(_plates(asked, model, motions)),
+        plates=tuple(_plates(request, model, motions)),
     )
 
 
@@ -185,14 +186,14 @@ def _motions(solution: OpenResponse) -> np.ndarray:
     return motions
 
 
-def _plates(asked: ResponseRequest, model: OpenModel, motions: np.ndarray) -> list[PlateDeflection]:
+def _plates(request: ResponseRequest, model: OpenModel, motions: np.ndarray) -> list[PlateDeflection]:
     plates, first = [], 0
     for index, body in enumerate(model.pencil.bodies):
         own = motions[..., first : first + body.size]
         first += body.size
         if index in model.basin.tank.beams:
             piece, length = model.basin.tank.piece_of(index), model.basin.units.length
-            x = np.linspace(piece.start, piece.end, asked.positions)
+            x = np.linspace(piece.start, piece.end, request.positions)
             plates.append(
                 PlateDeflection(
                     body=index,

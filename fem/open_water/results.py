@@ -1,4 +1,4 @@
-"""What the analyses of open water give, per metre of width in SI units, with the time factor e^{−iωt}.
+"""Results of the analyses of open water, per metre of width in SI units, with the time factor e^{−iωt}.
 
 Bodies move in `dofs`: "heave", "sway", "roll", "pitch", "elastic 1" …, with "body_2__" in front where there are several
 bodies. Waves are the branches of the dispersion relation, "surface" and "internal".
@@ -11,6 +11,8 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
+
+from hydroelastic.fem.open_water.region import Region
 
 Floats: TypeAlias = npt.NDArray[np.float64]
 Complexes: TypeAlias = npt.NDArray[np.complex128]
@@ -35,11 +37,11 @@ class RadiationTable:
         diffraction_force: (n, w, 2, m) the part of the scattered waves.
         relative_error: (n,) estimated relative error of a + ib/ω.
         energy_residual: (n,) relative difference of b and the power that leaves.
-        haskind_residual: (n,) relative difference of the excitation and what radiated waves say of it.
+        haskind_residual: (n,) relative difference of the excitation and Haskind's formula with the radiated waves.
         inertia: (m, m) of the bodies.
         stiffness: (m, m) of the bodies and hydrostatics.
-        infinite_frequency_added_mass: (m, m), if it was asked for or needed.
-        factorizations: how many there were.
+        infinite_frequency_added_mass: (m, m), the limit of infinite frequency, if it was requested.
+        factorizations: number of factorizations.
     """
 
     omega: Floats
@@ -112,7 +114,7 @@ class ResponseTable:
         energy_residual: (n, w) relative difference of the power that comes and leaves.
         relative_error: (n,) estimated relative error of the amplitudes.
         plates: one for each beam.
-        missed_peaks: what curves over ω do not show, where a reduced basis tells.
+        missed_peaks: peaks that curves over ω do not show, found on a reduced basis.
     """
 
     omega: Floats
@@ -140,8 +142,8 @@ class ResonanceTable:
         body_amplitudes: (r, m) of the motions; the dominant one is 1.
         residuals: (r,) relative residual of the equations.
         relative_error: (r,) estimated relative error of ω.
-        counted: how many an independent count found in the region; None where it was not made.
-        region: the region of ω in words.
+        counted: number of resonances in the region by an independent count; ``None`` where that is not certain.
+        region: of ω in which they were counted; ``None`` where nothing restores the bodies.
     """
 
     omega: Complexes
@@ -151,12 +153,12 @@ class ResonanceTable:
     residuals: Floats
     relative_error: Floats
     counted: int | None
-    region: str
+    region: Region | None
 
 
 @dataclass(frozen=True, kw_only=True)
 class DecayTable:
-    """The motion of a float that is let go at rest. Shapes: n times, m motions.
+    """The motion of a float that is released at rest. Shapes: n times, m motions.
 
     Attributes:
         times: (n,) s.
@@ -164,7 +166,7 @@ class DecayTable:
         displacement: (n, m) m or rad.
         initial: (m,) the displacement at t = 0.
         absolute_error: (n,) estimated error of the displacement.
-        tail: T of the tail T/t² of the motion let go, m s² or rad s²; None where no tail is known.
+        tail: T of the tail T/t² of the released motion, m s² or rad s²; None where no tail is known.
         certified_until: the time to which the error holds, s.
     """
 

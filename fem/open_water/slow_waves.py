@@ -1,4 +1,4 @@
-"""H of bodies in endless liquids in waves so long that its form is known, and no mesh is needed.
+"""Low-frequency series of H in endless liquids, used below the frequencies that the mesh resolves.
 
 With κ = kb, b the length of the basin, and L = ln p on a line p = −iω of the complex plane,
 
@@ -35,7 +35,7 @@ _HARDLY = 0.02
 
 @dataclass(frozen=True, kw_only=True)
 class LongWaves:
-    """The series. Shapes: m body unknowns.
+    """The low-frequency series of H. Shapes: m body unknowns.
 
     Attributes:
         unit: the frequency |ω| at which κ counts as 1 and L has no real part.
@@ -90,7 +90,7 @@ def slowest_meshed(water: Tank, latest: float) -> float:
 
     Args:
         water: open water in SI units.
-        latest: the last time that is asked for, s.
+        latest: the last time at which the motion is wanted, s.
     """
     if not is_endless(water):
         return _HARDLY / latest
@@ -100,5 +100,5 @@ def slowest_meshed(water: Tank, latest: float) -> float:
 
 
 def is_endless(water: Tank) -> bool:
-    """Whether no liquid has a bed or a top far away."""
+    """Whether all liquids are infinitely deep."""
     return all(isinf(layer.depth) for layer in water.layers)

@@ -1,4 +1,4 @@
-"""Solutions of an open model at any frequency: in full, by a factorization, or on a reduced basis of those in full."""
+"""Solutions of a field model at any frequency: in full by a factorization, or on a reduced basis of such solutions."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class OpenSolver:
 
     Args:
         model: the problem.
-        watch: told the time.
+        watch: records the time by stage.
     """
 
     def __init__(self, model: OpenModel, watch: Stopwatch) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from hydroelastic.fem.open_water.region import Region
 from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, ResonanceTable, ResponseTable
 from hydroelastic.scenes.models.tank import TankScene
 
@@ -37,3 +38,10 @@ class OpenSolution:
     def status(self) -> Literal["ok", "unconverged"]:
         """Whether everything that was asked is kept."""
         return "unconverged" if self.reasons else "ok"
+
+
+def region_words(region: Region | None) -> str:
+    """Return in which region of ω resonances were sought, in words."""
+    if region is None:
+        return "any ω: nothing restores the bodies"
+    return f"{region.lowest:.4g} < Re ω < {region.highest:.4g} rad/s, −Im ω < {region.damping:g} Re ω"

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from hydroelastic.fem.open_water.region import Region
 from hydroelastic.fem.open_water.results import (
     DecayTable,
     PlateDeflection,
@@ -151,7 +152,7 @@ def _resonance(scene: TankScene, analysis: Resonance, numbers: np.random.Generat
         residuals=np.full(count, 1e-11),
         relative_error=np.full(count, 1e-7),
         counted=count,
-        region="0 < Re ω < 5 rad/s, −Im ω < 0.5 Re ω",
+        region=Region(lowest=0.0, highest=5.0, damping=0.5),
     )
 
 

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-
-from mpi4py import MPI
+from typing import TYPE_CHECKING
 
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.physics.tank import Tank
+
+if TYPE_CHECKING:
+    # A scene is checked without starting MPI.
+    from mpi4py import MPI
 
 # Tolerance of solutions that only tell where to look.
 _ROUGH = 1e-3

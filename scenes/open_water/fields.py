@@ -74,7 +74,7 @@ def open_fields(solution: OpenSolution, comm: MPI.Comm, watch: Stopwatch) -> Ite
     Args:
         solution: what the tables say.
         comm: MPI communicator.
-        watch: told the time.
+        watch: records the time by stage.
 
     Raises:
         MeshError: by the fields, if no mesh can be made.

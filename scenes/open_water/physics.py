@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mpi4py import MPI
+from typing import TYPE_CHECKING
 
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.requests import DecayRequest, RadiationRequest, ResonanceRequest, ResponseRequest
@@ -10,6 +10,10 @@ from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.scenes.models.open_analyses import Decay, Radiation, Resonance, Response
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
+
+if TYPE_CHECKING:
+    # A scene is checked without starting MPI.
+    from mpi4py import MPI
 
 
 def open_water_problem(scene: TankScene, comm: MPI.Comm, watch: Stopwatch) -> OpenWaterProblem:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import inf
+
 from hydroelastic.modal.beam.estimates import all_estimates, estimates_of_jointed_beams
 from hydroelastic.modal.beam.floating_beam import FloatingBeam
 from hydroelastic.modal.estimate import Estimate
@@ -65,7 +67,7 @@ def two_layers(tank: Tank) -> TwoLayers:
         density_below=lower.density,
         density_above=upper.density if len(tank.layers) == 2 else 0.0,
         depth_below=lower.depth,
-        depth_above=upper.depth,
+        depth_above=upper.depth if len(tank.layers) == 2 else inf,
         gravity=tank.gravity,
         top=tank.top,
     )

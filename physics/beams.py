@@ -116,6 +116,10 @@ class Beam:
         """Whether its mass per length is the same everywhere."""
         return len({part.mass_per_length for part in self.sections}) == 1
 
+    def moved(self, shift: float) -> Beam:
+        """Return the same beam further to the right, m."""
+        return replace(self, start=self.start + shift)
+
     def scaled(self, units: Scales, start: float, end: float) -> Beam:
         """Return the beam in other units, between given ends in these units."""
         # One section fills the whole length to the last digit.

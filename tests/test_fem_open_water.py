@@ -7,25 +7,30 @@ import math
 import numpy as np
 import pytest
 from mpi4py import MPI
-from open_cases import circle, circle_omega, section, stored, two_liquids
+from open_cases import circle, circle_omega, problem_of, section, stored, two_liquids
 from petsc4py import PETSc
 
 from hydroelastic.fem.open_water.complex_direct import ShiftedSolver
 from hydroelastic.fem.open_water.complex_scaling import ComplexMatrix, complex_product
-from hydroelastic.fem.reduced_pencil import ReducedPencil
+from hydroelastic.fem.open_water.field_model import Band, OpenModel, first_resolution, open_model
+from hydroelastic.fem.open_water.incident_waves import incidence, planes
+from hydroelastic.fem.open_water.problem import OpenWaterProblem
+from hydroelastic.fem.open_water.reduced_pencil import ReducedPencil
+from hydroelastic.fem.open_water.solver import OpenSolver
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.incident_waves import incidence, planes
-from hydroelastic.scenes.open_water.model import Band, OpenModel, first_resolution, open_model
-from hydroelastic.scenes.open_water.solver import OpenSolver
 
 SECTION_ROWS = stored("open_sections.json")["cases"]
 TWO_LIQUIDS = stored("open_two_liquids.json")["cases"]
 
 
 def model_of(scene: TankScene, omega: float, angle: float | None = None) -> OpenModel:
+    return first_model(problem_of(scene), omega, angle)
+
+
+def first_model(problem: OpenWaterProblem, omega: float, angle: float | None = None) -> OpenModel:
     band = Band(lowest=omega, highest=omega)
-    return open_model(MPI.COMM_WORLD, scene, band, first_resolution(scene, band), Stopwatch(), angle=angle)
+    return open_model(problem, band, first_resolution(problem.tank, problem.tolerance, band), angle=angle)
 
 
 @pytest.fixture(scope="module")
@@ -199,10 +204,10 @@ def test_coordinates_turn_outwards_alone(rectangle: OpenModel) -> None:
 @pytest.mark.mpi
 def test_two_processes_assemble_the_same() -> None:
     row = TWO_LIQUIDS[1]
-    together = model_of(two_liquids(row, 1e-4), row["omega"]).pencil
-    band = Band(lowest=row["omega"], highest=row["omega"])
-    scene = two_liquids(row, 1e-4)
-    alone = open_model(MPI.COMM_SELF, scene, band, first_resolution(scene, band), Stopwatch()).pencil
+    together, alone = (
+        first_model(problem_of(two_liquids(row, 1e-4), comm), row["omega"]).pencil
+        for comm in (MPI.COMM_WORLD, MPI.COMM_SELF)
+    )
     assert together.size == alone.size
     for one, other in ((together.laplace, alone.laplace), (together.mass, alone.mass)):
         for part in ("real", "imaginary"):

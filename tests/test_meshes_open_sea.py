@@ -8,9 +8,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from open_cases import section, slender, stored, two_liquids
+from open_cases import problem_of, section, slender, stored, two_liquids
 from open_tables import open_scene
 
+from hydroelastic.fem.open_water.basin import OpenBasin, open_basin, reach
+from hydroelastic.fem.open_water.field_model import Band, first_resolution, open_mesh
 from hydroelastic.meshes.geometry import (
     BOTTOM,
     FAR_END,
@@ -26,8 +28,6 @@ from hydroelastic.meshes.geometry import (
 from hydroelastic.meshes.open_sea import Frames, extended, with_far_ends
 from hydroelastic.meshes.tagged_mesh import TaggedMesh
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.basin import OpenBasin, open_basin, reach
-from hydroelastic.scenes.open_water.model import Band, first_resolution, open_mesh
 
 SECTIONS = stored("open_sections.json")["cases"]
 TWO_LIQUIDS = stored("open_two_liquids.json")["cases"]
@@ -119,11 +119,12 @@ def test_far_ends_are_one() -> None:
 def sea(scene: TankScene, omega: float) -> tuple[TaggedMesh, OpenBasin, float]:
     """The mesh of a scene, its basin, and how far it reaches beyond."""
     band = Band(lowest=omega, highest=omega)
-    shortest = band.wavenumbers(scene)[1]
-    basin = open_basin(scene, shortest)
+    water = problem_of(scene).tank
+    shortest = band.wavenumbers(water)[1]
+    basin = open_basin(water, shortest)
     k = shortest * basin.units.length
     around = reach(basin, (k, k), first=2.0, growth=2.0, angle=0.8, tolerance=1e-4)
-    return open_mesh(basin, first_resolution(scene, band), around), basin, around.farthest
+    return open_mesh(basin, first_resolution(water, scene.accuracy.tolerance, band), around), basin, around.farthest
 
 
 def test_float_over_a_bed() -> None:

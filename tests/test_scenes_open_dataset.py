@@ -10,14 +10,14 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray
-from mpi4py import MPI
+from open_cases import problem_of
 from open_tables import CIRCLE, DEEP, FROM_BOTH_SIDES, OIL, arbitrary_solution, open_scene, two_bodies
 
-from hydroelastic.fem.stopwatch import Stopwatch
+from hydroelastic.fem.open_water.radiation import solve_radiation
+from hydroelastic.fem.open_water.response import solve_response
 from hydroelastic.scenes.models.open_analyses import Radiation, Response
 from hydroelastic.scenes.open_water.dataset import open_dataset
-from hydroelastic.scenes.open_water.radiation import solve_radiation
-from hydroelastic.scenes.open_water.response import solve_response
+from hydroelastic.scenes.open_water.physics import radiation_request, response_request
 from hydroelastic.scenes.output.dataset import write_dataset
 
 
@@ -88,14 +88,14 @@ def test_motions_in_waves_follow_from_the_dataset_of_radiation() -> None:
         {"kind": "response", "omega": [3.0], "waves_from": "right"},
     ]
     scene = open_scene(ellipse, liquids=(DEEP, OIL), analyses=analyses)
-    watch = Stopwatch()
+    problem = problem_of(scene)
     radiation, *responses = scene.analyses
     assert isinstance(radiation, Radiation)
     solution = replace(
         arbitrary_solution(scene),
-        radiation=(solve_radiation(MPI.COMM_WORLD, scene, radiation, watch).table,),
+        radiation=(solve_radiation(problem, radiation_request(radiation)).table,),
         response=tuple(
-            solve_response(MPI.COMM_WORLD, scene, response, watch).table
+            solve_response(problem, response_request(response)).table
             for response in responses
             if isinstance(response, Response)
         ),

@@ -10,19 +10,19 @@ import meshio
 import numpy as np
 import pytest
 from mpi4py import MPI
-from open_cases import DENSITY, GRAVITY, RADIUS, circle
+from open_cases import DENSITY, GRAVITY, RADIUS, circle, problem_of
 from open_tables import open_scene
 from PIL import Image
 
 from hydroelastic.fem.modes import EigenSolverError
-from hydroelastic.fem.open_water.resonances import ResonanceSearch
+from hydroelastic.fem.open_water.basin import open_basin
+from hydroelastic.fem.open_water.resonance_search import ResonanceSearch
 from hydroelastic.fem.pictures.canvas import NoRendererError
 from hydroelastic.fem.pictures.gif import FRAMES
 from hydroelastic.fem.pictures.options import PictureOptions
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.scenes.models.open_analyses import Radiation, Resonance
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.basin import open_basin
 from hydroelastic.scenes.open_water.field_pictures import draw_fields
 from hydroelastic.scenes.open_water.field_samples import SampledField, sample_field, write_fields
 from hydroelastic.scenes.open_water.fields import OpenField, open_fields
@@ -209,12 +209,11 @@ def test_a_wave_at_parts_of_its_period(radiated: tuple[OpenSolution, list[Sample
 
 
 def test_what_is_drawn_of_short_waves_is_shorter_and_holds_the_bodies() -> None:
-    scene = circle(1e-3, "heave")
-    long, short = open_basin(scene, 1.0, drawn=75.0), open_basin(scene, 100.0, drawn=75.0)
+    water = problem_of(circle(1e-3, "heave")).tank
+    long, short = open_basin(water, 1.0, drawn=75.0), open_basin(water, 100.0, drawn=75.0)
     assert (long.origin, long.units.length) == pytest.approx((0.0, 10.0))
     assert (short.origin, short.units.length) == pytest.approx((4.5 - 0.75, 2.5))
-    outside = scene.model_copy(update={"tank": scene.tank.model_copy(update={"length": 5.0})})
-    wide = open_basin(outside, 1.0, drawn=75.0)
+    wide = open_basin(replace(water, length=5.0), 1.0, drawn=75.0)
     assert wide.origin + wide.units.length > 5.5
 
 

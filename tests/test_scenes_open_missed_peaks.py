@@ -7,9 +7,10 @@ import pytest
 from mpi4py import MPI
 from open_tables import open_scene
 
+from hydroelastic.fem.open_water.results import MissedPeak
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.dataset import OPEN_NAMES
-from hydroelastic.scenes.open_water.results import MissedPeak, OpenSolution
+from hydroelastic.scenes.open_water.results import OpenSolution
 from hydroelastic.scenes.open_water.solve import solve_open
 from hydroelastic.scenes.open_water.summary import summarize_open
 from hydroelastic.scenes.open_water.tables import open_sections

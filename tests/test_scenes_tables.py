@@ -10,9 +10,10 @@ import pytest
 from mpi4py import MPI
 from open_tables import CIRCLE, arbitrary_solution, open_scene
 
+from hydroelastic.fem.open_water.results import DecayTable
 from hydroelastic.scenes.models.roll import RollScene
 from hydroelastic.scenes.models.thread import ThreadScene
-from hydroelastic.scenes.open_water.results import DecayTable, OpenSolution
+from hydroelastic.scenes.open_water.results import OpenSolution
 from hydroelastic.scenes.open_water.summary import summarize_open
 from hydroelastic.scenes.open_water.tables import MOST_ROWS, open_sections
 from hydroelastic.scenes.output.digits import beyond_error

@@ -9,12 +9,13 @@ from mpi4py import MPI
 from hydroelastic.benchmarks.cases import Answer, Case
 from hydroelastic.benchmarks.circle.cases import DENSITY, GRAVITY, RADIUS, circle_frequency, unit_added_mass
 from hydroelastic.benchmarks.tank.hydroelastic import versions as versions
+from hydroelastic.fem.open_water.radiation import solve_radiation
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.scenes.models.bodies import Float
 from hydroelastic.scenes.models.open_analyses import Radiation
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.tank_parts import Accuracy, Liquid, Tank
-from hydroelastic.scenes.open_water.radiation import solve_radiation
+from hydroelastic.scenes.open_water.physics import open_water_problem, radiation_request
 
 _STRETCH = 10.0  # is drawn only; the answers do not depend on it
 
@@ -44,7 +45,7 @@ def solve(case: Case) -> Answer:
         accuracy=Accuracy(tolerance=case.tolerance),
     )
     watch = Stopwatch()
-    solution = solve_radiation(MPI.COMM_WORLD, scene, asked, watch)
+    solution = solve_radiation(open_water_problem(scene, MPI.COMM_WORLD, watch), radiation_request(asked))
     table = solution.table
     values: list[float] = []
     for place in (table.dofs.index("heave"), table.dofs.index("sway")):

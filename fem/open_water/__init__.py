@@ -1,1 +1,1 @@
-"""Waves that leave: complex scaling, resonances, the far field."""
+"""Open water: radiation, response to waves, resonances, motion after a release."""

@@ -18,9 +18,6 @@ from hydroelastic.scenes.models.infinity import ZeroOrMoreOrInfinite
 from hydroelastic.scenes.models.problems import problem
 from hydroelastic.scenes.models.values import DISTINCT, MOST_VALUES, OR_SWEEP, NumberFromZero, kind_of
 
-MOST_DAMPING_ANYWHERE = 0.7
-"""−Im ω/Re ω up to which resonances are found in water of any depth."""
-
 
 class Radiation(SceneModel):
     """Added mass, radiation damping and excitation forces."""

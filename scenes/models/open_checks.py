@@ -7,8 +7,9 @@ from math import inf, isinf, sqrt
 
 from pydantic_core import InitErrorDetails
 
+from hydroelastic.fem.open_water.region import MOST_DAMPING_ANYWHERE
 from hydroelastic.scenes.models.bodies import Float
-from hydroelastic.scenes.models.open_analyses import MOST_DAMPING_ANYWHERE, Decay, Resonance
+from hydroelastic.scenes.models.open_analyses import Decay, Resonance
 from hydroelastic.scenes.models.problems import misfit
 from hydroelastic.scenes.models.tank_parts import TankParts
 

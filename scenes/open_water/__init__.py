@@ -1,1 +1,1 @@
-"""Bodies in open water: radiation, response, resonances, decay."""
+"""Scenes with open ends: checks, summary, tables, files and pictures."""

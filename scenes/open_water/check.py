@@ -6,11 +6,12 @@ from collections.abc import Iterator
 from math import isfinite, pi
 
 from hydroelastic.modal.liquid.travelling_waves import travelling_waves
+from hydroelastic.modal.tank_estimates import two_layers
 from hydroelastic.scenes.models.open_analyses import Analysis, Decay, Radiation, Resonance, Response
+from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.basin import liquids_of
-from hydroelastic.scenes.open_water.cost import decay_cost
 from hydroelastic.scenes.open_water.estimates import endless_comparison, endless_words
+from hydroelastic.scenes.open_water.physics import decay_request
 from hydroelastic.scenes.output.sections import Section
 from hydroelastic.scenes.tank.check import modelled_tank
 
@@ -32,10 +33,23 @@ def open_requests(scene: TankScene) -> Iterator[str]:
     for number, analysis in enumerate(scene.analyses, 1):
         yield f"  {number}. {_request(scene, analysis)}"
         if isinstance(analysis, Decay):
-            yield f"     {decay_cost(scene, analysis).words()}"
+            yield f"     {decay_cost_words(scene, analysis)}"
     endless = endless_comparison(scene)
     if endless is not None:
         yield endless_words(endless)
+
+
+def decay_cost_words(scene: TankScene, analysis: Decay) -> str:
+    """Return what a decay analysis will cost; its first mesh is made."""
+    # This needs dolfinx, which takes a second to import.
+    from hydroelastic.fem.open_water.cost import WITHIN, decay_cost
+
+    cost = decay_cost(physical_tank(scene), scene.accuracy.tolerance, decay_request(analysis))
+    unknowns = f"{round(cost.unknowns, -3):,}".replace(",", " ")
+    return (
+        f"about {unknowns} unknowns, {cost.factorizations} factorizations, {cost.seconds:.2g} s of "
+        f"processor time and {cost.memory / 2**30:.2g} GiB of memory, within a factor of {WITHIN:g}"
+    )
 
 
 def _request(scene: TankScene, analysis: Analysis) -> str:
@@ -83,9 +97,8 @@ def open_waves(scene: TankScene) -> Iterator[str]:
         for omega in analysis.omega
         if omega > 0.0 and isfinite(omega)
     ]
+    layers = two_layers(physical_tank(scene))
     for omega in sorted({min(asked), max(asked)}) if asked else ():
-        lengths = [
-            f"{wave.branch} {2.0 * pi / wave.wavenumber:.4g} m" for wave in travelling_waves(liquids_of(scene), omega)
-        ]
+        lengths = [f"{wave.branch} {2.0 * pi / wave.wavenumber:.4g} m" for wave in travelling_waves(layers, omega)]
         yield f"Lengths of the waves that leave at {omega:g} rad/s: {', '.join(lengths)}."
     yield "The length of the tank is that of the stretch that is drawn: answers do not depend on it."

@@ -8,13 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from hydroelastic.scenes.open_water.results import (
-    DecayTable,
-    OpenSolution,
-    RadiationTable,
-    ResonanceTable,
-    ResponseTable,
-)
+from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, ResonanceTable, ResponseTable
+from hydroelastic.scenes.open_water.results import OpenSolution
 
 _Row = dict[str, float | int | str]
 

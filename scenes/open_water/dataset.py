@@ -13,15 +13,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from hydroelastic.fem.open_water.results import DIRECTIONS, DecayTable, RadiationTable, ResonanceTable, ResponseTable
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.results import (
-    DIRECTIONS,
-    DecayTable,
-    OpenSolution,
-    RadiationTable,
-    ResonanceTable,
-    ResponseTable,
-)
+from hydroelastic.scenes.open_water.results import OpenSolution
 from hydroelastic.scenes.output.dof_labels import INERTIA_UNITS, MOTION_UNITS, STIFFNESS_UNITS, any_turns, dof_labels
 from hydroelastic.scenes.output.summary_variables import SummaryNames
 

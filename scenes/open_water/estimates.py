@@ -6,16 +6,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, ResonanceTable
 from hydroelastic.modal.estimate import NoEstimateError
 from hydroelastic.modal.floats.endless_float import EndlessFloat, endless_float
 from hydroelastic.modal.floats.open_float import OpenFloatEstimate, open_float_estimate, released_float
 from hydroelastic.modal.floats.thin_float_radiation import is_deep
+from hydroelastic.modal.tank_estimates import two_layers
 from hydroelastic.physics.profiles import Profile
 from hydroelastic.scenes.models.floats import float_section
 from hydroelastic.scenes.models.open_analyses import Decay, Resonance
+from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.basin import liquids_of
-from hydroelastic.scenes.open_water.results import DecayTable, OpenSolution, RadiationTable, ResonanceTable
+from hydroelastic.scenes.open_water.results import OpenSolution
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,7 +48,7 @@ def thin_float_comparisons(solution: OpenSolution) -> tuple[tuple[Comparison, ..
     profile = _profile(scene)
     if profile is None:
         return (), ""
-    layers = liquids_of(scene)
+    layers = two_layers(physical_tank(scene))
     rows: list[Comparison] = []
     try:
         estimate = open_float_estimate(profile, layers, [])
@@ -63,7 +65,7 @@ def thin_float_comparisons(solution: OpenSolution) -> tuple[tuple[Comparison, ..
 
 def endless_comparison(scene: TankScene) -> EndlessFloat | None:
     """The endless float of the paper beside a lone exponential that is released in endless liquids; else nothing."""
-    profile, layers = _profile(scene), liquids_of(scene)
+    profile, layers = _profile(scene), two_layers(physical_tank(scene))
     if profile is None or profile.shape != "exponential" or not is_deep(layers):
         return None
     if not any(isinstance(analysis, Decay | Resonance) for analysis in scene.analyses):
@@ -114,7 +116,7 @@ def _radiation(table: RadiationTable, profile: Profile, scene: TankScene) -> lis
     if not len(places):
         return []
     heave = table.dofs.index("heave")
-    theory = open_float_estimate(profile, liquids_of(scene), table.omega[places]).radiation
+    theory = open_float_estimate(profile, two_layers(physical_tank(scene)), table.omega[places]).radiation
     rows = []
     for name, unit, values, field in (
         ("a", "kg/m", theory.added_mass, table.added_mass),
@@ -139,7 +141,7 @@ def _decay(table: DecayTable, profile: Profile, scene: TankScene) -> list[Compar
     heave = table.dofs.index("heave")
     if not table.initial[heave]:
         return []
-    theory = table.initial[heave] * released_float(profile, liquids_of(scene), table.times).heave
+    theory = table.initial[heave] * released_float(profile, two_layers(physical_tank(scene)), table.times).heave
     own = table.displacement[:, heave]
     worst = int(np.argmax(np.abs(theory - own)))
     return [

@@ -9,13 +9,13 @@ import numpy as np
 
 from hydroelastic.fem.cells import cell_corners, owned_cells
 from hydroelastic.fem.liquid import as_functions
+from hydroelastic.fem.open_water.field_model import OpenModel
 from hydroelastic.fem.pictures.mode import Beyond, ModePicture
 from hydroelastic.fem.pictures.wave import WavePicture
 from hydroelastic.fem.sampling import LiquidSample, SurfaceTrace, sample_liquid
 from hydroelastic.meshes.geometry import BOTTOM, LID
 from hydroelastic.physics.tank import StillLevel, Tank
 from hydroelastic.scenes.open_water.fields import OpenField
-from hydroelastic.scenes.open_water.model import OpenModel
 from hydroelastic.scenes.tank.body_file import displacement_of, write_bodies
 from hydroelastic.scenes.tank.shape_curves import body_shapes, sample_level, wave_curves, wave_levels
 
@@ -65,7 +65,7 @@ def sample_field(field: OpenField) -> SampledField | None:
     length, metres = model.basin.units.length, field.metres
     potential, displacement = metres * length * potential, metres * displacement
     omega = complex(np.sqrt(field.squared)) * model.basin.units.frequency
-    densities = np.array([layer.density for layer in model.basin.scene.layers])
+    densities = np.array([model.basin.layers.density_below, model.basin.layers.density_above])
     return SampledField(
         name=field.name,
         points=length * sample.points + [model.basin.origin, 0.0],
@@ -186,7 +186,7 @@ def _picture(
         length=length,
         depth=length * tank.layers[0].depth,
         upper_depth=length * tank.layers[1].depth if two else 0.0,
-        densities=tuple(layer.density for layer in basin.scene.layers) if two else (),
+        densities=(basin.layers.density_below, basin.layers.density_above) if two else (),
         lid=tuple((length * piece.start, length * piece.end) for piece in lid),
         goes_on=beyond,
         start=basin.origin,

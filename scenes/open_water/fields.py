@@ -19,15 +19,16 @@ import numpy as np
 from mpi4py import MPI
 
 from hydroelastic.fem.modes import EigenSolverError
-from hydroelastic.fem.open_water.resonances import Eigenpair, ResonanceSearch
+from hydroelastic.fem.open_water.field_model import Band, OpenModel, first_resolution, open_model
+from hydroelastic.fem.open_water.incident_waves import Plane
+from hydroelastic.fem.open_water.region import MOST_DAMPING_ANYWHERE
+from hydroelastic.fem.open_water.resonance import ANGLE
+from hydroelastic.fem.open_water.resonance_search import Eigenpair, ResonanceSearch
+from hydroelastic.fem.open_water.results import RadiationTable, ResonanceTable, ResponseTable
+from hydroelastic.fem.open_water.solver import OpenSolver
 from hydroelastic.fem.stopwatch import Stopwatch
-from hydroelastic.scenes.models.open_analyses import MOST_DAMPING_ANYWHERE
-from hydroelastic.scenes.open_water.incident_waves import Plane
-from hydroelastic.scenes.open_water.model import Band, OpenModel, first_resolution, open_model
-from hydroelastic.scenes.open_water.released import rough_scene
-from hydroelastic.scenes.open_water.resonance import ANGLE
-from hydroelastic.scenes.open_water.results import OpenSolution, RadiationTable, ResonanceTable, ResponseTable
-from hydroelastic.scenes.open_water.solver import OpenSolver
+from hydroelastic.scenes.open_water.physics import open_water_problem
+from hydroelastic.scenes.open_water.results import OpenSolution
 from hydroelastic.scenes.open_water.tables import motion_name
 
 # Motions and resonances of one analysis that are shown.
@@ -73,7 +74,7 @@ def open_fields(solution: OpenSolution, comm: MPI.Comm, watch: Stopwatch) -> Ite
     Args:
         solution: what the tables say.
         comm: MPI communicator.
-        watch: told the time.
+        watch: records the time by stage.
 
     Raises:
         MeshError: by the fields, if no mesh can be made.
@@ -99,11 +100,12 @@ class _Problem:
         self, lowest: float, highest: float, *, motions: int, radians: float = _RADIANS, angle: float | None = None
     ) -> OpenModel:
         """Water as wide as it is drawn, for a range of |ω|; beams move in so many ways at least (collective)."""
-        scene, band = rough_scene(self.solution.scene), Band(lowest=lowest, highest=highest)
-        resolution = first_resolution(scene, band, drawn=radians)
+        rough = open_water_problem(self.solution.scene, self.comm, self.watch).rough()
+        band = Band(lowest=lowest, highest=highest)
+        resolution = first_resolution(rough.tank, rough.tolerance, band, drawn=radians)
         shapes = tuple(max(count, motions) if count else 0 for count in resolution.shapes)
         resolution = replace(resolution, shapes=shapes)
-        return open_model(self.comm, scene, band, resolution, self.watch, angle=angle, drawn=radians)
+        return open_model(rough, band, resolution, angle=angle, drawn=radians)
 
 
 def _radiated(problem: _Problem, table: RadiationTable, number: int) -> Iterator[OpenField]:
@@ -144,7 +146,7 @@ def _responding(problem: _Problem, table: ResponseTable, number: int) -> Iterato
     found = solver.response(omega, [place])
     incidence = found.incidence
     # The crest of the wave that comes passes x = 0 of the scene at t = 0.
-    unit = 1.0 / (incidence.elevations[place] * np.exp(1j * incidence.scene_phases(model.basin)[place]))
+    unit = 1.0 / (incidence.elevations[place] * np.exp(1j * incidence.phases_at_origin(model.basin)[place]))
     kind = f"{table.waves[wave]} waves" if count > 1 else "waves"
     why = _why("motion is largest", table)
     yield OpenField(

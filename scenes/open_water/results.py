@@ -1,182 +1,13 @@
-"""What the analyses of open water give, per metre of width in SI units, with the time factor e^{−iωt}.
-
-Bodies move in `dofs`: "heave", "sway", "roll", "pitch", "elastic 1" …, with "body_2__" in front where there are several
-bodies. Waves are the branches of the dispersion relation, "surface" and "internal".
-"""
+"""The solution of a scene with open ends: the tables of its analyses, and what they cost."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal, TypeAlias
+from typing import Literal
 
-import numpy as np
-import numpy.typing as npt
-
+from hydroelastic.fem.open_water.region import Region
+from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, ResonanceTable, ResponseTable
 from hydroelastic.scenes.models.tank import TankScene
-
-Floats: TypeAlias = npt.NDArray[np.float64]
-Complexes: TypeAlias = npt.NDArray[np.complex128]
-
-DIRECTIONS = (0.0, np.pi)
-"""Directions in which incident waves of a `RadiationTable` travel, rad: to the right, to the left."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class RadiationTable:
-    """Forces of radiated and incident waves. Shapes: n frequencies, m motions, w waves.
-
-    Attributes:
-        omega: (n,) rad/s; inf is the limit far above the waves.
-        dofs: m names.
-        waves: w names.
-        wavenumbers: (n, w) k, 1/m.
-        added_mass: (n, m, m) a; entry (i, j) is the force in i by motion in j.
-        radiation_damping: (n, m, m) b; the force is −(−ω² a − iω b) ζ.
-        excitation_force: (n, w, 2, m) per metre of elevation e^{i(±kx − ωt)}, in the directions of `DIRECTIONS`.
-        froude_krylov_force: (n, w, 2, m) the part of the incident wave.
-        diffraction_force: (n, w, 2, m) the part of the scattered waves.
-        relative_error: (n,) estimated relative error of a + ib/ω.
-        energy_residual: (n,) relative difference of b and the power that leaves.
-        haskind_residual: (n,) relative difference of the excitation and what radiated waves say of it.
-        inertia: (m, m) of the bodies.
-        stiffness: (m, m) of the bodies and hydrostatics.
-        infinite_frequency_added_mass: (m, m), if it was asked for or needed.
-        factorizations: how many there were.
-    """
-
-    omega: Floats
-    dofs: tuple[str, ...]
-    waves: tuple[str, ...]
-    wavenumbers: Floats
-    added_mass: Floats
-    radiation_damping: Floats
-    excitation_force: Complexes
-    froude_krylov_force: Complexes
-    diffraction_force: Complexes
-    relative_error: Floats
-    energy_residual: Floats
-    haskind_residual: Floats
-    inertia: Floats
-    stiffness: Floats
-    infinite_frequency_added_mass: Floats | None
-    factorizations: int
-
-
-@dataclass(frozen=True, kw_only=True)
-class PlateDeflection:
-    """The deflection of a beam.
-
-    Attributes:
-        body: its index among the bodies.
-        positions: (p,) abscissas, m.
-        deflection: (n, w, p) upwards, per unit elevation of the incident wave.
-    """
-
-    body: int
-    positions: Floats
-    deflection: Complexes
-
-
-@dataclass(frozen=True, kw_only=True)
-class MissedPeak:
-    """A peak or a dip between two frequencies of a response, that its curve does not show.
-
-    Attributes:
-        below: the frequency below it, rad/s.
-        above: the frequency above it, rad/s.
-        omega: of the resonance, about where the extreme is, rad/s.
-        quantity: what changes most there: a motion, "|R|" or "|T|".
-        value: its magnitude there, in its unit per unit elevation.
-        drawn: that of the straight line between the two frequencies.
-    """
-
-    below: float
-    above: float
-    omega: float
-    quantity: str
-    value: float
-    drawn: float
-
-
-@dataclass(frozen=True, kw_only=True)
-class ResponseTable:
-    """Motions and waves per unit elevation of the incident wave. Shapes: n frequencies, m motions, w waves.
-
-    Attributes:
-        omega: (n,) rad/s.
-        waves: w names.
-        wavenumbers: (n, w) k, 1/m.
-        dofs: m names.
-        waves_from: the side from which the waves come.
-        amplitudes: (n, w, m) of the motions.
-        reflection: (n, w in, w out) ratio of elevations.
-        transmission: (n, w in, w out) ratio of elevations.
-        energy_residual: (n, w) relative difference of the power that comes and leaves.
-        relative_error: (n,) estimated relative error of the amplitudes.
-        plates: one for each beam.
-        missed_peaks: what curves over ω do not show, where a reduced basis tells.
-    """
-
-    omega: Floats
-    waves: tuple[str, ...]
-    wavenumbers: Floats
-    dofs: tuple[str, ...]
-    waves_from: Literal["left", "right"]
-    amplitudes: Complexes
-    reflection: Complexes
-    transmission: Complexes
-    energy_residual: Floats
-    relative_error: Floats
-    plates: tuple[PlateDeflection, ...]
-    missed_peaks: tuple[MissedPeak, ...] = ()
-
-
-@dataclass(frozen=True, kw_only=True)
-class ResonanceTable:
-    """Motions e^{−iωt} that die out by themselves. Shapes: r resonances, m motions.
-
-    Attributes:
-        omega: (r,) rad/s, with negative imaginary part.
-        dofs: m names.
-        labels: the dominant motion of each.
-        body_amplitudes: (r, m) of the motions; the dominant one is 1.
-        residuals: (r,) relative residual of the equations.
-        relative_error: (r,) estimated relative error of ω.
-        counted: how many an independent count found in the region; None where it was not made.
-        region: the region of ω in words.
-    """
-
-    omega: Complexes
-    dofs: tuple[str, ...]
-    labels: tuple[str, ...]
-    body_amplitudes: Complexes
-    residuals: Floats
-    relative_error: Floats
-    counted: int | None
-    region: str
-
-
-@dataclass(frozen=True, kw_only=True)
-class DecayTable:
-    """The motion of a float that is let go at rest. Shapes: n times, m motions.
-
-    Attributes:
-        times: (n,) s.
-        dofs: m names.
-        displacement: (n, m) m or rad.
-        initial: (m,) the displacement at t = 0.
-        absolute_error: (n,) estimated error of the displacement.
-        tail: T of the tail T/t² of the motion let go, m s² or rad s²; None where no tail is known.
-        certified_until: the time to which the error holds, s.
-    """
-
-    times: Floats
-    dofs: tuple[str, ...]
-    displacement: Floats
-    initial: Floats
-    absolute_error: Floats
-    tail: float | None
-    certified_until: float
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -207,3 +38,10 @@ class OpenSolution:
     def status(self) -> Literal["ok", "unconverged"]:
         """Whether everything that was asked is kept."""
         return "unconverged" if self.reasons else "ok"
+
+
+def region_words(region: Region | None) -> str:
+    """Return in which region of ω resonances were sought, in words."""
+    if region is None:
+        return "any ω: nothing restores the bodies"
+    return f"{region.lowest:.4g} < Re ω < {region.highest:.4g} rad/s, −Im ω < {region.damping:g} Re ω"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -10,21 +11,25 @@ from mpi4py import MPI
 
 from hydroelastic.fem.kept_tolerance import kept_tolerance
 from hydroelastic.fem.memory import hand_back_memory
+from hydroelastic.fem.open_water.decay import DecaySolution, DriftingFloatError, UnstableFloatError, solve_decay
+from hydroelastic.fem.open_water.field_model import OpenModel
+from hydroelastic.fem.open_water.problem import OpenWaterProblem
+from hydroelastic.fem.open_water.radiation import RadiationSolution, solve_radiation
+from hydroelastic.fem.open_water.resonance import ResonanceSolution, solve_resonance
+from hydroelastic.fem.open_water.response import ResponseSolution, solve_response
+from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, ResonanceTable, ResponseTable
 from hydroelastic.fem.stopwatch import Report, Stopwatch
+from hydroelastic.scenes.errors import Problem, SceneError
 from hydroelastic.scenes.models.open_analyses import Analysis, Decay, Radiation, Response
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.decay import DecaySolution, solve_decay
-from hydroelastic.scenes.open_water.model import OpenModel
-from hydroelastic.scenes.open_water.radiation import RadiationSolution, solve_radiation
-from hydroelastic.scenes.open_water.resonance import ResonanceSolution, solve_resonance
-from hydroelastic.scenes.open_water.response import ResponseSolution, solve_response
-from hydroelastic.scenes.open_water.results import (
-    DecayTable,
-    OpenSolution,
-    RadiationTable,
-    ResonanceTable,
-    ResponseTable,
+from hydroelastic.scenes.open_water.physics import (
+    decay_request,
+    open_water_problem,
+    radiation_request,
+    resonance_request,
+    response_request,
 )
+from hydroelastic.scenes.open_water.results import OpenSolution
 
 # The power of waves is of first order in the error of the field; measured, it is off by less than the tolerance.
 _POWER = 10.0
@@ -55,7 +60,7 @@ def solve_open(scene: TankScene, comm: MPI.Comm, report: Report) -> OpenSolution
     Args:
         scene: the scene.
         comm: MPI communicator.
-        report: told what is being done.
+        report: called with a word on what is being done.
 
     Returns:
         The tables, with `OpenSolution.reasons` where they do not keep the asked tolerance (collective).
@@ -63,18 +68,20 @@ def solve_open(scene: TankScene, comm: MPI.Comm, report: Report) -> OpenSolution
     Raises:
         MeshError: if no mesh can be made.
         EigenSolverError: if resonances cannot be found.
+        SceneError: if a float that is released would capsize or drift away.
     """
     watch = Stopwatch()
+    problem = open_water_problem(scene, comm, watch)
     tables: list[_Table] = []
     size = _Size()
     reasons: list[str] = []
     for number, analysis in enumerate(scene.analyses, 1):
         report(f"analysis {number}: {analysis.kind}")
-        solution = _solved(comm, scene, analysis, watch)
+        solution = _solved(problem, analysis)
         # The tables alone: a model holds its mesh and matrices.
         tables.append(solution.table)
         size = size.with_model(solution.model)
-        reasons += _reasons(scene, number, analysis, solution)
+        reasons += _reasons(problem.tolerance, number, analysis, solution)
         del solution
         hand_back_memory()
     return OpenSolution(
@@ -89,20 +96,31 @@ def solve_open(scene: TankScene, comm: MPI.Comm, report: Report) -> OpenSolution
     )
 
 
-def _solved(comm: MPI.Comm, scene: TankScene, analysis: Analysis, watch: Stopwatch) -> _Solution:
+def _solved(problem: OpenWaterProblem, analysis: Analysis) -> _Solution:
     if isinstance(analysis, Radiation):
-        return solve_radiation(comm, scene, analysis, watch)
+        return solve_radiation(problem, radiation_request(analysis))
     if isinstance(analysis, Response):
-        return solve_response(comm, scene, analysis, watch)
+        return solve_response(problem, response_request(analysis))
     if isinstance(analysis, Decay):
-        return solve_decay(comm, scene, analysis, watch)
-    return solve_resonance(comm, scene, analysis, watch)
+        return _decay(problem, analysis)
+    return solve_resonance(problem, resonance_request(analysis))
 
 
-def _reasons(scene: TankScene, number: int, analysis: Analysis, solution: _Solution) -> list[str]:
+def _decay(problem: OpenWaterProblem, analysis: Decay) -> DecaySolution:
+    try:
+        return solve_decay(problem, decay_request(analysis))
+    except UnstableFloatError:
+        wrong, remedy = "a float is unstable and would capsize", "Lower its centre of mass"
+    except DriftingFloatError as error:
+        motions = " and ".join(error.motions)
+        wrong = f"the float would drift away: nothing restores {motions}, which it sets going"
+        remedy = f"Leave {motions} out of motions, or let go of another motion"
+    raise SceneError(Problem(key='[[analysis]] key "displacement"', wrong=wrong, remedy=remedy))
+
+
+def _reasons(tolerance: float, number: int, analysis: Analysis, solution: _Solution) -> list[str]:
     """Why a solution does not keep what was asked, in words."""
     reasons = []
-    tolerance = scene.accuracy.tolerance
     if solution.error > tolerance:
         reasons.append(
             f"analysis {number} ({analysis.kind}) has an estimated relative error of {solution.error:.1e}, above the "
@@ -123,5 +141,16 @@ def _reasons(scene: TankScene, number: int, analysis: Analysis, solution: _Solut
                 f"{residual:.1e}, more than the tolerance {tolerance:g} allows"
             )
     if isinstance(solution, ResonanceSolution):
-        reasons += [f"analysis {number} ({analysis.kind}): {reason}" for reason in solution.reasons]
+        reasons += [f"analysis {number} ({analysis.kind}): {reason}" for reason in resonance_reasons(solution)]
     return reasons
+
+
+def resonance_reasons(solution: ResonanceSolution) -> Iterator[str]:
+    """Yield why the resonances of a region are not known to be all, in words."""
+    counted = solution.table.counted
+    if counted is None:
+        yield "the independent count of the resonances is not certain: one may lie on the rim of its region"
+    elif counted != solution.known:
+        yield f"an independent count finds {counted} resonances in the region, and {solution.known} are known"
+    if solution.unstable:
+        yield "a float is unstable: its motion grows, and is none of the resonances"

@@ -7,15 +7,9 @@ from typing import Any
 
 from mpi4py import MPI
 
+from hydroelastic.fem.open_water.results import DIRECTIONS, DecayTable, RadiationTable, ResonanceTable, ResponseTable
 from hydroelastic.scenes.open_water.estimates import endless_comparison, thin_float_comparisons
-from hydroelastic.scenes.open_water.results import (
-    DIRECTIONS,
-    DecayTable,
-    OpenSolution,
-    RadiationTable,
-    ResonanceTable,
-    ResponseTable,
-)
+from hydroelastic.scenes.open_water.results import OpenSolution, region_words
 from hydroelastic.scenes.output.json_values import json_ready
 from hydroelastic.scenes.output.provenance import Summary, memory_of_processes, versions
 
@@ -63,4 +57,6 @@ def _written(table: RadiationTable | ResponseTable | ResonanceTable | DecayTable
             for plate in table.plates
         ]
         row["missed_peaks"] = [asdict(peak) for peak in table.missed_peaks]
+    if isinstance(table, ResonanceTable):
+        row["region"] = region_words(table.region)
     return {name: json_ready(value) for name, value in row.items()}

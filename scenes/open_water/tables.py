@@ -9,16 +9,10 @@ from math import ceil, degrees, inf, isfinite, pi
 
 import numpy as np
 
+from hydroelastic.fem.open_water.results import DecayTable, MissedPeak, RadiationTable, ResonanceTable, ResponseTable
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.estimates import endless_comparison, endless_words
-from hydroelastic.scenes.open_water.results import (
-    DecayTable,
-    MissedPeak,
-    OpenSolution,
-    RadiationTable,
-    ResonanceTable,
-    ResponseTable,
-)
+from hydroelastic.scenes.open_water.results import OpenSolution, region_words
 from hydroelastic.scenes.output.digits import beyond_error, number, per_cent, with_certain_digits
 from hydroelastic.scenes.output.provenance import Summary
 from hydroelastic.scenes.output.sections import Row, Section
@@ -228,9 +222,9 @@ def _resonance(table: ResonanceTable) -> Section:
 
 def _counted(table: ResonanceTable) -> str:
     if table.counted is None:
-        return f"Looked for in {table.region}; not counted independently."
+        return f"Looked for in {region_words(table.region)}; not counted independently."
     verdict = "as many as were found" if table.counted == len(table.omega) else f"{len(table.omega)} are listed"
-    return f"An independent count of {table.region} gives {table.counted}: {verdict}."
+    return f"An independent count of {region_words(table.region)} gives {table.counted}: {verdict}."
 
 
 def _decay(table: DecayTable) -> Section:

@@ -22,14 +22,16 @@ from scipy.optimize import root_scalar
 
 from hydroelastic.fem.bodies.rigid_float import principal_motions
 from hydroelastic.fem.modes import EigenSolverError
+from hydroelastic.fem.open_water.problem import OpenWaterProblem
+from hydroelastic.fem.open_water.radiation import solve_radiation
+from hydroelastic.fem.open_water.requests import RadiationRequest, ResonanceRequest
+from hydroelastic.fem.open_water.resonance import solve_resonance
+from hydroelastic.fem.open_water.results import RadiationTable
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.scenes.errors import UnsolvedError
 from hydroelastic.scenes.models.floats import placed_float
-from hydroelastic.scenes.models.open_analyses import Radiation, Resonance
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.radiation import solve_radiation
-from hydroelastic.scenes.open_water.resonance import solve_resonance
-from hydroelastic.scenes.open_water.results import RadiationTable
+from hydroelastic.scenes.open_water.physics import open_water_problem
 from hydroelastic.scenes.tank.solve import solve_scene
 
 # Of the tolerance asked: a step of the root finder that changes k by less is the last.
@@ -119,13 +121,16 @@ def _inertia(scene: TankScene) -> float:
 def _in_open_water(scene: TankScene, comm: MPI.Comm, watch: Stopwatch) -> SectionRoll:
     stiffness, inertia = placed_float(scene, 0).roll_stiffness, _inertia(scene)
 
+    # The whole of it is one stage.
+    problem = open_water_problem(scene, comm, Stopwatch())
+
     def radiation(omega: float) -> tuple[RadiationTable, float]:
         with watch.stage("section"):
-            solution = solve_radiation(comm, scene, Radiation(omega=(omega,)), Stopwatch())
+            solution = solve_radiation(problem, RadiationRequest(omega=(omega,)))
         return solution.table, solution.error
 
     with watch.stage("section"):
-        resonance = _resonance(comm, scene)
+        resonance = _resonance(problem)
     # k differs from the modulus of the complex frequency as far as added inertia and damping change between the two.
     found = root_scalar(
         lambda omega: float(_impedance(radiation(float(omega))[0]).real),
@@ -155,11 +160,11 @@ def _in_open_water(scene: TankScene, comm: MPI.Comm, watch: Stopwatch) -> Sectio
     )
 
 
-def _resonance(comm: MPI.Comm, scene: TankScene) -> complex:
+def _resonance(problem: OpenWaterProblem) -> complex:
     """Complex frequency of the roll, rad/s."""
-    asked = Resonance(count=len(scene.floats[0][1].motions))
+    asked = ResonanceRequest(count=len(problem.tank.floats[0].motions))
     try:
-        table = solve_resonance(comm, scene, asked, Stopwatch()).table
+        table = solve_resonance(problem, asked).table
     except EigenSolverError as error:
         raise UnsolvedError(f"no resonance of the section was found: {error}") from error
     if "roll" not in table.labels:

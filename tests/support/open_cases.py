@@ -5,19 +5,21 @@ from __future__ import annotations
 import json
 import math
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import pytest
 from mpi4py import MPI
 from open_tables import open_scene
 
+from hydroelastic.fem.open_water.problem import OpenWaterProblem
+from hydroelastic.fem.open_water.radiation import RadiationSolution, solve_radiation
+from hydroelastic.fem.open_water.requests import RadiationRequest, ResponseRequest
+from hydroelastic.fem.open_water.response import ResponseSolution, solve_response
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.modal.liquid.two_layer import TwoLayers
-from hydroelastic.scenes.models.open_analyses import Radiation, Response
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.radiation import RadiationSolution, solve_radiation
-from hydroelastic.scenes.open_water.response import ResponseSolution, solve_response
+from hydroelastic.scenes.open_water.physics import open_water_problem
 
 FOLDER = Path(__file__).parents[1] / "reference"
 DENSITY = 1000.0
@@ -50,18 +52,24 @@ def half_slow(rows: list[dict[str, Any]]) -> list[Any]:
     ]
 
 
+def problem_of(scene: TankScene, comm: MPI.Comm = MPI.COMM_WORLD) -> OpenWaterProblem:
+    """Return the open water of a scene."""
+    return open_water_problem(scene, comm, Stopwatch())
+
+
 def radiation(
     scene: TankScene, *omega: float, elastic_modes: int = 0, comm: MPI.Comm = MPI.COMM_WORLD
 ) -> RadiationSolution:
     """Return added mass, damping and excitation of a scene."""
-    asked = Radiation(omega=omega, elastic_modes=elastic_modes)
-    return solve_radiation(comm, scene, asked, Stopwatch())
+    return solve_radiation(problem_of(scene, comm), RadiationRequest(omega=omega, elastic_modes=elastic_modes))
 
 
-def response(scene: TankScene, *omega: float, waves_from: str = "left", positions: int = 11) -> ResponseSolution:
+def response(
+    scene: TankScene, *omega: float, waves_from: Literal["left", "right"] = "left", positions: int = 11
+) -> ResponseSolution:
     """Return what a scene does in waves."""
-    asked = Response.model_validate({"omega": omega, "waves_from": waves_from, "positions": positions})
-    return solve_response(MPI.COMM_WORLD, scene, asked, Stopwatch())
+    asked = ResponseRequest(omega=omega, waves_from=waves_from, positions=positions)
+    return solve_response(problem_of(scene), asked)
 
 
 def hydrodynamic(solution: RadiationSolution) -> np.ndarray:

@@ -6,17 +6,18 @@ from typing import Any
 
 import numpy as np
 
-from hydroelastic.scenes.models.bodies import Beam
-from hydroelastic.scenes.models.open_analyses import Decay, Radiation, Resonance, Response
-from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.results import (
+from hydroelastic.fem.open_water.region import Region
+from hydroelastic.fem.open_water.results import (
     DecayTable,
-    OpenSolution,
     PlateDeflection,
     RadiationTable,
     ResonanceTable,
     ResponseTable,
 )
+from hydroelastic.scenes.models.bodies import Beam
+from hydroelastic.scenes.models.open_analyses import Decay, Radiation, Resonance, Response
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.open_water.results import OpenSolution
 
 CIRCLE: dict[str, Any] = {
     "kind": "float",
@@ -151,7 +152,7 @@ def _resonance(scene: TankScene, analysis: Resonance, numbers: np.random.Generat
         residuals=np.full(count, 1e-11),
         relative_error=np.full(count, 1e-7),
         counted=count,
-        region="0 < Re ω < 5 rad/s, −Im ω < 0.5 Re ω",
+        region=Region(lowest=0.0, highest=5.0, damping=0.5),
     )
 
 

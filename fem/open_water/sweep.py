@@ -1,9 +1,9 @@
-"""Many frequencies from few factorizations: a reduced basis that grows where it is worst, until it need not grow.
+"""Many frequencies from few factorizations: a reduced basis that grows where its residual is largest.
 
-Solutions at the ends and in the middle of a range begin the basis of `fem.reduced_pencil`. Wherever the residual
-between them is largest the problem is solved in full next, which tells the true error there. For functionals of second
-order the error goes like the square of the residual, and the ratio of the two, the largest of those that were seen
-last, carries it to all other frequencies.
+Solutions at the ends and in the middle of a range begin the basis of `fem.open_water.reduced_pencil`. Wherever the
+residual between them is largest the problem is solved in full next, which tells the true error there. For functionals
+of second order the error goes like the square of the residual, and the ratio of the two, the largest of those that were
+seen last, carries it to all other frequencies.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ def sweep(problem: Problem[Solution], omegas: np.ndarray, tolerance: float) -> S
     Args:
         problem: what to solve.
         omegas: frequencies, real or along a line in the complex plane, in any order, all different.
-        tolerance: asked relative error of what `Problem.difference` compares.
+        tolerance: largest relative error that is accepted of what `Problem.difference` compares.
     """
     if len(omegas) <= FEW:
         return Swept(

@@ -7,22 +7,22 @@ from typing import Any
 import numpy as np
 import pytest
 from mpi4py import MPI
-from open_cases import GRAVITY, RADIUS, SLOW, THIN_LIQUIDS, circle, radiation, section, slender, stored
+from open_cases import GRAVITY, RADIUS, SLOW, THIN_LIQUIDS, circle, problem_of, radiation, section, slender, stored
 
-from hydroelastic.fem.stopwatch import Stopwatch
+from hydroelastic.fem.open_water import resonance as open_resonance
+from hydroelastic.fem.open_water.requests import ResonanceRequest
+from hydroelastic.fem.open_water.resonance import ResonanceSolution, solve_resonance
 from hydroelastic.modal import float_profile
 from hydroelastic.modal.floats.open_float import open_float_estimate
-from hydroelastic.scenes.models.open_analyses import Resonance
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water import resonance as open_resonance
-from hydroelastic.scenes.open_water.resonance import ResonanceSolution, solve_resonance
+from hydroelastic.scenes.open_water.solve import resonance_reasons
 
 CIRCLE = stored("open_circle.json")["resonance"]
 SECTIONS = stored("open_sections.json")["cases"]
 
 
 def resonance(scene: TankScene, **asked: Any) -> ResonanceSolution:
-    return solve_resonance(MPI.COMM_WORLD, scene, Resonance(**asked), Stopwatch())
+    return solve_resonance(problem_of(scene), ResonanceRequest(**asked))
 
 
 @pytest.mark.parametrize("tolerance", [pytest.param(1e-4, marks=SLOW), 1e-6, pytest.param(1e-8, marks=SLOW)])
@@ -37,7 +37,7 @@ def test_circle(tolerance: float) -> None:
     assert table.labels == ("heave",)
     assert table.counted == 1
     assert table.residuals[0] <= 1e-9
-    assert found.reasons == ()
+    assert not list(resonance_reasons(found))
 
 
 def thin_cases() -> list[Any]:
@@ -99,7 +99,7 @@ def test_section_rolls_and_heaves(number: int) -> None:
     # A trapezium and a triangle, each of a kind of its own: heave and, where it is stable, roll.
     found = resonance(section(SECTIONS[number], 1e-4), count=2, largest_damping=0.5)
     table = found.table
-    assert found.reasons == ()
+    assert not list(resonance_reasons(found))
     assert table.counted == len(table.omega) >= 1
     assert np.all(table.omega.imag < 0.0)
     assert set(table.labels) <= {"heave", "roll", "sway"}
@@ -107,7 +107,7 @@ def test_section_rolls_and_heaves(number: int) -> None:
 
 def test_nothing_to_find_where_nothing_restores() -> None:
     scene = circle(1e-3).model_copy(update={"body": (circle(1e-3).body[0].model_copy(update={"motions": ("sway",)}),)})
-    found = solve_resonance(MPI.COMM_SELF, scene, Resonance(), Stopwatch())
+    found = solve_resonance(problem_of(scene, MPI.COMM_SELF), ResonanceRequest())
     assert len(found.table.omega) == 0
     assert found.table.counted == 0
-    assert found.reasons == ()
+    assert not list(resonance_reasons(found))

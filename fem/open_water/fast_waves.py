@@ -1,4 +1,4 @@
-"""H of bodies in waves so fast that its form is known, and no mesh is needed.
+"""High-frequency series of H, used above the frequencies that the mesh resolves.
 
 With s = p² over that of the mesh's highest frequency, p = −iω, and N orders,
 
@@ -29,7 +29,7 @@ _POINTS = 48
 
 @dataclass(frozen=True, kw_only=True)
 class FastWaves:
-    """The series. Shapes: m body unknowns.
+    """The high-frequency series of H. Shapes: m body unknowns.
 
     Attributes:
         unit: the frequency |ω| of the arc.
@@ -96,10 +96,10 @@ def _terms(omegas: np.ndarray, orders: int) -> np.ndarray:
 
 
 def fastest_meshed(fastest: float, tolerance: float) -> float:
-    """The highest frequency for which a mesh is needed, rad/s: the more digits are asked, the higher.
+    """The highest frequency for which a mesh is needed, rad/s: the lower the tolerance, the higher.
 
     Args:
         fastest: at which the bodies oscillate, rad/s.
-        tolerance: asked error of the motion over the initial displacement.
+        tolerance: largest error of the motion that is accepted, relative to the initial displacement.
     """
     return fastest * (1.0 - 0.2 * log10(tolerance))

@@ -1,17 +1,19 @@
-"""What a decay analysis will cost, said before it is solved: its first mesh is made, and the rest was measured."""
+"""Estimated cost of the motion after a release before it is solved: the first mesh is made, the rest was measured."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from math import log10, sqrt
 
-from hydroelastic.scenes.models.floats import placed_float
-from hydroelastic.scenes.models.open_analyses import Decay
-from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.fem.open_water.decay import ray_band
+from hydroelastic.fem.open_water.field_model import first_mesh, first_resolution
+from hydroelastic.fem.open_water.requests import DecayRequest
+from hydroelastic.fem.open_water.resonance import ANGLE
+from hydroelastic.physics.tank import Tank
 
 WITHIN = 3.0
-"""Factor within which seconds and memory are told. A second attempt, where the first falls short, may double them; a
-busy or a slow machine takes longer."""
+"""Factor within which seconds and memory are estimated. A second attempt, where the first falls short, may double them;
+a busy or a slow machine takes longer."""
 
 # Measured on one core, on floats in and between endless liquids, at tolerances from 1e-3 to 1e-6: 4 000 to 64 000
 # unknowns, 3 to 65 s, 260 to 1 060 MiB.
@@ -23,7 +25,7 @@ _LEAST, _PER_DIGIT, _BESIDE = 6.0, 2.5, 8
 
 @dataclass(frozen=True, kw_only=True)
 class DecayCost:
-    """The cost of a decay analysis.
+    """The cost of the motion after a release.
 
     Attributes:
         unknowns: of ψ.
@@ -37,40 +39,28 @@ class DecayCost:
     seconds: float
     memory: float
 
-    def words(self) -> str:
-        """The cost in words."""
-        unknowns = f"{round(self.unknowns, -3):,}".replace(",", " ")
-        return (
-            f"about {unknowns} unknowns, {self.factorizations} factorizations, {self.seconds:.2g} s of "
-            f"processor time and {self.memory / 2**30:.2g} GiB of memory, within a factor of {WITHIN:g}"
-        )
 
-
-def decay_cost(scene: TankScene, asked: Decay) -> DecayCost:
+def decay_cost(water: Tank, tolerance: float, request: DecayRequest) -> DecayCost:
     """Estimate the cost; gmsh makes the first mesh.
 
     Args:
-        scene: with open ends.
-        asked: the analysis.
+        water: open water in SI units.
+        tolerance: largest error of the motion that is accepted, relative to the initial displacement.
+        request: the release.
 
     Raises:
         MeshError: if no mesh can be made.
     """
-    # These need dolfinx, which takes a second to import.
-    from hydroelastic.scenes.open_water.decay import ray_band
-    from hydroelastic.scenes.open_water.model import first_mesh, first_resolution
-    from hydroelastic.scenes.open_water.resonance import ANGLE
-
-    at_rest = [placed_float(scene, index).hydrostatics for index, _ in scene.floats]
+    at_rest = [body.hydrostatics for body in water.floats.values()]
     # Far above the waves liquids add about the mass of the float, and only the logarithm of the frequency matters.
     expected = sorted(sqrt(own.heave_stiffness / (2.0 * own.mass)) for own in at_rest)
-    band = ray_band(scene, asked, expected)
-    resolution = first_resolution(scene, band)
-    mesh = first_mesh(scene, band, resolution, angle=ANGLE)
+    band = ray_band(water, tolerance, request, expected)
+    resolution = first_resolution(water, tolerance, band)
+    mesh = first_mesh(water, tolerance, band, resolution, angle=ANGLE)
     vertices, cells, degree = len(mesh.points), len(mesh.cells), resolution.degree
     # Euler: a triangulation without holes has one edge less than vertices and cells together.
     unknowns = vertices + (vertices + cells - 1) * (degree - 1) + cells * (degree - 1) * (degree - 2) // 2
-    factorizations = round(_LEAST - _PER_DIGIT * log10(scene.accuracy.tolerance)) + _BESIDE
+    factorizations = round(_LEAST - _PER_DIGIT * log10(tolerance)) + _BESIDE
     return DecayCost(
         unknowns=unknowns,
         factorizations=factorizations,

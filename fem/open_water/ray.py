@@ -1,4 +1,4 @@
-"""What is left of the motion of a released body beside its resonances: an integral along a ray, on which nothing
+"""The part of the motion after a release that is not in its resonances: an integral along a ray, where nothing
 oscillates.
 
 E is S less that of the bodies with their added mass far above the waves, which adds nothing for t > 0 and makes the
@@ -20,16 +20,16 @@ from math import pi, sqrt
 
 import numpy as np
 
+from hydroelastic.fem.open_water.fast_waves import FastWaves, arc, fast_waves
+from hydroelastic.fem.open_water.field_model import ANGLE as DEEP_ANGLE
+from hydroelastic.fem.open_water.field_model import OpenModel
+from hydroelastic.fem.open_water.radiation import relative_difference
+from hydroelastic.fem.open_water.resonance import ANGLE
+from hydroelastic.fem.open_water.slow_waves import SPREAD, LongWaves, long_waves
+from hydroelastic.fem.open_water.solver import OpenSolver
+from hydroelastic.fem.open_water.sweep import Problem, Swept, sweep
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors
-from hydroelastic.scenes.open_water.fast_waves import FastWaves, arc, fast_waves
-from hydroelastic.scenes.open_water.model import ANGLE as DEEP_ANGLE
-from hydroelastic.scenes.open_water.model import OpenModel
-from hydroelastic.scenes.open_water.radiation import relative_difference
-from hydroelastic.scenes.open_water.resonance import ANGLE
-from hydroelastic.scenes.open_water.slow_waves import SPREAD, LongWaves, long_waves
-from hydroelastic.scenes.open_water.solver import OpenSolver
-from hydroelastic.scenes.open_water.sweep import Problem, Swept, sweep
 
 # Angles between a ray and the resonances beside it, radians: at least, if there is room, and at most.
 _NARROW, _WIDE = 0.05, 0.12
@@ -110,7 +110,7 @@ class RayIntegral:
         ray: where it goes.
         band: lowest and highest frequency of the mesh, dimensionless.
         slow: frequency below which the tail is made.
-        watch: told the time.
+        watch: records the time by stage.
     """
 
     def __init__(
@@ -142,7 +142,7 @@ class RayIntegral:
         meshed = np.geomspace(low, high, _JUDGED) * self._ray.turned
         # The end of the ray is on the arc already.
         chosen = np.concatenate([meshed, arc(high * self._ray.turned, _ON_ARC)[:-1]])
-        swept = sweep(self._problem(), chosen, self._model.basin.scene.accuracy.tolerance)
+        swept = sweep(self._problem(), chosen, self._model.tolerance)
         with self._watch.stage("motion"):
             least = min(_LOWER / max(float(times.max()), 1.0 / high), 1e-2 * low)
             radii = np.exp(np.arange(np.log(least), np.log(_HIGHER * high), _STEP * self._ray.gap))

@@ -18,8 +18,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hydroelastic.scenes.open_water.incident_waves import Incidence
-from hydroelastic.scenes.open_water.model import OpenModel
+from hydroelastic.fem.open_water.field_model import OpenModel
+from hydroelastic.fem.open_water.incident_waves import Incidence
 
 # Part of the largest force, in units of the basin, below which one is compared with that.
 _NO_FORCE = 1e-4

@@ -1,4 +1,4 @@
-"""Peaks of a response that lie between its frequencies, where its curve does not show them.
+"""Peaks of a response between the frequencies at which it was computed, which its curve does not show.
 
 Bodies and liquid on the reduced basis of a sweep are a small linear pencil in ω²; its eigenvalues near the real axis
 are the frequencies at which the response may change faster than the curve tells. The response there, on the same basis,
@@ -13,7 +13,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from hydroelastic.scenes.open_water.results import Complexes, Floats, MissedPeak, ResponseTable
+from hydroelastic.fem.open_water.results import Complexes, Floats, MissedPeak, ResponseTable
 
 # Of the largest on the curve: by what a peak must differ from the line between its neighbours.
 _DIFFERS = 0.1
@@ -28,7 +28,7 @@ def missed_peaks(
     """Return the largest of the peaks between each two frequencies, by ascending frequency.
 
     Args:
-        table: the response that was asked for.
+        table: the response at the frequencies requested.
         resonances: ω of bodies and liquid together, rad/s; those that no wave excites show nothing.
         between: the response at other frequencies.
     """

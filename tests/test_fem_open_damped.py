@@ -7,25 +7,26 @@ from math import inf
 import numpy as np
 import pytest
 from mpi4py import MPI
-from open_cases import GRAVITY, RADIUS, SLOW, THIN_LIQUIDS, circle, circle_omega
+from open_cases import GRAVITY, RADIUS, SLOW, THIN_LIQUIDS, circle, circle_omega, problem_of
 from open_tables import open_scene
 
+from hydroelastic.fem.open_water.damped import DampedSolver, mirror_angle
+from hydroelastic.fem.open_water.field_model import Band, first_resolution, open_model
+from hydroelastic.fem.open_water.incident_waves import Plane, Standing
+from hydroelastic.fem.open_water.requests import ResonanceRequest
+from hydroelastic.fem.open_water.resonance import ResonanceSolution, solve_resonance
+from hydroelastic.fem.open_water.solver import OpenSolver
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.modal.floats.complex_moments import complex_wave_moment
 from hydroelastic.modal.floats.endless_float import endless_float
-from hydroelastic.modal.floats.profiles import Profile
 from hydroelastic.modal.floats.thin_float import thin_constants
 from hydroelastic.modal.floats.thin_float_radiation import natural_rate
 from hydroelastic.modal.liquid.endless_wave import EndlessWave
 from hydroelastic.modal.liquid.travelling_waves import travelling_waves
 from hydroelastic.modal.liquid.two_layer import TwoLayers
-from hydroelastic.scenes.models.open_analyses import Resonance
+from hydroelastic.physics.profiles import Profile
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.damped import DampedSolver, mirror_angle
-from hydroelastic.scenes.open_water.incident_waves import Plane, Standing
-from hydroelastic.scenes.open_water.model import Band, first_resolution, open_model
-from hydroelastic.scenes.open_water.resonance import ResonanceSolution, solve_resonance
-from hydroelastic.scenes.open_water.solver import OpenSolver
+from hydroelastic.scenes.open_water.solve import resonance_reasons
 
 DEEP = THIN_LIQUIDS["deep"]
 
@@ -39,7 +40,7 @@ def exponential(tail: float, tolerance: float) -> TankScene:
 
 
 def damped(scene: TankScene, count: int, comm: MPI.Comm = MPI.COMM_WORLD) -> ResonanceSolution:
-    return solve_resonance(comm, scene, Resonance(count=count, largest_damping=2.0), Stopwatch())
+    return solve_resonance(problem_of(scene, comm), ResonanceRequest(count=count, largest_damping=2.0))
 
 
 def closed_form(profile: Profile, start: complex) -> complex:
@@ -83,7 +84,7 @@ def test_second_pole_of_the_exponential() -> None:
     assert found.table.omega[1] == pytest.approx(heave, rel=endless.cut)
     assert -found.table.omega[0].imag / found.table.omega[0].real == pytest.approx(1.31, abs=0.01)
     assert found.table.counted == len(found.table.omega) == 6
-    assert found.reasons == ()
+    assert not list(resonance_reasons(found))
     assert found.table.residuals.max() <= 1e-9
     assert found.error <= 1e-3
     assert_honest(found, profile)
@@ -92,7 +93,7 @@ def test_second_pole_of_the_exponential() -> None:
 def test_search_and_count_agree_on_a_circle() -> None:
     # Its sway has resonances beside those of the water around a circle that is held, poles of H.
     found = damped(circle(1e-4, "heave", "sway"), count=4)
-    assert found.reasons == ()
+    assert not list(resonance_reasons(found))
     assert found.table.labels == ("heave", "sway", "heave", "sway")
     assert found.table.counted == 5
 
@@ -103,17 +104,17 @@ def test_second_pole_by_tails_and_tolerances(tail: float, tolerance: float) -> N
     found = damped(exponential(tail, tolerance), count=2)
     profile = Profile(shape="exponential", half_width=RADIUS, half_height=RADIUS, tail=tail)
     endless = endless_float(profile, DEEP)
-    assert found.reasons == ()
+    assert not list(resonance_reasons(found))
     assert found.table.omega[0] == pytest.approx(endless.resonances[1], rel=endless.cut)
     assert_honest(found, profile)
 
 
 def continued(comm: MPI.Comm, omega: complex, tolerance: float) -> tuple[DampedSolver, OpenSolver]:
     """Both solvers of a circle, for frequencies about one."""
-    scene = circle(tolerance, "heave", "sway")
+    problem = problem_of(circle(tolerance, "heave", "sway"), comm)
     band = Band(lowest=0.8 * abs(omega), highest=1.2 * abs(omega))
-    resolution = first_resolution(scene, band)
-    models = [open_model(comm, scene, band, resolution, Stopwatch(), angle=angle) for angle in (mirror_angle(1.0), 1.3)]
+    resolution = first_resolution(problem.tank, tolerance, band)
+    models = [open_model(problem, band, resolution, angle=angle) for angle in (mirror_angle(1.0), 1.3)]
     return DampedSolver(models[0], Stopwatch()), OpenSolver(models[1], Stopwatch())
 
 

@@ -18,9 +18,9 @@ from open_cases import (
     radiation,
 )
 
+from hydroelastic.fem.open_water.radiation import RadiationSolution
+from hydroelastic.fem.open_water.solver import OpenSolver
 from hydroelastic.fem.stopwatch import Stopwatch
-from hydroelastic.scenes.open_water.radiation import RadiationSolution
-from hydroelastic.scenes.open_water.solver import OpenSolver
 
 
 @pytest.fixture(scope="module")

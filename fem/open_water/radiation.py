@@ -1,4 +1,4 @@
-"""Added mass, damping and excitation over the frequency, in SI units."""
+"""Added mass, radiation damping and excitation forces over the frequency, in SI units."""
 
 from __future__ import annotations
 
@@ -6,25 +6,24 @@ from dataclasses import dataclass, replace
 from math import isfinite, nan
 
 import numpy as np
-from mpi4py import MPI
 from scipy.linalg import block_diag
 
-from hydroelastic.fem.stopwatch import Stopwatch
+from hydroelastic.fem.open_water.attempts import Attempt, best_over_band
+from hydroelastic.fem.open_water.basin import open_basin
+from hydroelastic.fem.open_water.field_model import Band, OpenModel, open_model
+from hydroelastic.fem.open_water.frequency import OpenFrequency
+from hydroelastic.fem.open_water.infinite_frequency import infinite_frequency_added_mass
+from hydroelastic.fem.open_water.motion_scale import motion_scale
+from hydroelastic.fem.open_water.problem import OpenWaterProblem
+from hydroelastic.fem.open_water.requests import RadiationRequest
+from hydroelastic.fem.open_water.results import DIRECTIONS, RadiationTable
+from hydroelastic.fem.open_water.solver import OpenSolver
+from hydroelastic.fem.open_water.sweep import Problem, Swept, sweep
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors
 from hydroelastic.fem.tank.field_model import whole_bodies
 from hydroelastic.fem.tank.resolution import Resolution
+from hydroelastic.modal.tank_estimates import two_layers
 from hydroelastic.physics.tank import Tank
-from hydroelastic.scenes.models.open_analyses import Radiation
-from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.attempts import Attempt, attempted_over
-from hydroelastic.scenes.open_water.basin import liquids_of, open_basin
-from hydroelastic.scenes.open_water.frequency import OpenFrequency
-from hydroelastic.scenes.open_water.model import Band, OpenModel, open_model
-from hydroelastic.scenes.open_water.motion_scale import motion_scale
-from hydroelastic.scenes.open_water.released import released_added_mass
-from hydroelastic.scenes.open_water.results import DIRECTIONS, RadiationTable
-from hydroelastic.scenes.open_water.solver import OpenSolver
-from hydroelastic.scenes.open_water.sweep import Problem, Swept, sweep
 
 # Heave and pitch of a beam, and one more motion for each hinge, come before its elastic shapes.
 _RIGID = 2
@@ -38,11 +37,11 @@ _JUDGED = 5
 
 @dataclass(frozen=True, kw_only=True)
 class RadiationSolution:
-    """What a radiation analysis found.
+    """Result of a radiation analysis.
 
     Attributes:
-        table: the numbers.
-        model: the last problem; ``None`` where only the limit above the waves was asked.
+        table: the results in SI units.
+        model: the last field model; ``None`` where only limits of frequency were requested.
         error: the largest relative error.
     """
 
@@ -51,19 +50,17 @@ class RadiationSolution:
     error: float
 
 
-def solve_radiation(comm: MPI.Comm, scene: TankScene, asked: Radiation, watch: Stopwatch) -> RadiationSolution:
-    """Solve for added mass, damping and excitation to the scene's tolerance (collective).
+def solve_radiation(problem: OpenWaterProblem, request: RadiationRequest) -> RadiationSolution:
+    """Solve for added mass, damping and excitation to the tolerance of the problem (collective).
 
     Args:
-        comm: MPI communicator.
-        scene: with open ends.
-        asked: the analysis.
-        watch: told the time.
+        problem: the open water.
+        request: frequencies and shapes.
     """
-    omegas = np.array([omega for omega in asked.omega if isfinite(omega) and omega > 0.0])
-    shapes = _reported_shapes(open_basin(scene, 0.0).tank, asked.elastic_modes)
-    attempt = _swept(comm, scene, omegas, shapes, watch) if len(omegas) else None
-    return _tabulated(comm, scene, asked, shapes, attempt, watch)
+    omegas = np.array([omega for omega in request.omega if isfinite(omega) and omega > 0.0])
+    shapes = _reported_shapes(open_basin(problem.tank, 0.0).tank, request.elastic_modes)
+    attempt = _swept(problem, omegas, shapes) if len(omegas) else None
+    return _tabulated(problem, request, shapes, attempt)
 
 
 def _reported_shapes(tank: Tank, elastic: int) -> tuple[int, ...]:
@@ -83,22 +80,19 @@ class _Sweep:
     factorizations: int
 
 
-def _swept(
-    comm: MPI.Comm, scene: TankScene, omegas: np.ndarray, shapes: tuple[int, ...], watch: Stopwatch
-) -> Attempt[_Sweep]:
+def _swept(problem: OpenWaterProblem, omegas: np.ndarray, shapes: tuple[int, ...]) -> Attempt[_Sweep]:
     band = Band(lowest=float(omegas.min()), highest=float(omegas.max()))
-    tolerance = scene.accuracy.tolerance
 
     def solve(resolution: Resolution) -> Attempt[_Sweep]:
-        model = open_model(comm, scene, band, replace(resolution, shapes=shapes), watch)
-        solver = OpenSolver(model, watch)
-        problem = Problem(
+        model = open_model(problem, band, replace(resolution, shapes=shapes))
+        solver = OpenSolver(model, problem.watch)
+        frequencies = Problem(
             full=lambda omega: solver.frequency(omega.real),
             reduced=lambda omega: solver.frequency_between(omega.real),
             difference=_difference,
         )
-        swept = sweep(problem, omegas, tolerance)
-        with watch.stage("errors"):
+        swept = sweep(frequencies, omegas, problem.tolerance)
+        with problem.watch.stage("errors"):
             places = judged_places(omegas)
             causes = [_causes(swept.solutions[place]) for place in places]
         errors = between(omegas, places, np.array([cause.total.max() for cause in causes])) + swept.errors
@@ -108,7 +102,7 @@ def _swept(
             resolution=resolution,
         )
 
-    return attempted_over(scene, band, solve)
+    return best_over_band(problem, band, solve)
 
 
 def _difference(one: OpenFrequency, other: OpenFrequency) -> float:
@@ -156,33 +150,31 @@ def joined_errors(causes: list[FrequencyErrors], reduced: float) -> FrequencyErr
 
 
 def _tabulated(
-    comm: MPI.Comm,
-    scene: TankScene,
-    asked: Radiation,
+    problem: OpenWaterProblem,
+    request: RadiationRequest,
     shapes: tuple[int, ...],
     attempt: Attempt[_Sweep] | None,
-    watch: Stopwatch,
 ) -> RadiationSolution:
-    long = open_basin(scene, 0.0)
+    long = open_basin(problem.tank, 0.0)
     bodies = whole_bodies(long.tank, shapes)
     scale = motion_scale(long, bodies)
-    waves = liquids_of(scene).branches
+    waves = two_layers(problem.tank).branches
     rows: dict[float, _Row] = {}
     errors = [0.0]
     if attempt is not None:
         errors.append(attempt.error)
         swept, in_full = attempt.result.swept.solutions, attempt.result.swept.in_full
-        rows |= {row.omega: row for row in map(_row, _finite(asked), swept, attempt.result.errors, in_full)}
-    if np.inf in asked.omega:
-        matrix, error = released_added_mass(comm, scene, shapes, watch)
+        rows |= {row.omega: row for row in map(_row, _finite(request), swept, attempt.result.errors, in_full)}
+    if np.inf in request.omega:
+        matrix, error = infinite_frequency_added_mass(problem, shapes)
         errors.append(error)
         rows[np.inf] = _limit_row(np.inf, scale.masses(matrix), len(waves), error)
-    if 0.0 in asked.omega:
-        rows[0.0] = _slow_row(comm, scene, shapes, len(waves), watch)
+    if 0.0 in request.omega:
+        rows[0.0] = _slow_row(problem, shapes, len(waves))
         errors.append(rows[0.0].relative_error)
-    ordered = [rows[omega] for omega in asked.omega]
+    ordered = [rows[omega] for omega in request.omega]
     table = RadiationTable(
-        omega=np.array(asked.omega),
+        omega=np.array(request.omega),
         dofs=scale.dofs,
         waves=waves,
         wavenumbers=np.array([row.wavenumbers for row in ordered]),
@@ -202,8 +194,8 @@ def _tabulated(
     return RadiationSolution(table=table, model=attempt.result.model if attempt else None, error=max(errors))
 
 
-def _finite(asked: Radiation) -> list[float]:
-    return [omega for omega in asked.omega if isfinite(omega) and omega > 0.0]
+def _finite(request: RadiationRequest) -> list[float]:
+    return [omega for omega in request.omega if isfinite(omega) and omega > 0.0]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -224,7 +216,7 @@ class _Row:
 def _row(omega: float, found: OpenFrequency, error: float, in_full: bool) -> _Row:
     model, waves = found.model, found.incidence
     masses = model.scale.masses(found.hydrodynamic)
-    shift = np.exp(-1j * waves.scene_phases(model.basin))
+    shift = np.exp(-1j * waves.phases_at_origin(model.basin))
     count = len(waves.planes) // 2
 
     def forces(values: np.ndarray) -> np.ndarray:
@@ -263,11 +255,11 @@ def _limit_row(omega: float, added_mass: np.ndarray, waves: int, error: float) -
     )
 
 
-def _slow_row(comm: MPI.Comm, scene: TankScene, shapes: tuple[int, ...], waves: int, watch: Stopwatch) -> _Row:
+def _slow_row(problem: OpenWaterProblem, shapes: tuple[int, ...], waves: int) -> _Row:
     """The limit of long waves: added mass that still grows there, like −ln ω in deep water, is infinite."""
-    unit = open_basin(scene, 0.0).units.frequency
+    unit = open_basin(problem.tank, 0.0).units.frequency
     omegas = np.array([factor * unit for factor in _SLOW])
-    attempt = _swept(comm, scene, omegas, shapes, watch)
+    attempt = _swept(problem, omegas, shapes)
     first, second = (
         _row(omega, found, attempt.error, True)
         for omega, found in zip(omegas, attempt.result.swept.solutions, strict=True)

@@ -1,4 +1,4 @@
-"""Incident waves: what they press against the bodies, and the far field of what the bodies send back.
+"""Incident waves: their pressures on the bodies, and amplitudes of radiated and scattered waves far away.
 
 A wave φ± = e^{±ikx} Z(y) travels to the right or to the left. With the fluxes I(φ) of `fem.far_field` an outgoing
 ψ ~ c± e^{±ikx} Z has
@@ -18,10 +18,10 @@ from math import sqrt
 
 import numpy as np
 
+from hydroelastic.fem.open_water.basin import OpenBasin
+from hydroelastic.fem.open_water.field_model import OpenModel
 from hydroelastic.modal.liquid.endless_wave import EndlessWave
 from hydroelastic.modal.liquid.travelling_waves import TravellingWave
-from hydroelastic.scenes.open_water.basin import OpenBasin
-from hydroelastic.scenes.open_water.model import OpenModel
 
 RIGHTWARD, LEFTWARD = 1, -1
 
@@ -108,10 +108,10 @@ class Incidence:
         """Elevation of each wave over its c."""
         return np.array([plane.elevation for plane in self.planes])
 
-    def scene_phases(self, basin: OpenBasin) -> np.ndarray:
-        """Phase of each wave at the basin's left side if it is zero at x = 0 of the scene, with the other sign.
+    def phases_at_origin(self, basin: OpenBasin) -> np.ndarray:
+        """Phase of each wave at the basin's left side if it is zero at x = 0 of the open water, with the other sign.
 
-        A wave e^{±ikx} of the scene is e^{±ikx₀} times that of the basin, whose x begins at x₀.
+        A wave e^{±ikx} of the open water is e^{±ikx₀} times that of the basin, whose x begins at x₀.
         """
         origin = basin.origin / basin.units.length
         return np.array([-plane.direction * plane.wave.wavenumber * origin for plane in self.planes])

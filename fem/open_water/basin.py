@@ -1,6 +1,6 @@
-"""Open water as a basin around the bodies, its frames, and how far they reach.
+"""Truncation of open water: a basin around the bodies, the frames of cells around it, and how far they reach.
 
-The basin is a closed tank of the scene's bodies; its walls, and its bottom or lid where a liquid goes on, are then
+The basin is a closed tank with all bodies; its walls, and its bottom or lid where a liquid goes on, are then
 surrounded by frames of cells in which coordinates are turned into the complex plane, see `fem.complex_scaling`. Frames
 begin with what an element resolves of the shortest wave, and grow by a constant factor: where they are too long for a
 wave it has decayed. They end where the longest wave has decayed, and where deep water's ψ ~ 1/r is below the tolerance.
@@ -17,12 +17,11 @@ from hydroelastic.meshes.geometry import BOTTOM, LEFT_WALL, LID, RIGHT_WALL
 from hydroelastic.meshes.open_sea import Frames
 from hydroelastic.modal.liquid.travelling_waves import TravellingWave, travelling_waves
 from hydroelastic.modal.liquid.two_layer import TwoLayers
+from hydroelastic.modal.tank_estimates import two_layers
+from hydroelastic.physics.beams import Beam
 from hydroelastic.physics.scales import Scales
 from hydroelastic.physics.tank import Tank
-from hydroelastic.scenes.models.bodies import Float
-from hydroelastic.scenes.models.body_kinds import AnyBeam
-from hydroelastic.scenes.models.physical import physical_tank
-from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.physics.tank import tank as closed_tank
 
 # Distance of the basin's sides from the bodies, in parts of their extent.
 _MARGIN = 0.5
@@ -44,15 +43,13 @@ class OpenBasin:
     """The part of open water around the bodies.
 
     Attributes:
-        scene: the basin as a scene of its own, a closed tank.
-        tank: that in units of its length.
+        tank: the basin as a closed tank, in units of its length.
         units: those units.
-        origin: abscissa of the basin's left side in the open scene, m.
-        layers: the liquids of the open scene, m and kg/m³.
-        depths: of the liquids of the open scene, from the bottom up, in basin lengths; may be infinite.
+        origin: abscissa of the basin's left side in the open water, m.
+        layers: the liquids of the open water, m and kg/m³.
+        depths: of the liquids of the open water, from the bottom up, in basin lengths; may be infinite.
     """
 
-    scene: TankScene
     tank: Tank
     units: Scales
     origin: float
@@ -102,29 +99,16 @@ class OpenBasin:
         return travelling_waves(self.scaled_layers, omega)
 
 
-def liquids_of(scene: TankScene) -> TwoLayers:
-    """The liquids of a scene, m and kg/m³."""
-    lower, *upper = scene.layers
-    return TwoLayers(
-        density_below=lower.density,
-        density_above=upper[0].density if upper else 0.0,
-        depth_below=lower.depth,
-        depth_above=upper[0].depth if upper else inf,
-        gravity=scene.tank.gravity,
-        top=scene.top,
-    )
-
-
-def open_basin(scene: TankScene, shortest: float, *, drawn: float | None = None) -> OpenBasin:
+def open_basin(water: Tank, shortest: float, *, drawn: float | None = None) -> OpenBasin:
     """Cut a basin out of open water.
 
     Args:
-        scene: with open ends and at least one body.
+        water: open water in SI units, with at least one body.
         shortest: the largest wavenumber of the waves that leave, 1/m; 0 where none does.
-        drawn: if it is to hold what the scene wants to be drawn, and not only what forces and motions need: for so many
+        drawn: if it is to hold the whole stretch of interest, and not only what forces and motions need: for so many
             radians of that wave to each side at most.
     """
-    left, right, low, high = _extent(scene)
+    left, right, low, high = _extent(water)
     extent = max(0.5 * (right - left), -low, high)
     margin = _MARGIN * extent
     if shortest * margin > _MARGIN_IN_RADIANS:
@@ -133,63 +117,46 @@ def open_basin(scene: TankScene, shortest: float, *, drawn: float | None = None)
     if drawn is not None:
         most = max(margin, drawn / shortest if shortest else inf)
         least = _LEAST_MARGIN * extent
-        margins = (min(max(left, least), most), min(max(scene.tank.length - right, least), most))
+        margins = (min(max(left, least), most), min(max(water.length - right, least), most))
     length = right - left + sum(margins)
     margin = max(margin, _DRAWN_DEPTH * length) if drawn is not None else margin
     reaches = (margin - low, margin + high)
-    depths = [layer.depth for layer in scene.layers]
+    depths = [layer.depth for layer in water.layers]
     # A top that moves, or holds the pressure, is part of the basin.
-    goes_on = (True, isinf(depths[-1]) or scene.top == "rigid")
+    goes_on = (True, isinf(depths[-1]) or water.top == "rigid")
     kept = [
         reach if open_end and depth > reach + _DEEPER * length else depth
         for depth, reach, open_end in zip(depths, reaches, goes_on, strict=False)
     ]
     origin = left - margins[0]
-    basin = scene.model_copy(
-        update={
-            "tank": scene.tank.model_copy(
-                update={
-                    "length": length,
-                    "ends": "walls",
-                    "top": "rigid" if isinf(depths[-1]) and len(depths) > 1 else scene.top,
-                }
-            ),
-            "liquid": tuple(
-                layer.model_copy(update={"depth": depth}) for layer, depth in zip(scene.layers, kept, strict=True)
-            ),
-            "body": tuple(_moved(body, -origin) for body in scene.body),
-        }
+    basin = closed_tank(
+        length=length,
+        gravity=water.gravity,
+        is_open=False,
+        liquids=tuple((layer.density, depth) for layer, depth in zip(water.layers, kept, strict=True)),
+        top=water.top,
+        bodies=tuple(body.moved(-origin) for body in water.bodies),
     )
-    physical = physical_tank(basin)
     return OpenBasin(
-        scene=basin,
-        tank=physical.scaled(),
-        units=physical.units,
+        tank=basin.scaled(),
+        units=basin.units,
         origin=origin,
-        layers=liquids_of(scene),
+        layers=two_layers(water),
         depths=tuple(depth / length for depth in depths),
     )
 
 
-def _moved(body: AnyBeam | Float, shift: float) -> AnyBeam | Float:
-    if not isinstance(body, Float):
-        return body.model_copy(update={"start": body.start + shift})
-    return body.model_copy(update={"position": body.position + shift})
-
-
-def _extent(scene: TankScene) -> tuple[float, float, float, float]:
+def _extent(water: Tank) -> tuple[float, float, float, float]:
     """Smallest and largest x, smallest and largest y of all bodies, and the still levels at which they float."""
     bounds = []
-    for index, body in enumerate(scene.body):
-        level = scene.height_of(scene.level_of(body))
-        if not isinstance(body, Float):
-            bounds.append((body.start, body.end, min(level, 0.0), max(level, 0.0)))
-            continue
-        from hydroelastic.scenes.models.floats import placed_float
-
-        left, right, low, high = placed_float(scene, index).contour.bounds
-        if body.boundary == "thin":
-            left = right = body.position
+    for index, body in enumerate(water.bodies):
+        if isinstance(body, Beam):
+            left, right = body.start, body.end
+            low = high = water.level_of(index).height
+        else:
+            left, right, low, high = body.bounds
+            if body.is_thin:
+                left, right = body.waterplane
         bounds.append((left, right, min(low, 0.0), max(high, 0.0)))
     lefts, rights, lows, highs = zip(*bounds, strict=True)
     return min(lefts), max(rights), min(lows), max(highs)
@@ -250,7 +217,7 @@ def reach(
         first: radians of the shortest wave that the first frame holds.
         growth: ratio of the distances of successive frames.
         angle: α.
-        tolerance: asked relative error.
+        tolerance: largest relative error that is accepted.
     """
     longest, shortest = wavenumbers
     decades = log(1.0 / (CUT * tolerance))

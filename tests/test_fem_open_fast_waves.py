@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from hydroelastic.modal.floats.profiles import FloatShape, float_profile
+from hydroelastic.fem.open_water.fast_waves import fast_waves, fastest_meshed
 from hydroelastic.modal.floats.thin_float import thin_constants
 from hydroelastic.modal.floats.wave_integral import wave_integral
-from hydroelastic.scenes.open_water.fast_waves import fast_waves, fastest_meshed
+from hydroelastic.physics.profiles import FloatShape, float_profile
 
 ANGLE = 0.07
 

@@ -1,4 +1,4 @@
-"""Solutions of an open model at any frequency: in full, by a factorization, or on a reduced basis of those in full."""
+"""Solutions of a field model at any frequency: in full by a factorization, or on a reduced basis of such solutions."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ import numpy as np
 from scipy.linalg import eigvals
 
 from hydroelastic.fem.open_water.complex_direct import ShiftedSolver
-from hydroelastic.fem.reduced_pencil import ReducedPencil
+from hydroelastic.fem.open_water.field_model import OpenModel
+from hydroelastic.fem.open_water.frequency import OpenFrequency, OpenResponse
+from hydroelastic.fem.open_water.incident_waves import Incidence, incidence, planes
+from hydroelastic.fem.open_water.reduced_pencil import ReducedPencil
 from hydroelastic.fem.stopwatch import Stopwatch
-from hydroelastic.scenes.open_water.frequency import OpenFrequency, OpenResponse
-from hydroelastic.scenes.open_water.incident_waves import Incidence, incidence, planes
-from hydroelastic.scenes.open_water.model import OpenModel
 
 
 class OpenSolver:
@@ -18,7 +18,7 @@ class OpenSolver:
 
     Args:
         model: the problem.
-        watch: told the time.
+        watch: records the time by stage.
     """
 
     def __init__(self, model: OpenModel, watch: Stopwatch) -> None:

@@ -1,4 +1,4 @@
-"""The part of the complex plane in which resonances ω − iγ are looked for."""
+"""The region of the complex plane in which resonances ω − iγ are sought."""
 
 from __future__ import annotations
 
@@ -6,10 +6,19 @@ from dataclasses import dataclass
 
 import numpy as np
 
+MOST_DAMPING_ANYWHERE = 0.7
+"""−Im ω/Re ω up to which resonances are found in water of any depth."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Region:
-    """Where resonances are looked for: lowest < Re ω < highest, −Im ω < damping · Re ω, in rad/s."""
+    """Where resonances are sought: lowest < Re ω < highest, −Im ω < damping · Re ω.
+
+    Attributes:
+        lowest: rad/s, positive.
+        highest: rad/s.
+        damping: largest −Im ω/Re ω.
+    """
 
     lowest: float
     highest: float
@@ -20,8 +29,12 @@ class Region:
         return self.lowest < omega.real < self.highest and -omega.imag < self.damping * omega.real
 
     def rim(self, places: np.ndarray) -> np.ndarray:
-        """Points around it at places from 0 to 4, a unit for each side, counterclockwise; the upper side is a little
-        above the axis."""
+        """Return ω of points on the boundary, rad/s.
+
+        Args:
+            places: shape (points,), from 0 to 4, a unit for each side, counterclockwise; the upper side is a little
+                above the real axis.
+        """
         corners = [
             self.lowest * (1.0 - 1j * self.damping),
             self.highest * (1.0 - 1j * self.damping),
@@ -36,7 +49,3 @@ class Region:
             along = side % 2 == 0
             points.append(start * (end / start) ** part if along else start + part * (end - start))
         return np.array(points)
-
-    def words(self) -> str:
-        """The region in words."""
-        return f"{self.lowest:.4g} < Re ω < {self.highest:.4g} rad/s, −Im ω < {self.damping:g} Re ω"

@@ -6,22 +6,20 @@ from dataclasses import dataclass, replace
 from math import nan
 
 import numpy as np
-from mpi4py import MPI
 
-from hydroelastic.fem.stopwatch import Stopwatch
+from hydroelastic.fem.open_water.attempts import Attempt, best_over_band
+from hydroelastic.fem.open_water.field_model import Band, OpenModel, open_model
+from hydroelastic.fem.open_water.frequency import OpenResponse
+from hydroelastic.fem.open_water.missed_peaks import missed_peaks
+from hydroelastic.fem.open_water.problem import OpenWaterProblem
+from hydroelastic.fem.open_water.radiation import between, joined_errors, judged_places, relative_difference
+from hydroelastic.fem.open_water.requests import ResponseRequest
+from hydroelastic.fem.open_water.results import MissedPeak, PlateDeflection, ResponseTable
+from hydroelastic.fem.open_water.solver import OpenSolver
+from hydroelastic.fem.open_water.sweep import FEW, Problem, Swept, sweep
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors, boundary_error
 from hydroelastic.fem.tank.resolution import Resolution, rounding_error
-from hydroelastic.scenes.models.open_analyses import Response
-from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.attempts import Attempt, attempted_over
-from hydroelastic.scenes.open_water.frequency import OpenResponse
-from hydroelastic.scenes.open_water.missed_peaks import missed_peaks
-from hydroelastic.scenes.open_water.model import Band, OpenModel, open_model
-from hydroelastic.scenes.open_water.radiation import between, joined_errors, judged_places, relative_difference
-from hydroelastic.scenes.open_water.results import MissedPeak, PlateDeflection, ResponseTable
-from hydroelastic.scenes.open_water.solver import OpenSolver
-from hydroelastic.scenes.open_water.sweep import FEW, Problem, Swept, sweep
 
 # Dry modes of the tail, which the last ones stand for: at the tips their deflections add like Σ n⁻⁵.
 _TAIL = 0.25
@@ -29,11 +27,11 @@ _TAIL = 0.25
 
 @dataclass(frozen=True, kw_only=True)
 class ResponseSolution:
-    """What a response analysis found.
+    """Result of a response analysis.
 
     Attributes:
-        table: the numbers.
-        model: the last problem.
+        table: the results in SI units.
+        model: the last field model.
         error: the largest relative error.
     """
 
@@ -44,37 +42,34 @@ class ResponseSolution:
 
 @dataclass(frozen=True, kw_only=True)
 class _Sweep:
-    """A sweep at one resolution."""
+    """The responses at all frequencies at one resolution."""
 
     solver: OpenSolver
     swept: Swept[OpenResponse]
     errors: np.ndarray
 
 
-def solve_response(comm: MPI.Comm, scene: TankScene, asked: Response, watch: Stopwatch) -> ResponseSolution:
-    """Solve for the motion in waves to the scene's tolerance (collective).
+def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> ResponseSolution:
+    """Solve for the motion in waves to the tolerance of the problem (collective).
 
     Args:
-        comm: MPI communicator.
-        scene: with open ends.
-        asked: the analysis.
-        watch: told the time.
+        problem: the open water.
+        request: the waves.
     """
-    omegas = np.array(asked.omega)
+    omegas = np.array(request.omega)
     band = Band(lowest=float(omegas.min()), highest=float(omegas.max()))
-    tolerance = scene.accuracy.tolerance
 
     def solve(resolution: Resolution) -> Attempt[_Sweep]:
-        model = open_model(comm, scene, band, resolution, watch)
-        solver = OpenSolver(model, watch)
-        incident = _incident(model, asked)
-        problem = Problem(
+        model = open_model(problem, band, resolution)
+        solver = OpenSolver(model, problem.watch)
+        incident = _incident(model, request)
+        frequencies = Problem(
             full=lambda omega: solver.response(omega.real, incident),
             reduced=lambda omega: solver.response_between(omega.real, incident),
             difference=lambda one, other: relative_difference(_outcome(one), _outcome(other)),
         )
-        swept = sweep(problem, omegas, tolerance)
-        with watch.stage("errors"):
+        swept = sweep(frequencies, omegas, problem.tolerance)
+        with problem.watch.stage("errors"):
             places = judged_places(omegas)
             causes = [_errors(swept.solutions[place]) for place in places]
         errors = between(omegas, places, np.array([cause.total.max() for cause in causes])) + swept.errors
@@ -84,34 +79,35 @@ def solve_response(comm: MPI.Comm, scene: TankScene, asked: Response, watch: Sto
             resolution=resolution,
         )
 
-    attempt = attempted_over(scene, band, solve)
+    attempt = best_over_band(problem, band, solve)
     found = attempt.result
     model = found.solver.model
-    table = _table(asked, model, omegas, found.swept.solutions, found.errors)
+    table = _table(request, model, omegas, found.swept.solutions, found.errors)
     if len(omegas) > FEW:
-        table = replace(table, missed_peaks=_missed(asked, found.solver, table))
+        table = replace(table, missed_peaks=_missed(request, found.solver, table))
     return ResponseSolution(table=table, model=model, error=attempt.error)
 
 
-def _missed(asked: Response, solver: OpenSolver, table: ResponseTable) -> tuple[MissedPeak, ...]:
+def _missed(request: ResponseRequest, solver: OpenSolver, table: ResponseTable) -> tuple[MissedPeak, ...]:
     """Peaks between the frequencies, by the reduced basis of the sweep (collective)."""
-    incident = _incident(solver.model, asked)
+    incident = _incident(solver.model, request)
 
     def between(omegas: np.ndarray) -> ResponseTable:
         solutions = [solver.response_between(float(omega), incident)[0] for omega in omegas]
-        return _table(asked, solver.model, omegas, solutions, np.full(len(omegas), nan))
+        return _table(request, solver.model, omegas, solutions, np.full(len(omegas), nan))
 
     return missed_peaks(table, solver.resonances_between(), between)
 
 
-def _incident(model: OpenModel, asked: Response) -> list[int]:
+def _incident(model: OpenModel, request: ResponseRequest) -> list[int]:
     """Places of the waves that come: those to the right are first."""
     count = len(model.basin.scaled_layers.branches)
-    return list(range(count)) if asked.waves_from == "left" else list(range(count, 2 * count))
+    return list(range(count)) if request.waves_from == "left" else list(range(count, 2 * count))
 
 
 def _outcome(solution: OpenResponse) -> np.ndarray:
-    """What the accuracy is asked of: elevations of the waves that leave, and motions, per incident elevation."""
+    """The quantities whose error is kept below the tolerance: elevations of the waves that leave, and motions, per
+    incident elevation."""
     elevations = solution.incidence.elevations
     incident = elevations[solution.incident]
     waves = solution.outgoing() * elevations[:, None] / incident
@@ -147,7 +143,7 @@ def _truncation(motions: np.ndarray, model: OpenModel) -> float:
 
 
 def _table(
-    asked: Response, model: OpenModel, omegas: np.ndarray, solutions: list[OpenResponse], errors: np.ndarray
+    request: ResponseRequest, model: OpenModel, omegas: np.ndarray, solutions: list[OpenResponse], errors: np.ndarray
 ) -> ResponseTable:
     first = solutions[0]
     count = len(first.incident)
@@ -161,43 +157,43 @@ def _table(
         wavenumbers=np.array([[plane.wave.wavenumber for plane in one.incidence.planes[:count]] for one in solutions])
         / model.basin.units.length,
         dofs=model.scale.dofs,
-        waves_from=asked.waves_from,
+        waves_from=request.waves_from,
         amplitudes=model.scale.amplitudes(motions),
         reflection=waves[:, :, back],
         transmission=waves[:, :, forward],
         energy_residual=np.array([solution.energy_residual() for solution in solutions]),
         relative_error=errors,
-        plates=tuple(_plates(asked, model, motions)),
+        plates=tuple(_plates(request, model, motions)),
     )
 
 
 def _waves(solution: OpenResponse) -> np.ndarray:
-    """Elevations of the waves that leave per incident elevation, both with the phases of the scene, shape (incident,
+    """Elevations of the waves that leave per incident elevation, both with their phases at x = 0, shape (incident,
     waves)."""
     incidence = solution.incidence
-    # A wave of the basin has the scene's phase e^{±ikx₀} at the basin's side.
-    phases = np.exp(1j * incidence.scene_phases(solution.model.basin))
+    # A wave whose phase is zero at x = 0 has the phase e^{±ikx₀} at the basin's side.
+    phases = np.exp(1j * incidence.phases_at_origin(solution.model.basin))
     scaled = incidence.elevations * phases
     ratios: np.ndarray = (solution.outgoing() * scaled[:, None] / scaled[solution.incident]).T
     return ratios
 
 
 def _motions(solution: OpenResponse) -> np.ndarray:
-    """Body unknowns per elevation of a unit of length of the scene's wave, shape (incident, body unknowns)."""
+    """Body unknowns per elevation of a unit of length with its phase at x = 0, shape (incident, body unknowns)."""
     incidence = solution.incidence
-    phases = np.exp(1j * incidence.scene_phases(solution.model.basin))
+    phases = np.exp(1j * incidence.phases_at_origin(solution.model.basin))
     motions: np.ndarray = solution.motions / (incidence.elevations * phases)[solution.incident][:, None]
     return motions
 
 
-def _plates(asked: Response, model: OpenModel, motions: np.ndarray) -> list[PlateDeflection]:
+def _plates(request: ResponseRequest, model: OpenModel, motions: np.ndarray) -> list[PlateDeflection]:
     plates, first = [], 0
     for index, body in enumerate(model.pencil.bodies):
         own = motions[..., first : first + body.size]
         first += body.size
         if index in model.basin.tank.beams:
             piece, length = model.basin.tank.piece_of(index), model.basin.units.length
-            x = np.linspace(piece.start, piece.end, asked.positions)
+            x = np.linspace(piece.start, piece.end, request.positions)
             plates.append(
                 PlateDeflection(
                     body=index,

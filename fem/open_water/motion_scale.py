@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import block_diag
 
+from hydroelastic.fem.open_water.basin import OpenBasin
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.physics.scales import Scales
-from hydroelastic.scenes.open_water.basin import OpenBasin
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -19,7 +19,7 @@ class MotionScale:
     Attributes:
         units: of the dimensionless problem.
         dofs: names of the motions.
-        turn: body unknowns in motions of the scene, as columns: the principal motions of a float are combinations of
+        turn: body unknowns in these motions, as columns: the principal motions of a float are combinations of
             heave and roll where gravity couples these.
         lengths: unit of each motion: that of length, or 1 for roll in rad.
     """

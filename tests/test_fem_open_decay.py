@@ -11,9 +11,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 from mpi4py import MPI
+from open_cases import problem_of
 
 from hydroelastic.fem.open_water import complex_direct
-from hydroelastic.fem.stopwatch import Stopwatch
+from hydroelastic.fem.open_water.cost import WITHIN, decay_cost
+from hydroelastic.fem.open_water.decay import DecaySolution, solve_decay
+from hydroelastic.fem.open_water.requests import DecayRequest
 from hydroelastic.modal.floats.open_float import released_float
 from hydroelastic.modal.liquid.two_layer import TwoLayers
 from hydroelastic.physics.profiles import float_profile
@@ -22,9 +25,9 @@ from hydroelastic.scenes.models.bodies import Float
 from hydroelastic.scenes.models.open_analyses import Decay, Release
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.tank_parts import Accuracy, Liquid, Tank
-from hydroelastic.scenes.open_water.check import open_requests
-from hydroelastic.scenes.open_water.cost import WITHIN, decay_cost
-from hydroelastic.scenes.open_water.decay import DecaySolution, solve_decay
+from hydroelastic.scenes.open_water.check import decay_cost_words, open_requests
+from hydroelastic.scenes.open_water.physics import decay_request
+from hydroelastic.scenes.open_water.solve import solve_open
 from hydroelastic.scenes.read import read_scene
 
 STORED = json.loads((Path(__file__).parent / "reference" / "open_circle.json").read_text(encoding="utf-8"))["release"]
@@ -44,8 +47,8 @@ def _scene(
 
 
 def _released(scene: TankScene, times: np.ndarray, **release: float) -> DecaySolution:
-    asked = Decay(displacement=Release(**(release or {"heave": 0.1})), times=tuple(float(time) for time in times))
-    return solve_decay(MPI.COMM_WORLD, scene, asked, Stopwatch())
+    asked = DecayRequest(**(release or {"heave": 0.1}), times=tuple(float(time) for time in times))
+    return solve_decay(problem_of(scene), asked)
 
 
 @pytest.mark.parametrize("tolerance", [1e-4, pytest.param(1e-6, marks=pytest.mark.slow)])
@@ -89,7 +92,7 @@ def test_few_factorizations_and_one_alive(monkeypatch: pytest.MonkeyPatch) -> No
     assert len(computed) < 30
     assert found.solved < 24
     assert found.error < 1e-4
-    told = decay_cost(scene, Decay(displacement=Release(heave=0.1), times=(300.0,)))
+    told = decay_cost(problem_of(scene).tank, 1e-4, DecayRequest(heave=0.1, times=(300.0,)))
     # The mesh is the same; the frequency above which it is not needed is only guessed.
     assert told.unknowns == pytest.approx(found.model.pencil.size, rel=0.3)
     assert len(computed) / WITHIN < told.factorizations < len(computed) * WITHIN
@@ -104,10 +107,10 @@ def test_cost_is_told_before(name: str, tolerance: float, seconds: float, memory
     scene = read_scene(name, [f"accuracy.tolerance={tolerance}"])
     assert isinstance(scene, TankScene)
     (asked,) = (analysis for analysis in scene.analyses if isinstance(analysis, Decay))
-    told = decay_cost(scene, asked)
+    told = decay_cost(problem_of(scene).tank, tolerance, decay_request(asked))
     assert seconds / WITHIN < told.seconds < seconds * WITHIN
     assert memory / WITHIN < told.memory < memory * WITHIN
-    assert any(told.words() in line for line in open_requests(scene))
+    assert any(decay_cost_words(scene, asked) in line for line in open_requests(scene))
 
 
 @pytest.mark.mpi
@@ -143,7 +146,7 @@ def test_long_exponential_between_two_liquids(tolerance: float) -> None:
     assert np.all(error < 3.0 * found.table.absolute_error / 0.1)
     assert found.error < 60.0 * error.max()
     # The first mesh keeps the tolerance, and is as large as told. It was refined to 158 000 unknowns, and fell short.
-    told = decay_cost(scene, Decay(displacement=Release(heave=0.1), times=tuple(times)))
+    told = decay_cost(problem_of(scene).tank, tolerance, DecayRequest(heave=0.1, times=tuple(times)))
     assert told.unknowns == pytest.approx(found.model.pencil.size, rel=0.3)
     assert found.solved < 30
 
@@ -171,10 +174,15 @@ def test_roll_dies_out_too() -> None:
 def test_what_capsizes_is_refused() -> None:
     scene = _scene(1e-3, motions=("heave", "roll"), centre_of_mass=0.5, unstable="solve")
     with pytest.raises(SceneError, match="capsize"):
-        _released(scene, np.array([1.0]))
+        _solved(scene, heave=0.1)
 
 
 def test_what_drifts_away_is_refused() -> None:
     scene = _scene(1e-3, half_width=2.0, motions=("heave", "sway", "roll"), centre_of_mass=-0.2)
     with pytest.raises(SceneError, match="nothing restores sway"):
-        _released(scene, np.array([1.0]), roll=0.05)
+        _solved(scene, roll=0.05)
+
+
+def _solved(scene: TankScene, **release: float) -> None:
+    asked = Decay(displacement=Release(**release), times=(1.0,))
+    solve_open(scene.model_copy(update={"analysis": (asked,)}), MPI.COMM_WORLD, lambda _message: None)

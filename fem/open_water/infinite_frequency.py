@@ -1,4 +1,4 @@
-"""Added mass in open water far above the waves: ψ = 0 on an open top, liquids that move as one, no damping."""
+"""The limit of infinite frequency in open water: ψ = 0 on an open top, liquids that move as one, no damping."""
 
 from __future__ import annotations
 
@@ -6,12 +6,14 @@ from dataclasses import dataclass, replace
 from math import sqrt
 
 import numpy as np
-from mpi4py import MPI
 from scipy.linalg import block_diag
 
 from hydroelastic.fem.added_mass import body_responses
 from hydroelastic.fem.liquid import compile_form
-from hydroelastic.fem.stopwatch import Stopwatch
+from hydroelastic.fem.open_water.attempts import Attempt, best_attempt
+from hydroelastic.fem.open_water.basin import open_basin, reach
+from hydroelastic.fem.open_water.field_model import ANGLE, GROWTH, NO_WATER, open_mesh
+from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors, boundary_error, energies_missed
 from hydroelastic.fem.tank.field_model import build_field_model, distributed_mesh, whole_bodies
 from hydroelastic.fem.tank.resolution import (
@@ -22,21 +24,16 @@ from hydroelastic.fem.tank.resolution import (
     workable_tolerance,
 )
 from hydroelastic.physics.scales import Scales
-from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.attempts import Attempt, attempted
-from hydroelastic.scenes.open_water.basin import open_basin, reach
-from hydroelastic.scenes.open_water.model import ANGLE, GROWTH, NO_WATER, open_mesh
 
-# Dry modes of each beam, and tolerance, where frequencies are only to be known roughly.
+# Dry modes of each beam where frequencies are only to be known roughly.
 _SHAPES = 16
-_ROUGH = 1e-3
 # Nothing travels; in units of the basin this is a length like its own.
 _NO_WAVE = 1.0
 
 
 @dataclass(frozen=True, kw_only=True)
-class ReleasedModel:
-    """The bodies with their added mass far above the waves, dimensionless.
+class InfiniteFrequencyLimit:
+    """The bodies with their added mass at infinite frequency, dimensionless.
 
     Attributes:
         units: of length and frequency.
@@ -55,10 +52,10 @@ class ReleasedModel:
     motions: tuple[tuple[int, str], ...]
 
     def frequencies(self, *, floats: bool = False) -> list[float]:
-        """Frequencies without waves, rad/s, ascending, of those motions that something restores.
+        """Natural frequencies with this added mass, rad/s, ascending, of the motions that something restores.
 
         Args:
-            floats: whether the floats alone are to move.
+            floats: whether only the floats move.
         """
         chosen = self.of_floats if floats else np.ones(len(self.stiffness), dtype=bool)
         restoring, whole = np.diag(self.stiffness), self.mass + self.added_mass
@@ -73,21 +70,16 @@ class ReleasedModel:
         return [self.units.frequency / sqrt(value) for value in inverse if value > 0.0]
 
 
-def rough_scene(scene: TankScene) -> TankScene:
-    """The same scene with little accuracy, for what only has to be found."""
-    return scene.model_copy(update={"accuracy": scene.accuracy.model_copy(update={"tolerance": _ROUGH})})
-
-
-def released_model(comm: MPI.Comm, scene: TankScene, watch: Stopwatch) -> ReleasedModel:
+def infinite_frequency_limit(problem: OpenWaterProblem) -> InfiniteFrequencyLimit:
     """The bodies in as many shapes as a first look at their frequencies needs (collective)."""
-    basin = open_basin(scene, 0.0)
+    basin = open_basin(problem.tank, 0.0)
     shapes = tuple(
         _SHAPES + len(basin.tank.beams[index].hinges) if index in basin.tank.beams else 0
         for index in range(len(basin.tank.bodies))
     )
-    added, _ = released_added_mass(comm, rough_scene(scene), shapes, watch)
+    added, _ = infinite_frequency_added_mass(problem.rough(), shapes)
     bodies = whole_bodies(basin.tank, shapes)
-    return ReleasedModel(
+    return InfiniteFrequencyLimit(
         units=basin.units,
         stiffness=np.diag(np.concatenate([body.stiffness for body in bodies])),
         mass=block_diag(*(body.mass for body in bodies)),
@@ -97,31 +89,27 @@ def released_model(comm: MPI.Comm, scene: TankScene, watch: Stopwatch) -> Releas
     )
 
 
-def released_added_mass(
-    comm: MPI.Comm, scene: TankScene, shapes: tuple[int, ...], watch: Stopwatch
-) -> tuple[np.ndarray, float]:
-    """Solve to the scene's tolerance.
+def infinite_frequency_added_mass(problem: OpenWaterProblem, shapes: tuple[int, ...]) -> tuple[np.ndarray, float]:
+    """Solve to the tolerance of the problem.
 
     Args:
-        comm: MPI communicator.
-        scene: with open ends.
+        problem: the open water.
         shapes: number of dry modes of each beam, 0 for floats.
-        watch: told the time.
 
     Returns:
         a(∞) in the bodies' unknowns and in units of a basin as long as that of long waves, and its relative error
         (collective).
     """
-    basin = open_basin(scene, 0.0)
-    tank = basin.tank
-    tolerance = workable_tolerance(scene.accuracy.tolerance, tank.depth)
+    basin = open_basin(problem.tank, 0.0)
+    tank, watch = basin.tank, problem.watch
+    tolerance = workable_tolerance(problem.tolerance, tank.depth)
     exponent = sharpest_exponent(tank, released=True)
     first = resolution_for(tank, tolerance, (0.0,) * len(tank.pieces), exponent=exponent)
 
     def solve(resolution: Resolution) -> Attempt[np.ndarray]:
         frames = reach(basin, (_NO_WAVE, _NO_WAVE), first=0.5, growth=GROWTH, angle=ANGLE, tolerance=tolerance)
         with watch.stage("mesh"):
-            mesh = distributed_mesh(comm, lambda: open_mesh(basin, resolution, frames, released=True))
+            mesh = distributed_mesh(problem.comm, lambda: open_mesh(basin, resolution, frames, released=True))
         with watch.stage("forms"):
             compile_form(mesh, resolution.degree, glued=tank.moves_as_one)
         with watch.stage("added mass"):
@@ -138,5 +126,5 @@ def released_added_mass(
         )
         return Attempt(result=matrix, causes=causes, resolution=resolution)
 
-    best = attempted(solve, replace(first, shapes=shapes), tolerance, exponent)
+    best = best_attempt(solve, replace(first, shapes=shapes), tolerance, exponent)
     return best.result, best.error

@@ -1,4 +1,4 @@
-"""The field model of open water for a range of frequencies: basin, frames, mesh, pencil, and how good it is."""
+"""The field model of open water for a range of frequencies: basin, frames, mesh, pencil, and its errors."""
 
 from __future__ import annotations
 
@@ -12,12 +12,14 @@ from scipy.linalg import block_diag
 
 from hydroelastic.fem.cells import cell_corners, cells_at, owned_cells
 from hydroelastic.fem.liquid import Layer, LiquidSpace, liquid_space
+from hydroelastic.fem.open_water.basin import CUT, OpenBasin, Reach, open_basin, reach
 from hydroelastic.fem.open_water.complex_scaling import ComplexScaling, compile_scaled_form
 from hydroelastic.fem.open_water.far_field import FarField
+from hydroelastic.fem.open_water.motion_scale import MotionScale, motion_scale
 from hydroelastic.fem.open_water.pencil import OpenPencil, build_open_pencil
+from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.wetted_surface import WettedSurface
 from hydroelastic.fem.spectral_error import cell_errors
-from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors, boundary_error
 from hydroelastic.fem.tank.field_model import distributed_mesh, moving_surfaces, whole_bodies
 from hydroelastic.fem.tank.mesh import graded_outline, tip_points
@@ -35,10 +37,9 @@ from hydroelastic.meshes.geometry import FAR_END
 from hydroelastic.meshes.open_sea import extended, with_far_ends
 from hydroelastic.meshes.tagged_mesh import TaggedMesh
 from hydroelastic.modal.liquid.travelling_waves import travelling_waves
+from hydroelastic.modal.tank_estimates import two_layers
 from hydroelastic.physics.local_waves import moving_parts
-from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.basin import CUT, OpenBasin, Reach, liquids_of, open_basin, reach
-from hydroelastic.scenes.open_water.motion_scale import MotionScale, motion_scale
+from hydroelastic.physics.tank import Tank
 
 ANGLE = pi / 3.0
 """α of the complex scaling in deep water. Measured on circles at Ka from 0.05 to 10: 60 degrees is as good as 45 or
@@ -75,22 +76,23 @@ class Band:
     lowest: float
     highest: float
 
-    def wavenumbers(self, scene: TankScene) -> tuple[float, float]:
+    def wavenumbers(self, water: Tank) -> tuple[float, float]:
         """Smallest and largest wavenumber of the waves that leave, 1/m."""
-        layers = liquids_of(scene)
+        layers = two_layers(water)
         found = [wave.wavenumber for omega in (self.lowest, self.highest) for wave in travelling_waves(layers, omega)]
         return min(found), max(found)
 
 
 @dataclass(frozen=True, kw_only=True)
 class OpenModel:
-    """The assembled problem of a scene with open ends.
+    """The assembled problem of open water.
 
     Attributes:
         basin: the water around the bodies.
         resolution: of the basin.
         reach: of the frames.
         shortest: largest wavenumber of the waves that leave.
+        tolerance: largest relative error that is accepted.
         pencil: the dimensionless problem, in units of the basin.
     """
 
@@ -98,6 +100,7 @@ class OpenModel:
     resolution: Resolution
     reach: Reach
     shortest: float
+    tolerance: float
     pencil: OpenPencil
 
     def squared_frequency(self, omega: complex) -> complex:
@@ -160,7 +163,7 @@ class OpenModel:
     @property
     def cut(self) -> float:
         """Relative error by what is cut off far away, at both ends."""
-        return 2.0 * CUT * self.basin.scene.accuracy.tolerance
+        return 2.0 * CUT * self.tolerance
 
     def compared(self, added: np.ndarray) -> np.ndarray:
         """What errors of H of each body unknown are compared with: |H|, or a small part of the inertia where there is
@@ -187,13 +190,19 @@ class OpenModel:
         )
 
 
-def first_resolution(scene: TankScene, band: Band, *, drawn: float | None = None) -> Resolution:
-    """What resolution an open scene, or what is drawn of it, starts from."""
-    basin = open_basin(scene, band.wavenumbers(scene)[1], drawn=drawn)
+def first_resolution(water: Tank, tolerance: float, band: Band, *, drawn: float | None = None) -> Resolution:
+    """The resolution from which the solution of open water, or of the stretch that is drawn, starts.
+
+    Args:
+        water: open water in SI units.
+        tolerance: largest relative error that is accepted.
+        band: the frequencies.
+        drawn: as for `open_basin`.
+    """
+    basin = open_basin(water, band.wavenumbers(water)[1], drawn=drawn)
     tank = basin.tank
-    layers = liquids_of(scene)
     length = basin.units.length
-    shortest = {wave.branch: wave.wavenumber * length for wave in travelling_waves(layers, band.highest)}
+    shortest = {wave.branch: wave.wavenumber * length for wave in travelling_waves(basin.layers, band.highest)}
     squared = (band.highest / basin.units.frequency) ** 2
     meshed, flexural = [], []
     for level in tank.levels:
@@ -205,7 +214,7 @@ def first_resolution(scene: TankScene, band: Band, *, drawn: float | None = None
             flexural.append(bent if piece.body in tank.beams else 0.0)
             # What waves scatter under a beam is as short as they are.
             meshed.append(0.0 if piece.body in tank.floats else max(own, flexural[-1]))
-    tolerance = workable_tolerance(scene.accuracy.tolerance, tank.depth)
+    tolerance = workable_tolerance(tolerance, tank.depth)
     exponent = sharpest_exponent(tank, released=False)
     # A beam moves in its own waves, whatever those of the water.
     shapes = resolution_for(tank, tolerance, tuple(flexural), exponent=exponent).shapes
@@ -213,11 +222,9 @@ def first_resolution(scene: TankScene, band: Band, *, drawn: float | None = None
 
 
 def open_model(
-    comm: MPI.Comm,
-    scene: TankScene,
+    problem: OpenWaterProblem,
     band: Band,
     resolution: Resolution,
-    watch: Stopwatch,
     *,
     angle: float | None = None,
     drawn: float | None = None,
@@ -225,18 +232,16 @@ def open_model(
     """Mesh and assemble open water (collective).
 
     Args:
-        comm: MPI communicator.
-        scene: with open ends.
+        problem: the open water.
         band: the frequencies.
         resolution: of the basin.
-        watch: told the time.
         angle: α of the complex scaling; by default that of the depth.
         drawn: if the basin holds what is drawn, for so many radians of the shortest wave to each side at most.
     """
-    basin, frames = _laid(scene, band, resolution, angle=angle, drawn=drawn)
-    tank = basin.tank
+    basin, frames = _laid(problem.tank, problem.tolerance, band, resolution, angle=angle, drawn=drawn)
+    tank, watch = basin.tank, problem.watch
     with watch.stage("mesh"):
-        mesh = distributed_mesh(comm, lambda: open_mesh(basin, resolution, frames))
+        mesh = distributed_mesh(problem.comm, lambda: open_mesh(basin, resolution, frames))
     liquid = _liquid(basin, resolution, mesh)
     with watch.stage("forms"):
         compile_scaled_form(liquid)
@@ -248,31 +253,38 @@ def open_model(
             bodies=whole_bodies(tank, resolution.shapes),
             surfaces=moving_surfaces(mesh, tank),
         )
-    shortest = band.wavenumbers(scene)[1] * basin.units.length
-    return OpenModel(basin=basin, resolution=resolution, reach=frames, shortest=shortest, pencil=pencil)
+    return OpenModel(
+        basin=basin,
+        resolution=resolution,
+        reach=frames,
+        shortest=band.wavenumbers(problem.tank)[1] * basin.units.length,
+        tolerance=problem.tolerance,
+        pencil=pencil,
+    )
 
 
-def first_mesh(scene: TankScene, band: Band, resolution: Resolution, *, angle: float) -> TaggedMesh:
+def first_mesh(water: Tank, tolerance: float, band: Band, resolution: Resolution, *, angle: float) -> TaggedMesh:
     """The mesh that `open_model` would take, on the calling process.
 
     Args:
-        scene: with open ends.
+        water: open water in SI units.
+        tolerance: largest relative error that is accepted.
         band: the frequencies.
         resolution: of the basin.
         angle: α of the complex scaling.
     """
-    basin, frames = _laid(scene, band, resolution, angle=angle, drawn=None)
+    basin, frames = _laid(water, tolerance, band, resolution, angle=angle, drawn=None)
     return open_mesh(basin, resolution, frames)
 
 
 def _laid(
-    scene: TankScene, band: Band, resolution: Resolution, *, angle: float | None, drawn: float | None
+    water: Tank, tolerance: float, band: Band, resolution: Resolution, *, angle: float | None, drawn: float | None
 ) -> tuple[OpenBasin, Reach]:
     """The basin and its frames."""
-    wavenumbers = band.wavenumbers(scene)
-    basin = open_basin(scene, wavenumbers[1], drawn=drawn)
+    wavenumbers = band.wavenumbers(water)
+    basin = open_basin(water, wavenumbers[1], drawn=drawn)
     length = basin.units.length
-    tolerance = workable_tolerance(scene.accuracy.tolerance, basin.tank.depth)
+    tolerance = workable_tolerance(tolerance, basin.tank.depth)
     has_bed = any(isfinite(depth) for depth in basin.depths)
     if angle is None:
         angle = ANGLE_OVER_A_BED if has_bed else ANGLE

@@ -1,4 +1,4 @@
-"""Complex resonances: where the bodies in open water oscillate by themselves and die out, ω − iγ."""
+"""Complex resonances ω − iγ: free oscillations of bodies in open water that decay by radiating waves."""
 
 from __future__ import annotations
 
@@ -6,26 +6,24 @@ from dataclasses import dataclass, replace
 from math import sqrt
 
 import numpy as np
-from mpi4py import MPI
 
-from hydroelastic.fem.open_water.resonances import Eigenpair, ResonanceSearch
-from hydroelastic.fem.stopwatch import Stopwatch
+from hydroelastic.fem.open_water.argument_principle import Solver, zeros_in
+from hydroelastic.fem.open_water.attempts import Attempt, best_over_band
+from hydroelastic.fem.open_water.basin import open_basin
+from hydroelastic.fem.open_water.damped import DampedSolver, damped_resonances, mirror_angle
+from hydroelastic.fem.open_water.field_model import FRAMES, Band, OpenModel, first_resolution, open_model
+from hydroelastic.fem.open_water.infinite_frequency import infinite_frequency_limit
+from hydroelastic.fem.open_water.motion_scale import motion_scale
+from hydroelastic.fem.open_water.problem import OpenWaterProblem
+from hydroelastic.fem.open_water.region import MOST_DAMPING_ANYWHERE, Region
+from hydroelastic.fem.open_water.requests import ResonanceRequest
+from hydroelastic.fem.open_water.resonance_search import Eigenpair, ResonanceSearch
+from hydroelastic.fem.open_water.results import ResonanceTable
+from hydroelastic.fem.open_water.solver import OpenSolver
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors, boundary_error
 from hydroelastic.fem.tank.field_model import whole_bodies
 from hydroelastic.fem.tank.resolution import Resolution, rounding_error
 from hydroelastic.fem.truncation import truncation_errors
-from hydroelastic.scenes.models.open_analyses import MOST_DAMPING_ANYWHERE, Resonance
-from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.attempts import Attempt, attempted_over
-from hydroelastic.scenes.open_water.basin import open_basin
-from hydroelastic.scenes.open_water.count import Solver, zeros_in
-from hydroelastic.scenes.open_water.damped import DampedSolver, damped_resonances, mirror_angle
-from hydroelastic.scenes.open_water.model import FRAMES, Band, OpenModel, first_resolution, open_model
-from hydroelastic.scenes.open_water.motion_scale import motion_scale
-from hydroelastic.scenes.open_water.region import Region
-from hydroelastic.scenes.open_water.released import released_model, rough_scene
-from hydroelastic.scenes.open_water.results import ResonanceTable
-from hydroelastic.scenes.open_water.solver import OpenSolver
 
 ANGLE = 1.3
 """α of the complex scaling: resonances with −Im ω/Re ω below tan(α/2) = 0.76 are uncovered in deep water; beyond
@@ -35,7 +33,7 @@ ANGLE = 1.3
 _STILL = 1e-2
 # The region searched goes beyond the expected frequencies by these factors.
 _BELOW, _ABOVE = 0.3, 1.25
-# Eigenvalues asked for near each target: a few resonances and the waves that leave around them.
+# Eigenvalues sought near each target: a few resonances and the waves that leave around them.
 _PER_TARGET = 8
 # Error of λ over what it moves by a radian of α; measured on a circle and a thin float it is smaller.
 _DRIFT = 0.1
@@ -58,19 +56,21 @@ _AT_REST = 1e-8
 
 @dataclass(frozen=True, kw_only=True)
 class ResonanceSolution:
-    """What a resonance analysis found.
+    """Result of a resonance analysis.
 
     Attributes:
-        table: the numbers.
-        model: the last problem; ``None`` where nothing restores the bodies.
+        table: the results in SI units.
+        model: the last field model; ``None`` where nothing restores the bodies.
         error: the largest relative error.
-        reasons: why the count is not confirmed; empty if it is.
+        known: number of resonances that were found in the region of the independent count.
+        unstable: whether a float is unstable, so that its motion grows and is none of the resonances.
     """
 
     table: ResonanceTable
     model: OpenModel | None
     error: float
-    reasons: tuple[str, ...]
+    known: int
+    unstable: bool
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -81,33 +81,32 @@ class _Found:
     pairs: list[Eigenpair]
 
 
-def solve_resonance(comm: MPI.Comm, scene: TankScene, asked: Resonance, watch: Stopwatch) -> ResonanceSolution:
-    """Find resonances to the scene's tolerance, and count them independently (collective).
+def solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> ResonanceSolution:
+    """Find resonances to the tolerance of the problem, and count them independently (collective).
 
     Args:
-        comm: MPI communicator.
-        scene: with open ends.
-        asked: the analysis.
-        watch: told the time.
+        problem: the open water.
+        request: how many, and where.
 
     Raises:
         EigenSolverError: if SLEPc fails.
     """
-    expected = released_model(comm, scene, watch).frequencies()
+    watch = problem.watch
+    expected = infinite_frequency_limit(problem).frequencies()
     if not expected:
-        return _nothing(scene)
-    region = _region(expected, asked)
-    coarse, known = rough_resonances(comm, scene, expected, region, watch)
+        return _nothing(problem)
+    region = _region(expected, request)
+    coarse, known = rough_resonances(problem, expected, region)
     damped = None
     if region.damping > MOST_DAMPING_ANYWHERE:
-        damped, known = _damped_resonances(comm, scene, coarse.resolution, region, known, watch)
-    values = known[: asked.count]
+        damped, known = _damped_resonances(problem, coarse.resolution, region, known)
+    values = known[: request.count]
     band, angle = Band(lowest=region.lowest, highest=region.highest), ANGLE
     if damped:
         band, angle = _around(values, region)
 
     def solve(resolution: Resolution) -> Attempt[_Found]:
-        model = open_model(comm, scene, band, resolution, watch, angle=angle)
+        model = open_model(problem, band, resolution, angle=angle)
         with watch.stage("resonances"):
             search = DampedSolver(model, watch) if damped else _outgoing_search(model)
             pairs = [search.refined(model.squared_frequency(omega)) for omega in values]
@@ -115,30 +114,23 @@ def solve_resonance(comm: MPI.Comm, scene: TankScene, asked: Resonance, watch: S
             causes = resonance_errors(model, pairs)
         return Attempt(result=_Found(model=model, pairs=pairs), causes=causes, resolution=resolution)
 
-    attempt = attempted_over(scene, band, solve)
+    attempt = best_over_band(problem, band, solve)
     found = attempt.result
     with watch.stage("count"):
         solver = damped or OpenSolver(coarse, watch)
-        closed, counted = _counted(solver, _closed_region(region, found, asked))
-    within = sum(map(closed.holds, known))
-    reasons: tuple[str, ...] = ()
-    if counted is None:
-        reasons = ("the independent count of the resonances is not certain: one may lie on the rim of its region",)
-    elif counted != within:
-        reasons = (f"an independent count finds {counted} resonances in the region, and {within} are known",)
-    if np.any(np.diag(found.model.stiffness) < 0.0):
-        reasons += ("a float is unstable: its motion grows, and is none of the resonances",)
+        closed, counted = _counted(solver, _closed_region(region, found, request))
     return ResonanceSolution(
         table=_table(found, attempt.causes, counted, closed),
         model=found.model,
         error=attempt.error,
-        reasons=reasons,
+        known=sum(map(closed.holds, known)),
+        unstable=bool(np.any(np.diag(found.model.stiffness) < 0.0)),
     )
 
 
-def _nothing(scene: TankScene) -> ResonanceSolution:
-    """Where nothing restores the bodies."""
-    basin = open_basin(scene, 0.0)
+def _nothing(problem: OpenWaterProblem) -> ResonanceSolution:
+    """The solution where nothing restores the bodies: no resonances."""
+    basin = open_basin(problem.tank, 0.0)
     dofs = motion_scale(basin, whole_bodies(basin.tank, (0,) * len(basin.tank.bodies))).dofs
     table = ResonanceTable(
         omega=np.zeros(0, dtype=complex),
@@ -148,9 +140,9 @@ def _nothing(scene: TankScene) -> ResonanceSolution:
         residuals=np.zeros(0),
         relative_error=np.zeros(0),
         counted=0,
-        region="any ω: nothing restores the bodies",
+        region=None,
     )
-    return ResonanceSolution(table=table, model=None, error=0.0, reasons=())
+    return ResonanceSolution(table=table, model=None, error=0.0, known=0, unstable=False)
 
 
 def _counted(solver: Solver, region: Region) -> tuple[Region, int | None]:
@@ -163,9 +155,9 @@ def _counted(solver: Solver, region: Region) -> tuple[Region, int | None]:
     return region, None
 
 
-def _region(expected: list[float], asked: Resonance) -> Region:
-    highest = asked.below if asked.below is not None else _ABOVE * expected[min(asked.count, len(expected)) - 1]
-    lowest, damping = _BELOW * min(expected[0], highest), asked.largest_damping
+def _region(expected: list[float], request: ResonanceRequest) -> Region:
+    highest = request.below if request.below is not None else _ABOVE * expected[min(request.count, len(expected)) - 1]
+    lowest, damping = _BELOW * min(expected[0], highest), request.largest_damping
     if damping > MOST_DAMPING_ANYWHERE:
         # What dies out fast has a small Re ω for its |ω|.
         lowest /= sqrt(1.0 + damping**2)
@@ -173,7 +165,7 @@ def _region(expected: list[float], asked: Resonance) -> Region:
 
 
 def _around(values: list[complex], region: Region) -> tuple[Band, float]:
-    """The frequencies of a mesh for some resonances of a region alone, and α of its scaling."""
+    """The frequencies of a mesh for the given resonances of a region alone, and α of its scaling."""
     sizes = [abs(omega) for omega in values] or [region.lowest, region.highest]
     damping = max((-omega.imag / omega.real for omega in values), default=region.damping)
     return Band(lowest=min(sizes) / _AROUND, highest=max(sizes) * _AROUND), mirror_angle(damping)
@@ -184,16 +176,14 @@ def _outgoing_search(model: OpenModel) -> ResonanceSearch:
 
 
 def rough_resonances(
-    comm: MPI.Comm, scene: TankScene, expected: list[float], region: Region, watch: Stopwatch
+    problem: OpenWaterProblem, expected: list[float], region: Region
 ) -> tuple[OpenModel, list[complex]]:
     """Find the resonances of a region in which bodies move, with little accuracy.
 
     Args:
-        comm: MPI communicator.
-        scene: with open ends.
+        problem: the open water.
         expected: frequencies near which to look, rad/s.
         region: where.
-        watch: told the time.
 
     Returns:
         The model, and ω by ascending |ω|, rad/s (collective).
@@ -201,14 +191,14 @@ def rough_resonances(
     Raises:
         EigenSolverError: if SLEPc fails.
     """
-    rough, band = rough_scene(scene), Band(lowest=region.lowest, highest=region.highest)
-    resolution = first_resolution(rough, band)
+    rough, band = problem.rough(), Band(lowest=region.lowest, highest=region.highest)
+    resolution = first_resolution(rough.tank, rough.tolerance, band)
     # Motions that nothing restores are not among the expected ones.
     enough = sum(omega < _STIFF * region.highest for omega in expected) + 4
     resolution = replace(resolution, shapes=tuple(min(count, enough) for count in resolution.shapes))
-    model = open_model(comm, rough, band, resolution, watch, angle=ANGLE)
+    model = open_model(rough, band, resolution, angle=ANGLE)
     targets = [omega for omega in expected if omega < region.highest] or [region.highest]
-    with watch.stage("resonances"):
+    with problem.watch.stage("resonances"):
         return model, _search(model, targets, region)
 
 
@@ -228,27 +218,25 @@ def _search(model: OpenModel, targets: list[float], region: Region) -> list[comp
 
 
 def _damped_resonances(
-    comm: MPI.Comm, scene: TankScene, resolution: Resolution, region: Region, known: list[complex], watch: Stopwatch
+    problem: OpenWaterProblem, resolution: Resolution, region: Region, known: list[complex]
 ) -> tuple[DampedSolver, list[complex]]:
     """Resonances of a region that reaches far below the axis, with little accuracy (collective).
 
     Args:
-        comm: MPI communicator.
-        scene: with endless liquids.
+        problem: open water of endless liquids.
         resolution: whose shapes of beams are taken.
         region: where.
         known: those near the axis, rad/s.
-        watch: told the time.
 
     Returns:
         The solver, and ω in rad/s by ascending |ω|.
     """
-    rough = rough_scene(scene)
+    rough = problem.rough()
     band = Band(lowest=region.lowest, highest=region.highest * sqrt(1.0 + region.damping**2))
-    resolution = replace(first_resolution(rough, band), shapes=resolution.shapes)
-    model = open_model(comm, rough, band, resolution, watch, angle=mirror_angle(region.damping))
-    solver = DampedSolver(model, watch)
-    with watch.stage("resonances"):
+    resolution = replace(first_resolution(rough.tank, rough.tolerance, band), shapes=resolution.shapes)
+    model = open_model(rough, band, resolution, angle=mirror_angle(region.damping))
+    solver = DampedSolver(model, problem.watch)
+    with problem.watch.stage("resonances"):
         counted = zeros_in(solver, region.rim)
         for spacing in _SPACINGS:
             known = damped_resonances(solver, region, _OVERLAP * MOST_DAMPING_ANYWHERE, known, spacing)
@@ -257,9 +245,9 @@ def _damped_resonances(
         return solver, known
 
 
-def _closed_region(region: Region, found: _Found, asked: Resonance) -> Region:
+def _closed_region(region: Region, found: _Found, request: ResonanceRequest) -> Region:
     """The region of those that are reported: it ends halfway to where the next may be."""
-    if asked.below is not None or len(found.pairs) < asked.count:
+    if request.below is not None or len(found.pairs) < request.count:
         return region
     last = max(np.sqrt(pair.eigenvalue).real for pair in found.pairs) * found.model.basin.units.frequency
     return Region(lowest=region.lowest, highest=min(region.highest, 1.02 * last), damping=region.damping)
@@ -305,5 +293,5 @@ def _table(found: _Found, causes: FrequencyErrors, counted: int | None, region: 
         residuals=np.array([pair.residual for pair in pairs]),
         relative_error=causes.total,
         counted=counted,
-        region=region.words(),
+        region=region,
     )

@@ -1,4 +1,4 @@
-"""Solve at a resolution, judge, refine where the error comes from, and keep the best of a few attempts."""
+"""Adaptive resolution: solve, estimate errors by cause, refine where they arise, keep the best of a few attempts."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from typing import Generic, TypeVar
 
 from hydroelastic.fem.memory import hand_back_memory
+from hydroelastic.fem.open_water.basin import open_basin
+from hydroelastic.fem.open_water.field_model import Band, first_resolution
+from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors, refined
 from hydroelastic.fem.tank.resolution import Resolution, sharpest_exponent, workable_tolerance
-from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.basin import open_basin
-from hydroelastic.scenes.open_water.model import Band, first_resolution
 
 Result = TypeVar("Result")
 
@@ -20,12 +20,12 @@ _MOST_ATTEMPTS = 4
 
 @dataclass(frozen=True, kw_only=True)
 class Attempt(Generic[Result]):
-    """A result and what it says of itself.
+    """A result with its estimated errors.
 
     Attributes:
-        result: it.
-        causes: its errors by cause.
-        resolution: that it was found with.
+        result: the result.
+        causes: its relative errors by cause.
+        resolution: with which it was found.
     """
 
     result: Result
@@ -38,15 +38,15 @@ class Attempt(Generic[Result]):
         return float(self.causes.total.max(initial=0.0))
 
 
-def attempted(
+def best_attempt(
     solve: Callable[[Resolution], Attempt[Result]], first: Resolution, tolerance: float, exponent: float
 ) -> Attempt[Result]:
-    """The first attempt that keeps the tolerance, or the best of a few (collective).
+    """Return the first attempt whose error is below a tolerance, or the most accurate of a few (collective).
 
     Args:
         solve: solves at a resolution.
-        first: where to start.
-        tolerance: asked relative error.
+        first: resolution of the first attempt.
+        tolerance: largest relative error that is accepted.
         exponent: α of ψ ~ r^α at the sharpest tips.
     """
     resolution: Resolution | None = first
@@ -65,18 +65,20 @@ def attempted(
     return best
 
 
-def attempted_over(scene: TankScene, band: Band, solve: Callable[[Resolution], Attempt[Result]]) -> Attempt[Result]:
-    """The best of a few attempts over a range of frequencies, from the resolution that it needs (collective).
+def best_over_band(
+    problem: OpenWaterProblem, band: Band, solve: Callable[[Resolution], Attempt[Result]]
+) -> Attempt[Result]:
+    """Return the best of a few attempts over a range of frequencies, from the resolution that it needs (collective).
 
     Args:
-        scene: with open ends.
+        problem: the open water.
         band: the frequencies.
         solve: solves at a resolution.
     """
-    tank = open_basin(scene, band.wavenumbers(scene)[1]).tank
-    return attempted(
+    tank = open_basin(problem.tank, band.wavenumbers(problem.tank)[1]).tank
+    return best_attempt(
         solve,
-        first_resolution(scene, band),
-        workable_tolerance(scene.accuracy.tolerance, tank.depth),
+        first_resolution(problem.tank, problem.tolerance, band),
+        workable_tolerance(problem.tolerance, tank.depth),
         sharpest_exponent(tank, released=False),
     )

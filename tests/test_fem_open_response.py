@@ -8,7 +8,19 @@ from typing import Any
 import numpy as np
 import pytest
 from mpi4py import MPI
-from open_cases import SLOW, beam, complex_of, half_slow, plate, radiation, response, section, stored, two_liquids
+from open_cases import (
+    SLOW,
+    beam,
+    complex_of,
+    half_slow,
+    plate,
+    problem_of,
+    radiation,
+    response,
+    section,
+    stored,
+    two_liquids,
+)
 from open_levels import one_liquid
 from open_plates import plate_of, scattering
 from open_tables import open_scene
@@ -210,14 +222,13 @@ def test_what_does_not_disturb_the_water_sends_no_waves() -> None:
 
 @pytest.mark.mpi
 def test_two_processes_find_what_one_finds() -> None:
-    from hydroelastic.fem.stopwatch import Stopwatch
-    from hydroelastic.scenes.models.open_analyses import Response
-    from hydroelastic.scenes.open_water.response import solve_response
+    from hydroelastic.fem.open_water.requests import ResponseRequest
+    from hydroelastic.fem.open_water.response import solve_response
 
     row = TWO_LIQUIDS[1]
-    asked = Response(omega=(row["omega"],), positions=5)
+    asked = ResponseRequest(omega=(row["omega"],), positions=5)
     together, alone = (
-        solve_response(comm, two_liquids(row, 1e-4), asked, Stopwatch()).table
+        solve_response(problem_of(two_liquids(row, 1e-4), comm), asked).table
         for comm in (MPI.COMM_WORLD, MPI.COMM_SELF)
     )
     for found, exact in (

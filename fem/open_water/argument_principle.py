@@ -1,4 +1,4 @@
-"""How many resonances lie in a region, counted without looking for them: the argument principle.
+"""Number of resonances in a region by the argument principle, without searching for them.
 
 The small matrix D(λ) = K − λ(M_b + H(λ)) of the bodies is singular at resonances, and has poles where the water
 could oscillate by itself if the bodies were held. Around a region the phase of det D turns once for every resonance
@@ -13,8 +13,8 @@ from typing import TypeAlias
 
 import numpy as np
 
-from hydroelastic.scenes.open_water.damped import DampedSolver
-from hydroelastic.scenes.open_water.solver import OpenSolver
+from hydroelastic.fem.open_water.damped import DampedSolver
+from hydroelastic.fem.open_water.solver import OpenSolver
 
 Solver: TypeAlias = OpenSolver | DampedSolver
 

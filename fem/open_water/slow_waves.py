@@ -1,4 +1,4 @@
-"""H of bodies in endless liquids in waves so long that its form is known, and no mesh is needed.
+"""Low-frequency series of H in endless liquids, used below the frequencies that the mesh resolves.
 
 With κ = kb, b the length of the basin, and L = ln p on a line p = −iω of the complex plane,
 
@@ -18,8 +18,9 @@ from math import isinf, pi, sqrt
 
 import numpy as np
 
-from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.basin import liquids_of, open_basin
+from hydroelastic.fem.open_water.basin import open_basin
+from hydroelastic.modal.tank_estimates import two_layers
+from hydroelastic.physics.tank import Tank
 
 SPREAD = 2.0
 """The coefficients are taken from the lowest frequency of the mesh to this multiple of it."""
@@ -34,7 +35,7 @@ _HARDLY = 0.02
 
 @dataclass(frozen=True, kw_only=True)
 class LongWaves:
-    """The series. Shapes: m body unknowns.
+    """The low-frequency series of H. Shapes: m body unknowns.
 
     Attributes:
         unit: the frequency |ω| at which κ counts as 1 and L has no real part.
@@ -84,20 +85,20 @@ def _terms(omegas: np.ndarray) -> np.ndarray:
     return np.stack([np.ones_like(kappa), logarithm, kappa, kappa * logarithm, kappa * logarithm**2], axis=1)
 
 
-def slowest_meshed(scene: TankScene, latest: float) -> float:
+def slowest_meshed(water: Tank, latest: float) -> float:
     """The lowest frequency for which a mesh is needed, rad/s.
 
     Args:
-        scene: with open ends.
-        latest: the last time that is asked for, s.
+        water: open water in SI units.
+        latest: the last time at which the motion is wanted, s.
     """
-    if not is_endless(scene):
+    if not is_endless(water):
         return _HARDLY / latest
-    layers, extent = liquids_of(scene), open_basin(scene, 0.0).units.length
+    layers, extent = two_layers(water), open_basin(water, 0.0).units.length
     buoyancy = (layers.density_below - layers.density_above) / (layers.density_below + layers.density_above)
     return sqrt(_LONG * layers.gravity * buoyancy / extent)
 
 
-def is_endless(scene: TankScene) -> bool:
-    """Whether no liquid has a bed or a top far away."""
-    return all(isinf(layer.depth) for layer in scene.layers)
+def is_endless(water: Tank) -> bool:
+    """Whether all liquids are infinitely deep."""
+    return all(isinf(layer.depth) for layer in water.layers)

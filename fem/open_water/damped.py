@@ -1,4 +1,4 @@
-"""Resonances that die out so fast that the waves which left when all was larger hide them.
+"""Strongly damped resonances, whose outgoing waves grow faster with the distance than complex scaling can follow.
 
 Their conjugate grows as e^{−iω̄t}, and waves only come in. At λ̄, above the axis, the outgoing waves of T = A − λ̄M
 decay with the distance, the faster the further from the axis, and coordinates are turned by a small angle only. With
@@ -30,13 +30,13 @@ from scipy.linalg import eig
 from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.open_water.complex_direct import ShiftedSolver
 from hydroelastic.fem.open_water.complex_scaling import complex_product
-from hydroelastic.fem.open_water.resonances import Eigenpair
-from hydroelastic.fem.reduced_pencil import ReducedPencil
+from hydroelastic.fem.open_water.field_model import OpenModel
+from hydroelastic.fem.open_water.incident_waves import Standing, surface_integrals
+from hydroelastic.fem.open_water.reduced_pencil import ReducedPencil
+from hydroelastic.fem.open_water.region import Region
+from hydroelastic.fem.open_water.resonance_search import Eigenpair
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.modal.liquid.endless_wave import EndlessWave
-from hydroelastic.scenes.open_water.incident_waves import Standing, surface_integrals
-from hydroelastic.scenes.open_water.model import OpenModel
-from hydroelastic.scenes.open_water.region import Region
 
 # Newton's method: its last step and the number of steps on one basis, and how often a solution is added to that.
 _STEP = 1e-11
@@ -130,7 +130,7 @@ class DampedSolver:
 
     Args:
         model: the problem, with coordinates turned by `mirror_angle`.
-        watch: told the time.
+        watch: records the time by stage.
     """
 
     def __init__(self, model: OpenModel, watch: Stopwatch) -> None:

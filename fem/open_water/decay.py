@@ -1,0 +1,312 @@
+"""Free motion of bodies in open water after a float is released at rest on still water.
+
+With p for d/dt and λ = −p², from a displacement a₀
+
+    [p²(M + H) + K] S(p) = p (M + H) a₀,    a(t) = 2 Re Σ rⱼ e^{pⱼt} + (1/π) Im ∫₀^∞ E(re^{iφ}) e^{iφ} e^{re^{iφ}t} dr :
+
+the resonances between the imaginary axis and the ray arg p = φ, and an integral along that ray, `ray`. Each is solved
+as finely as it needs: the phase of a resonance gathers its error over many swings, but its waves are of one length;
+on the ray waves are of all lengths, and little depends on each.
+
+Source: form (C) of the thin float, `modal.thin_float_decay`, with H of the exact body.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import pi, tan
+
+import numpy as np
+
+from hydroelastic.fem.open_water.attempts import Attempt, best_over_band
+from hydroelastic.fem.open_water.basin import open_basin
+from hydroelastic.fem.open_water.fast_waves import fastest_meshed
+from hydroelastic.fem.open_water.field_model import Band, OpenModel, open_model
+from hydroelastic.fem.open_water.infinite_frequency import (
+    InfiniteFrequencyLimit,
+    infinite_frequency_added_mass,
+    infinite_frequency_limit,
+)
+from hydroelastic.fem.open_water.motion_scale import motion_scale
+from hydroelastic.fem.open_water.problem import OpenWaterProblem
+from hydroelastic.fem.open_water.ray import RayIntegral, RayMotion, ray_between
+from hydroelastic.fem.open_water.region import Region
+from hydroelastic.fem.open_water.requests import DecayRequest
+from hydroelastic.fem.open_water.resonance import ANGLE, resonance_errors, rough_resonances
+from hydroelastic.fem.open_water.resonance_search import Eigenpair, ResonanceSearch
+from hydroelastic.fem.open_water.results import DecayTable
+from hydroelastic.fem.open_water.slow_waves import is_endless, slowest_meshed
+from hydroelastic.fem.tank.field_model import whole_bodies
+from hydroelastic.fem.tank.resolution import Resolution
+from hydroelastic.physics.tank import Tank
+
+# Resonances are looked for up to this angle from the real axis.
+_SEARCHED = 0.54
+# The mesh of the resonances goes so far below the lowest one.
+_BELOW = 0.7
+# The resonances have this part of the tolerance.
+_SHARE = 0.5
+# A part of the momentum below which it is rounding.
+_PUSHED = 1e-6
+# Resonances faster than a float alone by more than this are those of beams.
+_FAST = 3.0
+
+
+class UnstableFloatError(ValueError):
+    """A float is unstable and would capsize."""
+
+
+class DriftingFloatError(ValueError):
+    """A release would set a motion going that nothing restores.
+
+    Attributes:
+        motions: names of such motions, sorted.
+    """
+
+    def __init__(self, motions: list[str]) -> None:
+        """Keep the motions."""
+        super().__init__(f"nothing restores {' and '.join(motions)}")
+        self.motions = motions
+
+
+@dataclass(frozen=True, kw_only=True)
+class DecaySolution:
+    """Result of a decay analysis.
+
+    Attributes:
+        table: the results in SI units.
+        model: the last field model.
+        error: the largest error relative to the initial displacement.
+        solved: number of frequencies of the ray that were solved in full at the last resolution.
+    """
+
+    table: DecayTable
+    model: OpenModel
+    error: float
+    solved: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class _ResonantMotion:
+    """The sum over the resonances to the right of the ray, dimensionless. Shapes: n times, m body unknowns.
+
+    Attributes:
+        motion: Σ 2 Re(rⱼ e^{pⱼt}), shape (n, m).
+        errors: of it, shape (n,).
+        fastest: the largest |ω|.
+    """
+
+    motion: np.ndarray
+    errors: np.ndarray
+    fastest: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Waves:
+    """The integral along the ray at one resolution, and the model that it is of."""
+
+    model: OpenModel
+    found: RayMotion
+
+
+def solve_decay(problem: OpenWaterProblem, request: DecayRequest) -> DecaySolution:
+    """Motion after a release, with an error below the tolerance times the initial displacement (collective).
+
+    Args:
+        problem: the open water.
+        request: the release.
+
+    Raises:
+        EigenSolverError: if SLEPc fails.
+        UnstableFloatError: if a float would capsize.
+        DriftingFloatError: if a float would drift away.
+    """
+    limit = infinite_frequency_limit(problem)
+    _check_release(limit, request)
+    # Beams have shapes that vibrate much faster, and bend as if at rest in the motion of the float.
+    fastest = max(limit.frequencies(floats=True))
+    expected = [omega for omega in limit.frequencies() if omega <= _FAST * fastest]
+    region = Region(lowest=0.2 * expected[0], highest=1.3 * expected[-1], damping=tan(_SEARCHED))
+    _, resonances = rough_resonances(problem, expected, region)
+    ray = ray_between(resonances)
+    # At t = 0 the sum of both parts should be the initial displacement.
+    times = np.array([*request.times, 0.0])
+    band = ray_band(problem.tank, problem.tolerance, request, expected)
+    within = [omega for omega in resonances if -np.angle(omega) < ray.angle]
+    resonant = _resonant_motion(problem, request, within, band.highest)
+
+    def solve(resolution: Resolution) -> Attempt[_Waves]:
+        # Dry modes are judged at the resonances, and both parts move in the same ones.
+        resolution = replace(resolution, shapes=resonant.resolution.shapes)
+        added = _infinite_frequency_added_mass(problem, resolution)
+        model = open_model(problem, band, resolution, angle=ray.scaling)
+        unit = model.basin.units.frequency
+        initial = _initial(model, request)
+        integral = RayIntegral(
+            model=model,
+            limit=model.scale.unknown_masses(added),
+            initial=initial,
+            ray=ray,
+            band=(band.lowest / unit, band.highest / unit),
+            slow=0.5 * expected[0] / unit,
+            watch=problem.watch,
+        )
+        found = integral.followed(times * unit, endless=is_endless(problem.tank))
+        size = np.abs(initial).max()
+        missed = np.abs(resonant.result.motion[-1] + found.motion[-1] - initial).max()
+        causes = replace(found.errors, liquid=found.errors.liquid + resonant.result.errors + missed).scaled(1.0 / size)
+        return Attempt(result=_Waves(model=model, found=found), causes=causes, resolution=resolution)
+
+    waves = best_over_band(problem, band, solve).result
+    return _solution(request, resonant.result, waves)
+
+
+def ray_band(water: Tank, tolerance: float, request: DecayRequest, expected: list[float]) -> Band:
+    """The frequencies of the ray's mesh.
+
+    Args:
+        water: open water in SI units.
+        tolerance: largest error of the motion that is accepted, relative to the initial displacement.
+        request: the release.
+        expected: about those at which the bodies oscillate, rad/s, ascending.
+    """
+    latest = max(*request.times, 1.0 / expected[-1])
+    return Band(
+        lowest=min(slowest_meshed(water, latest), expected[0]),
+        highest=fastest_meshed(expected[-1], tolerance),
+    )
+
+
+def _solution(request: DecayRequest, resonant: _ResonantMotion, waves: _Waves) -> DecaySolution:
+    """The motion in the resonances and that along the ray together."""
+    model, found = waves.model, waves.found
+    initial = _initial(model, request)
+    motion = resonant.motion + found.motion
+    # The difference from the initial displacement at t = 0 is of high frequency, and decays but in vibrating beams.
+    missed = np.abs(motion[-1] - initial).max()
+    fades = not model.basin.tank.beams
+    times = np.array(request.times) * model.basin.units.frequency
+    errors = (resonant.errors + found.errors.total)[:-1] + missed / (1.0 + fades * (resonant.fastest * times) ** 2)
+    return DecaySolution(
+        table=_table(request, model, motion[:-1], errors, found.slow),
+        model=model,
+        error=float(errors.max() / np.abs(initial).max()),
+        solved=found.solved,
+    )
+
+
+def _check_release(limit: InfiniteFrequencyLimit, request: DecayRequest) -> None:
+    """Refuse a release after which a body does not come back to rest where it was.
+
+    Raises:
+        UnstableFloatError: if a float would capsize.
+        DriftingFloatError: if the release sets a motion going that nothing restores.
+    """
+    restoring = np.diag(limit.stiffness)
+    if np.any(restoring[limit.of_floats] < 0.0):
+        raise UnstableFloatError("a float is unstable and would capsize")
+    loose = restoring == 0.0
+    given = {"heave": request.heave, "roll": request.roll}
+    own = [label if body == request.body else "" for body, label in limit.motions]
+    initial = np.array([given.get(label, 0.0) for label in own])
+    pushed = (limit.mass + limit.added_mass) @ initial
+    if np.any(np.abs(pushed[loose]) > _PUSHED * np.abs(pushed).max()):
+        raise DriftingFloatError(sorted({limit.motions[place][1] for place in np.flatnonzero(loose)}))
+
+
+def _resonant_motion(
+    problem: OpenWaterProblem, request: DecayRequest, resonances: list[complex], highest: float
+) -> Attempt[_ResonantMotion]:
+    """The motion in the resonances to the right of the ray, on a mesh for their waves (collective).
+
+    Args:
+        problem: the open water.
+        request: the release.
+        resonances: those to the right of the ray, rad/s, roughly.
+        highest: frequency of the ray's mesh, rad/s: both have the same basin, and the same units.
+    """
+    lowest = min((_BELOW * abs(omega) for omega in resonances), default=highest)
+    band = Band(lowest=lowest, highest=highest)
+    times = np.array([*request.times, 0.0])
+
+    def solve(resolution: Resolution) -> Attempt[_ResonantMotion]:
+        model = open_model(problem, band, resolution, angle=ANGLE)
+        with problem.watch.stage("resonances"):
+            search = ResonanceSearch(model.pencil, model.stiffness, model.mass)
+            poles = [search.refined(model.squared_frequency(omega)) for omega in resonances]
+        with problem.watch.stage("errors"):
+            causes = resonance_errors(model, poles)
+        initial = _initial(model, request)
+        residues = _residues(model, poles, initial)
+        scaled = times * model.basin.units.frequency
+        omegas = [complex(np.sqrt(pole.eigenvalue)) for pole in poles]
+        motion = np.zeros((len(times), len(initial)))
+        phases = np.zeros((len(poles), len(times)))
+        for row, (omega, residue) in enumerate(zip(omegas, residues, strict=True)):
+            motion += 2.0 * np.real(np.exp(-1j * omega * scaled)[:, None] * residue)
+            # Of the phase and decay of each.
+            swing = 2.0 * np.abs(residue).max() * np.exp(omega.imag * scaled)
+            phases[row] = swing * (1.0 + abs(omega) * scaled)
+        found = _ResonantMotion(motion=motion, errors=causes.total @ phases, fastest=max(map(abs, omegas), default=1.0))
+        weights = phases.max(axis=1) / (_SHARE * np.abs(initial).max())
+        return Attempt(result=found, causes=causes.scaled(weights), resolution=resolution)
+
+    return best_over_band(problem, band, solve)
+
+
+def _residues(model: OpenModel, poles: list[Eigenpair], initial: np.ndarray) -> list[np.ndarray]:
+    """Residues of S at the resonances: −a (aᵀKa₀)/(2λ xᵀT'x)."""
+    return [
+        -pole.bodies * (pole.bodies @ model.stiffness @ initial) / (2.0 * pole.eigenvalue * pole.norm) for pole in poles
+    ]
+
+
+def _infinite_frequency_added_mass(problem: OpenWaterProblem, resolution: Resolution) -> np.ndarray:
+    """a(∞) in SI units, shape (motions, motions) (collective)."""
+    long = open_basin(problem.tank, 0.0)
+    matrix, _ = infinite_frequency_added_mass(problem, resolution.shapes)
+    scale = motion_scale(long, whole_bodies(long.tank, resolution.shapes))
+    return scale.masses(matrix)
+
+
+def _initial(model: OpenModel, request: DecayRequest) -> np.ndarray:
+    """a₀ in body unknowns."""
+    scale = model.scale
+    own = "" if len(model.pencil.bodies) == 1 else f"body_{request.body + 1}__"
+    given = {f"{own}heave": request.heave, f"{own}roll": request.roll}
+    motions = np.array([given.get(name, 0.0) for name in scale.dofs])
+    unknowns: np.ndarray = np.linalg.solve(scale.turn, motions / scale.lengths)
+    return unknowns
+
+
+def _table(
+    request: DecayRequest, model: OpenModel, motion: np.ndarray, errors: np.ndarray, slow: np.ndarray | None
+) -> DecayTable:
+    scale = model.scale
+    # Amplitudes are per metre; the unknowns are per unit of length.
+    factor = model.basin.units.length
+    times = np.array(request.times)
+    return DecayTable(
+        times=times,
+        dofs=scale.dofs,
+        displacement=scale.amplitudes(motion) * factor,
+        initial=scale.amplitudes(_initial(model, request)) * factor,
+        absolute_error=errors * factor,
+        tail=_tail(request, model, slow),
+        certified_until=float(times.max()),
+    )
+
+
+def _tail(request: DecayRequest, model: OpenModel, slow: np.ndarray | None) -> float | None:
+    """T of the tail a ~ T/t² of the released motion; ``None`` over a bed, or if two motions were released."""
+    mixed = request.heave != 0.0 and request.roll != 0.0
+    if mixed or slow is None:
+        return None
+    initial = _initial(model, request)
+    restored = np.flatnonzero(np.diag(model.stiffness) > 0.0)
+    own = np.ix_(restored, restored)
+    tail = np.zeros(len(initial))
+    tail[restored] = -2.0 / pi * np.linalg.solve(model.stiffness[own], slow[own] @ initial[restored])
+    seconds = model.basin.units.frequency**-2
+    motions = model.scale.amplitudes(tail) * model.basin.units.length * seconds
+    return float(motions[np.argmax(np.abs(model.scale.amplitudes(initial)))])

@@ -1,0 +1,37 @@
+"""A problem of open water, as all solvers of this package take it: what there is, and how accurately to solve it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from hydroelastic.fem.stopwatch import Stopwatch
+from hydroelastic.physics.tank import Tank
+
+if TYPE_CHECKING:
+    # A scene is checked without starting MPI.
+    from mpi4py import MPI
+
+# Tolerance of solutions that only tell where to look.
+_ROUGH = 1e-3
+
+
+@dataclass(frozen=True, kw_only=True)
+class OpenWaterProblem:
+    """Bodies in open water.
+
+    Attributes:
+        comm: MPI communicator.
+        tank: open water in SI units, with at least one body.
+        tolerance: largest relative error that is accepted.
+        watch: records the time by stage.
+    """
+
+    comm: MPI.Comm
+    tank: Tank
+    tolerance: float
+    watch: Stopwatch
+
+    def rough(self) -> OpenWaterProblem:
+        """The same problem with little accuracy, for what only has to be found."""
+        return replace(self, tolerance=_ROUGH)

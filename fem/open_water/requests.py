@@ -1,0 +1,66 @@
+"""Requests to the solvers of open water, SI units."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+
+@dataclass(frozen=True, kw_only=True)
+class RadiationRequest:
+    """Added mass, radiation damping and excitation forces.
+
+    Attributes:
+        omega: frequencies, rad/s; 0 for very long waves, inf for the limit of high frequency.
+        elastic_modes: number of elastic shapes of each beam that are reported.
+    """
+
+    omega: tuple[float, ...]
+    elastic_modes: int = 4
+
+
+@dataclass(frozen=True, kw_only=True)
+class ResponseRequest:
+    """Motions, reflection and transmission in incident waves.
+
+    Attributes:
+        omega: frequencies, rad/s, positive and finite.
+        waves_from: the side from which the waves come.
+        positions: number of points along each beam at which its deflection is reported.
+    """
+
+    omega: tuple[float, ...]
+    waves_from: Literal["left", "right"] = "left"
+    positions: int = 101
+
+
+@dataclass(frozen=True, kw_only=True)
+class ResonanceRequest:
+    """Complex frequencies of motions that die out by themselves.
+
+    Attributes:
+        count: largest number of resonances, from the smallest |ω|.
+        below: upper limit of Re ω, rad/s; ``None`` for the lowest resonances.
+        largest_damping: upper limit of −Im ω/Re ω; above `region.MOST_DAMPING_ANYWHERE` all liquids must be endless.
+    """
+
+    count: int = 4
+    below: float | None = None
+    largest_damping: float = 0.5
+
+
+@dataclass(frozen=True, kw_only=True)
+class DecayRequest:
+    """The motion of a float that is released at rest.
+
+    Attributes:
+        body: index of the float among the bodies.
+        heave: its initial displacement upwards, m.
+        roll: its initial rotation anticlockwise, rad.
+        times: after the release, s.
+    """
+
+    body: int = 0
+    heave: float = 0.0
+    roll: float = 0.0
+    times: tuple[float, ...]

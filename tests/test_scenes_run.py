@@ -106,7 +106,7 @@ def test_the_summary_has_every_key_of_the_contract(folder: Path) -> None:
 
 
 def test_the_summary_keeps_the_scene_with_its_defaults(outcome: Outcome, folder: Path) -> None:
-    assert read_summary(folder)["scene"] == outcome.solution.tank.scene.model_dump(mode="json")
+    assert read_summary(folder)["scene"] == outcome.solution.scene.model_dump(mode="json")
 
 
 def test_the_summary_is_the_reference_solution(tanks: Any, folder: Path) -> None:

@@ -12,7 +12,8 @@ import pytest
 from hydroelastic.fem.pictures.mode import SurfaceCurve
 from hydroelastic.fem.pictures.modes import Canvas, NoRendererError
 from hydroelastic.fem.pictures.options import PictureOptions
-from hydroelastic.scenes.models.bodies import Beam, Body, Float
+from hydroelastic.scenes.models.bodies import Beam, Float
+from hydroelastic.scenes.models.body_kinds import Body
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.tank_parts import Accuracy, Liquid, Tank
 from hydroelastic.scenes.run import run_scene

@@ -154,13 +154,15 @@ def _unknowns(scene: TankScene) -> Iterator[Row]:
     else:
         yield "ψ₁", f"upper liquid, 0 < y < {scene.layers[1].depth:g} m", why
         yield "ψ₂", f"lower liquid, {-scene.layers[0].depth:g} m < y < 0", "the same"
-    for level in physical_tank(scene).levels_from_top:
+    tank = physical_tank(scene)
+    for level in tank.levels_from_top:
         yield _elevation_row(scene, level)
     for index, body in enumerate(scene.body):
-        if not isinstance(body, Float):
-            yield f"a of beam {index + 1}", f"beam {index + 1}", _beam_basis(scene, index, body)
+        is_held = heave_is_held(tank, index)
+        if isinstance(body, Float):
+            yield f"s of float {index + 1}", f"float {index + 1}", _float_basis(body, is_held=is_held)
         else:
-            yield f"s of float {index + 1}", f"float {index + 1}", _float_basis(scene, index, body)
+            yield f"a of beam {index + 1}", f"beam {index + 1}", _beam_basis(body, is_held=is_held)
 
 
 def _elevation_row(scene: TankScene, level: StillLevel) -> tuple[str, str, str]:
@@ -186,22 +188,18 @@ def _elevation_row(scene: TankScene, level: StillLevel) -> tuple[str, str, str]:
     return reasons[scene.top]
 
 
-def _beam_basis(scene: TankScene, index: int, beam: AnyBeam) -> str:
+def _beam_basis(beam: AnyBeam, *, is_held: bool) -> str:
     if beam.ends == "guided":
         return "w = Σ aᵢ φᵢ: elastic shapes cos(nπx/L), n ≥ 1; heave is held by the liquid's volume"
     hinges = ", a turn about each hinge" if beam.hinges else ""
-    if heave_is_held(physical_tank(scene), index):
+    if is_held:
         return f"w = Σ aᵢ φᵢ: pitch{hinges} and elastic shapes free in vacuum; heave is held by the liquid's volume"
     return f"w = Σ aᵢ φᵢ: heave, pitch{hinges} and elastic shapes free in vacuum"
 
 
-def _float_basis(scene: TankScene, index: int, body: Float) -> str:
+def _float_basis(body: Float, *, is_held: bool) -> str:
     motions = ", ".join("roll about its centre of mass" if motion == "roll" else motion for motion in body.motions)
-    held = (
-        "; heave is held by the liquid's volume"
-        if "heave" in body.motions and heave_is_held(physical_tank(scene), index)
-        else ""
-    )
+    held = "; heave is held by the liquid's volume" if "heave" in body.motions and is_held else ""
     return f"rigid motions: {motions}{held}"
 
 

@@ -86,7 +86,7 @@ BAD = {
     ),
     "misspelt kind": (
         GOOD.replace("start = 3.0", 'kind = "flaot"\nstart = 3.0'),
-        ['"beam" or "float"', 'mean "float"?'],
+        ['"beam" or "varying_beam" or "float"', 'mean "float"?'],
     ),
     "plate for beam": (GOOD.replace("start = 3.0", 'kind = "plate"\nstart = 3.0'), ['Did you mean "beam"?']),
     "unit in a text": (

@@ -123,7 +123,7 @@ def test_keys_belong_to_their_shape(shape: str, keys: dict[str, Any], words: str
         ({"boundary": "thick"}, '"exact" or "thin"'),
         ({"at": "surfce"}, 'Did you mean "surface"?'),
         ({"start": 3.0}, 'It belongs to kind = "beam"'),
-        ({"kind": "flaot"}, 'key "kind" = "flaot": it is not one of the choices. Allowed: "beam" or "float"'),
+        ({"kind": "flaot"}, 'key "kind" = "flaot": it is not one of the choices. Allowed: "beam" or "varying_beam" or "float"'),
         ({"kind": 3}, "not one of the choices"),
         ({"half_width": "1"}, "Write it without quotes"),
         ({"half_width": 0}, "a positive number from 1e-30"),

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 from math import fsum, isfinite
-from typing import Literal
+from typing import Literal, Self
 
 import numpy as np
 
@@ -116,11 +116,11 @@ class Beam:
         """Whether its mass per length is the same everywhere."""
         return len({part.mass_per_length for part in self.sections}) == 1
 
-    def moved(self, shift: float) -> Beam:
+    def moved(self, shift: float) -> Self:
         """Return the same beam further to the right, m."""
         return replace(self, start=self.start + shift)
 
-    def scaled(self, units: Scales, start: float, end: float) -> Beam:
+    def scaled(self, units: Scales, start: float, end: float) -> Self:
         """Return the beam in other units, between given ends in these units."""
         # One section fills the whole length to the last digit.
         stretch = (end - start) / self.length
@@ -153,7 +153,7 @@ class Beam:
             and alike(self, other.reversed)
         )
 
-    def with_even_mass(self) -> Beam:
+    def with_even_mass(self) -> Self:
         """Return the beam with a mass per length of 1 everywhere, and its left end at the origin."""
         return replace(self, start=0.0, sections=tuple(replace(part, mass_per_length=1.0) for part in self.sections))
 
@@ -201,7 +201,7 @@ class Beam:
         return min(range(len(self.edges)), key=lambda number: abs(self.edges[number] - joint.at))
 
     @cached_property
-    def reversed(self) -> Beam:
+    def reversed(self) -> Self:
         """The beam seen from the other side, in its place."""
         return replace(
             self,
@@ -212,7 +212,7 @@ class Beam:
     @cached_property
     def is_mirror_image(self) -> bool:
         """Whether it is its own mirror image, but for rounding."""
-        return alike(self, self.reversed)
+        return self.mirrors(self)
 
 
 def alike(one: Beam, other: Beam) -> bool:

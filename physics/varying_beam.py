@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TypeAlias
+from typing import Self, TypeAlias
 
 import numpy as np
 
 from hydroelastic.physics.arrays import FloatArray
-from hydroelastic.physics.beams import Beam, Joint, Section
+from hydroelastic.physics.beams import Beam
 from hydroelastic.physics.scales import Scales
 
 AlongBeam: TypeAlias = Callable[[FloatArray], FloatArray]
@@ -51,60 +51,32 @@ class VaryingBeam(Beam):
         return self.rigidity(self._places(span, fractions))
 
     def mass_of(self, span: int, fractions: FloatArray) -> FloatArray:
-        """M at fractions of the length of a span, kg/m²."""
+        """m at fractions of the length of a span, kg/m²."""
         return self.mass(self._places(span, fractions))
 
     def _places(self, span: int, fractions: FloatArray) -> FloatArray:
         left, right = self.edges[span : span + 2]
         return left + (right - left) * fractions
 
-    def scaled(self, units: Scales, start: float, end: float) -> VaryingBeam:
+    def scaled(self, units: Scales, start: float, end: float) -> Self:
         """Return the beam in other units, between given ends in these units."""
         stretch = (end - start) / self.length
         rigidity, mass = self.rigidity, self.mass
         return replace(
-            self,
-            start=start,
-            sections=tuple(
-                Section(
-                    length=part.length * stretch,
-                    flexural_rigidity=part.flexural_rigidity / units.flexural_rigidity,
-                    mass_per_length=part.mass_per_length / units.mass_per_length,
-                )
-                for part in self.sections
-            ),
-            joints=tuple(
-                Joint(
-                    at=joint.at / units.length,
-                    rotational_stiffness=joint.rotational_stiffness / units.rotational_stiffness,
-                )
-                for joint in self.joints
-            ),
+            super().scaled(units, start, end),
             rigidity=lambda x: rigidity(x / stretch) / units.flexural_rigidity,
             mass=lambda x: mass(x / stretch) / units.mass_per_length,
         )
 
-    def with_even_mass(self) -> VaryingBeam:
+    def with_even_mass(self) -> Self:
         """Return the beam with a mass per length of 1 everywhere, and its left end at the origin."""
-        sections = tuple(replace(part, mass_per_length=1.0) for part in self.sections)
-        return replace(self, start=0.0, sections=sections, mass=lambda x: np.ones_like(x))
+        return replace(super().with_even_mass(), mass=np.ones_like)
 
     @cached_property
-    def reversed(self) -> VaryingBeam:
+    def reversed(self) -> Self:
         """The beam seen from the other side, in its place."""
         rigidity, mass, length = self.rigidity, self.mass, self.length
-        return replace(
-            self,
-            sections=self.sections[::-1],
-            joints=tuple(replace(joint, at=length - joint.at) for joint in reversed(self.joints)),
-            rigidity=lambda x: rigidity(length - x),
-            mass=lambda x: mass(length - x),
-        )
-
-    @cached_property
-    def is_mirror_image(self) -> bool:
-        """Whether it is its own mirror image, but for rounding."""
-        return self.mirrors(self)
+        return replace(super().reversed, rigidity=lambda x: rigidity(length - x), mass=lambda x: mass(length - x))
 
     def mirrors(self, other: object) -> bool:
         """Whether it is the mirror image of another body, wherever both float, but for rounding."""

@@ -12,13 +12,14 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
+from hydroelastic.fem.study.thinness import QUANTITIES, fitted_thinness
 from hydroelastic.scenes.command_line import main
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.study.report import study_table, write_study
 from hydroelastic.scenes.study.run import Study, StudyPlan, study_scene
-from hydroelastic.scenes.study.thinness import QUANTITIES, check_thinness, fitted_thinness
+from hydroelastic.scenes.study.thinness import check_thinness
 from hydroelastic.scenes.study.thinness_report import thinness_csv
 
 FLOAT = {

@@ -19,6 +19,8 @@ from hydroelastic.physics.tank import Tank
 
 # A motion with a smaller part of a mode's kinetic energy is held: what is left of it is rounding.
 _HELD = 1e-18
+# A runner-up with less than so many times the smallest modal mass makes the mode of a motion a shared one.
+_SHARED = 2.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,6 +42,11 @@ class FloatMode:
     reason: str
     modal_mass: float
     runner_up: float
+
+    @property
+    def is_shared(self) -> bool:
+        """Whether waves or other bodies share the motion, so that no mode is its alone."""
+        return self.index is not None and self.runner_up < _SHARED * self.modal_mass
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -13,9 +13,6 @@ from hydroelastic.fem.tank.solve import TankSolution
 from hydroelastic.modal.floats.tank_estimates import EstimatesOfFloat
 from hydroelastic.scenes.tank.differences import difference
 
-# A runner-up with less than so many times the smallest modal mass makes the mode of a motion a shared one.
-SHARED = 2.0
-
 
 def float_rows(solution: TankSolution, estimates: dict[int, EstimatesOfFloat]) -> list[dict[str, Any]]:
     """One entry for each float, SI units.
@@ -103,17 +100,16 @@ def _mode(solution: TankSolution, mode: FloatMode) -> dict[str, Any]:
     error = float(solution.relative_errors[mode.index])
     whole = float(stiffness[number]) / eigenvalue
     added = whole - float(inertia[number])
-    shared = mode.runner_up < SHARED * mode.modal_mass
     row.update(
         index=mode.index + 1,
         omega=solution.omega(eigenvalue),
         relative_error=error,
         modal_mass=mode.modal_mass * unit,
         runner_up_modal_mass=mode.runner_up * unit if np.isfinite(mode.runner_up) else None,
-        shared=shared,
+        shared=mode.is_shared,
         added_mass=added * unit,
         added_mass_relative_error=2.0 * error * whole / abs(added) if added else 1.0,
-        note="shared with waves or other bodies: no mode is this motion's alone" if shared else "",
+        note="shared with waves or other bodies: no mode is this motion's alone" if mode.is_shared else "",
     )
     return row
 

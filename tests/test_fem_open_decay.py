@@ -26,7 +26,6 @@ from hydroelastic.scenes.models.open_analyses import Decay, Release
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.tank_parts import Accuracy, Liquid, Tank
 from hydroelastic.scenes.open_water.check import decay_cost_words, open_requests
-from hydroelastic.scenes.open_water.physics import decay_request
 from hydroelastic.scenes.open_water.solve import solve_open
 from hydroelastic.scenes.read import read_scene
 
@@ -107,7 +106,7 @@ def test_cost_is_told_before(name: str, tolerance: float, seconds: float, memory
     scene = read_scene(name, [f"accuracy.tolerance={tolerance}"])
     assert isinstance(scene, TankScene)
     (asked,) = (analysis for analysis in scene.analyses if isinstance(analysis, Decay))
-    told = decay_cost(problem_of(scene).tank, tolerance, decay_request(asked))
+    told = decay_cost(problem_of(scene).tank, tolerance, asked.request)
     assert seconds / WITHIN < told.seconds < seconds * WITHIN
     assert memory / WITHIN < told.memory < memory * WITHIN
     assert any(decay_cost_words(scene, asked) in line for line in open_requests(scene))

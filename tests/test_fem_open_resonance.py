@@ -12,10 +12,10 @@ from open_cases import GRAVITY, RADIUS, SLOW, THIN_LIQUIDS, circle, problem_of, 
 from hydroelastic.fem.open_water import resonance as open_resonance
 from hydroelastic.fem.open_water.requests import ResonanceRequest
 from hydroelastic.fem.open_water.resonance import ResonanceSolution, solve_resonance
+from hydroelastic.fem.open_water.solve import resonance_reasons
 from hydroelastic.modal import float_profile
 from hydroelastic.modal.floats.open_float import open_float_estimate
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.solve import resonance_reasons
 
 CIRCLE = stored("open_circle.json")["resonance"]
 SECTIONS = stored("open_sections.json")["cases"]

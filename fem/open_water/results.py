@@ -21,6 +21,11 @@ DIRECTIONS = (0.0, np.pi)
 """Directions in which incident waves of a `RadiationTable` travel, rad: to the right, to the left."""
 
 
+def motion_name(dof: str) -> str:
+    """Return a motion as a person reads it: "body 2 heave" for "body_2__heave"."""
+    return dof.replace("__", " ").replace("_", " ")
+
+
 @dataclass(frozen=True, kw_only=True)
 class RadiationTable:
     """Forces of radiated and incident waves. Shapes: n frequencies, m motions, w waves.

@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, ResonanceTable, ResponseTable
+from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, ResonanceTable, ResponseTable, motion_name
 from hydroelastic.fem.pictures.options import PictureOptions
 from hydroelastic.scenes.open_water.results import OpenSolution
-from hydroelastic.scenes.open_water.tables import motion_name
 from hydroelastic.scenes.output.curve_style import BLUE, COLOURS, GREY, Sheets, dress, plot_curve, sequence_colours
 
 if TYPE_CHECKING:

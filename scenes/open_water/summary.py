@@ -8,7 +8,9 @@ from typing import Any
 from mpi4py import MPI
 
 from hydroelastic.fem.open_water.results import DIRECTIONS, DecayTable, RadiationTable, ResonanceTable, ResponseTable
-from hydroelastic.scenes.open_water.estimates import endless_comparison, thin_float_comparisons
+from hydroelastic.fem.open_water.thin_float_theory import thin_float_comparisons
+from hydroelastic.scenes.models.physical import physical_tank
+from hydroelastic.scenes.open_water.estimates import endless_comparison
 from hydroelastic.scenes.open_water.results import OpenSolution, region_words
 from hydroelastic.scenes.output.json_values import json_ready
 from hydroelastic.scenes.output.provenance import Summary, memory_of_processes, versions
@@ -27,7 +29,7 @@ def summarize_open(solution: OpenSolution, comm: MPI.Comm, *, import_seconds: fl
     Returns:
         The content of ``summary.json``.
     """
-    comparisons, note = thin_float_comparisons(solution)
+    comparisons, note = thin_float_comparisons(physical_tank(solution.scene), solution)
     endless = endless_comparison(solution.scene)
     return {
         "scene": solution.scene.model_dump(mode="json"),

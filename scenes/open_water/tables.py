@@ -9,7 +9,14 @@ from math import ceil, degrees, inf, isfinite, pi
 
 import numpy as np
 
-from hydroelastic.fem.open_water.results import DecayTable, MissedPeak, RadiationTable, ResonanceTable, ResponseTable
+from hydroelastic.fem.open_water.results import (
+    DecayTable,
+    MissedPeak,
+    RadiationTable,
+    ResonanceTable,
+    ResponseTable,
+    motion_name,
+)
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.estimates import endless_comparison, endless_words
 from hydroelastic.scenes.open_water.results import OpenSolution, region_words
@@ -265,11 +272,6 @@ def _decay(table: DecayTable) -> Section:
             f"The estimated errors hold up to the last time, t = {table.certified_until:.6g} s.",
         ),
     )
-
-
-def motion_name(dof: str) -> str:
-    """Return a motion as a person reads it: "body 2 heave" for "body_2__heave"."""
-    return dof.replace("__", " ").replace("_", " ")
 
 
 def _shown(count: int, what: str, file: str, places: int = MOST_ROWS) -> tuple[list[int], tuple[str, ...]]:

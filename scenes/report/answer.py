@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from math import hypot, inf
 from typing import TypeAlias
 
-from hydroelastic.scenes.open_water.tables import motion_name
+from hydroelastic.fem.open_water.results import motion_name
 from hydroelastic.scenes.output.digits import with_certain_digits
 from hydroelastic.scenes.output.provenance import Summary
 from hydroelastic.scenes.output.sections import Row, Section

@@ -21,6 +21,7 @@ from hydroelastic.fem.pictures.modes import (
 )
 from hydroelastic.fem.pictures.options import PictureOptions
 from hydroelastic.fem.sampling import LiquidSample, SurfaceTrace, sample_liquid
+from hydroelastic.fem.shape_curves import body_shapes, sample_level, sign_of, wave_curves, wave_levels
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.tank.solve import TankSolution
 from hydroelastic.physics.symmetry import Parity
@@ -28,7 +29,6 @@ from hydroelastic.physics.tank import StillLevel
 from hydroelastic.scenes.output.provenance import Summary
 from hydroelastic.scenes.tank.animated import animated_modes
 from hydroelastic.scenes.tank.body_file import displacement_of, write_bodies
-from hydroelastic.scenes.tank.shape_curves import body_shapes, sample_level, sign_of, wave_curves, wave_levels
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh
 
 from hydroelastic.fem.surfaces import Body
-from hydroelastic.meshes.geometry import body_name
+from hydroelastic.physics.dofs import Dof, body_name
 from hydroelastic.physics.floats import RigidFloat
 from hydroelastic.physics.motions import MOTIONS, Motion
 from hydroelastic.physics.symmetry import Parity, motion_parity
@@ -38,7 +38,9 @@ def float_body(body: RigidFloat, index: int, parity: Parity | None) -> Body:
         surface=body_name(index + 1),
         shapes=partial(_thin_shape if body.is_thin else _exact_shape, body, motions, turn),
         wavenumber=0.0,
-        labels=motions,
+        dofs=tuple(map(Dof, motions)),
+        parities=tuple(map(motion_parity, motions)),
+        motions=turn,
         stiffness=part * stiffness,
         bending_stiffness=np.zeros(len(motions)),
         mass=np.diag(part * inertia),

@@ -24,7 +24,7 @@ from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.region import MOST_DAMPING_ANYWHERE
 from hydroelastic.fem.open_water.resonance import ANGLE
 from hydroelastic.fem.open_water.resonance_search import Eigenpair, ResonanceSearch
-from hydroelastic.fem.open_water.results import RadiationTable, ResonanceTable, ResponseTable, motion_name
+from hydroelastic.fem.open_water.results import RadiationTable, ResonanceTable, ResponseTable
 from hydroelastic.fem.open_water.solve import OpenWaterSolution
 from hydroelastic.fem.open_water.solver import OpenSolver
 from hydroelastic.fem.stopwatch import Stopwatch
@@ -118,7 +118,7 @@ def _radiated(problem: OpenWaterProblem, table: RadiationTable, number: int) -> 
         bodies = np.linalg.inv(model.scale.turn)[:, own].astype(complex)
         yield OpenField(
             name=f"radiation_{number}_{dof.replace(' ', '_')}",
-            title=f"Radiation by {motion_name(dof)} at ω = {omega:.5g} rad/s{_why('damping is largest', table)}",
+            title=f"Radiation by {dof.words} at ω = {omega:.5g} rad/s{_why('damping is largest', table)}",
             amplitude=_unit_motion(model, own),
             model=model,
             squared=squared,
@@ -157,7 +157,7 @@ def _responding(problem: OpenWaterProblem, table: ResponseTable, number: int) ->
 
 def _largest_response(length: float, table: ResponseTable) -> tuple[int, int]:
     """Places of the frequency and of the wave that move a body most, turns at a distance of half the drawn length."""
-    arms = np.array([0.5 * length if dof.endswith("roll") else 1.0 for dof in table.dofs])
+    arms = np.array([0.5 * length if dof.turns else 1.0 for dof in table.dofs])
     sizes = (np.abs(table.amplitudes) * arms).max(axis=2)
     row, wave = np.unravel_index(int(np.argmax(sizes)), sizes.shape)
     return int(row), int(wave)
@@ -187,7 +187,7 @@ def _resonant(problem: OpenWaterProblem, table: ResonanceTable, number: int) -> 
         unit = 1.0 / (model.scale.turn @ pair.bodies)[own]
         yield OpenField(
             name=f"resonance_{number}_{place + 1:03d}",
-            title=f"Resonance {place + 1}: ω = {omega.real:.5g} − {-omega.imag:.3g}i rad/s, {motion_name(label)}",
+            title=f"Resonance {place + 1}: ω = {omega.real:.5g} − {-omega.imag:.3g}i rad/s, {label.words}",
             amplitude=_unit_motion(model, own),
             model=model,
             squared=pair.eigenvalue,
@@ -219,4 +219,4 @@ def _metres(model: OpenModel, motion: int) -> float:
 
 def _unit_motion(model: OpenModel, motion: int) -> str:
     name = model.scale.dofs[motion]
-    return f"{motion_name(name)} of 1 {'rad' if name.endswith('roll') else 'm'}"
+    return f"{name.words} of 1 {'rad' if name.turns else 'm'}"

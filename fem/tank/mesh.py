@@ -9,10 +9,11 @@ import numpy as np
 from hydroelastic.fem.tank.outline import Sizes, tank_outline, unsized
 from hydroelastic.fem.tank.resolution import Resolution, sharpest_exponent
 from hydroelastic.fem.tank.singularities import tank_singular_points
-from hydroelastic.meshes.geometry import FREE_SURFACE, LID, LIQUID, TankGeometry, body_name, tank_geometry
+from hydroelastic.meshes.geometry import FREE_SURFACE, LID, LIQUID, TankGeometry, tank_geometry
 from hydroelastic.meshes.grading import Grading
 from hydroelastic.meshes.outline import Corner, Outline
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
+from hydroelastic.physics.dofs import body_name
 from hydroelastic.physics.tank import Tank
 
 # A mesh that the user brings may miss the scene's abscissae by this part of the tank's length: files round.

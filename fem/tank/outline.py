@@ -25,11 +25,11 @@ from hydroelastic.meshes.geometry import (
     RIGHT_WALL,
     SYMMETRY_PLANE,
     UPPER_LIQUID,
-    body_name,
 )
 from hydroelastic.meshes.outline import Curve, Outline, Point, Region
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.physics.contours import Arc, root
+from hydroelastic.physics.dofs import body_name, body_number
 from hydroelastic.physics.floats import RigidFloat
 from hydroelastic.physics.tank import MIDDLE, Piece, StillLevel, Tank
 
@@ -202,9 +202,8 @@ class _Builder:
         ]
 
     def _slit_size(self, name: str, start: Point, end: Point) -> float:
-        if not name.startswith("body_"):
-            return inf
-        return min(0.5 * (end[1] - start[1]), self.sizes.contours[int(name.removeprefix("body_")) - 1])
+        number = body_number(name)
+        return inf if number is None else min(0.5 * (end[1] - start[1]), self.sizes.contours[number - 1])
 
     def _curve(
         self,

@@ -16,6 +16,7 @@ import numpy as np
 from hydroelastic.fem.tank.outline import Sizes, grounded_names, tank_outline
 from hydroelastic.meshes.geometry import LEFT_WALL, RIGHT_WALL, SYMMETRY_PLANE
 from hydroelastic.meshes.outline import Outline, Point
+from hydroelastic.physics.dofs import body_number
 from hydroelastic.physics.tank import Tank
 
 _MIRRORS = (LEFT_WALL, RIGHT_WALL, SYMMETRY_PLANE)
@@ -119,7 +120,7 @@ def _sectors(outline: Outline, around: list[_Wedge]) -> Iterator[_Sector]:
 
 def _exponent(sector: _Sector, grounded: tuple[str, ...], glued: bool) -> float:
     """α in a sector; infinite where ψ is smooth."""
-    if not any(name.startswith("body_") for name in sector.names):
+    if not any(body_number(name) for name in sector.names):
         return inf
     # A wall is a mirror: beyond it the sector goes on as its image.
     angle = sector.angle * (2.0 if any(name in _MIRRORS for name in sector.names) else 1.0)

@@ -33,6 +33,8 @@ class FloatMode:
         motion: which.
         index: of the mode, from 0; ``None`` where it is not one of the modes computed.
         reason: why there is none, or "".
+        stiffness: hydrostatic stiffness of the motion, in units of the tank.
+        inertia: mass or moment of inertia of the float, in units of the tank.
         modal_mass: smallest 1/a², in units of the tank.
         runner_up: the next smallest.
     """
@@ -41,6 +43,8 @@ class FloatMode:
     motion: Dof
     index: int | None
     reason: str
+    stiffness: float
+    inertia: float
     modal_mass: float
     runner_up: float
 
@@ -115,6 +119,8 @@ def float_modes(
                 motion=motion.dof,
                 index=None if reason else int(order[0]),
                 reason=reason,
+                stiffness=float(motion.stiffness),
+                inertia=float(motion.mass),
                 modal_mass=_inverse(moved, order, 0),
                 runner_up=_inverse(moved, order, 1),
             )

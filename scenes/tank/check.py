@@ -97,9 +97,9 @@ def _brought(scene: TankScene) -> TaggedMesh | None:
     if scene.mesh is None:
         return None
     # Only who brings a mesh needs what reads it.
-    from hydroelastic.scenes.tank.own_mesh import own_mesh
+    from hydroelastic.scenes.tank.own_mesh import read_own_mesh
 
-    return own_mesh(scene)
+    return read_own_mesh(scene)
 
 
 def _size(tank: Tank, resolution: Resolution, brought: TaggedMesh | None, *, half: bool, released: bool = False) -> str:

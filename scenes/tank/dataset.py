@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     import xarray
 
     from hydroelastic.fem.pictures.modes import FloatSection, SurfaceCurve
+    from hydroelastic.fem.tank.mode_shapes import ModeShapes
     from hydroelastic.fem.tank.solve import TankSolution
-    from hydroelastic.scenes.tank.shapes import ModeShapes
 
 TANK_NAMES = SummaryNames(
     dimensions={

@@ -6,8 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from hydroelastic.fem.bodies.rigid_float import principal_motions
-from hydroelastic.fem.tank.elastic_tone import mode_kind
+from hydroelastic.fem.tank.elastic_tone import added_mass, mode_kind
 from hydroelastic.fem.tank.float_modes import FloatMode
 from hydroelastic.fem.tank.solve import TankSolution
 from hydroelastic.modal.floats.tank_estimates import EstimatesOfFloat
@@ -92,14 +91,10 @@ def _mode(solution: TankSolution, mode: FloatMode) -> dict[str, Any]:
     }
     if mode.index is None:
         return row
-    body = solution.tank.floats[mode.body]
-    _, stiffness, inertia = principal_motions(body, body.motions)
-    number = body.motions.index(mode.motion)
     unit = solution.units.density * solution.units.length ** (4.0 if mode.motion == "roll" else 2.0)
     eigenvalue = float(solution.modes.eigenvalues[mode.index])
     error = float(solution.relative_errors[mode.index])
-    whole = float(stiffness[number]) / eigenvalue
-    added = whole - float(inertia[number])
+    added, added_error = added_mass(mode.stiffness, mode.inertia, eigenvalue, error)
     row.update(
         index=mode.index + 1,
         omega=solution.omega(eigenvalue),
@@ -108,7 +103,7 @@ def _mode(solution: TankSolution, mode: FloatMode) -> dict[str, Any]:
         runner_up_modal_mass=mode.runner_up * unit if np.isfinite(mode.runner_up) else None,
         shared=mode.is_shared,
         added_mass=added * unit,
-        added_mass_relative_error=2.0 * error * whole / abs(added) if added else 1.0,
+        added_mass_relative_error=added_error,
         note="shared with waves or other bodies: no mode is this motion's alone" if mode.is_shared else "",
     )
     return row

@@ -12,10 +12,10 @@ from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.pictures.options import OF_FIELDS, OF_MOTIONS, PictureOptions
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.fem.tank.solve import TankSolution
-from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
+from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.modal.estimate import Estimate
 from hydroelastic.modal.tank_estimates import tone_estimates
-from hydroelastic.scenes.errors import SceneError, UnsolvedError
+from hydroelastic.scenes.errors import UnsolvedError
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.output.dataset import LabelledResults
@@ -32,8 +32,8 @@ from hydroelastic.scenes.tank.tables import mode_csv, tank_cost, tank_sections
 if TYPE_CHECKING:
     import xarray
 
+    from hydroelastic.fem.tank.mode_shapes import ModeShapes
     from hydroelastic.modal.floats.tank_estimates import EstimatesOfFloat
-    from hydroelastic.scenes.tank.shapes import ModeShapes
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -90,7 +90,7 @@ def solve_tank(scene: TankScene, comm: MPI.Comm, report: Report) -> EstimatedTan
 
             of_floats = float_estimates(physical)
     try:
-        solution = solve_scene(scene, comm=comm, mesh=_own_mesh(scene, comm), report=report)
+        solution = solve_scene(scene, comm=comm, mesh=own_mesh(scene, comm), report=report)
     except MeshError as error:
         raise mesh_refused(scene, str(error)) from error
     except EigenSolverError as error:
@@ -107,28 +107,9 @@ def summarize_tank(estimated: EstimatedTank, _comm: MPI.Comm, *, import_seconds:
     return summary
 
 
-def _own_mesh(scene: TankScene, comm: MPI.Comm) -> TaggedMesh | None:
-    """The mesh that the user brings, on rank 0."""
-    if scene.mesh is None:
-        return None
-    mesh, refused = None, None
-    if comm.rank == 0:
-        try:
-            mesh = own_mesh(scene)
-        except SceneError as error:
-            refused = error
-        except Exception as error:
-            # Whatever it is, the other processes wait to hear of it.
-            refused = mesh_refused(scene, str(error) or type(error).__name__)
-    refused = comm.bcast(refused, root=0)
-    if refused is not None:
-        raise refused
-    return mesh
-
-
 def _sample(estimated: EstimatedTank, summary: Summary) -> SampledTank:
     # Who only wants the numbers does without what draws.
-    from hydroelastic.scenes.tank.shapes import sample_shapes
+    from hydroelastic.fem.tank.mode_shapes import sample_shapes
 
     return SampledTank(solution=estimated.tank, shapes=sample_shapes(estimated.tank), summary=summary)
 

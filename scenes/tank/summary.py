@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from hydroelastic.fem.tank.elastic_tone import bending_fraction, mode_kind
+from hydroelastic.fem.tank.elastic_tone import added_mass, bending_fraction, mode_kind
 from hydroelastic.fem.tank.solve import TankSolution, ToneSolution
 from hydroelastic.modal.beam.beam_shapes import first_dry_eigenvalue
 from hydroelastic.modal.estimate import Estimate
@@ -161,23 +161,6 @@ def _tone(solution: TankSolution, tone: ToneSolution) -> dict[str, Any]:
         note="the tone is shared between hybrid modes; see the pressure-release tone" if shared else "",
     )
     return found
-
-
-def added_mass(stiffness: float, mass: float, eigenvalue: float, relative_error: float) -> tuple[float, float]:
-    """Added mass m_a = k/λ − m of a tone from its frequency, and the relative error that follows from ω's.
-
-    Args:
-        stiffness: EI κ⁴ + s ρ g of the dry mode, per unit of its shape.
-        mass: m of the dry mode, the same way.
-        eigenvalue: λ = ω².
-        relative_error: of ω.
-
-    Returns:
-        The added mass in the same unit as ``mass``, and its relative error.
-    """
-    whole = stiffness / eigenvalue
-    added = whole - mass
-    return added, 2.0 * relative_error * whole / abs(added) if added else 1.0
 
 
 def compared(solution: TankSolution, estimates: dict[str, Estimate], first: dict[str, Any]) -> dict[str, Any]:

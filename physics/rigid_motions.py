@@ -50,7 +50,7 @@ def zero_mode_count(tank: Tank) -> int:
 
 def mode_count(tank: Tank) -> int | None:
     """Return how many modes oscillate where nothing but rigid bodies can, else None: as many as one asks for."""
-    if any(body.is_elastic for body in tank.bodies) or len(tank.layers) > 1 or tank.top == "free":
+    if tank.elastic or len(tank.layers) > 1 or tank.top == "free":
         return None
     motions = sum(len(body.rigid_motions) for body in tank.bodies)
     displaced = any(body.displaces_volume for body in tank.bodies)

@@ -166,7 +166,7 @@ def _in_open_water(problem: OpenWaterProblem, title: str) -> SectionRoll:
 
 def _resonance(problem: OpenWaterProblem) -> complex:
     """Complex frequency of the roll, rad/s."""
-    asked = ResonanceRequest(count=len(problem.tank.floats[0].motions))
+    asked = ResonanceRequest(count=len(problem.tank.bodies[0].rigid_motions))
     try:
         table = solve_resonance(problem, asked).table
     except EigenSolverError as error:

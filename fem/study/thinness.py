@@ -134,12 +134,12 @@ def thinness_rows(pairs: Iterable[tuple[Tank, Tank]], modes: int) -> Iterator[Th
 def _row(thin: TankSolution, exact: TankSolution) -> ThinnessRow:
     one, other = _values(thin), _values(exact)
     (body,) = exact.physical.floats.values()
-    assert body.profile is not None
-    half_width = body.profile.half_width
+    profile = body.hull.profile
+    assert profile is not None
     return ThinnessRow(
-        half_width=half_width,
-        thinness=half_width / body.profile.half_height,
-        breadth=half_width / exact.physical.length,
+        half_width=profile.half_width,
+        thinness=profile.half_width / profile.half_height,
+        breadth=profile.half_width / exact.physical.length,
         compared={
             name: Comparison(thin=one[name][0], exact=other[name][0], uncertainty=one[name][1] + other[name][1])
             for name in QUANTITIES

@@ -101,6 +101,6 @@ def lone_profile(tank: Tank) -> Profile | None:
     if len(tank.bodies) > 1 or not tank.floats:
         return None
     (body,) = tank.floats.values()
-    rest = body.hydrostatics
+    hull = body.hull
     lies_there = body.level == ("surface" if len(tank.layers) == 1 else "interface")
-    return body.profile if lies_there and "heave" in body.motions and rest.reference_level == rest.level else None
+    return hull.profile if lies_there and "heave" in body.motions and hull.reference_level == hull.height else None

@@ -20,7 +20,7 @@ def float_rows(solution: TankSolution, estimates: dict[int, EstimatesOfFloat]) -
         solution: the field solution.
         estimates: of the theories, by index of the float.
     """
-    return [_float_row(solution, index, estimates.get(index)) for index in solution.tank.floats]
+    return [_float_row(solution, index, estimates.get(index)) for index in solution.tank.rigid]
 
 
 def _float_row(solution: TankSolution, index: int, estimates: EstimatesOfFloat | None) -> dict[str, Any]:
@@ -30,7 +30,7 @@ def _float_row(solution: TankSolution, index: int, estimates: EstimatesOfFloat |
     return {
         "body": index + 1,
         "motions": list(body.motions),
-        "boundary": "thin" if body.is_thin else "exact",
+        "boundary": "thin" if body.hull.is_thin else "exact",
         "mass": rest.mass,
         "moment_of_inertia": rest.mass * rest.radius_of_gyration**2,
         "centre_of_mass": list(rest.centre_of_mass),
@@ -91,7 +91,7 @@ def _mode(solution: TankSolution, mode: FloatMode) -> dict[str, Any]:
     }
     if mode.index is None:
         return row
-    unit = solution.units.density * solution.units.length ** (4.0 if mode.motion == "roll" else 2.0)
+    unit = solution.units.density * solution.units.length ** (4.0 if mode.motion.turns else 2.0)
     eigenvalue = float(solution.modes.eigenvalues[mode.index])
     error = float(solution.relative_errors[mode.index])
     added, added_error = added_mass(mode.stiffness, mode.inertia, eigenvalue, error)

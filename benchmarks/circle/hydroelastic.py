@@ -20,11 +20,6 @@ from hydroelastic.scenes.open_water.physics import open_water_problem
 _STRETCH = 10.0  # is drawn only; the answers do not depend on it
 
 
-def prepare(case: Case) -> Case:
-    """Nothing: the scene is in the seconds."""
-    return case
-
-
 def solve(case: Case) -> Answer:
     """Make the scene of a case and solve it."""
     omega = circle_frequency(case.tank).omega

@@ -1,4 +1,5 @@
-"""A rigid float at rest: its wetted contour, its inertia and what restores it, in metres or in units of its tank."""
+"""A rigid float at rest: its wetted contour, its inertia and its hydrostatic stiffness, in metres or in units of its
+tank."""
 
 from __future__ import annotations
 
@@ -24,13 +25,13 @@ class RigidFloat:
 
     Attributes:
         contour: of its section.
-        hydrostatics: where it floats, its inertia and what restores it.
+        hydrostatics: where it floats, its inertia and its stiffness.
         profile: its half width about the reference level; of a symmetric section.
-        is_thin: whether its conditions are put on its middle line.
+        is_thin: whether its boundary conditions are imposed on its middle line.
         level: at which it floats.
         wet_above: whether there is liquid above that level.
         waterplane: x of its two contact points with the still level, the same for a thin float.
-        motions: in what ways it may move, in the order of `MOTIONS`.
+        motions: its free motions, in the order of `MOTIONS`.
     """
 
     contour: Contour
@@ -103,7 +104,7 @@ class RigidFloat:
 
     @property
     def roll_stiffness(self) -> float:
-        """Stiffness of the roll: heave, where it may, follows so that no force acts on it."""
+        """Stiffness of roll, N; with free heave that of a roll without heave force."""
         rest = self.hydrostatics
         return rest.free_roll_stiffness if "heave" in self.motions else rest.roll_stiffness
 
@@ -137,7 +138,7 @@ class RigidFloat:
 
     @property
     def smallest_extent(self) -> float:
-        """The smaller of its width and of what it reaches into a liquid."""
+        """The smaller of its width and of its largest draught in a liquid."""
         left, right, low, high = self.bounds
         reaches = [self.height - low, *([high - self.height] if self.wet_above else [])]
         return min(right - left, *reaches)
@@ -157,8 +158,8 @@ class RigidFloat:
         gap = max(float(nearest.max()), abs(self.hydrostatics.centre_of_mass[0] - middle))
         return bool(gap <= _ROUNDING * self._size)
 
-    def mirrors(self, other: object) -> bool:
-        """Whether it is the mirror image of another body, wherever both float, but for rounding."""
+    def is_mirror_image_of(self, other: object) -> bool:
+        """Whether it is the mirror image of another body up to rounding, wherever both float."""
         return isinstance(other, RigidFloat) and self.is_symmetric and self._is_copy_of(other)
 
     def _is_copy_of(self, other: RigidFloat) -> bool:
@@ -175,7 +176,7 @@ class RigidFloat:
 
     @property
     def _samples(self) -> NDArray[np.float64]:
-        """A few points of each arc, shape (points, 2): enough to tell shapes apart."""
+        """A few points of each arc, shape (points, 2), by which shapes are compared."""
         return np.vstack([arc.point(np.linspace(0.0, 1.0, 5)) for arc in self.contour.arcs])
 
     @property

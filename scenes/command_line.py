@@ -29,7 +29,7 @@ from hydroelastic.scenes.command_options import (
 )
 from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
 from hydroelastic.scenes.kinds import checker_of, comparer_of, runner_of
-from hydroelastic.scenes.output.folder import check_output, place_of_results
+from hydroelastic.scenes.output.folder import check_output, results_message
 from hydroelastic.scenes.output.manifest import read_manifest
 from hydroelastic.scenes.program import PROGRAM
 from hydroelastic.scenes.progress import progress
@@ -293,7 +293,7 @@ def study(
         if _is_first_rank():
             write_study(measured, folder, picture_options(formats, dpi=dpi), scene_file=scene_path(scene))
     click.echo(study_table(measured))
-    click.echo(f"Written to {place_of_results(folder, replaces=replaces)}")
+    click.echo(f"Written to {results_message(folder, replaces=replaces)}")
 
 
 @main.command()

@@ -21,7 +21,7 @@ from pydantic_core import InitErrorDetails
 
 from hydroelastic.physics import beams
 from hydroelastic.physics.motions import Level, Motion
-from hydroelastic.scenes.models.problems import misfit
+from hydroelastic.scenes.models.problems import problem_at
 
 SMALLEST, LARGEST = 1e-30, 1e30
 """Range of any positive quantity in SI: no product of a few of them overflows."""
@@ -165,7 +165,7 @@ class Beam(SceneModel):
         if not isinstance(given, dict) or not given.get("sections"):
             return given
         problems = [
-            misfit(
+            problem_at(
                 (key,),
                 given[key],
                 "it is given beside sections, which have their own",
@@ -298,10 +298,12 @@ def _keys_of_the_shape(body: Float) -> Iterator[InitErrorDetails]:
         value = getattr(body, key)
         if key in needed and value is None:
             description = Float.model_fields[key].description
-            yield misfit((key,), None, f'it is missing, and shape = "{body.shape}" needs it', allowed=f"{description}")
+            yield problem_at(
+                (key,), None, f'it is missing, and shape = "{body.shape}" needs it', allowed=f"{description}"
+            )
         elif value is not None and key not in (*needed, *further):
             owners = [shape for shape in NEEDED_KEYS if key in (*NEEDED_KEYS[shape], *FURTHER_KEYS.get(shape, ()))]
-            yield misfit(
+            yield problem_at(
                 (key,),
                 value,
                 f'it does not belong to shape = "{body.shape}", which takes {" and ".join((*needed, *further))}',
@@ -311,14 +313,14 @@ def _keys_of_the_shape(body: Float) -> Iterator[InitErrorDetails]:
 
 def _motions_differ(body: Float) -> Iterator[InitErrorDetails]:
     if len(set(body.motions)) < len(body.motions):
-        yield misfit(("motions",), ", ".join(body.motions), "a motion is named twice", remedy="Name each once")
+        yield problem_at(("motions",), ", ".join(body.motions), "a motion is named twice", remedy="Name each once")
 
 
 def _thin_floats(body: Float) -> Iterator[InitErrorDetails]:
     if body.boundary == "exact":
         return
     if body.shape not in THIN_SHAPES:
-        yield misfit(
+        yield problem_at(
             ("boundary",),
             body.boundary,
             f'a thin float ends in a point or a rounding above and below, shape = "{body.shape}" need not',

@@ -19,7 +19,7 @@ def problem(wrong: str, *, allowed: str = "", remedy: str = "") -> PydanticCusto
     return PydanticCustomError("scene", "{message}", context)
 
 
-def misfit(
+def problem_at(
     location: tuple[str | int, ...], value: object, wrong: str, *, allowed: str = "", remedy: str = ""
 ) -> InitErrorDetails:
     """Return a problem of the value at a location of the scene, for example ``("body", 0, "start")``."""

@@ -9,7 +9,7 @@ from pydantic import AfterValidator, BeforeValidator, Field, Strict, ValidationE
 
 from hydroelastic.scenes.errors import scene_error
 from hydroelastic.scenes.models.bodies import LARGEST, SMALLEST, SceneModel
-from hydroelastic.scenes.models.problems import misfit, problem
+from hydroelastic.scenes.models.problems import problem, problem_at
 
 MOST_VALUES = 10000
 """Frequencies or times of one analysis."""
@@ -33,10 +33,14 @@ class Sweep(SceneModel):
     def _goes_up(self) -> Sweep:
         problems = []
         if self.stop <= self.start:
-            problems.append(misfit(("stop",), self.stop, "it is not greater than start", allowed=f"> {self.start:g}"))
+            problems.append(
+                problem_at(("stop",), self.stop, "it is not greater than start", allowed=f"> {self.start:g}")
+            )
         elif self.start < SMALLEST and self.spacing == "logarithmic":
             allowed = f'from {SMALLEST:g}, or spacing = "linear"'
-            problems.append(misfit(("start",), self.start, "equal ratios cannot begin so near to 0", allowed=allowed))
+            problems.append(
+                problem_at(("start",), self.start, "equal ratios cannot begin so near to 0", allowed=allowed)
+            )
         if problems:
             raise ValidationError.from_exception_data(type(self).__name__, problems)
         return self

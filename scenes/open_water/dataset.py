@@ -90,7 +90,7 @@ OPEN_NAMES = SummaryNames(
         "estimates.thin_float.rows": ("thin_float_row",),
     },
     prefixes={"estimates": "", "estimates.thin_float.rows": "thin_float", "response.missed_peaks": "missed_peak"},
-    told=frozenset(
+    reported_by_arrays=frozenset(
         f"{analysis}.{name}"
         for analysis, table in (
             ("radiation", RadiationTable),

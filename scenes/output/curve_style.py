@@ -142,7 +142,7 @@ def _title(title: str, heading: str, letters: int) -> str:
     return together if len(together) <= letters else f"{fill(title, letters)}\n{fill(heading, letters)}"
 
 
-def dress(
+def label_axes(
     axes: Axes, across: str, up: str, *, legend: Literal["below", "beside", ""] = "below", heading: str = ""
 ) -> None:
     """Name the axes, with units, and put a legend, which may have a heading, below or at the right."""

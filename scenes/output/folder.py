@@ -191,7 +191,7 @@ def _link(source: Path, target: Path) -> None:
         shutil.copy2(source, target, follow_symlinks=False)
 
 
-def place_of_results(folder: Path, *, replaces: bool) -> str:
+def results_message(folder: Path, *, replaces: bool) -> str:
     """Return where results are, in words: what was there before, and what of it is there still.
 
     Args:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-_SAID = {
+_LONG_NAMES = {
     "modes.omega": "angular frequency of a mode",
     "modes.frequency_hz": "frequency of a mode",
     "modes.relative_error": "estimated relative error of the frequency of a mode",
@@ -36,4 +36,4 @@ def long_name_of(place: str) -> str:
     Args:
         place: keys that lead to it, joined by dots.
     """
-    return _SAID.get(place) or place.replace(".", ", ").replace("_", " ")
+    return _LONG_NAMES.get(place) or place.replace(".", ", ").replace("_", " ")

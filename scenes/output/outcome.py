@@ -7,7 +7,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from hydroelastic.scenes.output.folder import place_of_results
+from hydroelastic.scenes.output.folder import results_message
 from hydroelastic.scenes.output.provenance import Summary
 from hydroelastic.scenes.output.sections import Section, printed_sections
 
@@ -55,4 +55,4 @@ class Outcome:
         """The tables for a terminal, and where the results are."""
         if self.folder is None:
             return self.tables
-        return f"{self.tables}\nResults written to {place_of_results(self.folder, replaces=self.replaces)}"
+        return f"{self.tables}\nResults written to {results_message(self.folder, replaces=self.replaces)}"

@@ -54,7 +54,7 @@ class Solved(Protocol):
         """Time by stage."""
 
 
-def framed_summary(
+def complete_summary(
     solution: Solved, content: Summary, size: dict[str, int], comm: MPI.Comm, import_seconds: float
 ) -> Summary:
     """Put what every summary has about the content of one (collective: peak memory is summed over processes).

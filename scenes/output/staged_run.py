@@ -46,10 +46,10 @@ class StagedRun(Generic[_Scene, _Solution]):
         write: writes files of numbers into a folder, on rank 0.
         dataset: what `dataset.nc` is made of.
         draw: draws into a folder, on rank 0, and tells what is being drawn.
-        heeds: the options that the pictures heed; of others a run says that they have no effect.
-        lacking: says what an animation of the solution lacks, and which key gives it; nothing by default.
+        used_options: the options that the pictures heed; of others a run says that they have no effect.
+        animation_warnings: says what an animation of the solution lacks, and which key gives it; nothing by default.
         sample: makes what is written and drawn of the solution and its summary (collective); the solution by default.
-        unsampled: says what could not be sampled, and why; nothing by default.
+        sampling_warnings: says what could not be sampled, and why; nothing by default.
     """
 
     solve: Callable[[_Scene, MPI.Comm, Report], _Solution]
@@ -59,10 +59,10 @@ class StagedRun(Generic[_Scene, _Solution]):
     write: Callable[[Any, Path], None]
     dataset: LabelledResults
     draw: Callable[[Any, Path, PictureOptions, Report], None]
-    heeds: frozenset[PictureOption]
-    lacking: Callable[[_Solution], tuple[str, ...]] = _nothing
+    used_options: frozenset[PictureOption]
+    animation_warnings: Callable[[_Solution], tuple[str, ...]] = _nothing
     sample: Callable[[_Solution, Summary], Any] = _as_solved
-    unsampled: Callable[[Any], tuple[str, ...]] = _nothing
+    sampling_warnings: Callable[[Any], tuple[str, ...]] = _nothing
 
     def __call__(
         self,
@@ -103,12 +103,12 @@ class StagedRun(Generic[_Scene, _Solution]):
             with watch.stage("sample"):
                 sampled = self.sample(solution, summary)
             summary["timing"].update(watch.seconds)
-            missing = self.unsampled(sampled)
+            missing = self.sampling_warnings(sampled)
             if images is not None:
-                missing += images.without_effect(self.heeds)
-                missing += self.lacking(solution) if images.animate else ()
+                missing += images.without_effect(self.used_options)
+                missing += self.animation_warnings(solution) if images.animate else ()
 
-            def told(warnings: tuple[str, ...]) -> Outcome:
+            def with_warnings(warnings: tuple[str, ...]) -> Outcome:
                 # Writing has added its seconds to the summary.
                 return replace(outcome, cost=self.cost(summary), warnings=(*warnings, *missing), replaces=replaces)
 
@@ -121,8 +121,8 @@ class StagedRun(Generic[_Scene, _Solution]):
                 names=self.dataset.names,
                 pictures=None if images is None else (lambda folder: self.draw(sampled, folder, images, report)),
                 text=lambda content: markdown_sections(content, sections, self.cost(content)),
-                page=None if page is None else lambda folder, warnings: page(told(warnings), folder),
+                page=None if page is None else lambda folder, warnings: page(with_warnings(warnings), folder),
                 report=report,
             )
-            return told(warnings)
+            return with_warnings(warnings)
         return outcome

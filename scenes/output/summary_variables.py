@@ -33,13 +33,13 @@ class SummaryNames:
             labels, one. Those of other lists are named after their place.
         prefixes: what stands for a place in the names of the variables below it.
         units: of numbers at a place, where the key does not tell.
-        told: places that are left out, for the labelled arrays of the kind tell the same.
+        reported_by_arrays: places that are left out, for the labelled arrays of the kind tell the same.
     """
 
     dimensions: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     prefixes: Mapping[str, str] = field(default_factory=dict)
     units: Mapping[str, str] = field(default_factory=dict)
-    told: frozenset[str] = frozenset()
+    reported_by_arrays: frozenset[str] = frozenset()
 
 
 # Tables that all summaries have.
@@ -99,7 +99,7 @@ class _Column:
 
 
 def summary_variables(summary: Summary, names: SummaryNames) -> xarray.Dataset:
-    """Return a summary as variables with units, but for what `SummaryNames.told` says.
+    """Return a summary as variables with units, but for what `SummaryNames.reported_by_arrays` says.
 
     Args:
         summary: content of ``summary.json``, in what JSON knows.
@@ -119,7 +119,7 @@ def summary_variables(summary: Summary, names: SummaryNames) -> xarray.Dataset:
 
 def _leaves(column: _Column, names: SummaryNames) -> Iterator[_Column]:
     """The columns of numbers, words and truth values."""
-    if column.place in names.told:
+    if column.place in names.reported_by_arrays:
         return
     column = _unrolled(column, list(names.dimensions.get(column.place, _DIMENSIONS.get(column.place, ()))))
     if isinstance(column.first, dict):

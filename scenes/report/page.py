@@ -90,6 +90,6 @@ def is_numeric(cells: Iterable[str]) -> bool:
     return all(_NUMBER.fullmatch(cell) for cell in cells)
 
 
-def is_loud(line: str) -> bool:
+def is_warning(line: str) -> bool:
     """Return whether a line warns of the result."""
     return _LOUD.match(line) is not None

@@ -10,7 +10,7 @@ from markupsafe import Markup
 from hydroelastic.scenes.output.outcome import Outcome
 from hydroelastic.scenes.read import Scene
 from hydroelastic.scenes.report.content import report_page
-from hydroelastic.scenes.report.page import ReportPage, is_loud, is_numeric
+from hydroelastic.scenes.report.page import ReportPage, is_numeric, is_warning
 
 REPORT = "report.html"
 _HERE = Path(__file__).resolve().parent
@@ -36,6 +36,6 @@ def rendered(page: ReportPage) -> str:
         lstrip_blocks=True,
         undefined=StrictUndefined,
     )
-    environment.tests |= {"loud": is_loud, "numeric": is_numeric}
+    environment.tests |= {"loud": is_warning, "numeric": is_numeric}
     style = Markup((_HERE / "page.css").read_text(encoding="utf-8"))
     return environment.get_template("page.html.jinja").render(page=page, style=style)

@@ -40,7 +40,7 @@ def columns_of(solution: StringSolution, times: Floats) -> list[int]:
     return sorted({int(np.argmin(np.abs(solution.times - time))) for time in times})
 
 
-def jumps_in_animation(result: StringResult) -> tuple[str, ...]:
+def animation_notes(result: StringResult) -> tuple[str, ...]:
     """Return why there is no animation, or a coarse one, and which key gives it."""
     solution = result.solution
     if solution.times[-1] == 0.0:

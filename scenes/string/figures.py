@@ -15,7 +15,7 @@ from hydroelastic.scenes.output.curve_style import (
     GREY,
     Sheets,
     diverging_colours,
-    dress,
+    label_axes,
     sequence_colours,
 )
 from hydroelastic.scenes.output.line_sequence import frame_numbers
@@ -86,7 +86,7 @@ def _draw_space_time(solution: StringSolution, sheets: Sheets) -> None:
         )
         axes.grid(visible=False)
         axes.set_xlim(solution.times[0], solution.times[-1])
-        dress(axes, "time t, s", HEIGHT)
+        label_axes(axes, "time t, s", HEIGHT)
 
 
 def _colour_limits(displacement: Floats) -> tuple[float, float]:
@@ -120,7 +120,7 @@ def _draw_shapes(solution: StringSolution, times: Floats, sheets: Sheets) -> Non
         for column, colour in zip(places, sequence_colours(len(places)), strict=True):
             label = f"{solution.times[column]:.4g} s"
             axes.plot(displacement[:, column], solution.positions, **_drawn(solution), color=colour, label=label)
-        dress(axes, "displacement U, m", HEIGHT, legend="beside", heading="time t")
+        label_axes(axes, "displacement U, m", HEIGHT, legend="beside", heading="time t")
 
 
 def _draw_modes(solution: StringSolution, sheets: Sheets) -> None:
@@ -133,7 +133,7 @@ def _draw_modes(solution: StringSolution, sheets: Sheets) -> None:
             decay = f", decay {-root.real:.4g} 1/s" if root.real else ""
             style = {"color": COLOURS[number], "linestyle": DASHES[number % len(DASHES)]} | _drawn(solution)
             axes.plot(shape, solution.positions, **style, label=f"{number + 1}: {oscillation}{decay}")
-        dress(axes, "displacement over the largest one", HEIGHT)
+        label_axes(axes, "displacement over the largest one", HEIGHT)
 
 
 def _drawn(solution: StringSolution) -> dict[str, Any]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import isinf
 
-from hydroelastic.physics.rigid_motions import heave_is_held
+from hydroelastic.physics.rigid_motions import heave_is_excluded
 from hydroelastic.physics.tank import Piece, StillLevel
 from hydroelastic.scenes.models.bodies import Float, Level
 from hydroelastic.scenes.models.body_kinds import AnyBeam
@@ -158,7 +158,7 @@ def _unknowns(scene: TankScene) -> Iterator[Row]:
     for level in tank.levels_from_top:
         yield _elevation_row(scene, level)
     for index, body in enumerate(scene.body):
-        is_held = heave_is_held(tank, index)
+        is_held = heave_is_excluded(tank, index)
         if isinstance(body, Float):
             yield f"s of float {index + 1}", f"float {index + 1}", _float_basis(body, is_held=is_held)
         else:

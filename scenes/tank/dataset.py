@@ -44,7 +44,7 @@ TANK_NAMES = SummaryNames(
         "estimates": "estimate",
     },
     # The first tone of the first beam is among those of all beams.
-    told=frozenset({"first_elastic", "floats.high_frequency.added_mass"}),
+    reported_by_arrays=frozenset({"first_elastic", "floats.high_frequency.added_mass"}),
 )
 
 

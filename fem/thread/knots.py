@@ -1,5 +1,4 @@
-"""Nodes where the thread passes heights at which a derivative of its stream jumps, which polynomials approximate
-poorly.
+"""Nodes where the thread passes heights at which a derivative of its stream jumps.
 
 Between rows of a table the stream is smooth; at them a derivative jumps, the first one of straight lines, the second of
 monotone cubics, the third of a spline. An element that contains such a place has an error of low order that depends on

@@ -43,8 +43,7 @@ class StepHistory:
 
 @dataclass(frozen=True, kw_only=True)
 class Slack:
-    """An interval in which a part of the thread is in compression, which a thread without bending stiffness cannot
-    carry.
+    """An interval with compression, which a thread without bending stiffness cannot carry.
 
     Attributes:
         start: first end of a step with compression, s.

@@ -57,7 +57,7 @@ class BeamSection(SceneModel):
 
 
 class BeamJoint(SceneModel):
-    """A place at which the slope of a beam may jump."""
+    """A joint of a beam, at which its slope may jump."""
 
     at: PositiveNumber = Field(description="distance from the left end of the beam, m")
     rotational_stiffness: Annotated[float, Strict(), Field(ge=0, le=LARGEST)] = Field(
@@ -89,7 +89,7 @@ class Beam(SceneModel):
     """An Euler–Bernoulli beam without draught that floats on a liquid: uniform, or of uniform sections.
 
     Of a beam of sections the length is their sum, the mass per length their mean, and the flexural rigidity that of the
-    uniform beam as flexible on the whole, l/EI = Σ lᵢ/EIᵢ: enough for what only needs to know about how stiff it is.
+    uniform beam of the same mean flexibility, l/EI = Σ lᵢ/EIᵢ; these means serve estimates of the resolution.
 
     Raises:
         ValidationError: (a ValueError) if sections stand beside the keys of a uniform beam.
@@ -161,7 +161,7 @@ class Beam(SceneModel):
     @model_validator(mode="before")
     @classmethod
     def _of_sections(cls, given: Any) -> Any:
-        """Complete a beam of sections by what it is on the whole."""
+        """Add the length and the means of a beam of sections."""
         if not isinstance(given, dict) or not given.get("sections"):
             return given
         problems = [
@@ -180,14 +180,15 @@ class Beam(SceneModel):
 
     @model_serializer(mode="wrap")
     def _as_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        """Write a beam as it may be read again."""
+        """Serialize a beam with the keys with which it was given."""
         left_out = UNIFORM_KEYS if self.sections else ()
         empty = tuple(key for key in ("sections", "joints") if not getattr(self, key))
         return {key: value for key, value in write(self).items() if key not in (*left_out, *empty)}
 
 
 def _on_the_whole(sections: Any) -> dict[str, float]:
-    """Length, mean flexural rigidity and mean mass of sections; of what are none, anything: they are refused."""
+    """Length, mean flexural rigidity and mean mass of sections; arbitrary for invalid ones, which validation
+    refuses."""
     try:
         parts = [part if isinstance(part, BeamSection) else BeamSection.model_validate(part) for part in sections]
     except (TypeError, ValidationError):
@@ -264,7 +265,7 @@ class Float(SceneModel):
 
     @property
     def shape_key(self) -> str:
-        """The key that says most about the section."""
+        """The key that defines the section."""
         return {"polygon": "vertices", "outline": "file"}.get(self.shape, "half_width")
 
     @model_validator(mode="after")

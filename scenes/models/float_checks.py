@@ -1,4 +1,4 @@
-"""What must hold of the floats of a scene: sections, sizes, equilibrium, room and stability."""
+"""Checks of the floats of a scene: sections, sizes, equilibrium, clearance and stability."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from hydroelastic.scenes.models.body_kinds import AnyBeam
 from hydroelastic.scenes.models.open_checks import length_scale_of_bodies
 from hydroelastic.scenes.models.problems import problem_at
 
-# Contours need NumPy and SciPy, which take a while to import: functions that are called for floats import them.
+# Contours need NumPy and SciPy, whose import is slow: they are imported by the functions that are called for floats.
 if TYPE_CHECKING:
     from hydroelastic.physics.contours import Contour
     from hydroelastic.scenes.models.tank_parts import TankParts
@@ -211,7 +211,7 @@ def _has_room(scene: TankParts, index: int, body: Float, bounds: _Box) -> Iterat
 
 
 def _lies_in_the_stretch(scene: TankParts, index: int, body: Float) -> Iterator[InitErrorDetails]:
-    """There are no walls that a float might touch."""
+    """Floats in open water lie within the drawn length."""
     if body.position > scene.tank.length:
         yield problem_at(
             ("body", index, "position"),
@@ -257,7 +257,7 @@ def _bodies_keep_apart(scene: TankParts) -> Iterator[InitErrorDetails]:
 
 
 def _neighbours(scene: TankParts, boxes: list[_Box]) -> list[tuple[int, int]]:
-    """Pairs of bodies, one a float at least, that lie over one another or nearly so: found from left to right."""
+    """Pairs of bodies, at least one of them a float, that overlap in x or nearly so, by a sweep from left to right."""
     if not scene.floats:
         return []
     widest_gap = SMALLEST_GAP * max(max(_extents(boxes[index])) for index, _ in scene.floats)
@@ -306,7 +306,7 @@ def _floats_are_stable(scene: TankParts) -> Iterator[InitErrorDetails]:
         at_rest, stiffness = placed.hydrostatics, placed.roll_stiffness
         if "roll" not in body.motions or body.unstable == "solve" or stiffness >= 0.0:
             continue
-        # Where the centre of mass would make the float neutral.
+        # Height of the centre of mass at which the roll stiffness is zero.
         arm = stiffness / (at_rest.mass * scene.tank.gravity)
         metacentre = at_rest.centre_of_mass[1] - at_rest.reference_level + arm
         height = at_rest.centre_of_mass[1] - at_rest.reference_level
@@ -327,7 +327,7 @@ def _thin_floats_have_free_liquid(scene: TankParts) -> Iterator[InitErrorDetails
     for other, section in scene.floats:
         if section.boundary == "thin" or not thin:
             continue
-        # SciPy takes a while to import, and most scenes have no float.
+        # The import of SciPy is slow, and most scenes have no float.
         from hydroelastic.scenes.models.floats import placed_float
 
         left, right = placed_float(scene, other).contour.bounds[:2]

@@ -1,4 +1,4 @@
-"""What must hold of a scene with open ends, and what only such a scene may hold."""
+"""Checks of scenes with open ends, and of keys that are reserved for them."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ SLOWEST, FASTEST = 1e-6, 1e3
 
 
 def closed_tanks_have_no_open_water_keys(scene: TankParts) -> Iterator[InitErrorDetails]:
-    """Yield what only open water has."""
+    """Yield keys of a closed tank that are reserved for open water."""
     if scene.is_open:
         return
     for index, liquid in enumerate(scene.liquid):
@@ -40,7 +40,7 @@ def closed_tanks_have_no_open_water_keys(scene: TankParts) -> Iterator[InitError
 
 
 def open_water_is_complete(scene: TankParts) -> Iterator[InitErrorDetails]:
-    """Yield what open water lacks, and keys that have no effect there."""
+    """Yield what a scene of open water is missing, and keys that have no effect there."""
     if not scene.is_open:
         return
     if not scene.body:
@@ -62,7 +62,7 @@ def open_water_is_complete(scene: TankParts) -> Iterator[InitErrorDetails]:
             allowed='"free"',
             remedy='Set ends = "walls", or add a second [[liquid]]',
         )
-    # A default that is written out, as summaries do, is no wish.
+    # A default that is written out, as in summaries, is accepted.
     if scene.accuracy.modes != type(scene.accuracy).model_fields["modes"].default:
         yield problem_at(
             ("accuracy", "modes"),
@@ -74,7 +74,7 @@ def open_water_is_complete(scene: TankParts) -> Iterator[InitErrorDetails]:
 
 
 def frequencies_and_times_can_be_resolved(scene: TankParts) -> Iterator[InitErrorDetails]:
-    """Yield analyses whose waves are out of all proportion to what is drawn."""
+    """Yield analyses whose wavelengths are too long or too short relative to the drawn length."""
     unit = sqrt(scene.tank.gravity / scene.tank.length)
     slowest, fastest = SLOWEST * unit, FASTEST * unit
     for index, analysis in enumerate(scene.analysis if scene.is_open else ()):
@@ -101,7 +101,7 @@ def frequencies_and_times_can_be_resolved(scene: TankParts) -> Iterator[InitErro
 
 
 def resonance_regions_are_covered_by_theory(scene: TankParts) -> Iterator[InitErrorDetails]:
-    """Yield resonance analyses that reach to where water of finite depth has not been continued."""
+    """Yield resonance analyses beyond the sector to which the waves of finite depth are continued analytically."""
     finite = [layer.depth for layer in scene.layers if not isinf(layer.depth)]
     for index, analysis in enumerate(scene.analysis if scene.is_open and finite else ()):
         if isinstance(analysis, Resonance) and analysis.largest_damping > MOST_DAMPING_ANYWHERE:
@@ -135,7 +135,7 @@ def _nothing_lies_above_an_infinite_liquid(scene: TankParts) -> Iterator[InitErr
 
 
 def open_water_beams_have_free_ends(scene: TankParts) -> Iterator[InitErrorDetails]:
-    """Yield the beams that walls would have to guide."""
+    """Yield beams with guided ends, which need walls."""
     for index, beam in scene.beams:
         if scene.is_open and beam.ends == "guided":
             yield problem_at(
@@ -147,7 +147,7 @@ def open_water_beams_have_free_ends(scene: TankParts) -> Iterator[InitErrorDetai
 
 
 def decaying_bodies_are_floats(scene: TankParts) -> Iterator[InitErrorDetails]:
-    """Yield the decay analyses of what is no float or may not move so."""
+    """Yield the decay analyses of bodies that are not floats, or of motions that the float does not have."""
     for index, analysis in enumerate(scene.analysis):
         if not isinstance(analysis, Decay):
             continue
@@ -174,7 +174,7 @@ def decaying_bodies_are_floats(scene: TankParts) -> Iterator[InitErrorDetails]:
 
 
 def length_scale_of_bodies(scene: TankParts) -> float:
-    """Return the length beside which no body may be too small, m: of the tank, or over which bodies in open water lie.
+    """Return the length to which sizes of bodies are relative, m: of the tank, or of the extent of bodies.
 
     Floats count by their position.
     """

@@ -1,4 +1,4 @@
-"""What must fit together in the scene of a rolling ship."""
+"""Checks of the consistency of the scene of a rolling ship."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ LEAST_QUADRATIC_TOLERANCE = 1e-11
 
 
 def frequency_is_given_once(scene: RollParts) -> Iterator[InitErrorDetails]:
-    """One of the period, the frequency and a section tells how the ship rolls by itself."""
+    """Exactly one of period, frequency and section gives the natural frequency."""
     roll = scene.roll
     given = [name for name in ("natural_period", "natural_frequency", "section") if getattr(roll, name) is not None]
     if len(given) != 1:
@@ -57,7 +57,7 @@ def frequency_is_given_once(scene: RollParts) -> Iterator[InitErrorDetails]:
 
 
 def waves_can_be_read(scene: RollParts) -> Iterator[InitErrorDetails]:
-    """Waves stand in the scene or in a table of positive periods."""
+    """Waves are given in the scene or by a table of positive periods."""
     if scene.train is None:
         return
     key, value = ("train", "file"), str(scene.train.file)
@@ -80,7 +80,7 @@ def waves_can_be_read(scene: RollParts) -> Iterator[InitErrorDetails]:
 
 
 def ship_is_excited(scene: RollParts) -> Iterator[InitErrorDetails]:
-    """There are waves, or the ship is let go."""
+    """There are waves, or the ship is released from an angle."""
     if not scene.waves and scene.roll.angle == scene.roll.rate == 0.0:
         yield problem_at(
             ("wave",), None, "there is none, and the ship rests", allowed="waves, or an angle or a rate at t = 0"
@@ -91,7 +91,7 @@ def ship_is_excited(scene: RollParts) -> Iterator[InitErrorDetails]:
 
 
 def waves_are_not_too_steep(scene: RollParts) -> Iterator[InitErrorDetails]:
-    """No wave is steeper than one that breaks: that catches degrees, too."""
+    """No wave is steeper than a breaking one; this also detects slopes in degrees."""
     for number, (_, slope) in enumerate(scene.waves):
         if abs(slope) <= STEEPEST:
             continue
@@ -108,7 +108,7 @@ def waves_are_not_too_steep(scene: RollParts) -> Iterator[InitErrorDetails]:
 
 
 def rates_are_comparable(scene: RollParts) -> Iterator[InitErrorDetails]:
-    """Periods and damping lie within what double precision follows."""
+    """Ratios of periods and damping lie within the range of double precision."""
     frequency = scene.natural_frequency
     if frequency is None:
         return
@@ -128,7 +128,7 @@ def rates_are_comparable(scene: RollParts) -> Iterator[InitErrorDetails]:
 
 
 def motion_can_be_followed(scene: RollParts) -> Iterator[InitErrorDetails]:
-    """The motion ends after t = 0, and not after more oscillations, or steps of an integrator, than are worth it."""
+    """The motion ends after t = 0, within the limits of oscillations and of steps of the integrator."""
     frequency = scene.natural_frequency
     if scene.output.times is not None and scene.output.times[-1] == 0.0:
         yield problem_at(("output", "times"), 0.0, "the motion is not followed at all", allowed="a last time above 0")
@@ -158,9 +158,9 @@ def motion_can_be_followed(scene: RollParts) -> Iterator[InitErrorDetails]:
 
 
 def _steps(scene: RollParts, frequency: float, last: float) -> float:
-    """About how many steps an explicit integrator takes: ten in a radian of the fastest oscillation or decay.
+    """Approximate number of steps of an explicit integrator: ten per radian of the fastest oscillation or decay.
 
-    Where quadratic damping rules, d φ'² = k² a holds the rate, and decays are as fast as d|φ'|.
+    Where quadratic damping dominates, the rate follows from d φ'² = k² a, and decays are as fast as d|φ'|.
     """
     roll = scene.roll
     steepest = max((abs(slope) for _, slope in scene.waves), default=0.0)
@@ -173,7 +173,7 @@ def _steps(scene: RollParts, frequency: float, last: float) -> float:
 
 
 def levels_differ(scene: RollParts) -> Iterator[InitErrorDetails]:
-    """Levels of angle go up, and are not too many."""
+    """Levels of angle ascend, and their number is limited."""
     levels = scene.output.levels
     if len(levels) > MOST_LEVELS:
         yield problem_at(("output", "levels"), None, f"there are {len(levels)}", allowed=f"up to {MOST_LEVELS}")

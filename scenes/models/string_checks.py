@@ -1,4 +1,4 @@
-"""What must fit together in the scene of a hanging string."""
+"""Checks of the consistency of the scene of a hanging string."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ LONGEST = {"series": 1e4, "field": 200.0}
 
 
 def string_outweighs_its_displaced_liquid(scene: StringParts) -> Iterator[InitErrorDetails]:
-    """A string that is lighter than the liquid it displaces would rise."""
+    """A string lighter than the liquid that it displaces is not under tension."""
     string = scene.string
     if string.displaced_mass >= string.linear_density:
         yield problem_at(
@@ -57,7 +57,7 @@ def method_is_available(scene: StringParts) -> Iterator[InitErrorDetails]:
 
 
 def table_can_be_followed(scene: StringParts) -> Iterator[InitErrorDetails]:
-    """A motion by a table has one table, whose times go up from 0."""
+    """A motion by a table has one table, whose times ascend from 0."""
     motion = scene.motion
     if motion.kind != "table":
         return
@@ -94,7 +94,7 @@ def table_can_be_followed(scene: StringParts) -> Iterator[InitErrorDetails]:
 
 
 def travel_time_is_finite(scene: StringParts) -> Iterator[InitErrorDetails]:
-    """A wave runs along the string in a time that can be written."""
+    """The travel time of a wave along the string is a finite number."""
     travel = scene.string.physical.travel_time
     longest = LARGEST / LONGEST["series"]
     if travel > longest:
@@ -106,7 +106,7 @@ def travel_time_is_finite(scene: StringParts) -> Iterator[InitErrorDetails]:
 
 
 def output_is_in_range(scene: StringParts) -> Iterator[InitErrorDetails]:
-    """Places lie on the string, times within the table of the motion; and there are not too many of both."""
+    """Positions lie on the string and times within the table of the motion; the number of values is limited."""
     length, times = scene.string.length, scene.times
     if scene.positions[-1] > length:
         yield problem_at(
@@ -142,7 +142,7 @@ def output_is_in_range(scene: StringParts) -> Iterator[InitErrorDetails]:
 
 
 def motion_is_not_too_fast(scene: StringParts) -> Iterator[InitErrorDetails]:
-    """Rates lie within what terms or elements can follow."""
+    """Rates lie within what the allowed terms or elements resolve."""
     travel, motion = scene.string.physical.travel_time, scene.motion
     limit = (FASTEST if scene.method == "series" else FASTEST_FIELD) / travel
     rates: list[tuple[tuple[str, str], float]] = []

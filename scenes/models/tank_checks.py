@@ -1,4 +1,4 @@
-"""What must fit together in a scene: liquids, lengths and bodies. Each check yields the problems it finds."""
+"""Checks of the consistency of a scene: liquids, lengths and bodies. Each check yields the errors it finds."""
 
 from __future__ import annotations
 
@@ -131,7 +131,7 @@ def _depths_fit_the_length(scene: TankParts) -> Iterator[InitErrorDetails]:
 
 
 def _depths_fit_the_bodies(scene: TankParts) -> Iterator[InitErrorDetails]:
-    """Frames of cells reach as far down as they are needed: open water may be deep."""
+    """The absorbing layer is as deep as needed: open water may be deep."""
     least = DEPTH_TO_LENGTH[0] * length_scale_of_bodies(scene)
     for index, layer in enumerate(scene.layers):
         if layer.depth < least:

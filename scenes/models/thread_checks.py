@@ -1,4 +1,4 @@
-"""What must fit together in the scene of a thread, as far as it shows before anything is solved."""
+"""Checks of the consistency of the scene of a thread that need no solution."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _WAYS = "velocity (and shear), veer, profile or file"
 
 
 def stream_is_given_once(scene: ThreadParts) -> Iterator[InitErrorDetails]:
-    """One way of saying how the liquid streams, and a profile that can be read."""
+    """The stream is given in one way, and its profile can be read."""
     stream = scene.stream
     if stream is None:
         return
@@ -145,7 +145,7 @@ def clamps_need_rigidity(scene: ThreadParts) -> Iterator[InitErrorDetails]:
 
 
 def one_end_is_fixed(scene: ThreadParts) -> Iterator[InitErrorDetails]:
-    """Without a fixed end nothing keeps the thread from drifting off."""
+    """A thread without a fixed end would drift."""
     if scene.ends.a.kind != "fixed" and scene.ends.b.kind != "fixed":
         yield problem_at(
             ("ends", "a"),
@@ -182,7 +182,7 @@ def tension_is_determined(scene: ThreadParts) -> Iterator[InitErrorDetails]:
 
 
 def given_tension_is_needed(scene: ThreadParts) -> Iterator[InitErrorDetails]:
-    """A tension is given only where nothing else tells it, and where the thread does not leave that state."""
+    """A tension is given only where it is otherwise undetermined, and where no motion starts from another state."""
     given = scene.thread.tension
     if given is None:
         return
@@ -210,7 +210,7 @@ def given_tension_is_needed(scene: ThreadParts) -> Iterator[InitErrorDetails]:
 
 
 def slack_thread_is_loaded(scene: ThreadParts) -> Iterator[InitErrorDetails]:
-    """A slack thread without flexural rigidity takes a shape by its load alone."""
+    """The shape of a slack thread without flexural rigidity is determined by its load."""
     if scene.thread.flexural_rigidity > 0.0:
         return
     dragged = scene.streams and scene.normal_drag + scene.tangential_drag + scene.thread.viscous_drag > 0.0
@@ -243,7 +243,8 @@ def _pulls(scene: ThreadParts, body: object) -> bool:
 
 
 def _slack_along_a_line(scene: ThreadParts) -> Iterator[InitErrorDetails]:
-    """A slack thread whose whole load acts along the chord folds: part of it has no tension, and no shape."""
+    """A slack thread whose whole load acts along the chord folds: part of it has no tension, and its shape is
+    undetermined."""
     a, b = scene.ends.a, scene.ends.b
     if not isinstance(a, FixedEnd) or not isinstance(b, FixedEnd) or scene.load:
         return

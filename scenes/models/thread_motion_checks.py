@@ -1,4 +1,4 @@
-"""What must fit together in a motion of a thread in time."""
+"""Checks of the consistency of a motion of a thread in time."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ LEAST_MOTION_ROWS, MOST_MOTION_ROWS = 4, 20_000
 def motion_can_be_followed(
     scene: ThreadParts, motion: ThreadMotion, where: tuple[str | int, ...]
 ) -> Iterator[InitErrorDetails]:
-    """Only fixed ends are moved or let go; what starts straight has a free end."""
+    """Only fixed ends are moved or released; a straight start needs a free end."""
     ends = {"a": scene.ends.a, "b": scene.ends.b}
     named = [("move", place, move.end) for place, move in enumerate(motion.move)]
     named += [("release", place, release.end) for place, release in enumerate(motion.release)]
@@ -39,7 +39,7 @@ def motion_can_be_followed(
 
 
 def _releases(scene: ThreadParts, motion: ThreadMotion, where: tuple[str | int, ...]) -> Iterator[InitErrorDetails]:
-    """Each end is let go once, within the motion; the model of a moving liquid cannot follow it."""
+    """Each end is released once, within the motion; reactive models do not admit a release."""
     ends = [release.end for release in motion.release]
     for place, release in enumerate(motion.release):
         key = (*where, "release", place)
@@ -56,7 +56,7 @@ def _releases(scene: ThreadParts, motion: ThreadMotion, where: tuple[str | int, 
 
 
 def _integrator(scene: ThreadParts, motion: ThreadMotion, where: tuple[str | int, ...]) -> Iterator[InitErrorDetails]:
-    """Generalised α damps fast stretching, and knows no momentum of the liquid."""
+    """Generalised α damps fast stretching, and does not include the momentum of the liquid."""
     if motion.integrator != "generalized_alpha":
         return
     key = (*where, "integrator")
@@ -74,7 +74,7 @@ def _integrator(scene: ThreadParts, motion: ThreadMotion, where: tuple[str | int
 def _straight_start(
     scene: ThreadParts, motion: ThreadMotion, where: tuple[str | int, ...]
 ) -> Iterator[InitErrorDetails]:
-    """A straight thread must be as its ends are held."""
+    """A straight start must agree with the supports of the ends."""
     a, b = scene.ends.a, scene.ends.b
     size = hypot(*motion.direction)
     if size == 0.0:
@@ -103,7 +103,7 @@ def _straight_start(
 def _table(
     scene: ThreadParts, motion: ThreadMotion, move: EndMotion, key: tuple[str | int, ...]
 ) -> Iterator[InitErrorDetails]:
-    """The motion of an end by a table begins at t = 0 and lasts as long as it is asked for."""
+    """The motion of an end by a table begins at t = 0 and covers the requested times."""
     if move.file is None:
         return
     value = str(move.file)

@@ -47,7 +47,7 @@ class Sweep(SceneModel):
 
     @property
     def values(self) -> tuple[float, ...]:
-        """The values themselves; of equal differences those that are meant, 0.3 rather than 0.30000000000000004."""
+        """The values; equal steps are rounded to the decimal numbers intended, 0.3 rather than 0.30000000000000004."""
         steps = [place / (self.number - 1) for place in range(self.number)]
         if self.spacing == "linear":
             inner = [_shortest(self.start + step * (self.stop - self.start)) for step in steps]
@@ -100,7 +100,7 @@ OR_SWEEP = "or a table {start, stop, number, spacing} of them"
 
 
 def ascending_values(most: int) -> tuple[Any, ...]:
-    """Return what a list of places or times that go up is made with, of ``most`` values."""
+    """Return the type of an ascending list of at most ``most`` places or times."""
     return BeforeValidator(_expanded), AfterValidator(_going_up), Field(min_length=1, max_length=most)
 
 

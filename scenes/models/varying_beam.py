@@ -80,7 +80,7 @@ class VaryingBeam(SceneModel):
 
     @property
     def is_uniform(self) -> bool:
-        """It is not, or is given so that nobody asks."""
+        """False: a varying beam counts as not uniform."""
         return False
 
     @property
@@ -155,7 +155,7 @@ class VaryingBeam(SceneModel):
 
     @model_serializer(mode="wrap")
     def _as_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        """Leave out the keys of the other way, and joints where there are none."""
+        """Leave out the keys of the alternative form, and an empty list of joints."""
         return {key: value for key, value in write(self).items() if value not in (None, (), [])}
 
 
@@ -182,7 +182,7 @@ def _given_in_one_way(beam: VaryingBeam) -> Iterator[InitErrorDetails]:
 
 
 def _covers(beam: VaryingBeam, key: str) -> Iterator[InitErrorDetails]:
-    """Each table begins at the left end, and goes to the right."""
+    """Each table begins at the left end, and its x ascends."""
     table = getattr(beam, key) or ()
     places = [x for x, _ in table]
     if places and places[0] != 0.0:

@@ -1,4 +1,4 @@
-"""What the main numbers of summaries are, in words."""
+"""Long names of the main numbers of summaries."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _LONG_NAMES = {
 
 
 def long_name_of(place: str) -> str:
-    """Return what stands at a place: in words where there are any, by the keys that lead to it elsewhere.
+    """Return the long name of a place; by default its keys.
 
     Args:
         place: keys that lead to it, joined by dots.

@@ -1,4 +1,4 @@
-"""The run of a scene in stages that each kind has its own of: solve, summarize, tabulate, write, draw."""
+"""The run of a scene in stages, which each kind of scene implements: solve, summarize, tabulate, write, draw."""
 
 from __future__ import annotations
 
@@ -36,20 +36,20 @@ def _nothing(_solution: Any) -> tuple[str, ...]:
 
 @dataclass(frozen=True, kw_only=True)
 class StagedRun(Generic[_Scene, _Solution]):
-    """What runs scenes of one kind.
+    """Runs scenes of one kind.
 
     Attributes:
-        solve: gives the solution of a scene (collective).
-        summarize: gives the content of ``summary.json`` (collective).
-        sections: gives the tables that a person reads.
-        cost: gives a line that says what the result took.
+        solve: returns the solution of a scene (collective).
+        summarize: returns the content of ``summary.json`` (collective).
+        sections: returns the tables.
+        cost: returns a line about size and time.
         write: writes files of numbers into a folder, on rank 0.
-        dataset: what `dataset.nc` is made of.
-        draw: draws into a folder, on rank 0, and tells what is being drawn.
-        used_options: the options that the pictures heed; of others a run says that they have no effect.
-        animation_warnings: says what an animation of the solution lacks, and which key gives it; nothing by default.
-        sample: makes what is written and drawn of the solution and its summary (collective); the solution by default.
-        sampling_warnings: says what could not be sampled, and why; nothing by default.
+        dataset: contents of `dataset.nc`.
+        draw: draws into a folder, on rank 0, and reports each picture.
+        used_options: the options that the pictures use; a run warns that others have no effect.
+        animation_warnings: returns limitations of an animation of the solution, and the key to set; none by default.
+        sample: samples the solution for files and pictures (collective); the solution itself by default.
+        sampling_warnings: returns what could not be sampled, and why; none by default.
     """
 
     solve: Callable[[_Scene, MPI.Comm, Report], _Solution]
@@ -84,7 +84,7 @@ class StagedRun(Generic[_Scene, _Solution]):
             images: how to draw; ``None`` draws nothing.
             page: writes a page about the outcome into the folder, on rank 0 and last; ``None`` writes none.
             import_seconds: time that importing libraries took, for the record.
-            report: told what is being done.
+            report: called with the name of each step.
 
         Raises:
             SceneError: if a file that the scene names cannot be used, or the folder cannot be written.
@@ -96,7 +96,7 @@ class StagedRun(Generic[_Scene, _Solution]):
         sections = tuple(self.sections(solution, summary))
         outcome = Outcome(solution=solution, summary=summary, sections=sections, cost=self.cost(summary), folder=out)
         if out is not None:
-            # Asked before anything is written there.
+            # Read before anything is written there.
             replaces = read_manifest(out) is not None
             watch = Stopwatch()
             report("fields")

@@ -17,18 +17,18 @@ _HERE = Path(__file__).resolve().parent
 
 
 def write_report(scene: Scene, outcome: Outcome, folder: Path) -> None:
-    """Write a page about a run that needs no other file, on this process alone.
+    """Write a self-contained page about a run, on this process only.
 
     Args:
         scene: the scene.
         outcome: of its run.
-        folder: of its results, complete but for the page.
+        folder: of its results, complete except for the page.
     """
     (folder / REPORT).write_text(rendered(report_page(scene, outcome, folder)), encoding="utf-8")
 
 
 def rendered(page: ReportPage) -> str:
-    """Return a report as HTML; whatever its texts hold is shown as text."""
+    """Return a report as HTML; its texts are escaped."""
     environment = Environment(
         loader=FileSystemLoader(_HERE),
         autoescape=True,

@@ -79,7 +79,7 @@ def regime(ship: Ship) -> str:
 
 
 def free_decay(ship: Ship) -> dict[str, float] | None:
-    """Return what linear damping makes of free motion; ``None`` where it does not oscillate.
+    """Return the decay of free oscillations by linear damping; ``None`` where they do not oscillate.
 
     The exact decrement is δ = 2πn/√(k² − n²), the logarithm of the ratio of two largest angles a period apart.
     """

@@ -25,7 +25,7 @@ from hydroelastic.scenes.string.results import StringResult
 
 _SHOWN_SHAPES = 9
 _SHOWN_MODES = 5
-# Above this quantile of |U| a few peaks at focuses would leave the rest without colour.
+# Quantile of |U| that limits the colour scale: a few peaks at focuses would dominate it.
 _QUANTILE = 0.995
 # Times this quantile a value is a peak.
 _PEAK = 1.5
@@ -90,7 +90,7 @@ def _draw_space_time(solution: StringSolution, sheets: Sheets) -> None:
 
 
 def _colour_limits(displacement: Floats) -> tuple[float, float]:
-    """The least and largest U that have colours of their own, zero between them; a few peaks may lie beyond."""
+    """Limits of the colour scale of U, with zero between them; a few peaks may exceed them."""
     sizes = np.abs(displacement)
     usual, largest = float(np.quantile(sizes, _QUANTILE)), float(sizes.max())
     limit = (largest if largest < _PEAK * usual else usual) or largest

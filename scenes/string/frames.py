@@ -1,4 +1,4 @@
-"""The moving string in one frame of axes: numbered pictures, and an animation."""
+"""The moving string in fixed axes: numbered pictures, and an animation."""
 
 from __future__ import annotations
 

@@ -43,7 +43,7 @@ def summarize_string(result: StringResult, comm: MPI.Comm, *, import_seconds: fl
 
 
 def _string(string: HangingString) -> dict[str, Any]:
-    """What is known beforehand; the criterion of oscillation is that of a uniform string with a free end."""
+    """Properties of the string; the criterion of oscillation is that of a uniform string with a free end."""
     found: dict[str, Any] = {
         "travel_time": string.travel_time,
         "damping": string.damping,

@@ -1,4 +1,4 @@
-"""Notes on animations of a thread: too few times, or nothing that moves."""
+"""Limitations of animations of a thread: too few times, or no analysis with a motion."""
 
 from __future__ import annotations
 

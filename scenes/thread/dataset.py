@@ -48,7 +48,7 @@ THREAD_NAMES = SummaryNames(
 def thread_dataset(solution: ThreadSolutionOfScene) -> xarray.Dataset:
     """Return the equilibrium, and modes, stability and motion by analysis, SI units.
 
-    Names of a second analysis of a kind end in a number, as those of files.
+    Names of a second analysis of a kind end in its number, as do those of files.
     """
     # xarray takes a while to import.
     import xarray

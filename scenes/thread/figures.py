@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 _SHOWN_MODES = 6
 _SHOWN_SHAPES = 9
 _ANIMATED_MODES = 3
-# Of the largest displacement: what moves less is not drawn.
+# Of the largest displacement: smaller components are not drawn.
 _MOVES = 1e-3
 _ALONG = "distance from end A along the thread, m"
 
@@ -131,7 +131,7 @@ def _draw_stability(sweep: Stability, sheets: Sheets, name: str) -> None:
     with sheets.sheet(name, "free motions exp(λt) against the stream", width=8.0, height=7.5) as figure:
         upper, lower = figure.subplots(2, 1, sharex=True)
         for number, branch in enumerate(_different(sweep.roots)):
-            # Dashes let one see two that lie on each other.
+            # Dashes show coincident roots.
             style = {"color": COLOURS[number % len(COLOURS)], "linestyle": DASHES[number % len(DASHES)], "marker": "."}
             upper.plot(sweep.values, branch.imag, **style)
             lower.plot(sweep.values, branch.real, **style)
@@ -146,7 +146,7 @@ def _draw_stability(sweep: Stability, sheets: Sheets, name: str) -> None:
 
 
 def _different(roots: NDArray[np.complex128]) -> list[NDArray[np.complex128]]:
-    """Roots that are not another one's conjugate all along, shape (roots, values): those look the same."""
+    """Roots without those that are conjugate to another one at all values, shape (roots, values)."""
     kept: list[NDArray[np.complex128]] = []
     for branch in roots.T:
         upwards = branch.real + 1j * np.abs(branch.imag)
@@ -162,7 +162,7 @@ def _draw_motion(motion: MotionInSpace, sheets: Sheets, name: str) -> None:
     sides = [(0, 2)] if spread[1] < 1e-6 * spread.max() else [(0, 2), (1, 2), (0, 1)]
     s = smooth_curve(motion.nodes, motion.nodes)
     first = smooth_curve(motion.nodes, motion.positions[0])
-    # Four panels stand two by two: side by side their letters would be small.
+    # Four panels stand two by two: side by side their text would be too small.
     rows = (len(sides) + 1) // 2
     with sheets.sheet(name, "shapes at some times", width=12.0, height=0.6 + 4.8 * rows) as figure:
         *panels, last = figure.subplots(rows, 2).ravel()

@@ -19,7 +19,7 @@ from hydroelastic.scenes.models.thread import ThreadScene
 
 Floats = NDArray[np.float64]
 
-# Relative error of tensions above which a motion does not tell whether the thread is slack.
+# Relative error of tensions above which slack of the thread is undetermined.
 _TENSION_KNOWN = 0.1
 
 

@@ -1,4 +1,4 @@
-"""Everything that a scene asks of a thread."""
+"""Solution of all analyses of the scene of a thread."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def solve_thread_scene(scene: ThreadScene, comm: MPI.Comm, report: Report) -> Th
         The solution (collective).
 
     Raises:
-        UnsolvedError: if a part of it cannot be solved.
+        UnsolvedError: if an analysis cannot be solved.
     """
     watch, thread, frame, tolerance = Stopwatch(), thread_of(scene), frame_of(scene), scene.accuracy.tolerance
     report("equilibrium")
@@ -77,7 +77,7 @@ def solve_thread_scene(scene: ThreadScene, comm: MPI.Comm, report: Report) -> Th
 
 @contextmanager
 def _failures_in_words(asked: analyses.ThreadAnalysis | None = None) -> Iterator[None]:
-    """Raise what the solvers raise as an `UnsolvedError` that says which part of the scene failed."""
+    """Convert errors of the solvers to an `UnsolvedError` that names the part of the scene."""
     try:
         yield
     except NoEquilibriumError as error:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
+from hydroelastic.physics.dofs import Dof
 from hydroelastic.physics.motions import Level
 from hydroelastic.physics.tank import Tank
 
@@ -21,37 +21,18 @@ class ZeroStiffnessMotion:
     """
 
     body: int
-    name: str
+    name: Dof
     level: Level
     displaces: bool
 
 
-def zero_stiffness_motions(tank: Tank) -> tuple[ZeroStiffnessMotion, ...]:
-    """Return the motions without stiffness, each by itself.
-
-    A free beam without hydrostatics heaves, pitches and turns about its hinges without energy. A float sways without
-    energy, and rolls without energy if its roll stiffness is zero; a float that heaves freely does so in the roll so
-    that its heave force, and with it the displaced volume, is zero.
-    """
-    return (*_beam_motions(tank), *_float_motions(tank))
-
-
-def _beam_motions(tank: Tank) -> Iterator[ZeroStiffnessMotion]:
-    for index, beam in tank.beams.items():
-        if not beam.hydrostatic and beam.ends == "free":
-            yield ZeroStiffnessMotion(body=index, name="heave", level=beam.level, displaces=True)
-            yield ZeroStiffnessMotion(body=index, name="pitch", level=beam.level, displaces=False)
-            for number in range(len(beam.hinges)):
-                yield ZeroStiffnessMotion(body=index, name=f"hinge {number + 1}", level=beam.level, displaces=False)
-
-
-def _float_motions(tank: Tank) -> Iterator[ZeroStiffnessMotion]:
-    for index, body in tank.floats.items():
-        if "sway" in body.motions:
-            yield ZeroStiffnessMotion(body=index, name="sway", level=body.level, displaces=False)
-        if "roll" in body.motions and body.roll_stiffness == 0.0:
-            displaces = "heave" not in body.motions and body.hydrostatics.coupling_stiffness != 0.0
-            yield ZeroStiffnessMotion(body=index, name="roll", level=body.level, displaces=displaces)
+def loose_motions(tank: Tank) -> tuple[LooseMotion, ...]:
+    """Return the motions that cost no energy, each of them alone."""
+    return tuple(
+        LooseMotion(body=index, name=motion, level=body.level, displaces=displaces)
+        for index, body in enumerate(tank.bodies)
+        for motion, displaces in body.loose_motions()
+    )
 
 
 def zero_mode_count(tank: Tank) -> int:
@@ -68,15 +49,11 @@ def zero_mode_count(tank: Tank) -> int:
 
 
 def mode_count(tank: Tank) -> int | None:
-    """Return the number of oscillating modes where only rigid bodies move, else None (unlimited)."""
-    if tank.beams or len(tank.layers) > 1 or tank.top == "free":
+    """Return how many modes oscillate where nothing but rigid bodies can, else None: as many as one asks for."""
+    if any(body.is_elastic for body in tank.bodies) or len(tank.layers) > 1 or tank.top == "free":
         return None
-    motions = sum(len(body.motions) for body in tank.floats.values())
-    # Whether a float has a motion that displaces a net volume.
-    displaced = any(
-        "heave" in body.motions or ("roll" in body.motions and body.hydrostatics.coupling_stiffness != 0.0)
-        for body in tank.floats.values()
-    )
+    motions = sum(len(body.rigid_motions) for body in tank.bodies)
+    displaced = any(body.displaces_volume for body in tank.bodies)
     constraints = int(displaced and not _volume_is_free(tank))
     return motions - constraints - zero_mode_count(tank)
 

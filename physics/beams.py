@@ -109,7 +109,7 @@ class Beam(Body):
         rigid = ("heave",) if self.ends == "guided" else ("heave", "pitch")
         return (*map(Dof, rigid), *(Dof.hinge(number + 1) for number in range(len(self.hinges))))
 
-    def loose_motions(self) -> Iterator[tuple[Dof, bool]]:
+    def zero_stiffness_motions(self) -> Iterator[tuple[Dof, bool]]:
         """A free beam without hydrostatics heaves, pitches and turns about its hinges at no cost."""
         if not self.hydrostatic and self.ends == "free":
             yield from ((motion, motion == "heave") for motion in self.rigid_motions)

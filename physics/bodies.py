@@ -39,7 +39,7 @@ class Body(ABC):
         """In what ways it may move without bending."""
 
     @abstractmethod
-    def loose_motions(self) -> Iterator[tuple[Dof, bool]]:
+    def zero_stiffness_motions(self) -> Iterator[tuple[Dof, bool]]:
         """The rigid motions that cost no energy, and whether each displaces volume on the whole."""
 
     @property
@@ -56,7 +56,7 @@ class Body(ABC):
         """Return the body in other units, between given ends of its waterplane in these units."""
 
     @abstractmethod
-    def mirrors(self, other: object) -> bool:
+    def is_mirror_image_of(self, other: object) -> bool:
         """Whether it is the mirror image of another body, wherever both float, but for rounding."""
 
     @property

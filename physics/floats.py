@@ -42,7 +42,7 @@ class RigidFloat(Body):
         """In what ways it may move."""
         return tuple(map(Dof, self.motions))
 
-    def loose_motions(self) -> Iterator[tuple[Dof, bool]]:
+    def zero_stiffness_motions(self) -> Iterator[tuple[Dof, bool]]:
         """A float sways at no cost, and rolls so if it is neutral.
 
         Where it may heave, heave follows the roll so that the force on it, and the volume it displaces, is zero.
@@ -66,7 +66,7 @@ class RigidFloat(Body):
         hull = self.hull.scaled(units.length, start, end)
         return replace(self, hull=hull, hydrostatics=self.hydrostatics.scaled(units))
 
-    def mirrors(self, other: object) -> bool:
+    def is_mirror_image_of(self, other: object) -> bool:
         """Whether it is the mirror image of another body, wherever both float, but for rounding."""
         hull, rest = self.hull, self.hydrostatics
         return (

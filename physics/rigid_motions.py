@@ -26,12 +26,12 @@ class ZeroStiffnessMotion:
     displaces: bool
 
 
-def loose_motions(tank: Tank) -> tuple[LooseMotion, ...]:
+def zero_stiffness_motions(tank: Tank) -> tuple[ZeroStiffnessMotion, ...]:
     """Return the motions that cost no energy, each of them alone."""
     return tuple(
-        LooseMotion(body=index, name=motion, level=body.level, displaces=displaces)
+        ZeroStiffnessMotion(body=index, name=motion, level=body.level, displaces=displaces)
         for index, body in enumerate(tank.bodies)
-        for motion, displaces in body.loose_motions()
+        for motion, displaces in body.zero_stiffness_motions()
     )
 
 

@@ -71,7 +71,7 @@ def _computed_shapes(beam: Beam, count: int) -> BeamShapes:
     modes = uniform_mass_modes(beam, count)
     length = beam.length
     # Exactly diagonal where it is so.
-    mass = beam.mass_per_length * np.eye(len(modes.dofs)) if beam.has_even_mass else modes.products(beam)
+    mass = beam.mass_per_length * np.eye(len(modes.dofs)) if beam.has_uniform_mass else modes.products(beam)
     scale = float(np.sqrt(length))
     return BeamShapes(
         dofs=modes.dofs,

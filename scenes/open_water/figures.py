@@ -12,7 +12,7 @@ from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, Reso
 from hydroelastic.fem.pictures.options import PictureOptions
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.scenes.open_water.results import OpenSolution
-from hydroelastic.scenes.output.curve_style import BLUE, COLOURS, GREY, Sheets, dress, plot_curve, sequence_colours
+from hydroelastic.scenes.output.curve_style import BLUE, COLOURS, GREY, Sheets, label_axes, plot_curve, sequence_colours
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -207,7 +207,7 @@ def _draw_decay(table: DecayTable, sheets: Sheets, name: str) -> None:
         for axes, (turns, places) in zip(panels, groups, strict=True):
             for number in places:
                 plot_curve(axes, times, displacement[:, number], number, table.dofs[number].words)
-            dress(axes, "time t, s", f"{'rotation, rad' if turns else 'displacement, m'}")
+            label_axes(axes, "time t, s", f"{'rotation, rad' if turns else 'displacement, m'}")
             steps = np.diff(times[times > 0.0])
             if len(steps) and steps.max() > _SPREAD * steps.min():
                 # On an even axis late times would be too sparse to follow the motion.

@@ -110,13 +110,13 @@ class Beam(Body):
         return (*map(Dof, rigid), *(Dof.hinge(number + 1) for number in range(len(self.hinges))))
 
     def zero_stiffness_motions(self) -> Iterator[tuple[Dof, bool]]:
-        """A free beam without hydrostatics heaves, pitches and turns about its hinges at no cost."""
+        """A free beam without hydrostatics heaves, pitches and turns about its hinges without energy."""
         if not self.hydrostatic and self.ends == "free":
             yield from ((motion, motion == "heave") for motion in self.rigid_motions)
 
     @property
     def displaces_volume(self) -> bool:
-        """Whether one of its motions displaces volume on the whole: heave does."""
+        """Whether one of its motions displaces a net volume: heave does."""
         return True
 
     @property

@@ -27,7 +27,7 @@ class ZeroStiffnessMotion:
 
 
 def zero_stiffness_motions(tank: Tank) -> tuple[ZeroStiffnessMotion, ...]:
-    """Return the motions that cost no energy, each of them alone."""
+    """Return the motions without stiffness, each by itself."""
     return tuple(
         ZeroStiffnessMotion(body=index, name=motion, level=body.level, displaces=displaces)
         for index, body in enumerate(tank.bodies)
@@ -49,7 +49,7 @@ def zero_mode_count(tank: Tank) -> int:
 
 
 def mode_count(tank: Tank) -> int | None:
-    """Return how many modes oscillate where nothing but rigid bodies can, else None: as many as one asks for."""
+    """Return the number of oscillating modes where only rigid bodies move, else None (unlimited)."""
     if any(body.is_elastic for body in tank.bodies) or len(tank.layers) > 1 or tank.top == "free":
         return None
     motions = sum(len(body.rigid_motions) for body in tank.bodies)

@@ -202,13 +202,13 @@ class Tank:
 
     @property
     def has_high_frequency_limit(self) -> bool:
-        """Whether there is a finite added mass at infinite frequency: in open water, or at an interface."""
+        """Whether bodies have an infinite-frequency added mass: beside an open top that is not a lid, or with two
+        liquids."""
         return len(self.layers) > 1 or (self.top != "rigid" and self.levels[-1].is_open)
 
     @property
     def moves_as_one(self) -> bool:
-        """Whether the interface is open beside the bodies: the pressure is continuous across it at infinite
-        frequency."""
+        """Whether there is open interface beside the bodies, across which ρψ is continuous at infinite frequency."""
         return len(self.layers) > 1 and self.levels[0].is_open
 
     @property
@@ -261,7 +261,7 @@ def tank(
         gravity: m/s².
         is_open: whether waves leave to both sides.
         liquids: density, kg/m³, and depth, m, from the bottom up; the second lies on y = 0.
-        top: what lies on the uppermost liquid beside the bodies.
+        top: boundary condition of the uppermost liquid beside the bodies.
         bodies: in any order, each at its level, without overlap.
     """
     floors = [-liquids[0][1], 0.0]

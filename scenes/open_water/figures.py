@@ -51,7 +51,7 @@ def draw_open(solution: OpenSolution, folder: Path, options: PictureOptions) -> 
 
 def _by_unit(dofs: tuple[Dof, ...]) -> list[tuple[bool, list[int]]]:
     """Places of the motions that are rotations, rad, and of the others, m; those first that come first."""
-    turns = [motion.turns for motion in dofs]
+    turns = [motion.is_rotation for motion in dofs]
     return [(kind, [place for place, turn in enumerate(turns) if turn == kind]) for kind in dict.fromkeys(turns)]
 
 
@@ -230,7 +230,7 @@ def _draw_tail(axes: Axes, table: DecayTable, released: int) -> None:
     if np.count_nonzero(motion) < 2:
         axes.set_axis_off()
         return
-    unit, name = "rad" if table.dofs[released].turns else "m", table.dofs[released].words
+    unit, name = "rad" if table.dofs[released].is_rotation else "m", table.dofs[released].words
     axes.loglog(times, motion, ".-", markersize=4, color=COLOURS[released % len(COLOURS)], label=f"|{name}|")
     axes.loglog(times, table.absolute_error[order], ":", color=GREY, label="estimated error")
     if table.tail is not None:

@@ -91,7 +91,7 @@ def _open_water(summary: Summary) -> Iterator[Row]:
         back = max(range(len(table["times"])), key=lambda place: sign * table["displacement"][place][released])
         motion = Dof(table["dofs"][released])
         name = f"{motion.words} furthest to the other side after release, at t = {table['times'][back]:.4g} s"
-        name += ", rad" if motion.turns else ", m"
+        name += ", rad" if motion.is_rotation else ", m"
         yield _of_absolute(name, table["displacement"][back][released], table["absolute_error"][back])
 
 
@@ -102,7 +102,9 @@ def _largest_damping(table: Summary) -> Iterator[Row]:
         damping = [table["radiation_damping"][place][motion][motion] or -inf for place in finite]
         place = finite[damping.index(max(damping))]
         quantity = f"largest radiation damping of {dof.words}, at ω = {table['omega'][place]:.4g} rad/s"
-        yield _row(f"{quantity}, {'kg·m/s' if dof.turns else 'kg/m/s'}", max(damping), table["relative_error"][place])
+        yield _row(
+            f"{quantity}, {'kg·m/s' if dof.is_rotation else 'kg/m/s'}", max(damping), table["relative_error"][place]
+        )
 
 
 def _string(summary: Summary) -> Iterator[Row]:

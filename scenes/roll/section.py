@@ -1,6 +1,6 @@
 """Natural frequency, added inertia and wave damping of the roll of a section, from the field solution of its scene.
 
-In open water, with motions ∝ e^{−iωt}, other motions that the section may make follow without force:
+In open water, with motions ∝ e^{−iωt}, the other free motions of the section follow without force:
 
     Z(ω) = Z_rr − Z_ro Z_oo⁻¹ Z_or,   Z = K − ω²(M + a) − iωb,
 
@@ -51,7 +51,7 @@ class SectionRoll:
         inertia: I of the body, kg·m.
         added_inertia: a at k, kg·m.
         wave_damping: b at k, kg·m/s; ``None`` in a closed tank.
-        followers: motions that follow the roll.
+        followers: motions coupled to the roll without force.
     """
 
     title: str
@@ -75,7 +75,7 @@ def section_roll(scene: TankScene, comm: MPI.Comm, watch: Stopwatch, report: Rep
         report: called with a word on what is being done.
 
     Raises:
-        UnsolvedError: if the field solution does not keep its tolerance or shows no roll of its own.
+        UnsolvedError: if the field solution misses its tolerance or has no distinct roll mode.
     """
     report("section")
     return _in_open_water(scene, comm, watch) if scene.is_open else _in_a_tank(scene, comm, watch, report)
@@ -119,7 +119,7 @@ def _inertia(scene: TankScene) -> float:
 def _in_open_water(scene: TankScene, comm: MPI.Comm, watch: Stopwatch) -> SectionRoll:
     stiffness, inertia = placed_float(scene, 0).roll_stiffness, _inertia(scene)
 
-    # The whole of it is one stage.
+    # Timed as one stage.
     problem = open_water_problem(scene, comm, Stopwatch())
 
     def radiation(omega: float) -> tuple[RadiationTable, float]:
@@ -129,7 +129,7 @@ def _in_open_water(scene: TankScene, comm: MPI.Comm, watch: Stopwatch) -> Sectio
 
     with watch.stage("section"):
         resonance = _resonance(problem)
-    # k differs from the modulus of the complex frequency as far as added inertia and damping change between the two.
+    # k differs from the modulus of the complex frequency by the change of added inertia and damping between the two.
     found = root_scalar(
         lambda omega: float(_impedance(radiation(float(omega))[0]).real),
         method="secant",

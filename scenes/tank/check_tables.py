@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import isinf
 
-from hydroelastic.physics.rigid_motions import heave_is_held
+from hydroelastic.physics.rigid_motions import heave_is_excluded
 from hydroelastic.physics.tank import Piece, StillLevel
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
@@ -100,7 +100,7 @@ def _unknowns(scene: TankScene) -> Iterator[Row]:
     for index in range(len(scene.body)):
         words = words_of(scene, index)
         name = f"{words.name} {index + 1}"
-        yield f"{words.symbol} of {name}", name, words.basis(is_held=heave_is_held(tank, index))
+        yield f"{words.symbol} of {name}", name, words.basis(is_held=heave_is_excluded(tank, index))
 
 
 def _elevation_row(scene: TankScene, level: StillLevel) -> tuple[str, str, str]:

@@ -72,7 +72,7 @@ def _high_frequency(solution: TankSolution, index: int) -> dict[str, Any] | None
     """Added mass of heave and sway in kg/m, inertia of roll in kg·m, coupling of roll in kg."""
     if solution.added_mass is None:
         return None
-    turns = solution.tank.floats[index].turns
+    turns = solution.tank.floats[index].is_rotation
     units = solution.units.density * solution.units.length ** (2.0 + turns[:, None] + turns)
     matrix = solution.added_mass.block(solution.tank, index) * units
     return {"added_mass": matrix.tolist(), "relative_error": solution.added_mass.error}

@@ -96,7 +96,7 @@ def _mode(solution: TankSolution, mode: FloatMode) -> dict[str, Any]:
         return row
     body = solution.field.bodies[mode.body]
     number = body.dofs.index(mode.motion)
-    unit = solution.units.density * solution.units.length ** (4.0 if mode.motion.turns else 2.0)
+    unit = solution.units.density * solution.units.length ** (4.0 if mode.motion.is_rotation else 2.0)
     eigenvalue = float(solution.modes.eigenvalues[mode.index])
     error = float(solution.relative_errors[mode.index])
     whole = float(body.stiffness[number]) / eigenvalue

@@ -1,6 +1,6 @@
 """Natural frequency, added inertia and wave damping of the roll of a section, from its field solution.
 
-In open water, with motions ∝ e^{−iωt}, other motions that the section may make follow without force:
+In open water, with motions ∝ e^{−iωt}, the other free motions of the section follow without force:
 
     Z(ω) = Z_rr − Z_ro Z_oo⁻¹ Z_or,   Z = K − ω²(M + a) − iωb,
 
@@ -50,7 +50,7 @@ class SectionRoll:
         inertia: I of the body, kg·m.
         added_inertia: a at k, kg·m.
         wave_damping: b at k, kg·m/s; ``None`` in a closed tank.
-        followers: motions that follow the roll.
+        followers: motions coupled to the roll without force.
     """
 
     title: str
@@ -90,7 +90,7 @@ def section_roll(
         report: called with a word on what is being done.
 
     Raises:
-        SectionRollError: if the field solution does not keep its tolerance or shows no roll of its own.
+        SectionRollError: if the field solution does not keep its tolerance or has no distinct roll mode.
         EigenSolverError: if the eigen-solver of a closed tank fails.
         MeshError: if no mesh can be made, or the one that is given does not fit.
     """
@@ -132,7 +132,7 @@ def _in_open_water(problem: OpenWaterProblem, title: str) -> SectionRoll:
         return solve_radiation(problem, RadiationRequest(omega=(omega,)))
 
     resonance = _resonance(problem)
-    # k differs from the modulus of the complex frequency as far as added inertia and damping change between the two.
+    # k differs from the modulus of the complex frequency by the change of added inertia and damping between the two.
     found = root_scalar(
         lambda omega: float(_impedance(radiation(float(omega)).table).real),
         method="secant",

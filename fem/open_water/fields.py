@@ -157,7 +157,7 @@ def _responding(problem: OpenWaterProblem, table: ResponseTable, number: int) ->
 
 def _largest_response(length: float, table: ResponseTable) -> tuple[int, int]:
     """Places of the frequency and of the wave that move a body most, turns at a distance of half the drawn length."""
-    arms = np.array([0.5 * length if dof.turns else 1.0 for dof in table.dofs])
+    arms = np.array([0.5 * length if dof.is_rotation else 1.0 for dof in table.dofs])
     sizes = (np.abs(table.amplitudes) * arms).max(axis=2)
     row, wave = np.unravel_index(int(np.argmax(sizes)), sizes.shape)
     return int(row), int(wave)
@@ -219,4 +219,4 @@ def _metres(model: OpenModel, motion: int) -> float:
 
 def _unit_motion(model: OpenModel, motion: int) -> str:
     name = model.scale.dofs[motion]
-    return f"{name.words} of 1 {'rad' if name.turns else 'm'}"
+    return f"{name.words} of 1 {'rad' if name.is_rotation else 'm'}"

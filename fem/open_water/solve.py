@@ -9,7 +9,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from hydroelastic.fem.kept_tolerance import kept_tolerance
-from hydroelastic.fem.memory import hand_back_memory
+from hydroelastic.fem.memory import release_memory
 from hydroelastic.fem.open_water.decay import DecaySolution, solve_decay
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import RadiationSolution, solve_radiation
@@ -85,7 +85,7 @@ def solve_open_water(
             size = {"cells": liquid.tank.cell_count, "dofs": solution.model.pencil.size, "degree": liquid.degree}
         reasons += _reasons(problem.tolerance, number, request.kind, solution)
         del solution
-        hand_back_memory()
+        release_memory()
     return OpenWaterSolution(
         radiation=tuple(one for one in tables if isinstance(one, RadiationTable)),
         response=tuple(one for one in tables if isinstance(one, ResponseTable)),

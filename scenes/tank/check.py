@@ -45,8 +45,9 @@ def modelled_tank(scene: TankScene, *, requests: Iterable[str], scale: Section) 
     yield boundary_table(scene)
     yield unknown_table(scene)
     yield group_table(scene)
-    if scene.floats:
-        yield hydrostatics_table(scene)
+    at_rest = hydrostatics_table(scene)
+    if at_rest.rows:
+        yield at_rest
     yield scale
     expected = hints(scene)
     if expected:

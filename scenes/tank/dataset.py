@@ -46,7 +46,7 @@ TANK_NAMES = SummaryNames(
         "estimates": "estimate",
     },
     # The first tone of the first beam is among those of all beams.
-    told=frozenset({"first_elastic", "floats.high_frequency.added_mass"}),
+    reported_by_arrays=frozenset({"first_elastic", "floats.high_frequency.added_mass"}),
 )
 
 
@@ -86,7 +86,10 @@ def _modes(solution: TankSolution, shapes: ModeShapes, modes: slice, dimension: 
     if solution.tank.rigid:
         dofs = [dof.capitalised for dof in _dofs(solution)]
         amplitudes = np.array([np.concatenate(motions) for motions in shapes.motions[modes]])
-        said = {"long_name": "motion of the floats", "units": MOTION_UNITS[any(dof.turns for dof in _dofs(solution))]}
+        said = {
+            "long_name": "motion of the floats",
+            "units": MOTION_UNITS[any(dof.is_rotation for dof in _dofs(solution))],
+        }
         found = found.assign({f"{prefix}motion": ((dimension, "dof"), amplitudes, said)}).assign_coords(dof=dofs)
     return found
 
@@ -138,7 +141,7 @@ def _matrices(solution: TankSolution) -> xarray.Dataset:
     if not floats:
         return xarray.Dataset()
     dofs = [dof.capitalised for dof in _dofs(solution)]
-    turns = np.concatenate([body.turns for body in floats])
+    turns = np.concatenate([body.is_rotation for body in floats])
     masses = units.density * units.length ** (2.0 + turns[:, None] + turns)
     places = [[MOTIONS.index(motion) for motion in body.motions] for body in floats]
     inertia = block_diag(*(np.diag(body.inertia[place]) for body, place in zip(floats, places, strict=True)))

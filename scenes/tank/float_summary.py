@@ -69,7 +69,7 @@ def _high_frequency(solution: TankSolution, index: int) -> dict[str, Any] | None
     """Added mass of heave and sway in kg/m, inertia of roll in kg·m, coupling of roll in kg."""
     if solution.added_mass is None:
         return None
-    turns = solution.tank.floats[index].turns
+    turns = solution.tank.floats[index].is_rotation
     units = solution.units.density * solution.units.length ** (2.0 + turns[:, None] + turns)
     matrix = solution.added_mass.block(solution.tank, index) * units
     return {"added_mass": matrix.tolist(), "relative_error": solution.added_mass.error}
@@ -91,7 +91,7 @@ def _mode(solution: TankSolution, mode: FloatMode) -> dict[str, Any]:
     }
     if mode.index is None:
         return row
-    unit = solution.units.density * solution.units.length ** (4.0 if mode.motion.turns else 2.0)
+    unit = solution.units.density * solution.units.length ** (4.0 if mode.motion.is_rotation else 2.0)
     eigenvalue = float(solution.modes.eigenvalues[mode.index])
     error = float(solution.relative_errors[mode.index])
     added, added_error = added_mass(mode.stiffness, mode.inertia, eigenvalue, error)

@@ -9,7 +9,7 @@ import numpy as np
 from hydroelastic.scenes.output.dataset import Labelled, labelled
 from hydroelastic.scenes.output.summary_variables import SummaryNames
 from hydroelastic.scenes.thread.files import numbered
-from hydroelastic.scenes.thread.results import FollowedMotion, ThreadSolutionOfScene
+from hydroelastic.scenes.thread.results import ThreadSolutionOfScene
 
 if TYPE_CHECKING:
     import xarray
@@ -40,14 +40,16 @@ THREAD_NAMES = SummaryNames(
         "stability.thresholds": "threshold",
         "motion.slack": "slack",
     },
-    told=frozenset({"equilibrium.reactions", "equilibrium.end_moments", "stability.factors", "stability.growing"}),
+    reported_by_arrays=frozenset(
+        {"equilibrium.reactions", "equilibrium.end_moments", "stability.factors", "stability.growing"}
+    ),
 )
 
 
 def thread_dataset(solution: ThreadSolutionOfScene) -> xarray.Dataset:
     """Return the equilibrium, and modes, stability and motion by analysis, SI units.
 
-    Names of a second analysis of a kind end in a number, as those of files.
+    Names of a second analysis of a kind end in its number, as do those of files.
     """
     # xarray takes a while to import.
     import xarray
@@ -91,7 +93,7 @@ def _mode_variables(solution: ThreadSolutionOfScene, number: int, modes: ThreadM
         {
             numbered("root", number): (mode, roots, "1/s", "root λ of a free motion exp(λt)"),
             numbered("root_error", number): (mode, errors, "1/s", "estimated error of the root"),
-            numbered("mode_shape", number): ((mode, node, "axis"), solution.frame.outside(shapes), "1", moved),
+            numbered("mode_shape", number): ((mode, node, "axis"), solution.frame.to_space(shapes), "1", moved),
         },
         {
             mode: (mode, np.arange(1, len(roots) + 1, dtype=np.int32), None, "number of the mode"),
@@ -113,7 +115,7 @@ def _stability_variables(number: int, sweep: Stability) -> xarray.Dataset:
     )
 
 
-def _motion_variables(number: int, motion: FollowedMotion) -> xarray.Dataset:
+def _motion_variables(number: int, motion: MotionInSpace) -> xarray.Dataset:
     time, node, end = numbered("time", number), numbered("node", number), numbered("step_end", number)
     extremes, ends = motion.extremes, "at the ends of steps"
     tensions = np.column_stack([extremes.lowest, extremes.highest])

@@ -9,7 +9,7 @@ import numpy as np
 from hydroelastic.scenes.output.dataset import Labelled, labelled
 from hydroelastic.scenes.output.summary_variables import SummaryNames
 from hydroelastic.scenes.thread.files import numbered
-from hydroelastic.scenes.thread.results import ThreadSolutionOfScene
+from hydroelastic.scenes.thread.results import MotionInSpace, ThreadSolutionOfScene
 
 if TYPE_CHECKING:
     import xarray

@@ -16,7 +16,7 @@ from hydroelastic.fem.pictures.mode import ModePicture
 from hydroelastic.fem.pictures.modes import animate_mode, animate_motion
 from hydroelastic.fem.pictures.tank import BODY, drawn_vectors
 from hydroelastic.fem.pictures.view import view_of
-from hydroelastic.scenes.tank.animated import animated_modes
+from hydroelastic.scenes.tank.shapes import animated_modes
 
 WIDTH = 800
 UNIT = WIDTH / 1600

@@ -12,7 +12,7 @@ from scene_files import BEAM_IN_TANK
 from hydroelastic.modal import Estimate
 from hydroelastic.scenes.command_line import main
 from hydroelastic.scenes.output.sections import markdown_sections
-from hydroelastic.scenes.tank.compare import compare_tank
+from hydroelastic.scenes.tank.run import compare_tank
 from hydroelastic.scenes.tank.summary import summarize
 from hydroelastic.scenes.tank.tables import tank_sections
 

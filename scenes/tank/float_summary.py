@@ -9,8 +9,8 @@ import numpy as np
 from hydroelastic.fem.tank.elastic_tone import added_mass, mode_kind
 from hydroelastic.fem.tank.float_modes import FloatMode
 from hydroelastic.fem.tank.solve import TankSolution
+from hydroelastic.modal.estimate import difference
 from hydroelastic.modal.floats.tank_estimates import EstimatesOfFloat
-from hydroelastic.scenes.tank.differences import difference
 
 
 def float_rows(solution: TankSolution, estimates: dict[int, EstimatesOfFloat]) -> list[dict[str, Any]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -19,6 +19,7 @@ from hydroelastic.scenes.errors import UnsolvedError
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.output.dataset import LabelledResults
+from hydroelastic.scenes.output.outcome import Outcome
 from hydroelastic.scenes.output.provenance import Summary
 from hydroelastic.scenes.output.staged_run import StagedRun
 from hydroelastic.scenes.read import closed_tank
@@ -27,7 +28,7 @@ from hydroelastic.scenes.tank.dataset import TANK_NAMES, tank_dataset
 from hydroelastic.scenes.tank.own_mesh import mesh_refused, own_mesh
 from hydroelastic.scenes.tank.solve import solve_scene
 from hydroelastic.scenes.tank.summary import summarize
-from hydroelastic.scenes.tank.tables import mode_csv, tank_cost, tank_sections
+from hydroelastic.scenes.tank.tables import compared_sections, mode_csv, tank_cost, tank_sections
 
 if TYPE_CHECKING:
     import xarray
@@ -145,3 +146,14 @@ run_tank = StagedRun(
     draw=_draw,
     used_options=OF_FIELDS | OF_MOTIONS,
 )
+
+
+def compare_tank(scene: TankScene, *, report: Report = lambda _message: None) -> Outcome:
+    """Solve a closed tank and compare, with what each estimate neglects; writes nothing (collective).
+
+    Raises:
+        SceneError: if the scene's ends are open, or its mesh does not fit it.
+        UnsolvedError: if the eigen-solver fails.
+    """
+    outcome = run_tank(scene, report=report)
+    return replace(outcome, sections=tuple(compared_sections(outcome.summary)), notes=True)

@@ -12,8 +12,12 @@ from hydroelastic.fem.pictures.options import PictureOptions
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.tank.mode_shapes import ModeShapes
 from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.tank.animated import animated_modes
 from hydroelastic.scenes.tank.body_file import displacement_of, write_bodies
+
+# Always shown, whatever they are.
+_LOWEST = 2
+# Part of the elastic energy below which nobody would say that a body bends.
+_BENDS = 0.005
 
 
 def mode_title(number: int, mode: Summary) -> str:
@@ -57,6 +61,18 @@ def mode_names(shapes: ModeShapes) -> list[str]:
     """Names of the modes in files: numbers from 1, and growing_ before those that grow."""
     names = [f"{number + 1:03d}" for number in range(len(shapes.curves) - shapes.growing)]
     return names + [f"growing_{number + 1:03d}" for number in range(shapes.growing)]
+
+
+def animated_modes(summary: Summary) -> list[int]:
+    """Places of the lowest two modes, of the lowest mode of each kind, and of the one in which bodies bend most."""
+    modes = summary["modes"]
+    chosen = set(range(min(_LOWEST, len(modes))))
+    kinds = [mode["kind"] for mode in modes]
+    chosen |= {kinds.index(kind) for kind in kinds}
+    bending = [mode["elastic_energy_fraction"] for mode in modes]
+    if max(bending, default=0.0) >= _BENDS:
+        chosen.add(bending.index(max(bending)))
+    return sorted(chosen)
 
 
 def draw_all(shapes: ModeShapes, summary: Summary, folder: Path, options: PictureOptions, report: Report) -> None:

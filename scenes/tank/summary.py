@@ -9,12 +9,11 @@ import numpy as np
 from hydroelastic.fem.tank.elastic_tone import added_mass, bending_fraction, mode_kind
 from hydroelastic.fem.tank.solve import TankSolution, ToneSolution
 from hydroelastic.modal.beam.beam_shapes import first_dry_eigenvalue
-from hydroelastic.modal.estimate import Estimate
+from hydroelastic.modal.estimate import Estimate, difference
 from hydroelastic.modal.tank_estimates import exact_frequencies
 from hydroelastic.physics.dofs import FIRST_ELASTIC
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.output.provenance import Summary, memory_of_processes, versions
-from hydroelastic.scenes.tank.differences import difference
 
 if TYPE_CHECKING:
     from hydroelastic.modal.floats.tank_estimates import EstimatesOfFloat

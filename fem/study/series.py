@@ -1,4 +1,4 @@
-"""The series of a study, each an iterator of rows."""
+"""The series of solutions of a study, each an iterator of rows."""
 
 from __future__ import annotations
 

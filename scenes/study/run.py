@@ -84,8 +84,8 @@ def study_scene(scene: TankScene, plan: StudyPlan | None = None, *, report: Repo
         The rows and the rates they show.
 
     Raises:
-        SceneError: if the scene's ends are open, if it brings a mesh of its own, or if it has no float for the thinness
-            that is asked for.
+        SceneError: if the scene's ends are open, if it brings a mesh of its own, if it has no float for the thinness
+            that is asked for, or if no mesh can be made.
         UnsolvedError: if the eigen-solver fails.
     """
     closed_tank(scene, "a study measures the errors of frequencies of closed tanks")

@@ -13,8 +13,8 @@ from hydroelastic.fem.open_water import resonance as open_resonance
 from hydroelastic.fem.open_water.requests import ResonanceRequest
 from hydroelastic.fem.open_water.resonance import ResonanceSolution, solve_resonance
 from hydroelastic.fem.open_water.solve import resonance_reasons
-from hydroelastic.modal import float_profile
 from hydroelastic.modal.floats.open_float import open_float_estimate
+from hydroelastic.physics.profiles import float_profile
 from hydroelastic.scenes.models.tank import TankScene
 
 CIRCLE = stored("open_circle.json")["resonance"]

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from mpi4py import MPI
 from tanks import Tanks
 
 from hydroelastic.fem.modes import solve_modes
@@ -19,7 +20,7 @@ from hydroelastic.modal.beam.estimates import all_estimates, estimates_of_jointe
 from hydroelastic.modal.beam.jointed_modes import jointed_modes
 from hydroelastic.modal.tank_estimates import floating_beam, tone_estimates
 from hydroelastic.physics import beams
-from hydroelastic.physics.beams import Joint, Section
+from hydroelastic.physics.beam_parts import Joint, Section
 from hydroelastic.physics.rigid_motions import zero_mode_count
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.models import Accuracy, Beam, Liquid, Tank, TankScene
@@ -205,7 +206,8 @@ def test_the_dry_frequency_is_that_of_the_whole_beam(tanks: Tanks) -> None:
     beam = stepped((1.0, EI, MASS), (3.0, 2.0 * EI, 3.0 * MASS), joints=[joint(2.0, 1e4)])
     scene = tanks.scene(beam)
     solution = tanks.solve(scene)
-    summary = summarize(scene, solution, tone_estimates(solution.physical), import_seconds=0.0)
+    estimated = EstimatedTank(scene=scene, tank=solution, beam=tone_estimates(solution.physical))
+    summary = summarize(estimated, MPI.COMM_WORLD, import_seconds=0.0)
     dry = jointed_modes(
         beams.Beam(
             sections=(

@@ -13,7 +13,6 @@ from hydroelastic.fem.pictures.options import OF_FIELDS, OF_MOTIONS, PictureOpti
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.fem.tank.solve import TankSolution
 from hydroelastic.meshes.tagged_mesh import MeshError
-from hydroelastic.modal.estimate import Estimate
 from hydroelastic.modal.tank_estimates import tone_estimates
 from hydroelastic.scenes.errors import UnsolvedError
 from hydroelastic.scenes.models.physical import physical_tank
@@ -26,7 +25,7 @@ from hydroelastic.scenes.read import closed_tank
 from hydroelastic.scenes.tank.check_hints import draughts_left_out
 from hydroelastic.scenes.tank.dataset import TANK_NAMES, tank_dataset
 from hydroelastic.scenes.tank.own_mesh import mesh_refused, own_mesh
-from hydroelastic.scenes.tank.solve import solve_scene
+from hydroelastic.scenes.tank.solve import EstimatedTank, solve_scene
 from hydroelastic.scenes.tank.summary import summarize
 from hydroelastic.scenes.tank.tables import compared_sections, mode_csv, tank_cost, tank_sections
 
@@ -34,26 +33,6 @@ if TYPE_CHECKING:
     import xarray
 
     from hydroelastic.fem.tank.mode_shapes import ModeShapes
-    from hydroelastic.modal.floats.tank_estimates import EstimatesOfFloat
-
-
-@dataclass(frozen=True, kw_only=True)
-class EstimatedTank:
-    """The field solution of a closed tank, and the estimates to set beside it.
-
-    Attributes:
-        scene: what was asked.
-        tank: its field solution.
-        beam: the estimates of the beam, by name.
-        floats: those of the floats, by body; ``None`` without floats.
-        seconds: what the estimates took.
-    """
-
-    scene: TankScene
-    tank: TankSolution
-    beam: dict[str, Estimate]
-    floats: dict[int, EstimatesOfFloat] | None
-    seconds: dict[str, float]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -96,16 +75,7 @@ def solve_tank(scene: TankScene, comm: MPI.Comm, report: Report) -> EstimatedTan
         raise mesh_refused(scene, str(error)) from error
     except EigenSolverError as error:
         raise UnsolvedError(f"the eigen-solver failed: {error}") from error
-    return EstimatedTank(scene=scene, tank=solution, beam=estimates, floats=of_floats, seconds=watch.seconds)
-
-
-def summarize_tank(estimated: EstimatedTank, _comm: MPI.Comm, *, import_seconds: float) -> Summary:
-    """Return the content of ``summary.json`` (collective)."""
-    summary = summarize(
-        estimated.scene, estimated.tank, estimated.beam, estimated.floats, import_seconds=import_seconds
-    )
-    summary["timing"].update(estimated.seconds)
-    return summary
+    return EstimatedTank(scene=scene, tank=solution, beam=estimates, floats=of_floats, estimating=watch.seconds)
 
 
 def _sample(estimated: EstimatedTank, summary: Summary) -> SampledTank:
@@ -137,7 +107,7 @@ def _draw(tank: SampledTank, folder: Path, options: PictureOptions, report: Repo
 
 run_tank = StagedRun(
     solve=solve_tank,
-    summarize=summarize_tank,
+    summarize=summarize,
     sections=lambda estimated, summary: tank_sections(summary, draughts_left_out(estimated.scene)),
     cost=tank_cost,
     sample=_sample,

@@ -27,6 +27,7 @@ from hydroelastic.scenes.models import Accuracy, Beam, Liquid, Tank, TankScene
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.tank.check_tables import boundary_table, group_table, unknown_table
+from hydroelastic.scenes.tank.solve import EstimatedTank
 from hydroelastic.scenes.tank.summary import summarize
 
 EI, MASS = 5e3, 50.0

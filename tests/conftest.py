@@ -1,9 +1,36 @@
-"""Fixtures of more than one test file."""
+"""Fixtures of more than one test file, and the order of the files."""
 
+import csv
 from collections.abc import Iterator
+from fnmatch import fnmatchcase
+from pathlib import Path
 from typing import Any
 
 import pytest
+
+SLOWEST = Path(__file__).parent / "slowest.csv"
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Mark what `slow_but` leaves out as slow, and start with the files that take longest, by `slowest.csv`.
+
+    So the cores end at about the same time. Files that the table does not know come first: one of them may be long.
+    """
+    kept: dict[str, bool] = {}
+    for item in items:
+        for marker in item.iter_markers("slow_but"):
+            fast = any(fnmatchcase(item.callspec.id, pattern) for pattern in marker.args)  # type: ignore[attr-defined]
+            test = item.nodeid.partition("[")[0]
+            kept[test] = kept.get(test, False) or fast
+            if not fast:
+                item.add_marker("slow")
+    # Where whole files are collected, a case that was renamed shall not take its test out of the run unseen.
+    if (lost := [test for test in kept if not kept[test]]) and not any("::" in argument for argument in config.args):
+        raise pytest.UsageError(f"slow_but names no case of {', '.join(lost)}")
+    with SLOWEST.open(encoding="utf-8", newline="") as file:
+        seconds = {row["file"]: float(row["seconds"]) for row in csv.DictReader(file)}
+    items.sort(key=lambda item: -seconds.get(item.path.name, float("inf")))
 
 
 @pytest.fixture(scope="session")

@@ -149,6 +149,7 @@ def blocks(tanks: Any) -> tuple[Any, Any, np.ndarray]:
     return to_scipy(pencil.laplace), surface, to_scipy(pencil.coupling)[:, :3].toarray()
 
 
+@pytest.mark.slow_but("0.5")
 @pytest.mark.parametrize(
     "row", [row for row in ROWS if row["lam"] not in (0.0, "inf")], ids=lambda row: str(row["lam"])
 )

@@ -88,6 +88,7 @@ def axial_flow(reactive: Reactive) -> tuple[NDArray[np.float64], float]:
     return -state[:2], float(state[3])
 
 
+@pytest.mark.slow_but("lighthill")
 @pytest.mark.parametrize("reactive", ["lighthill", "moving_load"])
 def test_nearly_axial_flow_with_the_liquids_reaction(reactive: Reactive) -> None:
     place, tension = axial_flow(reactive)

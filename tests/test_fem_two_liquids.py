@@ -129,6 +129,7 @@ THIN_AIR = {
 }
 
 
+@pytest.mark.slow_but("beam")
 @pytest.mark.parametrize("kind", THIN_AIR)
 def test_a_lighter_and_lighter_upper_liquid_becomes_air(tanks: Any, kind: str) -> None:
     """ω is a smooth function of ρ₁ up to ρ₁ = 0; the least that is modelled is ρ₁ = 10⁻⁶ ρ₂."""
@@ -146,6 +147,7 @@ def test_a_lighter_and_lighter_upper_liquid_becomes_air(tanks: Any, kind: str) -
     assert 2.0 * once - twice == pytest.approx(air, rel=1e-9)
 
 
+@pytest.mark.slow_but("*free*")
 @pytest.mark.parametrize("kind", THIN_AIR)
 @pytest.mark.parametrize("top", TOPS)
 def test_an_upper_liquid_without_density_is_air(tanks: Any, kind: str, top: LayerTop) -> None:
@@ -165,6 +167,7 @@ SYMMETRIC = {
 }
 
 
+@pytest.mark.slow_but("beam", "free top")
 @pytest.mark.mpi
 @pytest.mark.parametrize("kind", SYMMETRIC)
 def test_halves_give_the_modes_of_the_whole_tank(tanks: Any, kind: str) -> None:
@@ -187,6 +190,7 @@ def test_the_mirror_image_has_the_same_frequencies(tanks: Any) -> None:
     assert tanks.omega(left) == pytest.approx(tanks.omega(right), rel=2e-8)
 
 
+@pytest.mark.slow_but("0.001-10.0")
 @pytest.mark.parametrize(("size", "density"), [(1e-3, 1.0), (1e3, 1.0), (1.0, 10.0), (1e-3, 10.0)])
 def test_metres_millimetres_and_heavier_liquids_give_the_same_digits(tanks: Any, size: float, density: float) -> None:
     """ω²L/g is a function of ratios of densities, of lengths, of EI/ρgL⁴ and m/ρL."""

@@ -146,6 +146,7 @@ def test_titles_are_printed_as_they_are() -> None:
     assert "[bold]Tank[/nonsense]" in printed(scene(title="[bold]Tank[/nonsense]"))
 
 
+@pytest.mark.slow_but("aquarium", "float_wedge", "open_plate", "catenary", "string_smooth", "swell", "interface_beam")
 @pytest.mark.parametrize("name", [shipped.name for shipped in shipped_scenes()])
 def test_every_shipped_scene_can_be_described(name: str) -> None:
     shipped = read_scene(name)

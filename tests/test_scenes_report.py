@@ -44,7 +44,6 @@ def reports(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[Outcome
     return found
 
 
-@pytest.mark.slow_but("tank", "string")
 @pytest.mark.parametrize("kind", SCENES)
 def test_a_page_is_whole(reports: dict[str, tuple[Outcome, str]], kind: str) -> None:
     outcome, html = reports[kind]

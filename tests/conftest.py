@@ -1,6 +1,7 @@
 """Fixtures of more than one test file, and the order of the files."""
 
 import csv
+import os
 from collections.abc import Iterator
 from fnmatch import fnmatchcase
 from pathlib import Path
@@ -8,25 +9,28 @@ from typing import Any
 
 import pytest
 
+ON_RANKS = any(os.environ.get(name, "1") != "1" for name in ("OMPI_COMM_WORLD_SIZE", "PMI_SIZE"))
 SLOWEST = Path(__file__).parent / "slowest.csv"
 
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Mark what `slow_but` leaves out as slow, and start with the files that take longest, by `slowest.csv`.
+    """Mark as slow what `slow_but`, and under ranks `slow_on_ranks_but`, leave out, and start with the files that take longest, by `slowest.csv`.
 
     So the cores end at about the same time. Files that the table does not know come first: one of them may be long.
     """
     kept: dict[str, bool] = {}
+    markers = ("slow_but", "slow_on_ranks_but") if ON_RANKS else ("slow_but",)
     for item in items:
-        for marker in item.iter_markers("slow_but"):
-            fast = any(fnmatchcase(item.callspec.id, pattern) for pattern in marker.args)  # type: ignore[attr-defined]
+        for marker in (marker for name in markers for marker in item.iter_markers(name)):
+            case = item.callspec.id if isinstance(item, pytest.Function) and hasattr(item, "callspec") else ""
+            fast = any(fnmatchcase(case, pattern) for pattern in marker.args)
             test = item.nodeid.partition("[")[0]
             kept[test] = kept.get(test, False) or fast
             if not fast:
                 item.add_marker("slow")
     # Where whole files are collected, a case that was renamed shall not take its test out of the run unseen.
-    if (lost := [test for test in kept if not kept[test]]) and not any("::" in argument for argument in config.args):
+    if (lost := [test for test in kept if not kept[test]]) and not ON_RANKS and not any("::" in argument for argument in config.args):
         raise pytest.UsageError(f"slow_but names no case of {', '.join(lost)}")
     with SLOWEST.open(encoding="utf-8", newline="") as file:
         seconds = {row["file"]: float(row["seconds"]) for row in csv.DictReader(file)}

@@ -72,6 +72,7 @@ def moments(pencil: CoupledPencil, values: Callable[[np.ndarray, np.ndarray], np
     return float(pencil.liquid.tank.mesh.comm.allreduce(shape_loads(pencil.liquid, body).sum()))
 
 
+@pytest.mark.slow_on_ranks_but("ship")
 @pytest.mark.mpi
 @pytest.mark.parametrize("name", SECTIONS)
 def test_normals_of_a_contour_close_and_hold_its_area(name: str) -> None:
@@ -97,6 +98,7 @@ def test_measures_of_surfaces_and_contours_are_exact() -> None:
         assert comm.allreduce(surface_load(pencil.liquid, (name,)).sum()) == pytest.approx(expected, rel=1e-11)
 
 
+@pytest.mark.slow_on_ranks_but("beside a circle-0.333-0.1")
 @pytest.mark.mpi
 @pytest.mark.parametrize(("position", "half_height"), [(0.333, 0.1), (0.4123, 0.0771), (0.29, 0.1234)])
 @pytest.mark.parametrize("beside", [False, True], ids=["alone", "beside a circle"])
@@ -278,6 +280,7 @@ def test_a_rigid_plate_has_its_added_mass_above_the_waves(densities: tuple[float
     assert found[1] + (found[1] - found[0]) / 3.0 == pytest.approx(pi / 8.0 * sum(densities) * 4.0, rel=1e-8)
 
 
+@pytest.mark.slow_on_ranks_but("two")
 @pytest.mark.mpi
 @pytest.mark.parametrize("densities", [(1000.0,), (1000.0, 800.0)], ids=["one", "two"])
 def test_processes_agree_on_the_added_mass_above_the_waves(densities: tuple[float, ...]) -> None:

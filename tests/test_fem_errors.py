@@ -32,6 +32,7 @@ def assert_seen(estimates: np.ndarray, errors: np.ndarray, *, low: float, high: 
     assert ratios.max() <= high, ratios
 
 
+@pytest.mark.slow_on_ranks_but("0.25-5")
 @pytest.mark.mpi
 @pytest.mark.parametrize("degree", [4, 5, 6, 7])
 @pytest.mark.parametrize("size", [0.25, 0.15])
@@ -59,6 +60,7 @@ def test_the_error_at_tips_is_seen_with_rings_and_without(
     assert_seen(estimates + missing, values / exact - 1.0, low=1.0 / 3.0, high=30.0)
 
 
+@pytest.mark.slow_on_ranks_but("5")
 @pytest.mark.mpi
 @pytest.mark.parametrize("degree", [5, 9])
 def test_the_error_where_the_water_has_no_weight_is_seen(tanks: Any, degree: int) -> None:

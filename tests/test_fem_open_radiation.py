@@ -329,6 +329,7 @@ def test_ends_farther_away_change_nothing(name: str, monkeypatch: pytest.MonkeyP
     assert np.abs(hydrodynamic(near) - matrix).max() <= 1e-7 * np.abs(matrix).max()
 
 
+@pytest.mark.slow_on_ranks_but("plate")
 @pytest.mark.mpi
 @pytest.mark.parametrize("name", ["section", "plate"])
 def test_two_processes_find_what_one_finds(name: str) -> None:

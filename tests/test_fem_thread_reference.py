@@ -47,6 +47,7 @@ def known(name: str) -> dict[str, Any]:
     return {key: value[axes] if value.ndim else value for key, value in values.items()}
 
 
+@pytest.mark.slow_on_ranks_but("S19b")
 @pytest.mark.parametrize("name", [pytest.param(name, marks=TWICE.get(name, ())) for name in NAMES])
 def test_forty_quadratic_elements(name: str) -> None:
     model = model_of(name, dimension_of(name))

@@ -59,6 +59,7 @@ def check(tanks: Any, scene: TankScene, omega: np.ndarray, bound: float) -> None
 DEPTHS = [((0.3, 0.2), 1e-10), ((1.0, 0.01), 1e-9), ((0.01, 1.0), 1e-9)]
 
 
+@pytest.mark.slow_on_ranks_but("alike-850.0-free")
 @pytest.mark.mpi
 @pytest.mark.parametrize("top", TOPS)
 @pytest.mark.parametrize("density", [990.0, 999.9, 850.0])
@@ -71,6 +72,7 @@ def test_waves_of_two_layers_keep_a_tolerance(
     check(tanks, scene, exact(scene), tolerance)
 
 
+@pytest.mark.slow_on_ranks_but()
 @pytest.mark.mpi
 @pytest.mark.parametrize("density", [850.0, 100.0])
 def test_both_branches_of_a_free_top_are_found(tanks: Any, density: float) -> None:
@@ -82,6 +84,7 @@ def test_both_branches_of_a_free_top_are_found(tanks: Any, density: float) -> No
     check(tanks, scene, exact(scene), 1e-9)
 
 
+@pytest.mark.slow_on_ranks_but("True-rigid")
 @pytest.mark.mpi
 @pytest.mark.parametrize("top", TOPS)
 @pytest.mark.parametrize("hydrostatic", [True, False])
@@ -92,6 +95,7 @@ def test_a_guided_plate_on_the_interface_keeps_a_tolerance(tanks: Any, top: Laye
     check(tanks, scene, exact(scene, plate), 1e-9)
 
 
+@pytest.mark.slow_on_ranks_but()
 @pytest.mark.mpi
 @pytest.mark.parametrize("hydrostatic", [True, False])
 def test_a_cover_between_two_liquids_has_its_tone_above_the_waves(tanks: Any, hydrostatic: bool) -> None:
@@ -167,6 +171,7 @@ SYMMETRIC = {
 }
 
 
+@pytest.mark.slow_on_ranks_but("free top")
 @pytest.mark.slow_but("beam", "free top")
 @pytest.mark.mpi
 @pytest.mark.parametrize("kind", SYMMETRIC)
@@ -208,6 +213,7 @@ def test_metres_millimetres_and_heavier_liquids_give_the_same_digits(tanks: Any,
     assert tanks.omega(scaled) * np.sqrt(size) == pytest.approx(tanks.omega(plain), rel=1e-10)
 
 
+@pytest.mark.slow_on_ranks_but("rigid")
 @pytest.mark.mpi
 @pytest.mark.parametrize(
     ("top", "constraints", "loose"), [("rigid", 1, 1), ("free", 2, 0), ("pressure_release", 1, 0)], ids=TOPS
@@ -223,6 +229,7 @@ def test_one_volume_follows_from_the_other_in_a_closed_tank(
         assert pencil.laplace.comm.tompi4py().allreduce(len(pencil.free_constants)) == loose
 
 
+@pytest.mark.slow_on_ranks_but("free")
 @pytest.mark.mpi
 @pytest.mark.parametrize("top", TOPS)
 def test_each_liquid_keeps_its_volume(top: LayerTop) -> None:
@@ -251,6 +258,7 @@ LOADED = {
 }
 
 
+@pytest.mark.slow_on_ranks_but("slit-free", "loose beam-rigid")
 @pytest.mark.mpi
 @pytest.mark.parametrize("top", TOPS)
 @pytest.mark.parametrize("kind", LOADED)
@@ -326,6 +334,7 @@ def test_momentum_is_the_coupling_times_the_density() -> None:
     assert np.array_equal(sparse(pencil.momentum).toarray(), densities[:, None] * sparse(pencil.coupling).toarray())
 
 
+@pytest.mark.slow_on_ranks_but("free")
 @pytest.mark.mpi
 @pytest.mark.parametrize("top", TOPS)
 def test_two_processes_find_what_one_finds(top: LayerTop) -> None:

@@ -9,7 +9,8 @@ from typing import Any
 
 import pytest
 
-ON_RANKS = any(os.environ.get(name, "1") != "1" for name in ("OMPI_COMM_WORLD_SIZE", "PMI_SIZE"))
+RANKS = [int(os.environ.get(name, "1")) for name in ("OMPI_COMM_WORLD_SIZE", "PMI_SIZE")]
+ON_RANKS = max(RANKS) > 1
 SLOWEST = Path(__file__).parent / "slowest.csv"
 
 
@@ -30,7 +31,11 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
             if not fast:
                 item.add_marker("slow")
     # Where whole files are collected, a case that was renamed shall not take its test out of the run unseen.
-    if (lost := [test for test in kept if not kept[test]]) and not ON_RANKS and not any("::" in argument for argument in config.args):
+    if (
+        (lost := [test for test in kept if not kept[test]])
+        and not ON_RANKS
+        and not any("::" in argument for argument in config.args)
+    ):
         raise pytest.UsageError(f"slow_but names no case of {', '.join(lost)}")
     with SLOWEST.open(encoding="utf-8", newline="") as file:
         seconds = {row["file"]: float(row["seconds"]) for row in csv.DictReader(file)}

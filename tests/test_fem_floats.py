@@ -60,7 +60,7 @@ def symmetric(tanks: Any, scene: TankScene) -> tuple[np.ndarray, np.ndarray]:
     return np.array([solution.omega(mode.eigenvalue) for mode in modes]), np.array(masses)
 
 
-@pytest.mark.slow_on_ranks_but()
+@pytest.mark.slow_on_ranks_but
 @pytest.mark.mpi
 @pytest.mark.parametrize("name", BOXES)
 def test_thin_floats_have_every_digit_of_the_public_boxes(tanks: Any, name: str) -> None:
@@ -245,7 +245,7 @@ def test_the_principal_motions_diagonalize_stiffness_and_inertia() -> None:
         )
 
 
-@pytest.mark.slow_on_ranks_but()
+@pytest.mark.slow_on_ranks_but
 @pytest.mark.mpi
 def test_a_circle_that_turns_about_its_centre_moves_no_liquid(tanks: Any) -> None:
     """Its roll is neutral and without added mass: neither a mode nor an influence on any other."""

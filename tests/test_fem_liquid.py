@@ -126,7 +126,7 @@ def test_a_surface_wave_has_its_exact_added_mass(water: CoupledPencil, number: i
     assert wave_quotient(water, number) == pytest.approx(1.0 / (wavenumber * tanh(wavenumber * DEPTH)), rel=1e-11)
 
 
-@pytest.mark.slow_on_ranks_but()
+@pytest.mark.slow_on_ranks_but
 def test_the_added_mass_of_a_wave_converges_exponentially_in_the_degree(tanks: Any) -> None:
     """The wave is smooth: each degree gains a factor of about (kh/2p)², which is 0.04 at degree 4 and falls on."""
     wavenumber = 4 * pi / LENGTH

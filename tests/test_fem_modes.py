@@ -193,6 +193,7 @@ def test_a_mirrored_tank_has_the_same_frequencies(tanks: Any) -> None:
     assert agree_to_estimates(left, right)
 
 
+@pytest.mark.slow
 def test_the_order_of_bodies_in_the_scene_makes_no_difference(tanks: Any) -> None:
     one = tanks.beam(start=1.0, length=3.0, flexural_rigidity=5e2)
     other = tanks.beam(start=6.0, length=2.0, flexural_rigidity=1e2, hydrostatic=True)

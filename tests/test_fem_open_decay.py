@@ -115,7 +115,7 @@ def test_cost_is_told_before(name: str, tolerance: float, seconds: float, memory
     assert any(decay_cost_words(scene, asked) in line for line in open_requests(scene))
 
 
-@pytest.mark.slow_on_ranks_but()
+@pytest.mark.slow_on_ranks_but
 @pytest.mark.slow_but("densities0")
 @pytest.mark.mpi
 @pytest.mark.parametrize("densities", [(1000.0,), (1000.0, 800.0)])

@@ -72,7 +72,7 @@ def test_waves_of_two_layers_keep_a_tolerance(
     check(tanks, scene, exact(scene), tolerance)
 
 
-@pytest.mark.slow_on_ranks_but()
+@pytest.mark.slow_on_ranks_but
 @pytest.mark.mpi
 @pytest.mark.parametrize("density", [850.0, 100.0])
 def test_both_branches_of_a_free_top_are_found(tanks: Any, density: float) -> None:
@@ -95,7 +95,7 @@ def test_a_guided_plate_on_the_interface_keeps_a_tolerance(tanks: Any, top: Laye
     check(tanks, scene, exact(scene, plate), 1e-9)
 
 
-@pytest.mark.slow_on_ranks_but()
+@pytest.mark.slow_on_ranks_but
 @pytest.mark.mpi
 @pytest.mark.parametrize("hydrostatic", [True, False])
 def test_a_cover_between_two_liquids_has_its_tone_above_the_waves(tanks: Any, hydrostatic: bool) -> None:
@@ -189,6 +189,7 @@ def test_halves_give_the_modes_of_the_whole_tank(tanks: Any, kind: str) -> None:
         assert one.energy == pytest.approx(other.energy, abs=1e-3)
 
 
+@pytest.mark.slow
 def test_the_mirror_image_has_the_same_frequencies(tanks: Any) -> None:
     left = layered(interface_beam(start=0.1, length=0.3), interface_beam(start=0.5, length=0.2))
     right = layered(interface_beam(start=0.3, length=0.2), interface_beam(start=0.6, length=0.3))

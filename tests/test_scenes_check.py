@@ -182,6 +182,7 @@ def test_levels_are_printed_from_the_top_down() -> None:
         assert words in text
 
 
+@pytest.mark.slow
 def test_groups_of_two_liquids_and_a_float() -> None:
     text = printed(scene(floating(), beam(start=0.5, length=3.0), upper=800.0))
     # ρ₁/ρ₂; h₁/h₂; h₂/L; b/h; B/L; m/(ρ₂ A) = 0.9; EI/((ρ₂ - ρ₁) g l⁴) = 5e3/(200·9.81·81).

@@ -70,7 +70,7 @@ def test_free_motions_of_both_methods_are_one_list() -> None:
     assert by_field.free_motions.shapes == pytest.approx(by_series.free_motions.shapes, abs=1e-9)
 
 
-@pytest.mark.slow_on_ranks_but()
+@pytest.mark.slow_on_ranks_but
 @pytest.mark.mpi
 def test_a_load_on_the_end_changes_frequencies_as_bessel_functions_say() -> None:
     overrides = ("string.resistance=0", SHORT, "accuracy.tolerance=1e-3", "accuracy.modes=6", "string.tip_mass=0.02")

@@ -16,9 +16,10 @@ SLOWEST = Path(__file__).parent / "slowest.csv"
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Mark as slow what `slow_but`, and under ranks `slow_on_ranks_but`, leave out, and start with the files that take longest, by `slowest.csv`.
+    """Mark as slow what `slow_but` leaves out, and `slow_on_ranks_but` under ranks; order the files by `slowest.csv`.
 
-    So the cores end at about the same time. Files that the table does not know come first: one of them may be long.
+    The files that take longest start first, so that the cores end at about the same time; before them those that the
+    table does not know, which may be long.
     """
     kept: dict[str, bool] = {}
     markers = ("slow_but", "slow_on_ranks_but") if ON_RANKS else ("slow_but",)
@@ -31,11 +32,8 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
             if not fast:
                 item.add_marker("slow")
     # Where whole files are collected, a case that was renamed shall not take its test out of the run unseen.
-    if (
-        (lost := [test for test in kept if not kept[test]])
-        and not ON_RANKS
-        and not any("::" in argument for argument in config.args)
-    ):
+    lost = [test for test, fast in kept.items() if not fast]
+    if lost and not ON_RANKS and not any("::" in argument for argument in config.args):
         raise pytest.UsageError(f"slow_but names no case of {', '.join(lost)}")
     with SLOWEST.open(encoding="utf-8", newline="") as file:
         seconds = {row["file"]: float(row["seconds"]) for row in csv.DictReader(file)}

@@ -23,6 +23,7 @@ from hydroelastic.fem.tank.resolution import (
     sharpest_exponent,
     workable_tolerance,
 )
+from hydroelastic.physics.dofs import Dof
 from hydroelastic.physics.scales import Scales
 
 # Dry modes of each beam where frequencies are only to be known roughly.
@@ -41,7 +42,7 @@ class InfiniteFrequencyLimit:
         mass: M_b.
         added_mass: a(∞).
         of_floats: whether each unknown is a float's.
-        motions: index of the body and label of each unknown.
+        motions: index of the body, and what each unknown is.
     """
 
     units: Scales
@@ -49,7 +50,7 @@ class InfiniteFrequencyLimit:
     mass: np.ndarray
     added_mass: np.ndarray
     of_floats: np.ndarray
-    motions: tuple[tuple[int, str], ...]
+    motions: tuple[tuple[int, Dof], ...]
 
     def frequencies(self, *, floats: bool = False) -> list[float]:
         """Natural frequencies with this added mass, rad/s, ascending, of the motions that something restores.
@@ -84,7 +85,7 @@ def infinite_frequency_limit(problem: OpenWaterProblem) -> InfiniteFrequencyLimi
         stiffness=np.diag(np.concatenate([body.stiffness for body in bodies])),
         mass=block_diag(*(body.mass for body in bodies)),
         added_mass=added,
-        motions=tuple((index, label) for index, body in enumerate(bodies) for label in body.labels),
+        motions=tuple((index, dof) for index, body in enumerate(bodies) for dof in body.dofs),
         of_floats=np.concatenate([np.full(body.size, index in basin.tank.floats) for index, body in enumerate(bodies)]),
     )
 

@@ -11,6 +11,7 @@ from hydroelastic.fem.tank.solve import TankSolution, ToneSolution
 from hydroelastic.modal.beam.beam_shapes import first_dry_eigenvalue
 from hydroelastic.modal.estimate import Estimate
 from hydroelastic.modal.tank_estimates import exact_frequencies
+from hydroelastic.physics.dofs import FIRST_ELASTIC
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.output.provenance import Summary, memory_of_processes, versions
 from hydroelastic.scenes.tank.differences import difference
@@ -40,7 +41,7 @@ def summarize(
         The content of ``summary.json``.
     """
     # Floats need more of SciPy, which takes a while to import.
-    if solution.tank.floats:
+    if solution.tank.rigid:
         from hydroelastic.scenes.tank.float_summary import float_rows, growing_rows
     first = _first_elastic(solution)
     return {
@@ -51,8 +52,8 @@ def summarize(
         "zero_modes": solution.modes.zero_modes,
         "first_elastic": first[0] if first else None,
         "first_elastic_by_body": first,
-        "floats": float_rows(solution, of_floats or {}) if solution.tank.floats else [],
-        "growing": growing_rows(solution) if solution.tank.floats else [],
+        "floats": float_rows(solution, of_floats or {}) if solution.tank.rigid else [],
+        "growing": growing_rows(solution) if solution.tank.rigid else [],
         "estimates": compared(solution, estimates, first[0] if first else {}),
         "exact": _exact(solution),
         "solver": {
@@ -71,7 +72,7 @@ def summarize(
             "degree": solution.resolution.degree,
             "surface_unknowns": solution.field.surface_unknowns,
             "halves": solution.field.half,
-            "beam_shapes": [solution.resolution.shapes[index] for index in solution.tank.beams],
+            "beam_shapes": [solution.resolution.shapes[index] for index in solution.tank.elastic],
             "processes": solution.field.mesh.mesh.comm.size,
         },
         "timing": {"import": import_seconds, **solution.seconds},
@@ -116,7 +117,7 @@ def _tone(solution: TankSolution, tone: ToneSolution) -> dict[str, Any]:
     beam = solution.tank.beams[body]
     # Dry mode 1 of the body, in units of the tank: EI κ⁴ l, (EI κ⁴ + s) l and m l.
     shapes = solution.field.bodies[body]
-    first = shapes.labels.index("elastic 1")
+    first = shapes.dofs.index(FIRST_ELASTIC)
     found = {
         "body": body + 1,
         "dry_omega": solution.omega(first_dry_eigenvalue(beam)),

@@ -169,6 +169,7 @@ def test_the_energy_of_a_harmonic_function_beside_a_circle_converges_exponential
     assert errors[-1] <= 1e-12
 
 
+@pytest.mark.slow_but("circle_off_centre")
 @pytest.mark.parametrize("name", ["circle", "circle_off_centre", "two_liquids_parabola"])
 def test_frequencies_converge_with_the_degree_of_the_geometry(name: str) -> None:
     """ψ of degree 9 on cells of degree 1, 2, 3, 5, 8: errors fall until those of ψ and of the reference are left."""
@@ -232,6 +233,7 @@ def unbounded(shape: str, densities: tuple[float, ...], motions: str = "heave", 
     return found[1] + (found[1] - found[0]) / 3.0
 
 
+@pytest.mark.slow_but("1.0-1.0-one", "*-two")
 @pytest.mark.parametrize("densities", [(1000.0,), (1000.0, 800.0), (1000.0, 999.0)], ids=["one", "two", "close"])
 @pytest.mark.parametrize(("half_width", "half_height"), [(1.0, 1.0), (2.0, 1.0), (0.1, 1.0)])
 def test_ellipses_have_their_added_mass_above_the_waves(

@@ -118,6 +118,7 @@ def box_theory(scene: TankScene, count: int, *, volume_term: bool = True) -> Box
     return box_modes(floating, count, volume_term=volume_term)
 
 
+@pytest.mark.slow_but("ellipse-two", "*-one")
 @pytest.mark.parametrize("densities", [(1000.0,), (1000.0, 800.0), (1000.0, 999.0)], ids=["one", "two", "close"])
 @pytest.mark.parametrize("shape", THIN)
 def test_thin_floats_of_all_shapes_have_their_exact_modes(tanks: Any, shape: str, densities: tuple[float, ...]) -> None:
@@ -219,6 +220,7 @@ FLOATS: dict[str, TankScene] = {
 }
 
 
+@pytest.mark.slow_but("keel")
 @pytest.mark.parametrize("name", FLOATS)
 def test_frequencies_do_not_depend_on_the_principal_motions(name: str) -> None:
     """Heave and roll of unsymmetric sections are coupled by gravity: against the full 3 × 3 stiffness."""
@@ -282,6 +284,7 @@ def test_the_mirror_image_of_a_tank_has_the_same_frequencies(tanks: Any) -> None
     assert one.float_modes[0].index == other.float_modes[0].index
 
 
+@pytest.mark.slow_but("0.001-1.0")
 @pytest.mark.parametrize(("size", "density"), [(1e-3, 1.0), (1.0, 10.0), (1e3, 0.1)])
 def test_millimetres_and_heavier_liquids_give_the_same_digits(tanks: Any, size: float, density: float) -> None:
     ship = FLOATS["ship"].body[0]

@@ -24,6 +24,7 @@ def plain(damping: float) -> HangingString:
     return HangingString(length=1.0, linear_density=1.0, gravity=1.0, resistance=(damping, damping))
 
 
+@pytest.mark.slow_but("ramp-1.2*", "*-0.0")
 @pytest.mark.parametrize("damping", [0.0, float(FREQUENCIES[0]), 9.0])
 @pytest.mark.parametrize("name", list(MOTIONS))
 def test_closed_forms_are_met_to_the_tolerance(name: str, damping: float) -> None:

@@ -45,6 +45,7 @@ def test_motions_without_stiffness_are_counted_and_not_listed(kind: str, top: st
             assert count_below(pencil, float(np.sqrt(lower * upper))) == number
 
 
+@pytest.mark.slow_but("upright between two liquids", "top-heavy")
 @pytest.mark.parametrize("name", UNSTABLE)
 def test_unstable_floats_grow_as_the_full_matrices_say(name: str) -> None:
     scene = UNSTABLE[name]

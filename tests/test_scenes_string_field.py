@@ -27,6 +27,7 @@ def field(scene: StringScene) -> StringSolution:
     return solve_string_field(scene.model_copy(update={"accuracy": accuracy}), MPI.COMM_WORLD)
 
 
+@pytest.mark.slow_but("string_smooth-1e-05", "string_ramp-0.001")
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-5])
 @pytest.mark.parametrize("name", ["string_smooth", "string_ramp", "string_sine"])
 def test_field_and_series_agree_within_the_estimate(name: str, tolerance: float) -> None:

@@ -270,6 +270,7 @@ def mirrored(vertices: tuple[tuple[float, float], ...]) -> tuple[tuple[float, fl
     return tuple((-x, y) for x, y in reversed(vertices))
 
 
+@pytest.mark.slow
 def test_the_mirror_image_of_a_tank_has_the_same_frequencies(tanks: Any) -> None:
     ship = FLOATS["ship"].body[0]
     beam = {"length": 0.2, "flexural_rigidity": 1.0, "mass_per_length": 2.0}
@@ -317,6 +318,7 @@ SYMMETRIC: dict[str, TankScene] = {
 }
 
 
+@pytest.mark.slow_but("rectangle", "thin", "ellipse")
 @pytest.mark.slow_on_ranks_but("ellipse")
 @pytest.mark.mpi
 @pytest.mark.parametrize("name", SYMMETRIC)

@@ -117,6 +117,7 @@ def test_circle_in_the_limits() -> None:
     assert np.abs(still[:, sway]).max() < 1e-4
 
 
+@pytest.mark.slow
 def test_added_mass_of_long_waves_grows_like_their_logarithm() -> None:
     numbers = np.array([1e-4, 1e-3])
     matrices = circle_matrix(radiation(circle(1e-6), *map(circle_omega, numbers)))
@@ -158,6 +159,7 @@ def test_sections(row: dict[str, Any], tolerance: float) -> None:
     assert table.haskind_residual[0] <= 1e-10
 
 
+@pytest.mark.slow_but("8")
 @pytest.mark.parametrize("row", SECTIONS[6:], ids=(7, 8))
 def test_matrices_of_radiation(row: dict[str, Any]) -> None:
     table = radiation(section(row, 1e-4), 0.7 * row["omega"], row["omega"]).table

@@ -285,7 +285,7 @@ def test_the_mirror_image_of_a_tank_has_the_same_frequencies(tanks: Any) -> None
     assert one.float_modes[0].index == other.float_modes[0].index
 
 
-@pytest.mark.slow_but("0.001-1.0")
+@pytest.mark.slow
 @pytest.mark.parametrize(("size", "density"), [(1e-3, 1.0), (1.0, 10.0), (1e3, 0.1)])
 def test_millimetres_and_heavier_liquids_give_the_same_digits(tanks: Any, size: float, density: float) -> None:
     ship = FLOATS["ship"].body[0]

@@ -195,7 +195,7 @@ def test_rigid_plates_on_two_liquids(row: dict[str, Any]) -> None:
     assert table.haskind_residual[0] <= 1e-8
 
 
-@pytest.mark.slow_but("depths0*")
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("depths", "level", "omega", "ratio"),
     [((2.0, 1.5), "interface", 1.0, 0.8), ((1.5, 0.2), "interface", 2.0, 0.5), ((1.5, 2.0), "surface", 1.0, 0.99)],

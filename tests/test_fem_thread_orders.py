@@ -31,6 +31,7 @@ def fine() -> ThreadProfile:
     return solved(model_of("S10"), "S10", 64, 5)
 
 
+@pytest.mark.slow_but("2-*")
 @pytest.mark.parametrize(
     ("degree", "elements", "largest"),
     # Measured 2.6e-6, 2.0e-9, 2.4e-10 of length and tension on the last mesh.

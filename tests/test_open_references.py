@@ -184,6 +184,7 @@ def test_stored_plates_are_made_anew(row: dict[str, Any]) -> None:
     np.testing.assert_allclose(result.deflection, complex_of(row["deflection"]), rtol=0, atol=1e-9)
 
 
+@pytest.mark.slow
 def test_transmission_is_the_same_from_both_sides() -> None:
     row = PLATES["plates"][16]
     level = one_liquid(row["omega"], density=row["density"], depth=row["depth"])
@@ -247,6 +248,7 @@ def test_stored_sections_are_made_anew(row: dict[str, Any]) -> None:
     np.testing.assert_allclose(answer.flux_damping, np.diag(answer.impedance.imag) * row["omega"], rtol=1e-5)
 
 
+@pytest.mark.slow
 def test_thin_box_is_a_plate() -> None:
     plate, _ = rigid_radiation(1.0, one_liquid(3.0, density=1000.0, depth=1.0), 8)
     gaps = []

@@ -287,7 +287,7 @@ def test_an_output_that_is_full_is_one_line(arguments: list[str]) -> None:
     assert "nothing can be printed: No space left on device" in ended.stderr
 
 
-@pytest.mark.slow_but("arguments[015]-*")
+@pytest.mark.slow_but("arguments[01]-*")
 @pytest.mark.parametrize(
     ("arguments", "needed"),
     [

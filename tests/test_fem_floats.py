@@ -318,8 +318,8 @@ SYMMETRIC: dict[str, TankScene] = {
 }
 
 
-@pytest.mark.slow_but("rectangle", "thin", "ellipse")
-@pytest.mark.slow_on_ranks_but("ellipse")
+@pytest.mark.slow_but("rectangle", "thin")
+@pytest.mark.slow_on_ranks_but("rectangle")
 @pytest.mark.mpi
 @pytest.mark.parametrize("name", SYMMETRIC)
 def test_halves_give_the_modes_of_the_whole_tank(tanks: Any, name: str) -> None:

@@ -300,7 +300,7 @@ def invariance_cases() -> list[Any]:
     ]
 
 
-@pytest.mark.slow_but("circle-more angle-1e-06")
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "change", "tolerance"), invariance_cases())
 def test_how_the_sea_is_cut_changes_nothing(
     name: str, change: str, tolerance: float, monkeypatch: pytest.MonkeyPatch

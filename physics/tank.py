@@ -193,7 +193,12 @@ class Tank:
         return {index: body for index, body in enumerate(self.bodies) if not isinstance(body, Beam)}
 
     @property
-    def has_high_frequency_limit(self) -> bool:
+    def has_waves(self) -> bool:
+        """Whether waves travel on an open surface or interface."""
+        return any(level.moves and level.is_open for level in self.levels)
+
+    @property
+    def has_infinite_frequency_limit(self) -> bool:
         """Whether there is something that moves freely far above the waves: open water, or an interface."""
         return len(self.layers) > 1 or (self.top != "rigid" and self.levels[-1].is_open)
 

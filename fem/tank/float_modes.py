@@ -14,7 +14,7 @@ import numpy as np
 from hydroelastic.fem.modes import ModeSet
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.fem.tank.expected import FAR_ENOUGH
-from hydroelastic.fem.tank.infinite_frequency import HighFrequencyAddedMass
+from hydroelastic.fem.tank.infinite_frequency import InfiniteFrequencyAddedMass
 from hydroelastic.physics.tank import Tank
 
 # A motion with a smaller part of a mode's kinetic energy is held: what is left of it is rounding.
@@ -76,7 +76,7 @@ def float_modes(
     tank: Tank,
     bodies: tuple[Body, ...],
     modes: ModeSet,
-    added: HighFrequencyAddedMass | None,
+    added: InfiniteFrequencyAddedMass | None,
     *,
     complete: bool,
 ) -> tuple[FloatMode, ...]:

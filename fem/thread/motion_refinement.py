@@ -82,7 +82,7 @@ def follow_motion(
         allowed,
         rounds=_MOST_ATTEMPTS,
         # Without tension short waves grow by themselves, the faster the finer the mesh.
-        while_error_falls=True,
+        least_gain=1.0,
         failures=(ThreadMotionError, ThreadSolverError),
     )
     return followed_motion(frame, rest, found.solution)

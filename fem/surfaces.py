@@ -8,6 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from hydroelastic.physics.dofs import Dof
+from hydroelastic.physics.symmetry import Parity
+
 Shapes = Callable[[NDArray[np.float64], NDArray[np.float64], int], NDArray[np.float64]]
 """Basis functions of a surface: points (gdim, n), the liquid's outward unit normals there (gdim, n) and the number of
 the function → normal displacement (n,). A surface between two liquids has a side, and a normal, in each."""
@@ -23,10 +26,13 @@ class Body:
         surface: physical name of its wetted surface, in whatever liquid.
         shapes: the functions φᵢ.
         wavenumber: the largest wavenumber among them; it chooses the quadrature.
-        labels: what each function is: "heave", "pitch", "elastic 1", …
+        dofs: what each function is.
+        parities: symmetry of each function about the middle of the body.
         stiffness: generalized stiffness of each function, hydrostatic restoring included, shape (functions,).
         bending_stiffness: the part of it that is strain energy, shape (functions,).
         mass: generalized mass, symmetric, shape (functions, functions).
+        motions: the functions as columns in the motions that ``dofs`` names, shape (functions, functions); the identity
+            but for the principal motions of floats.
         singular_points: where the shapes have slopes without bound, like the root of the distance; shape (points,
             gdim).
     """
@@ -34,16 +40,18 @@ class Body:
     surface: str
     shapes: Shapes
     wavenumber: float
-    labels: tuple[str, ...]
+    dofs: tuple[Dof, ...]
+    parities: tuple[Parity, ...]
     stiffness: NDArray[np.float64]
     bending_stiffness: NDArray[np.float64]
     mass: NDArray[np.float64]
+    motions: NDArray[np.float64]
     singular_points: NDArray[np.float64] | None = None
 
     @property
     def size(self) -> int:
         """Number of functions."""
-        return len(self.labels)
+        return len(self.dofs)
 
 
 @dataclass(frozen=True, kw_only=True)

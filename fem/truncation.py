@@ -30,7 +30,7 @@ def truncation_errors(bodies: tuple[Body, ...], amplitudes: np.ndarray, eigenval
     for body in bodies:
         last = first + body.size
         parts = body.stiffness * amplitudes[:, first:last] ** 2 / eigenvalues[:, None]
-        errors += _tail(parts[:, [label.startswith("elastic") for label in body.labels]])
+        errors += _tail(parts[:, [dof.is_elastic for dof in body.dofs]])
         first = last
     return errors
 

@@ -17,11 +17,6 @@ SYMMETRY_PLANE = "symmetry_plane"
 FAR_END = "far_end"
 
 
-def body_name(number: int) -> str:
-    """Physical name of the wetted surface of body ``number`` (counted from 1, in the scene's order)."""
-    return f"body_{number}"
-
-
 @dataclass(frozen=True, kw_only=True)
 class SurfaceSegment:
     """A piece ``start < x < end`` of the tank's top, and the physical name that its facets carry."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -11,6 +12,8 @@ from typing import Literal, Self
 import numpy as np
 
 from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.bodies import Body
+from hydroelastic.physics.dofs import Dof
 from hydroelastic.physics.motions import Level
 from hydroelastic.physics.scales import Scales
 
@@ -18,6 +21,8 @@ SAME_PLACE = 1e-9
 """Places closer than this part of the beam's length are one: decimal input is not exact."""
 
 _ALIKE = 1e-12
+# α where the slope of a beam jumps, and where its curvature does.
+_KINK, _STEP = 2.0, 3.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,7 +54,7 @@ class Joint:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Beam:
+class Beam(Body):
     """A beam without draught; its sections are welded to each other where there is no joint.
 
     Attributes:
@@ -64,6 +69,7 @@ class Beam:
         ValueError: if a number is not positive and finite, or a joint lies at an end, outside, or upon another.
     """
 
+    is_elastic = True
     sections: tuple[Section, ...]
     joints: tuple[Joint, ...] = ()
     start: float = 0.0
@@ -91,6 +97,44 @@ class Beam:
     def end(self) -> float:
         """x of its right end, m."""
         return self.start + self.length
+
+    @property
+    def waterplane(self) -> tuple[float, float]:
+        """x of its ends, m."""
+        return self.start, self.end
+
+    @property
+    def rigid_motions(self) -> tuple[Dof, ...]:
+        """Heave, pitch of free ends, and one motion for each hinge."""
+        rigid = ("heave",) if self.ends == "guided" else ("heave", "pitch")
+        return (*map(Dof, rigid), *(Dof.hinge(number + 1) for number in range(len(self.hinges))))
+
+    def loose_motions(self) -> Iterator[tuple[Dof, bool]]:
+        """A free beam without hydrostatics heaves, pitches and turns about its hinges at no cost."""
+        if not self.hydrostatic and self.ends == "free":
+            yield from ((motion, motion == "heave") for motion in self.rigid_motions)
+
+    @property
+    def displaces_volume(self) -> bool:
+        """Whether one of its motions displaces volume on the whole: heave does."""
+        return True
+
+    @property
+    def nodes(self) -> dict[float, float]:
+        """Steps and joints: where the slope jumps ψ has a term r² ln r, and r³ ln r where the curvature does."""
+        kinks = {self.node_of(joint) for joint in self.joints}
+        inner = range(1, len(self.edges) - 1)
+        return {self.edges[number]: _KINK if number in kinks else _STEP for number in inner}
+
+    @property
+    def flexural_sections(self) -> tuple[Section, ...]:
+        """Its sections."""
+        return self.sections
+
+    @property
+    def is_restored(self) -> bool:
+        """Whether the hydrostatic restoring acts on it."""
+        return self.hydrostatic
 
     @property
     def is_uniform(self) -> bool:

@@ -67,13 +67,13 @@ def moving_pieces(tank: Tank) -> tuple[LevelPiece, ...]:
 def moving_parts(tank: Tank, level: StillLevel, piece: Piece) -> tuple[LevelPiece, ...]:
     """How waves travel on a piece of a level, on each section of a beam; none where none do."""
     layers = _layers_at(tank, level)
-    if piece.body in tank.beams:
-        beam = tank.beams[piece.body]
+    if piece.body is not None:
+        body = tank.bodies[piece.body]
         return tuple(
-            LevelPiece(length=part.length, beam=part, jump=level.jump, restored=beam.hydrostatic, layers=layers)
-            for part in beam.sections
+            LevelPiece(length=part.length, beam=part, jump=level.jump, restored=body.is_restored, layers=layers)
+            for part in body.flexural_sections
         )
-    if piece.body is not None or not level.moves:
+    if not level.moves:
         return ()
     return (LevelPiece(length=piece.length, beam=None, jump=level.jump, restored=True, layers=layers),)
 

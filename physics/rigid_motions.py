@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
+from hydroelastic.physics.dofs import Dof
 from hydroelastic.physics.motions import Level
 from hydroelastic.physics.tank import Tank
 
@@ -21,37 +21,18 @@ class LooseMotion:
     """
 
     body: int
-    name: str
+    name: Dof
     level: Level
     displaces: bool
 
 
 def loose_motions(tank: Tank) -> tuple[LooseMotion, ...]:
-    """Return the motions that cost no energy, each of them alone.
-
-    A free beam without hydrostatics heaves, pitches and turns about its hinges at no cost. A float sways at no cost,
-    and rolls so if it is neutral; where it may heave, heave follows the roll so that the force on it, and with it the
-    volume it displaces, is zero.
-    """
-    return (*_loose_beams(tank), *_loose_floats(tank))
-
-
-def _loose_beams(tank: Tank) -> Iterator[LooseMotion]:
-    for index, beam in tank.beams.items():
-        if not beam.hydrostatic and beam.ends == "free":
-            yield LooseMotion(body=index, name="heave", level=beam.level, displaces=True)
-            yield LooseMotion(body=index, name="pitch", level=beam.level, displaces=False)
-            for number in range(len(beam.hinges)):
-                yield LooseMotion(body=index, name=f"hinge {number + 1}", level=beam.level, displaces=False)
-
-
-def _loose_floats(tank: Tank) -> Iterator[LooseMotion]:
-    for index, body in tank.floats.items():
-        if "sway" in body.motions:
-            yield LooseMotion(body=index, name="sway", level=body.level, displaces=False)
-        if "roll" in body.motions and body.roll_stiffness == 0.0:
-            displaces = "heave" not in body.motions and body.hydrostatics.coupling_stiffness != 0.0
-            yield LooseMotion(body=index, name="roll", level=body.level, displaces=displaces)
+    """Return the motions that cost no energy, each of them alone."""
+    return tuple(
+        LooseMotion(body=index, name=motion, level=body.level, displaces=displaces)
+        for index, body in enumerate(tank.bodies)
+        for motion, displaces in body.loose_motions()
+    )
 
 
 def zero_mode_count(tank: Tank) -> int:
@@ -69,14 +50,10 @@ def zero_mode_count(tank: Tank) -> int:
 
 def mode_count(tank: Tank) -> int | None:
     """Return how many modes oscillate where nothing but rigid bodies can, else None: as many as one asks for."""
-    if tank.beams or len(tank.layers) > 1 or tank.top == "free":
+    if any(body.is_elastic for body in tank.bodies) or len(tank.layers) > 1 or tank.top == "free":
         return None
-    motions = sum(len(body.motions) for body in tank.floats.values())
-    # Whether a float has a motion that displaces volume on the whole.
-    displaced = any(
-        "heave" in body.motions or ("roll" in body.motions and body.hydrostatics.coupling_stiffness != 0.0)
-        for body in tank.floats.values()
-    )
+    motions = sum(len(body.rigid_motions) for body in tank.bodies)
+    displaced = any(body.displaces_volume for body in tank.bodies)
     constraints = int(displaced and not _volume_is_free(tank))
     return motions - constraints - zero_mode_count(tank)
 

@@ -9,12 +9,14 @@ from math import inf
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from hydroelastic.physics.beams import Beam
+from hydroelastic.physics.bodies import Body
 from hydroelastic.physics.motions import Level
 from hydroelastic.physics.scales import Scales
 
 if TYPE_CHECKING:
     # Contours need SciPy's root finders, which take a while to import, and most tanks have no float.
     from hydroelastic.physics.floats import RigidFloat
+    from hydroelastic.physics.hulls import Hull
 
 Top: TypeAlias = Literal["free", "rigid", "pressure_release"]
 
@@ -26,9 +28,6 @@ MIDDLE = 0.5
 
 ROUNDING = 1e-14
 """Lengths that decimal input means to be equal differ by a few units of the last place."""
-
-# α where the slope of a beam jumps, and where its curvature does.
-_KINK, _STEP = 2.0, 3.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -139,7 +138,7 @@ class Tank:
     is_open: bool
     layers: tuple[Layer, ...]
     levels: tuple[StillLevel, ...]
-    bodies: tuple[Beam | RigidFloat, ...]
+    bodies: tuple[Body, ...]
 
     @property
     def units(self) -> Scales:
@@ -184,13 +183,22 @@ class Tank:
 
     @cached_property
     def beams(self) -> dict[int, Beam]:
-        """The beams by their index among the bodies."""
+        """The beams, for theories of beams alone, by their index among the bodies."""
         return {index: body for index, body in enumerate(self.bodies) if isinstance(body, Beam)}
 
     @cached_property
     def floats(self) -> dict[int, RigidFloat]:
-        """The floats by their index among the bodies."""
-        return {index: body for index, body in enumerate(self.bodies) if not isinstance(body, Beam)}
+        """The rigid floats, for theories of floats alone, by their index among the bodies."""
+        if not self.hulls:
+            return {}
+        from hydroelastic.physics.floats import RigidFloat
+
+        return {index: body for index, body in enumerate(self.bodies) if isinstance(body, RigidFloat)}
+
+    @cached_property
+    def hulls(self) -> dict[int, Hull]:
+        """The hulls of bodies with draught, by their index among the bodies."""
+        return {index: body.hull for index, body in enumerate(self.bodies) if body.hull is not None}
 
     @property
     def has_waves(self) -> bool:
@@ -231,19 +239,9 @@ class Tank:
         return {piece.body: (level, piece) for level in self.levels for piece in level.pieces if piece.body is not None}
 
     def nodes_of(self, body: int) -> dict[float, float]:
-        """Abscissae of the steps and joints of a beam, with α of ψ ~ r^α there; none of other bodies.
-
-        Where the slope of a beam jumps, ψ has a term r² ln r, and r³ ln r where its curvature does.
-        """
-        if body not in self.beams or self.beams[body].is_uniform:
-            return {}
-        beam, start = self.beams[body], self.piece_of(body).start
-        joints = {beam.node_of(joint) for joint in beam.joints}
-        return {
-            _snapped(start + edge): _KINK if number in joints else _STEP
-            for number, edge in enumerate(beam.edges)
-            if 0 < number < len(beam.edges) - 1
-        }
+        """Abscissae at which the slope or curvature of a body jumps, with α of ψ ~ r^α there."""
+        start = self.piece_of(body).start
+        return {_snapped(start + place): exponent for place, exponent in self.bodies[body].nodes.items()}
 
 
 def density_jump(layers: tuple[Layer, ...], below: int) -> float:
@@ -258,7 +256,7 @@ def tank(
     is_open: bool,
     liquids: tuple[tuple[float, float], ...],
     top: Top,
-    bodies: tuple[Beam | RigidFloat, ...],
+    bodies: tuple[Body, ...],
 ) -> Tank:
     """Cut the still levels of a tank into pieces.
 
@@ -292,10 +290,10 @@ def tank(
     return Tank(length=length, gravity=gravity, is_open=is_open, layers=layers, levels=tuple(levels), bodies=bodies)
 
 
-def _pieces(bodies: tuple[Beam | RigidFloat, ...], name: Level, length: float, *, is_open: bool) -> Iterator[Piece]:
+def _pieces(bodies: tuple[Body, ...], name: Level, length: float, *, is_open: bool) -> Iterator[Piece]:
     """A still level from wall to wall, or from −∞ to ∞ in open water, without gaps.
 
-    A beam whose end is within `ROUND_OFF` of a wall ends exactly there. A float takes up its waterplane.
+    A body takes up its waterplane. One whose end is within `ROUND_OFF` of a wall ends exactly there.
     """
     left, right = (-inf, inf) if is_open else (0.0, length)
     negligible = 0.0 if is_open else ROUND_OFF * length
@@ -303,11 +301,9 @@ def _pieces(bodies: tuple[Beam | RigidFloat, ...], name: Level, length: float, *
     for index, body in enumerate(bodies):
         if body.level != name:
             continue
-        if not isinstance(body, Beam):
-            places.append((*body.waterplane, index))
-            continue
-        start = body.start if is_open or body.start > negligible else 0.0
-        places.append((start, body.end if is_open or body.end < length - negligible else length, index))
+        start, end = body.waterplane
+        start = start if is_open or start > negligible else 0.0
+        places.append((start, end if is_open or end < length - negligible else length, index))
     reached = left
     for start, end, index in sorted(places):
         if start > reached:

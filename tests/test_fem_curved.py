@@ -31,6 +31,7 @@ from hydroelastic.fem.tank.resolution import infinite_frequency_resolution, init
 from hydroelastic.meshes.build import build_mesh as build_tagged_mesh
 from hydroelastic.meshes.geometry import BOTTOM, FREE_SURFACE, INTERFACE, LEFT_WALL, RIGHT_WALL
 from hydroelastic.modal.floats.rigid_limits import half_immersed_ellipse, interface_ellipse, section_heave_added_mass
+from hydroelastic.physics.dofs import Dof
 from hydroelastic.physics.profiles import float_profile
 from hydroelastic.physics.tank import Tank
 from hydroelastic.scenes.models.bodies import Beam, Float
@@ -65,7 +66,9 @@ def moments(pencil: CoupledPencil, values: Callable[[np.ndarray, np.ndarray], np
         surface="body_1",
         shapes=lambda points, normals, _number: values(points, normals),
         wavenumber=0.0,
-        labels=("f",),
+        dofs=(Dof("heave"),),
+        parities=("symmetric",),
+        motions=np.eye(1),
         stiffness=one,
         bending_stiffness=one,
         mass=np.diag(one),
@@ -142,8 +145,8 @@ def neumann_energy(degree: int) -> float:
         return GROWTH * np.exp(x) * (np.cos(y) * normals[0] - np.sin(y) * normals[1])
 
     zero = np.zeros(1)
-    given = {"shapes": flux, "wavenumber": 0.0, "labels": ("f",)}
-    given |= {"stiffness": zero, "bending_stiffness": zero, "mass": np.diag(zero)}
+    given = {"shapes": flux, "wavenumber": 0.0, "dofs": (Dof("heave"),), "parities": ("symmetric",)}
+    given |= {"motions": np.eye(1), "stiffness": zero, "bending_stiffness": zero, "mass": np.diag(zero)}
     load = sum(
         shape_loads(pencil.liquid, Body(surface=name, **given))[0]
         for name in ("body_1", FREE_SURFACE, BOTTOM, LEFT_WALL, RIGHT_WALL)

@@ -50,7 +50,7 @@ def test_a_hinge_in_the_middle_of_a_uniform_beam_has_known_frequencies() -> None
     modes = jointed_modes(beam(((1.0, 1.0, 1.0),), (0.5, 0.0)), 23)
     roots = free_free_roots(20)
     expected = np.sort(np.concatenate([2.0 * roots, roots[1::2]]))[:20]
-    assert modes.labels[:4] == ("heave", "pitch", "hinge 1", "elastic 1")
+    assert modes.dofs[:4] == ("heave", "pitch", "hinge 1", "elastic 1")
     assert modes.squared_frequencies[3:] ** 0.25 == pytest.approx(expected, rel=1e-12)
     # They come in pairs, 2κⱼ = κ₂ⱼ but for e^{-κ}, which parity keeps apart.
     halves = {parity: modes.squared_frequencies[3:][np.array(modes.parities[3:]) == parity] for parity in (1, -1)}
@@ -136,7 +136,7 @@ def test_frequencies_are_roots_of_the_transcendental_determinant(name: str) -> N
 def test_modes_are_orthogonal_in_mass_and_in_strain_energy(name: str) -> None:
     """By a quadrature of the shapes that the modes are not made with; 60 elastic modes."""
     modes = jointed_modes(BEAMS[name], 60 + jointed_modes(BEAMS[name], 0).rigid)
-    size = len(modes.labels)
+    size = len(modes.dofs)
     mass, strain = np.zeros((size, size)), np.zeros((size, size))
     nodes, weights = np.polynomial.legendre.leggauss(160)
     for part, left in zip(modes.beam.spans, modes.beam.edges, strict=False):
@@ -192,7 +192,7 @@ def test_shapes_of_a_symmetric_beam_are_even_or_odd() -> None:
     modes = jointed_modes(SYMMETRIC, 40)
     x = np.linspace(0.0, SYMMETRIC.length, 301)
     signs = np.array(modes.parities)[:, None]
-    assert modes.labels[:5] == ("heave", "pitch", "hinge 1", "hinge 2", "elastic 1")
+    assert modes.dofs[:5] == ("heave", "pitch", "hinge 1", "hinge 2", "elastic 1")
     assert modes.parities[:4] == (1, -1, 1, -1)
     assert np.abs(modes.shapes(SYMMETRIC.length - x) - signs * modes.shapes(x)).max() < 1e-10
 
@@ -209,7 +209,7 @@ def test_a_chain_of_hinges_has_a_rigid_shape_more_for_each() -> None:
 def test_fewer_modes_are_the_first_of_many() -> None:
     few, many = jointed_modes(STEPPED, 5), jointed_modes(STEPPED, 80)
     assert few.squared_frequencies == pytest.approx(many.squared_frequencies[:5], rel=1e-12)
-    assert few.labels == many.labels[:5]
+    assert few.dofs == many.dofs[:5]
 
 
 @pytest.mark.parametrize(

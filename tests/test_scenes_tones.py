@@ -7,10 +7,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from hydroelastic.fem.tank.elastic_tone import FIRST_ELASTIC, ElasticTone, elastic_tone
+from hydroelastic.fem.tank.elastic_tone import ElasticTone, elastic_tone
 from hydroelastic.fem.tank.resolution import initial_resolution
 from hydroelastic.fem.tank.solve import TankSolution
 from hydroelastic.modal.tank_estimates import floating_beam
+from hydroelastic.physics.dofs import FIRST_ELASTIC
 from hydroelastic.scenes.models import Accuracy, Beam, Liquid, Tank, TankScene
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank_checks import MASS_GROUP, STIFFNESS_GROUP
@@ -56,7 +57,7 @@ def test_a_tone_out_of_reach_does_not_hide_one_within(unlike: TankSolution) -> N
 def tone_of(parts: list[float]) -> ElasticTone:
     """The tone of a beam whose first dry mode has these participations in the modes."""
     modes: Any = SimpleNamespace(elastic_amplitudes=np.sqrt(np.array(parts))[:, None], eigenvalues=np.ones(len(parts)))
-    beam: Any = SimpleNamespace(size=1, labels=(FIRST_ELASTIC,), stiffness=(1.0,))
+    beam: Any = SimpleNamespace(size=1, dofs=(FIRST_ELASTIC,), stiffness=(1.0,))
     return elastic_tone(modes, (beam,), 0)
 
 

@@ -7,9 +7,8 @@ from functools import partial
 import numpy as np
 
 from hydroelastic.fem.surfaces import Body
-from hydroelastic.meshes.geometry import body_name
 from hydroelastic.modal.beam.beam_shapes import BeamShapes, beam_shapes
-from hydroelastic.physics.beams import Beam
+from hydroelastic.physics.dofs import body_name
 from hydroelastic.physics.symmetry import Parity
 from hydroelastic.physics.tank import Tank
 
@@ -22,25 +21,21 @@ def beam_body(tank: Tank, index: int, count: int, parity: Parity | None) -> Body
     beam, piece, jump = tank.beams[index], tank.piece_of(index), tank.level_of(index).jump
     part = 1.0 if parity is None else 0.5
     shapes = beam_shapes(beam, count)
-    numbers = [number for number, own in enumerate(shape_parities(beam, count)) if parity in (None, own)]
+    # Twins that are not symmetric themselves have shapes that mirror each other's: all count as even.
+    parities: tuple[Parity, ...] = tuple("symmetric" if sign > 0 else "antisymmetric" for sign in shapes.parities)
+    numbers = [number for number, own in enumerate(parities) if parity in (None, own)]
     bending = part * shapes.bending[numbers]
     return Body(
         surface=body_name(index + 1),
         shapes=partial(_shape_at, shapes, piece.start, piece.length, numbers),
         wavenumber=shapes.wavenumber,
-        labels=tuple(shapes.labels[number] for number in numbers),
+        dofs=tuple(shapes.dofs[number] for number in numbers),
+        parities=tuple(parities[number] for number in numbers),
+        motions=np.eye(len(numbers)),
         stiffness=bending + part * float(beam.hydrostatic) * jump * piece.length,
         bending_stiffness=bending,
         mass=part * shapes.mass[np.ix_(numbers, numbers)],
     )
-
-
-def shape_parities(beam: Beam, count: int) -> tuple[Parity, ...]:
-    """Symmetry of the first shapes of a beam about its middle: heave is even, pitch odd, and so on.
-
-    Twins that are no mirror images of their own have shapes that are mirror images of each other's: all count as even.
-    """
-    return tuple("symmetric" if sign > 0 else "antisymmetric" for sign in beam_shapes(beam, count).parities)
 
 
 def _shape_at(

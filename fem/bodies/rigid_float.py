@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh
 
 from hydroelastic.fem.surfaces import Body
-from hydroelastic.meshes.geometry import body_name
+from hydroelastic.physics.dofs import Dof, body_name
 from hydroelastic.physics.floats import RigidFloat
 from hydroelastic.physics.motions import MOTIONS, Motion
 from hydroelastic.physics.symmetry import Parity, motion_parity
@@ -36,9 +36,11 @@ def float_body(body: RigidFloat, index: int, parity: Parity | None) -> Body:
     turn, stiffness, inertia = principal_motions(body, motions)
     return Body(
         surface=body_name(index + 1),
-        shapes=partial(_thin_shape if body.is_thin else _exact_shape, body, motions, turn),
+        shapes=partial(_thin_shape if body.hull.is_thin else _exact_shape, body, motions, turn),
         wavenumber=0.0,
-        labels=motions,
+        dofs=tuple(map(Dof, motions)),
+        parities=tuple(map(motion_parity, motions)),
+        motions=turn,
         stiffness=part * stiffness,
         bending_stiffness=np.zeros(len(motions)),
         mass=np.diag(part * inertia),
@@ -58,7 +60,7 @@ def principal_motions(
     stiffness, inertia = body.stiffness[np.ix_(places, places)], body.inertia[places]
     turn = np.eye(len(motions))
     # A roll that moves the float's rim by a unit of length, so that it compares with heave.
-    units = np.array([1.0 / body.smallest_extent if motion == "roll" else 1.0 for motion in motions])
+    units = np.array([1.0 / body.hull.smallest_extent if motion == "roll" else 1.0 for motion in motions])
     alike = np.abs(stiffness * units * units[:, None])
     if (alike - np.diag(np.diag(alike))).max(initial=0.0) > _NEGLIGIBLE * alike.max(initial=0.0):
         pair = [motions.index("heave"), motions.index("roll")]
@@ -74,9 +76,10 @@ def principal_motions(
 
 def _singular_points(body: RigidFloat) -> NDArray[np.float64] | None:
     """Where the slope of a thin float's profile has no bound: the ends of a thin ellipse."""
-    if not body.is_thin or body.profile is None or body.profile.shape != "ellipse":
+    hull = body.hull
+    if not hull.is_thin or hull.profile is None or hull.profile.shape != "ellipse":
         return None
-    return np.array([[body.waterplane[0], y] for y in body.slit])
+    return np.array([[hull.waterplane[0], y] for y in hull.slit])
 
 
 def _exact_shape(
@@ -104,9 +107,10 @@ def _thin_shape(
     number: int,
 ) -> NDArray[np.float64]:
     """The flux through the contour x = x₀ ± ω(y) put on x = x₀: n ds = (∓1, ω') dy out of the liquid."""
-    assert body.profile is not None
-    y = points[1] - body.hydrostatics.reference_level
+    profile = body.hull.profile
+    assert profile is not None
+    y = points[1] - body.hull.reference_level
     # The liquid on the right has its normal to the left, and the contour to the right.
-    on_contour = np.array([points[0] - normals[0] * body.profile.half_width_at(y), points[1]])
-    flux = np.array([normals[0], body.profile.slope_at(y)])
+    on_contour = np.array([points[0] - normals[0] * profile.half_width_at(y), points[1]])
+    flux = np.array([normals[0], profile.slope_at(y)])
     return _exact_shape(body, motions, turn, on_contour, flux, number)

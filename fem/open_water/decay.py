@@ -208,8 +208,7 @@ def _check_release(limit: BodiesAtInfiniteFrequency, request: DecayRequest) -> N
         raise UnstableFloatError("a float is unstable and would capsize")
     loose = restoring == 0.0
     given = {"heave": request.heave, "roll": request.roll}
-    own = [label if body == request.body else "" for body, label in limit.motions]
-    initial = np.array([given.get(label, 0.0) for label in own])
+    initial = np.array([given.get(dof, 0.0) if body == request.body else 0.0 for body, dof in limit.motions])
     pushed = (limit.mass + limit.added_mass) @ initial
     if np.any(np.abs(pushed[loose]) > _PUSHED * np.abs(pushed).max()):
         raise DriftingFloatError(sorted({limit.motions[place][1] for place in np.flatnonzero(loose)}))
@@ -273,9 +272,9 @@ def _infinite_frequency_added_mass(problem: OpenWaterProblem, resolution: Resolu
 def _initial(model: OpenModel, request: DecayRequest) -> np.ndarray:
     """a₀ in body unknowns."""
     scale = model.scale
-    own = "" if len(model.pencil.bodies) == 1 else f"body_{request.body + 1}__"
-    given = {f"{own}heave": request.heave, f"{own}roll": request.roll}
-    motions = np.array([given.get(name, 0.0) for name in scale.dofs])
+    given = {"heave": request.heave, "roll": request.roll}
+    released = (None, request.body + 1)
+    motions = np.array([given.get(dof.motion, 0.0) if dof.body in released else 0.0 for dof in scale.dofs])
     unknowns: np.ndarray = np.linalg.solve(scale.turn, motions / scale.lengths)
     return unknowns
 

@@ -18,6 +18,7 @@ from hydroelastic.fem.tank.attempts import Attempt
 from hydroelastic.fem.tank.error_estimates import added_mass_errors
 from hydroelastic.fem.tank.field_model import build_field_model, distributed_mesh, whole_bodies
 from hydroelastic.fem.tank.resolution import Resolution, infinite_frequency_resolution, workable_tolerance
+from hydroelastic.physics.dofs import Dof
 from hydroelastic.physics.scales import Scales
 
 # Dry modes of each beam where frequencies are only to be known roughly.
@@ -36,7 +37,7 @@ class BodiesAtInfiniteFrequency:
         mass: M_b.
         added_mass: a(∞).
         of_floats: whether each unknown is a float's.
-        motions: index of the body and label of each unknown.
+        motions: index of the body, and what each unknown is.
     """
 
     units: Scales
@@ -44,7 +45,7 @@ class BodiesAtInfiniteFrequency:
     mass: np.ndarray
     added_mass: np.ndarray
     of_floats: np.ndarray
-    motions: tuple[tuple[int, str], ...]
+    motions: tuple[tuple[int, Dof], ...]
 
     def frequencies(self, *, floats: bool = False) -> list[float]:
         """Natural frequencies with this added mass, rad/s, ascending, of the motions that something restores.
@@ -79,7 +80,7 @@ def bodies_at_infinite_frequency(problem: OpenWaterProblem) -> BodiesAtInfiniteF
         stiffness=np.diag(np.concatenate([body.stiffness for body in bodies])),
         mass=block_diag(*(body.mass for body in bodies)),
         added_mass=added,
-        motions=tuple((index, label) for index, body in enumerate(bodies) for label in body.labels),
+        motions=tuple((index, dof) for index, body in enumerate(bodies) for dof in body.dofs),
         of_floats=np.concatenate([np.full(body.size, index in basin.tank.floats) for index, body in enumerate(bodies)]),
     )
 

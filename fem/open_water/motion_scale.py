@@ -9,6 +9,7 @@ from scipy.linalg import block_diag
 
 from hydroelastic.fem.open_water.basin import OpenBasin
 from hydroelastic.fem.surfaces import Body
+from hydroelastic.physics.dofs import Dof, dof_names
 from hydroelastic.physics.scales import Scales
 
 
@@ -25,7 +26,7 @@ class MotionScale:
     """
 
     units: Scales
-    dofs: tuple[str, ...]
+    dofs: tuple[Dof, ...]
     turn: np.ndarray
     lengths: np.ndarray
 
@@ -67,14 +68,10 @@ def motion_scale(basin: OpenBasin, bodies: tuple[Body, ...]) -> MotionScale:
         basin: the basin.
         bodies: all of its bodies, in their order.
     """
-    turns, names, lengths = [], [], []
-    for index, body in enumerate(bodies):
-        turns.append(np.eye(body.size))
-        if index in basin.tank.floats:
-            from hydroelastic.fem.bodies.rigid_float import principal_motions
-
-            own = basin.tank.floats[index]
-            turns[-1] = principal_motions(own, own.motions)[0]
-        names += [f"body_{index + 1}__{label}" if len(bodies) > 1 else label for label in body.labels]
-        lengths += [1.0 if label == "roll" else basin.units.length for label in body.labels]
-    return MotionScale(units=basin.units, dofs=tuple(names), turn=block_diag(*turns), lengths=np.array(lengths))
+    dofs = dof_names(body.dofs for body in bodies)
+    return MotionScale(
+        units=basin.units,
+        dofs=dofs,
+        turn=block_diag(*(body.motions for body in bodies)),
+        lengths=np.array([1.0 if dof.turns else basin.units.length for dof in dofs]),
+    )

@@ -1,7 +1,7 @@
 """Results of the analyses of open water, per metre of width in SI units, with the time factor e^{−iωt}.
 
-Bodies move in `dofs`: "heave", "sway", "roll", "pitch", "elastic 1" …, with "body_2__" in front where there are several
-bodies. Waves are the branches of the dispersion relation, "surface" and "internal".
+Bodies move in their degrees of freedom `dofs`. Waves are the branches of the dispersion relation, "surface" and
+"internal".
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from hydroelastic.fem.open_water.region import Region
+from hydroelastic.physics.dofs import Dof
 
 Floats: TypeAlias = npt.NDArray[np.float64]
 Complexes: TypeAlias = npt.NDArray[np.complex128]
@@ -27,7 +28,7 @@ class RadiationTable:
 
     Attributes:
         omega: (n,) rad/s; inf is the limit far above the waves.
-        dofs: m names.
+        dofs: m degrees of freedom.
         waves: w names.
         wavenumbers: (n, w) k, 1/m.
         added_mass: (n, m, m) a; entry (i, j) is the force in i by motion in j.
@@ -45,7 +46,7 @@ class RadiationTable:
     """
 
     omega: Floats
-    dofs: tuple[str, ...]
+    dofs: tuple[Dof, ...]
     waves: tuple[str, ...]
     wavenumbers: Floats
     added_mass: Floats
@@ -106,7 +107,7 @@ class ResponseTable:
         omega: (n,) rad/s.
         waves: w names.
         wavenumbers: (n, w) k, 1/m.
-        dofs: m names.
+        dofs: m degrees of freedom.
         waves_from: the side from which the waves come.
         amplitudes: (n, w, m) of the motions.
         reflection: (n, w in, w out) ratio of elevations.
@@ -120,7 +121,7 @@ class ResponseTable:
     omega: Floats
     waves: tuple[str, ...]
     wavenumbers: Floats
-    dofs: tuple[str, ...]
+    dofs: tuple[Dof, ...]
     waves_from: Literal["left", "right"]
     amplitudes: Complexes
     reflection: Complexes
@@ -137,7 +138,7 @@ class ResonanceTable:
 
     Attributes:
         omega: (r,) rad/s, with negative imaginary part.
-        dofs: m names.
+        dofs: m degrees of freedom.
         labels: the dominant motion of each.
         body_amplitudes: (r, m) of the motions; the dominant one is 1.
         residuals: (r,) relative residual of the equations.
@@ -147,8 +148,8 @@ class ResonanceTable:
     """
 
     omega: Complexes
-    dofs: tuple[str, ...]
-    labels: tuple[str, ...]
+    dofs: tuple[Dof, ...]
+    labels: tuple[Dof, ...]
     body_amplitudes: Complexes
     residuals: Floats
     relative_error: Floats
@@ -162,7 +163,7 @@ class DecayTable:
 
     Attributes:
         times: (n,) s.
-        dofs: m names.
+        dofs: m degrees of freedom.
         displacement: (n, m) m or rad.
         initial: (m,) the displacement at t = 0.
         absolute_error: (n,) estimated error of the displacement.
@@ -171,7 +172,7 @@ class DecayTable:
     """
 
     times: Floats
-    dofs: tuple[str, ...]
+    dofs: tuple[Dof, ...]
     displacement: Floats
     initial: Floats
     absolute_error: Floats

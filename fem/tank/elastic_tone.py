@@ -14,8 +14,7 @@ import numpy as np
 
 from hydroelastic.fem.modes import Mode, ModeSet
 from hydroelastic.fem.surfaces import Body, LiquidSurface
-
-FIRST_ELASTIC = "elastic 1"
+from hydroelastic.physics.dofs import FIRST_ELASTIC
 
 SHARED = 0.5
 """A mode that has more than this part of the largest participation shares the tone."""
@@ -58,8 +57,8 @@ class ElasticTone:
 
 def participations(modes: ModeSet, bodies: tuple[Body, ...], body: int) -> np.ndarray:
     """pₙ of a beam's first dry mode, one for each mode."""
-    position = sum(other.size for other in bodies[:body]) + bodies[body].labels.index(FIRST_ELASTIC)
-    stiffness = bodies[body].stiffness[bodies[body].labels.index(FIRST_ELASTIC)]
+    first = bodies[body].dofs.index(FIRST_ELASTIC)
+    position, stiffness = sum(other.size for other in bodies[:body]) + first, bodies[body].stiffness[first]
     # Modes have unit generalized mass, so φᵀKφ = λ.
     parts: np.ndarray = stiffness * modes.elastic_amplitudes[:, position] ** 2 / modes.eigenvalues
     return parts
@@ -113,9 +112,8 @@ def mode_kind(mode: Mode, bodies: tuple[Body, ...], surfaces: tuple[LiquidSurfac
         shares[name] = float(share)
     position = 0
     for body in bodies:
-        for label in body.labels:
-            kind = label.split()[0]
-            shares[kind] = shares.get(kind, 0.0) + float(mode.energy[position])
+        for dof in body.dofs:
+            shares[dof.kind] = shares.get(dof.kind, 0.0) + float(mode.energy[position])
             position += 1
     return max(shares, key=lambda kind: shares[kind])
 

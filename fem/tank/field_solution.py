@@ -11,7 +11,6 @@ from itertools import pairwise
 
 import numpy as np
 
-from hydroelastic.fem.bodies.beam import shape_parities
 from hydroelastic.fem.liquid import compile_form
 from hydroelastic.fem.modes import HIDDEN, Mode, ModeSet, count_below, solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
@@ -23,7 +22,6 @@ from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.physics.symmetry import (
     Parity,
     left_bodies,
-    motion_parity,
     shapes_of_twins,
     twin_of,
 )
@@ -264,7 +262,7 @@ def extension(tank: Tank, bodies: tuple[Body, ...], parity: Parity | None) -> np
     columns = []
     for body in left_bodies(tank):
         twin = twin_of(tank, body)
-        for number, own in enumerate(_parities(tank, body, bodies[body])):
+        for number, own in enumerate(bodies[body].parities):
             if twin == body and own != parity:
                 continue
             column = np.zeros(size)
@@ -274,13 +272,6 @@ def extension(tank: Tank, bodies: tuple[Body, ...], parity: Parity | None) -> np
                 column[offsets[twin] + number] = np.sqrt(0.5) if own == parity else -np.sqrt(0.5)
             columns.append(column)
     return np.array(columns).reshape(len(columns), size).T
-
-
-def _parities(tank: Tank, index: int, body: Body) -> list[Parity]:
-    """Symmetry of each of a body's shapes about its middle."""
-    if index in tank.beams:
-        return list(shape_parities(tank.beams[index], body.size))
-    return [motion_parity(motion) for motion in tank.floats[index].motions]
 
 
 def count_is_confirmed(solution: FieldSolution) -> bool:

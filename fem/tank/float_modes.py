@@ -15,6 +15,7 @@ from hydroelastic.fem.modes import ModeSet
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.fem.tank.expected import FAR_ENOUGH
 from hydroelastic.fem.tank.infinite_frequency import InfiniteFrequencyAddedMass
+from hydroelastic.physics.dofs import Dof
 from hydroelastic.physics.tank import Tank
 
 # A motion with a smaller part of a mode's kinetic energy is held: what is left of it is rounding.
@@ -35,7 +36,7 @@ class FloatMode:
     """
 
     body: int
-    motion: str
+    motion: Dof
     index: int | None
     reason: str
     modal_mass: float
@@ -45,7 +46,7 @@ class FloatMode:
 @dataclass(frozen=True, kw_only=True)
 class _Motion:
     body: int
-    label: str
+    dof: Dof
     number: int
     place: int
     stiffness: float
@@ -58,15 +59,15 @@ def _restored(tank: Tank, bodies: tuple[Body, ...]) -> list[_Motion]:
     return [
         _Motion(
             body=index,
-            label=label,
+            dof=dof,
             number=number,
             place=int(offsets[index]) + number,
             stiffness=stiffness,
             mass=mass,
         )
         for index in tank.floats
-        for number, (label, stiffness, mass) in enumerate(
-            zip(bodies[index].labels, bodies[index].stiffness, bodies[index].mass.diagonal(), strict=True)
+        for number, (dof, stiffness, mass) in enumerate(
+            zip(bodies[index].dofs, bodies[index].stiffness, bodies[index].mass.diagonal(), strict=True)
         )
         if stiffness > 0.0
     ]
@@ -104,7 +105,7 @@ def float_modes(
         found.append(
             FloatMode(
                 body=motion.body,
-                motion=motion.label,
+                motion=motion.dof,
                 index=None if reason else int(order[0]),
                 reason=reason,
                 modal_mass=_inverse(moved, order, 0),

@@ -236,7 +236,7 @@ def _is_relevant(tank: Tank, restriction: np.ndarray, added: np.ndarray) -> np.n
     """Whether each motion of a part moves liquid: a circle that turns about its centre does not."""
     scales = np.concatenate(
         [
-            [body.smallest_extent ** (4 if motion == "roll" else 2) for motion in body.motions]
+            [body.hull.smallest_extent ** (4 if motion == "roll" else 2) for motion in body.motions]
             for body in tank.floats.values()
         ]
     )

@@ -9,10 +9,11 @@ import numpy as np
 from hydroelastic.fem.tank.outline import Sizes, tank_outline, unsized
 from hydroelastic.fem.tank.resolution import Resolution, sharpest_exponent
 from hydroelastic.fem.tank.singularities import tank_singular_points
-from hydroelastic.meshes.geometry import FREE_SURFACE, LID, LIQUID, TankGeometry, body_name, tank_geometry
+from hydroelastic.meshes.geometry import FREE_SURFACE, LID, LIQUID, TankGeometry, tank_geometry
 from hydroelastic.meshes.grading import Grading
 from hydroelastic.meshes.outline import Corner, Outline
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
+from hydroelastic.physics.dofs import body_name
 from hydroelastic.physics.tank import Tank
 
 # A user mesh may miss the scene's abscissae by this part of the tank's length: files round.
@@ -59,7 +60,7 @@ def make_mesh(
         return build_tank_mesh(geometry, grading)
     from hydroelastic.meshes.build import build_mesh
 
-    curved = any(not body.is_thin for body in tank.floats.values())
+    curved = any(not hull.is_thin for hull in tank.hulls.values())
     return build_mesh(
         graded_outline(tank, resolution, half=half, infinite_frequency=infinite_frequency),
         bulk_size=resolution.bulk_size,
@@ -73,7 +74,7 @@ def graded_outline(tank: Tank, resolution: Resolution, *, half: bool, infinite_f
     contours = {
         piece.body: size
         for piece, size in zip(tank.pieces, resolution.surface_sizes, strict=True)
-        if piece.body in tank.floats
+        if piece.body in tank.hulls
     }
     sizes = Sizes(pieces=resolution.surface_sizes, contours=contours)
     outline = tank_outline(tank, sizes, half=half, infinite_frequency=infinite_frequency)
@@ -103,7 +104,7 @@ def tip_points(tank: Tank, *, half: bool, infinite_frequency: bool = False) -> n
 
 def is_plain(tank: Tank) -> bool:
     """Whether the liquid is a rectangle whose top is cut into pieces, with beams that are smooth on each."""
-    return len(tank.layers) == 1 and not tank.floats and not any(tank.nodes_of(index) for index in tank.beams)
+    return len(tank.layers) == 1 and not tank.hulls and not any(body.nodes for body in tank.bodies)
 
 
 def unknown_count(points: int, triangles: int, degree: int, *, parts: int = 1) -> int:
@@ -146,7 +147,7 @@ def check_mesh(tank: Tank, tagged: TaggedMesh) -> None:
 
 
 def _check_nodes(tank: Tank, tagged: TaggedMesh) -> None:
-    for index in tank.beams:
+    for index in range(len(tank.bodies)):
         name = body_name(index + 1)
         x = tagged.facet_nodes(name)[:, 0]
         for place in tank.nodes_of(index):

@@ -25,12 +25,12 @@ from hydroelastic.meshes.geometry import (
     RIGHT_WALL,
     SYMMETRY_PLANE,
     UPPER_LIQUID,
-    body_name,
 )
 from hydroelastic.meshes.outline import Curve, Outline, Point, Region
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.physics.contours import Arc, root
-from hydroelastic.physics.floats import RigidFloat
+from hydroelastic.physics.dofs import body_name, body_number
+from hydroelastic.physics.hulls import Hull
 from hydroelastic.physics.tank import MIDDLE, Piece, StillLevel, Tank
 
 Directed = tuple[int, bool]
@@ -46,7 +46,7 @@ class Sizes:
 
 def unsized(tank: Tank) -> Sizes:
     """No wishes for the sizes of elements."""
-    return Sizes(pieces=(inf,) * len(tank.pieces), contours=dict.fromkeys(tank.floats, inf))
+    return Sizes(pieces=(inf,) * len(tank.pieces), contours=dict.fromkeys(tank.hulls, inf))
 
 
 def layer_names(tank: Tank) -> tuple[str, ...]:
@@ -107,10 +107,10 @@ class _Builder:
     def _splits(self, number: int) -> dict[float, list[int]]:
         """Abscissae of the thin floats in a layer, and which they are."""
         splits: dict[float, list[int]] = {}
-        for index, body in self.tank.floats.items():
+        for index, hull in self.tank.hulls.items():
             level = self.tank.level_of(index)
-            if body.is_thin and number in (level.below, level.above):
-                splits.setdefault(body.waterplane[0], []).append(index)
+            if hull.is_thin and number in (level.below, level.above):
+                splits.setdefault(hull.waterplane[0], []).append(index)
         return dict(sorted(splits.items()))
 
     def _floor(self, number: int, marks: tuple[float, ...]) -> list[Directed]:
@@ -134,9 +134,9 @@ class _Builder:
         for place, piece in enumerate(level.pieces, first):
             if piece.start >= self.right:
                 break
-            body = self.tank.floats.get(piece.body) if piece.body is not None else None
-            if body is not None:
-                path += self._contour(piece, body, stops, upper_side=upper_side)
+            hull = self.tank.hulls.get(piece.body) if piece.body is not None else None
+            if hull is not None:
+                path += self._contour(piece, hull, stops, upper_side=upper_side)
             else:
                 path += self._flat(level, piece, stops, self.sizes.pieces[place])
         return path
@@ -159,14 +159,14 @@ class _Builder:
             return ("", False) if self.infinite_frequency else (INTERFACE, True)
         return (LID if level.kind == "rigid" else FREE_SURFACE), False
 
-    def _contour(self, piece: Piece, body: RigidFloat, stops: list[float], *, upper_side: bool) -> list[Directed]:
+    def _contour(self, piece: Piece, hull: Hull, stops: list[float], *, upper_side: bool) -> list[Directed]:
         assert piece.body is not None
-        if body.is_thin:
+        if hull.is_thin:
             return []
-        low, high = body.bounds[:2]
+        low, high = hull.bounds[:2]
         if any(low < x < high for x in stops):
             raise MeshError(f"a thin float needs free liquid above and below it: body {piece.body + 1} is in its way")
-        arcs = body.above if upper_side else body.below
+        arcs = hull.above if upper_side else hull.below
         if self.half and high > self.right:
             arcs = _left_of(arcs, self.right)
         size, name = self.sizes.contours[piece.body], body_name(piece.body + 1)
@@ -184,12 +184,12 @@ class _Builder:
         pieces = [(bottom, top, name)]
         # From the floor up: a slit may stand on it, and another hang from the ceiling.
         for index in sorted(splits.get(x, []), key=lambda index: self.tank.level_of(index).below == number):
-            body = self.tank.floats[index]
-            low, high = body.slit
+            hull = self.tank.hulls[index]
+            low, high = hull.slit
             (start, end, _) = pieces.pop()
             hangs = self.tank.level_of(index).below == number
             first, last = ((x, low), end) if hangs else (start, (x, high))
-            stops = [first, *(kink for kink in body.kinks if first[1] < kink[1] < last[1]), last]
+            stops = [first, *(kink for kink in hull.kinks if first[1] < kink[1] < last[1]), last]
             pieces += [(start, first, name)] if hangs else []
             pieces += [(*ends, body_name(index + 1)) for ends in pairwise(stops)]
             pieces += [] if hangs else [(last, end, name)]
@@ -204,9 +204,8 @@ class _Builder:
         ]
 
     def _slit_size(self, name: str, start: Point, end: Point) -> float:
-        if not name.startswith("body_"):
-            return inf
-        return min(0.5 * (end[1] - start[1]), self.sizes.contours[int(name.removeprefix("body_")) - 1])
+        number = body_number(name)
+        return inf if number is None else min(0.5 * (end[1] - start[1]), self.sizes.contours[number - 1])
 
     def _curve(
         self,

@@ -19,7 +19,7 @@ from hydroelastic.physics.local_waves import (
 from hydroelastic.physics.tank import Piece, StillLevel, Tank
 
 if TYPE_CHECKING:
-    from hydroelastic.physics.floats import RigidFloat
+    from hydroelastic.physics.hulls import Hull
 
 HIGHEST_DEGREE = 10
 MOST_SHAPES = 400
@@ -196,7 +196,7 @@ def sharpest_exponent(tank: Tank, *, infinite_frequency: bool) -> float:
         tank: the scene.
         infinite_frequency: whether gravity is left out: ψ = 0 on the top, and liquids move as one.
     """
-    if not tank.floats:
+    if not tank.hulls:
         return 0.5 if infinite_frequency or tank.top == "pressure_release" else 1.0
     from hydroelastic.fem.tank.outline import unsized
     from hydroelastic.fem.tank.singularities import tank_singular_points
@@ -224,8 +224,8 @@ def resolution_for(tank: Tank, tolerance: float, wavenumbers: tuple[float, ...],
     while degree > 6 and rounding_error(degree, tank.depth) > 0.3 * tolerance:
         degree -= 1
     sizes = tuple(
-        _contour_size(tank.floats[piece.body])
-        if piece.body in tank.floats
+        _contour_size(tank.hulls[piece.body])
+        if piece.body in tank.hulls
         # Never fewer than two elements on a piece.
         else min(radians(degree, tolerance) / max(wavenumber, 1e-9), 0.5 * piece.length, 0.25)
         for piece, wavenumber in zip(tank.pieces, wavenumbers, strict=True)
@@ -235,7 +235,7 @@ def resolution_for(tank: Tank, tolerance: float, wavenumbers: tuple[float, ...],
         min(MOST_SHAPES, _shapes_for(body, on_bodies[index], tolerance)) if isinstance(body, Beam) else 0
         for index, body in enumerate(tank.bodies)
     )
-    shortest = min((piece.length for piece in tank.pieces if piece.body not in tank.floats), default=1.0)
+    shortest = min((piece.length for piece in tank.pieces if piece.body not in tank.hulls), default=1.0)
     outermost = min(0.45 * shortest, 0.45 * tank.depth, *sizes)
     return Resolution(
         degree=degree,
@@ -255,9 +255,9 @@ def _innermost(exponent: float, tolerance: float) -> float:
     return min((5.0 + 10.0 * exponent) * float(tolerance ** (0.5 / exponent)), 0.25)
 
 
-def _contour_size(body: RigidFloat) -> float:
+def _contour_size(hull: Hull) -> float:
     """Largest element along a contour; where it bends, the mesh takes smaller ones."""
-    left, right, low, high = body.bounds
+    left, right, low, high = hull.bounds
     return min(_OF_CONTOUR * max(right - left, high - low), 0.25)
 
 

@@ -16,6 +16,7 @@ import numpy as np
 from hydroelastic.fem.tank.outline import Sizes, grounded_names, tank_outline
 from hydroelastic.meshes.geometry import LEFT_WALL, RIGHT_WALL, SYMMETRY_PLANE
 from hydroelastic.meshes.outline import Outline, Point
+from hydroelastic.physics.dofs import body_number
 from hydroelastic.physics.tank import Tank
 
 _MIRRORS = (LEFT_WALL, RIGHT_WALL, SYMMETRY_PLANE)
@@ -121,7 +122,7 @@ def _sectors(outline: Outline, around: list[_Wedge]) -> Iterator[_Sector]:
 
 def _exponent(sector: _Sector, grounded: tuple[str, ...], continuous_pressure: bool) -> float:
     """α in a sector; infinite where ψ is smooth."""
-    if not any(name.startswith("body_") for name in sector.names):
+    if not any(body_number(name) for name in sector.names):
         return inf
     # A wall is a mirror: beyond it the sector goes on as its image.
     angle = sector.angle * (2.0 if any(name in _MIRRORS for name in sector.names) else 1.0)
@@ -151,10 +152,10 @@ def tank_singular_points(
 
 def _kinks(tank: Tank) -> dict[Point, float]:
     """Points of bodies at which the displacement of a thin float jumps, or the slope or curvature of a beam."""
-    on_floats = {kink: _SIDE_JUMPS for body in tank.floats.values() for kink in body.kinks}
-    on_beams = {
+    on_hulls = {kink: _SIDE_JUMPS for hull in tank.hulls.values() for kink in hull.kinks}
+    on_levels = {
         (x, tank.level_of(index).height): exponent
-        for index in tank.beams
+        for index in range(len(tank.bodies))
         for x, exponent in tank.nodes_of(index).items()
     }
-    return on_floats | on_beams
+    return on_hulls | on_levels

@@ -17,6 +17,7 @@ from hydroelastic.modal.beam.dry_modes import free_free_shape, free_free_wavenum
 from hydroelastic.modal.beam.guided_modes import guided_shape, guided_wavenumber
 from hydroelastic.modal.beam.jointed_modes import JointedModes, jointed_modes
 from hydroelastic.physics.beams import Beam
+from hydroelastic.physics.dofs import FIRST_ELASTIC, Dof, beam_dofs
 
 Array = NDArray[np.float64]
 
@@ -26,7 +27,7 @@ class BeamShapes:
     """The first shapes of a beam, ∫wᵢwⱼ = l δᵢⱼ.
 
     Attributes:
-        labels: "heave", "pitch", "hinge 1" …, "elastic 1" …
+        dofs: what each is.
         parities: +1 or −1: the mirror image of a shape about the middle of its beam is ± a shape of the mirrored beam.
         deflection: number of the shape and distances from the left end → w.
         bending: twice the strain energy of each.
@@ -34,7 +35,7 @@ class BeamShapes:
         wavenumber: the largest among them.
     """
 
-    labels: tuple[str, ...]
+    dofs: tuple[Dof, ...]
     parities: tuple[int, ...]
     deflection: Callable[[int, Array], Array]
     bending: Array
@@ -51,14 +52,13 @@ def _closed_shapes(beam: Beam, count: int) -> BeamShapes:
     guided, length = beam.ends == "guided", beam.length
     wavenumber = guided_wavenumber if guided else free_free_wavenumber
     roots = np.array([wavenumber(number) for number in range(count)])
-    rigid = ("heave",) if guided else ("heave", "pitch")
 
     def deflection(number: int, x: Array) -> Array:
         values = guided_shape(number, x / length) if guided else free_free_shape(number, x / length)
         return np.asarray(values, dtype=np.float64)
 
     return BeamShapes(
-        labels=(*rigid, *(f"elastic {number + 1}" for number in range(count - len(rigid))))[:count],
+        dofs=beam_dofs(("heave",) if guided else ("heave", "pitch"), 0, count),
         parities=tuple(1 - 2 * (number % 2) for number in range(count)),
         deflection=deflection,
         bending=beam.flexural_rigidity * (roots / length) ** 4 * length,
@@ -71,10 +71,10 @@ def _computed_shapes(beam: Beam, count: int) -> BeamShapes:
     modes = even_modes(beam, count)
     length = beam.length
     # Exactly diagonal where it is so.
-    mass = beam.mass_per_length * np.eye(len(modes.labels)) if beam.has_even_mass else modes.products(beam)
+    mass = beam.mass_per_length * np.eye(len(modes.dofs)) if beam.has_even_mass else modes.products(beam)
     scale = float(np.sqrt(length))
     return BeamShapes(
-        labels=modes.labels,
+        dofs=modes.dofs,
         parities=modes.parities,
         deflection=_AllAtOnce(modes, scale),
         bending=modes.squared_frequencies * length,
@@ -111,11 +111,11 @@ def first_dry_eigenvalue(beam: Beam) -> float:
         rigid = 2 + len(beam.hinges)
         return float(jointed_modes(beam, rigid + 1).squared_frequencies[rigid])
     shapes = beam_shapes(beam, 3)
-    first = shapes.labels.index("elastic 1")
+    first = shapes.dofs.index(FIRST_ELASTIC)
     return float(shapes.bending[first] / shapes.mass[first, first])
 
 
 def first_bending(beam: Beam) -> float:
     """Twice the strain energy of the first elastic shape over ∫w²: EI κ⁴ of a uniform beam."""
     shapes = beam_shapes(beam, 3 + len(beam.hinges))
-    return float(shapes.bending[shapes.labels.index("elastic 1")] / beam.length)
+    return float(shapes.bending[shapes.dofs.index(FIRST_ELASTIC)] / beam.length)

@@ -27,6 +27,7 @@ from scipy.linalg import lapack, qr, solve_triangular
 from hydroelastic.modal.beam.dry_modes import RIGID_SHAPES
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.beams import Beam, Section, comes_first
+from hydroelastic.physics.dofs import Dof, beam_dofs
 
 Side = Literal["left", "right"]
 
@@ -64,11 +65,9 @@ class JointedModes:
         return RIGID_SHAPES + len(self.beam.hinges)
 
     @property
-    def labels(self) -> tuple[str, ...]:
-        """What each mode is: "heave", "pitch", "hinge 1" …, "elastic 1" …"""
-        rigid = ["heave", "pitch", *(f"hinge {number + 1}" for number in range(len(self.beam.hinges)))]
-        elastic = (f"elastic {number + 1}" for number in range(len(self.squared_frequencies) - len(rigid)))
-        return (*rigid, *elastic)[: len(self.squared_frequencies)]
+    def dofs(self) -> tuple[Dof, ...]:
+        """What each mode is."""
+        return beam_dofs(("heave", "pitch"), len(self.beam.hinges), len(self.squared_frequencies))
 
     @property
     def wavenumbers(self) -> FloatArray:

@@ -82,8 +82,8 @@ def _problems_of(scene: TankParts, index: int, body: Float) -> Iterator[InitErro
             allowed="a section that the still level cuts once, into one part below and one above",
         )
         return
-    yield from _has_room(scene, index, body, placed.contour.bounds)
-    yield from _arms_fit(index, body, placed.contour.bounds)
+    yield from _has_room(scene, index, body, placed.hull.bounds)
+    yield from _arms_fit(index, body, placed.hull.bounds)
 
 
 def _vertices_make_a_polygon(index: int, vertices: tuple[tuple[float, float], ...]) -> Iterator[InitErrorDetails]:
@@ -283,7 +283,7 @@ def _box(scene: TankParts, index: int, body: AnyBeam | Float) -> _Box:
         return body.start, body.end, height, height
     from hydroelastic.scenes.models.floats import placed_float
 
-    return placed_float(scene, index).contour.bounds
+    return placed_float(scene, index).hull.bounds
 
 
 def _nearer_than(gap: float, one: _Box, other: _Box) -> bool:
@@ -330,7 +330,7 @@ def _thin_floats_have_free_liquid(scene: TankParts) -> Iterator[InitErrorDetails
         # SciPy takes a while to import, and most scenes have no float.
         from hydroelastic.scenes.models.floats import placed_float
 
-        left, right = placed_float(scene, other).contour.bounds[:2]
+        left, right = placed_float(scene, other).hull.bounds[:2]
         for index, position in thin:
             if left < position < right:
                 yield misfit(

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from hydroelastic.physics.contours import Contour
 from hydroelastic.physics.floats import RigidFloat
+from hydroelastic.physics.hulls import Hull
 from hydroelastic.physics.hydrostatics import hydrostatics, still_level
 from hydroelastic.physics.motions import MOTIONS, Level
 from hydroelastic.physics.point_contours import outline_contour, polygon_contour
@@ -98,12 +99,16 @@ def _placed(
     place = (body.position, height)
     at_rest, thin = at_rest.moved(place), body.boundary == "thin"
     return RigidFloat(
-        contour=contour.moved(place),
+        hull=Hull(
+            contour=contour.moved(place),
+            profile=float_section(body),
+            is_thin=thin,
+            height=at_rest.level,
+            reference_level=at_rest.reference_level,
+            wet_above=level == "interface" and densities[1] > 0.0,
+            waterplane=(body.position, body.position) if thin else at_rest.waterplane,
+        ),
         hydrostatics=at_rest,
-        profile=float_section(body),
-        is_thin=thin,
         level=level,
-        wet_above=level == "interface" and densities[1] > 0.0,
-        waterplane=(body.position, body.position) if thin else at_rest.waterplane,
         motions=tuple(motion for motion in MOTIONS if motion in body.motions),
     )

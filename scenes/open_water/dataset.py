@@ -14,9 +14,10 @@ import numpy as np
 import numpy.typing as npt
 
 from hydroelastic.fem.open_water.results import DIRECTIONS, DecayTable, RadiationTable, ResonanceTable, ResponseTable
+from hydroelastic.physics.dofs import Dof, body_name
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.results import OpenSolution
-from hydroelastic.scenes.output.dof_labels import INERTIA_UNITS, MOTION_UNITS, STIFFNESS_UNITS, any_turns, dof_labels
+from hydroelastic.scenes.output.dof_units import INERTIA_UNITS, MOTION_UNITS, STIFFNESS_UNITS
 from hydroelastic.scenes.output.summary_variables import SummaryNames
 
 if TYPE_CHECKING:
@@ -124,13 +125,13 @@ def open_dataset(solution: OpenSolution) -> xarray.Dataset:
     ending = [*(table.dofs for table in solution.resonance), *(table.dofs for table in solution.decay)]
     others = max(ending, key=len, default=())
     order = {"radiating_dof": motions, "influenced_dof": motions, "dof": others}
-    found = found.reindex({name: dof_labels(dofs) for name, dofs in order.items() if name in found.dims})
+    found = found.reindex({name: _capitalised(dofs) for name, dofs in order.items() if name in found.dims})
     if "resonance_motion" in found:
         found["resonance_motion"] = found["resonance_motion"].fillna("").astype(np.str_)
     found = found.set_coords([name for name in ("wavenumber", "wavelength", "period") if name in found])
     found = found.squeeze([name for name in ("wave", "outgoing_wave") if found.sizes.get(name) == 1])
     found = found.assign_coords(_of_the_scene(solution.scene))
-    turning = any_turns(tuple(motions) + tuple(others))
+    turning = any(dof.turns for dof in (*motions, *others))
     for name in found.variables:
         found[name].attrs |= _attributes(str(name), turning=turning)
         if name in _PHASED or str(name).startswith("deflection_of_body"):
@@ -155,6 +156,11 @@ def _attributes(name: str, *, turning: bool) -> dict[str, str]:
     return {"long_name": long_name} | ({} if unit is None else {"units": unit})
 
 
+def _capitalised(dofs: tuple[Dof, ...]) -> list[str]:
+    """The names that Capytaine gives to degrees of freedom."""
+    return [dof.capitalised for dof in dofs]
+
+
 def _dataset(coordinates: dict[str, Any], variables: dict[str, Any]) -> xarray.Dataset:
     import xarray
 
@@ -172,7 +178,7 @@ def _waves(omega: npt.NDArray[np.float64], wavenumbers: npt.NDArray[np.float64])
 
 
 def _radiation(table: RadiationTable) -> xarray.Dataset:
-    dofs = dof_labels(table.dofs)
+    dofs = _capitalised(table.dofs)
     # Matrices are (force, motion); Capytaine puts the motion first.
     matrix = ("omega", "radiating_dof", "influenced_dof")
     force = ("omega", "wave", "wave_direction", "influenced_dof")
@@ -203,7 +209,7 @@ def _radiation(table: RadiationTable) -> xarray.Dataset:
     )
 
 
-def _response(table: ResponseTable, motions: tuple[str, ...]) -> xarray.Dataset:
+def _response(table: ResponseTable, motions: tuple[Dof, ...]) -> xarray.Dataset:
     """The response in the motions of the radiation analysis, and in shapes beyond them, which bend the deflection."""
     kept = [place for place, dof in enumerate(table.dofs) if dof in motions]
     direction = DIRECTIONS[0] if table.waves_from == "left" else DIRECTIONS[1]
@@ -218,7 +224,7 @@ def _response(table: ResponseTable, motions: tuple[str, ...]) -> xarray.Dataset:
     further = [place for place, dof in enumerate(table.dofs) if dof not in motions]
     places: dict[str, Any] = {}
     if further:
-        places["shape"] = dof_labels(table.dofs[place] for place in further)
+        places["shape"] = [table.dofs[place].capitalised for place in further]
         variables["shape_amplitude"] = (
             ("omega", "wave_direction", "wave", "shape"),
             table.amplitudes[:, None, :, further],
@@ -236,7 +242,7 @@ def _response(table: ResponseTable, motions: tuple[str, ...]) -> xarray.Dataset:
             "wave": list(table.waves),
             "outgoing_wave": list(table.waves),
             "wave_direction": [direction],
-            "radiating_dof": dof_labels(tuple(table.dofs[place] for place in kept)),
+            "radiating_dof": [table.dofs[place].capitalised for place in kept],
             **places,
         },
         variables | _waves(table.omega, table.wavenumbers),
@@ -246,10 +252,10 @@ def _response(table: ResponseTable, motions: tuple[str, ...]) -> xarray.Dataset:
 def _resonance(table: ResonanceTable) -> xarray.Dataset:
     along = ("resonance",)
     return _dataset(
-        {"resonance": np.arange(1, len(table.omega) + 1, dtype=np.int32), "dof": dof_labels(table.dofs)},
+        {"resonance": np.arange(1, len(table.omega) + 1, dtype=np.int32), "dof": _capitalised(table.dofs)},
         {
             "resonance_omega": (along, table.omega),
-            "resonance_motion": (along, np.array(dof_labels(table.labels), dtype=np.str_)),
+            "resonance_motion": (along, np.array(_capitalised(table.labels), dtype=np.str_)),
             "resonance_amplitude": (("resonance", "dof"), table.body_amplitudes),
             "resonance_residual": (along, table.residuals),
             "resonance_relative_error": (along, table.relative_error),
@@ -266,7 +272,7 @@ def _decay(table: DecayTable) -> xarray.Dataset:
     }
     if table.tail is not None:
         variables["decay_tail"] = ((), np.float64(table.tail))
-    return _dataset({"time": table.times, "dof": dof_labels(table.dofs)}, variables)
+    return _dataset({"time": table.times, "dof": _capitalised(table.dofs)}, variables)
 
 
 def _numbered(parts: list[xarray.Dataset]) -> list[xarray.Dataset]:
@@ -282,7 +288,7 @@ def _of_the_scene(scene: TankScene) -> dict[str, Any]:
         "g": scene.tank.gravity,
         "rho": lower.density,
         "water_depth": lower.depth,
-        "body_name": "+".join(f"body_{number}" for number in range(1, len(scene.body) + 1)),
+        "body_name": "+".join(body_name(number) for number in range(1, len(scene.body) + 1)),
     }
     if upper:
         found |= {"rho_above": upper[0].density, "depth_above": upper[0].depth}

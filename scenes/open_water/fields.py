@@ -29,7 +29,6 @@ from hydroelastic.fem.open_water.solver import OpenSolver
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.scenes.open_water.physics import open_water_problem
 from hydroelastic.scenes.open_water.results import OpenSolution
-from hydroelastic.scenes.open_water.tables import motion_name
 
 # Motions and resonances of one analysis that are shown.
 _MOST_FIELDS = 4
@@ -125,7 +124,7 @@ def _radiated(problem: _Problem, table: RadiationTable, number: int) -> Iterator
         bodies = np.linalg.inv(model.scale.turn)[:, own].astype(complex)
         yield OpenField(
             name=f"radiation_{number}_{dof.replace(' ', '_')}",
-            title=f"Radiation by {motion_name(dof)} at ω = {omega:.5g} rad/s{_why('damping is largest', table)}",
+            title=f"Radiation by {dof.words} at ω = {omega:.5g} rad/s{_why('damping is largest', table)}",
             amplitude=_unit_motion(model, own),
             model=model,
             squared=squared,
@@ -164,7 +163,7 @@ def _responding(problem: _Problem, table: ResponseTable, number: int) -> Iterato
 
 def _largest_response(solution: OpenSolution, table: ResponseTable) -> tuple[int, int]:
     """Places of the frequency and of the wave that move a body most, turns at a distance of half the drawn length."""
-    arms = np.array([0.5 * solution.scene.tank.length if dof.endswith("roll") else 1.0 for dof in table.dofs])
+    arms = np.array([0.5 * solution.scene.tank.length if dof.turns else 1.0 for dof in table.dofs])
     sizes = (np.abs(table.amplitudes) * arms).max(axis=2)
     row, wave = np.unravel_index(int(np.argmax(sizes)), sizes.shape)
     return int(row), int(wave)
@@ -194,7 +193,7 @@ def _resonant(problem: _Problem, table: ResonanceTable, number: int) -> Iterator
         unit = 1.0 / (model.scale.turn @ pair.bodies)[own]
         yield OpenField(
             name=f"resonance_{number}_{place + 1:03d}",
-            title=f"Resonance {place + 1}: ω = {omega.real:.5g} − {-omega.imag:.3g}i rad/s, {motion_name(label)}",
+            title=f"Resonance {place + 1}: ω = {omega.real:.5g} − {-omega.imag:.3g}i rad/s, {label.words}",
             amplitude=_unit_motion(model, own),
             model=model,
             squared=pair.eigenvalue,
@@ -226,4 +225,4 @@ def _metres(model: OpenModel, motion: int) -> float:
 
 def _unit_motion(model: OpenModel, motion: int) -> str:
     name = model.scale.dofs[motion]
-    return f"{motion_name(name)} of 1 {'rad' if name.endswith('roll') else 'm'}"
+    return f"{name.words} of 1 {'rad' if name.turns else 'm'}"

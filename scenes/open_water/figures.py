@@ -10,8 +10,8 @@ import numpy as np
 
 from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, ResonanceTable, ResponseTable
 from hydroelastic.fem.pictures.options import PictureOptions
+from hydroelastic.physics.dofs import Dof
 from hydroelastic.scenes.open_water.results import OpenSolution
-from hydroelastic.scenes.open_water.tables import motion_name
 from hydroelastic.scenes.output.curve_style import BLUE, COLOURS, GREY, Sheets, dress, plot_curve, sequence_colours
 
 if TYPE_CHECKING:
@@ -49,9 +49,9 @@ def draw_open(solution: OpenSolution, folder: Path, options: PictureOptions) -> 
         _draw_decay(decay, sheets, f"decay_{number}")
 
 
-def _by_unit(dofs: tuple[str, ...]) -> list[tuple[bool, list[int]]]:
+def _by_unit(dofs: tuple[Dof, ...]) -> list[tuple[bool, list[int]]]:
     """Places of the motions that are rotations, rad, and of the others, m; those first that come first."""
-    turns = [motion.endswith("roll") for motion in dofs]
+    turns = [motion.turns for motion in dofs]
     return [(kind, [place for place, turn in enumerate(turns) if turn == kind]) for kind in dict.fromkeys(turns)]
 
 
@@ -72,10 +72,8 @@ def _draw_radiation(table: RadiationTable, sheets: Sheets, name: str) -> None:
                 mass, damping = (
                     matrix[order, number, number] for matrix in (table.added_mass, table.radiation_damping)
                 )
-                plot_curve(
-                    left, omega, np.where(np.isfinite(mass), mass, np.nan), number, motion_name(table.dofs[number])
-                )
-                plot_curve(right, omega, damping, number, motion_name(table.dofs[number]))
+                plot_curve(left, omega, np.where(np.isfinite(mass), mass, np.nan), number, table.dofs[number].words)
+                plot_curve(right, omega, damping, number, table.dofs[number].words)
                 if far is not None:
                     left.axhline(
                         far[number, number], color=COLOURS[number % len(COLOURS)], linewidth=0.9, linestyle=":"
@@ -97,7 +95,7 @@ def _plot_forces(axes: Axes, table: RadiationTable, order: np.ndarray, places: l
         for incident, which in enumerate(_incident(table)):
             force = np.abs(table.excitation_force[order, incident, 0, number])
             place = number + incident * len(table.dofs)
-            plot_curve(axes, table.omega[order], force, place, motion_name(table.dofs[number]) + which)
+            plot_curve(axes, table.omega[order], force, place, table.dofs[number].words + which)
 
 
 def _draw_response(table: ResponseTable, sheets: Sheets, name: str) -> None:
@@ -116,7 +114,7 @@ def _draw_response(table: ResponseTable, sheets: Sheets, name: str) -> None:
             for motion in places:
                 for incident, which in enumerate(_incident(table)):
                     size = np.abs(table.amplitudes[order, incident, motion])
-                    plot_curve(axes, table.omega[order], size, number, motion_name(table.dofs[motion]) + which)
+                    plot_curve(axes, table.omega[order], size, number, table.dofs[motion].words + which)
                     number += 1
             dress(axes, _FREQUENCY, "size of rotation, rad/m" if turns else "size of motion, m/m")
             if len(largest) < len(table.dofs):
@@ -181,9 +179,9 @@ def _draw_resonances(table: ResonanceTable, sheets: Sheets, name: str) -> None:
         dress(axes, "Re ω, rad/s", "Im ω, 1/s: decay below 0", legend="")
 
 
-def _resonance_words(omega: complex, label: str) -> Iterator[str]:
+def _resonance_words(omega: complex, label: Dof) -> Iterator[str]:
     """Its motion, its place, its period and how fast it dies out."""
-    yield motion_name(label)
+    yield label.words
     yield f"{omega.real:.4g} {_signed(omega.imag)}i"
     if omega.real:
         yield f"period {2.0 * np.pi / omega.real:.4g} s"
@@ -203,12 +201,12 @@ def _draw_decay(table: DecayTable, sheets: Sheets, name: str) -> None:
     times, displacement = table.times[order], table.displacement[order]
     groups = [(turns, _moving(displacement, places, table)) for turns, places in _by_unit(table.dofs)]
     groups = [(turns, places) for turns, places in groups if places]
-    heading = f"free motion after release in {motion_name(table.dofs[released])}"
+    heading = f"free motion after release in {table.dofs[released].words}"
     with sheets.sheet(name, heading, width=6.0 * (1 + len(groups))) as figure:
         *panels, last = figure.subplots(1, 1 + len(groups))
         for axes, (turns, places) in zip(panels, groups, strict=True):
             for number in places:
-                plot_curve(axes, times, displacement[:, number], number, motion_name(table.dofs[number]))
+                plot_curve(axes, times, displacement[:, number], number, table.dofs[number].words)
             dress(axes, "time t, s", f"{'rotation, rad' if turns else 'displacement, m'}")
             steps = np.diff(times[times > 0.0])
             if len(steps) and steps.max() > _SPREAD * steps.min():
@@ -232,7 +230,7 @@ def _draw_tail(axes: Axes, table: DecayTable, released: int) -> None:
     if np.count_nonzero(motion) < 2:
         axes.set_axis_off()
         return
-    unit, name = "rad" if table.dofs[released].endswith("roll") else "m", motion_name(table.dofs[released])
+    unit, name = "rad" if table.dofs[released].turns else "m", table.dofs[released].words
     axes.loglog(times, motion, ".-", markersize=4, color=COLOURS[released % len(COLOURS)], label=f"|{name}|")
     axes.loglog(times, table.absolute_error[order], ":", color=GREY, label="estimated error")
     if table.tail is not None:

@@ -10,6 +10,7 @@ from math import ceil, degrees, inf, isfinite, pi
 import numpy as np
 
 from hydroelastic.fem.open_water.results import DecayTable, MissedPeak, RadiationTable, ResonanceTable, ResponseTable
+from hydroelastic.physics.dofs import Dof
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.estimates import endless_comparison, endless_words
 from hydroelastic.scenes.open_water.results import OpenSolution, region_words
@@ -95,7 +96,7 @@ def _radiation(table: RadiationTable) -> Iterator[Section]:
         f"{worst} {table.factorizations} factorizations.",
     )
     for place, motion in enumerate(table.dofs):
-        mass, force = ("kg·m", "N/m") if motion.endswith("roll") else ("kg/m", "N/m²")
+        mass, force = ("kg·m", "N/m") if motion.turns else ("kg/m", "N/m²")
         rows = []
         for row in shown:
             error = float(table.relative_error[row])
@@ -112,7 +113,7 @@ def _radiation(table: RadiationTable) -> Iterator[Section]:
         waves = [f" {wave}" if several else "" for wave in table.waves]
         last = place == len(table.dofs) - 1
         yield Section(
-            title=f"Radiation by {motion_name(motion)}",
+            title=f"Radiation by {motion.words}",
             headings=(
                 "ω, rad/s",
                 *(() if several else ("k, 1/m",)),
@@ -175,7 +176,7 @@ def _response(table: ResponseTable) -> Iterator[Section]:
         title=f"Motions in waves from the {table.waves_from}, per unit elevation",
         headings=(
             *headings,
-            *(f"{motion_name(motion)}, {'rad/m' if motion.endswith('roll') else 'm/m'}" for motion in motions),
+            *(f"{motion.words}, {'rad/m' if motion.turns else 'm/m'}" for motion in motions),
         ),
         rows=amplitudes,
         lines=(
@@ -189,7 +190,7 @@ def _response(table: ResponseTable) -> Iterator[Section]:
 def _missed(peak: MissedPeak) -> str:
     """A word about a peak that the curve does not show."""
     return (
-        f"NOT SHOWN: between {peak.below:.6g} and {peak.above:.6g} rad/s {motion_name(peak.quantity)} changes by more "
+        f"NOT SHOWN: between {peak.below:.6g} and {peak.above:.6g} rad/s {Dof(peak.quantity).words} changes by more "
         f"than the curve shows: {peak.value:.3g} at {peak.omega:.6g} rad/s, where the line between these has "
         f"{peak.drawn:.3g}. Ask for more frequencies there."
     )
@@ -203,7 +204,7 @@ def _resonance(table: ResonanceTable) -> Section:
         rows.append(
             (
                 str(place),
-                motion_name(label),
+                label.words,
                 _certain(omega.real, float(error)),
                 _certain(omega.imag, float(error) * abs(omega) / abs(omega.imag) if omega.imag else 1.0),
                 f"{2.0 * pi / omega.real:.6g}" if omega.real else "–",
@@ -244,7 +245,7 @@ def _decay(table: DecayTable) -> Section:
         )
         for row in shown
     ]
-    units = ["rad" if motion.endswith("roll") else "m" for motion in dofs]
+    units = ["rad" if motion.turns else "m" for motion in dofs]
     tail = (
         ()
         if table.tail is None
@@ -254,7 +255,7 @@ def _decay(table: DecayTable) -> Section:
         title="Motion after release",
         headings=(
             "t, s",
-            *(f"{motion_name(motion)}, {unit}" for motion, unit in zip(dofs, units, strict=True)),
+            *(f"{motion.words}, {unit}" for motion, unit in zip(dofs, units, strict=True)),
             f"error, {' or '.join(sorted(set(units)))}",
         ),
         rows=rows,
@@ -265,11 +266,6 @@ def _decay(table: DecayTable) -> Section:
             f"The estimated errors hold up to the last time, t = {table.certified_until:.6g} s.",
         ),
     )
-
-
-def motion_name(dof: str) -> str:
-    """Return a motion as a person reads it: "body 2 heave" for "body_2__heave"."""
-    return dof.replace("__", " ").replace("_", " ")
 
 
 def _shown(count: int, what: str, file: str, places: int = MOST_ROWS) -> tuple[list[int], tuple[str, ...]]:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from math import hypot, inf
 from typing import TypeAlias
 
-from hydroelastic.scenes.open_water.tables import motion_name
+from hydroelastic.physics.dofs import Dof
 from hydroelastic.scenes.output.digits import with_certain_digits
 from hydroelastic.scenes.output.provenance import Summary
 from hydroelastic.scenes.output.sections import Row, Section
@@ -89,23 +89,20 @@ def _open_water(summary: Summary) -> Iterator[Row]:
         # At late times next to nothing is left: how far it swings to the other side says more.
         sign = -1.0 if table["initial"][released] > 0.0 else 1.0
         back = max(range(len(table["times"])), key=lambda place: sign * table["displacement"][place][released])
-        motion, unit = motion_name(table["dofs"][released]), _unit(table["dofs"][released], "rad", "m")
-        name = f"{motion} furthest to the other side after release, at t = {table['times'][back]:.4g} s, {unit}"
+        motion = Dof(table["dofs"][released])
+        name = f"{motion.words} furthest to the other side after release, at t = {table['times'][back]:.4g} s"
+        name += ", rad" if motion.turns else ", m"
         yield _of_absolute(name, table["displacement"][back][released], table["absolute_error"][back])
 
 
 def _largest_damping(table: Summary) -> Iterator[Row]:
     """Of each motion of a rigid body, at finite frequencies."""
     finite = [place for place, omega in enumerate(table["omega"]) if omega != "inf"]
-    for motion, dof in enumerate(table["dofs"][:_MOST_MODES] if finite else ()):
+    for motion, dof in enumerate(map(Dof, table["dofs"][:_MOST_MODES] if finite else ())):
         damping = [table["radiation_damping"][place][motion][motion] or -inf for place in finite]
         place = finite[damping.index(max(damping))]
-        quantity = f"largest radiation damping of {motion_name(dof)}, at ω = {table['omega'][place]:.4g} rad/s"
-        yield _row(f"{quantity}, {_unit(dof, 'kg·m/s', 'kg/m/s')}", max(damping), table["relative_error"][place])
-
-
-def _unit(dof: str, of_rotation: str, of_displacement: str) -> str:
-    return of_rotation if dof.endswith("roll") else of_displacement
+        quantity = f"largest radiation damping of {dof.words}, at ω = {table['omega'][place]:.4g} rad/s"
+        yield _row(f"{quantity}, {'kg·m/s' if dof.turns else 'kg/m/s'}", max(damping), table["relative_error"][place])
 
 
 def _string(summary: Summary) -> Iterator[Row]:

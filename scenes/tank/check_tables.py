@@ -261,7 +261,7 @@ def _beam_groups(scene: TankScene, index: int, beam: AnyBeam) -> Iterator[tuple[
 
 def _float_groups(scene: TankScene, index: int, body: Float) -> Iterator[tuple[str, float, str]]:
     placed = placed_float(scene, index)
-    left, right, low, high = placed.contour.bounds
+    left, right, low, high = placed.hull.bounds
     below, _ = scene.densities_at(scene.level_of(body))
     of_float = f"float {index + 1}: "
     if body.half_width is not None and body.half_height is not None:
@@ -303,7 +303,7 @@ def hydrostatics_table(scene: TankScene) -> Section:
 def _rest(scene: TankScene, index: int, body: Float) -> dict[str, str]:
     placed = placed_float(scene, index)
     rest = placed.hydrostatics
-    _, _, low, high = placed.contour.bounds
+    _, _, low, high = placed.hull.bounds
     left, right = rest.waterplane
     displaced = [
         density * area for density, area in zip(scene.densities_at(scene.level_of(body)), rest.areas, strict=True)

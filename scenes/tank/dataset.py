@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.linalg import block_diag
 
+from hydroelastic.physics.dofs import Dof, body_name, dof_names
 from hydroelastic.physics.motions import MOTIONS
-from hydroelastic.scenes.output.dof_labels import INERTIA_UNITS, MOTION_UNITS, STIFFNESS_UNITS, any_turns, dof_labels
+from hydroelastic.scenes.output.dof_units import INERTIA_UNITS, MOTION_UNITS, STIFFNESS_UNITS
 from hydroelastic.scenes.output.summary_variables import SummaryNames
 
 if TYPE_CHECKING:
@@ -80,18 +81,18 @@ def _modes(solution: TankSolution, shapes: ModeShapes, modes: slice, dimension: 
     for name, curves in zip(names, zip(*shapes.curves[modes], strict=True), strict=True):
         found = found.merge(_curve(name, curves, dimension, prefix))
     for index, sections in zip(solution.tank.floats, zip(*shapes.floats[modes], strict=True), strict=True):
-        found = found.merge(_section(f"body_{index + 1}", sections, dimension, prefix))
+        found = found.merge(_section(body_name(index + 1), sections, dimension, prefix))
     if solution.tank.floats:
-        dofs = _dofs(solution)
+        dofs = [dof.capitalised for dof in _dofs(solution)]
         amplitudes = np.array([np.concatenate(motions) for motions in shapes.motions[modes]])
-        said = {"long_name": "motion of the floats", "units": MOTION_UNITS[any_turns(dofs)]}
+        said = {"long_name": "motion of the floats", "units": MOTION_UNITS[any(dof.turns for dof in _dofs(solution))]}
         found = found.assign({f"{prefix}motion": ((dimension, "dof"), amplitudes, said)}).assign_coords(dof=dofs)
     return found
 
 
 def _curve_names(solution: TankSolution, curves: tuple[SurfaceCurve, ...]) -> list[str]:
     """Beams, which come first, by their numbers among the bodies; pieces of a level counted from the left."""
-    names, counts = [f"body_{index + 1}" for index in solution.tank.beams], Counter[str]()
+    names, counts = [body_name(index + 1) for index in solution.tank.beams], Counter[str]()
     for curve in curves[len(names) :]:
         counts[curve.kind] += 1
         names.append(f"{curve.kind}_{counts[curve.kind]}")
@@ -137,14 +138,10 @@ def _section(name: str, sections: tuple[FloatSection, ...], dimension: str, pref
     )
 
 
-def _dofs(solution: TankSolution) -> list[str]:
-    """Motions of all floats, with the body in front where there are several bodies."""
-    several = len(solution.tank.bodies) > 1
-    return dof_labels(
-        f"body_{index + 1}__{motion}" if several else motion
-        for index, body in solution.tank.floats.items()
-        for motion in body.motions
-    )
+def _dofs(solution: TankSolution) -> tuple[Dof, ...]:
+    """Motions of all floats."""
+    floats = solution.tank.floats
+    return dof_names(floats[index].motions if index in floats else () for index in range(len(solution.tank.bodies)))
 
 
 def _matrices(solution: TankSolution) -> xarray.Dataset:
@@ -154,7 +151,7 @@ def _matrices(solution: TankSolution) -> xarray.Dataset:
     floats, units = solution.tank.floats.values(), solution.units
     if not floats:
         return xarray.Dataset()
-    dofs = _dofs(solution)
+    dofs = [dof.capitalised for dof in _dofs(solution)]
     turns = np.concatenate([body.turns for body in floats])
     masses = units.density * units.length ** (2.0 + turns[:, None] + turns)
     places = [[MOTIONS.index(motion) for motion in body.motions] for body in floats]
@@ -177,7 +174,7 @@ def _matrices(solution: TankSolution) -> xarray.Dataset:
     rows = ("influenced_dof", "radiating_dof")
     return xarray.Dataset(
         {
-            name: (rows, matrix, {"units": units_of[any_turns(dofs)], "long_name": said})
+            name: (rows, matrix, {"units": units_of[bool(turns.any())], "long_name": said})
             for name, (matrix, units_of, said) in matrices.items()
         },
         {"influenced_dof": dofs, "radiating_dof": dofs},

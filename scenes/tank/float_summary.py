@@ -34,7 +34,7 @@ def _float_row(solution: TankSolution, index: int, estimates: EstimatesOfFloat |
     return {
         "body": index + 1,
         "motions": list(body.motions),
-        "boundary": "thin" if body.is_thin else "exact",
+        "boundary": "thin" if body.hull.is_thin else "exact",
         "mass": rest.mass,
         "moment_of_inertia": rest.mass * rest.radius_of_gyration**2,
         "centre_of_mass": list(rest.centre_of_mass),

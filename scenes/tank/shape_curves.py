@@ -141,13 +141,13 @@ def _displaced_float(body: RigidFloat, amplitudes: Array) -> tuple[FloatSection,
 
     The contour's points say nothing of the sign: by roll, some rise as far as others sink.
     """
-    contour = contour_points(body.contour)
+    contour = contour_points(body.hull.contour)
     moved = [
         amplitude * body.displacement(motion, contour.T)
         for motion, amplitude in zip(body.motions, amplitudes, strict=True)
     ]
     sizes = np.array([np.hypot(*part).max() for part in moved]) * np.sign(amplitudes)
-    slit = None if not body.is_thin else np.array([[body.waterplane[0], y] for y in body.slit])
+    slit = np.array([[body.waterplane[0], y] for y in body.hull.slit]) if body.hull.is_thin else None
     displacement = np.sum(moved, axis=0).T
     section = FloatSection(contour=contour, displacement=displacement, waterplane=body.waterplane, slit=slit)
     return section, largest_of(sizes)

@@ -11,6 +11,7 @@ from hydroelastic.fem.tank.solve import TankSolution, ToneSolution
 from hydroelastic.modal.beam.beam_shapes import first_dry_eigenvalue
 from hydroelastic.modal.estimate import Estimate
 from hydroelastic.modal.tank_estimates import exact_frequencies
+from hydroelastic.physics.dofs import FIRST_ELASTIC
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.output.provenance import Summary, memory_of_processes, versions
 from hydroelastic.scenes.tank.differences import difference
@@ -116,7 +117,7 @@ def _tone(solution: TankSolution, tone: ToneSolution) -> dict[str, Any]:
     beam = solution.tank.beams[body]
     # Dry mode 1 of the body, in units of the tank: EI κ⁴ l, (EI κ⁴ + s) l and m l.
     shapes = solution.field.bodies[body]
-    first = shapes.labels.index("elastic 1")
+    first = shapes.dofs.index(FIRST_ELASTIC)
     found = {
         "body": body + 1,
         "dry_omega": solution.omega(first_dry_eigenvalue(beam)),

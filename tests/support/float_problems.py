@@ -8,7 +8,9 @@ from layered_tanks import PlainProblem, layered, rigid
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.shape_loads import shape_loads
 from hydroelastic.fem.surfaces import Body
+from hydroelastic.physics.dofs import Dof
 from hydroelastic.physics.motions import MOTIONS
+from hydroelastic.physics.symmetry import motion_parity
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
 
@@ -55,7 +57,9 @@ def raw_problem(scene: TankScene, pencil: CoupledPencil) -> PlainProblem:
         surface=pencil.bodies[0].surface,
         shapes=lambda points, normals, n: (floating.displacement(MOTIONS[n], points) * normals).sum(axis=0),
         wavenumber=0.0,
-        labels=MOTIONS,
+        dofs=tuple(map(Dof, MOTIONS)),
+        parities=tuple(map(motion_parity, MOTIONS)),
+        motions=np.eye(count),
         stiffness=np.zeros(count),
         bending_stiffness=np.zeros(count),
         mass=np.zeros((count, count)),

@@ -14,6 +14,7 @@ from hydroelastic.fem.open_water.results import (
     ResonanceTable,
     ResponseTable,
 )
+from hydroelastic.physics.dofs import Dof, dof_names
 from hydroelastic.scenes.models.bodies import Beam
 from hydroelastic.scenes.models.open_analyses import Decay, Radiation, Resonance, Response
 from hydroelastic.scenes.models.tank import TankScene
@@ -69,14 +70,13 @@ def arbitrary_solution(scene: TankScene, *, reasons: tuple[str, ...] = ()) -> Op
     )
 
 
-def dofs_of(scene: TankScene, elastic_modes: int = 2) -> tuple[str, ...]:
+def dofs_of(scene: TankScene, elastic_modes: int = 2) -> tuple[Dof, ...]:
     """Return the motions of all bodies, with the body in front where there are several."""
     named = []
-    for number, body in enumerate(scene.body, 1):
+    for body in scene.body:
         elastic = [f"elastic {shape}" for shape in range(1, elastic_modes + 1)]
-        motions = ["heave", "pitch", *elastic] if isinstance(body, Beam) else list(body.motions)
-        named += [f"body_{number}__{motion}" if len(scene.body) > 1 else motion for motion in motions]
-    return tuple(named)
+        named.append(["heave", "pitch", *elastic] if isinstance(body, Beam) else body.motions)
+    return dof_names(named)
 
 
 def _waves(scene: TankScene) -> tuple[str, ...]:

@@ -1,0 +1,97 @@
+"""Degrees of freedom of bodies: their names, and what follows from these."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+_BODY, _JOINT = "body_", "__"
+
+
+class Dof(str):
+    """A degree of freedom by its name, as Capytaine's but for the capital.
+
+    "heave", "sway", "roll" and "pitch" are rigid motions, "hinge 1" … turn a beam about its hinges, "elastic 1" … are
+    its dry modes. Where several bodies move, the number of the body is in front: "body_2__elastic 1".
+    """
+
+    __slots__ = ()
+
+    @classmethod
+    def elastic(cls, number: int) -> Dof:
+        """An elastic dry mode, counted from 1."""
+        return cls(f"elastic {number}")
+
+    @classmethod
+    def hinge(cls, number: int) -> Dof:
+        """The rigid motion of a beam about one of its hinges, counted from 1."""
+        return cls(f"hinge {number}")
+
+    def of_body(self, number: int) -> Dof:
+        """The same of one of several bodies, counted from 1."""
+        return Dof(f"{body_name(number)}{_JOINT}{self}")
+
+    @property
+    def body(self) -> int | None:
+        """Number of the body, from 1; ``None`` where there is one body only."""
+        return body_number(self.partition(_JOINT)[0]) if _JOINT in self else None
+
+    @property
+    def motion(self) -> Dof:
+        """The name without the body."""
+        return Dof(self.rpartition(_JOINT)[2])
+
+    @property
+    def kind(self) -> str:
+        """What it is, whatever its number: "heave", "elastic" …"""
+        return self.motion.split()[0]
+
+    @property
+    def is_elastic(self) -> bool:
+        """Whether it bends the body."""
+        return self.kind == "elastic"
+
+    @property
+    def turns(self) -> bool:
+        """Whether it is an angle, rad, and not a length, m: the pitch of a beam is the deflection of its ends."""
+        return self.kind == "roll"
+
+    @property
+    def capitalised(self) -> str:
+        """The name as in Capytaine's datasets: "body_2__Heave"."""
+        motion = self.motion
+        return self.removesuffix(motion) + motion[:1].upper() + motion[1:]
+
+    @property
+    def words(self) -> str:
+        """The name as a person reads it: "body 2 heave"."""
+        return self.replace(_JOINT, " ").replace("_", " ")
+
+
+FIRST_ELASTIC = Dof.elastic(1)
+"""The lowest elastic dry mode."""
+
+
+def dof_names(motions: Iterable[Iterable[str]]) -> tuple[Dof, ...]:
+    """The degrees of freedom of some bodies, with the number of the body in front where there are several.
+
+    Args:
+        motions: those of each body, in the scene's order; empty for a body that does not move.
+    """
+    bodies = [tuple(map(Dof, own)) for own in motions]
+    return tuple(dof.of_body(number) if len(bodies) > 1 else dof for number, own in enumerate(bodies, 1) for dof in own)
+
+
+def beam_dofs(rigid: tuple[str, ...], hinges: int, count: int) -> tuple[Dof, ...]:
+    """The first shapes of a beam: rigid ones, one for each hinge, then elastic ones."""
+    first = [*map(Dof, rigid), *(Dof.hinge(number + 1) for number in range(hinges))]
+    return (*first, *(Dof.elastic(number + 1) for number in range(count - len(first))))[:count]
+
+
+def body_name(number: int) -> str:
+    """Name of a body, counted from 1 in the scene's order, and of its wetted surface in meshes."""
+    return f"{_BODY}{number}"
+
+
+def body_number(name: str) -> int | None:
+    """Number of the body with a name, from 1; ``None`` if it is no body's."""
+    return int(name.removeprefix(_BODY)) if name.startswith(_BODY) else None

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import cache
 from itertools import count
 from math import ceil
 
@@ -173,25 +174,23 @@ def solve_tank(
         first = replace(first, tip_size=None)
     half = halves and user_mesh is None and is_mirror_image(tank)
     workable = workable_tolerance(tolerance, tank.depth)
-    limit = infinite_frequency_limit(
-        comm,
-        tank,
-        infinite_frequency_resolution(tank, workable, tones) if user_mesh is None else first,
-        workable,
-        watch,
-        half=half,
-        user_mesh=user_mesh,
-        report=report,
-    )
     attempts = count(1)
+
+    @cache
+    def limit() -> InfiniteFrequencyLimit:
+        coarsest = infinite_frequency_resolution(tank, workable, tones) if user_mesh is None else first
+        return infinite_frequency_limit(
+            comm, tank, coarsest, workable, watch, half=half, user_mesh=user_mesh, report=report
+        )
 
     def solve(resolution: Resolution) -> TankSolution:
         attempt = next(attempts)
         report(f"attempt {attempt}: degree {resolution.degree}, {resolution.modes} modes")
         with watch.stage("mesh"):
             own_mesh = user_mesh or build_mesh(comm, tank, resolution, half=half)
+        beside = limit()
         field = solve_field(own_mesh, tank, resolution, resolution.modes + 1, watch, half=half)
-        return _judged(physical, tank, (tolerance, modes), resolution, field, limit, watch, attempt)
+        return _judged(physical, tank, (tolerance, modes), resolution, field, beside, watch, attempt)
 
     found = adaptive_solve(
         first,

@@ -34,8 +34,8 @@ against exact ones, *seconds* the median of the rounds with the distance of thei
   give no estimate, no count and no such tone: their error is known here because the exact frequencies are.
 - The **lower bound** is one sparse factorization of hydroelastic's own matrix by the fastest library at hand, and the
   products and solutions of as many Lanczos steps as the ten eigenvalues need. Mesh, assembly, pressure-release tone,
-  estimate, count and the rest of the iteration are free in it. It is a bound for these matrices, not for all: those of the peers
-  are smaller at high degrees, where unknowns inside of elements are condensed.
+  estimate, count and the rest of the iteration are free in it. It is a bound for these matrices, not for all: those of
+  the peers are smaller at high degrees, where unknowns inside of elements are condensed.
 """
 
 

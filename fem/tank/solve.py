@@ -170,7 +170,9 @@ def solve_tank(
     user_mesh: TankMesh | None = None
     if comm.bcast(mesh is not None, root=0):
         with watch.stage("mesh"):
-            user_mesh = distributed_user_mesh(comm, tank, mesh.scaled(1.0 / physical.length) if mesh else None)
+            user_mesh = distributed_user_mesh(
+                comm, tank, mesh.scaled(1.0 / physical.length) if mesh is not None else None
+            )
         first = replace(first, tip_size=None)
     half = halves and user_mesh is None and is_mirror_image(tank)
     workable = workable_tolerance(tolerance, tank.depth)

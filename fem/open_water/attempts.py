@@ -10,7 +10,7 @@ from hydroelastic.fem.open_water.basin import open_basin
 from hydroelastic.fem.open_water.field_model import Band, first_resolution
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.tank.attempts import Attempt, best_attempt
-from hydroelastic.fem.tank.resolution import Resolution, sharpest_exponent, workable_tolerance
+from hydroelastic.fem.tank.resolution import Resolution
 from hydroelastic.physics.tank import Tank
 
 Result = TypeVar("Result")
@@ -41,13 +41,7 @@ def best_in_basin(
         hand_back_memory()
         return attempt
 
-    return best_attempt(
-        solved,
-        first,
-        workable_tolerance(tolerance, tank.depth),
-        exponent=sharpest_exponent(tank, infinite_frequency=infinite_frequency),
-        rounds=_MOST_ATTEMPTS,
-    )
+    return best_attempt(tank, tolerance, solved, first, rounds=_MOST_ATTEMPTS, infinite_frequency=infinite_frequency)
 
 
 def best_over_band(

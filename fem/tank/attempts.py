@@ -8,7 +8,8 @@ from typing import Generic, TypeVar
 
 from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors, refined
-from hydroelastic.fem.tank.resolution import Resolution
+from hydroelastic.fem.tank.resolution import Resolution, sharpest_exponent, workable_tolerance
+from hydroelastic.physics.tank import Tank
 
 Result = TypeVar("Result")
 
@@ -36,24 +37,28 @@ class Attempt(Generic[Result]):
 
 
 def best_attempt(
+    tank: Tank,
+    tolerance: float,
     solve: Callable[[Resolution], Attempt[Result]],
     first: Resolution,
-    tolerance: float,
     *,
-    exponent: float,
     rounds: int,
+    infinite_frequency: bool = False,
     remesh: bool = True,
 ) -> Attempt[Result]:
     """Return the first attempt whose error is below a tolerance, or the best of a few (collective).
 
     Args:
+        tank: the scene.
+        tolerance: asked relative error; what double precision can keep of it is worked towards.
         solve: solves at a resolution.
         first: resolution of the first attempt.
-        tolerance: largest relative error that is accepted.
-        exponent: α of ψ ~ r^α at the sharpest tips.
         rounds: largest number of attempts.
+        infinite_frequency: whether it is the infinite-frequency limit.
         remesh: whether meshes may be made anew; that of the user may not.
     """
+    tolerance = workable_tolerance(tolerance, tank.depth)
+    exponent = sharpest_exponent(tank, infinite_frequency=infinite_frequency)
 
     def finer(resolution: Resolution, attempt: Attempt[Result]) -> Resolution | None:
         # What is missing beside small errors no finer model brings.
@@ -61,11 +66,7 @@ def best_attempt(
             return None
         return refined(resolution, attempt.causes, tolerance, exponent=exponent, remesh=remesh)
 
-    return adaptive_solve(
-        first,
-        solve,
-        lambda attempt: ErrorEstimate(discretization=attempt.error, missing=attempt.missing),
-        finer,
-        tolerance,
-        rounds=rounds,
-    ).solution
+    def estimate(attempt: Attempt[Result]) -> ErrorEstimate:
+        return ErrorEstimate(discretization=attempt.error, missing=attempt.missing)
+
+    return adaptive_solve(first, solve, estimate, finer, tolerance, rounds=rounds).solution

@@ -30,7 +30,7 @@ from hydroelastic.fem.tank.error_estimates import (
 )
 from hydroelastic.fem.tank.field_model import build_mesh, whole_bodies
 from hydroelastic.fem.tank.field_solution import FieldSolution, PartPencils, extension, part_models, solve_parts
-from hydroelastic.fem.tank.resolution import Resolution, sharpest_exponent
+from hydroelastic.fem.tank.resolution import Resolution
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.physics.symmetry import Parity
 from hydroelastic.physics.tank import Tank
@@ -151,13 +151,9 @@ def infinite_frequency_limit(
             result=limit, causes=joined_errors(causes), resolution=resolution, missing=limit.tones.count(None)
         )
 
+    remesh = user_mesh is None
     return best_attempt(
-        solve,
-        first,
-        tolerance,
-        exponent=sharpest_exponent(tank, infinite_frequency=True),
-        rounds=_MOST_ATTEMPTS,
-        remesh=user_mesh is None,
+        tank, tolerance, solve, first, rounds=_MOST_ATTEMPTS, infinite_frequency=True, remesh=remesh
     ).result
 
 

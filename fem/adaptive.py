@@ -65,7 +65,7 @@ def adaptive_solve(
     least_gain: float = 0.0,
     failures: tuple[type[Exception], ...] = (),
 ) -> AdaptiveSolution[Solution]:
-    """Solve on finer and finer discretizations until the estimated error is within a tolerance; else keep the best.
+    """Solve on successively refined discretizations until the error is within a tolerance, or keep the best solution.
 
     Args:
         start: the first discretization: a mesh, a degree, a step in time.

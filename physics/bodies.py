@@ -1,4 +1,4 @@
-"""What liquids, solvers, tables and checks ask of any body that floats in a tank."""
+"""The interface of floating bodies."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class Body(ABC):
     """A body at rest, per metre of width; in SI units, or in those of a scaled tank.
 
     Attributes:
-        is_elastic: whether it bends.
+        is_elastic: whether it is flexible.
         level: at which it floats.
         hull: its contour in the liquids; ``None`` of a body without draught.
     """
@@ -36,16 +36,16 @@ class Body(ABC):
     @property
     @abstractmethod
     def rigid_motions(self) -> tuple[Dof, ...]:
-        """In what ways it may move without bending."""
+        """Its rigid motions."""
 
     @abstractmethod
-    def loose_motions(self) -> Iterator[tuple[Dof, bool]]:
-        """The rigid motions that cost no energy, and whether each displaces volume on the whole."""
+    def zero_stiffness_motions(self) -> Iterator[tuple[Dof, bool]]:
+        """The rigid motions without stiffness, and whether each displaces a net volume."""
 
     @property
     @abstractmethod
     def displaces_volume(self) -> bool:
-        """Whether one of its motions displaces volume on the whole."""
+        """Whether one of its motions displaces a net volume."""
 
     @abstractmethod
     def moved(self, shift: float) -> Self:
@@ -56,8 +56,8 @@ class Body(ABC):
         """Return the body in other units, between given ends of its waterplane in these units."""
 
     @abstractmethod
-    def mirrors(self, other: object) -> bool:
-        """Whether it is the mirror image of another body, wherever both float, but for rounding."""
+    def is_mirror_image_of(self, other: object) -> bool:
+        """Whether it is the mirror image of another body up to rounding, wherever both float."""
 
     @property
     def nodes(self) -> dict[float, float]:

@@ -1,4 +1,4 @@
-"""A rigid float at rest: its hull, its inertia and what restores it, in metres or in units of its tank."""
+"""A rigid float at rest: its hull, inertia and hydrostatic stiffness, in metres or in units of its tank."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ class RigidFloat(Body):
 
     Attributes:
         hull: its contour in the liquids.
-        hydrostatics: where it floats, its inertia and what restores it.
+        hydrostatics: where it floats, its inertia and stiffness.
         level: at which it floats.
-        motions: in what ways it may move, in the order of `MOTIONS`.
+        motions: its free motions, in the order of `MOTIONS`.
     """
 
     hull: Hull = field()
@@ -39,13 +39,13 @@ class RigidFloat(Body):
 
     @property
     def rigid_motions(self) -> tuple[Dof, ...]:
-        """In what ways it may move."""
+        """Its free motions."""
         return tuple(map(Dof, self.motions))
 
-    def loose_motions(self) -> Iterator[tuple[Dof, bool]]:
-        """A float sways at no cost, and rolls so if it is neutral.
+    def zero_stiffness_motions(self) -> Iterator[tuple[Dof, bool]]:
+        """A float sways without energy, and rolls without energy if its roll stiffness is zero.
 
-        Where it may heave, heave follows the roll so that the force on it, and the volume it displaces, is zero.
+        With free heave, the heave in this roll makes the heave force, and the displaced volume, zero.
         """
         if "sway" in self.motions:
             yield Dof("sway"), False
@@ -54,7 +54,7 @@ class RigidFloat(Body):
 
     @property
     def displaces_volume(self) -> bool:
-        """Whether one of its motions displaces volume on the whole."""
+        """Whether one of its motions displaces a net volume."""
         return "heave" in self.motions or ("roll" in self.motions and self.hydrostatics.coupling_stiffness != 0.0)
 
     def moved(self, shift: float) -> RigidFloat:
@@ -66,8 +66,8 @@ class RigidFloat(Body):
         hull = self.hull.scaled(units.length, start, end)
         return replace(self, hull=hull, hydrostatics=self.hydrostatics.scaled(units))
 
-    def mirrors(self, other: object) -> bool:
-        """Whether it is the mirror image of another body, wherever both float, but for rounding."""
+    def is_mirror_image_of(self, other: object) -> bool:
+        """Whether it is the mirror image of another body up to rounding, wherever both float."""
         hull, rest = self.hull, self.hydrostatics
         return (
             isinstance(other, RigidFloat)
@@ -91,12 +91,12 @@ class RigidFloat(Body):
 
     @property
     def roll_stiffness(self) -> float:
-        """Stiffness of the roll: heave, where it may, follows so that no force acts on it."""
+        """Stiffness of roll, N; with free heave that of a roll without heave force."""
         rest = self.hydrostatics
         return rest.free_roll_stiffness if "heave" in self.motions else rest.roll_stiffness
 
     @property
-    def turns(self) -> NDArray[np.float64]:
+    def is_rotation(self) -> NDArray[np.float64]:
         """1 of a motion that is an angle, 0 of one that is a length, shape (motions,)."""
         return np.array([float(motion == "roll") for motion in self.motions])
 

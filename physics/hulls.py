@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from hydroelastic.physics.contours import Arc, Contour
 from hydroelastic.physics.profiles import Profile
 
-# Contours that decimal input means to be mirror images differ by a few units of the last place.
+# Contours that are mirror images in decimal input differ by a few units of the last place.
 _ROUNDING = 1e-12
 
 
@@ -22,7 +22,7 @@ class Hull:
     Attributes:
         contour: of the section.
         profile: its half width about the reference level; of a symmetric section.
-        is_thin: whether its conditions are put on its middle line.
+        is_thin: whether its boundary conditions are imposed on its middle line.
         height: ordinate of the still level.
         reference_level: ordinate of the shape's reference level.
         wet_above: whether there is liquid above the still level.
@@ -97,7 +97,7 @@ class Hull:
 
     @property
     def smallest_extent(self) -> float:
-        """The smaller of its width and of what it reaches into a liquid."""
+        """The smaller of its width and of its largest draught in a liquid."""
         left, right, low, high = self.bounds
         reaches = [self.height - low, *([high - self.height] if self.wet_above else [])]
         return min(right - left, *reaches)
@@ -121,17 +121,17 @@ class Hull:
 
     @property
     def rounding(self) -> float:
-        """Lengths below this are rounding beside it."""
+        """Lengths below this are rounding."""
         low_x, high_x, low_y, high_y = self.bounds
         return _ROUNDING * max(high_x - low_x, high_y - low_y)
 
     def is_copy_of(self, other: Hull) -> bool:
-        """Whether it has the shape and the draught of another one, wherever both are, but for rounding."""
+        """Whether it has the shape and draught of another one up to rounding, wherever both lie."""
         points, others = (hull._samples - [hull.waterplane[0], 0.0] for hull in (self, other))
         same = self.is_thin == other.is_thin and points.shape == others.shape
         return same and bool(np.abs(points - others).max() <= self.rounding)
 
     @property
     def _samples(self) -> NDArray[np.float64]:
-        """A few points of each arc, shape (points, 2): enough to tell shapes apart."""
+        """A few points of each arc, shape (points, 2), by which shapes are compared."""
         return np.vstack([arc.point(np.linspace(0.0, 1.0, 5)) for arc in self.contour.arcs])

@@ -1,4 +1,4 @@
-"""Rigid motions of the bodies of a tank: which cost no energy, which the volume of the liquids forbids."""
+"""Rigid motions of the bodies of a tank: those without stiffness, and those that conservation of volume excludes."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from hydroelastic.physics.tank import Tank
 
 
 @dataclass(frozen=True, kw_only=True)
-class LooseMotion:
+class ZeroStiffnessMotion:
     """A rigid motion without stiffness.
 
     Attributes:
         body: index among the bodies.
-        name: what it is.
+        name: name of the motion.
         level: where the body floats.
-        displaces: whether it displaces volume on the whole, which must then go elsewhere.
+        displaces: whether it displaces a net volume, which another part of the level must take up.
     """
 
     body: int
@@ -26,22 +26,22 @@ class LooseMotion:
     displaces: bool
 
 
-def loose_motions(tank: Tank) -> tuple[LooseMotion, ...]:
-    """Return the motions that cost no energy, each of them alone."""
+def zero_stiffness_motions(tank: Tank) -> tuple[ZeroStiffnessMotion, ...]:
+    """Return the motions without stiffness, each by itself."""
     return tuple(
-        LooseMotion(body=index, name=motion, level=body.level, displaces=displaces)
+        ZeroStiffnessMotion(body=index, name=motion, level=body.level, displaces=displaces)
         for index, body in enumerate(tank.bodies)
-        for motion, displaces in body.loose_motions()
+        for motion, displaces in body.zero_stiffness_motions()
     )
 
 
 def zero_mode_count(tank: Tank) -> int:
-    """Return how many motions have neither stiffness nor, by the volume of the liquids, a constraint.
+    """Return the number of motions that have no stiffness and are not excluded by conservation of volume.
 
-    Two liquids each keep their volume, so that what displaces it at one level takes turns with all else there. At the
-    top it is not kept where ψ = 0.
+    Each of two liquids keeps its volume, so that motions that displace volume at one level are constrained together. At
+    a top with ψ = 0 the volume is not conserved.
     """
-    loose = loose_motions(tank)
+    loose = zero_stiffness_motions(tank)
     held = {motion.level for motion in loose if motion.displaces}
     if _volume_is_free(tank):
         held -= {"surface"}
@@ -49,8 +49,8 @@ def zero_mode_count(tank: Tank) -> int:
 
 
 def mode_count(tank: Tank) -> int | None:
-    """Return how many modes oscillate where nothing but rigid bodies can, else None: as many as one asks for."""
-    if any(body.is_elastic for body in tank.bodies) or len(tank.layers) > 1 or tank.top == "free":
+    """Return the number of oscillating modes where only rigid bodies move, else None (unlimited)."""
+    if tank.elastic or len(tank.layers) > 1 or tank.top == "free":
         return None
     motions = sum(len(body.rigid_motions) for body in tank.bodies)
     displaced = any(body.displaces_volume for body in tank.bodies)
@@ -62,8 +62,8 @@ def _volume_is_free(tank: Tank) -> bool:
     return tank.top == "pressure_release" and tank.levels[-1].is_open
 
 
-def heave_is_held(tank: Tank, index: int) -> bool:
-    """Return whether a body can displace no liquid: nothing else at its level could give way."""
+def heave_is_excluded(tank: Tank, index: int) -> bool:
+    """Return whether conservation of volume excludes a body's heave: nothing else at its level moves."""
     level = tank.level_of(index)
     if any(piece.body not in (None, index) for piece in level.pieces):
         return False

@@ -1,4 +1,4 @@
-"""A tank, or open water: its liquids, their still levels cut into pieces, and what floats there."""
+"""A tank, or open water: its liquids, their still levels divided into pieces, and the floating bodies."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from hydroelastic.physics.motions import Level
 from hydroelastic.physics.scales import Scales
 
 if TYPE_CHECKING:
-    # Contours need SciPy's root finders, which take a while to import, and most tanks have no float.
+    # Contours need SciPy's root finders, whose import is slow, and most tanks have no float.
     from hydroelastic.physics.floats import RigidFloat
     from hydroelastic.physics.hulls import Hull
 
@@ -52,7 +52,7 @@ class Layer:
 
 @dataclass(frozen=True, kw_only=True)
 class Piece:
-    """A piece of a still level from left to right: a body's, or what lies beside the bodies.
+    """A piece of a still level from left to right: a body's, or open surface.
 
     Attributes:
         start: its left end, m.
@@ -78,7 +78,7 @@ class StillLevel:
         height: its ordinate.
         below: index of the layer below.
         above: index of the layer above, ``None`` at the top.
-        kind: what it is beside the bodies: "interface", or the condition of the top.
+        kind: "interface", or the boundary condition of the top.
         jump: ρ below less ρ above, kg/m³.
         pieces: from left to right.
     """
@@ -106,23 +106,23 @@ class StillLevel:
 
     @property
     def name(self) -> Level:
-        """What bodies call it."""
+        """Its name in the attribute `level` of bodies."""
         return "surface" if self.above is None else "interface"
 
     @property
     def moves(self) -> bool:
-        """Whether waves travel on it beside the bodies."""
+        """Whether its open part carries waves."""
         return self.kind in ("free", "interface")
 
     @property
     def is_open(self) -> bool:
-        """Whether there is something beside the bodies."""
+        """Whether the bodies leave part of it open."""
         return any(piece.body is None for piece in self.pieces)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Tank:
-    """Liquids at rest with what floats on them, per metre of width; in SI units, or in those of `scaled`.
+    """Liquids at rest with floating bodies, per metre of width; in SI units, or in those of `scaled`.
 
     Attributes:
         length: between the walls, or of the stretch of open water that is of interest, m.
@@ -171,15 +171,25 @@ class Tank:
 
     @property
     def depth(self) -> float:
-        """Depth of the thinnest layer: rounding grows in it, and cells follow it."""
+        """Depth of the thinnest layer, which determines rounding errors and the size of cells."""
         return min(layer.depth for layer in self.layers)
 
     @property
     def top(self) -> Top:
-        """What lies on the uppermost layer beside the bodies."""
+        """Boundary condition of the uppermost layer beside the bodies."""
         kind = self.levels[-1].kind
         assert kind != "interface"
         return kind
+
+    @cached_property
+    def elastic(self) -> tuple[int, ...]:
+        """Indices of the bodies that bend."""
+        return tuple(index for index, body in enumerate(self.bodies) if body.is_elastic)
+
+    @cached_property
+    def rigid(self) -> tuple[int, ...]:
+        """Indices of the bodies that do not bend."""
+        return tuple(index for index, body in enumerate(self.bodies) if not body.is_elastic)
 
     @cached_property
     def beams(self) -> dict[int, Beam]:
@@ -207,12 +217,13 @@ class Tank:
 
     @property
     def has_infinite_frequency_limit(self) -> bool:
-        """Whether there is something that moves freely far above the waves: open water, or an interface."""
+        """Whether bodies have an infinite-frequency added mass: beside an open top that is not a lid, or with two
+        liquids."""
         return len(self.layers) > 1 or (self.top != "rigid" and self.levels[-1].is_open)
 
     @property
     def moves_as_one(self) -> bool:
-        """Whether two liquids meet beside the bodies, and so move as one far above the waves."""
+        """Whether there is open interface beside the bodies, across which ρψ is continuous at infinite frequency."""
         return len(self.layers) > 1 and self.levels[0].is_open
 
     @property
@@ -224,6 +235,10 @@ class Tank:
     def pieces(self) -> tuple[Piece, ...]:
         """The pieces of all levels, from the bottom up and from left to right."""
         return tuple(piece for level in self.levels for piece in level.pieces)
+
+    def density_at(self, level: StillLevel) -> float:
+        """ρ of the liquids that meet at a still level together."""
+        return sum(self.layers[layer].density for layer in (level.below, level.above) if layer is not None)
 
     def level_of(self, body: int) -> StillLevel:
         """The level at which a body floats."""
@@ -265,7 +280,7 @@ def tank(
         gravity: m/s².
         is_open: whether waves leave to both sides.
         liquids: density, kg/m³, and depth, m, from the bottom up; the second lies on y = 0.
-        top: what lies on the uppermost liquid beside the bodies.
+        top: boundary condition of the uppermost liquid beside the bodies.
         bodies: in any order, each at its level, without overlap.
     """
     floors = [-liquids[0][1], 0.0]
@@ -315,5 +330,5 @@ def _pieces(bodies: tuple[Body, ...], name: Level, length: float, *, is_open: bo
 
 
 def _snapped(x: float) -> float:
-    """The middle of the tank for what lies there but for rounding: a mirror plane must not miss a thin float."""
+    """The middle of the tank for points within rounding of it: a thin float must lie on the mirror plane exactly."""
     return MIDDLE if abs(x - MIDDLE) <= ROUNDING else x

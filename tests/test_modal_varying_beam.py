@@ -100,9 +100,9 @@ def test_steps_of_a_varying_beam_are_those_of_a_stepped_one() -> None:
 
 
 def test_mirror_images_have_mirrored_shapes_and_are_known_as_such() -> None:
-    assert TAPERED.mirrors(TAPERED.reversed)
+    assert TAPERED.is_mirror_image_of(TAPERED.reversed)
     assert not TAPERED.is_mirror_image
-    assert not TAPERED.mirrors(BULGED.reversed)
+    assert not TAPERED.is_mirror_image_of(BULGED.reversed)
     # The means of its sections are alike, what varies within them is not.
     leaning = varying(lambda x: 2.0 + 0.5 * (x % 2.0 - 1.0), np.ones_like, 2.0, 2.0)
     assert leaning.sections[0] == leaning.sections[1]

@@ -18,7 +18,7 @@ from hydroelastic.scenes.output.curve_style import (
     COLOURS,
     Sheets,
     diverging_colours,
-    dress,
+    label_axes,
     plot_curve,
     sequence_colours,
 )
@@ -35,7 +35,7 @@ def draw(folder: Path, options: PictureOptions = ALL, *, title: str = "A chain",
         axes = figure.subplots()
         plot_curve(axes, x, x**2, 0, "upper")
         plot_curve(axes, x, x, 1, "lower")
-        dress(axes, "length, m", "force, kN")
+        label_axes(axes, "length, m", "force, kN")
 
 
 def words_of(svg: Path) -> list[str]:

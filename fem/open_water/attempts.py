@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TypeVar
 
-from hydroelastic.fem.memory import hand_back_memory
+from hydroelastic.fem.memory import release_memory
 from hydroelastic.fem.open_water.basin import open_basin
 from hydroelastic.fem.open_water.field_model import Band, first_resolution
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
@@ -38,7 +38,7 @@ def best_in_basin(
 
     def solved(resolution: Resolution) -> Attempt[Result]:
         attempt = solve(resolution)
-        hand_back_memory()
+        release_memory()
         return attempt
 
     return best_attempt(tank, tolerance, solved, first, rounds=_MOST_ATTEMPTS, infinite_frequency=infinite_frequency)

@@ -99,7 +99,7 @@ def infinite_frequency_added_mass(problem: OpenWaterProblem, shapes: tuple[int, 
     basin = open_basin(problem.tank, 0.0)
     tank, watch = basin.tank, problem.watch
     tolerance = workable_tolerance(problem.tolerance, tank.depth)
-    first = infinite_frequency_resolution(tank, tolerance, (0.0,) * len(tank.beams))
+    first = infinite_frequency_resolution(tank, tolerance, (0.0,) * len(tank.elastic))
 
     def solve(resolution: Resolution) -> Attempt[np.ndarray]:
         frames = reach(basin, (_NO_WAVE, _NO_WAVE), first=0.5, growth=GROWTH, angle=ANGLE, tolerance=tolerance)

@@ -120,7 +120,7 @@ def infinite_frequency_limit(
     Returns:
         What the bodies take from it; nothing, without a solution, where there is no such limit (collective).
     """
-    has_tones, has_added_mass = tank.beams and tank.has_waves, tank.floats and tank.has_infinite_frequency_limit
+    has_tones, has_added_mass = tank.elastic and tank.has_waves, tank.rigid and tank.has_infinite_frequency_limit
     if not has_tones and not has_added_mass:
         return InfiniteFrequencyLimit()
     if has_tones:
@@ -169,7 +169,7 @@ def _with_tones(
     count = resolution.modes
     while True:
         field = solve_parts(mesh, tank, resolution.shapes, pencils, count)
-        found = [elastic_tone(field.modes, field.bodies, body) for body in tank.beams]
+        found = [elastic_tone(field.modes, field.bodies, body) for body in tank.elastic]
         if all(tone.certain for tone in found) or len(field.modes.eigenvalues) < count:
             break
         count *= 2
@@ -199,7 +199,7 @@ def _added_mass(
 ) -> tuple[InfiniteFrequencyAddedMass, FrequencyErrors]:
     """The floats' part of the added mass of all bodies, with its relative errors."""
     bodies = whole_bodies(tank, shapes)
-    of_floats = np.repeat([index in tank.floats for index in range(len(bodies))], [body.size for body in bodies])
+    of_floats = np.repeat([index in tank.rigid for index in range(len(bodies))], [body.size for body in bodies])
     matrix = np.zeros((of_floats.sum(), of_floats.sum()))
     causes = []
     for parity, pencil in pencils.items():

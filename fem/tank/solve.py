@@ -16,12 +16,12 @@ import numpy as np
 from mpi4py import MPI
 
 from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
+from hydroelastic.fem.bodies.model import ends_of_motions, expected_tones
 from hydroelastic.fem.kept_tolerance import kept_tolerance
 from hydroelastic.fem.modes import Mode, ModeSet
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.fem.tank.elastic_tone import ElasticTone, elastic_tone
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors, frequency_errors, refined
-from hydroelastic.fem.tank.expected import ends_of_float_motions, expected_tones
 from hydroelastic.fem.tank.field_model import build_mesh, distributed_user_mesh
 from hydroelastic.fem.tank.field_solution import FieldSolution, count_is_confirmed, solve_field
 from hydroelastic.fem.tank.float_modes import FloatMode, float_modes
@@ -165,7 +165,7 @@ def solve_tank(
     with watch.stage("plan"):
         tank = physical.scaled()
         tones = expected_tones(tank)
-        motions = ends_of_float_motions(tank)
+        motions = ends_of_motions(tank)
         first = initial_resolution(tank, tolerance, modes=modes, tones=tones, motions=motions)
     user_mesh: TankMesh | None = None
     if comm.bcast(mesh is not None, root=0):
@@ -238,7 +238,7 @@ def _judged(
 ) -> TankSolution:
     """An attempt with all that it says about itself."""
     tolerance, count = asked_for
-    tones = tuple(_tone(field, beam, body, resolution, limit) for beam, body in enumerate(tank.beams))
+    tones = tuple(_tone(field, beam, body, resolution, limit) for beam, body in enumerate(tank.elastic))
     complete = len(field.modes.eigenvalues) <= resolution.modes
     moved = float_modes(tank, field.bodies, field.modes, limit.added_mass, complete=complete)
     with watch.stage("count"):

@@ -1,4 +1,4 @@
-"""From a float of a scene to the rigid float that it is, in metres and kilograms per metre of width."""
+"""Conversion of a float of a scene to a rigid float, in metres and kilograms per metre of width."""
 
 from __future__ import annotations
 
@@ -33,10 +33,10 @@ def float_contour(body: Float, folder: Path) -> Contour:
 
     Args:
         body: the float.
-        folder: where the path of an outline's file starts.
+        folder: to which the path of an outline's file is relative.
 
     Raises:
-        ValueError: if an outline cannot be read, or is no contour.
+        ValueError: if an outline cannot be read, or is not a contour.
     """
     profile = float_section(body)
     if profile is not None:
@@ -48,7 +48,7 @@ def float_contour(body: Float, folder: Path) -> Contour:
 
 
 def placed_float(scene: TankParts, index: int) -> RigidFloat:
-    """Return a float of a scene where it rests, in the frame of the tank, m.
+    """Return a float of a scene at rest, in the frame of the tank, m.
 
     Args:
         scene: the scene.
@@ -73,7 +73,7 @@ def placed_float(scene: TankParts, index: int) -> RigidFloat:
     )
 
 
-# Many ask for the same float. The state of an outline's file is that of its last change: it may be edited meanwhile.
+# Cached; the key contains the time of the last change of an outline's file, which may be edited meanwhile.
 @lru_cache(maxsize=2 * MOST_BODIES)
 def _placed(
     body: Float,

@@ -15,7 +15,7 @@ from hydroelastic.scenes.output.curve_style import (
     GREY,
     Sheets,
     diverging_colours,
-    dress,
+    label_axes,
     sequence_colours,
 )
 from hydroelastic.scenes.output.line_sequence import frame_numbers
@@ -25,7 +25,7 @@ from hydroelastic.scenes.string.results import StringResult
 
 _SHOWN_SHAPES = 9
 _SHOWN_MODES = 5
-# Above this quantile of |U| a few peaks at focuses would leave the rest without colour.
+# Quantile of |U| that limits the colour scale: a few peaks at focuses would dominate it.
 _QUANTILE = 0.995
 # Times this quantile a value is a peak.
 _PEAK = 1.5
@@ -86,11 +86,11 @@ def _draw_space_time(solution: StringSolution, sheets: Sheets) -> None:
         )
         axes.grid(visible=False)
         axes.set_xlim(solution.times[0], solution.times[-1])
-        dress(axes, "time t, s", HEIGHT)
+        label_axes(axes, "time t, s", HEIGHT)
 
 
 def _colour_limits(displacement: Floats) -> tuple[float, float]:
-    """The least and largest U that have colours of their own, zero between them; a few peaks may lie beyond."""
+    """Limits of the colour scale of U, with zero between them; a few peaks may exceed them."""
     sizes = np.abs(displacement)
     usual, largest = float(np.quantile(sizes, _QUANTILE)), float(sizes.max())
     limit = (largest if largest < _PEAK * usual else usual) or largest
@@ -120,7 +120,7 @@ def _draw_shapes(solution: StringSolution, times: Floats, sheets: Sheets) -> Non
         for column, colour in zip(places, sequence_colours(len(places)), strict=True):
             label = f"{solution.times[column]:.4g} s"
             axes.plot(displacement[:, column], solution.positions, **_drawn(solution), color=colour, label=label)
-        dress(axes, "displacement U, m", HEIGHT, legend="beside", heading="time t")
+        label_axes(axes, "displacement U, m", HEIGHT, legend="beside", heading="time t")
 
 
 def _draw_modes(solution: StringSolution, sheets: Sheets) -> None:
@@ -133,7 +133,7 @@ def _draw_modes(solution: StringSolution, sheets: Sheets) -> None:
             decay = f", decay {-root.real:.4g} 1/s" if root.real else ""
             style = {"color": COLOURS[number], "linestyle": DASHES[number % len(DASHES)]} | _drawn(solution)
             axes.plot(shape, solution.positions, **style, label=f"{number + 1}: {oscillation}{decay}")
-        dress(axes, "displacement over the largest one", HEIGHT)
+        label_axes(axes, "displacement over the largest one", HEIGHT)
 
 
 def _drawn(solution: StringSolution) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""The moving string in one frame of axes: numbered pictures, and an animation."""
+"""The moving string in fixed axes: numbered pictures, and an animation."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 from hydroelastic.fem.pictures.gif import FRAMES, SECONDS, write_gif
 from hydroelastic.fem.pictures.options import PictureOptions
 from hydroelastic.modal.string.solution import StringSolution
-from hydroelastic.scenes.output.curve_style import BLUE, curve_style, dress
+from hydroelastic.scenes.output.curve_style import BLUE, curve_style, label_axes
 from hydroelastic.scenes.string.drawn import columns_of
 
 if TYPE_CHECKING:
@@ -58,7 +58,7 @@ def _frames(
         axes.set_ylim(0.0, 1.02 * solution.string.length)
         (line,) = axes.plot([], [], color=BLUE, linewidth=2.0)
         (end,) = axes.plot([], [], "s", color="black", markersize=6)
-        dress(axes, "displacement U, m", HEIGHT, legend="")
+        label_axes(axes, "displacement U, m", HEIGHT, legend="")
         title = axes.set_title(" ")
         # The layout is the same on all frames, and takes most of the time of one.
         figure.draw_without_rendering()

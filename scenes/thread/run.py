@@ -5,7 +5,7 @@ from __future__ import annotations
 from hydroelastic.fem.pictures.options import OF_CURVES, OF_FIELDS, OF_MOTIONS
 from hydroelastic.scenes.output.dataset import LabelledResults
 from hydroelastic.scenes.output.staged_run import StagedRun
-from hydroelastic.scenes.thread.animation import jumps_in_animation
+from hydroelastic.scenes.thread.animation import animation_notes
 from hydroelastic.scenes.thread.dataset import THREAD_NAMES, thread_dataset
 from hydroelastic.scenes.thread.figures import draw_thread
 from hydroelastic.scenes.thread.files import write_thread_files
@@ -19,8 +19,8 @@ run_thread = StagedRun(
     write=write_thread_files,
     dataset=LabelledResults(arrays=thread_dataset, names=THREAD_NAMES),
     draw=lambda solution, folder, options, _report: draw_thread(solution, folder, options),
-    lacking=jumps_in_animation,
-    heeds=OF_CURVES | OF_FIELDS | OF_MOTIONS,
+    animation_warnings=animation_notes,
+    used_options=OF_CURVES | OF_FIELDS | OF_MOTIONS,
     sections=lambda _solution, summary: thread_sections(summary),
     cost=thread_cost,
 )

@@ -339,10 +339,10 @@ def test_halves_give_the_modes_of_the_whole_tank(tanks: Any, name: str) -> None:
     assert matrices[0] == pytest.approx(matrices[1], abs=2e-8 * np.abs(matrices[1]).max())
 
 
-@pytest.mark.parametrize("released", [False, True])
+@pytest.mark.parametrize("infinite_frequency", [False, True])
 @pytest.mark.parametrize("name", FLOATS)
-def test_added_mass_is_symmetric_and_positive(name: str, released: bool) -> None:
-    (pencil,) = pencils(FLOATS[name], released=released)
+def test_added_mass_is_symmetric_and_positive(name: str, infinite_frequency: bool) -> None:
+    (pencil,) = pencils(FLOATS[name], infinite_frequency=infinite_frequency)
     added = body_added_mass(pencil)
     largest = np.abs(added).max()
     # One factorization serves all columns: rounding of the largest.

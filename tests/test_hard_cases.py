@@ -85,9 +85,7 @@ def test_no_mode_is_missing(case: HardCase, tolerance: float) -> None:
     assert summary["zero_modes"] == zero_modes(case.scene)
 
 
-def wrong_companions(
-    found: Answer, references: list[dict[str, float] | None], tolerance: float, *, hidden: bool
-) -> str:
+def wrong_tones(found: Answer, references: list[dict[str, float] | None], tolerance: float, *, hidden: bool) -> str:
     """What is wrong with the pressure-release tones of the beams, or ""."""
     for tone, reference in zip(found.summary["first_elastic_by_body"], references, strict=True):
         if reference is None or (hidden and tone["pressure_release_omega"] is None):
@@ -106,7 +104,7 @@ def wrong_companions(
 def test_the_pressure_release_tone_keeps_the_tolerance(case: HardCase, tolerance: float) -> None:
     found = kept_answer(case, tolerance)
     references = REFERENCES[case.name].get("pressure_release", [None] * len(case.scene.body))
-    assert wrong_companions(found, references, tolerance, hidden=tolerance in case.hidden_tone) == ""
+    assert wrong_tones(found, references, tolerance, hidden=tolerance in case.hidden_tone) == ""
 
 
 @pytest.mark.parametrize("case", CASES, ids=[case.name for case in CASES])
@@ -151,9 +149,7 @@ def test_estimates_are_rarely_needlessly_large() -> None:
     assert np.mean(np.array(ratios) > LARGE_ESTIMATE) <= LARGE_ESTIMATES
 
 
-def check_tank(
-    scene: TankScene, reference: list[float], companions: list[dict[str, float] | None] | None = None
-) -> str:
+def check_tank(scene: TankScene, reference: list[float], tones: list[dict[str, float] | None] | None = None) -> str:
     """What is wrong with the answer to a scene, or ""."""
     found = answer.__wrapped__(scene)
     if found.reasons:
@@ -168,7 +164,7 @@ def check_tank(
         return f"estimate {found.estimates[worst]:.1e} for an error of {errors[worst]:.1e}"
     if found.summary["zero_modes"] != zero_modes(scene):
         return f"{found.summary['zero_modes']} zero modes instead of {zero_modes(scene)}"
-    return wrong_companions(found, companions or [None] * len(scene.body), scene.accuracy.tolerance, hidden=False)
+    return wrong_tones(found, tones or [None] * len(scene.body), scene.accuracy.tolerance, hidden=False)
 
 
 @pytest.mark.slow_but("[0-7]")

@@ -322,7 +322,7 @@ def test_a_first_run_compiles_one_form_for_each_degree_and_says_what_it_cost(tmp
     for forms in (1, 1):
         ended = process("run", "aquarium", "--no-images", "--out", "result", *COARSE, XDG_CACHE_HOME=str(cache))
         assert ended.returncode == 0, ended.stderr
-        # The scene and its pressure-release companion have one degree; the second run finds its form.
+        # The scene and its pressure-release tone have one degree; the second run finds its form.
         assert len(list(cache.glob("fenics/*.c"))) == forms
         timing = json.loads(Path("result", "summary.json").read_text(encoding="utf-8"))["timing"]
         assert {"import", "mesh", "forms", "assemble", "solve", "write"} <= timing.keys()

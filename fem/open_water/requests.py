@@ -11,7 +11,7 @@ class RadiationRequest:
     """Added mass, radiation damping and excitation forces.
 
     Attributes:
-        omega: frequencies, rad/s; 0 for very long waves, inf for the limit of high frequency.
+        omega: frequencies, rad/s; 0 for very long waves, inf for the infinite-frequency limit.
         elastic_modes: number of elastic shapes of each beam that are reported.
     """
 

@@ -73,14 +73,14 @@ def symmetries_apart(tank: Tank) -> tuple[Parity, ...]:
 
 def _exponents(tank: Tank, parity: Parity | None) -> dict[Point, float]:
     outline = plain_outline(tank, half=parity is not None)
-    grounded = grounded_names(tank, released=False)
+    grounded = grounded_names(tank, infinite_frequency=False)
     # Only what is singular to some mode: smooth contours cross the middle plane at right angles.
-    singular = {point.point for point in singular_points(outline, grounded=grounded, glued=False)}
+    singular = {point.point for point in singular_points(outline, grounded=grounded, continuous_pressure=False)}
     unmirrored = replace(
         outline, curves=tuple(replace(curve, name=_unmirrored(curve.name)) for curve in outline.curves)
     )
     plane = (_PLANE,) if parity == "antisymmetric" else ()
-    found = singular_points(unmirrored, grounded=grounded + plane, glued=False)
+    found = singular_points(unmirrored, grounded=grounded + plane, continuous_pressure=False)
     smooth = _ends_of_guided_beams(tank)
     blunt = _ends_of_thin_ellipses(tank)
     return {

@@ -47,6 +47,8 @@ def nested_meshes(tank: Tank, *, half: bool) -> NestedMeshes:
     if is_plain(tank):
         return rectangle_meshes(geometry_of(tank, half=half), size=size, bulk_size=bulk_size)
     outline = plain_outline(tank, size, half=half)
-    points = singular_points(outline, grounded=grounded_names(tank, released=False), glued=False)
+    points = singular_points(
+        outline, grounded=grounded_names(tank, infinite_frequency=False), continuous_pressure=False
+    )
     corners = tuple(Corner(point=point.point, inner=inf, outer=min(point.reach, 0.45 * tank.depth)) for point in points)
     return outline_meshes(replace(outline, corners=corners), bulk_size=bulk_size)

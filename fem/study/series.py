@@ -113,4 +113,4 @@ def compile_forms(studied: StudiedTank, degrees: Iterable[int]) -> None:
         mesh = build_mesh(MPI.COMM_WORLD, studied.tank, resolution, half=studied.half)
         solve_field(mesh, studied.tank, resolution, 1, Stopwatch(), half=studied.half)
         if len(studied.tank.layers) > 1:
-            compile_form(mesh, degree, glued=True)
+            compile_form(mesh, degree, continuous_pressure=True)

@@ -14,7 +14,7 @@ import numpy as np
 from hydroelastic.fem.bodies.model import FAR_ENOUGH
 from hydroelastic.fem.modes import ModeSet
 from hydroelastic.fem.surfaces import Body
-from hydroelastic.fem.tank.infinite_frequency import HighFrequencyAddedMass
+from hydroelastic.fem.tank.infinite_frequency import InfiniteFrequencyAddedMass
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.physics.tank import Tank
 
@@ -88,7 +88,7 @@ def float_modes(
     tank: Tank,
     bodies: tuple[Body, ...],
     modes: ModeSet,
-    added: HighFrequencyAddedMass | None,
+    added: InfiniteFrequencyAddedMass | None,
     *,
     complete: bool,
 ) -> tuple[FloatMode, ...]:

@@ -50,7 +50,7 @@ def zero_mode_count(tank: Tank) -> int:
 
 def mode_count(tank: Tank) -> int | None:
     """Return the number of oscillating modes where only rigid bodies move, else None (unlimited)."""
-    if any(body.is_elastic for body in tank.bodies) or len(tank.layers) > 1 or tank.top == "free":
+    if tank.elastic or len(tank.layers) > 1 or tank.top == "free":
         return None
     motions = sum(len(body.rigid_motions) for body in tank.bodies)
     displaced = any(body.displaces_volume for body in tank.bodies)

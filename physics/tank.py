@@ -182,6 +182,16 @@ class Tank:
         return kind
 
     @cached_property
+    def elastic(self) -> tuple[int, ...]:
+        """Indices of the bodies that bend."""
+        return tuple(index for index, body in enumerate(self.bodies) if body.is_elastic)
+
+    @cached_property
+    def rigid(self) -> tuple[int, ...]:
+        """Indices of the bodies that do not bend."""
+        return tuple(index for index, body in enumerate(self.bodies) if not body.is_elastic)
+
+    @cached_property
     def beams(self) -> dict[int, Beam]:
         """The beams, for theories of beams alone, by their index among the bodies."""
         return {index: body for index, body in enumerate(self.bodies) if isinstance(body, Beam)}
@@ -220,6 +230,10 @@ class Tank:
     def pieces(self) -> tuple[Piece, ...]:
         """The pieces of all levels, from the bottom up and from left to right."""
         return tuple(piece for level in self.levels for piece in level.pieces)
+
+    def density_at(self, level: StillLevel) -> float:
+        """ρ of the liquids that meet at a still level together."""
+        return sum(self.layers[layer].density for layer in (level.below, level.above) if layer is not None)
 
     def level_of(self, body: int) -> StillLevel:
         """The level at which a body floats."""

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from functools import partial
+from math import pi
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 
+from hydroelastic.fem.bodies.model import FAR_ENOUGH, BodyModel
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.physics.dofs import Dof, body_name
 from hydroelastic.physics.floats import RigidFloat
@@ -16,9 +18,31 @@ from hydroelastic.physics.symmetry import Parity, motion_parity
 
 # Coupling and stiffness below this part of the largest are rounding.
 _NEGLIGIBLE = 1e-12
+# Added mass of a float's heave in ρ times the square of its waterplane's width: that of any half-immersed ellipse.
+_ADDED_IN_HEAVE = pi / 8.0
 
 
-def float_body(body: RigidFloat, index: int, parity: Parity | None) -> Body:
+class FloatModel(BodyModel):
+    """A rigid float in its principal motions."""
+
+    def moving(self, count: int, parity: Parity | None) -> Body:
+        """See `BodyModel.moving`; a float has all of its motions whatever the count."""
+        return in_principal_motions(self.tank.floats[self.index], self.index, parity)
+
+    def ends_of_motions(self) -> tuple[float, ...]:
+        """Those of the motions that gravity restores, beyond their λ at infinite frequency."""
+        body, level = self.tank.floats[self.index], self.tank.level_of(self.index)
+        width = body.stiffness[0, 0] / level.jump
+        ends = []
+        for place, motion in enumerate(MOTIONS):
+            if motion in body.motions and body.stiffness[place, place] > 0.0:
+                added = _ADDED_IN_HEAVE * self.tank.density_at(level) * width**2 if motion == "heave" else 0.0
+                expected = float(body.stiffness[place, place] / (body.inertia[place] + added))
+                ends.append(FAR_ENOUGH * expected)
+        return tuple(ends)
+
+
+def in_principal_motions(body: RigidFloat, index: int, parity: Parity | None) -> Body:
     """A float in its principal motions; dimensionless.
 
     They are heave, sway and roll where gravity does not couple heave and roll, as it does in a section that is not its

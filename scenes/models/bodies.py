@@ -264,6 +264,16 @@ class Float(SceneModel):
     )
 
     @property
+    def start(self) -> float:
+        """x by which it counts among the bodies, m: its position."""
+        return self.position
+
+    @property
+    def end(self) -> float:
+        """The same: where it ends follows from its shape."""
+        return self.position
+
+    @property
     def shape_key(self) -> str:
         """The key that defines the section."""
         return {"polygon": "vertices", "outline": "file"}.get(self.shape, "half_width")

@@ -249,8 +249,8 @@ def _bodies_keep_apart(scene: TankParts) -> Iterator[InitErrorDetails]:
             later = scene.body[second]
             left, right, _, _ = boxes[first]
             yield problem_at(
-                ("body", second, "position" if isinstance(later, Float) else "start"),
-                later.position if isinstance(later, Float) else later.start,
+                ("body", second, "position" if _is_float(scene, second) else "start"),
+                later.start,
                 f"the body overlaps or touches [[body]] number {first + 1}, which reaches from {left:g} to {right:g} m",
                 remedy=f"Leave a gap of at least {gap:g} m between them",
             )

@@ -180,6 +180,4 @@ def length_scale_of_bodies(scene: TankParts) -> float:
     """
     if not scene.is_open:
         return scene.tank.length
-    starts = [beam.start for _, beam in scene.beams] + [body.position for _, body in scene.floats]
-    ends = [beam.end for _, beam in scene.beams] + [body.position for _, body in scene.floats]
-    return max(ends) - min(starts)
+    return max(body.end for body in scene.body) - min(body.start for body in scene.body)

@@ -20,7 +20,6 @@ import numpy as np
 from mpi4py import MPI
 from scipy.optimize import root_scalar
 
-from hydroelastic.fem.bodies.rigid_float import principal_motions
 from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import solve_radiation
@@ -92,12 +91,11 @@ def _in_a_tank(scene: TankScene, comm: MPI.Comm, watch: Stopwatch, report: Repor
         raise UnsolvedError(f"the section has no mode of roll{'' if mode is None else ': ' + mode.reason}")
     eigenvalue = float(solution.modes.eigenvalues[mode.index])
     natural = solution.omega(eigenvalue)
-    body = solution.tank.floats[mode.body]
-    _, stiffnesses, inertias = principal_motions(body, body.motions)
-    roll = body.motions.index("roll")
+    body = solution.field.bodies[mode.body]
+    roll = body.dofs.index("roll")
     # Per unit of length a moment of inertia is a density times the fourth power of a length.
     unit = solution.units.density * solution.units.length**4
-    added = (float(stiffnesses[roll]) / eigenvalue - float(inertias[roll])) * unit
+    added = (float(body.stiffness[roll]) / eigenvalue - float(body.mass[roll, roll])) * unit
     inertia = _inertia(scene)
     return SectionRoll(
         title=scene.title,
@@ -108,7 +106,7 @@ def _in_a_tank(scene: TankScene, comm: MPI.Comm, watch: Stopwatch, report: Repor
         inertia=inertia,
         added_inertia=added,
         wave_damping=None,
-        followers=tuple(motion for motion in body.motions if motion != "roll"),
+        followers=tuple(motion for motion in body.dofs if motion != "roll"),
     )
 
 
@@ -162,7 +160,7 @@ def _in_open_water(scene: TankScene, comm: MPI.Comm, watch: Stopwatch) -> Sectio
 
 def _resonance(problem: OpenWaterProblem) -> complex:
     """Complex frequency of the roll, rad/s."""
-    asked = ResonanceRequest(count=len(problem.tank.floats[0].motions))
+    asked = ResonanceRequest(count=len(problem.tank.bodies[0].rigid_motions))
     try:
         table = solve_resonance(problem, asked).table
     except EigenSolverError as error:

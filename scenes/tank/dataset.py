@@ -80,9 +80,9 @@ def _modes(solution: TankSolution, shapes: ModeShapes, modes: slice, dimension: 
     names = _curve_names(solution, shapes.curves[0])
     for name, curves in zip(names, zip(*shapes.curves[modes], strict=True), strict=True):
         found = found.merge(_curve(name, curves, dimension, prefix))
-    for index, sections in zip(solution.tank.floats, zip(*shapes.floats[modes], strict=True), strict=True):
+    for index, sections in zip(solution.tank.rigid, zip(*shapes.floats[modes], strict=True), strict=True):
         found = found.merge(_section(body_name(index + 1), sections, dimension, prefix))
-    if solution.tank.floats:
+    if solution.tank.rigid:
         dofs = [dof.capitalised for dof in _dofs(solution)]
         amplitudes = np.array([np.concatenate(motions) for motions in shapes.motions[modes]])
         said = {
@@ -95,7 +95,7 @@ def _modes(solution: TankSolution, shapes: ModeShapes, modes: slice, dimension: 
 
 def _curve_names(solution: TankSolution, curves: tuple[SurfaceCurve, ...]) -> list[str]:
     """Beams, which come first, by their numbers among the bodies; pieces of a level counted from the left."""
-    names, counts = [body_name(index + 1) for index in solution.tank.beams], Counter[str]()
+    names, counts = [body_name(index + 1) for index in solution.tank.elastic], Counter[str]()
     for curve in curves[len(names) :]:
         counts[curve.kind] += 1
         names.append(f"{curve.kind}_{counts[curve.kind]}")
@@ -143,8 +143,7 @@ def _section(name: str, sections: tuple[FloatSection, ...], dimension: str, pref
 
 def _dofs(solution: TankSolution) -> tuple[Dof, ...]:
     """Motions of all floats."""
-    floats = solution.tank.floats
-    return dof_names(floats[index].motions if index in floats else () for index in range(len(solution.tank.bodies)))
+    return dof_names(() if body.is_elastic else body.rigid_motions for body in solution.tank.bodies)
 
 
 def _matrices(solution: TankSolution) -> xarray.Dataset:

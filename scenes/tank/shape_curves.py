@@ -9,7 +9,6 @@ import numpy as np
 from dolfinx import fem
 from numpy.typing import NDArray
 
-from hydroelastic.fem.bodies.rigid_float import principal_motions
 from hydroelastic.fem.liquid import LiquidSpace
 from hydroelastic.fem.pictures.modes import FloatSection, SurfaceCurve
 from hydroelastic.fem.sampling import SurfaceTrace, sample_surface
@@ -95,10 +94,9 @@ def body_shapes(tank: Tank, bodies: tuple[Body, ...], amplitudes: Array) -> Body
     beams, floats, motions, leading = [], [], [], [0.0]
     parts = np.split(amplitudes, np.cumsum([body.size for body in bodies])[:-1]) if bodies else []
     for index, (body, own) in enumerate(zip(bodies, parts, strict=True)):
-        if index in tank.floats:
-            scaled = tank.floats[index]
-            motions.append(principal_motions(scaled, scaled.motions)[0] @ own)
-            section, largest = _displaced_float(scaled, motions[-1])
+        if index in tank.hulls:
+            motions.append(body.motions @ own)
+            section, largest = _displaced_float(tank.floats[index], motions[-1])
             floats.append(section)
             leading.append(largest)
         else:

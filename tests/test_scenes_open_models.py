@@ -230,8 +230,8 @@ def test_check_says_what_will_be_modelled() -> None:
         "resonance: the lowest 4, with −Im ω up to 0.5 Re ω",
         "float 1 is let go at 0.1 m in heave; 41 times from 0 to 20 s",
         "waves leave, none comes back",
-        "∇ψ₂ → 0 as y → −∞",
-        "∇ψ₁ → 0 as y → ∞",
+        "∇ψₗ → 0 as y → −∞",
+        "∇ψᵤ → 0 as y → ∞",
         "Lengths of the waves that leave at 1 rad/s: internal 6.849 m",
     ):
         assert words in text

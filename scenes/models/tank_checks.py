@@ -28,10 +28,10 @@ DEPTH_TO_LENGTH = (1e-4, 1e3)
 its end (it decays as e^{-πy/L}), and the depth only adds cells and rounding."""
 
 LIGHTEST = 1e-6
-"""ρ₁/ρ₂ of two liquids: below it the upper one is lost in the rounding of the lower one."""
+"""ρᵤ/ρₗ of two liquids: below it the upper one is lost in the rounding of the lower one."""
 
 SMALLEST_DIFFERENCE = 1e-9
-"""(ρ₂ − ρ₁)/ρ₂ of two liquids: decimal densities do not tell less apart."""
+"""(ρₗ − ρᵤ)/ρₗ of two liquids: decimal densities do not tell less apart."""
 
 SHORTEST_BEAM = 1e-4
 """Part of the tank's length: with a shorter beam the lengths of one mesh lie too far apart."""
@@ -70,14 +70,14 @@ def _densities_are_in_order(scene: TankParts) -> Iterator[InitErrorDetails]:
             yield problem_at(
                 ("liquid", 1, "density"),
                 upper,
-                f"ρ₁/ρ₂ = {upper / lower:g}: the upper liquid is lost in the rounding of the lower one",
+                f"ρᵤ/ρₗ = {upper / lower:g}: the upper liquid is lost in the rounding of the lower one",
                 allowed=f"0, for air, or at least {LIGHTEST * lower:g} kg/m³ over this lower liquid",
             )
         elif (lower - upper) / lower < SMALLEST_DIFFERENCE:
             yield problem_at(
                 ("liquid", 1, "density"),
                 upper,
-                f"(ρ₂ − ρ₁)/ρ₂ = {(lower - upper) / lower:.3g}: what carries the waves is lost in rounding",
+                f"(ρₗ − ρᵤ)/ρₗ = {(lower - upper) / lower:.3g}: what carries the waves is lost in rounding",
                 allowed=f"{SMALLEST_DIFFERENCE * lower:g} kg/m³ less than the lower liquid, at least",
             )
 
@@ -260,7 +260,7 @@ def _sections_are_not_too_short(scene: TankParts) -> Iterator[InitErrorDetails]:
 
 def _groups(scene: TankParts, beam: AnyBeam) -> tuple[tuple[str, str, float, tuple[float, float]], ...]:
     below, above = scene.densities_at(scene.level_of(beam))
-    jump = "(ρ₂ − ρ₁)" if above else "ρ"
+    jump = "(ρₗ − ρᵤ)" if above else "ρ"
     weight = (below - above) * scene.tank.gravity
     return (
         ("flexural_rigidity", f"EI/({jump} g l⁴)", weight * beam.length**4, STIFFNESS_GROUP),

@@ -50,8 +50,8 @@ _SAID = {
     "g": ("m/s^2", "gravity"),
     "rho": ("kg/m^3", "density of the lower liquid"),
     "water_depth": ("m", "depth of the lower liquid"),
-    "rho_above": ("kg/m^3", "density of the upper liquid"),
-    "depth_above": ("m", "depth of the upper liquid"),
+    "rho_upper": ("kg/m^3", "density of the upper liquid"),
+    "depth_upper": ("m", "depth of the upper liquid"),
     "body_name": (None, "bodies"),
 }
 # Quantities of motions: unit, that with a roll among them, and long name.
@@ -291,5 +291,5 @@ def _of_the_scene(scene: TankScene) -> dict[str, Any]:
         "body_name": "+".join(body_name(number) for number in range(1, len(scene.body) + 1)),
     }
     if upper:
-        found |= {"rho_above": upper[0].density, "depth_above": upper[0].depth}
+        found |= {"rho_upper": upper[0].density, "depth_upper": upper[0].depth}
     return found

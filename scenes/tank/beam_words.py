@@ -26,7 +26,7 @@ class BeamWords(BodyWords):
         jump = jump_of(scene, level)
         restoring = f" + {jump} g w" if beam.hydrostatic else ""
         if level == "interface":
-            slopes, pressure = "∂ψ₁/∂y = ∂ψ₂/∂y", "(ρ₂ ψ₂ − ρ₁ ψ₁)"
+            slopes, pressure = "∂ψᵤ/∂y = ∂ψₗ/∂y", "(ρₗ ψₗ − ρᵤ ψᵤ)"
         else:
             potential = potential_of(scene, len(scene.layers) - 1)
             slopes, pressure = f"∂{potential}/∂y", f"{jump} {potential}"
@@ -50,7 +50,7 @@ class BeamWords(BodyWords):
         below, above = scene.densities_at(level)
         weight = (below - above) * scene.tank.gravity
         of_beam = f"beam {self.index + 1}: "
-        density = "ρ₁" if len(scene.layers) == 2 and level == "surface" else "ρ" if len(scene.layers) == 1 else "ρ₂"
+        density = "ρᵤ" if len(scene.layers) == 2 and level == "surface" else "ρ" if len(scene.layers) == 1 else "ρₗ"
         for number, part in enumerate(beam.parts, 1):
             of_part = f"{of_beam}section {number}, " if beam.sections else of_beam
             stiffness = part.flexural_rigidity / (weight * beam.length**4)

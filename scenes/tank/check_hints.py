@@ -69,12 +69,12 @@ def _sloshing(scene: TankScene) -> Iterator[str]:
         yield "Pure sloshing has the exact answer ω² = g k tanh kH with k = nπ/L, to compare with."
     elif scene.top == "rigid":
         yield (
-            "Waves of the interface alone have the exact answer ω² = (ρ₂ − ρ₁) g k/(ρ₁ coth kh₁ + ρ₂ coth kh₂) with "
+            "Waves of the interface alone have the exact answer ω² = (ρₗ − ρᵤ) g k/(ρᵤ coth khᵤ + ρₗ coth khₗ) with "
             "k = nπ/L, to compare with."
         )
     elif scene.top == "pressure_release":
         yield (
-            "Waves of the interface alone have the exact answer ω² = (ρ₂ − ρ₁) g k/(ρ₁ tanh kh₁ + ρ₂ coth kh₂) with "
+            "Waves of the interface alone have the exact answer ω² = (ρₗ − ρᵤ) g k/(ρᵤ tanh khᵤ + ρₗ coth khₗ) with "
             "k = nπ/L, to compare with."
         )
     else:
@@ -114,7 +114,7 @@ def _hydrostatics(scene: TankScene) -> Iterator[str]:
     for index, beam in physical_tank(scene).beams.items():
         below, above = scene.densities_at(beam.level)
         ratio = (below - above) * scene.tank.gravity / first_bending(beam)
-        jump = "(ρ₂ − ρ₁) g" if above else "ρ g"
+        jump = "(ρₗ − ρᵤ) g" if above else "ρ g"
         if beam.hydrostatic and ratio > 10:
             yield (
                 f"Beam {index + 1} is soft: {jump} is {ratio:.3g} times the bending stiffness EI κ₁⁴ of its first "

@@ -69,7 +69,7 @@ def _surface_name(scene: TankScene, level: StillLevel, piece: Piece) -> str:
 
 def _open_condition(scene: TankScene, level: StillLevel) -> str:
     if level.kind == "interface":
-        return "∂ψ₁/∂y = ∂ψ₂/∂y = η, (ρ₂ − ρ₁) g η = ω² (ρ₂ ψ₂ − ρ₁ ψ₁)"
+        return "∂ψᵤ/∂y = ∂ψₗ/∂y = η, (ρₗ − ρᵤ) g η = ω² (ρₗ ψₗ − ρᵤ ψᵤ)"
     potential, elevation = potential_of(scene, len(scene.layers) - 1), _surface_elevation(scene)
     return {
         "free": f"∂{potential}/∂y = {elevation}, g {elevation} = ω² {potential}",
@@ -79,7 +79,7 @@ def _open_condition(scene: TankScene, level: StillLevel) -> str:
 
 
 def _surface_elevation(scene: TankScene) -> str:
-    return "η" if len(scene.layers) == 1 else "η₁"
+    return "η" if len(scene.layers) == 1 else "ηᵤ"
 
 
 def unknown_table(scene: TankScene) -> Section:
@@ -92,8 +92,8 @@ def _unknowns(scene: TankScene) -> Iterator[Row]:
     if len(scene.layers) == 1:
         yield "ψ", "liquid", why
     else:
-        yield "ψ₁", f"upper liquid, 0 < y < {scene.layers[1].depth:g} m", why
-        yield "ψ₂", f"lower liquid, {-scene.layers[0].depth:g} m < y < 0", "the same"
+        yield "ψᵤ", f"upper liquid, 0 < y < {scene.layers[1].depth:g} m", why
+        yield "ψₗ", f"lower liquid, {-scene.layers[0].depth:g} m < y < 0", "the same"
     tank = physical_tank(scene)
     for level in tank.levels_from_top:
         yield _elevation_row(scene, level)
@@ -139,12 +139,12 @@ def _groups(scene: TankScene) -> Iterator[Group]:
     length = scene.tank.length
     if len(scene.layers) == 2:
         lower, upper = scene.layers
-        yield "ρ₁/ρ₂", upper.density / lower.density, "density of the upper liquid over that of the lower"
+        yield "ρᵤ/ρₗ", upper.density / lower.density, "density of the upper liquid over that of the lower"
         if not isinf(lower.depth) and not isinf(upper.depth):
-            yield "h₁/h₂", upper.depth / lower.depth, "depth of the upper liquid over that of the lower"
+            yield "hᵤ/hₗ", upper.depth / lower.depth, "depth of the upper liquid over that of the lower"
     # Nothing in open water depends on the length that is drawn.
     if not scene.is_open:
-        name = "H/L" if len(scene.layers) == 1 else "h₂/L"
+        name = "H/L" if len(scene.layers) == 1 else "hₗ/L"
         what = "depth" if len(scene.layers) == 1 else "depth of the lower liquid"
         yield name, scene.layers[0].depth / length, f"{what} over length of the tank"
     for index in range(len(scene.body)):

@@ -60,7 +60,7 @@ class FloatWords(BodyWords):
         else:
             yield "B/L", breadth / scene.tank.length, of_float + "part of the tank that its waterplane covers"
         area = sum(placed.hydrostatics.areas)
-        density = jump_of(scene, "surface") if self.level == "surface" else "ρ₂"
+        density = jump_of(scene, "surface") if self.level == "surface" else "ρₗ"
         yield (
             f"m/({density} A)",
             placed.hydrostatics.mass / (below * area),

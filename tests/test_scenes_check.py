@@ -85,12 +85,12 @@ def test_groups_of_the_base_scene() -> None:
 
 def test_unknown_fields_follow_the_top() -> None:
     assert "η = ω² ψ/g" in printed(scene(beam()))
-    assert "lid holds the liquid" in printed(scene(beam(), top="rigid"))
+    assert "a lid: no gravity waves" in printed(scene(beam(), top="rigid"))
     assert "η: none" in printed(scene(beam(), top="pressure_release"))
     covered = printed(scene(beam(start=0, length=10), top="rigid"))
     assert "covers the whole liquid" in covered
     assert 'top = "rigid" has no effect' in covered
-    assert "heave is held" in covered
+    assert "heave is excluded" in covered
     assert "a of beam" not in printed(scene())
 
 
@@ -224,5 +224,5 @@ def test_what_to_expect_of_floats_is_said() -> None:
     assert "there is 1 mode, not 10" in told(floating(), floating(position=8.0), top="rigid")
     assert "(ρᵤ coth khᵤ + ρₗ coth khₗ)" in told(upper=800.0, top="rigid")
     assert "(ρᵤ tanh khᵤ + ρₗ coth khₗ)" in told(upper=800.0, top="pressure_release")
-    assert "two exact answers" in told(upper=800.0)
+    assert "two exact solutions" in told(upper=800.0)
     assert "sway of float 1, roll of float 1. That leaves 2 modes" in told(floating(*ALL, **CIRCLE))

@@ -178,7 +178,7 @@ def solve_tank(
             first = companion_resolution(tank, workable, tones) if brought is None else resolution
             companion = solve_companion(comm, tank, first, workable, brought, watch, half=half)
         if added is None and tank.floats and tank.has_high_frequency_limit:
-            report("added mass far above the waves")
+            report("added mass at infinite frequency")
             added = high_frequency_added_mass(comm, tank, workable, watch, half=half)
         field = solve_field(own_mesh, tank, resolution, resolution.modes + 1, watch, half=half)
         solution, causes = _judged(
@@ -322,7 +322,7 @@ def _reasons(solution: TankSolution) -> tuple[str, ...]:
             + kept_tolerance(error)
         )
     if len(solution.asked) < min(solution.count, _modes_there(solution)):
-        reasons.append(f"{len(solution.asked)} of {solution.count} modes can be told from the rounding of the lowest")
+        reasons.append(f"{len(solution.asked)} of {solution.count} modes exceed the rounding of the lowest")
     if not solution.counted:
         reasons.append("an independent count of the modes by inertia disagrees: a mode may be missing")
     for tone in solution.tones:
@@ -351,7 +351,7 @@ def _reasons(solution: TankSolution) -> tuple[str, ...]:
     if solution.added_mass is not None and solution.added_mass.error > tolerance:
         error = solution.added_mass.error
         reasons.append(
-            f"the added mass far above the waves has an estimated error of {error:.1e}, above the tolerance "
+            f"the added mass at infinite frequency has an estimated error of {error:.1e}, above the tolerance "
             f"{tolerance:g}; {kept_tolerance(error)}"
         )
     return tuple(reasons)

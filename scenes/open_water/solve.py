@@ -113,8 +113,8 @@ def _decay(problem: OpenWaterProblem, analysis: Decay) -> DecaySolution:
         wrong, remedy = "a float is unstable and would capsize", "Lower its centre of mass"
     except DriftingFloatError as error:
         motions = " and ".join(error.motions)
-        wrong = f"the float would drift away: nothing restores {motions}, which it sets going"
-        remedy = f"Leave {motions} out of motions, or let go of another motion"
+        wrong = f"the float would drift away: the release excites {motions}, without restoring force"
+        remedy = f"Leave {motions} out of motions, or release it in another motion"
     raise SceneError(Problem(key='[[analysis]] key "displacement"', wrong=wrong, remedy=remedy))
 
 
@@ -130,14 +130,14 @@ def _reasons(tolerance: float, number: int, analysis: Analysis, solution: _Solut
         residual = float(np.nanmax(np.abs(solution.table.energy_residual), initial=0.0))
         if residual > _POWER * tolerance:
             reasons.append(
-                f"analysis {number} ({analysis.kind}): the power of the waves that leave is off by {residual:.1e}, "
+                f"analysis {number} ({analysis.kind}): the power of outgoing waves is off by {residual:.1e}, "
                 f"more than the tolerance {tolerance:g} allows: the estimated errors cannot be trusted"
             )
     if isinstance(solution, RadiationSolution):
         residual = float(np.nanmax(solution.table.haskind_residual, initial=0.0))
         if residual > _POWER * tolerance:
             reasons.append(
-                f"analysis {number} ({analysis.kind}): excitation forces and the waves that are radiated disagree by "
+                f"analysis {number} ({analysis.kind}): excitation forces and radiated waves disagree by "
                 f"{residual:.1e}, more than the tolerance {tolerance:g} allows"
             )
     if isinstance(solution, ResonanceSolution):
@@ -149,7 +149,7 @@ def resonance_reasons(solution: ResonanceSolution) -> Iterator[str]:
     """Yield why the resonances of a region are not known to be all, in words."""
     counted = solution.table.counted
     if counted is None:
-        yield "the independent count of the resonances is not certain: one may lie on the rim of its region"
+        yield "the independent count of the resonances is not certain: one may lie on the boundary of its region"
     elif counted != solution.known:
         yield f"an independent count finds {counted} resonances in the region, and {solution.known} are known"
     if solution.unstable:

@@ -38,10 +38,10 @@ class BeamWords(BodyWords):
         """Return the shapes in which it moves."""
         beam = self.beam
         if beam.ends == "guided":
-            return "w = Σ aᵢ φᵢ: elastic shapes cos(nπx/L), n ≥ 1; heave is held by the liquid's volume"
+            return "w = Σ aᵢ φᵢ: elastic shapes cos(nπx/L), n ≥ 1; heave is excluded by the volume"
         hinges = ", a turn about each hinge" if beam.hinges else ""
         if is_held:
-            return f"w = Σ aᵢ φᵢ: pitch{hinges} and elastic shapes free in vacuum; heave is held by the liquid's volume"
+            return f"w = Σ aᵢ φᵢ: pitch{hinges} and elastic shapes free in vacuum; heave is excluded by the volume"
         return f"w = Σ aᵢ φᵢ: heave, pitch{hinges} and elastic shapes free in vacuum"
 
     def groups(self) -> Iterator[Group]:

@@ -50,7 +50,7 @@ def _walls(scene: TankScene) -> Iterator[tuple[str, str, str, str]]:
 
 
 def _open_ends(scene: TankScene) -> Iterator[tuple[str, str, str, str]]:
-    yield "open ends", "-inf", "inf", "waves leave, none comes back"
+    yield "open ends", "-inf", "inf", "outgoing waves only"
     potential = potential_of(scene, 0)
     if isinf(scene.liquid[0].depth):
         yield "deep below", "-inf", "inf", f"∇{potential} → 0 as y → −∞"
@@ -116,11 +116,11 @@ def _elevation_row(scene: TankScene, level: StillLevel) -> tuple[str, str, str]:
             "free surface",
             f"gravity waves, {name} = ω² {potential}/g{spans}",
         ),
-        "rigid": (f"{name}: none", "rigid lid", "the lid holds the liquid, so no gravity waves"),
+        "rigid": (f"{name}: none", "rigid lid", "a lid: no gravity waves"),
         "pressure_release": (
             f"{name}: none",
             "pressure release",
-            "the liquid moves freely without weight: no gravity waves",
+            "ψ = 0: no gravity waves",
         ),
     }
     return reasons[scene.top]

@@ -147,7 +147,7 @@ def _dofs(solution: TankSolution) -> tuple[Dof, ...]:
 
 
 def _matrices(solution: TankSolution) -> xarray.Dataset:
-    """Inertia and hydrostatics of the floats, and their added mass far above the waves, in Capytaine's names."""
+    """Inertia and hydrostatics of the floats, and their added mass at infinite frequency, in Capytaine's names."""
     import xarray
 
     floats, units = solution.tank.floats.values(), solution.units
@@ -171,7 +171,7 @@ def _matrices(solution: TankSolution) -> xarray.Dataset:
         matrices["infinite_frequency_added_mass"] = (
             solution.added_mass.matrix * masses,
             INERTIA_UNITS,
-            "added mass far above the waves",
+            "added mass at infinite frequency",
         )
     rows = ("influenced_dof", "radiating_dof")
     return xarray.Dataset(

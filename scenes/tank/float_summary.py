@@ -1,4 +1,4 @@
-"""What a summary says of rigid floats: hydrostatics, added mass far above the waves, modes, and motions that grow."""
+"""What a summary says of rigid floats: hydrostatics, added mass at infinite frequency, modes, and motions that grow."""
 
 from __future__ import annotations
 
@@ -111,7 +111,7 @@ def _mode(solution: TankSolution, mode: FloatMode) -> dict[str, Any]:
         shared=shared,
         added_mass=added * unit,
         added_mass_relative_error=2.0 * error * whole / abs(added) if added else 1.0,
-        note="shared with waves or other bodies: no mode is this motion's alone" if shared else "",
+        note="shared with waves or other bodies: no single mode represents this motion" if shared else "",
     )
     return row
 

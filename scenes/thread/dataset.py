@@ -83,7 +83,7 @@ def _rest_variables(solution: ThreadSolutionOfScene) -> xarray.Dataset:
             "reaction": (
                 ("end", "axis"),
                 rest.reactions,
-                _said("force on the thread by what holds it", "N", rest.reaction_error),
+                _said("support force on the thread", "N", rest.reaction_error),
             ),
             "end_moment": ("end", rest.end_moments, _said("bending moment", "N m", rest.moment_error)),
         },

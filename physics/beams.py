@@ -12,6 +12,7 @@ from typing import Literal, Self
 import numpy as np
 
 from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.beam_parts import Joint, Section
 from hydroelastic.physics.bodies import Body
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.physics.motions import Level
@@ -23,34 +24,6 @@ SAME_PLACE = 1e-9
 _ALIKE = 1e-12
 # α where the slope of a beam jumps, and where its curvature does.
 _KINK, _STEP = 2.0, 3.0
-
-
-@dataclass(frozen=True, kw_only=True)
-class Section:
-    """A uniform part of a beam, per metre of width.
-
-    Attributes:
-        length: its length, m.
-        flexural_rigidity: EI, N·m.
-        mass_per_length: m, kg/m².
-    """
-
-    length: float
-    flexural_rigidity: float
-    mass_per_length: float
-
-
-@dataclass(frozen=True, kw_only=True)
-class Joint:
-    """A place at which the slope may jump: k (w′(x+) − w′(x−)) = EI w″(x).
-
-    Attributes:
-        at: distance from the beam's left end, m.
-        rotational_stiffness: k per metre of width, N·m/rad; 0 is a hinge.
-    """
-
-    at: float
-    rotational_stiffness: float
 
 
 @dataclass(frozen=True, kw_only=True)

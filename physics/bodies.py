@@ -11,7 +11,7 @@ from hydroelastic.physics.motions import Level
 from hydroelastic.physics.scales import Scales
 
 if TYPE_CHECKING:
-    from hydroelastic.physics.beams import Section
+    from hydroelastic.physics.beam_parts import Section
     from hydroelastic.physics.hulls import Hull
 
 

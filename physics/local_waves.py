@@ -11,7 +11,7 @@ from math import pi, tanh
 
 from scipy.optimize import brentq
 
-from hydroelastic.physics.beams import Section
+from hydroelastic.physics.beam_parts import Section
 from hydroelastic.physics.tank import Piece, StillLevel, Tank
 
 _WIDEST = 1e12  # Upper bound of dimensionless wavenumbers.

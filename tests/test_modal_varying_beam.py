@@ -11,7 +11,8 @@ from scipy.optimize import brentq
 
 from hydroelastic.modal.beam.beam_shapes import beam_shapes, first_dry_eigenvalue
 from hydroelastic.modal.beam.jointed_modes import jointed_modes
-from hydroelastic.physics.beams import Beam, Section
+from hydroelastic.physics.beam_parts import Section
+from hydroelastic.physics.beams import Beam
 from hydroelastic.physics.varying_beam import VaryingBeam
 
 Function = Callable[[np.ndarray], np.ndarray]

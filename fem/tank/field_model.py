@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from mpi4py import MPI
 
-from hydroelastic.fem.bodies.model import body_model
+from hydroelastic.fem.bodies.registry import body_model
 from hydroelastic.fem.liquid import Layer, liquid_matrices, liquid_space
 from hydroelastic.fem.pencil import CoupledPencil, build_pencil
 from hydroelastic.fem.surfaces import Body, LiquidSurface

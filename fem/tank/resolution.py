@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from math import ceil, e, log10
 from typing import TYPE_CHECKING
 
-from hydroelastic.fem.bodies.model import body_model
+from hydroelastic.fem.bodies.registry import body_model
 from hydroelastic.physics.local_waves import (
     LevelPiece,
     modes_below,

@@ -12,7 +12,7 @@ from math import ceil
 import numpy as np
 from mpi4py import MPI
 
-from hydroelastic.fem.bodies.model import ends_of_motions, expected_tones
+from hydroelastic.fem.bodies.registry import ends_of_motions, expected_tones
 from hydroelastic.fem.kept_tolerance import kept_tolerance
 from hydroelastic.fem.modes import Mode, ModeSet
 from hydroelastic.fem.stopwatch import Report, Stopwatch

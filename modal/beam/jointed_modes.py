@@ -26,7 +26,8 @@ from scipy.linalg import lapack, qr, solve_triangular
 
 from hydroelastic.modal.beam.dry_modes import RIGID_SHAPES
 from hydroelastic.physics.arrays import FloatArray
-from hydroelastic.physics.beams import Beam, Section, defines_shape_direction
+from hydroelastic.physics.beam_parts import Section
+from hydroelastic.physics.beams import Beam, defines_shape_direction
 from hydroelastic.physics.dofs import Dof, beam_dofs
 
 Side = Literal["left", "right"]

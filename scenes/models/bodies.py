@@ -20,6 +20,7 @@ from pydantic import (
 from pydantic_core import InitErrorDetails
 
 from hydroelastic.physics import beams
+from hydroelastic.physics.beam_parts import Joint, Section
 from hydroelastic.physics.motions import Level, Motion
 from hydroelastic.scenes.models.problems import problem_at
 
@@ -65,20 +66,18 @@ class BeamJoint(SceneModel):
     )
 
 
-def physical_sections(parts: tuple[BeamSection, ...]) -> tuple[beams.Section, ...]:
+def physical_sections(parts: tuple[BeamSection, ...]) -> tuple[Section, ...]:
     """Return the sections of a beam."""
     return tuple(
-        beams.Section(
-            length=part.length, flexural_rigidity=part.flexural_rigidity, mass_per_length=part.mass_per_length
-        )
+        Section(length=part.length, flexural_rigidity=part.flexural_rigidity, mass_per_length=part.mass_per_length)
         for part in parts
     )
 
 
-def physical_joints(joints: tuple[BeamJoint, ...]) -> tuple[beams.Joint, ...]:
+def physical_joints(joints: tuple[BeamJoint, ...]) -> tuple[Joint, ...]:
     """Return the joints of a beam, from left to right."""
     ordered = sorted(joints, key=lambda joint: joint.at)
-    return tuple(beams.Joint(at=joint.at, rotational_stiffness=joint.rotational_stiffness) for joint in ordered)
+    return tuple(Joint(at=joint.at, rotational_stiffness=joint.rotational_stiffness) for joint in ordered)
 
 
 UNIFORM_KEYS = ("length", "flexural_rigidity", "mass_per_length")

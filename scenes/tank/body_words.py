@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from hydroelastic.physics.motions import Level
-from hydroelastic.scenes.models.bodies import Float
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.tank.symbols import Group
 
@@ -49,15 +48,3 @@ class BodyWords(ABC):
     def at_rest(self) -> dict[str, str]:
         """Return how it rests, by quantity and unit; empty of a body without draught."""
         return {}
-
-
-def words_of(scene: TankScene, index: int) -> BodyWords:
-    """Return the words for a body of a scene."""
-    body = scene.body[index]
-    if isinstance(body, Float):
-        from hydroelastic.scenes.tank.float_words import FloatWords
-
-        return FloatWords(scene=scene, index=index, body=body)
-    from hydroelastic.scenes.tank.beam_words import BeamWords
-
-    return BeamWords(scene=scene, index=index, beam=body)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from hydroelastic.fem.bodies.model import ends_of_motions, expected_tones
+from hydroelastic.fem.bodies.registry import ends_of_motions, expected_tones
 from hydroelastic.fem.tank.resolution import (
     Resolution,
     companion_resolution,

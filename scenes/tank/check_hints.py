@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import TypeAlias
 
-from hydroelastic.fem.bodies.model import expected_tones
+from hydroelastic.fem.bodies.registry import expected_tones
 from hydroelastic.modal.beam.beam_shapes import first_bending
 from hydroelastic.physics.rigid_motions import mode_count, zero_mode_count, zero_stiffness_motions
 from hydroelastic.physics.symmetry import is_mirror_image

@@ -7,10 +7,13 @@ from math import isinf
 
 from hydroelastic.physics.rigid_motions import heave_is_excluded
 from hydroelastic.physics.tank import Piece, StillLevel
+from hydroelastic.scenes.models.bodies import Float
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.output.sections import Row, Section
-from hydroelastic.scenes.tank.body_words import words_of
+from hydroelastic.scenes.tank.beam_words import BeamWords
+from hydroelastic.scenes.tank.body_words import BodyWords
+from hydroelastic.scenes.tank.float_words import FloatWords
 from hydroelastic.scenes.tank.symbols import Group, potential_of
 
 SURFACE_NAMES = {
@@ -30,7 +33,7 @@ def boundary_table(scene: TankScene) -> Section:
             _surface_name(scene, level, piece),
             f"{piece.start:g}",
             f"{piece.end:g}",
-            _open_condition(scene, level) if piece.body is None else words_of(scene, piece.body).condition(),
+            _open_condition(scene, level) if piece.body is None else _words_of(scene, piece.body).condition(),
         )
         for level in physical_tank(scene).levels_from_top
         for piece in level.pieces
@@ -98,7 +101,7 @@ def _unknowns(scene: TankScene) -> Iterator[Row]:
     for level in tank.levels_from_top:
         yield _elevation_row(scene, level)
     for index in range(len(scene.body)):
-        words = words_of(scene, index)
+        words = _words_of(scene, index)
         name = f"{words.name} {index + 1}"
         yield f"{words.symbol} of {name}", name, words.basis(is_held=heave_is_excluded(tank, index))
 
@@ -148,15 +151,22 @@ def _groups(scene: TankScene) -> Iterator[Group]:
         what = "depth" if len(scene.layers) == 1 else "depth of the lower liquid"
         yield name, scene.layers[0].depth / length, f"{what} over length of the tank"
     for index in range(len(scene.body)):
-        yield from words_of(scene, index).groups()
+        yield from _words_of(scene, index).groups()
 
 
 def hydrostatics_table(scene: TankScene) -> Section:
     """Return how each float rests, and what restores it; without rows where there is none."""
-    columns = {index: found for index in range(len(scene.body)) if (found := words_of(scene, index).at_rest())}
+    columns = {index: found for index in range(len(scene.body)) if (found := _words_of(scene, index).at_rest())}
     quantities = next(iter(columns.values()), {})
     return Section(
         title="Floats at rest, per metre of width",
         headings=("quantity", *(f"float {index + 1}" for index in columns)),
         rows=[(quantity, *(column[quantity] for column in columns.values())) for quantity in quantities],
     )
+
+
+def _words_of(scene: TankScene, index: int) -> BodyWords:
+    body = scene.body[index]
+    if isinstance(body, Float):
+        return FloatWords(scene=scene, index=index, body=body)
+    return BeamWords(scene=scene, index=index, beam=body)

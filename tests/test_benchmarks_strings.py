@@ -52,6 +52,7 @@ def test_the_error_is_relative_to_the_largest_displacement() -> None:
     assert string_error("smooth", tuple(values)) == pytest.approx(1e-3, rel=1e-9)
 
 
+@pytest.mark.slow_but("case1*")
 @pytest.mark.parametrize(
     ("case", "bound"),
     [

@@ -134,6 +134,7 @@ def test_hydroelastic_comes_to_the_exact_values(case: Case, least: float, most: 
     assert least < row_of(case, answer, (1.0,)).error < most
 
 
+@pytest.mark.slow_but("moorpy-catenary-*")
 @pytest.mark.parametrize(
     ("code", "name", "bounds"),
     [

@@ -73,6 +73,7 @@ def assert_honest(found: ResonanceSolution, profile: Profile) -> None:
         assert -omega.imag < 0.7 * omega.real or estimate <= 4.0 * error
 
 
+@pytest.mark.slow
 def test_second_pole_of_the_exponential() -> None:
     tail = 1e-3
     found = damped(exponential(tail, 1e-3), count=6)

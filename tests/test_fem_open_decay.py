@@ -63,6 +63,7 @@ def test_circle_in_deep_water(tolerance: float) -> None:
     assert found.table.tail == pytest.approx(-4.0 / pi / G * 0.1, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_motions_that_nothing_restores_add_no_error() -> None:
     """A circle that may sway: by symmetry it does not, and the error of the heave is as without."""
     times = np.array(STORED["t"]) / np.sqrt(G)
@@ -71,6 +72,7 @@ def test_motions_that_nothing_restores_add_no_error() -> None:
     assert np.abs(found.table.displacement[:, 0] / 0.1 - STORED["s"]).max() < found.error < 1e-4
 
 
+@pytest.mark.slow
 def test_few_factorizations_and_one_alive(monkeypatch: pytest.MonkeyPatch) -> None:
     computed: list[weakref.ref[object]] = []
     most = 0
@@ -113,6 +115,8 @@ def test_cost_is_told_before(name: str, tolerance: float, seconds: float, memory
     assert any(decay_cost_words(scene, asked) in line for line in open_requests(scene))
 
 
+@pytest.mark.slow_on_ranks_but
+@pytest.mark.slow_but("densities0")
 @pytest.mark.mpi
 @pytest.mark.parametrize("densities", [(1000.0,), (1000.0, 800.0)])
 def test_thin_float_with_its_tail(densities: tuple[float, ...]) -> None:
@@ -130,6 +134,7 @@ def test_thin_float_with_its_tail(densities: tuple[float, ...]) -> None:
     assert found.table.tail == pytest.approx(-4.0 / pi * 0.1 / reduced * 0.1, rel=5e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tolerance", [1e-3, pytest.param(1e-6, marks=pytest.mark.slow)])
 def test_long_exponential_between_two_liquids(tolerance: float) -> None:
     """Twenty decay lengths on either side: the basin is tall, and waves above those of the mesh count."""
@@ -151,6 +156,7 @@ def test_long_exponential_between_two_liquids(tolerance: float) -> None:
     assert found.solved < 30
 
 
+@pytest.mark.slow
 def test_no_such_tail_over_a_bed() -> None:
     scene = _scene(1e-3, depth=2.0, shape="parabola", half_width=0.1, boundary="thin")
     layers = TwoLayers(density_below=1000.0, depth_below=2.0, gravity=G)

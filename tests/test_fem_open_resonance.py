@@ -49,6 +49,7 @@ def thin_cases() -> list[Any]:
     ]
 
 
+@pytest.mark.slow_but("wedge-water")
 @pytest.mark.parametrize(("shape", "liquids"), thin_cases())
 def test_thin_floats(shape: Any, liquids: str) -> None:
     found = resonance(slender(shape, liquids, 1e-6), count=1).table

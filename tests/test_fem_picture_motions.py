@@ -40,6 +40,7 @@ def sloshing(tmp_path_factory: pytest.TempPathFactory, canvas: Canvas) -> tuple[
     return folder / "mode.gif", animated(sloshing_picture(), folder, canvas)
 
 
+@pytest.mark.slow
 def test_a_period_repeats_itself_and_is_small(sloshing: tuple[Path, list[np.ndarray]]) -> None:
     path, pages = sloshing
     assert len(pages) == FRAMES

@@ -102,6 +102,7 @@ SYMMETRIC = {
 }
 
 
+@pytest.mark.slow_but("stepped")
 @pytest.mark.parametrize("name", SYMMETRIC)
 def test_halves_of_a_symmetric_tank_give_the_whole(tanks: Tanks, name: str) -> None:
     scene = tanks.scene(*SYMMETRIC[name], tolerance=1e-8, modes=12)
@@ -181,6 +182,7 @@ def test_hinges_of_a_beam_without_hydrostatics_cost_nothing(tanks: Tanks) -> Non
     assert tanks.solve(scene).modes.zero_modes == zero_mode_count(physical_tank(scene))
 
 
+@pytest.mark.slow_on_ranks_but
 @pytest.mark.mpi
 def test_a_stepped_mass_couples_the_shapes(tanks: Tanks) -> None:
     """On a liquid that is far lighter than itself it keeps its dry modes."""

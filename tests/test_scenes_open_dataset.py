@@ -76,6 +76,7 @@ def test_capytaines_recipe_for_complex_numbers_and_motions_works(written: xarray
     )
 
 
+@pytest.mark.slow
 def test_motions_in_waves_follow_from_the_dataset_of_radiation() -> None:
     """Radiation and response are solved apart, and meet in the equation of motion by the dataset's labels.
 

@@ -41,6 +41,7 @@ def test_thin_boundary_is_what_the_theory_solves() -> None:
     assert "thickness" in note
 
 
+@pytest.mark.slow
 def test_exact_contour_differs_by_the_thinness() -> None:
     rows, _ = thin_float_comparisons(solve_open(_scene(boundary="exact"), MPI.COMM_SELF, lambda _message: None))
     differences = {row.quantity.split()[0]: abs(row.difference) for row in rows}
@@ -80,6 +81,7 @@ def test_blunt_sections_say_why() -> None:
     assert note.startswith("The thin-float theory has no value")
 
 
+@pytest.mark.slow
 @pytest.mark.mpi
 def test_two_processes_agree() -> None:
     solution = solve_open(_scene(), MPI.COMM_WORLD, lambda _message: None)

@@ -94,6 +94,7 @@ def free_surface_residual(field: SampledField, body: tuple[float, float]) -> flo
     return float(np.abs(residual).max() / np.abs(upwards).max())
 
 
+@pytest.mark.slow_on_ranks_but
 @pytest.mark.mpi
 @pytest.mark.parametrize("waves_from", ["left", "right"])
 def test_a_response_is_the_wave_that_comes_and_those_that_leave(waves_from: str) -> None:

@@ -74,6 +74,7 @@ def test_differences_are_those_of_the_boundary(study: Study) -> None:
     assert first["added mass"].difference == pytest.approx(-0.5 * 0.005 / 0.3, rel=0.2)
 
 
+@pytest.mark.slow
 def test_a_given_mass_goes_with_the_width() -> None:
     # It floats deeper than with the 3.6 kg/m that keep its widest section at the interface.
     heavier = study_scene(scene(mass=3.7), replace(PLAN, width_halvings=2)).thinness
@@ -82,6 +83,7 @@ def test_a_given_mass_goes_with_the_width() -> None:
         assert row.compared["heave"].is_clear
 
 
+@pytest.mark.slow
 def test_heave_that_is_shared_with_waves_is_said_to_be() -> None:
     rows = study_scene(
         read_scene("float_ellipse", ['body.1.motions=["heave"]', "body.1.half_width=0.2"]),

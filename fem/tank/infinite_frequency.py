@@ -126,7 +126,7 @@ def infinite_frequency_limit(
     if has_tones:
         report("pressure-release tone")
     if has_added_mass:
-        report("added mass far above the waves")
+        report("added mass at infinite frequency")
     stage = "pressure release" if has_tones else "added mass"
 
     def solve(resolution: Resolution) -> Attempt[InfiniteFrequencyLimit]:

@@ -76,6 +76,7 @@ def moments(pencil: CoupledPencil, values: Callable[[np.ndarray, np.ndarray], np
     return float(pencil.liquid.tank.mesh.comm.allreduce(shape_loads(pencil.liquid, body).sum()))
 
 
+@pytest.mark.slow_on_ranks_but("ship")
 @pytest.mark.mpi
 @pytest.mark.parametrize("name", SECTIONS)
 def test_normals_of_a_contour_close_and_hold_its_area(name: str) -> None:
@@ -101,6 +102,7 @@ def test_measures_of_surfaces_and_contours_are_exact() -> None:
         assert comm.allreduce(surface_load(pencil.liquid, (name,)).sum()) == pytest.approx(expected, rel=1e-11)
 
 
+@pytest.mark.slow_on_ranks_but("beside a circle-0.333-0.1")
 @pytest.mark.mpi
 @pytest.mark.parametrize(("position", "half_height"), [(0.333, 0.1), (0.4123, 0.0771), (0.29, 0.1234)])
 @pytest.mark.parametrize("beside", [False, True], ids=["alone", "beside a circle"])
@@ -168,6 +170,7 @@ def test_the_energy_of_a_harmonic_function_beside_a_circle_converges_exponential
     assert errors[-1] <= 1e-12
 
 
+@pytest.mark.slow_but("circle_off_centre")
 @pytest.mark.parametrize("name", ["circle", "circle_off_centre", "two_liquids_parabola"])
 def test_frequencies_converge_with_the_degree_of_the_geometry(name: str) -> None:
     """ψ of degree 9 on cells of degree 1, 2, 3, 5, 8: errors fall until those of ψ and of the reference are left."""
@@ -238,6 +241,7 @@ def unbounded(shape: str, densities: tuple[float, ...], motions: str = "heave", 
     return found[1] + (found[1] - found[0]) / 3.0
 
 
+@pytest.mark.slow_but("1.0-1.0-one", "1.0-1.0-two")
 @pytest.mark.parametrize("densities", [(1000.0,), (1000.0, 800.0), (1000.0, 999.0)], ids=["one", "two", "close"])
 @pytest.mark.parametrize(("half_width", "half_height"), [(1.0, 1.0), (2.0, 1.0), (0.1, 1.0)])
 def test_ellipses_have_their_added_mass_above_the_waves(
@@ -289,6 +293,7 @@ def test_a_rigid_plate_has_its_added_mass_above_the_waves(densities: tuple[float
     assert found[1] + (found[1] - found[0]) / 3.0 == pytest.approx(pi / 8.0 * sum(densities) * 4.0, rel=1e-8)
 
 
+@pytest.mark.slow_on_ranks_but("two")
 @pytest.mark.mpi
 @pytest.mark.parametrize("densities", [(1000.0,), (1000.0, 800.0)], ids=["one", "two"])
 def test_processes_agree_on_the_added_mass_above_the_waves(densities: tuple[float, ...]) -> None:

@@ -16,7 +16,7 @@ from hydroelastic.fem.pictures.mode import ModePicture
 from hydroelastic.fem.pictures.modes import animate_mode, animate_motion
 from hydroelastic.fem.pictures.tank import BODY, drawn_vectors
 from hydroelastic.fem.pictures.view import view_of
-from hydroelastic.scenes.tank.animated import animated_modes
+from hydroelastic.scenes.tank.shapes import animated_modes
 
 WIDTH = 800
 UNIT = WIDTH / 1600
@@ -40,6 +40,7 @@ def sloshing(tmp_path_factory: pytest.TempPathFactory, canvas: Canvas) -> tuple[
     return folder / "mode.gif", animated(sloshing_picture(), folder, canvas)
 
 
+@pytest.mark.slow
 def test_a_period_repeats_itself_and_is_small(sloshing: tuple[Path, list[np.ndarray]]) -> None:
     path, pages = sloshing
     assert len(pages) == FRAMES

@@ -12,13 +12,13 @@ import pytest
 from hydroelastic.fem.pictures.mode import SurfaceCurve
 from hydroelastic.fem.pictures.modes import Canvas, NoRendererError
 from hydroelastic.fem.pictures.options import PictureOptions
+from hydroelastic.fem.shape_curves import largest_of
+from hydroelastic.fem.tank.mode_shapes import ModeShapes, sample_shapes
 from hydroelastic.scenes.models.bodies import Beam, Float
 from hydroelastic.scenes.models.body_kinds import Body
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.tank_parts import Accuracy, Liquid, Tank
 from hydroelastic.scenes.run import run_scene
-from hydroelastic.scenes.tank.shape_curves import largest_of
-from hydroelastic.scenes.tank.shapes import ModeShapes, sample_shapes
 
 LENGTH = 10.0
 LOWER, UPPER = (1000.0, 4.0), (800.0, 3.0)

@@ -122,3 +122,20 @@ def bending_fraction(mode: Mode, bodies: tuple[Body, ...]) -> float:
     """Strain energy of bending over total potential energy."""
     bending = np.concatenate([body.bending_stiffness for body in bodies] or [np.empty(0)])
     return float(bending @ mode.body_amplitudes**2 / mode.eigenvalue)
+
+
+def added_mass(stiffness: float, mass: float, eigenvalue: float, relative_error: float) -> tuple[float, float]:
+    """Added mass m_a = k/λ − m of a tone or a motion from its frequency, and the relative error that follows from ω's.
+
+    Args:
+        stiffness: k: EI κ⁴ + s ρ g of a dry mode, per unit of its shape, or that of a float's motion.
+        mass: m of the dry mode or the float, the same way.
+        eigenvalue: λ = ω².
+        relative_error: of ω.
+
+    Returns:
+        The added mass in the same unit as ``mass``, and its relative error.
+    """
+    whole = stiffness / eigenvalue
+    added = whole - mass
+    return added, 2.0 * relative_error * whole / abs(added) if added else 1.0

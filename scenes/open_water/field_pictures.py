@@ -8,10 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
+from hydroelastic.fem.open_water.field_samples import SampledField
 from hydroelastic.fem.pictures.gif import FRAMES
 from hydroelastic.fem.pictures.modes import Canvas, animate_motion, draw_mode, phase_words
 from hydroelastic.fem.pictures.options import PictureOptions
-from hydroelastic.scenes.open_water.field_samples import SampledField
 
 _PREFIX = "waves_"
 

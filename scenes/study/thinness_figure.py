@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from hydroelastic.fem.study.thinness import QUANTITIES, ThinnessRow
 from hydroelastic.scenes.output.curve_style import BLUE, GREEN, GREY, ORANGE, PURPLE, VERMILLION, Sheets
-from hydroelastic.scenes.study.thinness import QUANTITIES, ThinnessRow
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -94,9 +94,9 @@ def _user_mesh(scene: TankScene) -> TaggedMesh | None:
     if scene.mesh is None:
         return None
     # Only who has a mesh of their own needs what reads it.
-    from hydroelastic.scenes.tank.own_mesh import own_mesh
+    from hydroelastic.scenes.tank.own_mesh import read_own_mesh
 
-    return own_mesh(scene)
+    return read_own_mesh(scene)
 
 
 def _size(

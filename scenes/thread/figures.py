@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from hydroelastic.fem.pictures.options import PictureOptions
 from hydroelastic.fem.thread.modes import ThreadModes
+from hydroelastic.fem.thread.motion_in_space import MotionInSpace
 from hydroelastic.fem.thread.stability import Stability
 from hydroelastic.scenes.output.curve_style import (
     BLUE,
@@ -32,7 +33,7 @@ from hydroelastic.scenes.thread.line_pictures import (
     tension_unit,
     tensions_at_rest,
 )
-from hydroelastic.scenes.thread.results import Floats, MotionInSpace, ThreadSolutionOfScene
+from hydroelastic.scenes.thread.results import Floats, ThreadSolutionOfScene
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -12,9 +12,10 @@ from hydroelastic.fem.pictures.gif import FRAMES, SECONDS
 from hydroelastic.fem.pictures.line import DrawnLine, animate_line, draw_lines
 from hydroelastic.fem.pictures.line_view import LineView, line_view
 from hydroelastic.fem.thread.modes import ThreadModes
+from hydroelastic.fem.thread.motion_in_space import MotionInSpace
 from hydroelastic.scenes.models.thread_tables import FixedEnd
 from hydroelastic.scenes.output.line_sequence import frame_numbers
-from hydroelastic.scenes.thread.results import Floats, MotionInSpace, ThreadSolutionOfScene
+from hydroelastic.scenes.thread.results import Floats, ThreadSolutionOfScene
 
 # Points for each element of a curve that is drawn.
 _SMOOTH = 8

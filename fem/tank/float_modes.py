@@ -105,7 +105,9 @@ def float_modes(
     for motion in _restored(tank, bodies):
         moved = modes.elastic_amplitudes[:, motion.place] ** 2
         order = np.argsort(-moved)
-        more = added.principal(tank, motion.body)[motion.number] if added is not None else 0.0
+        more = (
+            added.principal(tank, motion.body, bodies[motion.body].motions)[motion.number] if added is not None else 0.0
+        )
         limit = motion.stiffness / (motion.mass + more)
         certain = complete or bool(modes.eigenvalues[-1] >= 0.8 * FAR_ENOUGH * limit)
         reason = ""

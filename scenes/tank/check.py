@@ -96,7 +96,7 @@ def _sizes(scene: TankScene) -> Iterator[str]:
 def _user_mesh(scene: TankScene) -> TaggedMesh | None:
     if scene.mesh is None:
         return None
-    # Only who brings a mesh needs what reads it.
+    # Only scenes with a user mesh need what reads it.
     from hydroelastic.scenes.tank.own_mesh import read_own_mesh
 
     return read_own_mesh(scene)

@@ -67,7 +67,7 @@ class LiquidSpace:
     tank: TankMesh
     space: fem.FunctionSpace
     degree: int
-    grounded: tuple[str, ...]
+    zero_potential: tuple[str, ...]
     layers: tuple[Layer, ...]
     layer_of: np.ndarray
     continuous_pressure: tuple[Layer, ...] = ()
@@ -110,7 +110,7 @@ class LiquidSpace:
 def liquid_space(
     tank: TankMesh,
     degree: int,
-    grounded: tuple[str, ...] = (),
+    zero_potential: tuple[str, ...] = (),
     layers: tuple[Layer, ...] = ONE_LIQUID,
     *,
     continuous_pressure: bool = False,
@@ -133,7 +133,7 @@ def liquid_space(
         tank=tank,
         space=space,
         degree=degree,
-        grounded=grounded,
+        zero_potential=zero_potential,
         layers=ONE_LIQUID if continuous_pressure else layers,
         layer_of=layer_of,
         continuous_pressure=layers if continuous_pressure else (),
@@ -143,10 +143,10 @@ def liquid_space(
 def closed_layers(liquid: LiquidSpace) -> tuple[int, ...]:
     """The layers on whose boundary ψ = 0 nowhere, so that ∫ζ = 0 over their surfaces (collective)."""
     layers = range(len(liquid.layers))
-    if not liquid.grounded:
+    if not liquid.zero_potential:
         return tuple(layers)
-    grounded = liquid.owned_layer_of[liquid.surface_dofs(liquid.grounded)]
-    counts = np.array([np.count_nonzero(grounded == layer) for layer in layers])
+    layers_of_zeros = liquid.owned_layer_of[liquid.surface_dofs(liquid.zero_potential)]
+    counts = np.array([np.count_nonzero(layers_of_zeros == layer) for layer in layers])
     liquid.tank.mesh.comm.Allreduce(MPI.IN_PLACE, counts)
     return tuple(layer for layer in layers if counts[layer] == 0)
 
@@ -265,9 +265,9 @@ def assembled(form: fem.Form) -> PETSc.Mat:
     return matrix
 
 
-def grounded_dofs(liquid: LiquidSpace) -> np.ndarray:
+def constrained_dofs(liquid: LiquidSpace) -> np.ndarray:
     """Owned unknowns whose value is zero: those of the grounded surfaces, and one of each closed layer (collective)."""
-    surfaces = liquid.surface_dofs(liquid.grounded) if liquid.grounded else np.empty(0, dtype=np.int32)
+    surfaces = liquid.surface_dofs(liquid.zero_potential) if liquid.zero_potential else np.empty(0, dtype=np.int32)
     return np.union1d(surfaces, [dof for layer in closed_layers(liquid) for dof in first_dof(liquid, layer)]).astype(
         np.int32
     )
@@ -314,10 +314,10 @@ class LiquidSolver:
         closed: the layers of constant volume.
     """
 
-    def __init__(self, matrix: PETSc.Mat, grounded: np.ndarray, closed: tuple[ClosedLayer, ...]) -> None:
+    def __init__(self, matrix: PETSc.Mat, constrained: np.ndarray, closed: tuple[ClosedLayer, ...]) -> None:
         """Factorize (collective)."""
         first, last = matrix.getOwnershipRange()
-        free = np.setdiff1d(np.arange(last - first, dtype=np.int32), grounded)
+        free = np.setdiff1d(np.arange(last - first, dtype=np.int32), constrained)
         self._local_free = free
         rows = PETSc.IS().createGeneral((free + first).astype(PETSc.IntType), comm=matrix.comm)
         block = matrix.createSubMatrix(rows, rows)

@@ -25,7 +25,7 @@ _SIDEWAYS = (LEFT_WALL, RIGHT_WALL)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Frames:
+class CellLayers:
     """Distances of successive frames from the basin, ascending.
 
     Attributes:
@@ -39,7 +39,7 @@ class Frames:
     above: NDArray[np.float64]
 
 
-def extended(mesh: TaggedMesh, sides: tuple[str, ...], frames: Frames) -> TaggedMesh:
+def extended(mesh: TaggedMesh, sides: tuple[str, ...], layers: CellLayers) -> TaggedMesh:
     """Surround a basin with frames; it becomes a larger basin, with the same names.
 
     Args:
@@ -51,7 +51,7 @@ def extended(mesh: TaggedMesh, sides: tuple[str, ...], frames: Frames) -> Tagged
         The mesh, whose first cells and nodes are those of the basin.
     """
     rim = _Rim(mesh, sides)
-    numbers, positions = rim.nodes(frames)
+    numbers, positions = rim.nodes(layers)
     cells, tags = rim.cells(numbers, positions)
     facets, facet_tags = rim.facets(numbers)
     kept = ~np.isin(mesh.facet_tags, [mesh.facet_names[side] for side in sides])
@@ -114,14 +114,14 @@ class _Rim:
             if tag not in extended_tags:
                 yield from ((ray, int(tag)) for ray in self.rays if ray[0] in (first, second))
 
-    def nodes(self, frames: Frames) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    def nodes(self, layers: CellLayers) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
         """Number of the node of each ray at each level, shape (rays, levels), and the positions of all nodes."""
         base = self._mesh.points[[node for node, _ in self.rays]]
         ways = np.array([way for _, way in self.rays], dtype=np.float64)
-        vertical = np.where(ways[:, 1:] < 0.0, frames.below, frames.above)
-        distances = np.stack([np.broadcast_to(frames.sideways, vertical.shape), vertical], axis=2)
+        vertical = np.where(ways[:, 1:] < 0.0, layers.below, layers.above)
+        distances = np.stack([np.broadcast_to(layers.sideways, vertical.shape), vertical], axis=2)
         outer = base[:, None] + ways[:, None] * distances
-        numbers = np.empty((len(self.rays), 1 + len(frames.sideways)), dtype=np.int64)
+        numbers = np.empty((len(self.rays), 1 + len(layers.sideways)), dtype=np.int64)
         numbers[:, 0] = [node for node, _ in self.rays]
         numbers[:, 1:] = len(self._mesh.points) + np.arange(outer.shape[0] * outer.shape[1]).reshape(outer.shape[:2])
         return numbers, np.vstack([self._mesh.points, outer.reshape(-1, 2)])

@@ -71,7 +71,7 @@ class Region:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Corner:
+class GradedPoint:
     """A point to which rings of triangles shrink.
 
     Attributes:
@@ -112,7 +112,7 @@ class Outline:
 
     curves: tuple[Curve, ...]
     regions: tuple[Region, ...]
-    corners: tuple[Corner, ...] = ()
+    graded_points: tuple[GradedPoint, ...] = ()
 
     def __post_init__(self) -> None:
         """Check that it is a planar domain divided into regions."""
@@ -130,12 +130,12 @@ class Outline:
             if not curve.name and (curve.cut or sum(sides) == 1):
                 raise ValueError(f"curve {number} has no name but lies on the boundary or is cut open")
         ends = {end for curve in self.curves for end in (curve.start, curve.end)}
-        for corner in self.corners:
-            if corner.point not in ends:
-                raise ValueError(f"the corner at {corner.point} is not an end of a curve")
-            if not (corner.inner > 0.0 and corner.outer > 0.0):
-                raise ValueError(f"the corner at {corner.point} needs rings of positive radii")
-        if len({corner.point for corner in self.corners}) < len(self.corners):
+        for graded in self.graded_points:
+            if graded.point not in ends:
+                raise ValueError(f"the corner at {graded.point} is not an end of a curve")
+            if not (graded.inner > 0.0 and graded.outer > 0.0):
+                raise ValueError(f"the corner at {graded.point} needs rings of positive radii")
+        if len({graded.point for graded in self.graded_points}) < len(self.graded_points):
             raise ValueError("two corners are at the same point")
 
     def curves_at(self, point: Point) -> tuple[int, ...]:

@@ -14,7 +14,7 @@ from math import cos, inf, isinf, log, pi, sin
 import numpy as np
 
 from hydroelastic.meshes.geometry import BOTTOM, LEFT_WALL, LID, RIGHT_WALL
-from hydroelastic.meshes.open_sea import Frames
+from hydroelastic.meshes.open_sea import CellLayers
 from hydroelastic.modal.liquid.travelling_waves import TravellingWave, travelling_waves
 from hydroelastic.modal.liquid.two_layer import TwoLayers
 from hydroelastic.modal.tank_estimates import two_layers
@@ -88,7 +88,7 @@ class OpenBasin:
         return (0.0, floor), (1.0, ceiling)
 
     @property
-    def endless(self) -> tuple[str, ...]:
+    def far_sides(self) -> tuple[str, ...]:
         """The sides beyond which nothing is modelled."""
         deep = (BOTTOM,) * isinf(self.depths[0]) + (LID,) * (len(self.depths) > 1 and isinf(self.depths[-1]))
         return (LEFT_WALL, RIGHT_WALL, *deep)
@@ -119,13 +119,13 @@ def open_basin(water: Tank, shortest: float, *, drawn: float | None = None) -> O
         margins = (min(max(left, least), most), min(max(water.length - right, least), most))
     length = right - left + sum(margins)
     margin = max(margin, _DRAWN_DEPTH * length) if drawn is not None else margin
-    reaches = (margin - low, margin + high)
+    distances = (margin - low, margin + high)
     depths = [layer.depth for layer in water.layers]
     # A top that moves, or holds the pressure, is part of the basin.
     goes_on = (True, isinf(depths[-1]) or water.top == "rigid")
     kept = [
-        reach if open_end and depth > reach + _DEEPER * length else depth
-        for depth, reach, open_end in zip(depths, reaches, goes_on, strict=False)
+        distance if open_end and depth > distance + _DEEPER * length else depth
+        for depth, distance, open_end in zip(depths, distances, goes_on, strict=False)
     ]
     origin = left - margins[0]
     basin = closed_tank(
@@ -160,7 +160,7 @@ def _extent(water: Tank) -> tuple[float, float, float, float]:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Reach:
+class AbsorbingLayer:
     """How frames are laid.
 
     Attributes:
@@ -175,7 +175,7 @@ class Reach:
     growth: float
     farthest: float
 
-    def stages(self, basin: OpenBasin) -> list[tuple[tuple[str, ...], Frames]]:
+    def stages(self, basin: OpenBasin) -> list[tuple[tuple[str, ...], CellLayers]]:
         """Frames one after another, and the sides of the basin, widened by those before, that they extend.
 
         A bed or a lid is not followed beyond its distance: frames that go on sideways alone would else be thin and long
@@ -197,15 +197,15 @@ class Reach:
             below, above = (
                 sideways * (ended[side] - start) / sideways[-1] if side in ended else sideways for side in (BOTTOM, LID)
             )
-            stages.append((sides, Frames(sideways=sideways, below=below, above=above)))
+            stages.append((sides, CellLayers(sideways=sideways, below=below, above=above)))
             open_sides = {side: end for side, end in open_sides.items() if side not in ended}
             start += float(sideways[-1])
         return stages
 
 
-def reach(
+def sized_absorbing_layer(
     basin: OpenBasin, wavenumbers: tuple[float, float], *, first: float, growth: float, angle: float, tolerance: float
-) -> Reach:
+) -> AbsorbingLayer:
     """How far frames must reach.
 
     Args:
@@ -224,4 +224,4 @@ def reach(
     farthest.append(decades * sum(depth for depth in basin.depths if not isinf(depth)) / (pi * cos(angle)))
     if any(isinf(depth) for depth in basin.depths):
         farthest.append((1.0 + 1.0 / longest) * (CUT * tolerance) ** -0.5)
-    return Reach(angle=angle, first=min(first / shortest, 0.5), growth=growth, farthest=max(farthest))
+    return AbsorbingLayer(angle=angle, first=min(first / shortest, 0.5), growth=growth, farthest=max(farthest))

@@ -36,7 +36,7 @@ from hydroelastic.fem.open_water.reduced_pencil import ReducedPencil
 from hydroelastic.fem.open_water.region import Region
 from hydroelastic.fem.open_water.resonance_search import Eigenpair
 from hydroelastic.fem.stopwatch import Stopwatch
-from hydroelastic.modal.liquid.endless_wave import EndlessWave
+from hydroelastic.modal.liquid.deep_water_wave import DeepWaterWave
 
 # Newton's method: its last step and the number of steps on one basis, and how often a solution is added to that.
 _STEP = 1e-11
@@ -150,7 +150,7 @@ class DampedSolver:
 
     def wavenumber(self, omega: complex) -> complex:
         """k of the waves at ω in rad/s, in units of the basin."""
-        return EndlessWave(
+        return DeepWaterWave(
             layers=self.model.basin.scaled_layers, squared=self.model.squared_frequency(omega)
         ).wavenumber
 
@@ -244,7 +244,7 @@ class DampedSolver:
 
     def _waves(self, mirrored: complex) -> _Waves:
         with self._watch.stage("waves"):
-            wave = EndlessWave(layers=self.model.basin.scaled_layers, squared=mirrored)
+            wave = DeepWaterWave(layers=self.model.basin.scaled_layers, squared=mirrored)
             standing = [Standing(wave=wave, odd=odd) for odd in (False, True)]
             fluxes, pressures, own = surface_integrals(self.model, standing)
         power = wave.wavenumber * wave.energy

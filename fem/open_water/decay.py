@@ -20,13 +20,14 @@ import numpy as np
 
 from hydroelastic.fem.open_water.attempts import best_over_band
 from hydroelastic.fem.open_water.basin import open_basin
-from hydroelastic.fem.open_water.fast_waves import fastest_meshed
 from hydroelastic.fem.open_water.field_model import Band, OpenModel, open_model
+from hydroelastic.fem.open_water.high_frequency import highest_meshed_frequency
 from hydroelastic.fem.open_water.infinite_frequency import (
     BodiesAtInfiniteFrequency,
     bodies_at_infinite_frequency,
     infinite_frequency_added_mass,
 )
+from hydroelastic.fem.open_water.low_frequency import is_infinitely_deep, lowest_meshed_frequency
 from hydroelastic.fem.open_water.motion_scale import motion_scale
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.ray import RayIntegral, RayMotion, ray_between
@@ -35,7 +36,6 @@ from hydroelastic.fem.open_water.requests import DecayRequest
 from hydroelastic.fem.open_water.resonance import ANGLE, resonance_errors, rough_resonances
 from hydroelastic.fem.open_water.resonance_search import Eigenpair, ResonanceSearch
 from hydroelastic.fem.open_water.results import DecayTable
-from hydroelastic.fem.open_water.slow_waves import is_endless, slowest_meshed
 from hydroelastic.fem.tank.attempts import Attempt
 from hydroelastic.fem.tank.field_model import whole_bodies
 from hydroelastic.fem.tank.resolution import Resolution
@@ -152,7 +152,7 @@ def solve_decay(problem: OpenWaterProblem, request: DecayRequest) -> DecaySoluti
             slow=0.5 * expected[0] / unit,
             watch=problem.watch,
         )
-        found = integral.followed(times * unit, endless=is_endless(problem.tank))
+        found = integral.followed(times * unit, infinitely_deep=is_infinitely_deep(problem.tank))
         size = np.abs(initial).max()
         missed = np.abs(resonant.result.motion[-1] + found.motion[-1] - initial).max()
         causes = replace(found.errors, liquid=found.errors.liquid + resonant.result.errors + missed).scaled(1.0 / size)
@@ -173,8 +173,8 @@ def ray_band(water: Tank, tolerance: float, request: DecayRequest, expected: lis
     """
     latest = max(*request.times, 1.0 / expected[-1])
     return Band(
-        lowest=min(slowest_meshed(water, latest), expected[0]),
-        highest=fastest_meshed(expected[-1], tolerance),
+        lowest=min(lowest_meshed_frequency(water, latest), expected[0]),
+        highest=highest_meshed_frequency(expected[-1], tolerance),
     )
 
 

@@ -12,7 +12,7 @@ from scipy.linalg import block_diag
 
 from hydroelastic.fem.cells import cell_corners, cells_at, owned_cells
 from hydroelastic.fem.liquid import Layer, LiquidSpace, liquid_space
-from hydroelastic.fem.open_water.basin import CUT, OpenBasin, Reach, open_basin, reach
+from hydroelastic.fem.open_water.basin import CUT, AbsorbingLayer, OpenBasin, open_basin, sized_absorbing_layer
 from hydroelastic.fem.open_water.complex_scaling import ComplexScaling, compile_scaled_form
 from hydroelastic.fem.open_water.far_field import FarField
 from hydroelastic.fem.open_water.motion_scale import MotionScale, motion_scale
@@ -23,7 +23,7 @@ from hydroelastic.fem.spectral_error import cell_errors
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors, boundary_error
 from hydroelastic.fem.tank.field_model import distributed_mesh, moving_surfaces, whole_bodies
 from hydroelastic.fem.tank.mesh import graded_outline, tip_points
-from hydroelastic.fem.tank.outline import grounded_names, layer_names
+from hydroelastic.fem.tank.outline import layer_names, zero_potential_surfaces
 from hydroelastic.fem.tank.resolution import (
     Resolution,
     radians,
@@ -59,7 +59,7 @@ NO_WATER = 1e-6
 
 # In the frames ψ oscillates about as fast as it decays, and errors of opposite phase cancel. Measured on circles at Ka
 # from 0.05 to 10 at three tolerances: the energy missed is 9 to 140 times the error.
-FRAMES = 0.2
+LAYER_WEIGHT = 0.2
 # Beyond so many radians of an interface wave the upper surface does not feel it.
 _UNFELT = 20.0
 
@@ -98,7 +98,7 @@ class OpenModel:
 
     basin: OpenBasin
     resolution: Resolution
-    reach: Reach
+    absorbing_layer: AbsorbingLayer
     shortest: float
     tolerance: float
     pencil: OpenPencil
@@ -134,7 +134,7 @@ class OpenModel:
         return matrix
 
     def energies_missed(
-        self, potentials: np.ndarray, frames: np.ndarray | float = FRAMES
+        self, potentials: np.ndarray, layer_weight: np.ndarray | float = LAYER_WEIGHT
     ) -> tuple[np.ndarray, np.ndarray]:
         """Estimate ∫ρ|∇(ψ − ψ_h)|² of some ψ away from tips and at them, each of shape (potentials,).
 
@@ -145,7 +145,7 @@ class OpenModel:
         pencil, mesh = self.pencil, self.pencil.liquid.tank.mesh
         vectors = [pencil.vector(part) for psi in potentials for part in (psi.real, psi.imag)]
         cells = cell_errors(pencil.liquid, vectors).reshape(len(potentials), 2, -1).sum(axis=1)
-        cells = cells * np.where(self._in_frames, np.reshape(frames, (-1, 1)), 1.0)
+        cells = cells * np.where(self._in_absorbing_layer, np.reshape(layer_weight, (-1, 1)), 1.0)
         corners = tip_points(self.basin.tank, half=False)
         tips = cells_at(mesh, corners) if len(corners) else np.zeros(cells.shape[1], dtype=bool)
         at_tips = mesh.comm.allreduce(cells[:, tips].sum(axis=1), op=MPI.SUM)
@@ -153,7 +153,7 @@ class OpenModel:
         return whole - at_tips, at_tips
 
     @cached_property
-    def _in_frames(self) -> np.ndarray:
+    def _in_absorbing_layer(self) -> np.ndarray:
         mesh = self.pencil.liquid.tank.mesh
         low, high = self.basin.bounds
         middles = cell_corners(mesh, owned_cells(mesh)).mean(axis=1)
@@ -238,10 +238,10 @@ def open_model(
         angle: α of the complex scaling; by default that of the depth.
         drawn: if the basin holds what is drawn, for so many radians of the shortest wave to each side at most.
     """
-    basin, frames = _laid(problem.tank, problem.tolerance, band, resolution, angle=angle, drawn=drawn)
+    basin, absorbing_layer = _laid(problem.tank, problem.tolerance, band, resolution, angle=angle, drawn=drawn)
     tank, watch = basin.tank, problem.watch
     with watch.stage("mesh"):
-        mesh = distributed_mesh(problem.comm, lambda: open_mesh(basin, resolution, frames))
+        mesh = distributed_mesh(problem.comm, lambda: open_mesh(basin, resolution, absorbing_layer))
     liquid = _liquid(basin, resolution, mesh)
     with watch.stage("forms"):
         compile_scaled_form(liquid)
@@ -249,14 +249,14 @@ def open_model(
     with watch.stage("assemble"):
         pencil = build_open_pencil(
             liquid,
-            ComplexScaling(angle=frames.angle, low=low, high=high),
+            ComplexScaling(angle=absorbing_layer.angle, low=low, high=high),
             bodies=whole_bodies(tank, resolution.shapes),
             surfaces=moving_surfaces(mesh, tank),
         )
     return OpenModel(
         basin=basin,
         resolution=resolution,
-        reach=frames,
+        absorbing_layer=absorbing_layer,
         shortest=band.wavenumbers(problem.tank)[1] * basin.units.length,
         tolerance=problem.tolerance,
         pencil=pencil,
@@ -273,13 +273,13 @@ def first_mesh(water: Tank, tolerance: float, band: Band, resolution: Resolution
         resolution: of the basin.
         angle: α of the complex scaling.
     """
-    basin, frames = _laid(water, tolerance, band, resolution, angle=angle, drawn=None)
-    return open_mesh(basin, resolution, frames)
+    basin, absorbing_layer = _laid(water, tolerance, band, resolution, angle=angle, drawn=None)
+    return open_mesh(basin, resolution, absorbing_layer)
 
 
 def _laid(
     water: Tank, tolerance: float, band: Band, resolution: Resolution, *, angle: float | None, drawn: float | None
-) -> tuple[OpenBasin, Reach]:
+) -> tuple[OpenBasin, AbsorbingLayer]:
     """The basin and its frames."""
     wavenumbers = band.wavenumbers(water)
     basin = open_basin(water, wavenumbers[1], drawn=drawn)
@@ -288,7 +288,7 @@ def _laid(
     has_bed = any(isfinite(depth) for depth in basin.depths)
     if angle is None:
         angle = ANGLE_OVER_A_BED if has_bed else ANGLE
-    frames = reach(
+    absorbing_layer = sized_absorbing_layer(
         basin,
         (wavenumbers[0] * length, wavenumbers[1] * length),
         first=radians(resolution.degree, tolerance),
@@ -296,7 +296,7 @@ def _laid(
         angle=angle,
         tolerance=tolerance,
     )
-    return basin, frames
+    return basin, absorbing_layer
 
 
 def _liquid(basin: OpenBasin, resolution: Resolution, mesh: TankMesh) -> LiquidSpace:
@@ -304,12 +304,12 @@ def _liquid(basin: OpenBasin, resolution: Resolution, mesh: TankMesh) -> LiquidS
         Layer(name=name, density=layer.density)
         for name, layer in zip(layer_names(basin.tank), basin.tank.layers, strict=True)
     )
-    grounded = (FAR_END, *grounded_names(basin.tank, infinite_frequency=False))
-    return liquid_space(mesh, resolution.degree, grounded, layers)
+    zero_potential = (FAR_END, *zero_potential_surfaces(basin.tank, infinite_frequency=False))
+    return liquid_space(mesh, resolution.degree, zero_potential, layers)
 
 
 def open_mesh(
-    basin: OpenBasin, resolution: Resolution, frames: Reach, *, infinite_frequency: bool = False
+    basin: OpenBasin, resolution: Resolution, absorbing_layer: AbsorbingLayer, *, infinite_frequency: bool = False
 ) -> TaggedMesh:
     """The basin's mesh by gmsh with its frames, on the calling process.
 
@@ -328,6 +328,6 @@ def open_mesh(
         ring_ratio=resolution.ring_ratio,
         geometry_degree=resolution.degree if curved else 1,
     )
-    for sides, stage in frames.stages(basin):
+    for sides, stage in absorbing_layer.stages(basin):
         mesh = extended(mesh, sides, stage)
-    return with_far_ends(mesh, basin.endless)
+    return with_far_ends(mesh, basin.far_sides)

@@ -20,7 +20,7 @@ import numpy as np
 
 from hydroelastic.fem.open_water.basin import OpenBasin
 from hydroelastic.fem.open_water.field_model import OpenModel
-from hydroelastic.modal.liquid.endless_wave import EndlessWave
+from hydroelastic.modal.liquid.deep_water_wave import DeepWaterWave
 from hydroelastic.modal.liquid.travelling_waves import TravellingWave
 
 RIGHTWARD, LEFTWARD = 1, -1
@@ -57,7 +57,7 @@ class Standing:
     (φ₊ ± φ₋)/√2 of planes whose phase is 0 there: what they have in common cannot cancel where they are large.
     """
 
-    wave: EndlessWave
+    wave: DeepWaterWave
     odd: bool
 
     def field(self, points: np.ndarray, layers: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

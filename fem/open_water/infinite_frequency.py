@@ -11,7 +11,7 @@ from scipy.linalg import block_diag
 from hydroelastic.fem.added_mass import body_responses
 from hydroelastic.fem.liquid import compile_form
 from hydroelastic.fem.open_water.attempts import best_in_basin
-from hydroelastic.fem.open_water.basin import open_basin, reach
+from hydroelastic.fem.open_water.basin import open_basin, sized_absorbing_layer
 from hydroelastic.fem.open_water.field_model import ANGLE, GROWTH, NO_WATER, open_mesh
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.tank.attempts import Attempt
@@ -99,11 +99,15 @@ def infinite_frequency_added_mass(problem: OpenWaterProblem, shapes: tuple[int, 
     first = infinite_frequency_resolution(tank, tolerance, (0.0,) * len(tank.elastic))
 
     def solve(resolution: Resolution) -> Attempt[np.ndarray]:
-        frames = reach(basin, (_NO_WAVE, _NO_WAVE), first=0.5, growth=GROWTH, angle=ANGLE, tolerance=tolerance)
+        absorbing_layer = sized_absorbing_layer(
+            basin, (_NO_WAVE, _NO_WAVE), first=0.5, growth=GROWTH, angle=ANGLE, tolerance=tolerance
+        )
         with watch.stage("mesh"):
-            mesh = distributed_mesh(problem.comm, lambda: open_mesh(basin, resolution, frames, infinite_frequency=True))
+            mesh = distributed_mesh(
+                problem.comm, lambda: open_mesh(basin, resolution, absorbing_layer, infinite_frequency=True)
+            )
         with watch.stage("forms"):
-            compile_form(mesh, resolution.degree, continuous_pressure=tank.moves_as_one)
+            compile_form(mesh, resolution.degree, continuous_pressure=tank.has_continuous_pressure)
         with watch.stage("added mass"):
             pencil = build_field_model(mesh, tank, degree=resolution.degree, shapes=shapes, infinite_frequency=True)
             matrix, potentials = body_responses(pencil)

@@ -94,8 +94,8 @@ def build_open_pencil(
         bodies: what moves.
         surfaces: those of the liquids under gravity.
     """
-    grounded = liquid.surface_dofs(liquid.grounded)
-    free = np.setdiff1d(np.arange(liquid.space.dofmap.index_map.size_local, dtype=np.int32), grounded)
+    zero_potential = liquid.surface_dofs(liquid.zero_potential)
+    free = np.setdiff1d(np.arange(liquid.space.dofmap.index_map.size_local, dtype=np.int32), zero_potential)
     matrices = partial(_matrices, liquid, scaling, surfaces, free)
     laplace, mass = matrices(derivative=False)
     loads = [_weighed_loads(liquid, body)[:, free] for body in bodies if body.size]

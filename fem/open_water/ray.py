@@ -4,7 +4,7 @@ oscillates.
 E is S less that of the bodies with their added mass at infinite frequency, which adds nothing for t > 0 and makes the
 integral converge at t = 0. H on the ray comes from the field solution, continued by the complex scaling; a reduced
 basis takes it from a few solutions to all points, and waves that are longer or shorter than those of the mesh are
-known by their series, `slow_waves` and `fast_waves`. An error δH of H moves the motion by
+known by their series, `low_frequency` and `high_frequency`. An error δH of H moves the motion by
 
     (1/π) Im ∫ D⁻¹ p δH D⁻¹ K a₀ e^{pt} dp,    D = p²(M + H) + K.
 
@@ -20,12 +20,12 @@ from math import pi, sqrt
 
 import numpy as np
 
-from hydroelastic.fem.open_water.fast_waves import FastWaves, arc, fast_waves
 from hydroelastic.fem.open_water.field_model import ANGLE as DEEP_ANGLE
 from hydroelastic.fem.open_water.field_model import OpenModel
+from hydroelastic.fem.open_water.high_frequency import HighFrequencySeries, arc, high_frequency_series
+from hydroelastic.fem.open_water.low_frequency import SPREAD, LowFrequencySeries, low_frequency_series
 from hydroelastic.fem.open_water.radiation import relative_difference
 from hydroelastic.fem.open_water.resonance import ANGLE
-from hydroelastic.fem.open_water.slow_waves import SPREAD, LongWaves, long_waves
 from hydroelastic.fem.open_water.solver import OpenSolver
 from hydroelastic.fem.open_water.sweep import Problem, Swept, sweep
 from hydroelastic.fem.stopwatch import Stopwatch
@@ -131,12 +131,12 @@ class RayIntegral:
         self._omegas: list[complex] = []
         self._causes: list[FrequencyErrors] = []
 
-    def followed(self, times: np.ndarray, *, endless: bool) -> RayMotion:
+    def followed(self, times: np.ndarray, *, infinitely_deep: bool) -> RayMotion:
         """The motion at some times (collective).
 
         Args:
             times: dimensionless, not negative.
-            endless: whether H has the form of `slow_waves` below the mesh.
+            endless: whether H has the form of `low_frequency` below the mesh.
         """
         low, high = self._band
         meshed = np.geomspace(low, high, _JUDGED) * self._ray.turned
@@ -146,10 +146,10 @@ class RayIntegral:
         with self._watch.stage("motion"):
             least = min(_LOWER / max(float(times.max()), 1.0 / high), 1e-2 * low)
             radii = np.exp(np.arange(np.log(least), np.log(_HIGHER * high), _STEP * self._ray.gap))
-            fast = fast_waves(
+            fast = high_frequency_series(
                 lambda omegas: self._solver.hydrodynamics(omegas**2), high * self._ray.turned, self._limit
             )
-            added, slow = self._added(radii, fast, endless=endless)
+            added, slow = self._added(radii, fast, infinitely_deep=infinitely_deep)
             weights = self._ray_weights(radii)
             motion = _summed(times, radii, self._ray, self._integrand(radii, added) * weights[:, None])
         with self._watch.stage("errors"):
@@ -205,11 +205,17 @@ class RayIntegral:
         moved: np.ndarray = np.einsum("nij,njk,nk->ni", np.abs(inverse), own(errors), pushed) * np.abs(omegas)[:, None]
         return moved
 
-    def _added(self, radii: np.ndarray, fast: FastWaves, *, endless: bool) -> tuple[np.ndarray, LongWaves | None]:
+    def _added(
+        self, radii: np.ndarray, fast: HighFrequencySeries, *, infinitely_deep: bool
+    ) -> tuple[np.ndarray, LowFrequencySeries | None]:
         """H at all points, and the series that it has below the mesh."""
         low, high = self._band
         omegas = radii * self._ray.turned
-        slow = long_waves(lambda few: self._solver.hydrodynamics(few**2), low * self._ray.turned) if endless else None
+        slow = (
+            low_frequency_series(lambda few: self._solver.hydrodynamics(few**2), low * self._ray.turned)
+            if infinitely_deep
+            else None
+        )
         first = np.searchsorted(radii, low) if slow else 0
         last = np.searchsorted(radii, high, side="right")
         parts = [self._solver.hydrodynamics(omegas[first:last] ** 2), fast.hydrodynamic(omegas[last:])]
@@ -239,7 +245,7 @@ class RayIntegral:
         added: np.ndarray,
         chosen: np.ndarray,
         swept: Swept[tuple[np.ndarray, float]],
-        series: tuple[LongWaves | None, FastWaves],
+        series: tuple[LowFrequencySeries | None, HighFrequencySeries],
     ) -> FrequencyErrors:
         """Errors of the motion by cause: of the elements, of the reduced basis, of the series."""
         slow, fast = series

@@ -11,7 +11,7 @@ from hydroelastic.fem.open_water.argument_principle import Solver, zeros_in
 from hydroelastic.fem.open_water.attempts import best_over_band
 from hydroelastic.fem.open_water.basin import open_basin
 from hydroelastic.fem.open_water.damped import DampedSolver, damped_resonances, mirror_angle
-from hydroelastic.fem.open_water.field_model import FRAMES, Band, OpenModel, first_resolution, open_model
+from hydroelastic.fem.open_water.field_model import LAYER_WEIGHT, Band, OpenModel, first_resolution, open_model
 from hydroelastic.fem.open_water.infinite_frequency import bodies_at_infinite_frequency
 from hydroelastic.fem.open_water.motion_scale import motion_scale
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
@@ -261,8 +261,8 @@ def resonance_errors(model: OpenModel, pairs: list[Eigenpair]) -> FrequencyError
         return FrequencyErrors(liquid=np.zeros(0), tips=np.zeros(0), truncation=np.zeros(0), rounding=np.zeros(0))
     # The faster a resonance dies out, the less do errors in the frames cancel.
     omegas = np.sqrt(np.array([pair.eigenvalue for pair in pairs]))
-    frames = np.where(-omegas.imag > MOST_DAMPING_ANYWHERE * omegas.real, 1.0, FRAMES)
-    away, tips = model.energies_missed(np.array([pair.potential for pair in pairs]), frames)
+    weights = np.where(-omegas.imag > MOST_DAMPING_ANYWHERE * omegas.real, 1.0, LAYER_WEIGHT)
+    away, tips = model.energies_missed(np.array([pair.potential for pair in pairs]), weights)
     norms = np.array([abs(pair.norm) for pair in pairs])
     drifts = np.array([pair.drift for pair in pairs])
     tank = model.basin.tank

@@ -10,13 +10,13 @@ import numpy as np
 from hydroelastic.fem.open_water.attempts import best_over_band
 from hydroelastic.fem.open_water.field_model import Band, OpenModel, open_model
 from hydroelastic.fem.open_water.frequency import OpenResponse
-from hydroelastic.fem.open_water.missed_peaks import missed_peaks
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import between, judged_places, relative_difference
 from hydroelastic.fem.open_water.requests import ResponseRequest
-from hydroelastic.fem.open_water.results import MissedPeak, PlateDeflection, ResponseTable
+from hydroelastic.fem.open_water.results import PlateDeflection, ResponseTable, UnresolvedPeak
 from hydroelastic.fem.open_water.solver import OpenSolver
 from hydroelastic.fem.open_water.sweep import FEW, Problem, Swept, sweep
+from hydroelastic.fem.open_water.unresolved_peaks import unresolved_peaks
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.fem.tank.attempts import Attempt
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors, boundary_error, joined_errors
@@ -85,11 +85,11 @@ def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Respo
     model = found.solver.model
     table = _table(request, model, omegas, found.swept.solutions, found.errors)
     if len(omegas) > FEW:
-        table = replace(table, missed_peaks=_missed(request, found.solver, table))
+        table = replace(table, unresolved_peaks=_missed(request, found.solver, table))
     return ResponseSolution(table=table, model=model, error=attempt.error)
 
 
-def _missed(request: ResponseRequest, solver: OpenSolver, table: ResponseTable) -> tuple[MissedPeak, ...]:
+def _missed(request: ResponseRequest, solver: OpenSolver, table: ResponseTable) -> tuple[UnresolvedPeak, ...]:
     """Peaks between the frequencies, by the reduced basis of the sweep (collective)."""
     incident = _incident(solver.model, request)
 
@@ -97,7 +97,7 @@ def _missed(request: ResponseRequest, solver: OpenSolver, table: ResponseTable) 
         solutions = [solver.response_between(float(omega), incident)[0] for omega in omegas]
         return _table(request, solver.model, omegas, solutions, np.full(len(omegas), nan))
 
-    return missed_peaks(table, solver.resonances_between(), between)
+    return unresolved_peaks(table, solver.resonances_between(), between)
 
 
 def _incident(model: OpenModel, request: ResponseRequest) -> list[int]:

@@ -79,7 +79,7 @@ class PlateDeflection:
 
 
 @dataclass(frozen=True, kw_only=True)
-class MissedPeak:
+class UnresolvedPeak:
     """A peak or a dip between two frequencies of a response, that its curve does not show.
 
     Attributes:
@@ -129,7 +129,7 @@ class ResponseTable:
     energy_residual: Floats
     relative_error: Floats
     plates: tuple[PlateDeflection, ...]
-    missed_peaks: tuple[MissedPeak, ...] = ()
+    unresolved_peaks: tuple[UnresolvedPeak, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)

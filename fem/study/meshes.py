@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 from math import inf
 
-from hydroelastic.fem.study.corners import corner_exponents, plain_outline
+from hydroelastic.fem.study.singular_points import plain_outline, singular_exponents
 from hydroelastic.fem.tank.mesh import geometry_of, is_plain
-from hydroelastic.fem.tank.outline import grounded_names
+from hydroelastic.fem.tank.outline import zero_potential_surfaces
 from hydroelastic.fem.tank.singularities import singular_points
 from hydroelastic.meshes.nested import NestedMeshes, outline_meshes, rectangle_meshes
-from hydroelastic.meshes.outline import Corner
+from hydroelastic.meshes.outline import GradedPoint
 from hydroelastic.physics.tank import Tank
 
 # Elements of the first mesh along levels and floats, in tank lengths: six on the half of a beam as long as half the
@@ -28,9 +28,10 @@ def full_order(degree: int, exponent: float) -> float:
 
 def full_order_gradings(tank: Tank, meshes: NestedMeshes, degree: int) -> tuple[float, ...]:
     """β of each corner of the meshes, so that all of them keep the full order."""
-    exponents = corner_exponents(tank)
+    exponents = singular_exponents(tank)
     return tuple(
-        full_order(degree, exponents[corner.point]) if corner.point in exponents else 1.0 for corner in meshes.corners
+        full_order(degree, exponents[graded.point]) if graded.point in exponents else 1.0
+        for graded in meshes.graded_points
     )
 
 
@@ -48,7 +49,10 @@ def nested_meshes(tank: Tank, *, half: bool) -> NestedMeshes:
         return rectangle_meshes(geometry_of(tank, half=half), size=size, bulk_size=bulk_size)
     outline = plain_outline(tank, size, half=half)
     points = singular_points(
-        outline, grounded=grounded_names(tank, infinite_frequency=False), continuous_pressure=False
+        outline, zero_potential=zero_potential_surfaces(tank, infinite_frequency=False), continuous_pressure=False
     )
-    corners = tuple(Corner(point=point.point, inner=inf, outer=min(point.reach, 0.45 * tank.depth)) for point in points)
-    return outline_meshes(replace(outline, corners=corners), bulk_size=bulk_size)
+    graded_points = tuple(
+        GradedPoint(point=point.point, inner=inf, outer=min(point.grading_distance, 0.45 * tank.depth))
+        for point in points
+    )
+    return outline_meshes(replace(outline, graded_points=graded_points), bulk_size=bulk_size)

@@ -9,8 +9,8 @@ from math import exp, inf, log
 
 import numpy as np
 
-from hydroelastic.fem.study.corners import sharpest_of, symmetries_apart
 from hydroelastic.fem.study.row import Family, StudyRow
+from hydroelastic.fem.study.singular_points import sharpest_of, symmetries_apart
 from hydroelastic.fem.study.theory import expected_order, expected_remainders, gain_along_a_ray
 from hydroelastic.meshes.grading import Grading
 from hydroelastic.physics.symmetry import Parity

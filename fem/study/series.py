@@ -12,10 +12,10 @@ from mpi4py import MPI
 from hydroelastic.fem.liquid import compile_form
 from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.stopwatch import Stopwatch
-from hydroelastic.fem.study.corners import has_curved_contours, sharpest_of
 from hydroelastic.fem.study.meshes import coarsest_size, full_order_gradings, nested_meshes
 from hydroelastic.fem.study.row import StudyRow
 from hydroelastic.fem.study.rows import mesh_row, tolerance_row
+from hydroelastic.fem.study.singular_points import has_curved_contours, sharpest_of
 from hydroelastic.fem.study.steady import steadily_timed
 from hydroelastic.fem.study.studied_tank import StudiedTank
 from hydroelastic.fem.tank.field_model import build_mesh, distributed_mesh
@@ -56,7 +56,7 @@ def nested_rows(
     points = first.mesh.topology.index_map(0).size_global
     parts = 2 if studied.half else 1
     for degree in degrees:
-        uniform = (1.0,) * len(meshes.corners)
+        uniform = (1.0,) * len(meshes.graded_points)
         gradings = full_order_gradings(tank, meshes, degree) if family == "algebraic" else uniform
         solved = False
         for halved in range(halvings + 1):

@@ -20,7 +20,7 @@ from math import ceil, pi, sqrt
 import numpy as np
 
 from hydroelastic.fem.ring_approximation import remaining_energy
-from hydroelastic.fem.study.corners import sharpest_of
+from hydroelastic.fem.study.singular_points import sharpest_of
 from hydroelastic.meshes.grading import Grading
 from hydroelastic.physics.symmetry import Parity
 from hydroelastic.physics.tank import Tank

@@ -12,7 +12,7 @@ from hydroelastic.fem.liquid import Layer, liquid_matrices, liquid_space
 from hydroelastic.fem.pencil import CoupledPencil, build_pencil
 from hydroelastic.fem.surfaces import Body, LiquidSurface
 from hydroelastic.fem.tank.mesh import check_mesh, make_mesh
-from hydroelastic.fem.tank.outline import grounded_names, layer_names
+from hydroelastic.fem.tank.outline import layer_names, zero_potential_surfaces
 from hydroelastic.fem.tank.resolution import Resolution
 from hydroelastic.meshes.distribute import TankMesh, distribute_mesh
 from hydroelastic.meshes.geometry import FAR_END, FREE_SURFACE, INTERFACE, SYMMETRY_PLANE
@@ -132,20 +132,22 @@ def _field_models(
     parities: tuple[Parity | None, ...],
 ) -> tuple[CoupledPencil, ...]:
     surfaces = () if infinite_frequency else moving_surfaces(mesh, tank)
-    grounded = (
-        *grounded_names(tank, infinite_frequency=infinite_frequency),
+    zero_potential = (
+        *zero_potential_surfaces(tank, infinite_frequency=infinite_frequency),
         *((FAR_END,) if FAR_END in mesh.facet_names else ()),
     )
     layers = tuple(
         Layer(name=name, density=layer.density) for name, layer in zip(layer_names(tank), tank.layers, strict=True)
     )
-    liquid = liquid_space(mesh, degree, grounded, layers, continuous_pressure=infinite_frequency and tank.moves_as_one)
+    liquid = liquid_space(
+        mesh, degree, zero_potential, layers, continuous_pressure=infinite_frequency and tank.has_continuous_pressure
+    )
     matrices = liquid_matrices(liquid, tuple(surface.surface for surface in surfaces))
     pencils = []
     for parity in parities:
         plane = (SYMMETRY_PLANE,) if parity == "antisymmetric" else ()
         bodies = whole_bodies(tank, shapes) if parity is None else _half_bodies(tank, shapes, parity)
-        part = replace(liquid, grounded=liquid.grounded + plane)
+        part = replace(liquid, zero_potential=liquid.zero_potential + plane)
         # A float in the middle may have no motion of this parity, and a beam may be held still.
         moving = tuple(body for body in bodies if body.size)
         pencils.append(build_pencil(part, matrices, bodies=moving, surfaces=surfaces))

@@ -131,7 +131,7 @@ def infinite_frequency_limit(
         with watch.stage(stage):
             mesh = user_mesh or build_mesh(comm, tank, resolution, half=half, infinite_frequency=True)
         with watch.stage("forms"):
-            compile_form(mesh, resolution.degree, continuous_pressure=tank.moves_as_one)
+            compile_form(mesh, resolution.degree, continuous_pressure=tank.has_continuous_pressure)
         shapes = resolution.shapes if has_tones else (0,) * len(tank.bodies)
         with watch.stage(stage):
             pencils = part_models(mesh, tank, resolution.degree, shapes, half=half, infinite_frequency=True)

@@ -11,7 +11,7 @@ from hydroelastic.fem.tank.resolution import Resolution, sharpest_exponent
 from hydroelastic.fem.tank.singularities import tank_singular_points
 from hydroelastic.meshes.geometry import FREE_SURFACE, LID, LIQUID, TankGeometry, tank_geometry
 from hydroelastic.meshes.grading import Grading
-from hydroelastic.meshes.outline import Corner, Outline
+from hydroelastic.meshes.outline import GradedPoint, Outline
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 from hydroelastic.physics.dofs import body_name
 from hydroelastic.physics.tank import Tank
@@ -83,15 +83,15 @@ def graded_outline(tank: Tank, resolution: Resolution, *, half: bool, infinite_f
     exponent = sharpest_exponent(tank, infinite_frequency=infinite_frequency)
     depth = resolution.tip_size / resolution.ring_size
     points = tank_singular_points(tank, sizes, half=half, infinite_frequency=infinite_frequency)
-    corners = tuple(
-        Corner(
+    graded_points = tuple(
+        GradedPoint(
             point=point.point,
-            inner=min(resolution.ring_size, point.reach) * depth ** (exponent / point.exponent),
-            outer=min(point.reach, 0.45 * tank.depth),
+            inner=min(resolution.ring_size, point.grading_distance) * depth ** (exponent / point.exponent),
+            outer=min(point.grading_distance, 0.45 * tank.depth),
         )
         for point in points
     )
-    return replace(outline, corners=corners)
+    return replace(outline, graded_points=graded_points)
 
 
 def tip_points(tank: Tank, *, half: bool, infinite_frequency: bool = False) -> np.ndarray:

@@ -54,10 +54,10 @@ def layer_names(tank: Tank) -> tuple[str, ...]:
     return (LIQUID,) if len(tank.layers) == 1 else (LOWER_LIQUID, UPPER_LIQUID)
 
 
-def grounded_names(tank: Tank, *, infinite_frequency: bool) -> tuple[str, ...]:
+def zero_potential_surfaces(tank: Tank, *, infinite_frequency: bool) -> tuple[str, ...]:
     """Surfaces on which ψ = 0: the open top in the infinite-frequency limit, or where the scene says so."""
-    is_grounded = tank.top == "pressure_release" or (infinite_frequency and tank.top == "free")
-    return (FREE_SURFACE,) if is_grounded and tank.levels[-1].is_open else ()
+    is_zero = tank.top == "pressure_release" or (infinite_frequency and tank.top == "free")
+    return (FREE_SURFACE,) if is_zero and tank.levels[-1].is_open else ()
 
 
 def tank_outline(tank: Tank, sizes: Sizes, *, half: bool = False, infinite_frequency: bool = False) -> Outline:

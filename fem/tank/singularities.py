@@ -13,7 +13,7 @@ from math import atan2, dist, inf, pi
 
 import numpy as np
 
-from hydroelastic.fem.tank.outline import Sizes, grounded_names, tank_outline
+from hydroelastic.fem.tank.outline import Sizes, tank_outline, zero_potential_surfaces
 from hydroelastic.meshes.geometry import LEFT_WALL, RIGHT_WALL, SYMMETRY_PLANE
 from hydroelastic.meshes.outline import Outline, Point
 from hydroelastic.physics.dofs import body_number
@@ -43,7 +43,7 @@ class SingularPoint:
 
     point: Point
     exponent: float
-    reach: float
+    grading_distance: float
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,7 +56,11 @@ class _Wedge:
 
 
 def singular_points(
-    outline: Outline, *, grounded: tuple[str, ...], continuous_pressure: bool, kinks: dict[Point, float] | None = None
+    outline: Outline,
+    *,
+    zero_potential: tuple[str, ...],
+    continuous_pressure: bool,
+    kinks: dict[Point, float] | None = None,
 ) -> tuple[SingularPoint, ...]:
     """Find the singular points of an outline.
 
@@ -70,11 +74,16 @@ def singular_points(
     points = []
     for point, around in wedges.items():
         sharpest = min(
-            (_exponent(sector, grounded, continuous_pressure) for sector in _sectors(outline, around)), default=inf
+            (_exponent(sector, zero_potential, continuous_pressure) for sector in _sectors(outline, around)),
+            default=inf,
         )
         sharpest = min(sharpest, (kinks or {}).get(point, inf))
         if sharpest < inf:
-            points.append(SingularPoint(point=point, exponent=sharpest, reach=_reach(outline, point, wedges)))
+            points.append(
+                SingularPoint(
+                    point=point, exponent=sharpest, grading_distance=_grading_distance(outline, point, wedges)
+                )
+            )
     return tuple(points)
 
 
@@ -120,7 +129,7 @@ def _sectors(outline: Outline, around: list[_Wedge]) -> Iterator[_Sector]:
         yield _Sector(names=names, angle=angle, crossed=last != wedge.coming)
 
 
-def _exponent(sector: _Sector, grounded: tuple[str, ...], continuous_pressure: bool) -> float:
+def _exponent(sector: _Sector, zero_potential: tuple[str, ...], continuous_pressure: bool) -> float:
     """α in a sector; infinite where ψ is smooth."""
     if not any(body_number(name) for name in sector.names):
         return inf
@@ -129,10 +138,10 @@ def _exponent(sector: _Sector, grounded: tuple[str, ...], continuous_pressure: b
     if (len(set(sector.names)) == 1 or SYMMETRY_PLANE in sector.names) and abs(angle - pi) < _SMOOTH:
         # Where two liquids meet a smooth body the slope of ψ jumps.
         return _JUMP if continuous_pressure and sector.crossed else inf
-    return (0.5 if any(name in grounded for name in sector.names) else 1.0) * pi / angle
+    return (0.5 if any(name in zero_potential for name in sector.names) else 1.0) * pi / angle
 
 
-def _reach(outline: Outline, point: Point, wedges: dict[Point, list[_Wedge]]) -> float:
+def _grading_distance(outline: Outline, point: Point, wedges: dict[Point, list[_Wedge]]) -> float:
     others = [dist(point, other) for other in wedges if other != point]
     beside = {number for wedge in wedges[point] for number in (wedge.leaving, wedge.coming)}
     return min(0.45 * min(others), *(outline.curves[number].size for number in beside))
@@ -144,7 +153,7 @@ def tank_singular_points(
     """The singular points of a scene, or of its left half; see `tank_outline`."""
     return singular_points(
         tank_outline(tank, sizes, half=half, infinite_frequency=infinite_frequency),
-        grounded=grounded_names(tank, infinite_frequency=infinite_frequency),
+        zero_potential=zero_potential_surfaces(tank, infinite_frequency=infinite_frequency),
         continuous_pressure=infinite_frequency,
         kinks=_kinks(tank),
     )

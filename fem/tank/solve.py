@@ -189,9 +189,9 @@ def solve_tank(
         attempt = next(attempts)
         report(f"attempt {attempt}: degree {resolution.degree}, {resolution.modes} modes")
         with watch.stage("mesh"):
-            own_mesh = user_mesh or build_mesh(comm, tank, resolution, half=half)
+            mesh = user_mesh or build_mesh(comm, tank, resolution, half=half)
         beside = limit()
-        field = solve_field(own_mesh, tank, resolution, resolution.modes + 1, watch, half=half)
+        field = solve_field(mesh, tank, resolution, resolution.modes + 1, watch, half=half)
         return _judged(physical, tank, (tolerance, modes), resolution, field, beside, watch, attempt)
 
     found = adaptive_solve(

@@ -10,7 +10,7 @@ from hydroelastic.modal.tank_estimates import two_layers
 from hydroelastic.scenes.models.open_analyses import Analysis, Decay, Radiation, Resonance, Response
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.estimates import endless_comparison, endless_words
+from hydroelastic.scenes.open_water.estimates import infinite_draught_comparison, infinite_draught_message
 from hydroelastic.scenes.output.sections import Section
 from hydroelastic.scenes.tank.check import modelled_tank
 
@@ -33,9 +33,9 @@ def open_requests(scene: TankScene) -> Iterator[str]:
         yield f"  {number}. {_request(scene, analysis)}"
         if isinstance(analysis, Decay):
             yield f"     {decay_cost_words(scene, analysis)}"
-    endless = endless_comparison(scene)
-    if endless is not None:
-        yield endless_words(endless)
+    infinite = infinite_draught_comparison(scene)
+    if infinite is not None:
+        yield infinite_draught_message(infinite)
 
 
 def decay_cost_words(scene: TankScene, analysis: Decay) -> str:

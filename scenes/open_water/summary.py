@@ -10,7 +10,7 @@ from mpi4py import MPI
 from hydroelastic.fem.open_water.results import DIRECTIONS, DecayTable, RadiationTable, ResonanceTable, ResponseTable
 from hydroelastic.fem.open_water.thin_float_theory import thin_float_comparisons
 from hydroelastic.scenes.models.physical import physical_tank
-from hydroelastic.scenes.open_water.estimates import endless_comparison
+from hydroelastic.scenes.open_water.estimates import infinite_draught_comparison
 from hydroelastic.scenes.open_water.results import OpenSolution, region_words
 from hydroelastic.scenes.output.json_values import json_ready
 from hydroelastic.scenes.output.provenance import Summary, complete_summary
@@ -30,7 +30,7 @@ def summarize_open(solution: OpenSolution, comm: MPI.Comm, *, import_seconds: fl
         The content of ``summary.json``.
     """
     comparisons, note = thin_float_comparisons(physical_tank(solution.scene), solution)
-    endless = endless_comparison(solution.scene)
+    infinite = infinite_draught_comparison(solution.scene)
     content = {
         "radiation": [_written(table) | {"wave_direction": list(DIRECTIONS)} for table in solution.radiation],
         "response": [_written(table) for table in solution.response],
@@ -38,7 +38,7 @@ def summarize_open(solution: OpenSolution, comm: MPI.Comm, *, import_seconds: fl
         "decay": [_written(table) for table in solution.decay],
         "estimates": {
             "thin_float": {"rows": [json_ready(asdict(row)) for row in comparisons], "note": note},
-            "endless_float": json_ready(asdict(endless)) if endless else None,
+            "endless_float": json_ready(asdict(infinite)) if infinite else None,
         },
     }
     return complete_summary(solution, content, solution.size, comm, import_seconds)
@@ -52,7 +52,7 @@ def _written(table: RadiationTable | ResponseTable | ResonanceTable | DecayTable
             {"body": plate.body + 1, "positions": plate.positions, "deflection": plate.deflection}
             for plate in table.plates
         ]
-        row["missed_peaks"] = [asdict(peak) for peak in table.missed_peaks]
+        row["missed_peaks"] = [asdict(peak) for peak in table.unresolved_peaks]
     if isinstance(table, ResonanceTable):
         row["region"] = region_words(table.region)
     return {name: json_ready(value) for name, value in row.items()}

@@ -9,10 +9,16 @@ from math import ceil, degrees, inf, isfinite, pi
 
 import numpy as np
 
-from hydroelastic.fem.open_water.results import DecayTable, MissedPeak, RadiationTable, ResonanceTable, ResponseTable
+from hydroelastic.fem.open_water.results import (
+    DecayTable,
+    RadiationTable,
+    ResonanceTable,
+    ResponseTable,
+    UnresolvedPeak,
+)
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.estimates import endless_comparison, endless_words
+from hydroelastic.scenes.open_water.estimates import infinite_draught_comparison, infinite_draught_message
 from hydroelastic.scenes.open_water.results import OpenSolution, region_words
 from hydroelastic.scenes.output.digits import beyond_error, number, per_cent, with_certain_digits
 from hydroelastic.scenes.output.provenance import Summary
@@ -63,16 +69,18 @@ def _estimates(scene: TankScene, summary: Summary) -> Iterator[Section]:
             ),
             compares=True,
         )
-    endless = endless_comparison(scene)
-    if endless is not None:
+    infinite = infinite_draught_comparison(scene)
+    if infinite is not None:
         yield Section(
             title="The endless float of the paper, by its closed form",
             headings=("pole", "Re ω, rad/s", "Im ω, 1/s", "Re residue", "Im residue"),
             rows=[
                 (name, number(omega.real), number(omega.imag), number(residue.real), number(residue.imag))
-                for name, omega, residue in zip(("heave", "second"), endless.resonances, endless.residues, strict=True)
+                for name, omega, residue in zip(
+                    ("heave", "second"), infinite.resonances, infinite.residues, strict=True
+                )
             ],
-            lines=("After a release s/s₀ contains 2 Re(residue e^(−iωt)) of each.", endless_words(endless)),
+            lines=("After a release s/s₀ contains 2 Re(residue e^(−iωt)) of each.", infinite_draught_message(infinite)),
         )
 
 
@@ -182,12 +190,12 @@ def _response(table: ResponseTable) -> Iterator[Section]:
         lines=(
             "|a| ∠ θ is the motion |a| e^{i(θ − ωt)}; the crest of the wave is at x = 0 of the scene at t = 0.",
             *((f"{left_out} more motions: response.csv.",) if left_out else ()),
-            *(_missed(peak) for peak in table.missed_peaks),
+            *(_missed(peak) for peak in table.unresolved_peaks),
         ),
     )
 
 
-def _missed(peak: MissedPeak) -> str:
+def _missed(peak: UnresolvedPeak) -> str:
     """A word about a peak that the curve does not show."""
     return (
         f"NOT SHOWN: between {peak.below:.6g} and {peak.above:.6g} rad/s {Dof(peak.quantity).words} changes by more "

@@ -14,7 +14,7 @@ _ENOUGH_TIMES = 61
 _ENOUGH_POSITIONS = 61
 
 
-def as_drawn(result: StringResult) -> StringSolution:
+def drawn_solution(result: StringResult) -> StringSolution:
     """Return the same motion at more positions and times, including the requested ones.
 
     A series is summed again. A field solution is drawn as it is, since computing it again is expensive.

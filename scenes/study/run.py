@@ -33,7 +33,7 @@ from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.read import closed_tank
 from hydroelastic.scenes.study.plan import ERROR_FAMILIES, StudyPlan
 from hydroelastic.scenes.study.thinness import both_boundaries, check_thinness
-from hydroelastic.scenes.tank.own_mesh import mesh_refused
+from hydroelastic.scenes.tank.user_mesh import mesh_refused
 
 
 @dataclass(frozen=True, kw_only=True)

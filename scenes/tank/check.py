@@ -97,9 +97,9 @@ def _user_mesh(scene: TankScene) -> TaggedMesh | None:
     if scene.mesh is None:
         return None
     # Only scenes with a user mesh need what reads it.
-    from hydroelastic.scenes.tank.own_mesh import read_own_mesh
+    from hydroelastic.scenes.tank.user_mesh import read_user_mesh
 
-    return read_own_mesh(scene)
+    return read_user_mesh(scene)
 
 
 def _size(

@@ -24,10 +24,10 @@ from hydroelastic.scenes.output.staged_run import StagedRun
 from hydroelastic.scenes.read import closed_tank
 from hydroelastic.scenes.tank.check_hints import draughts_left_out
 from hydroelastic.scenes.tank.dataset import TANK_NAMES, tank_dataset
-from hydroelastic.scenes.tank.own_mesh import mesh_refused, own_mesh
 from hydroelastic.scenes.tank.solve import EstimatedTank, solve_scene
 from hydroelastic.scenes.tank.summary import summarize
 from hydroelastic.scenes.tank.tables import compared_sections, mode_csv, tank_cost, tank_sections
+from hydroelastic.scenes.tank.user_mesh import mesh_refused, user_mesh
 
 if TYPE_CHECKING:
     import xarray
@@ -70,7 +70,7 @@ def solve_tank(scene: TankScene, comm: MPI.Comm, report: Report) -> EstimatedTan
 
             of_floats = float_estimates(physical)
     try:
-        solution = solve_scene(scene, comm=comm, mesh=own_mesh(scene, comm), report=report)
+        solution = solve_scene(scene, comm=comm, mesh=user_mesh(scene, comm), report=report)
     except MeshError as error:
         raise mesh_refused(scene, str(error)) from error
     except EigenSolverError as error:

@@ -7,7 +7,7 @@ import pytest
 from mpi4py import MPI
 from open_tables import open_scene
 
-from hydroelastic.fem.open_water.results import MissedPeak
+from hydroelastic.fem.open_water.results import UnresolvedPeak
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.dataset import OPEN_NAMES
 from hydroelastic.scenes.open_water.results import OpenSolution
@@ -46,8 +46,8 @@ def coarse() -> OpenSolution:
     return solved(barge({"start": 0.3, "stop": 1.7, "number": 15}, {"kind": "resonance"}))
 
 
-def peak_of(solution: OpenSolution) -> MissedPeak:
-    (peak,) = solution.response[0].missed_peaks
+def peak_of(solution: OpenSolution) -> UnresolvedPeak:
+    (peak,) = solution.response[0].unresolved_peaks
     return peak
 
 
@@ -80,8 +80,8 @@ def test_tables_summary_and_dataset_have_it(coarse: OpenSolution) -> None:
 def test_a_resolved_curve_has_none(coarse: OpenSolution) -> None:
     near = peak_of(coarse).omega + 1e-3 * np.arange(-10, 11)
     omegas = sorted([*np.linspace(0.3, 1.7, 15), *near])
-    assert solved(barge(omegas)).response[0].missed_peaks == ()
+    assert solved(barge(omegas)).response[0].unresolved_peaks == ()
 
 
 def test_few_frequencies_are_no_curve() -> None:
-    assert solved(barge([0.7, 0.8])).response[0].missed_peaks == ()
+    assert solved(barge([0.7, 0.8])).response[0].unresolved_peaks == ()

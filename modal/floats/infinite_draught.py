@@ -12,7 +12,7 @@ from hydroelastic.physics.profiles import Profile
 
 
 @dataclass(frozen=True, kw_only=True)
-class EndlessFloat:
+class InfiniteDraughtFloat:
     """The endless float after a release in deep liquids, by the closed form.
 
     Attributes:
@@ -26,7 +26,7 @@ class EndlessFloat:
     residues: tuple[complex, complex]
 
 
-def endless_float(profile: Profile, layers: TwoLayers) -> EndlessFloat:
+def infinite_draught_float(profile: Profile, layers: TwoLayers) -> InfiniteDraughtFloat:
     """Return the poles and residues of an exponential float without its end, and how far the end takes it from that.
 
     Args:
@@ -36,9 +36,9 @@ def endless_float(profile: Profile, layers: TwoLayers) -> EndlessFloat:
     Raises:
         NoEstimateError: as `heave_pole`.
     """
-    endless, rate = replace(profile, tail=0.0), natural_rate(profile, layers)
-    poles = heave_pole(endless), second_pole(endless)
-    return EndlessFloat(
+    infinite, rate = replace(profile, tail=0.0), natural_rate(profile, layers)
+    poles = heave_pole(infinite), second_pole(infinite)
+    return InfiniteDraughtFloat(
         cut=cut_distance(profile),
         resonances=(
             1j * poles[0].frequency.conjugate() * rate,

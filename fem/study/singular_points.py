@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import replace
 from math import inf
 
-from hydroelastic.fem.tank.outline import Sizes, grounded_names, tank_outline
+from hydroelastic.fem.tank.outline import Sizes, tank_outline, zero_potential_surfaces
 from hydroelastic.fem.tank.singularities import singular_points
 from hydroelastic.meshes.geometry import LEFT_WALL, RIGHT_WALL, SYMMETRY_PLANE
 from hydroelastic.meshes.outline import Outline, Point
@@ -33,7 +33,7 @@ def has_curved_contours(tank: Tank) -> bool:
     return any(curve.path is not None for curve in plain_outline(tank, half=False).curves)
 
 
-def corner_exponents(tank: Tank, parity: Parity | None = None) -> dict[Point, float]:
+def singular_exponents(tank: Tank, parity: Parity | None = None) -> dict[Point, float]:
     """α at every corner where ψ is singular, in the left half of a tank that is its own mirror image.
 
     Args:
@@ -60,7 +60,7 @@ def sharpest_of(tank: Tank, parity: Parity | None = None) -> float | None:
         tank: the tank.
         parity: symmetry of the modes in a tank that is its own mirror image; ``None`` is the sharper of both.
     """
-    return min(corner_exponents(tank, parity).values(), default=None)
+    return min(singular_exponents(tank, parity).values(), default=None)
 
 
 def symmetries_apart(tank: Tank) -> tuple[Parity, ...]:
@@ -73,14 +73,16 @@ def symmetries_apart(tank: Tank) -> tuple[Parity, ...]:
 
 def _exponents(tank: Tank, parity: Parity | None) -> dict[Point, float]:
     outline = plain_outline(tank, half=parity is not None)
-    grounded = grounded_names(tank, infinite_frequency=False)
+    zero_potential = zero_potential_surfaces(tank, infinite_frequency=False)
     # Only what is singular to some mode: smooth contours cross the middle plane at right angles.
-    singular = {point.point for point in singular_points(outline, grounded=grounded, continuous_pressure=False)}
+    singular = {
+        point.point for point in singular_points(outline, zero_potential=zero_potential, continuous_pressure=False)
+    }
     unmirrored = replace(
         outline, curves=tuple(replace(curve, name=_unmirrored(curve.name)) for curve in outline.curves)
     )
     plane = (_PLANE,) if parity == "antisymmetric" else ()
-    found = singular_points(unmirrored, grounded=grounded + plane, continuous_pressure=False)
+    found = singular_points(unmirrored, zero_potential=zero_potential + plane, continuous_pressure=False)
     smooth = _ends_of_guided_beams(tank)
     blunt = _ends_of_thin_ellipses(tank)
     return {

@@ -12,7 +12,7 @@ from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
 
 
-def read_own_mesh(scene: TankScene) -> TaggedMesh | None:
+def read_user_mesh(scene: TankScene) -> TaggedMesh | None:
     """Return the mesh that a scene names, m; ``None`` if it names none.
 
     Raises:
@@ -28,7 +28,7 @@ def read_own_mesh(scene: TankScene) -> TaggedMesh | None:
     return mesh
 
 
-def own_mesh(scene: TankScene, comm: MPI.Comm) -> TaggedMesh | None:
+def user_mesh(scene: TankScene, comm: MPI.Comm) -> TaggedMesh | None:
     """Return the mesh that a scene names, on rank 0; ``None`` elsewhere, and if it names none (collective).
 
     Raises:
@@ -39,7 +39,7 @@ def own_mesh(scene: TankScene, comm: MPI.Comm) -> TaggedMesh | None:
     mesh, refused = None, None
     if comm.rank == 0:
         try:
-            mesh = read_own_mesh(scene)
+            mesh = read_user_mesh(scene)
         except SceneError as error:
             refused = error
         except Exception as error:

@@ -34,7 +34,7 @@ _HARDLY = 0.02
 
 
 @dataclass(frozen=True, kw_only=True)
-class LongWaves:
+class LowFrequencySeries:
     """The low-frequency series of H. Shapes: m body unknowns.
 
     Attributes:
@@ -59,7 +59,7 @@ class LongWaves:
         return slow
 
 
-def long_waves(hydrodynamics: Callable[[np.ndarray], np.ndarray], lowest: complex) -> LongWaves:
+def low_frequency_series(hydrodynamics: Callable[[np.ndarray], np.ndarray], lowest: complex) -> LowFrequencySeries:
     """Take the series from H at a few slow ω.
 
     Args:
@@ -72,7 +72,7 @@ def long_waves(hydrodynamics: Callable[[np.ndarray], np.ndarray], lowest: comple
     terms, flat = _terms(omegas / unit), values.reshape(len(omegas), -1)
     known, wanted = (np.vstack([part[:-1].real, part[:-1].imag]) for part in (terms, flat))
     coefficients = np.linalg.lstsq(known, wanted, rcond=None)[0]
-    return LongWaves(
+    return LowFrequencySeries(
         unit=unit,
         coefficients=coefficients.reshape(-1, *values.shape[1:]),
         misfit=float(np.abs(terms[-1] @ coefficients - flat[-1]).max() / np.abs(flat[-1]).max()),
@@ -85,20 +85,20 @@ def _terms(omegas: np.ndarray) -> np.ndarray:
     return np.stack([np.ones_like(kappa), logarithm, kappa, kappa * logarithm, kappa * logarithm**2], axis=1)
 
 
-def slowest_meshed(water: Tank, latest: float) -> float:
+def lowest_meshed_frequency(water: Tank, latest: float) -> float:
     """The lowest frequency for which a mesh is needed, rad/s.
 
     Args:
         water: open water in SI units.
         latest: the last time at which the motion is wanted, s.
     """
-    if not is_endless(water):
+    if not is_infinitely_deep(water):
         return _HARDLY / latest
     layers, extent = two_layers(water), open_basin(water, 0.0).units.length
     buoyancy = (layers.density_below - layers.density_above) / (layers.density_below + layers.density_above)
     return sqrt(_LONG * layers.gravity * buoyancy / extent)
 
 
-def is_endless(water: Tank) -> bool:
+def is_infinitely_deep(water: Tank) -> bool:
     """Whether all liquids are infinitely deep."""
     return all(isinf(layer.depth) for layer in water.layers)

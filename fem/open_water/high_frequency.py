@@ -28,7 +28,7 @@ _POINTS = 48
 
 
 @dataclass(frozen=True, kw_only=True)
-class FastWaves:
+class HighFrequencySeries:
     """The high-frequency series of H. Shapes: m body unknowns.
 
     Attributes:
@@ -67,7 +67,9 @@ def arc(highest: complex, count: int) -> np.ndarray:
     return omegas
 
 
-def fast_waves(hydrodynamics: Callable[[np.ndarray], np.ndarray], highest: complex, limit: np.ndarray) -> FastWaves:
+def high_frequency_series(
+    hydrodynamics: Callable[[np.ndarray], np.ndarray], highest: complex, limit: np.ndarray
+) -> HighFrequencySeries:
     """Take the series from H on the arc.
 
     Args:
@@ -85,7 +87,7 @@ def fast_waves(hydrodynamics: Callable[[np.ndarray], np.ndarray], highest: compl
         coefficients: np.ndarray = np.linalg.lstsq(known, values, rcond=None)[0]
         return coefficients.reshape(-1, *limit.shape)
 
-    return FastWaves(unit=abs(highest), limit=limit, coefficients=fitted(_ORDERS), fewer=fitted(_ORDERS - 2))
+    return HighFrequencySeries(unit=abs(highest), limit=limit, coefficients=fitted(_ORDERS), fewer=fitted(_ORDERS - 2))
 
 
 def _terms(omegas: np.ndarray, orders: int) -> np.ndarray:
@@ -95,7 +97,7 @@ def _terms(omegas: np.ndarray, orders: int) -> np.ndarray:
     return np.stack([powers, powers * logarithm[:, None]], axis=2).reshape(len(omegas), -1)
 
 
-def fastest_meshed(fastest: float, tolerance: float) -> float:
+def highest_meshed_frequency(fastest: float, tolerance: float) -> float:
     """The highest frequency for which a mesh is needed, rad/s: the lower the tolerance, the higher.
 
     Args:

@@ -13,7 +13,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from hydroelastic.fem.open_water.results import Complexes, Floats, MissedPeak, ResponseTable
+from hydroelastic.fem.open_water.results import Complexes, Floats, ResponseTable, UnresolvedPeak
 
 # Of the largest on the curve: by what a peak must differ from the line between its neighbours.
 _DIFFERS = 0.1
@@ -22,9 +22,9 @@ _DIFFERS = 0.1
 _Curve: TypeAlias = tuple[str, Floats, Floats, float]
 
 
-def missed_peaks(
+def unresolved_peaks(
     table: ResponseTable, resonances: Complexes, between: Callable[[Floats], ResponseTable]
-) -> tuple[MissedPeak, ...]:
+) -> tuple[UnresolvedPeak, ...]:
     """Return the largest of the peaks between each two frequencies, by ascending frequency.
 
     Args:
@@ -42,12 +42,12 @@ def missed_peaks(
     return tuple(worst[below] for below in sorted(worst))
 
 
-def _worst(probed: Floats, omegas: Floats, curves: Iterator[_Curve]) -> dict[float, MissedPeak]:
+def _worst(probed: Floats, omegas: Floats, curves: Iterator[_Curve]) -> dict[float, UnresolvedPeak]:
     """What changes most between each two frequencies, by the lower one."""
     order = np.argsort(omegas)
     ordered = omegas[order]
     changes: dict[float, float] = {}
-    worst: dict[float, MissedPeak] = {}
+    worst: dict[float, UnresolvedPeak] = {}
     for quantity, shown, found, scale in curves:
         drawn = np.interp(probed, ordered, shown[order])
         for omega, value, line in zip(probed, found, drawn, strict=True):
@@ -56,7 +56,7 @@ def _worst(probed: Floats, omegas: Floats, curves: Iterator[_Curve]) -> dict[flo
             change = abs(value - line) / max(scale, value)
             if change > changes.get(below, _DIFFERS):
                 changes[below] = change
-                worst[below] = MissedPeak(
+                worst[below] = UnresolvedPeak(
                     below=below,
                     above=above,
                     omega=float(omega),

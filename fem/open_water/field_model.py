@@ -1,4 +1,4 @@
-"""The field model of open water for a range of frequencies: basin, frames, mesh, pencil, and its errors."""
+"""The field model of open water for a range of frequencies: basin, absorbing layer, mesh, pencil, errors."""
 
 from __future__ import annotations
 
@@ -46,22 +46,24 @@ ANGLE = pi / 3.0
 better."""
 
 ANGLE_OVER_A_BED = pi / 4.0
-"""α where a liquid has a finite depth: at 60 degrees e^{−κx} turns faster than it decays, and needs more cells."""
+"""α where a liquid has a finite depth: at 60 degrees e^{−κx} oscillates faster than it decays, and needs more
+cells."""
 
 GROWTH = 3.0
-"""Ratio of the distances of successive frames; 2 costs half as much again, 4 needs a higher degree."""
+"""Ratio of the distances of successive layers of cells; 2 costs half as much again, 4 needs a higher degree."""
 
-# Where only one coordinate is turned the series of ψ in a frame converges more slowly.
+# Where only one coordinate is rotated, polynomials in a layer of cells converge more slowly.
 _GROWTH_OVER_A_BED = 2.0
 
 NO_WATER = 1e-6
-"""Added mass below this part of a body's own is not resolved."""
+"""Added mass below this part of the mass of a body is not resolved."""
 
-# In the frames ψ oscillates about as fast as it decays, and errors of opposite phase cancel. Measured on circles at Ka
-# from 0.05 to 10 at three tolerances: the energy missed is 9 to 140 times the error.
+# Weight of the energy error of cells in the absorbing layer. ψ oscillates there about as fast as it decays, and errors
+# of opposite phase cancel. Measured on circles at Ka from 0.05 to 10 at three tolerances: the energy error is 9 to 140
+# times the error of H.
 LAYER_WEIGHT = 0.2
-# Beyond so many radians of an interface wave the upper surface does not feel it.
-_UNFELT = 20.0
+# An upper liquid deeper than this, in radians of an interface wave, decouples its surface from that wave.
+_DECOUPLED = 20.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -77,7 +79,7 @@ class Band:
     highest: float
 
     def wavenumbers(self, water: Tank) -> tuple[float, float]:
-        """Smallest and largest wavenumber of the waves that leave, 1/m."""
+        """Smallest and largest wavenumber of the outgoing waves, 1/m."""
         layers = two_layers(water)
         found = [wave.wavenumber for omega in (self.lowest, self.highest) for wave in travelling_waves(layers, omega)]
         return min(found), max(found)
@@ -89,9 +91,9 @@ class OpenModel:
 
     Attributes:
         basin: the water around the bodies.
-        resolution: of the basin.
-        reach: of the frames.
-        shortest: largest wavenumber of the waves that leave.
+        resolution: resolution of the basin.
+        absorbing_layer: dimensions of the absorbing layer.
+        shortest: largest wavenumber of the outgoing waves, in units of the basin.
         tolerance: largest relative error that is accepted.
         pencil: the dimensionless problem, in units of the basin.
     """
@@ -104,7 +106,7 @@ class OpenModel:
     pencil: OpenPencil
 
     def squared_frequency(self, omega: complex) -> complex:
-        """λ of an ω in rad/s."""
+        """Dimensionless λ = ω² of an ω in rad/s."""
         return complex(omega / self.basin.units.frequency) ** 2
 
     @cached_property
@@ -114,12 +116,12 @@ class OpenModel:
 
     @cached_property
     def scale(self) -> MotionScale:
-        """From body unknowns to motions in SI units."""
+        """Conversion of body unknowns to motions in SI units."""
         return motion_scale(self.basin, self.pencil.bodies)
 
     @cached_property
     def far_field(self) -> FarField:
-        """Amplitudes of outgoing waves (collective)."""
+        """Far-field fluxes, from which the amplitudes of outgoing waves follow (collective)."""
         return FarField(self.pencil, *self.basin.bounds)
 
     @cached_property
@@ -129,18 +131,21 @@ class OpenModel:
 
     @cached_property
     def mass(self) -> np.ndarray:
-        """M of the bodies."""
+        """M_b of the bodies, shape (body unknowns, body unknowns)."""
         matrix: np.ndarray = block_diag(*(body.mass for body in self.pencil.bodies))
         return matrix
 
     def energies_missed(
         self, potentials: np.ndarray, layer_weight: np.ndarray | float = LAYER_WEIGHT
     ) -> tuple[np.ndarray, np.ndarray]:
-        """Estimate ∫ρ|∇(ψ − ψ_h)|² of some ψ away from tips and at them, each of shape (potentials,).
+        """Estimate the energy error ∫ρ|∇(ψ − ψ_h)|² of potentials ψ in cells away from tips and at tips (collective).
 
         Args:
-            potentials: ψ on own free unknowns, shape (potentials, unknowns).
-            frames: part of it that counts in the frames, of each ψ or of all (collective).
+            potentials: complex ψ on own free unknowns, shape (potentials, free unknowns).
+            layer_weight: weight of cells in the absorbing layer, for all ψ or of shape (potentials,).
+
+        Returns:
+            Both energies, dimensionless, each of shape (potentials,).
         """
         pencil, mesh = self.pencil, self.pencil.liquid.tank.mesh
         vectors = [pencil.vector(part) for psi in potentials for part in (psi.real, psi.imag)]
@@ -162,12 +167,12 @@ class OpenModel:
 
     @property
     def cut(self) -> float:
-        """Relative error by what is cut off far away, at both ends."""
+        """Relative error of truncating the absorbing layer at both ends."""
         return 2.0 * CUT * self.tolerance
 
     def compared(self, added: np.ndarray) -> np.ndarray:
-        """What errors of H of each body unknown are compared with: |H|, or a small part of the inertia where there is
-        hardly any water moved, as by a circle that turns about its centre."""
+        """Return the scale of errors of H of each body unknown, shape (body unknowns,): |H|, or a small part of the
+        inertia where hardly any water moves, as beside a circle that rotates about its centre."""
         own: np.ndarray = np.maximum(added, NO_WATER * np.diag(self.mass))
         return own
 
@@ -175,8 +180,8 @@ class OpenModel:
         """Relative errors of H of each body unknown, by cause (collective).
 
         Args:
-            potentials: ψ of a unit of each, shape (body unknowns, free unknowns).
-            responses: |H| of each, shape (body unknowns,).
+            potentials: ψ radiated by a unit of each body unknown, shape (body unknowns, free unknowns).
+            responses: diagonal of |H|, shape (body unknowns,).
         """
         away, at_tips = self.energies_missed(potentials)
         scale = self.compared(np.abs(responses))
@@ -191,13 +196,13 @@ class OpenModel:
 
 
 def first_resolution(water: Tank, tolerance: float, band: Band, *, drawn: float | None = None) -> Resolution:
-    """The resolution from which the solution of open water, or of the stretch that is drawn, starts.
+    """Return the initial resolution of open water, or of the length of a picture.
 
     Args:
         water: open water in SI units.
         tolerance: largest relative error that is accepted.
         band: the frequencies.
-        drawn: as for `open_basin`.
+        drawn: see `open_basin`.
     """
     basin = open_basin(water, band.wavenumbers(water)[1], drawn=drawn)
     tank = basin.tank
@@ -207,16 +212,16 @@ def first_resolution(water: Tank, tolerance: float, band: Band, *, drawn: float 
     meshed, flexural = [], []
     for level in tank.levels:
         own = max(shortest.values())
-        if level.below == 1 and own * tank.layers[1].depth > _UNFELT:
+        if level.below == 1 and own * tank.layers[1].depth > _DECOUPLED:
             own = shortest.get("surface", 0.0)
         for piece in level.pieces:
             bent = max((moving.wavenumber(squared) for moving in moving_parts(tank, level, piece)), default=0.0)
             flexural.append(bent if piece.body is not None else 0.0)
-            # What waves scatter under a beam is as short as they are.
+            # Waves scattered under a beam are as short as the incident ones.
             meshed.append(0.0 if piece.body in tank.hulls else max(own, flexural[-1]))
     tolerance = workable_tolerance(tolerance, tank.depth)
     exponent = sharpest_exponent(tank, infinite_frequency=False)
-    # A beam moves in its own waves, whatever those of the water.
+    # The dry modes of a beam follow from its flexural waves alone.
     shapes = resolution_for(tank, tolerance, tuple(flexural), exponent=exponent).shapes
     return replace(resolution_for(tank, tolerance, tuple(meshed), exponent=exponent), shapes=shapes)
 
@@ -234,9 +239,9 @@ def open_model(
     Args:
         problem: the open water.
         band: the frequencies.
-        resolution: of the basin.
-        angle: α of the complex scaling; by default that of the depth.
-        drawn: if the basin holds what is drawn, for so many radians of the shortest wave to each side at most.
+        resolution: resolution of the basin.
+        angle: angle α of the complex scaling, rad; by default that of the depth.
+        drawn: see `open_basin`.
     """
     basin, absorbing_layer = _laid(problem.tank, problem.tolerance, band, resolution, angle=angle, drawn=drawn)
     tank, watch = basin.tank, problem.watch
@@ -264,14 +269,14 @@ def open_model(
 
 
 def first_mesh(water: Tank, tolerance: float, band: Band, resolution: Resolution, *, angle: float) -> TaggedMesh:
-    """The mesh that `open_model` would take, on the calling process.
+    """Return the mesh of `open_model`, on the calling process.
 
     Args:
         water: open water in SI units.
         tolerance: largest relative error that is accepted.
         band: the frequencies.
-        resolution: of the basin.
-        angle: α of the complex scaling.
+        resolution: resolution of the basin.
+        angle: angle α of the complex scaling, rad.
     """
     basin, absorbing_layer = _laid(water, tolerance, band, resolution, angle=angle, drawn=None)
     return open_mesh(basin, resolution, absorbing_layer)
@@ -280,7 +285,7 @@ def first_mesh(water: Tank, tolerance: float, band: Band, resolution: Resolution
 def _laid(
     water: Tank, tolerance: float, band: Band, resolution: Resolution, *, angle: float | None, drawn: float | None
 ) -> tuple[OpenBasin, AbsorbingLayer]:
-    """The basin and its frames."""
+    """Return the basin and its absorbing layer."""
     wavenumbers = band.wavenumbers(water)
     basin = open_basin(water, wavenumbers[1], drawn=drawn)
     length = basin.units.length
@@ -311,13 +316,13 @@ def _liquid(basin: OpenBasin, resolution: Resolution, mesh: TankMesh) -> LiquidS
 def open_mesh(
     basin: OpenBasin, resolution: Resolution, absorbing_layer: AbsorbingLayer, *, infinite_frequency: bool = False
 ) -> TaggedMesh:
-    """The basin's mesh by gmsh with its frames, on the calling process.
+    """Return the mesh of the basin by gmsh with its absorbing layer, on the calling process.
 
     Args:
         basin: the basin.
-        resolution: of it.
-        frames: around it.
-        infinite_frequency: whether it is for the infinite-frequency limit, in which liquids move as one.
+        resolution: resolution of the basin.
+        absorbing_layer: dimensions of the absorbing layer.
+        infinite_frequency: whether it is for the infinite-frequency limit, see `Tank.has_continuous_pressure`.
     """
     from hydroelastic.meshes.build import build_mesh
 

@@ -30,27 +30,27 @@ _UNRESOLVED = 2.0
 _RESIDUAL = 1e-2
 
 
-def zeros_in(solver: Solver, rim: Callable[[np.ndarray], np.ndarray]) -> int | None:
+def zeros_in(solver: Solver, boundary: Callable[[np.ndarray], np.ndarray]) -> int | None:
     """Count the resonances in a region, less those of the water around fixed bodies (collective).
 
     Args:
         solver: solver of the field model.
-        rim: maps places from 0 to 4, shape (points,), to ω in rad/s on the boundary of the region, shape (points,),
-            counterclockwise.
+        boundary: maps places from 0 to 4, shape (points,), to ω in rad/s on the boundary of the region, shape
+            (points,), counterclockwise.
 
     Returns:
         The winding number of det D; ``None`` where its phase is not resolved.
     """
-    _prepare(solver, rim)
+    _prepare(solver, boundary)
     places = 4.0 * np.arange(_FIRST) / _FIRST
-    phases = _phases(solver, rim(places))
+    phases = _phases(solver, boundary(places))
     for _ in range(_HALVINGS):
         turns = np.angle(np.roll(phases, -1) / phases)
-        far = np.flatnonzero((np.abs(turns) > _TURN) | _unresolved(solver, rim(places)))
+        far = np.flatnonzero((np.abs(turns) > _TURN) | _unresolved(solver, boundary(places)))
         if not len(far):
             return round(float(turns.sum() / (2.0 * np.pi)))
         added = 0.5 * (places + np.append(places[1:], 4.0))[far]
-        phases = np.insert(phases, far + 1, _phases(solver, rim(added)))
+        phases = np.insert(phases, far + 1, _phases(solver, boundary(added)))
         places = np.insert(places, far + 1, added)
     return None
 
@@ -67,9 +67,9 @@ def _unresolved(solver: Solver, omegas: np.ndarray) -> np.ndarray:
     return unresolved
 
 
-def _prepare(solver: Solver, rim: Callable[[np.ndarray], np.ndarray]) -> None:
+def _prepare(solver: Solver, boundary: Callable[[np.ndarray], np.ndarray]) -> None:
     """Extend the basis by solutions on the boundary until its residual is small enough there."""
-    points = rim(4.0 * np.arange(_JUDGED) / _JUDGED)
+    points = boundary(4.0 * np.arange(_JUDGED) / _JUDGED)
     squares = [solver.model.squared_frequency(omega) for omega in points]
     if not solver.basis_size:
         solver.radiation(squares[0])

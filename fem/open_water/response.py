@@ -11,7 +11,7 @@ from hydroelastic.fem.open_water.attempts import best_over_band
 from hydroelastic.fem.open_water.field_model import Band, OpenModel, open_model
 from hydroelastic.fem.open_water.frequency import OpenResponse
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
-from hydroelastic.fem.open_water.radiation import between, judged_places, relative_difference
+from hydroelastic.fem.open_water.radiation import between, estimated_places, relative_difference
 from hydroelastic.fem.open_water.requests import ResponseRequest
 from hydroelastic.fem.open_water.results import PlateDeflection, ResponseTable, UnresolvedPeak
 from hydroelastic.fem.open_water.solver import OpenSolver
@@ -71,7 +71,7 @@ def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Respo
         )
         swept = sweep(frequencies, omegas, problem.tolerance)
         with problem.watch.stage("errors"):
-            places = judged_places(omegas)
+            places = estimated_places(omegas)
             causes = [_errors(swept.solutions[place]) for place in places]
         errors = between(omegas, places, np.array([cause.total.max() for cause in causes])) + swept.errors
         return Attempt(

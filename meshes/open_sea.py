@@ -1,7 +1,8 @@
-"""Mesh of open water: the mesh of a basin, surrounded by frames of elongated cells whose width grows outwards.
+"""Mesh of open water: the mesh of a basin, surrounded by layers of elongated cells whose width grows outwards.
 
-Every node on the sides that are extended leaves on a straight ray: sideways, downwards, upwards, and from each corner
-between two such sides also diagonally, so that the number of cells in a frame does not grow with its size.
+From every node on the sides that are extended a straight ray leads outwards: sideways, downwards, upwards, and from
+each corner between two such sides also diagonally, so that the number of cells in a layer does not grow with its
+distance.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from hydroelastic.meshes.tagged_mesh import TaggedMesh
 
 Direction = tuple[int, int]
 Ray = tuple[int, Direction]
-"""A node of the basin and the way in which its ray leaves it."""
+"""A node of the basin and the direction of its ray."""
 
 _OUTWARDS: dict[str, Direction] = {LEFT_WALL: (-1, 0), RIGHT_WALL: (1, 0), BOTTOM: (0, -1), LID: (0, 1)}
 _SIDEWAYS = (LEFT_WALL, RIGHT_WALL)
@@ -26,12 +27,12 @@ _SIDEWAYS = (LEFT_WALL, RIGHT_WALL)
 
 @dataclass(frozen=True, kw_only=True)
 class CellLayers:
-    """Distances of successive frames from the basin, ascending.
+    """Distances of the outer sides of successive layers of cells from the basin, ascending, in the unit of the mesh.
 
     Attributes:
-        sideways: beyond the left and the right wall, shape (frames,).
-        below: beyond the bottom, where it is extended, shape (frames,).
-        above: beyond the lid, likewise.
+        sideways: distances from the left and the right wall, shape (layers,).
+        below: distances from the bottom, if it is extended, shape (layers,).
+        above: distances from the lid, if it is extended, shape (layers,).
     """
 
     sideways: NDArray[np.float64]
@@ -40,12 +41,12 @@ class CellLayers:
 
 
 def extended(mesh: TaggedMesh, sides: tuple[str, ...], layers: CellLayers) -> TaggedMesh:
-    """Surround a basin with frames; it becomes a larger basin, with the same names.
+    """Surround a basin with layers of cells; the result is a larger basin with the same names of sides.
 
     Args:
-        mesh: of a rectangle whose sides carry the names of `geometry`.
-        sides: both walls, and of bottom and lid those that are extended.
-        frames: where the frames end.
+        mesh: mesh of a rectangle whose sides have the names of `geometry`.
+        sides: names of both walls, and of bottom and lid if they are extended.
+        layers: distances of the layers of cells.
 
     Returns:
         The mesh, whose first cells and nodes are those of the basin.
@@ -66,7 +67,7 @@ def extended(mesh: TaggedMesh, sides: tuple[str, ...], layers: CellLayers) -> Ta
 
 
 def with_far_ends(mesh: TaggedMesh, sides: tuple[str, ...]) -> TaggedMesh:
-    """Give the sides of a basin, beyond which nothing is modelled, one common name."""
+    """Give the outer sides at which the mesh is truncated one common name, `FAR_END`."""
     tag = max(mesh.facet_names.values()) + 1
     far = np.isin(mesh.facet_tags, [mesh.facet_names[side] for side in sides])
     names = {name: number for name, number in mesh.facet_names.items() if name not in sides}

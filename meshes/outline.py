@@ -1,4 +1,4 @@
-"""A planar domain as plain geometry: named curves, regions bounded by them, corners towards which meshes are graded."""
+"""A planar domain as plain geometry: named curves, regions bounded by them, points towards which it is graded."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ class Region:
 
 @dataclass(frozen=True, kw_only=True)
 class GradedPoint:
-    """A point to which rings of triangles shrink.
+    """A point towards which the mesh is graded by rings of triangles.
 
     Attributes:
         point: an end of curves.
@@ -102,7 +102,7 @@ class Chords:
 
 @dataclass(frozen=True, kw_only=True)
 class Outline:
-    """Curves, the regions between them and the corners.
+    """Curves, the regions between them and the graded points.
 
     Raises:
         ValueError: if a loop is not closed, turns clockwise or passes a curve twice; if a curve bounds no region or

@@ -1,4 +1,4 @@
-"""Where ψ is singular: ends of bodies, corners of contours, contact points, ends of slits; and how sharply.
+"""Singular points of ψ with their exponents: ends of bodies, corners of contours, contact points, ends of slits.
 
 In a wedge of angle β ψ behaves like r^α: α = π/β between walls and bodies, π/(2β) where ψ = 0 on one of its sides. At a
 beam's tip, β = π, it is r ln r for α = 1. The energy of ∇ψ within r of the corner is about r^{2α}.
@@ -21,13 +21,13 @@ from hydroelastic.physics.tank import Tank
 
 _MIRRORS = (LEFT_WALL, RIGHT_WALL, SYMMETRY_PLANE)
 
-# Joints of smooth arcs turn by rounding and by how the arcs are given.
+# Largest change of direction at a joint of arcs that counts as smooth, rad.
 _SMOOTH = 1e-6
-# α of a smooth body between two liquids that move as one: r² ln r beside the jump of the slope.
+# α of a smooth body at an interface across which ρψ is continuous: r² ln r beside the jump of the slope.
 _JUMP = 2.0
 # α where the flux on a side jumps: r ln r.
 _SIDE_JUMPS = 1.0
-# How far along a curve its direction at an end is taken.
+# Parameter of a curve from its end at which its direction there is taken.
 _NEAR = 1e-7
 
 
@@ -36,9 +36,10 @@ class SingularPoint:
     """A point where ψ is singular.
 
     Attributes:
-        point: where.
-        exponent: α of the sharpest term there.
-        reach: how far it may be graded: distance to the next end of a curve, and sizes of elements beside it.
+        point: coordinates, in units of the outline.
+        exponent: α of the sharpest term r^α.
+        grading_distance: largest radius of graded rings: less than half the distance to the next end of a curve, and
+            the sizes of elements beside the point.
     """
 
     point: Point
@@ -48,7 +49,7 @@ class SingularPoint:
 
 @dataclass(frozen=True, kw_only=True)
 class _Wedge:
-    """A region's part around a point: from the curve that leaves the point counterclockwise to the one that comes."""
+    """A region's wedge at a point, between the curve of its boundary that leaves the point and the one that arrives."""
 
     leaving: int
     coming: int
@@ -65,10 +66,10 @@ def singular_points(
     """Find the singular points of an outline.
 
     Args:
-        outline: the liquids.
-        grounded: names of curves with ψ = 0.
-        continuous_pressure: whether liquids of different densities move as one across uncut lines.
-        kinks: points of smooth sides at which what is prescribed, or a derivative of it, jumps, with α there.
+        outline: outline of the liquids.
+        zero_potential: names of curves with ψ = 0.
+        continuous_pressure: whether ρψ is continuous across lines between liquids of different densities.
+        kinks: points of smooth sides at which the prescribed displacement or a derivative jumps, with α there.
     """
     wedges = _wedges(outline)
     points = []
@@ -99,7 +100,7 @@ def _wedges(outline: Outline) -> dict[Point, list[_Wedge]]:
 
 
 def _direction(outline: Outline, number: int, *, from_start: bool) -> float:
-    """Angle at which a curve leaves one of its ends."""
+    """Direction of a curve at one of its ends, rad."""
     t = np.array([0.0, _NEAR]) if from_start else np.array([1.0, 1.0 - _NEAR])
     curve = outline.curves[number]
     (x, y), (x_near, y_near) = curve.at(t)
@@ -108,7 +109,7 @@ def _direction(outline: Outline, number: int, *, from_start: bool) -> float:
 
 @dataclass(frozen=True, kw_only=True)
 class _Sector:
-    """Wedges that no boundary parts."""
+    """Wedges without a boundary between them."""
 
     names: tuple[str, str]
     angle: float
@@ -133,7 +134,7 @@ def _exponent(sector: _Sector, zero_potential: tuple[str, ...], continuous_press
     """α in a sector; infinite where ψ is smooth."""
     if not any(body_number(name) for name in sector.names):
         return inf
-    # A wall is a mirror: beyond it the sector goes on as its image.
+    # A wall is a mirror: the sector continues as its image.
     angle = sector.angle * (2.0 if any(name in _MIRRORS for name in sector.names) else 1.0)
     if (len(set(sector.names)) == 1 or SYMMETRY_PLANE in sector.names) and abs(angle - pi) < _SMOOTH:
         # Where two liquids meet a smooth body the slope of ψ jumps.
@@ -150,7 +151,7 @@ def _grading_distance(outline: Outline, point: Point, wedges: dict[Point, list[_
 def tank_singular_points(
     tank: Tank, sizes: Sizes, *, half: bool, infinite_frequency: bool
 ) -> tuple[SingularPoint, ...]:
-    """The singular points of a scene, or of its left half; see `tank_outline`."""
+    """Return the singular points of a tank, or of its left half; see `tank_outline`."""
     return singular_points(
         tank_outline(tank, sizes, half=half, infinite_frequency=infinite_frequency),
         zero_potential=zero_potential_surfaces(tank, infinite_frequency=infinite_frequency),

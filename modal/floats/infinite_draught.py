@@ -1,4 +1,4 @@
-"""The endless exponential float of the paper beside the one with an end that a scene can have."""
+"""The exponential float of infinite draught of the paper, compared with one that ends at its tail."""
 
 from __future__ import annotations
 
@@ -13,10 +13,11 @@ from hydroelastic.physics.profiles import Profile
 
 @dataclass(frozen=True, kw_only=True)
 class InfiniteDraughtFloat:
-    """The endless float after a release in deep liquids, by the closed form.
+    """The float of infinite draught after a release in infinitely deep liquids, by the closed form.
 
     Attributes:
-        cut: estimate of the largest |f − f_endless| over all times, f = s/s₀ of the float with its end; at most 2.
+        cut: estimate of the largest |f − f_∞| over all times, f = s/s₀ of the float with its end and f_∞ without; at
+            most 2.
         resonances: ω − iγ, rad/s, of heave and of the second pole, of motions e^{−iωt}.
         residues: f contains 2 Re(residue e^{−iωt}) of each.
     """
@@ -27,11 +28,11 @@ class InfiniteDraughtFloat:
 
 
 def infinite_draught_float(profile: Profile, layers: TwoLayers) -> InfiniteDraughtFloat:
-    """Return the poles and residues of an exponential float without its end, and how far the end takes it from that.
+    """Return poles and residues of an exponential float without its end, and the effect of the end on the motion.
 
     Args:
         profile: an exponential, with an end or without.
-        layers: deep liquids.
+        layers: infinitely deep liquids.
 
     Raises:
         NoEstimateError: as `heave_pole`.
@@ -49,7 +50,7 @@ def infinite_draught_float(profile: Profile, layers: TwoLayers) -> InfiniteDraug
 
 
 def cut_distance(profile: Profile) -> float:
-    """Return about the largest |f − f_endless| of an exponential that ends where its width is a part ``tail`` of b:
+    """Return the approximate largest |f − f_∞| of an exponential that ends where its width is a part ``tail`` of b:
 
         2/(eτ) tail (1 + ln 1/tail), at most 2.
 

@@ -79,10 +79,10 @@ def heave_pole(profile: Profile) -> FreePole:
 
 @functools.lru_cache(maxsize=256)
 def second_pole(profile: Profile) -> FreePole:
-    """Return the other pole of the endless exponential, which comes from z = −1: −1 + (1 + i)√τ/2 + O(τ).
+    """Return the other pole of the exponential of infinite draught, which comes from z = −1: −1 + (1 + i)√τ/2 + O(τ).
 
     Raises:
-        NoEstimateError: for any other shape, whose further poles are endless in number, beyond an angle of about 3π/4.
+        NoEstimateError: for any other shape, which has infinitely many further poles, beyond an angle of about 3π/4.
     """
     if not has_infinite_draught(profile):
         raise NoEstimateError("only the exponential without end has exactly one more pole")

@@ -20,7 +20,8 @@ _PLAIN_SECTOR = (math.pi + MOST_ANGLE) / 2
 
 
 def greatest_angle(profile: Profile) -> float:
-    """Return up to which |arg z| `wave_integral` is known: π for the endless exponential, 130° for other shapes.
+    """Return up to which |arg z| `wave_integral` is known: π for the exponential of infinite draught, 130° for other
+    shapes.
 
     Beyond 3π/4 R(−z²) of a float with ends grows like e^{|z|²}.
     """
@@ -37,8 +38,8 @@ def wave_integral(profile: Profile, frequency: npt.ArrayLike) -> ComplexArray:
 
         G(z) = ∫₀^∞ R² dκ/(κ + z²) − 2πi R(−z²)²,     π/2 < arg z.
 
-    The endless exponential has (s − 1 − 2 Ln z)/(s − 1)², s = z². For other shapes κ runs on the ray arg κ = ±π/4, away
-    from the pole −z², by the trapezoidal rule in ln κ, whose error falls exponentially with the step.
+    The exponential of infinite draught has (s − 1 − 2 Ln z)/(s − 1)², s = z². For other shapes κ runs on the ray arg κ
+    = ±π/4, away from the pole −z², by the trapezoidal rule in ln κ, whose error falls exponentially with the step.
 
     Args:
         profile: the section.

@@ -1,4 +1,4 @@
-"""The wave on the level of endless liquids at a complex frequency, where it grows or falls along the level."""
+"""The wave on the level of infinitely deep liquids at a complex frequency, where it grows or falls along the level."""
 
 from __future__ import annotations
 

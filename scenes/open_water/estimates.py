@@ -1,4 +1,4 @@
-"""The endless float of the paper beside the one of a scene, which ends where its tail says."""
+"""The exponential float of infinite draught compared with that of a scene, which ends at its tail."""
 
 from __future__ import annotations
 
@@ -13,7 +13,8 @@ from hydroelastic.scenes.models.tank import TankScene
 
 
 def infinite_draught_comparison(scene: TankScene) -> InfiniteDraughtFloat | None:
-    """The endless float of the paper beside a lone exponential that is released in endless liquids; else nothing."""
+    """Return the float of infinite draught for a single exponential released in infinitely deep liquids; else
+    ``None``."""
     tank = physical_tank(scene)
     profile, layers = lone_profile(tank), two_layers(tank)
     if profile is None or profile.shape != "exponential" or not is_deep(layers):
@@ -27,9 +28,9 @@ def infinite_draught_comparison(scene: TankScene) -> InfiniteDraughtFloat | None
 
 
 def infinite_draught_message(infinite: InfiniteDraughtFloat) -> str:
-    """How far the endless float is, in words."""
+    """Return a message on the difference from the float of infinite draught."""
     return (
-        "The float ends where the scene's tail says. After a release it differs from the endless one of the paper by "
+        "The float ends at its tail. After a release it differs from the paper's float of infinite draught by "
         f"up to about {infinite.cut:.1g} of the displacement at first, which no estimated error of the field solution "
         "holds: that is of the float with its end. A smaller tail brings them together."
     )

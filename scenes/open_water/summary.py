@@ -1,4 +1,4 @@
-"""The answer to a scene with open ends as one JSON-ready value: tables with their errors, and what they cost."""
+"""Results of a scene with open ends as one JSON-ready value: tables with their errors, and their cost."""
 
 from __future__ import annotations
 
@@ -19,7 +19,8 @@ from hydroelastic.scenes.output.provenance import Summary, complete_summary
 def summarize_open(solution: OpenSolution, comm: MPI.Comm, *, import_seconds: float) -> Summary:
     """Build the summary of a solved scene with open ends (collective: peak memory is summed over processes).
 
-    Complex numbers are pairs [real part, imaginary part], infinity is the text "inf", what was not computed is null.
+    Complex numbers are pairs [real part, imaginary part], infinity is the text "inf", a value that was not computed is
+    null.
 
     Args:
         solution: the solution.
@@ -45,7 +46,7 @@ def summarize_open(solution: OpenSolution, comm: MPI.Comm, *, import_seconds: fl
 
 
 def _written(table: RadiationTable | ResponseTable | ResonanceTable | DecayTable) -> dict[str, Any]:
-    """A table by the names of its fields; `body` counts from 1 here, as everywhere that a person reads."""
+    """A table by the names of its fields; `body` counts from 1, as in all output."""
     row = {field.name: getattr(table, field.name) for field in fields(table)}
     if isinstance(table, ResponseTable):
         row["plates"] = [

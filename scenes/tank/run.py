@@ -1,4 +1,4 @@
-"""Run a closed tank: solve, set the estimates beside the solution, tabulate, write and draw."""
+"""Run a closed tank: solve, compare with the estimates, tabulate, write and draw."""
 
 from __future__ import annotations
 
@@ -37,11 +37,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class SampledTank:
-    """What is written and drawn.
+    """Results that are written and drawn.
 
     Attributes:
         solution: the field solution.
-        shapes: of the modes; ``None`` but on rank 0.
+        shapes: mode shapes in SI units; ``None`` except on rank 0.
         summary: content of ``summary.json``.
     """
 
@@ -79,7 +79,7 @@ def solve_tank(scene: TankScene, comm: MPI.Comm, report: Report) -> EstimatedTan
 
 
 def _sample(estimated: EstimatedTank, summary: Summary) -> SampledTank:
-    # Who only wants the numbers does without what draws.
+    # Without pictures their modules are not imported.
     from hydroelastic.fem.tank.mode_shapes import sample_shapes
 
     return SampledTank(solution=estimated.tank, shapes=sample_shapes(estimated.tank), summary=summary)

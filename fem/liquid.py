@@ -3,12 +3,12 @@
     ∫∇ψ·∇q = ∫ζ q        walls are natural boundaries
 
 Each layer of liquid has its own ψ: on the interface of two layers their meshes touch, and share no node. A layer on
-whose boundary ψ = 0 nowhere fixes ψ up to a constant and keeps its volume. One unknown of it is then grounded, which is
-exact for loads of zero total flux; loads and solutions are projected so that the solution operator
+whose boundary ψ = 0 nowhere fixes ψ up to a constant and keeps its volume. One unknown of it is then set to zero, which
+is exact for loads of zero total flux; loads and solutions are projected so that the solution operator
 
     A⁺ = Πᵀ A⁻¹ Π       is symmetric, with ∫ψ = 0 over the surfaces of each closed layer
 
-whatever is grounded.
+whichever unknown that is.
 """
 
 from __future__ import annotations
@@ -56,7 +56,8 @@ class LiquidSpace:
         tank: the mesh.
         space: the function space of ψ.
         degree: polynomial degree.
-        grounded: names of the surfaces on which ψ = 0: pressure release, or the mirror plane of antisymmetric modes.
+        zero_potential: names of the surfaces on which ψ = 0: pressure release, or the mirror plane of antisymmetric
+            modes.
         layers: the liquids, from the bottom up.
         layer_of: layer of each unknown of this process, owned ones first.
         continuous_pressure: the liquids, where the pressure ρψ is continuous across their interface, as it is at
@@ -120,7 +121,7 @@ def liquid_space(
     Args:
         tank: the mesh.
         degree: polynomial degree.
-        grounded: names of the surfaces on which ψ = 0.
+        zero_potential: names of the surfaces on which ψ = 0.
         layers: the liquids, from the bottom up.
         continuous_pressure: whether the pressure is continuous across their interface; the mesh is then not cut there.
     """
@@ -153,7 +154,7 @@ def closed_layers(liquid: LiquidSpace) -> tuple[int, ...]:
 
 @dataclass(frozen=True, kw_only=True)
 class LiquidMatrices:
-    """Matrices on all unknowns of one space, the same whichever surface is grounded.
+    """Matrices on all unknowns of one space, the same on whichever surface ψ = 0.
 
     Attributes:
         laplace: A = ∫∇ψ·∇q.
@@ -266,7 +267,8 @@ def assembled(form: fem.Form) -> PETSc.Mat:
 
 
 def constrained_dofs(liquid: LiquidSpace) -> np.ndarray:
-    """Owned unknowns whose value is zero: those of the grounded surfaces, and one of each closed layer (collective)."""
+    """Owned unknowns whose value is zero: those of the surfaces with ψ = 0, and one of each closed layer
+    (collective)."""
     surfaces = liquid.surface_dofs(liquid.zero_potential) if liquid.zero_potential else np.empty(0, dtype=np.int32)
     return np.union1d(surfaces, [dof for layer in closed_layers(liquid) for dof in first_dof(liquid, layer)]).astype(
         np.int32
@@ -310,7 +312,7 @@ class LiquidSolver:
 
     Args:
         matrix: A on all unknowns.
-        grounded: owned local unknowns that are zero.
+        constrained: owned local unknowns that are zero, shape (constrained unknowns,).
         closed: the layers of constant volume.
     """
 

@@ -317,7 +317,7 @@ def count_below(pencil: CoupledPencil, eigenvalue: float) -> int:
 
 
 def _unconstrained(pencil: CoupledPencil) -> PETSc.IS:
-    """Unknowns of ψ that no grounded surface fixes, without one of each layer whose constant is arbitrary."""
+    """Unknowns of ψ off surfaces with ψ = 0, without one of each layer whose constant is arbitrary."""
     first, last = pencil.laplace.getOwnershipRange()
     liquid = pencil.liquid
     fixed = liquid.surface_dofs(liquid.zero_potential) if liquid.zero_potential else np.empty(0, dtype=np.int32)

@@ -80,7 +80,7 @@ def test_second_pole_of_the_exponential() -> None:
     profile = Profile(shape="exponential", half_width=RADIUS, half_height=RADIUS, tail=tail)
     infinite = infinite_draught_float(profile, DEEP)
     heave, second = infinite.resonances
-    # The end moves both a little, and adds four that the endless float has not.
+    # The end moves both a little, and adds four that the float of infinite draught has not.
     assert found.table.omega[0] == pytest.approx(second, rel=infinite.cut)
     assert found.table.omega[1] == pytest.approx(heave, rel=infinite.cut)
     assert -found.table.omega[0].imag / found.table.omega[0].real == pytest.approx(1.31, abs=0.01)
@@ -147,7 +147,7 @@ def test_two_processes_continue_the_same() -> None:
 
 
 @pytest.mark.parametrize("density_above", [0.0, 800.0])
-def test_endless_waves_are_those_that_travel(density_above: float) -> None:
+def test_deep_water_waves_are_the_travelling_waves(density_above: float) -> None:
     layers = TwoLayers(density_below=1000.0, density_above=density_above, depth_below=inf, gravity=GRAVITY)
     (wave,) = travelling_waves(layers, 2.0)
     infinite = DeepWaterWave(layers=layers, squared=4.0 + 0.0j)
@@ -165,6 +165,6 @@ def test_endless_waves_are_those_that_travel(density_above: float) -> None:
 
 def test_damping_beyond_that_of_a_bed_is_refused() -> None:
     scene = {"analyses": [{"kind": "resonance", "largest_damping": 1.5}]}
-    with pytest.raises(ValueError, match="found in endless liquids alone"):
+    with pytest.raises(ValueError, match="found in infinitely deep liquids alone"):
         open_scene(liquids=({"density": 1000.0, "depth": 2.0},), **scene)
     assert open_scene(**scene).analyses[0].largest_damping == 1.5

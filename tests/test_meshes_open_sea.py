@@ -157,7 +157,7 @@ def test_bed_and_lid_at_different_distances() -> None:
     check_interface(mesh, 1.0 + 2.0 * far)
 
 
-def test_bed_below_an_endless_liquid() -> None:
+def test_bed_below_an_infinitely_deep_liquid() -> None:
     body = {"kind": "float", "shape": "wedge", "half_width": 0.2, "half_height": 0.5, "position": 5.0}
     liquids = ({"density": 1000.0, "depth": 3.0}, {"density": 800.0, "depth": math.inf})
     mesh, basin, far = sea(open_scene(body, liquids=liquids, analyses=[], accuracy={"tolerance": 1e-2}), 2.0)

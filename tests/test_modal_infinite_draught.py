@@ -1,4 +1,4 @@
-"""How far an exponential float with an end is from the endless one of the paper, and the poles of that one."""
+"""How far an exponential float with an end is from the paper's one of infinite draught, and the poles of that one."""
 
 from __future__ import annotations
 

@@ -66,7 +66,7 @@ def test_other_scenes_have_no_such_theory() -> None:
         assert _compared(OpenSolution(scene=scene, size={}, seconds={})) == ((), "")
 
 
-def test_check_and_summary_tell_of_the_endless_float() -> None:
+def test_check_and_summary_compare_with_the_float_of_infinite_draught() -> None:
     scene = _scene(shape="exponential", half_width=0.5, tail=1e-3)
     told = infinite_draught_comparison(scene)
     assert told is not None

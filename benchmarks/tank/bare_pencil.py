@@ -21,7 +21,7 @@ Solve = Callable[[FloatArray], FloatArray]
 
 @dataclass(frozen=True, kw_only=True)
 class BarePencil:
-    """K, M, C and A of a `CoupledPencil` on one process, with what is grounded left out of C and A.
+    """K, M, C and A of a `CoupledPencil` on one process, without the constrained unknowns of C and A.
 
     Attributes:
         stiffness: K.

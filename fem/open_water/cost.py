@@ -15,8 +15,8 @@ WITHIN = 3.0
 """Factor within which seconds and memory are estimated. A second attempt, where the first falls short, may double them;
 a busy or a slow machine takes longer."""
 
-# Measured on one core, on floats in and between endless liquids, at tolerances from 1e-3 to 1e-6: 4 000 to 64 000
-# unknowns, 3 to 65 s, 260 to 1 060 MiB.
+# Measured on one core, on floats in and between infinitely deep liquids, at tolerances from 1e-3 to 1e-6: 4 000 to 64
+# 000 unknowns, 3 to 65 s, 260 to 1 060 MiB.
 _SECONDS, _OF_UNKNOWNS, _GROWTH = 1.1, 37_000, 1.2
 _LIBRARIES, _PER_UNKNOWN = 200 * 2**20, 18 * 2**10
 # Numbers of solutions on the ray, the least and per decimal digit, and of the other solutions.

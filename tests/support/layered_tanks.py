@@ -78,7 +78,7 @@ class PlainProblem:
         stiffness, mass: K and M as full arrays.
         coupling, laplace: C and A, sparse.
         densities: ρ at each unknown of ψ.
-        fixed: unknowns of ψ that a grounded surface fixes.
+        fixed: unknowns of ψ that are zero on a surface with ψ = 0.
         volumes: what each unknown takes from each closed layer, shape (closed layers, n).
         pins: one unknown of ψ of each closed layer.
     """

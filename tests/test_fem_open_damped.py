@@ -165,6 +165,6 @@ def test_deep_water_waves_are_the_travelling_waves(density_above: float) -> None
 
 def test_damping_beyond_that_of_a_bed_is_refused() -> None:
     scene = {"analyses": [{"kind": "resonance", "largest_damping": 1.5}]}
-    with pytest.raises(ValueError, match="found in infinitely deep liquids alone"):
+    with pytest.raises(ValueError, match="computed in infinite depths only"):
         open_scene(liquids=({"density": 1000.0, "depth": 2.0},), **scene)
     assert open_scene(**scene).analyses[0].largest_damping == 1.5

@@ -47,7 +47,7 @@ def coarse() -> OpenSolution:
 
 
 def peak_of(solution: OpenSolution) -> UnresolvedPeak:
-    (peak,) = solution.response[0].unresolved_peaks
+    (peak,) = solution.response[0].missed_peaks
     return peak
 
 
@@ -80,8 +80,8 @@ def test_tables_summary_and_dataset_have_it(coarse: OpenSolution) -> None:
 def test_a_resolved_curve_has_none(coarse: OpenSolution) -> None:
     near = peak_of(coarse).omega + 1e-3 * np.arange(-10, 11)
     omegas = sorted([*np.linspace(0.3, 1.7, 15), *near])
-    assert solved(barge(omegas)).response[0].unresolved_peaks == ()
+    assert solved(barge(omegas)).response[0].missed_peaks == ()
 
 
 def test_few_frequencies_are_no_curve() -> None:
-    assert solved(barge([0.7, 0.8])).response[0].unresolved_peaks == ()
+    assert solved(barge([0.7, 0.8])).response[0].missed_peaks == ()

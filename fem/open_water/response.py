@@ -85,7 +85,7 @@ def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Respo
     model = found.solver.model
     table = _table(request, model, omegas, found.swept.solutions, found.errors)
     if len(omegas) > FEW:
-        table = replace(table, unresolved_peaks=_unresolved(request, found.solver, table))
+        table = replace(table, missed_peaks=_unresolved(request, found.solver, table))
     return ResponseSolution(table=table, model=model, error=attempt.error)
 
 

@@ -116,7 +116,7 @@ class ResponseTable:
         energy_residual: (n, w) relative difference of incident and outgoing power.
         relative_error: (n,) estimated relative error of the amplitudes.
         plates: one for each beam.
-        unresolved_peaks: peaks that curves over ω do not show, found on a reduced basis.
+        missed_peaks: peaks that curves over ω do not show, found on a reduced basis.
     """
 
     omega: Floats
@@ -130,7 +130,7 @@ class ResponseTable:
     energy_residual: Floats
     relative_error: Floats
     plates: tuple[PlateDeflection, ...]
-    unresolved_peaks: tuple[UnresolvedPeak, ...] = ()
+    missed_peaks: tuple[UnresolvedPeak, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)

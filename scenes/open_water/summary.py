@@ -53,7 +53,7 @@ def _written(table: RadiationTable | ResponseTable | ResonanceTable | DecayTable
             {"body": plate.body + 1, "positions": plate.positions, "deflection": plate.deflection}
             for plate in table.plates
         ]
-        row["missed_peaks"] = [asdict(peak) for peak in table.unresolved_peaks]
+        row["missed_peaks"] = [asdict(peak) for peak in table.missed_peaks]
     if isinstance(table, ResonanceTable):
         row["region"] = region_words(table.region)
     return {name: json_ready(value) for name, value in row.items()}

@@ -190,7 +190,7 @@ def _response(table: ResponseTable) -> Iterator[Section]:
         lines=(
             "|a| ∠ θ is the motion |a| e^{i(θ − ωt)}; the crest of the wave is at x = 0 of the scene at t = 0.",
             *((f"{left_out} more motions: response.csv.",) if left_out else ()),
-            *(_missed(peak) for peak in table.unresolved_peaks),
+            *(_missed(peak) for peak in table.missed_peaks),
         ),
     )
 

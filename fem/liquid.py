@@ -289,9 +289,9 @@ class ClosedLayer:
     """Data of the volume constraint of a closed layer.
 
     Attributes:
-        dofs: its owned unknowns; a slice where they are all.
-        load: ∫q over its moving surfaces at those unknowns.
-        measure: of those surfaces.
+        dofs: local indices of its owned unknowns, shape (unknowns,); a slice where all unknowns are its.
+        load: ∫q over its moving surfaces at those unknowns, shape (unknowns,).
+        measure: measure of those surfaces, in the unit of the mesh.
     """
 
     dofs: np.ndarray | slice

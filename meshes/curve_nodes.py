@@ -50,7 +50,7 @@ def outermost_ring(outline: Outline, graded: GradedPoint, largest_turn: float) -
 def distances(
     points: NDArray[np.float64], starts: NDArray[np.float64], ends: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Distance of each point from each segment, shape (points, segments)."""
+    """Return the distance of each point (points, 2) from each segment (segments, 2), shape (points, segments)."""
     edges = ends - starts
     away = points[:, None, :] - starts
     part = np.clip((away * edges).sum(axis=2) / (edges**2).sum(axis=1), 0.0, 1.0)
@@ -82,7 +82,8 @@ def _turns(points: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def curve_samples(curve: Curve, first: float, last: float, largest_turn: float) -> NDArray[np.float64]:
-    """Parameters from first to last, dense enough that a curve turns little between samples."""
+    """Return parameters from ``first`` to ``last``, 0 … 1, between which a curve turns by at most ``largest_turn``,
+    rad."""
     parameters = np.linspace(first, last, _FIRST_SAMPLES, dtype=np.float64)
     shortest = _SHORTEST * float(np.ptp(curve.polyline(), axis=0).max())
     while True:

@@ -128,6 +128,13 @@ def lay_out(
 ) -> tuple[Layout, SizeField]:
     """Create rings and the elements of curved pieces.
 
+    Args:
+        outline: the domain.
+        bulk_size: largest element, in the unit of the outline.
+        growth: growth of elements per distance from a curve, dimensionless.
+        ring_ratio: ratio of the radii of successive rings.
+        largest_turn: largest change of direction of a curve along an element, rad.
+
     Returns:
         The layout, and the size field for the rest.
 

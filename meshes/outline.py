@@ -90,8 +90,8 @@ class Chords:
     """Straight pieces of curves, for measures that need no accuracy.
 
     Attributes:
-        starts: shape (n, 2).
-        ends: shape (n, 2).
+        starts: first points (x, y) in the unit of the outline, shape (n, 2).
+        ends: last points in the unit of the outline, shape (n, 2).
         curves: index of the curve that each is a piece of, shape (n,).
     """
 

@@ -75,7 +75,7 @@ class StillLevel:
     """The upper side of a layer at rest.
 
     Attributes:
-        height: its ordinate.
+        height: ordinate y, m or dimensionless as the tank.
         below: index of the layer below.
         above: index of the layer above, ``None`` at the top.
         kind: "interface", or the boundary condition of the top.

@@ -82,8 +82,8 @@ class Incidence:
     """Integrals of incident waves over the surfaces of the bodies.
 
     Attributes:
-        planes: the waves.
-        fluxes: g = ∫ρ (∂φ/∂n) q, shape (waves, free unknowns), complex.
+        planes: the waves, in units of the basin as all integrals.
+        fluxes: g = ∫ρ (∂φ/∂n) q, dimensionless, shape (waves, free unknowns), complex.
         pressures: ∫ρ φ φᵢ over the bodies' surfaces, shape (waves, body unknowns).
         own: ∫ρ φ ∂φ'/∂n over the bodies' surfaces, shape (waves φ, waves φ').
     """

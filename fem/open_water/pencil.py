@@ -40,7 +40,7 @@ class OpenPencil:
     Attributes:
         liquid: the space of ψ.
         bodies: the bodies, in the order of their unknowns.
-        free: local indices of the owned unknowns of ψ where ψ = 0 is not prescribed.
+        free: local indices of the owned unknowns of ψ where ψ = 0 is not prescribed, shape (own free unknowns,).
         laplace: A on the free unknowns.
         mass: M on the free unknowns.
         loads: F, own entries of the free unknowns, shape (body unknowns, own free unknowns).

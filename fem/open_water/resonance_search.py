@@ -39,8 +39,8 @@ class Eigenpair:
 
     Attributes:
         eigenvalue: λ = ω².
-        bodies: a, on every process.
-        potential: ψ, own free unknowns.
+        bodies: a, on every process, shape (body unknowns,).
+        potential: ψ on own free unknowns, shape (free unknowns,).
         norm: xᵀT'(λ)x of the symmetric form T = [[λ(A − λM), −λF], [−λFᵀ, K − λM_b]].
         drift: |dλ/dα|/|λ|.
         participation: |λaᵀM_b a|/|λ xᵀT'x|, zero for resonances of the water around bodies at rest.

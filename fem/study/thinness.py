@@ -36,7 +36,7 @@ class Comparison:
     """A value by both models.
 
     Attributes:
-        thin: value with the condition on the middle line.
+        thin: value, in its unit in `QUANTITIES`, with the condition on the middle line.
         exact: value with the condition on the contour.
         uncertainty: sum of the estimated relative errors of both.
     """
@@ -81,7 +81,7 @@ class ThinnessRate:
 
     Attributes:
         quantity: name in `QUANTITIES`.
-        observed: rate, fitted to the thinnest three floats whose difference is clear.
+        observed: dimensionless rate, fitted to the thinnest three floats whose difference is clear.
         deviation: standard error of the fit.
         expected: rate of theory.
         shared: whether the heave of one of these floats couples with waves of nearby frequency, which affects the rate.

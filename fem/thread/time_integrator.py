@@ -229,8 +229,8 @@ class TimeIntegrator:
         """Error of positions that the step adds, Δt³ |r_ttt|/12, by the change of the acceleration (collective).
 
         Args:
-            length: of the step.
-            rate_age: time from the known acceleration to the beginning of the step.
+            length: length Δt of the step, dimensionless.
+            rate_age: dimensionless time from the known acceleration to the beginning of the step.
         """
         change = np.max(np.abs(self._new_rate(length) - self.step.old_acceleration.x.array)[self._places], initial=0.0)
         # Between midpoints of steps with the midpoint rule, between their ends with generalised α.

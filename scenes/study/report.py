@@ -124,7 +124,7 @@ def _symmetry_lines(tank: Tank) -> Iterator[str]:
     """The exponents of the error where the orders of symmetric and antisymmetric modes differ."""
     found = [f"{(sharpest_of(tank, parity) or inf):.3g} ({parity} modes)" for parity in symmetries_apart(tank)]
     if found:
-        yield f"At the sharpest singular point ψ ~ r^α, α = {' or '.join(found)}: the error of all follows the smaller."
+        yield f"At the worst point ψ ~ r^α, α = {' or '.join(found)}: the error of all follows the smaller."
 
 
 def _why_none(tank: Tank, family: Family) -> str:

@@ -22,6 +22,8 @@ from pydantic_core import InitErrorDetails
 from hydroelastic.physics import beams
 from hydroelastic.physics.beam_parts import Joint, Section
 from hydroelastic.physics.motions import Level, Motion
+from hydroelastic.scenes.errors import scene_error
+from hydroelastic.scenes.models.plain import plain
 from hydroelastic.scenes.models.problems import problem_at
 
 SMALLEST, LARGEST = 1e-30, 1e30
@@ -43,8 +45,23 @@ AnyNumber: TypeAlias = Annotated[float, Strict(), Field(ge=-LARGEST, le=LARGEST)
 Place: TypeAlias = Annotated[float, Strict(), Field(ge=0, le=LARGEST)]
 
 
-class SceneModel(BaseModel):
-    """Base of all parts of a scene: immutable, no unknown keys, no NaN or infinity."""
+class _InWords(type(BaseModel)):  # type: ignore[misc]
+    """Construction by keywords, whose values may be of NumPy, and whose errors are those of scene files."""
+
+    def __call__(cls, /, **keys: Any) -> Any:
+        try:
+            return super().__call__(**plain(keys))
+        except ValidationError as error:
+            raise scene_error(error, cls) from None
+
+
+class SceneModel(BaseModel, metaclass=_InWords):
+    """Base of all parts of a scene: immutable, no unknown keys, no NaN or infinity.
+
+    Raises:
+        SceneError: if a value is not allowed, or values do not fit together; ``model_validate`` raises a
+            ``pydantic.ValidationError`` instead.
+    """
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
@@ -91,7 +108,7 @@ class Beam(SceneModel):
     uniform beam of the same mean flexibility, l/EI = Σ lᵢ/EIᵢ; these means serve estimates of the resolution.
 
     Raises:
-        ValidationError: (a ValueError) if sections stand beside the keys of a uniform beam.
+        SceneError: if sections stand beside the keys of a uniform beam.
     """
 
     kind: Literal["beam"] = Field(default="beam", description="kind of the body")
@@ -204,7 +221,7 @@ class Float(SceneModel):
     """A rigid body that floats at a still level. Its frame: x from ``position``, y up from its reference level.
 
     Raises:
-        ValidationError: (a ValueError) if the keys do not belong to the shape.
+        SceneError: if the keys do not belong to the shape.
     """
 
     kind: Literal["float"] = Field(default="float", description="kind of the body")

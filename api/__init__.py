@@ -36,25 +36,43 @@ if TYPE_CHECKING:
     from hydroelastic.scenes.read import shipped_scenes
     from hydroelastic.scenes.result import Result, load, solve
 
-_MODELS = ("Accuracy", "Beam", "Float", "Liquid", "RollScene", "StringScene", "Tank", "TankScene", "ThreadScene")
-_PLACES = {
-    "read": "scenes.read:read_scene",
-    "shipped_scenes": "scenes.read:shipped_scenes",
-    **{name: f"scenes.result:{name}" for name in ("solve", "load", "Result")},
-    **{name: f"scenes.models:{name}" for name in _MODELS},
-    **{name: f"scenes.errors:{name}" for name in ("SceneError", "UnsolvedError")},
-    "PictureOptions": "fem.pictures.options:PictureOptions",
+__all__ = [
+    "Accuracy",
+    "Beam",
+    "Float",
+    "Liquid",
+    "PictureOptions",
+    "Result",
+    "RollScene",
+    "SceneError",
+    "StringScene",
+    "Tank",
+    "TankScene",
+    "ThreadScene",
+    "UnsolvedError",
+    "load",
+    "read",
+    "shipped_scenes",
+    "solve",
+]
+
+_ELSEWHERE = {
+    "PictureOptions": "fem.pictures.options",
+    **dict.fromkeys(("Result", "load", "solve"), "scenes.result"),
+    **dict.fromkeys(("SceneError", "UnsolvedError"), "scenes.errors"),
+    **dict.fromkeys(("read", "shipped_scenes"), "scenes.read"),
 }
+"""Where names come from that are not models of scenes."""
 
 
 def __getattr__(name: str) -> Any:
-    if name not in _PLACES:
+    if name not in __all__:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     from importlib import import_module
 
-    module, _, there = _PLACES[name].partition(":")
-    return getattr(import_module(f"{__name__}.{module}"), there)
+    module = import_module(f"{__name__}.{_ELSEWHERE.get(name, 'scenes.models')}")
+    return getattr(module, "read_scene" if name == "read" else name)
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *_PLACES})
+    return sorted({*globals(), *__all__})

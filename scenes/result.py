@@ -88,7 +88,7 @@ class Result:
             for name, first in rows[0].items()
             if not isinstance(first, list | dict)
         }
-        return np.rec.fromarrays(list(columns.values()), names=list(columns))
+        return np.rec.fromarrays(list(columns.values()), dtype=[(name, one.dtype) for name, one in columns.items()])
 
     @cached_property
     def dataset(self) -> xarray.Dataset:
@@ -103,7 +103,7 @@ class Result:
         return pictures
 
     def plot(self, name: str | None = None) -> Image:
-        """Return a picture, which a notebook shows; ``.show()`` and ``.save("modes.png")`` are its methods (collective).
+        """Return a picture (collective). Notebooks show it; it has the methods ``show()`` and ``save("modes.png")``.
 
         Args:
             name: which of `pictures`; the main one by default.
@@ -157,7 +157,7 @@ class Result:
             found = None
             if MPI.COMM_WORLD.rank == 0:
                 found = read_dataset(folder / DATASET)[0], _pictures_in(folder, self.summary)
-            return MPI.COMM_WORLD.bcast(found)  # type: ignore[no-any-return]
+            return MPI.COMM_WORLD.bcast(found)
 
 
 def solve(scene: Scene | str | Path) -> Result:

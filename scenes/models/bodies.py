@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
 from pydantic import (
     BaseModel,
@@ -17,6 +17,7 @@ from pydantic import (
     model_serializer,
     model_validator,
 )
+from pydantic._internal._model_construction import ModelMetaclass
 from pydantic_core import InitErrorDetails
 
 from hydroelastic.physics import beams
@@ -45,17 +46,19 @@ AnyNumber: TypeAlias = Annotated[float, Strict(), Field(ge=-LARGEST, le=LARGEST)
 Place: TypeAlias = Annotated[float, Strict(), Field(ge=0, le=LARGEST)]
 
 
-class _InWords(type(BaseModel)):  # type: ignore[misc]
-    """Construction by keywords, whose values may be of NumPy, and whose errors are those of scene files."""
+class _Keyworded(ModelMetaclass):
+    """Construction by keywords: values may be of NumPy, and errors are those of scene files."""
 
-    def __call__(cls, /, **keys: Any) -> Any:
-        try:
-            return super().__call__(**plain(keys))
-        except ValidationError as error:
-            raise scene_error(error, cls) from None
+    if not TYPE_CHECKING:  # where the keywords are those of each model
+
+        def __call__(cls, /, **keys: Any) -> Any:  # noqa: N805
+            try:
+                return super().__call__(**plain(keys))
+            except ValidationError as error:
+                raise scene_error(error, cls) from None
 
 
-class SceneModel(BaseModel, metaclass=_InWords):
+class SceneModel(BaseModel, metaclass=_Keyworded):
     """Base of all parts of a scene: immutable, no unknown keys, no NaN or infinity.
 
     Raises:

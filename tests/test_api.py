@@ -1,4 +1,4 @@
-"""`import hydroelastic as he`: scenes, results and files are those of the command line, and imports come when needed."""
+"""`import hydroelastic as he`: scenes, results and files are those of the command line; imports come when needed."""
 
 import json
 import pickle
@@ -19,13 +19,17 @@ from hydroelastic.scenes.command_line import main
 # One cheap scene of each kind, and the number of modes in its table.
 SCENES: dict[str, tuple[str, dict[str, Any], int]] = {
     "tank": ("sloshing", {"accuracy.modes": 2, "accuracy.tolerance": 1e-3}, 2),
-    "open water": ("open_plate", {"analysis": [{"kind": "resonance", "number": 2}], "accuracy.tolerance": 1e-2}, 2),
-    "string": ("string_smooth", {"response.times": [0.5, 1.0]}, 10),
+    "open water": (
+        "open_plate",
+        {"analysis": [{"kind": "response", "omega": [2.5, 3.0]}], "accuracy.tolerance": 1e-2},
+        0,
+    ),
+    "string": ("string_smooth", {"output.times": [0.5, 1.0]}, 10),
     "thread": ("moored_buoy", {}, 13),
     "roll": ("swell", {}, 0),
 }
 # What a run measures of itself.
-MEASURED = ("timing", "memory_peak")
+MEASURED = ("timing", "stage", "memory_peak")
 BEAM = {"kind": "beam", "start": 3.0, "length": 4.0, "flexural_rigidity": 5e3, "mass_per_length": 50.0}
 
 
@@ -63,12 +67,10 @@ def test_save_writes_the_folder_of_the_command(solved: tuple[str, he.Result, Pat
     first, second = (json.loads((folder / "summary.json").read_text()) for folder in (saved, out))
     assert json.dumps(content(first)) == json.dumps(content(second)) == json.dumps(content(result.summary))
     assert numbers(he.load(saved).dataset).identical(numbers(he.load(out).dataset))
-    # The command prints the same; its last line but one is about cost, the last one about the place.
-    shown = [line for line in ended.output.splitlines() if line.strip()]
-    assert str(result).splitlines()[:3] == ended.output.splitlines()[:3]
-    assert [line for line in str(result).splitlines() if line.strip() and line not in shown and "seconds" not in line][
-        :-2
-    ] == []
+    # The seconds of writing follow.
+    told = str(result).rpartition("; seconds:")[0]
+    assert len(told) > 200
+    assert " ".join(ended.output.split()).startswith(" ".join(told.split()))
 
 
 def toml(value: Any) -> str:
@@ -82,24 +84,11 @@ def test_what_is_loaded_is_what_was_saved(solved: tuple[str, he.Result, Path]) -
     loaded = he.load(folder)
     assert content(loaded.summary) == content(result.summary)
     assert loaded.summary == json.loads((folder / "summary.json").read_text())
-    assert loaded.sections == tuple(section for section in plain_sections(result))
+    told = str(result).rpartition("; seconds:")[0]
+    assert str(loaded).startswith(told)
+    assert [section.notes for section in loaded.sections] == [section.notes for section in result.sections]
     assert loaded.pictures == {file.stem: file.read_bytes() for file in folder.glob("images/*.png")}
-    assert set(numbers(result.dataset)) == set(numbers(loaded.dataset))
     assert numbers(result.dataset).identical(numbers(loaded.dataset))
-
-
-def plain_sections(result: he.Result) -> list[Any]:
-    from dataclasses import replace
-
-    return [
-        replace(
-            section,
-            compares=False,
-            headings=section.headings if section.rows else (),
-            rows=[tuple(row) for row in section.rows],
-        )
-        for section in result.sections
-    ]
 
 
 def test_pickled_results_have_all_but_the_solution(solved: tuple[str, he.Result, Path], tmp_path: Path) -> None:
@@ -110,7 +99,7 @@ def test_pickled_results_have_all_but_the_solution(solved: tuple[str, he.Result,
     assert (copy.scene, copy.summary) == (result.scene, result.summary)
     assert copy.dataset.identical(result.dataset)
     assert np.array_equal(copy.modes, result.modes)
-    with pytest.raises(he.SceneError, match="without its solution. Solve the scene again"):
+    with pytest.raises(he.SceneError, match="without its solution"):
         copy.save(tmp_path / "copy")
     assert list(tmp_path.iterdir()) == []
 
@@ -118,17 +107,34 @@ def test_pickled_results_have_all_but_the_solution(solved: tuple[str, he.Result,
 def test_modes_are_records(solved: tuple[str, he.Result, Path]) -> None:
     kind, result, _ = solved
     assert len(result.modes) == SCENES[kind][2]
-    assert result.modes.omega.dtype == (complex if kind == "open water" else float)
+    assert result.modes.omega.dtype == float
     assert np.all(result.modes.relative_error < 1e-2)
     if kind == "tank":
         assert result.modes.omega.tolist() == [mode["omega"] for mode in result.summary["modes"]]
         assert result.modes.symmetry.tolist() == [mode["symmetry"] for mode in result.summary["modes"]]
 
 
+def test_resonances_are_modes_with_complex_frequencies() -> None:
+    file = Path(__file__).parent.parent / "results/shipped/open_circle/summary.json"
+    summary = json.loads(file.read_text(encoding="utf-8"))
+    modes = he.Result(scene=None, summary=summary, sections=(), cost="").modes
+    assert modes.omega.tolist() == [complex(*omega) for table in summary["resonance"] for omega in table["omega"]]
+    assert len(modes) > 0
+    assert np.all(modes.omega.imag < 0)
+
+
+def test_a_result_without_resonances_has_a_dataset() -> None:
+    # A file of NetCDF 3 has no dimension of length 0.
+    resonances = {"analysis": [{"kind": "resonance", "count": 1}], "accuracy.tolerance": 1e-2}
+    result = he.solve(he.read("open_plate", resonances))
+    assert result.summary["resonance"][0]["omega"] == []
+    assert result.dataset.attrs["status"] == "ok"
+
+
 def test_the_main_picture_is_shown_first(solved: tuple[str, he.Result, Path]) -> None:
     kind, _, folder = solved
     loaded = he.load(folder)
-    main_one = {"tank": "overview", "open water": "resonance_1", "string": "space_time", "thread": "equilibrium"}
+    main_one = {"tank": "overview", "open water": "response_1", "string": "space_time", "thread": "equilibrium"}
     assert next(iter(loaded.pictures)) == main_one.get(kind, "roll")
     assert loaded.plot().size[0] > 400
     with pytest.raises(he.SceneError, match=r'picture = "rolls": there is no such picture .* Allowed: '):
@@ -218,7 +224,6 @@ def test_errors_name_what_is_wrong_and_what_to_do(make: Any, said: str) -> None:
     with pytest.raises(he.SceneError) as caught:
         make()
     assert said in str(caught.value)
-    assert caught.value.__suppress_context__ or not isinstance(caught.value.__context__, SystemError)
 
 
 def test_a_folder_that_is_not_of_a_result_is_not_touched(tmp_path: Path) -> None:

@@ -2,8 +2,10 @@
 
 import json
 import pickle
+import shutil
 import subprocess
 import sys
+import tomllib
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
@@ -16,6 +18,7 @@ from click.testing import CliRunner
 import hydroelastic as he
 from hydroelastic.scenes.command_line import main
 
+ROOT = Path(__file__).parent.parent
 # One cheap scene of each kind, and the number of modes in its table.
 SCENES: dict[str, tuple[str, dict[str, Any], int]] = {
     "tank": ("sloshing", {"accuracy.modes": 2, "accuracy.tolerance": 1e-3}, 2),
@@ -115,7 +118,7 @@ def test_modes_are_records(solved: tuple[str, he.Result, Path]) -> None:
 
 
 def test_resonances_are_modes_with_complex_frequencies() -> None:
-    file = Path(__file__).parent.parent / "results/shipped/open_circle/summary.json"
+    file = ROOT / "results/shipped/open_circle/summary.json"
     summary = json.loads(file.read_text(encoding="utf-8"))
     modes = he.Result(scene=None, summary=summary, sections=(), cost="").modes
     assert modes.omega.tolist() == [complex(*omega) for table in summary["resonance"] for omega in table["omega"]]
@@ -260,6 +263,36 @@ def test_names_are_listed_and_others_are_not_there() -> None:
     assert all(getattr(he, name) for name in he.__all__)
     with pytest.raises(AttributeError, match="module 'hydroelastic' has no attribute 'slove'"):
         he.slove  # noqa: B018
+
+
+def test_pip_installs_every_folder_of_code() -> None:
+    setup = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["setuptools"]
+    folders = {".".join(file.parent.relative_to(ROOT).parts) for file in ROOT.glob("*/**/__init__.py")}
+    assert set(setup["packages"]) == {"hydroelastic", *(f"hydroelastic.{name}" for name in folders - {"api"})}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("way", ["--target", "--editable"])
+def test_pip_installs_the_interface(way: str, tmp_path: Path) -> None:
+    pytest.importorskip("setuptools")
+    for name in ("api", "physics", "meshes", "modal", "fem", "scenes", "benchmarks", "requirements"):
+        shutil.copytree(ROOT / name, tmp_path / "checkout" / name)
+    for name in ("pyproject.toml", "README.md"):
+        shutil.copy(ROOT / name, tmp_path / "checkout")
+    given = ["--target", tmp_path / "site", "."] if way == "--target" else ["--prefix", tmp_path, "--editable", "."]
+    pip = [sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--no-build-isolation", *given]
+    subprocess.run(pip, cwd=tmp_path / "checkout", check=True, capture_output=True)
+    (site,) = {file.parent for file in tmp_path.rglob("hydroelastic-*.dist-info")}
+    # Before the checkout of these tests, which is on the path by way of PYTHONPATH.
+    code = f"""import site, sys
+sys.path[:] = [place for place in sys.path if "checkouts" not in place]
+site.addsitedir({str(site)!r})
+import hydroelastic as he, hydroelastic.modal.beam as beam
+print(he.__file__, beam.__file__, len(he.solve("swell")._repr_html_()), sep="\\n")"""
+    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=tmp_path, check=True)
+    files = ended.stdout.splitlines()
+    assert all(Path(file).is_relative_to(tmp_path) for file in files[:2])
+    assert int(files[2]) > 1000
 
 
 @pytest.mark.mpi

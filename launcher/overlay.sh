@@ -1,6 +1,6 @@
 # shellcheck shell=bash
 # This checkout as an import package. Several checkouts share one virtual environment, so none is installed into it:
-# a folder of links on PYTHONPATH gives `hydroelastic.fem` and so on, and metadata beside it the version and the
+# a folder of links on PYTHONPATH gives `hydroelastic`, `hydroelastic.fem` and so on, and metadata beside it the version and the
 # command line.
 
 make_overlay() {
@@ -11,6 +11,7 @@ make_overlay() {
     for folder in physics meshes fem modal scenes benchmarks; do
         ln -s -- "$checkout/$folder" "$building/hydroelastic/$folder"
     done
+    ln -s -- "$checkout"/api/{__init__.py,py.typed} "$building/hydroelastic"
     metadata=$building/hydroelastic-$version.dist-info
     {
         printf 'Metadata-Version: 2.1\nName: hydroelastic\nVersion: %s\n' "$version"

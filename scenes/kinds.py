@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from hydroelastic.scenes.errors import Problem, SceneError, shown_value
 from hydroelastic.scenes.models.string import StringScene
@@ -13,9 +13,12 @@ from hydroelastic.scenes.output.outcome import Outcome
 from hydroelastic.scenes.output.sections import Section
 from hydroelastic.scenes.read import Scene, closed_tank
 
+if TYPE_CHECKING:
+    from hydroelastic.scenes.output.staged_run import StagedRun
 
-def runner_of(scene: Scene) -> Callable[..., Outcome]:
-    """Return the function that runs a scene: ``run(scene, out=…, images=…, page=…, import_seconds=…, report=…)``."""
+
+def runner_of(scene: Scene) -> StagedRun[Any, Any]:
+    """Return what runs a scene: ``run(scene, out=…, images=…, page=…, import_seconds=…, report=…)``."""
     if isinstance(scene, TankScene):
         if scene.is_open:
             from hydroelastic.scenes.open_water.run import run_open

@@ -5,14 +5,15 @@ from __future__ import annotations
 import contextlib
 import re
 import tomllib
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, TypeAlias
 
 from pydantic import ValidationError
 
 from hydroelastic.scenes.errors import Problem, SceneError, scene_error, shown_value
+from hydroelastic.scenes.models.plain import plain
 from hydroelastic.scenes.models.roll import RollScene
 from hydroelastic.scenes.models.string import StringScene
 from hydroelastic.scenes.models.tank import TankScene
@@ -91,13 +92,14 @@ def _proposed_scene(path: Path) -> str:
     return proposal(path.stem, names) or f"See the shipped scenes with `{PROGRAM} list`"
 
 
-def read_scene(path: str | Path, overrides: Iterable[str] = ()) -> Scene:
+def read_scene(path: str | Path, overrides: Iterable[str] | Mapping[str, Any] = ()) -> Scene:
     """Read and validate a scene.
 
     Args:
         path: a TOML file, or the bare name of a shipped scene such as ``aquarium``.
-        overrides: replacements ``key=value`` with dotted keys and TOML values, made before validation:
-            ``body.1.start=2.5`` (entries are numbered from 1), ``accuracy.tolerance=1e-8``. An unquoted word is a text.
+        overrides: replacements by dotted key, made before validation; entries are numbered from 1:
+            ``{"body.1.start": 2.5, "accuracy.tolerance": 1e-8}``. On the command line they are texts ``key=value``
+            with TOML values, ``body.1.start=2.5``, where an unquoted word is a text.
 
     Returns:
         The scene; the path of a mesh file is complete.
@@ -107,10 +109,10 @@ def read_scene(path: str | Path, overrides: Iterable[str] = ()) -> Scene:
     """
     file = scene_path(path)
     document = _parse(file)
-    changes = tuple(overrides)
+    changes = tuple(_changes(overrides))
     for change in changes:
-        _override(document, change, file)
-    label = f"{file} with {' '.join(f'--set {change}' for change in changes)}" if changes else str(file)
+        _override(document, change)
+    label = f"{file} with {' '.join(f'{change.option} {change.text}' for change in changes)}" if changes else str(file)
     model = _model_of(document, label)
     try:
         scene = model.model_validate(document, context={"folder": file.parent, "source": label})
@@ -207,20 +209,48 @@ def _model_of(document: Document, label: str) -> type[Scene]:
     return SCENE_MODELS[kind]
 
 
-def _override(document: Document, change: str, file: Path) -> None:
+@dataclass(frozen=True, kw_only=True)
+class _Change:
+    """A value that replaces one of the document.
+
+    Attributes:
+        key: dotted.
+        value: the new one.
+        text: key and value as messages show them.
+        option: what messages call it.
+    """
+
+    key: str
+    value: Any
+    text: str
+    option: str = "--set"
+
+
+def _changes(overrides: Iterable[str] | Mapping[str, Any]) -> Iterator[_Change]:
+    if isinstance(overrides, Mapping):
+        for key, value in overrides.items():
+            new = plain(value)
+            yield _Change(key=key, value=new, text=f"{key} = {shown_value(new) or '…'}", option="change")
+        return
+    for text in overrides:
+        key, equals, value = text.partition("=")
+        change = _Change(key=key, value=None, text=text)
+        if not equals or not all(name.strip() for name in key.split(".")):
+            raise _bad_override(change, "it is not of the form key=value", "For example --set accuracy.tolerance=1e-8")
+        yield replace(change, value=_override_value(change, value.strip()))
+
+
+def _override(document: Document, change: _Change) -> None:
     """Replace one value in the document."""
-    key, equals, text = change.partition("=")
-    names = [name.strip() for name in key.split(".")]
-    if not equals or not all(names):
-        raise _bad_override(change, "it is not of the form key=value", "For example --set accuracy.tolerance=1e-8")
+    names = [name.strip() for name in change.key.split(".")]
     holder: Any = document
     for place in range(len(names) - 1):
         index = _index_in(holder, names, place, change)
         holder = holder.setdefault(index, {}) if isinstance(holder, dict) else holder[index]
-    holder[_index_in(holder, names, len(names) - 1, change)] = _override_value(change, text.strip())
+    holder[_index_in(holder, names, len(names) - 1, change)] = change.value
 
 
-def _index_in(holder: Any, names: list[str], place: int, change: str) -> Any:
+def _index_in(holder: Any, names: list[str], place: int, change: _Change) -> Any:
     """Return the index of a name in a table (the key) or in a list (the number of the entry)."""
     name = names[place]
     if isinstance(holder, dict) and not name.isdigit():
@@ -241,7 +271,7 @@ def _index_in(holder: Any, names: list[str], place: int, change: str) -> Any:
 _BARE_TEXT = re.compile(r"[^\W\d][^\"'=\[\]{}\n]*|[./~][^\"'=\[\]{}\n]*")
 
 
-def _override_value(change: str, text: str) -> Any:
+def _override_value(change: _Change, text: str) -> Any:
     try:
         parsed = tomllib.loads(f"value = {text}")
         if list(parsed) == ["value"]:  # a line break in the text would start another key
@@ -253,8 +283,10 @@ def _override_value(change: str, text: str) -> Any:
     raise _bad_override(change, "the value is not TOML", "Put a text in quotes")
 
 
-def _bad_override(change: str, wrong: str, remedy: str = "", *, allowed: str = "") -> SceneError:
-    return SceneError(Problem(key="--set", value=shown_value(change), wrong=wrong, allowed=allowed, remedy=remedy))
+def _bad_override(change: _Change, wrong: str, remedy: str = "", *, allowed: str = "") -> SceneError:
+    return SceneError(
+        Problem(key=change.option, value=shown_value(change.text), wrong=wrong, allowed=allowed, remedy=remedy)
+    )
 
 
 def _with_mesh_beside(scene: TankScene, file: Path) -> TankScene:

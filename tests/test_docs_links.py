@@ -21,10 +21,10 @@ CODE = sorted(
     for file in ROOT.glob(pattern)
 ) + sorted(
     file
-    for folder in ("physics", "meshes", "fem", "modal", "scenes", "benchmarks")
+    for folder in ("api", "physics", "meshes", "fem", "modal", "scenes", "benchmarks")
     for file in ROOT.glob(f"{folder}/**/*.py")
 )
-FOLDERS = "physics|meshes|fem|modal|scenes|benchmarks|tests|results|launcher|docs|requirements"
+FOLDERS = "api|physics|meshes|fem|modal|scenes|benchmarks|tests|results|launcher|docs|requirements"
 # A file of the checkout, with asterisks for several; what a run writes to results/ is none.
 NAMED = re.compile(rf"(?<![\w./-])((?:{FOLDERS})/[\w/*-]+\.(?:py|sh|md|toml|txt)|test_\w+\.py)\b")
 

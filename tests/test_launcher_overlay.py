@@ -25,6 +25,8 @@ def checkout(tmp_path):
     for name in ("physics", "meshes", "fem", "modal", "scenes", "benchmarks"):
         (folder / name).mkdir()
         (folder / name / "__init__.py").write_text(f"name = {name!r}\n")
+    (folder / "api").mkdir()
+    (folder / "api" / "__init__.py").write_text("name = 'api'\n")
     return folder
 
 
@@ -54,10 +56,10 @@ def python(checkout: Path, cache: Path, code: str) -> str:
 
 def test_folders_of_the_checkout_are_subpackages(checkout, tmp_path):
     code = (
-        "from hydroelastic import benchmarks, fem, meshes, modal, scenes; "
-        "print(benchmarks.name, fem.name, meshes.name, modal.name, scenes.name)"
+        "import hydroelastic; from hydroelastic import benchmarks, fem, meshes, modal, physics, scenes; "
+        "print(*(one.name for one in (hydroelastic, benchmarks, fem, meshes, modal, physics, scenes)))"
     )
-    assert python(checkout, tmp_path / "cache", code) == "benchmarks fem meshes modal scenes"
+    assert python(checkout, tmp_path / "cache", code) == "api benchmarks fem meshes modal physics scenes"
 
 
 def test_version_is_that_of_pyproject_and_follows_it(checkout, tmp_path):

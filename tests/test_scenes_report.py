@@ -228,7 +228,9 @@ ATTACK = "</style></title><script>alert('x')</script><img src=http://x onerror=\
 def test_whatever_a_scene_holds_is_shown_as_text() -> None:
     section = Section(title=ATTACK, headings=(ATTACK,), rows=[(ATTACK,)], lines=(ATTACK,), notes=(ATTACK,))
     part = Part(anchor="a", title="A", lines=(ATTACK,), text=ATTACK, sections=(section, section))
-    html = write.rendered(shown(title=ATTACK, reasons=(ATTACK,), warnings=(ATTACK,), parts=(part,)))
+    html = write.rendered(
+        "page.html.jinja", page=shown(title=ATTACK, reasons=(ATTACK,), warnings=(ATTACK,), parts=(part,))
+    )
     page = parsed(html)
     assert_self_contained(page)
     # Title, h1, reason, warning; twice in the contents; lines, text; heading, header, cell, line and note, twice.
@@ -236,13 +238,13 @@ def test_whatever_a_scene_holds_is_shown_as_text() -> None:
 
 
 def test_what_is_not_converged_is_loud() -> None:
-    html = write.rendered(shown(reasons=("mode 1 is off", "so is mode 2")))
+    html = write.rendered("page.html.jinja", page=shown(reasons=("mode 1 is off", "so is mode 2")))
     page = parsed(html)
     assert ("div", {"class": "status failed", "role": "alert"}) in page.tags
     assert "NOT CONVERGED to the tolerance 1e-06:" in page.text
     assert "so is mode 2" in page.text
     assert "Converged to" not in page.text
-    assert "Converged to the tolerance 1e-06." in parsed(write.rendered(shown())).text
+    assert "Converged to the tolerance 1e-06." in parsed(write.rendered("page.html.jinja", page=shown())).text
 
 
 def test_an_unconverged_run_is_reported_as_such(tmp_path: Path) -> None:
@@ -379,7 +381,7 @@ def test_what_moves_comes_last_and_when_asked_for(tmp_path: Path) -> None:
         noise(tmp_path / name, 40, 20)
     pictures, _ = pictures_of(tmp_path, MODES)
     assert [picture.moving for picture in pictures] == [False, False, True]
-    html = write.rendered(shown(parts=(Part(anchor="p", title="P", pictures=pictures),)))
+    html = write.rendered("page.html.jinja", page=shown(parts=(Part(anchor="p", title="P", pictures=pictures),)))
     tags = [tag for tag, _ in parsed(html).tags if tag in ("figure", "details", "img")]
     assert tags == ["figure", "img", "figure", "img", "details", "img"]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
 from pydantic import (
     BaseModel,
@@ -17,11 +17,14 @@ from pydantic import (
     model_serializer,
     model_validator,
 )
+from pydantic._internal._model_construction import ModelMetaclass
 from pydantic_core import InitErrorDetails
 
 from hydroelastic.physics import beams
 from hydroelastic.physics.beam_parts import Joint, Section
 from hydroelastic.physics.motions import Level, Motion
+from hydroelastic.scenes.errors import scene_error
+from hydroelastic.scenes.models.plain import plain
 from hydroelastic.scenes.models.problems import problem_at
 
 SMALLEST, LARGEST = 1e-30, 1e30
@@ -43,8 +46,25 @@ AnyNumber: TypeAlias = Annotated[float, Strict(), Field(ge=-LARGEST, le=LARGEST)
 Place: TypeAlias = Annotated[float, Strict(), Field(ge=0, le=LARGEST)]
 
 
-class SceneModel(BaseModel):
-    """Base of all parts of a scene: immutable, no unknown keys, no NaN or infinity."""
+class _Keyworded(ModelMetaclass):
+    """Construction by keywords: values may be of NumPy, and errors are those of scene files."""
+
+    if not TYPE_CHECKING:  # where the keywords are those of each model
+
+        def __call__(cls, /, **keys: Any) -> Any:  # noqa: N805
+            try:
+                return super().__call__(**plain(keys))
+            except ValidationError as error:
+                raise scene_error(error, cls) from None
+
+
+class SceneModel(BaseModel, metaclass=_Keyworded):
+    """Base of all parts of a scene: immutable, no unknown keys, no NaN or infinity.
+
+    Raises:
+        SceneError: if a value is not allowed, or values do not fit together; ``model_validate`` raises a
+            ``pydantic.ValidationError`` instead.
+    """
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
@@ -91,7 +111,7 @@ class Beam(SceneModel):
     uniform beam of the same mean flexibility, l/EI = Σ lᵢ/EIᵢ; these means serve estimates of the resolution.
 
     Raises:
-        ValidationError: (a ValueError) if sections stand beside the keys of a uniform beam.
+        SceneError: if sections stand beside the keys of a uniform beam.
     """
 
     kind: Literal["beam"] = Field(default="beam", description="kind of the body")
@@ -204,7 +224,7 @@ class Float(SceneModel):
     """A rigid body that floats at a still level. Its frame: x from ``position``, y up from its reference level.
 
     Raises:
-        ValidationError: (a ValueError) if the keys do not belong to the shape.
+        SceneError: if the keys do not belong to the shape.
     """
 
     kind: Literal["float"] = Field(default="float", description="kind of the body")

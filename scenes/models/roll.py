@@ -13,7 +13,7 @@ class RollScene(RollParts):
     """A ship that rolls on a swell.
 
     Raises:
-        ValidationError: (a ValueError) if a value is not allowed or the parts do not fit together.
+        SceneError: if a value is not allowed or the parts do not fit together.
     """
 
     @model_validator(mode="after")

@@ -13,7 +13,7 @@ class StringScene(StringParts):
     """A heavy string that hangs in a resisting medium while its upper end is moved.
 
     Raises:
-        ValidationError: (a ValueError) if a value is not allowed or the parts do not fit together.
+        SceneError: if a value is not allowed or the parts do not fit together.
     """
 
     @model_validator(mode="after")

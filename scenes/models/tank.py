@@ -13,7 +13,7 @@ class TankScene(TankParts):
     """A closed tank with one liquid or two and any number of bodies, or none (sloshing); or open water with bodies.
 
     Raises:
-        ValidationError: (a ValueError) if a value is not allowed or the parts do not fit together.
+        SceneError: if a value is not allowed or the parts do not fit together.
     """
 
     @model_validator(mode="after")

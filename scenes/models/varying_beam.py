@@ -35,7 +35,7 @@ class VaryingBeam(SceneModel):
     a step.
 
     Raises:
-        ValidationError: (a ValueError) if the tables do not belong together, or do not cover the beam.
+        SceneError: if the tables do not belong together, or do not cover the beam.
     """
 
     kind: Literal["varying_beam"] = Field(default="varying_beam", description="kind of the body")

@@ -90,9 +90,11 @@ def with_summary(arrays: xarray.Dataset, summary: Summary, names: SummaryNames) 
 def write_dataset(dataset: xarray.Dataset, path: Path) -> None:
     """Write a dataset as NetCDF 3, which every reader of NetCDF knows and SciPy alone can read and write, in its order.
 
-    Complex numbers become a leading dimension `complex` of "re" and "im", as Capytaine writes them.
+    Complex numbers become a leading dimension `complex` of "re" and "im", as Capytaine writes them. Empty arrays, which
+    this format does not have, are left out.
     """
-    _without_complex_numbers(dataset).to_netcdf(path, engine="scipy", format="NETCDF3_64BIT")
+    filled = dataset.drop_dims([name for name, size in dataset.sizes.items() if size == 0])
+    _without_complex_numbers(filled).to_netcdf(path, engine="scipy", format="NETCDF3_64BIT")
 
 
 def read_dataset(path: Path) -> tuple[xarray.Dataset, Summary]:

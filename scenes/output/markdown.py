@@ -20,3 +20,13 @@ def markdown_table(headings: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -
     """Return a table whose cells are Markdown already."""
     lines = [headings, tuple("---" for _ in headings), *rows]
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+
+
+def read_markdown_text(text: str) -> str:
+    """Return the text that `markdown_text` has escaped."""
+    return re.sub(r"\\(.)", r"\1", text)
+
+
+def read_markdown_row(line: str) -> tuple[str, ...]:
+    """Return the cells of a row of `markdown_table`, in which the bars within cells are escaped."""
+    return tuple(map(read_markdown_text, line.removeprefix("| ").removesuffix(" |").split(" | ")))

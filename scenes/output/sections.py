@@ -12,7 +12,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from hydroelastic.scenes.output.markdown import markdown_table, markdown_text
+from hydroelastic.scenes.output.markdown import markdown_table, markdown_text, read_markdown_row, read_markdown_text
 from hydroelastic.scenes.output.provenance import Summary
 
 Row: TypeAlias = tuple[str, ...]
@@ -78,6 +78,24 @@ def markdown_sections(summary: Summary, sections: Iterable[Section], cost: str) 
         parts += [*(f"- {markdown_text(note)}" for note in section.notes), ""] if section.notes else []
     parts.append(markdown_text(cost))
     return "\n".join(parts) + "\n"
+
+
+def read_markdown_sections(text: str) -> tuple[tuple[Section, ...], str]:
+    """Return the tables and the line about size and time of a text that `markdown_sections` wrote."""
+    body, _, cost = text.rstrip("\n").rpartition("\n")
+    sections = []
+    for part in body.split("\n## ")[1:]:
+        title, *lines = part.split("\n")
+        table = [read_markdown_row(line) for line in lines if line.startswith("| ")]
+        section = Section(
+            title=read_markdown_text(title),
+            headings=table[0] if table else (),
+            rows=table[2:],
+            lines=tuple(read_markdown_text(line) for line in lines if line and not line.startswith(("| ", "- "))),
+            notes=tuple(read_markdown_text(line[2:]) for line in lines if line.startswith("- ")),
+        )
+        sections.append(section)
+    return tuple(sections), read_markdown_text(cost)
 
 
 def title_of(summary: Summary) -> str:

@@ -90,39 +90,69 @@ class StagedRun(Generic[_Scene, _Solution]):
             SceneError: if a file that the scene names cannot be used, or the folder cannot be written.
             UnsolvedError: if the scene cannot be solved.
         """
+        outcome = self.solved(scene, import_seconds=import_seconds, report=report)
+        if out is None:
+            return outcome
+        return self.written(outcome, out, scene_file=scene_file, images=images, page=page, report=report)
+
+    def solved(self, scene: _Scene, *, import_seconds: float = 0.0, report: Report = lambda _message: None) -> Outcome:
+        """Solve a scene; write nothing (collective). The arguments and errors are those of a call."""
         comm = MPI.COMM_WORLD
         solution = self.solve(scene, comm, report)
         summary = self.summarize(solution, comm, import_seconds=import_seconds)
         sections = tuple(self.sections(solution, summary))
-        outcome = Outcome(solution=solution, summary=summary, sections=sections, cost=self.cost(summary), folder=out)
-        if out is not None:
-            # Read before anything is written there.
-            replaces = read_manifest(out) is not None
-            watch = Stopwatch()
-            report("fields")
-            with watch.stage("sample"):
-                sampled = self.sample(solution, summary)
-            summary["timing"].update(watch.seconds)
-            missing = self.sampling_warnings(sampled)
-            if images is not None:
-                missing += images.without_effect(self.used_options)
-                missing += self.animation_warnings(solution) if images.animate else ()
+        return Outcome(solution=solution, summary=summary, sections=sections, cost=self.cost(summary))
 
-            def with_warnings(warnings: tuple[str, ...]) -> Outcome:
-                # Writing has added its seconds to the summary.
-                return replace(outcome, cost=self.cost(summary), warnings=(*warnings, *missing), replaces=replaces)
+    def written(
+        self,
+        outcome: Outcome,
+        out: Path,
+        *,
+        scene_file: Path | None = None,
+        images: PictureOptions | None = DEFAULT_PICTURES,
+        page: Callable[[Outcome, Path], None] | None = None,
+        report: Report = lambda _message: None,
+    ) -> Outcome:
+        """Write the result folder of a solved scene (collective). The arguments and errors are those of a call.
 
-            warnings = write_results(
-                out,
-                summary,
-                scene_file=scene_file,
-                tables=lambda folder: self.write(sampled, folder),
-                arrays=lambda: self.dataset.arrays(sampled),
-                names=self.dataset.names,
-                pictures=None if images is None else (lambda folder: self.draw(sampled, folder, images, report)),
-                text=lambda content: markdown_sections(content, sections, self.cost(content)),
-                page=None if page is None else lambda folder, warnings: page(with_warnings(warnings), folder),
-                report=report,
+        Returns:
+            The outcome with the folder and the warnings; its summary has the seconds of writing too.
+        """
+        solution = outcome.solution
+        summary = {**outcome.summary, "timing": {**outcome.summary["timing"]}}
+        # Read before anything is written there.
+        replaces = read_manifest(out) is not None
+        watch = Stopwatch()
+        report("fields")
+        with watch.stage("sample"):
+            sampled = self.sample(solution, summary)
+        summary["timing"].update(watch.seconds)
+        missing = self.sampling_warnings(sampled)
+        if images is not None:
+            missing += images.without_effect(self.used_options)
+            missing += self.animation_warnings(solution) if images.animate else ()
+
+        def with_warnings(warnings: tuple[str, ...]) -> Outcome:
+            # Writing has added its seconds to the summary.
+            return replace(
+                outcome,
+                summary=summary,
+                cost=self.cost(summary),
+                folder=out,
+                warnings=(*warnings, *missing),
+                replaces=replaces,
             )
-            return with_warnings(warnings)
-        return outcome
+
+        warnings = write_results(
+            out,
+            summary,
+            scene_file=scene_file,
+            tables=lambda folder: self.write(sampled, folder),
+            arrays=lambda: self.dataset.arrays(sampled),
+            names=self.dataset.names,
+            pictures=None if images is None else (lambda folder: self.draw(sampled, folder, images, report)),
+            text=lambda content: markdown_sections(content, outcome.sections, self.cost(content)),
+            page=None if page is None else lambda folder, warnings: page(with_warnings(warnings), folder),
+            report=report,
+        )
+        return with_warnings(warnings)

@@ -19,6 +19,8 @@ from hydroelastic.scenes.output.summary_variables import SummaryNames
 if TYPE_CHECKING:
     import xarray
 
+TABLES = "summary.md"
+
 
 def write_results(
     out: Path,
@@ -73,7 +75,7 @@ def write_results(
                             shutil.rmtree(folder / "images")
                             warnings.append(f"no images: {error}")
                 summary["timing"].update(watch.seconds)
-                (folder / "summary.md").write_text(text(summary), encoding="utf-8")
+                (folder / TABLES).write_text(text(summary), encoding="utf-8")
                 write_summary(summary, folder)
                 # The dataset contains the summary, which by now has the seconds of all stages except this one.
                 write_dataset(with_summary(labelled, summary, names), folder / DATASET)

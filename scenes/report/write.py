@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
@@ -10,7 +11,7 @@ from markupsafe import Markup
 from hydroelastic.scenes.output.outcome import Outcome
 from hydroelastic.scenes.read import Scene
 from hydroelastic.scenes.report.content import report_page
-from hydroelastic.scenes.report.page import ReportPage, is_numeric, is_warning
+from hydroelastic.scenes.report.page import is_numeric, is_warning
 
 REPORT = "report.html"
 _HERE = Path(__file__).resolve().parent
@@ -24,11 +25,13 @@ def write_report(scene: Scene, outcome: Outcome, folder: Path) -> None:
         outcome: of its run.
         folder: of its results, complete except for the page.
     """
-    (folder / REPORT).write_text(rendered(report_page(scene, outcome, folder)), encoding="utf-8")
+    (folder / REPORT).write_text(
+        rendered("page.html.jinja", page=report_page(scene, outcome, folder)), encoding="utf-8"
+    )
 
 
-def rendered(page: ReportPage) -> str:
-    """Return a report as HTML; its texts are escaped."""
+def rendered(template: str, **values: Any) -> str:
+    """Return a template of this folder as HTML; texts in it are escaped."""
     environment = Environment(
         loader=FileSystemLoader(_HERE),
         autoescape=True,
@@ -38,4 +41,4 @@ def rendered(page: ReportPage) -> str:
     )
     environment.tests |= {"loud": is_warning, "numeric": is_numeric}
     style = Markup((_HERE / "page.css").read_text(encoding="utf-8"))
-    return environment.get_template("page.html.jinja").render(page=page, style=style)
+    return environment.get_template(template).render(**values, style=style)

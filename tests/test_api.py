@@ -1,0 +1,310 @@
+"""`import hydroelastic as he`: scenes, results and files are those of the command line; imports come when needed."""
+
+import json
+import pickle
+import shutil
+import subprocess
+import sys
+import tomllib
+from html.parser import HTMLParser
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray
+from click.testing import CliRunner
+
+import hydroelastic as he
+from hydroelastic.scenes.command_line import main
+
+ROOT = Path(__file__).parent.parent
+# One cheap scene of each kind, and the number of modes in its table.
+SCENES: dict[str, tuple[str, dict[str, Any], int]] = {
+    "tank": ("sloshing", {"accuracy.modes": 2, "accuracy.tolerance": 1e-3}, 2),
+    "open water": (
+        "open_plate",
+        {"analysis": [{"kind": "response", "omega": [2.5, 3.0]}], "accuracy.tolerance": 1e-2},
+        0,
+    ),
+    "string": ("string_smooth", {"output.times": [0.5, 1.0]}, 10),
+    "thread": ("moored_buoy", {}, 13),
+    "roll": ("swell", {}, 0),
+}
+# What a run measures of itself.
+MEASURED = ("timing", "stage", "memory_peak")
+BEAM = {"kind": "beam", "start": 3.0, "length": 4.0, "flexural_rigidity": 5e3, "mass_per_length": 50.0}
+
+
+@pytest.fixture(scope="module", params=SCENES)
+def solved(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> tuple[str, he.Result, Path]:
+    """The kind of a scene, its result, and where the result was saved."""
+    name, changes, _ = SCENES[request.param]
+    result = he.solve(he.read(name, changes))
+    folder = tmp_path_factory.mktemp("saved") / "result"
+    result.save(folder, page=True)
+    return request.param, result, folder
+
+
+def content(summary: dict[str, Any]) -> dict[str, Any]:
+    return {key: value for key, value in summary.items() if key not in MEASURED}
+
+
+def numbers(dataset: xarray.Dataset) -> xarray.Dataset:
+    measured = [name for name in map(str, dataset.variables) if name.startswith(MEASURED)]
+    return dataset.drop_vars([*measured, "summary"])
+
+
+def test_save_writes_the_folder_of_the_command(solved: tuple[str, he.Result, Path], tmp_path: Path) -> None:
+    kind, result, saved = solved
+    name, changes, _ = SCENES[kind]
+    options = [word for key, value in changes.items() for word in ("--set", f"{key}={toml(value)}")]
+    out = tmp_path / "of the command"
+    ended = CliRunner().invoke(main, ["run", name, "--report", "--out", str(out), *options], catch_exceptions=False)
+    assert ended.exit_code == 0
+    files = {file.relative_to(saved) for file in saved.rglob("*") if file.is_file()}
+    assert files == {file.relative_to(out) for file in out.rglob("*") if file.is_file()}
+    measuring = {Path(name) for name in ("summary.json", "summary.md", "dataset.nc", "manifest.json", "report.html")}
+    assert measuring < files
+    assert [str(file) for file in files - measuring if (saved / file).read_bytes() != (out / file).read_bytes()] == []
+    first, second = (json.loads((folder / "summary.json").read_text()) for folder in (saved, out))
+    assert json.dumps(content(first)) == json.dumps(content(second)) == json.dumps(content(result.summary))
+    assert numbers(he.load(saved).dataset).identical(numbers(he.load(out).dataset))
+    # The seconds of writing follow.
+    told = str(result).rpartition("; seconds:")[0]
+    assert len(told) > 200
+    assert " ".join(ended.output.split()).startswith(" ".join(told.split()))
+
+
+def toml(value: Any) -> str:
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{key} = {toml(entry)}" for key, entry in value.items()) + "}"
+    return "[" + ", ".join(map(toml, value)) + "]" if isinstance(value, list) else json.dumps(value)
+
+
+def test_what_is_loaded_is_what_was_saved(solved: tuple[str, he.Result, Path]) -> None:
+    _, result, folder = solved
+    loaded = he.load(folder)
+    assert content(loaded.summary) == content(result.summary)
+    assert loaded.summary == json.loads((folder / "summary.json").read_text())
+    told = str(result).rpartition("; seconds:")[0]
+    assert str(loaded).startswith(told)
+    assert [section.notes for section in loaded.sections] == [section.notes for section in result.sections]
+    assert loaded.pictures == {file.stem: file.read_bytes() for file in folder.glob("images/*.png")}
+    assert numbers(result.dataset).identical(numbers(loaded.dataset))
+
+
+def test_pickled_results_have_all_but_the_solution(solved: tuple[str, he.Result, Path], tmp_path: Path) -> None:
+    _, result, _ = solved
+    copy = pickle.loads(pickle.dumps(result))
+    assert str(copy) == str(result)
+    assert copy._repr_html_() == result._repr_html_()
+    assert (copy.scene, copy.summary) == (result.scene, result.summary)
+    assert copy.dataset.identical(result.dataset)
+    assert np.array_equal(copy.modes, result.modes)
+    with pytest.raises(he.SceneError, match="without its solution"):
+        copy.save(tmp_path / "copy")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_modes_are_records(solved: tuple[str, he.Result, Path]) -> None:
+    kind, result, _ = solved
+    assert len(result.modes) == SCENES[kind][2]
+    assert result.modes.omega.dtype == float
+    assert np.all(result.modes.relative_error < 1e-2)
+    if kind == "tank":
+        assert result.modes.omega.tolist() == [mode["omega"] for mode in result.summary["modes"]]
+        assert result.modes.symmetry.tolist() == [mode["symmetry"] for mode in result.summary["modes"]]
+
+
+def test_resonances_are_modes_with_complex_frequencies() -> None:
+    file = ROOT / "results/shipped/open_circle/summary.json"
+    summary = json.loads(file.read_text(encoding="utf-8"))
+    modes = he.Result(scene=None, summary=summary, sections=(), cost="").modes
+    assert modes.omega.tolist() == [complex(*omega) for table in summary["resonance"] for omega in table["omega"]]
+    assert len(modes) > 0
+    assert np.all(modes.omega.imag < 0)
+
+
+def test_a_result_without_resonances_has_a_dataset() -> None:
+    # A file of NetCDF 3 has no dimension of length 0.
+    resonances = {"analysis": [{"kind": "resonance", "count": 1}], "accuracy.tolerance": 1e-2}
+    result = he.solve(he.read("open_plate", resonances))
+    assert result.summary["resonance"][0]["omega"] == []
+    assert result.dataset.attrs["status"] == "ok"
+
+
+def test_the_main_picture_is_shown_first(solved: tuple[str, he.Result, Path]) -> None:
+    kind, _, folder = solved
+    loaded = he.load(folder)
+    main_one = {"tank": "overview", "open water": "response_1", "string": "space_time", "thread": "equilibrium"}
+    assert next(iter(loaded.pictures)) == main_one.get(kind, "roll")
+    assert loaded.plot().size[0] > 400
+    with pytest.raises(he.SceneError, match=r'picture = "rolls": there is no such picture .* Allowed: '):
+        loaded.plot("rolls")
+
+
+class Page(HTMLParser):
+    """Tags of a page, all of them closed."""
+
+    def __init__(self, html: str) -> None:
+        super().__init__()
+        self.tags: list[str] = []
+        self.open: list[str] = []
+        self.feed(html)
+        assert self.open == []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        assert not {"src", "href"} & {name for name, _ in attrs}
+        self.tags.append(tag)
+        self.open.append(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+
+def test_notebooks_show_tables_that_need_nothing_else(solved: tuple[str, he.Result, Path]) -> None:
+    _, result, _ = solved
+    html = result._repr_html_()
+    assert Page(html).tags.count("table") == 1 + sum(bool(section.rows) for section in result.sections)
+    assert "url(" not in html
+    assert all(section.title in html.replace("&#39;", "'").replace("&amp;", "&") for section in result.sections)
+
+
+def test_texts_in_notebooks_are_escaped() -> None:
+    result = he.solve(he.read("swell", {"title": "<b>a & b"}))
+    assert "<h3>&lt;b&gt;a &amp; b</h3>" in result._repr_html_()
+
+
+def test_scenes_are_made_of_dictionaries_lists_and_arrays() -> None:
+    read = he.read("aquarium_hydrostatic", {"title": "", "accuracy.modes": np.int64(4)})
+    made = he.TankScene(
+        tank={"length": np.float32(10.0)},
+        liquid=[{"density": 1000, "depth": 5.0}],
+        body=[BEAM],
+        accuracy={"modes": np.int64(4)},
+    )
+    assert made == read
+    parts = he.TankScene(
+        tank=he.Tank(length=10.0),
+        liquid=(he.Liquid(density=1000.0, depth=5.0),),
+        body=(he.Beam(**BEAM),),
+        accuracy=he.Accuracy(modes=4),
+    )
+    assert parts == read
+
+
+@pytest.mark.parametrize(
+    ("make", "said"),
+    [
+        (
+            lambda: he.Tank(lenght=1.0),
+            'key "lenght" = 1.0: it is not known here. Allowed: length, gravity, ends, top. Did',
+        ),
+        (
+            lambda: he.TankScene(tank={"length": 5.0}, liquid=[{"density": 1e3, "depth": 5.0}], body=[BEAM]),
+            '[[body]] number 1, key "start" = 3.0: the beam ends at 7 m, outside the tank, of 5 m. Allowed: 0 to 1 m',
+        ),
+        (
+            lambda: he.read("aquarum"),
+            'aquarum: there is no such file and no shipped scene of that name. Did you mean "aqu',
+        ),
+        (
+            lambda: he.read("aquarium", {"body.2.start": 1.0}),
+            'change = "body.2.start = 1.0": "2" is not an entry of the',
+        ),
+        (
+            lambda: he.read("aquarium", {"tank.length": "long"}),
+            'change tank.length = "long": [tank], key "length" = "long"',
+        ),
+        (
+            lambda: he.load("nowhere"),
+            "result folder nowhere: it cannot be read (No such file or directory). Name a folder",
+        ),
+    ],
+)
+def test_errors_name_what_is_wrong_and_what_to_do(make: Any, said: str) -> None:
+    with pytest.raises(he.SceneError) as caught:
+        make()
+    assert said in str(caught.value)
+
+
+def test_a_folder_that_is_not_of_a_result_is_not_touched(tmp_path: Path) -> None:
+    (tmp_path / "mine.txt").write_text("mine")
+    with pytest.raises(he.SceneError, match="not a result folder"):
+        he.solve("swell").save(tmp_path)
+    assert [file.name for file in tmp_path.iterdir()] == ["mine.txt"]
+    (tmp_path / "dataset.nc").write_text("no NetCDF")
+    with pytest.raises(he.SceneError, match="it cannot be read"):
+        he.load(tmp_path)
+
+
+def test_what_could_not_be_fulfilled_is_a_warning(tmp_path: Path) -> None:
+    with pytest.warns(UserWarning, match="an animation has no effect"):
+        he.solve("swell").save(tmp_path / "swell", images=he.PictureOptions(animate=True))
+
+
+def modules_after(code: str) -> set[str]:
+    code += "\nimport sys; print(*(name.partition('.')[0] for name in sys.modules))"
+    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    return set(ended.stdout.split())
+
+
+def test_imports_come_when_they_are_needed() -> None:
+    own = modules_after("from typing import TYPE_CHECKING, Any\nimport importlib")
+    assert modules_after("import hydroelastic as he; dir(he)") - own <= {"hydroelastic"}
+    heavy = {"dolfinx", "petsc4py", "mpi4py", "gmsh", "pydantic", "xarray", "matplotlib", "pyvista", "rich", "jinja2"}
+    assert not modules_after("import hydroelastic.modal.beam.estimates") & heavy
+    assert modules_after("import hydroelastic as he; he.read('aquarium')") & heavy <= {"pydantic"}
+
+
+def test_names_are_listed_and_others_are_not_there() -> None:
+    assert set(he.__all__) <= set(dir(he))
+    assert all(getattr(he, name) for name in he.__all__)
+    with pytest.raises(AttributeError, match="module 'hydroelastic' has no attribute 'slove'"):
+        he.slove  # noqa: B018
+
+
+def test_pip_installs_every_folder_of_code() -> None:
+    setup = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["setuptools"]
+    folders = {".".join(file.parent.relative_to(ROOT).parts) for file in ROOT.glob("*/**/__init__.py")}
+    assert set(setup["packages"]) == {"hydroelastic", *(f"hydroelastic.{name}" for name in folders - {"api"})}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("way", ["--target", "--editable"])
+def test_pip_installs_the_interface(way: str, tmp_path: Path) -> None:
+    pytest.importorskip("setuptools")
+    for name in ("api", "physics", "meshes", "modal", "fem", "scenes", "benchmarks", "requirements"):
+        shutil.copytree(ROOT / name, tmp_path / "checkout" / name)
+    for name in ("pyproject.toml", "README.md"):
+        shutil.copy(ROOT / name, tmp_path / "checkout")
+    given = ["--target", tmp_path / "site", "."] if way == "--target" else ["--prefix", tmp_path, "--editable", "."]
+    pip = [sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--no-build-isolation", *given]
+    subprocess.run(pip, cwd=tmp_path / "checkout", check=True, capture_output=True)
+    (site,) = {file.parent for file in tmp_path.rglob("hydroelastic-*.dist-info")}
+    # Before the checkout of these tests, which is on the path by way of PYTHONPATH.
+    code = f"""import site, sys
+sys.path[:] = [place for place in sys.path if "checkouts" not in place]
+site.addsitedir({str(site)!r})
+import hydroelastic as he, hydroelastic.modal.beam as beam
+print(he.__file__, beam.__file__, len(he.solve("swell")._repr_html_()), sep="\\n")"""
+    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=tmp_path, check=True)
+    files = ended.stdout.splitlines()
+    assert all(Path(file).is_relative_to(tmp_path) for file in files[:2])
+    assert int(files[2]) > 1000
+
+
+@pytest.mark.mpi
+def test_all_processes_have_the_same_result(tmp_path_factory: pytest.TempPathFactory) -> None:
+    from mpi4py import MPI
+
+    comm = MPI.COMM_WORLD
+    folder = Path(comm.bcast(str(tmp_path_factory.mktemp("mpi"))))
+    result = he.solve(he.read("sloshing", {"accuracy.modes": 2, "accuracy.tolerance": 1e-3}))
+    dataset = comm.bcast(result.dataset)
+    assert result.dataset.identical(dataset)
+    assert comm.bcast(result.modes.omega[0]) == result.modes.omega[0]
+    result.save(folder / "saved", images=None)
+    comm.barrier()
+    assert content(he.load(folder / "saved").summary) == content(result.summary)

@@ -87,12 +87,10 @@ def shown_modes(summary: Summary) -> dict[int, str]:
 
 
 def _keep_picture(source: Path, target: Path) -> None:
-    """Store a picture at the width that pages show it, in as many colours as a byte tells apart."""
+    """Store a picture at the width that pages show it, in all its colours."""
     with Image.open(source) as picture:
         height = round(picture.height * SHOWN_WIDTH / picture.width)
-        shown = picture.convert("RGB").resize((SHOWN_WIDTH, height), Image.Resampling.LANCZOS)
-        # Chosen to cover all colours: the most frequent ones alone would turn the ends of a colour bar grey.
-        shown.quantize(256, method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE).save(target, optimize=True)
+        picture.convert("RGB").resize((SHOWN_WIDTH, height), Image.Resampling.LANCZOS).save(target, optimize=True)
 
 
 def index() -> str:

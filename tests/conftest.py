@@ -17,7 +17,7 @@ def tanks() -> Any:
 @pytest.fixture(scope="module")
 def canvas() -> Iterator[Any]:
     """What renders pictures; where nothing can render, a test that asks for it is skipped."""
-    from hydroelastic.fem.pictures.canvas import Canvas, NoRendererError
+    from hydroelastic.output.pictures.rendering import Canvas, NoRendererError
 
     try:
         opened = Canvas()

@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 from mode_pictures import gif_pages, has_colour, pixels
 
-from hydroelastic.fem.pictures.canvas import Canvas, NoRendererError
-from hydroelastic.fem.pictures.colours import magnitude_colours
-from hydroelastic.fem.pictures.floats import BODY
-from hydroelastic.fem.pictures.line import DrawnLine, animate_line, draw_lines
-from hydroelastic.fem.pictures.line_frame import drawn_height, line_frame
-from hydroelastic.fem.pictures.line_view import LineView, line_view
-from hydroelastic.fem.pictures.page import INK
+from hydroelastic.output.pictures.colours import magnitude_colours
+from hydroelastic.output.pictures.floats import BODY
+from hydroelastic.output.pictures.line import DrawnLine, animate_line, draw_lines
+from hydroelastic.output.pictures.line_frame import drawn_height, line_frame
+from hydroelastic.output.pictures.line_view import LineView, line_view
+from hydroelastic.output.pictures.page import INK
+from hydroelastic.output.pictures.rendering import Canvas, NoRendererError
 
 WIDTH = 800
 UNIT = WIDTH / 1600

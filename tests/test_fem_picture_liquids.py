@@ -8,16 +8,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hydroelastic.fem.pictures.canvas import Canvas
-from hydroelastic.fem.pictures.floats import BODY, displaced_corners, up_to_floats
-from hydroelastic.fem.pictures.frame import frame_of
-from hydroelastic.fem.pictures.legend import scale_notes
-from hydroelastic.fem.pictures.mode import FloatSection, ModePicture, SurfaceCurve
-from hydroelastic.fem.pictures.modes import draw_mode, draw_overview
-from hydroelastic.fem.pictures.shapes import area, closed, dashed
-from hydroelastic.fem.pictures.tank import FREE_SURFACE, INTERFACE, LOWER_WASH, UPPER_WASH
-from hydroelastic.fem.pictures.view import view_of
 from hydroelastic.fem.sampling import SurfaceTrace
+from hydroelastic.output.pictures.floats import BODY, displaced_corners, up_to_floats
+from hydroelastic.output.pictures.frame import frame_of
+from hydroelastic.output.pictures.legend import scale_notes
+from hydroelastic.output.pictures.mode import FloatSection, ModePicture, SurfaceCurve
+from hydroelastic.output.pictures.modes import draw_mode, draw_overview
+from hydroelastic.output.pictures.rendering import Canvas
+from hydroelastic.output.pictures.shapes import area, closed, dashed
+from hydroelastic.output.pictures.tank import FREE_SURFACE, INTERFACE, LOWER_WASH, UPPER_WASH
+from hydroelastic.output.pictures.view import view_of
 
 WIDTH = 800
 UNIT = WIDTH / 1600

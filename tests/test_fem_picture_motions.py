@@ -9,13 +9,13 @@ import pytest
 from mode_pictures import gif_pages, has_colour, heave_picture, sloshing_picture
 from PIL import Image
 
-from hydroelastic.fem.pictures.canvas import Canvas
-from hydroelastic.fem.pictures.colours import mode_colours
-from hydroelastic.fem.pictures.gif import FRAMES, write_gif
-from hydroelastic.fem.pictures.mode import ModePicture
-from hydroelastic.fem.pictures.modes import animate_mode, animate_motion
-from hydroelastic.fem.pictures.tank import BODY, drawn_vectors
-from hydroelastic.fem.pictures.view import view_of
+from hydroelastic.output.pictures.colours import mode_colours
+from hydroelastic.output.pictures.gif import FRAMES, write_gif
+from hydroelastic.output.pictures.mode import ModePicture
+from hydroelastic.output.pictures.modes import animate_mode, animate_motion
+from hydroelastic.output.pictures.rendering import Canvas
+from hydroelastic.output.pictures.tank import BODY, drawn_vectors
+from hydroelastic.output.pictures.view import view_of
 from hydroelastic.scenes.tank.animated import animated_modes
 
 WIDTH = 800

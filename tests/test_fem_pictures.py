@@ -12,18 +12,18 @@ from eyes import EYES, lab
 from mode_pictures import has_colour, heave_picture, pixels, sloshing_picture
 from PIL import Image
 
-from hydroelastic.fem.pictures import canvas as picture_canvas
-from hydroelastic.fem.pictures.canvas import Canvas, NoRendererError
-from hydroelastic.fem.pictures.colours import magnitude_colours, mode_colours
-from hydroelastic.fem.pictures.legend import scale_notes
-from hydroelastic.fem.pictures.liquid import LiquidField, displacement_on_grid, iso_lines
-from hydroelastic.fem.pictures.modes import ModePicture, SurfaceCurve, draw_mode, draw_overview
-from hydroelastic.fem.pictures.page import Page
-from hydroelastic.fem.pictures.png import png_bytes
-from hydroelastic.fem.pictures.shapes import Shape, arrows, dashes, ribbon, strokes
-from hydroelastic.fem.pictures.tank import BODY, FREE_SURFACE, drawn_vectors
-from hydroelastic.fem.pictures.ticks import round_ticks, short_number, tick_labels
-from hydroelastic.fem.pictures.view import iso_levels, view_of
+from hydroelastic.output.pictures import canvas as picture_canvas
+from hydroelastic.output.pictures.colours import magnitude_colours, mode_colours
+from hydroelastic.output.pictures.legend import scale_notes
+from hydroelastic.output.pictures.liquid import LiquidField, displacement_on_grid, iso_lines
+from hydroelastic.output.pictures.modes import ModePicture, SurfaceCurve, draw_mode, draw_overview
+from hydroelastic.output.pictures.page import Page
+from hydroelastic.output.pictures.png import png_bytes
+from hydroelastic.output.pictures.rendering import Canvas, NoRendererError
+from hydroelastic.output.pictures.shapes import Shape, arrows, dashes, ribbon, strokes
+from hydroelastic.output.pictures.tank import BODY, FREE_SURFACE, drawn_vectors
+from hydroelastic.output.pictures.ticks import round_ticks, short_number, tick_labels
+from hydroelastic.output.pictures.view import iso_levels, view_of
 
 WIDTH = 800
 UNIT = WIDTH / 1600

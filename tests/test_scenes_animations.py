@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from mode_pictures import gif_pages
 
-from hydroelastic.fem.pictures.canvas import Canvas, NoRendererError
-from hydroelastic.fem.pictures.gif import FRAMES
-from hydroelastic.fem.pictures.line import DrawnLine
-from hydroelastic.fem.pictures.line_view import LineView
-from hydroelastic.fem.pictures.options import PictureOptions
+from hydroelastic.output.pictures.gif import FRAMES
+from hydroelastic.output.pictures.line import DrawnLine
+from hydroelastic.output.pictures.line_view import LineView
+from hydroelastic.output.pictures.options import PictureOptions
+from hydroelastic.output.pictures.rendering import Canvas, NoRendererError
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.run import run_scene

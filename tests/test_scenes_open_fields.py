@@ -17,10 +17,10 @@ from PIL import Image
 from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.open_water.basin import open_basin
 from hydroelastic.fem.open_water.resonance_search import ResonanceSearch
-from hydroelastic.fem.pictures.canvas import NoRendererError
-from hydroelastic.fem.pictures.gif import FRAMES
-from hydroelastic.fem.pictures.options import PictureOptions
 from hydroelastic.fem.stopwatch import Stopwatch
+from hydroelastic.output.pictures.gif import FRAMES
+from hydroelastic.output.pictures.options import PictureOptions
+from hydroelastic.output.pictures.rendering import NoRendererError
 from hydroelastic.scenes.models.open_analyses import Radiation, Resonance
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.field_pictures import draw_fields

@@ -9,9 +9,9 @@ import meshio
 import numpy as np
 import pytest
 
-from hydroelastic.fem.pictures.mode import SurfaceCurve
-from hydroelastic.fem.pictures.modes import Canvas, NoRendererError
-from hydroelastic.fem.pictures.options import PictureOptions
+from hydroelastic.output.pictures.mode import SurfaceCurve
+from hydroelastic.output.pictures.modes import Canvas, NoRendererError
+from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.scenes.models.bodies import Beam, Float
 from hydroelastic.scenes.models.body_kinds import Body
 from hydroelastic.scenes.models.tank import TankScene

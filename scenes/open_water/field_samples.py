@@ -10,10 +10,10 @@ import numpy as np
 from hydroelastic.fem.cells import cell_corners, owned_cells
 from hydroelastic.fem.liquid import as_functions
 from hydroelastic.fem.open_water.field_model import OpenModel
-from hydroelastic.fem.pictures.mode import Beyond, ModePicture
-from hydroelastic.fem.pictures.wave import WavePicture
 from hydroelastic.fem.sampling import LiquidSample, SurfaceTrace, sample_liquid
 from hydroelastic.meshes.geometry import BOTTOM, LID
+from hydroelastic.output.pictures.mode import Beyond, ModePicture
+from hydroelastic.output.pictures.wave import WavePicture
 from hydroelastic.physics.tank import StillLevel, Tank
 from hydroelastic.scenes.open_water.fields import OpenField
 from hydroelastic.scenes.tank.body_file import displacement_of, write_bodies

@@ -8,14 +8,13 @@ from pathlib import Path
 from mpi4py import MPI
 
 from hydroelastic.fem.modes import EigenSolverError
-from hydroelastic.fem.pictures.options import OF_CURVES, OF_FIELDS, OF_MOTIONS, PictureOptions
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.meshes.tagged_mesh import MeshError
+from hydroelastic.output.pictures.options import OF_CURVES, OF_FIELDS, OF_MOTIONS, PictureOptions
 from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.csv import write_csv
 from hydroelastic.scenes.open_water.dataset import OPEN_NAMES, open_dataset
-from hydroelastic.scenes.open_water.field_pictures import draw_fields
 from hydroelastic.scenes.open_water.field_samples import SampledField, sample_field, write_fields
 from hydroelastic.scenes.open_water.fields import open_fields
 from hydroelastic.scenes.open_water.figures import draw_open
@@ -72,6 +71,9 @@ def _write(water: SampledWater, folder: Path) -> None:
 
 
 def _draw(water: SampledWater, folder: Path, options: PictureOptions, report: Report) -> None:
+    # Who only wants the numbers does without what draws.
+    from hydroelastic.scenes.open_water.field_pictures import draw_fields
+
     report("pictures of curves")
     draw_open(water.solution, folder, options)
     report("pictures of fields")

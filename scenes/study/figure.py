@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from hydroelastic.scenes.output.curve_style import BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILLION, Sheets
+from hydroelastic.output.pictures.colours import BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILLION
+from hydroelastic.output.pictures.curves import GREY, Sheets
 from hydroelastic.scenes.study.plan import Family
 from hydroelastic.scenes.study.rows import StudyRow
 from hydroelastic.scenes.study.run import Study

@@ -14,11 +14,11 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
-from hydroelastic.fem.pictures.options import DEFAULT_PICTURES, PictureOptions
+from hydroelastic.output.pictures.curves import Sheets
+from hydroelastic.output.pictures.options import DEFAULT_PICTURES, PictureOptions
 from hydroelastic.physics.symmetry import Parity
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.output.curve_style import Sheets
 from hydroelastic.scenes.output.folder import SUMMARY, result_folder
 from hydroelastic.scenes.study.corners import has_curved_contours, sharpest_of, symmetries_apart
 from hydroelastic.scenes.study.figure import draw_study

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from hydroelastic.scenes.output.curve_style import BLUE, GREEN, GREY, ORANGE, PURPLE, VERMILLION, Sheets
+from hydroelastic.output.pictures.colours import BLUE, GREEN, ORANGE, PURPLE, VERMILLION
+from hydroelastic.output.pictures.curves import GREY, Sheets
 from hydroelastic.scenes.study.thinness import QUANTITIES, ThinnessRow
 
 if TYPE_CHECKING:

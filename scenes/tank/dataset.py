@@ -16,8 +16,8 @@ from hydroelastic.scenes.output.summary_variables import SummaryNames
 if TYPE_CHECKING:
     import xarray
 
-    from hydroelastic.fem.pictures.modes import FloatSection, SurfaceCurve
     from hydroelastic.fem.tank.solve import TankSolution
+    from hydroelastic.output.pictures.mode import FloatSection, SurfaceCurve
     from hydroelastic.scenes.tank.shapes import ModeShapes
 
 TANK_NAMES = SummaryNames(

@@ -10,19 +10,11 @@ import numpy as np
 
 from hydroelastic.fem.liquid import as_functions
 from hydroelastic.fem.modes import Mode
-from hydroelastic.fem.pictures.modes import (
-    Canvas,
-    FloatSection,
-    ModePicture,
-    SurfaceCurve,
-    animate_mode,
-    draw_mode,
-    draw_overview,
-)
-from hydroelastic.fem.pictures.options import PictureOptions
 from hydroelastic.fem.sampling import LiquidSample, SurfaceTrace, sample_liquid
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.tank.solve import TankSolution
+from hydroelastic.output.pictures.mode import FloatSection, ModePicture, SurfaceCurve
+from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.physics.symmetry import Parity
 from hydroelastic.physics.tank import StillLevel
 from hydroelastic.scenes.output.provenance import Summary
@@ -211,17 +203,18 @@ def draw_all(shapes: ModeShapes, summary: Summary, folder: Path, options: Pictur
 
     Animations are half as wide as pictures, which keeps them small.
     """
+    # Who only wants the fields does without what draws.
+    from hydroelastic.output.pictures.modes import animate_mode, draw_mode, draw_overview
+
     drawn = pictures(shapes, summary)
-    with Canvas() as canvas:
-        for number, (picture, name) in enumerate(zip(drawn, mode_names(shapes), strict=True), 1):
-            report(f"picture {number} of {len(drawn)}")
-            file = name if name.startswith("growing") else f"mode_{name}"
-            draw_mode(picture, folder / f"{file}.png", width=options.width, canvas=canvas)
-        draw_overview(drawn, folder / "overview.png", width=options.width, canvas=canvas)
-        for place in animated_modes(summary) if options.animate else ():
-            report(f"animation of mode {place + 1}")
-            path = folder / f"mode_{place + 1:03d}.gif"
-            animate_mode(drawn[place], path, width=options.animation_width, canvas=canvas)
+    for number, (picture, name) in enumerate(zip(drawn, mode_names(shapes), strict=True), 1):
+        report(f"picture {number} of {len(drawn)}")
+        file = name if name.startswith("growing") else f"mode_{name}"
+        draw_mode(picture, folder / f"{file}.png", width=options.width)
+    draw_overview(drawn, folder / "overview.png", width=options.width)
+    for place in animated_modes(summary) if options.animate else ():
+        report(f"animation of mode {place + 1}")
+        animate_mode(drawn[place], folder / f"mode_{place + 1:03d}.gif", width=options.animation_width)
 
 
 def write_fields(shapes: ModeShapes, folder: Path) -> None:

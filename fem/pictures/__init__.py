@@ -1,1 +1,0 @@
-"""Pictures of fields and lines, rendered without a screen."""

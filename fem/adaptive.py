@@ -58,7 +58,7 @@ def adaptive_solve(
     while_error_falls: bool = False,
     failures: tuple[type[Exception], ...] = (),
 ) -> AdaptiveSolution[Solution]:
-    """Solve on finer and finer discretizations until the estimated error is within a tolerance.
+    """Solve on successively refined discretizations until the estimated error is within a tolerance.
 
     Args:
         start: the first discretization: a mesh, a degree, a step in time.

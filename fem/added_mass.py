@@ -24,7 +24,7 @@ def _liquid_momentum(pencil: CoupledPencil, displacement: PETSc.Vec, momentum: P
 
 
 def body_added_mass(pencil: CoupledPencil) -> np.ndarray:
-    """Added-mass matrix of the body shapes with the free surface held still.
+    """Added-mass matrix of the body shapes with the free surface fixed.
 
     Args:
         pencil: the coupled problem. Under ψ = 0 on the water this is the high-frequency added mass; under a lid the
@@ -37,7 +37,7 @@ def body_added_mass(pencil: CoupledPencil) -> np.ndarray:
 
 
 def body_responses(pencil: CoupledPencil) -> tuple[np.ndarray, list[PETSc.Vec]]:
-    """As `body_added_mass`, with the ψ that answers a unit of each shape (collective)."""
+    """As `body_added_mass`, with ψ for a unit displacement of each shape (collective)."""
     size = pencil.body_size
     unit, momentum = pencil.stiffness.createVecs()
     rows, potentials = [], []
@@ -57,7 +57,7 @@ def _set_unit(vector: PETSc.Vec, index: int) -> None:
 
 
 class CondensedKinetics:
-    """The operator whose eigenvalues, with K, are 1/λ: kinetic energy with all that has no stiffness condensed.
+    """The operator whose eigenvalues, with K, are 1/λ: kinetic energy with the motions without stiffness condensed.
 
     Rigid motions without restoring force (K R = 0) and the constants α of ψ carry no potential energy. They follow the
     other unknowns e at once, from Rᵀ(M + M_a)ζ + Vᵣᵀα = 0 and Vᵀζ = 0, where V holds the volumes of the constraints
@@ -66,18 +66,19 @@ class CondensedKinetics:
         D (r, α) = −Wᵀ e,     M_c = M + M_a − W D⁻¹ Wᵀ,     W = [(M + M_a) R, V],  D = [[Rᵀ(M + M_a)R, Vᵣ], [Vᵣᵀ, 0]]
 
     Constraints, or combinations of them, in which no such motion takes part stay with e, and are kept by the
-    K-orthogonal projection. M_c is symmetric and semi-definite; what it condenses has eigenvalue zero, at the far end.
+    K-orthogonal projection. M_c is symmetric and semi-definite; the condensed motions have eigenvalue zero, the
+    smallest one.
     """
 
     def __init__(self, pencil: CoupledPencil) -> None:
-        """Solve for the liquid's answer to each condensed motion (collective)."""
+        """Solve for the potential of each condensed motion (collective)."""
         self.pencil = pencil
         self.free_rigid = pencil.free_rigid
         self.definite_stiffness = _definite(pencil)
         self._potential = pencil.coupling.createVecLeft()
         self._projected, self._momentum = pencil.stiffness.createVecs()
         self._turn, with_rigid = pencil.rigid_constraints
-        # Of K where the volumes are kept: so many modes grow.
+        # Negative directions of K under the volume constraints: the number of growing modes.
         self.negative = len(pencil.unstable)
         volumes = [self._combined(column) for column in self._turn.T]
         self._columns = [*self._rigid_columns(), *volumes[:with_rigid]]
@@ -110,7 +111,7 @@ class CondensedKinetics:
         return 0.5 * (block + block.T)
 
     def _projection(self, volumes: list[PETSc.Vec]) -> list[PETSc.Vec]:
-        """K⁻¹V (VᵀK⁻¹V)⁻¹: displacements that take back a unit of one volume and nothing of the others."""
+        """K⁻¹V (VᵀK⁻¹V)⁻¹: displacements that compensate a unit of one volume and none of the others."""
         if not volumes:
             return []
         solver = direct_solver(self.definite_stiffness)
@@ -120,10 +121,10 @@ class CondensedKinetics:
             solver.solve(volume, correction)
             # The unit diagonal of a free rigid motion is not a stiffness.
             set_entries(correction, self.free_rigid, np.zeros(len(self.free_rigid)))
-            self.turn_unstable(correction)
+            self.flip_unstable(correction)
             raw.append(correction)
         answers = np.array([[volume.dot(correction) for correction in raw] for volume in volumes])
-        # Sylvester: K on the displacements that keep the volumes has as many negative directions less.
+        # Sylvester's law: on the displacements that keep the volumes K has this number fewer negative directions.
         self.negative -= int(np.sum(np.linalg.eigvalsh(0.5 * (answers + answers.T)) < 0.0))
         inverse = np.linalg.inv(answers)
         corrections = []
@@ -152,13 +153,13 @@ class CondensedKinetics:
             result.axpy(-pressure, volume)
 
     def _project(self, displacement: PETSc.Vec) -> None:
-        """Remove what has no part in e: free rigid motions, and volume where a constraint is on e."""
+        """Project onto e: remove free rigid motions, and volume where a constraint acts on e."""
         set_entries(displacement, self.free_rigid, np.zeros(len(self.free_rigid)))
         taken = [volume.dot(displacement) for volume in self._kept]
         for correction, volume in zip(self._corrections, taken, strict=True):
             displacement.axpy(-volume, correction)
 
-    def turn_unstable(self, vector: PETSc.Vec) -> None:
+    def flip_unstable(self, vector: PETSc.Vec) -> None:
         """Change the sign of the unstable motions' entries: from |K| to K, or back."""
         if len(self.pencil.unstable):
             values = self.pencil.body_values(vector)

@@ -1,4 +1,5 @@
-"""Where the cells of this process lie: positions and Jacobians of straight or curved simplices at reference points."""
+"""Geometry of the cells of this process: positions and Jacobians of straight or curved simplices at reference
+points."""
 
 from __future__ import annotations
 
@@ -28,7 +29,7 @@ def cell_positions(mesh: Mesh, cells: np.ndarray, reference: np.ndarray) -> np.n
     """
     basis = _coordinate_basis(mesh, reference, 0)[0]
     nodes = cell_nodes(mesh, cells)
-    # From a corner, so that points of a small cell round like its distance from the origin and no more.
+    # Relative to a corner, so that rounding is that of the cell's distance from the origin.
     corner = nodes[:, :1]
     points: np.ndarray = corner + np.einsum("qn,cnd->cqd", basis, nodes - corner, optimize=True)
     return points

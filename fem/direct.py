@@ -15,7 +15,7 @@ def direct_solver(matrix: PETSc.Mat) -> PETSc.KSP:
 
 
 def configure_direct(solver: PETSc.KSP) -> None:
-    """Make a solver one application of a sparse Cholesky factorization of its positive definite matrix."""
+    """Configure a solver as a sparse Cholesky factorization of its positive definite matrix."""
     # Measured on one process: CHOLMOD factorizes up to twice as fast, and solves 5 times as fast for 2 500 unknowns
     # and as fast for 100 000.
     alone = solver.comm.size == 1 and any(map(PETSc.Sys.hasExternalPackage, ("suitesparse", "cholmod")))
@@ -23,7 +23,7 @@ def configure_direct(solver: PETSc.KSP) -> None:
 
 
 def configure_indefinite(solver: PETSc.KSP) -> PETSc.Mat:
-    """Make a solver one application of a factorization LDLᵀ that tells the inertia of its matrix.
+    """Configure a solver as a factorization LDLᵀ that gives the inertia of its matrix.
 
     Returns:
         The factor, not yet computed, to set options of MUMPS on.
@@ -34,7 +34,7 @@ def configure_indefinite(solver: PETSc.KSP) -> PETSc.Mat:
 
 
 def configure_quasidefinite(solver: PETSc.KSP) -> None:
-    """Make a solver one application of LDLᵀ of [[P, Q], [Qᵀ, −R]] with positive definite P and R.
+    """Configure a solver as a factorization LDLᵀ of [[P, Q], [Qᵀ, −R]] with positive definite P and R.
 
     Such a matrix has a factorization in any order, without pivots (R. J. Vanderbei, SIAM J. Optim. 5 (1995) 100).
     Measured on one process for narrow bands of 1 000 to 6 000 unknowns: PETSc's own solves three times as fast as

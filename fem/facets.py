@@ -1,4 +1,4 @@
-"""Facets of named surfaces seen from their cells: where quadrature or sampling points of a facet lie."""
+"""Facets of named surfaces in the reference coordinates of their cells."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from hydroelastic.fem.liquid import LiquidSpace
 
 @dataclass(frozen=True, kw_only=True)
 class FacetGroup:
-    """Facets of this process that have the same place in their cells.
+    """Facets of this process that have the same local number in their cells.
 
     Attributes:
         mesh: the mesh.

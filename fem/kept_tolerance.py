@@ -1,4 +1,4 @@
-"""What an error is worth, in words."""
+"""The tolerance that an error meets, in words."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from math import ceil, floor, log10
 
 
 def kept_tolerance(error: float) -> str:
-    """What tolerance an error keeps, in words: the error rounded up."""
+    """The tolerance that an error meets, in words: the error rounded up."""
     if error > 0.1:
         return "no digit is certain"
     digit = 10.0 ** floor(log10(error))

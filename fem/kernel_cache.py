@@ -1,8 +1,9 @@
-"""The folder in which dolfinx keeps compiled kernels: one process at a time adds to it, and what is damaged is removed.
+"""The folder in which dolfinx keeps compiled kernels: written by one process at a time; damaged kernels are removed.
 
-dolfinx marks a kernel as being compiled by its C file, for others to wait. Of a process that was killed the mark stays,
-and whoever meets it waits in vain. A lock that ends with its process goes before it here, and its file says whether
-somebody compiles: who gets the lock and finds that said knows that a process was killed, and removes what it left.
+dolfinx marks a kernel as being compiled by its C file, for which other processes wait. The mark of a killed process
+stays, and others wait for it in vain. Here a file lock, which ends with its process, is acquired first, and the lock
+file records whether a compilation is under way: a process that acquires the lock and finds this record knows that
+another one was killed, and removes its files.
 """
 
 from __future__ import annotations
@@ -25,17 +26,17 @@ _LOG = logging.getLogger(__name__)
 _LOCK = "hydroelastic.lock"
 _ELF_HEADER = 64
 _COMPILING = "compiling"
-# What programs that do not know of the lock have left unfinished for so long, s, nobody will finish.
+# Age, s, after which unfinished files of programs that do not use the lock count as abandoned.
 _GIVEN_UP = 60.0
-# When a folder had last changed when it was looked through.
+# Time of the last change of each folder when it was last checked.
 _looked_at: dict[Path, int] = {}
 
 
 def cache_folder() -> Path:
     """Return the folder of compiled kernels.
 
-    The launcher gives each environment a cache of its own. Elsewhere other programs, which know nothing of the lock,
-    compile into the folder of dolfinx, and ours lies in it.
+    The launcher gives each environment a cache of its own. Elsewhere other programs, which do not use the lock, compile
+    into the folder of dolfinx; ours is a subfolder of it.
     """
     shared = Path(get_options()["cache_dir"])
     return shared if "HYDROELASTIC_INSIDE" in os.environ else shared / "hydroelastic"
@@ -48,7 +49,7 @@ def kernels_locked(comm: MPI.Comm) -> Iterator[None]:
     Args:
         comm: the processes that need the kernel.
     """
-    # All are here: none waits for the lock on behalf of a process of its own, while the others wait for it.
+    # A barrier: no process may wait for the lock on behalf of another communicator while the others wait for it.
     comm.Barrier()
     if comm.rank != 0:
         yield
@@ -70,7 +71,7 @@ def kernels_locked(comm: MPI.Comm) -> Iterator[None]:
 
 
 def _remove_damaged(folder: Path, *, killed: bool) -> None:
-    """Remove what is there of kernels that are not whole; the holder of the lock only.
+    """Remove the files of incomplete kernels; to be called by the holder of the lock only.
 
     Args:
         folder: of the kernels.
@@ -103,7 +104,7 @@ def _age(file: Path) -> float:
 
 
 def _is_whole(kernel: Path, endings: set[str]) -> bool:
-    """Whether a finished kernel can be loaded, or leaves nothing in the way of its compilation."""
+    """Whether a finished kernel can be loaded, or no file prevents its compilation."""
     libraries = [ending for ending in endings if ending.endswith(".so")]
     if not libraries and ".c.cached" not in endings:
         return True
@@ -113,7 +114,7 @@ def _is_whole(kernel: Path, endings: set[str]) -> bool:
 
 @cache
 def _is_whole_library(file: Path) -> bool:
-    """Whether a shared library has the length that its header tells; to load a shorter one could end the process.
+    """Whether a shared library has the length stated in its header; loading a truncated one could end the process.
 
     The table of sections is the last part of an ELF file: its place is at byte 40 of the header, the length and the
     number of its entries at 58 and 60 (System V ABI, chapter 4).

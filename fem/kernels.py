@@ -16,7 +16,7 @@ from ufl.domain import extract_unique_domain
 from hydroelastic.fem.kernel_cache import cache_folder, kernels_locked
 
 _PROCESSOR = Path("/proc/cpuinfo")
-# How long a process waits for another one that compiles the same kernel where there are no locks, s; dolfinx has 10.
+# Time for which a process waits for another one that compiles the same kernel without locks, s; dolfinx: 10.
 _PATIENCE = 300
 
 
@@ -57,7 +57,7 @@ def _jit_options() -> dict[str, Any]:
 
 
 def _instructions() -> str | None:
-    """The processor's instruction sets as Linux lists them; ``None`` where that cannot be told."""
+    """The processor's instruction sets as Linux lists them; ``None`` where unknown."""
     if platform.machine() not in ("x86_64", "aarch64") or not _PROCESSOR.is_file():
         return None
     for line in _PROCESSOR.read_text(encoding="utf-8").splitlines():

@@ -184,17 +184,17 @@ def as_functions(liquid: LiquidSpace, potentials: list[PETSc.Vec]) -> list[fem.F
     return functions
 
 
-# Kernels that this process has seen compiled: to look one up takes dolfinx a millisecond or two.
+# Kernels that this process has compiled or loaded: a look-up by dolfinx takes a millisecond or two.
 _compiled: set[tuple[str, int, int, bool]] = set()
 
 
 def compile_form(tank: TankMesh, degree: int, *, glued: bool = False) -> None:
     """Compile the form of a degree on rank 0, unless the cache of dolfinx has it (collective).
 
-    Assembly would do it by itself; called before, it shows what of a first run goes into compiling.
+    Assembly would compile it as well; called before, it separates the time of compilation.
     """
     kernel = tank.mesh.topology.cell_name(), coordinate_degree(tank.mesh), degree, glued
-    # Together: one process may have solved on its own before.
+    # Collective decision: one process may have solved on its own before.
     if tank.mesh.comm.allreduce(kernel not in _compiled, op=MPI.LOR):
         weight = fem.Function(fem.functionspace(tank.mesh, ("DG", 0))) if glued else None
         _form(fem.functionspace(tank.mesh, ("Lagrange", degree)), cells=NO_ENTITIES, facets=NO_ENTITIES, weight=weight)
@@ -282,7 +282,7 @@ def first_dof(liquid: LiquidSpace, layer: int) -> np.ndarray:
 
 @dataclass(frozen=True, kw_only=True)
 class ClosedLayer:
-    """What keeps the volume of a closed layer.
+    """Data of the volume constraint of a closed layer.
 
     Attributes:
         dofs: its owned unknowns; a slice where they are all.
@@ -296,7 +296,7 @@ class ClosedLayer:
 
 
 def closed_layer(liquid: LiquidSpace, layer: int, load: np.ndarray) -> ClosedLayer:
-    """Take from ∫q over all moving surfaces (owned entries) what belongs to one layer (collective)."""
+    """Select the part of ∫q over all moving surfaces (owned entries) that belongs to one layer (collective)."""
     dofs = slice(None) if len(liquid.layers) == 1 else np.flatnonzero(liquid.owned_layer_of == layer)
     own = load[dofs]
     measure = liquid.tank.mesh.comm.allreduce(float(own.sum()), op=MPI.SUM)
@@ -309,7 +309,7 @@ class LiquidSolver:
     Args:
         matrix: A on all unknowns.
         grounded: owned local unknowns that are zero.
-        closed: the layers that keep their volume.
+        closed: the layers of constant volume.
     """
 
     def __init__(self, matrix: PETSc.Mat, grounded: np.ndarray, closed: tuple[ClosedLayer, ...]) -> None:

@@ -1,4 +1,4 @@
-"""How much memory a piece of work takes at most, as the operating system counts it."""
+"""Peak memory of a block of code, as counted by the operating system."""
 
 from __future__ import annotations
 
@@ -13,16 +13,17 @@ from mpi4py import MPI
 
 _STATUS = Path("/proc/self/status")
 _RESET = Path("/proc/self/clear_refs")
-# What /proc takes as "forget the peak so far".
+# The value by which /proc resets the peak.
 _FORGET_PEAK = "5"
 
 
 @dataclass
 class MemoryUse:
-    """What `peak_memory` measured.
+    """The result of `peak_memory`.
 
     Attributes:
-        peak: bytes, summed over the processes; ``None`` until the work is done, and where the system does not tell.
+        peak: bytes, summed over the processes; ``None`` before the end of the block, and where the system does not
+            provide it.
     """
 
     peak: int | None = None
@@ -33,10 +34,10 @@ def peak_memory(comm: MPI.Comm) -> Iterator[MemoryUse]:
     """Measure the highest resident memory of a block of code above what the process held before it (collective).
 
     The peak that a process remembers only grows, so it is reset first, which Linux allows a process for itself; and
-    memory that earlier work freed is handed back, for to use it again would not show. Elsewhere the peak is ``None``.
+    freed memory is returned to the system first, since its reuse would not be counted. Elsewhere the peak is ``None``.
     """
     use = MemoryUse()
-    hand_back_memory()
+    release_memory()
     resettable = True
     try:
         _RESET.write_text(_FORGET_PEAK, encoding="ascii")
@@ -51,10 +52,10 @@ def peak_memory(comm: MPI.Comm) -> Iterator[MemoryUse]:
     use.peak = sum(told) if len(told) == len(increases) else None
 
 
-def hand_back_memory() -> None:
-    """Give freed memory back to the operating system: an allocator keeps it, and what comes next seldom fits."""
+def release_memory() -> None:
+    """Give freed memory back to the operating system: an allocator keeps it, and later allocations seldom fit."""
     gc.collect()
-    # Only glibc has it; other allocators keep less.
+    # Available in glibc only; other allocators keep less.
     with suppress(OSError, AttributeError):
         ctypes.CDLL(None).malloc_trim(0)
 

@@ -24,7 +24,7 @@ _GROWING_VECTORS = 120
 
 
 class EigenSolverError(RuntimeError):
-    """The eigen-solver did not deliver what was asked."""
+    """The eigen-solver did not converge."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,11 +57,11 @@ class ModeSet:
         elastic_amplitudes: body part of each mode at unit generalized mass, free rigid motions left out, shape
             (modes, body unknowns).
         modes: the lowest modes with their shapes.
-        completed: gives any other mode with its shape, by index, at the cost of one solution of Laplace's equation
+        completed: returns any other mode with its shape, by index, at the cost of one solution of Laplace's equation
             (collective).
         zero_modes: how many motions without stiffness exist (not reported as modes).
         growing: the motions of an unstable float, λ < 0, that grow like e^{√(−λ) t}.
-        converged: eigenpairs that the solver delivered.
+        converged: number of converged eigenpairs.
         iterations: restarts of the Krylov–Schur method.
         solves: solutions of Laplace's equation.
     """
@@ -85,9 +85,8 @@ def solve_modes(pencil: CoupledPencil, count: int, *, shapes: int | None = None,
 
     Args:
         pencil: the coupled problem.
-        count: how many modes; fewer come back if the model has fewer, or rounding hides the highest.
-        shapes: how many of them are wanted with their shapes, each at the cost of one solution of Laplace's equation;
-            all of them by default.
+        count: number of modes; fewer are returned if the model has fewer, or the highest are lost in rounding.
+        shapes: number of modes with shapes, each at the cost of one solution of Laplace's equation; all by default.
         tolerance: relative residual at which an eigenpair counts as converged.
 
     Returns:
@@ -105,7 +104,7 @@ def solve_modes(pencil: CoupledPencil, count: int, *, shapes: int | None = None,
     solver = _krylov_schur(pencil, kinetics, count, tolerance, SLEPc.EPS.Which.LARGEST_REAL)
     converged, inverses = _inverses(solver, count, tolerance)
     order = np.argsort(-inverses)
-    # M + M_a is positive: what is not, or hardly, is rounding of the largest.
+    # M + M_a is positive: eigenvalues that are not, or nearly zero, are rounding of the largest.
     count = int(np.sum(inverses > HIDDEN * inverses.max(initial=0.0)))
     if count == 0:
         raise EigenSolverError(f"no eigenvalue 1/ω² is positive; the largest is {inverses.max(initial=0.0):g}")
@@ -139,7 +138,7 @@ def solve_modes(pencil: CoupledPencil, count: int, *, shapes: int | None = None,
 
 
 def _no_modes(pencil: CoupledPencil, kinetics: CondensedKinetics, tolerance: float) -> ModeSet:
-    """What is left where nothing oscillates: motions without stiffness, and those that grow."""
+    """The result where nothing oscillates: motions without stiffness, and growing ones."""
 
     def completed(place: int) -> Mode:
         raise IndexError(f"there is no mode {place}")
@@ -163,7 +162,8 @@ def _growing(pencil: CoupledPencil, kinetics: CondensedKinetics, tolerance: floa
     if count == 0:
         return ()
     solver = _krylov_schur(pencil, kinetics, count, tolerance, SLEPc.EPS.Which.SMALLEST_REAL)
-    # Fast growth is a 1/λ close to zero, beside the largest of slow waves: a few vectors do not tell it from the rest.
+    # Fast growth is a 1/λ close to zero, beside the largest of slow waves: a few vectors do not separate it from the
+    # rest.
     solver.setDimensions(count, min(count + _GROWING_VECTORS, pencil.size))
     _, inverses = _inverses(solver, count, tolerance)
     displacement, force = pencil.stiffness.createVecs()
@@ -201,9 +201,10 @@ def _krylov_schur(
     solver.setProblemType(SLEPc.EPS.ProblemType.GHEP if stable else SLEPc.EPS.ProblemType.PGNHEP)
     solver.setWhichEigenpairs(which)
     solver.setTolerances(tolerance, 200)
-    # Measured from 5 to 200 modes: with twice the pairs asked, and some, the fewest solutions of Laplace's equation.
+    # Measured from 5 to 200 modes: slightly more than twice the requested pairs needs the fewest solutions of Laplace's
+    # equation.
     solver.setDimensions(count, min(2 * count + 12, pencil.size))
-    # Purification would solve once more for each pair, only to take out of the vectors what `recover` takes out.
+    # Purification would need one more solution for each pair, to remove components that `recover` removes anyway.
     solver.setPurify(False)
     configure_direct(solver.getST().getKSP())
     kinetics.definite_stiffness.setOption(PETSc.Mat.Option.SPD, True)
@@ -222,13 +223,13 @@ class _Turned:
     def mult(self, matrix: PETSc.Mat | None, displacement: PETSc.Vec, result: PETSc.Vec) -> None:
         """``result`` ← J(M + M_a) ``displacement``."""
         self._kinetics.mult(matrix, displacement, result)
-        self._kinetics.turn_unstable(result)
+        self._kinetics.flip_unstable(result)
 
 
 def _complete(
     pencil: CoupledPencil, kinetics: CondensedKinetics, solver: SLEPc.EPS, eigenvalue: float, eigenvector: PETSc.Vec
 ) -> Mode:
-    """Fill in what follows the eigenvector at once, rigid motions and ψ, and judge the whole by its residual."""
+    """Complete an eigenvector by rigid motions and ψ, and compute its residual."""
     displacement, force = eigenvector.copy(), eigenvector.duplicate()
     potential = pencil.coupling.createVecLeft()
     kinetics.recover(displacement, potential)
@@ -274,8 +275,8 @@ def count_below(pencil: CoupledPencil, eigenvalue: float) -> int:
     """Number of modes with λ < ``eigenvalue``, from the inertia of one factorization.
 
     The matrix [[K − σM, −σρCᵀ], [−σρC, σρA]] has as many negative pivots as there are modes below σ, zero modes
-    included, and one more where the constant of ψ multiplies the volume constraint. It shares no step with the
-    iterative solution.
+    included, and one more where the constant of ψ multiplies the volume constraint. It is independent of the iterative
+    solution.
 
     Args:
         pencil: the coupled problem.
@@ -287,7 +288,7 @@ def count_below(pencil: CoupledPencil, eigenvalue: float) -> int:
     block = pencil.stiffness.copy()
     block.axpy(-eigenvalue, pencil.mass, structure=PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN)
     rows = _unconstrained(pencil)
-    # The copies matter: PETSc hands out the matrix itself where all of it is asked for.
+    # Copies are needed: PETSc returns the matrix itself where all of it is requested.
     laplace = pencil.laplace.createSubMatrix(rows, rows).copy()
     weights = laplace.createVecLeft()
     weights.array[:] = eigenvalue * _densities(pencil)[rows.getIndices() - pencil.laplace.getOwnershipRange()[0]]
@@ -307,7 +308,7 @@ def count_below(pencil: CoupledPencil, eigenvalue: float) -> int:
     solver.setOperators(whole)
     factored = configure_indefinite(solver)
     factored.setMumpsIcntl(24, 1)  # a null pivot would be reported, not divided by
-    factored.setMumpsIcntl(13, 1)  # the last block stays out of ScaLAPACK, which does not tell the sign of its pivots
+    factored.setMumpsIcntl(13, 1)  # without ScaLAPACK for the last block, which does not give the signs of its pivots
     solver.setUp()
     negative, zero, _ = factored.getInertia()
     if zero:
@@ -316,7 +317,7 @@ def count_below(pencil: CoupledPencil, eigenvalue: float) -> int:
 
 
 def _unconstrained(pencil: CoupledPencil) -> PETSc.IS:
-    """Unknowns of ψ that no grounded surface fixes, but one of each layer whose constant means nothing."""
+    """Unknowns of ψ that no grounded surface fixes, without one of each layer whose constant is arbitrary."""
     first, last = pencil.laplace.getOwnershipRange()
     liquid = pencil.liquid
     fixed = liquid.surface_dofs(liquid.grounded) if liquid.grounded else np.empty(0, dtype=np.int32)

@@ -1,4 +1,4 @@
-"""The coupled problem as a plain value: K, M, C, A and what each block of unknowns means.
+"""The coupled problem as a plain value: K, M, C, A and the meaning of each block of unknowns.
 
     K ζ = ω² (M ζ + (ρC)ᵀ ψ),    A ψ = C ζ        ζ = (a, η …): body shapes, then the surfaces of the liquids
 
@@ -15,6 +15,7 @@ import numpy as np
 from petsc4py import PETSc
 from scipy.linalg import block_diag
 
+from hydroelastic.fem.interface_coupling import surface_blocks
 from hydroelastic.fem.liquid import (
     LiquidMatrices,
     LiquidSolver,
@@ -26,9 +27,8 @@ from hydroelastic.fem.liquid import (
 )
 from hydroelastic.fem.shape_loads import shape_loads, surface_load
 from hydroelastic.fem.surfaces import Body, LiquidSurface
-from hydroelastic.fem.traces import surface_blocks
 
-# A rigid motion displaces no volume if it displaces less than this part of what a unit of any moves in and out.
+# Relative volume below which a rigid motion counts as displacing none.
 _NO_VOLUME = 1e-10
 # Constraints that differ by less than this part differ by rounding of the loads, which is 4e-9 at the ends of a thin
 # ellipse; a gap of the top of 1e-4 of the tank's length is one more by 1e-3.
@@ -37,12 +37,12 @@ _SAME_VOLUME = 1e-6
 
 @dataclass(frozen=True, kw_only=True)
 class VolumeConstraint:
-    """∫ζ = 0 over the surfaces of a closed layer: what the constant of its ψ multiplies.
+    """∫ζ = 0 over the surfaces of a closed layer: the constant of its ψ is its Lagrange multiplier.
 
     Attributes:
         layer: index of the layer.
         density: ρ of it.
-        volume: what a unit of each surface unknown takes from the layer, length n.
+        volume: volume that a unit of each surface unknown takes from the layer, length n.
     """
 
     layer: int
@@ -65,7 +65,7 @@ class CoupledPencil:
         laplace: A, N × N.
         solver: A⁺.
         constraints: of the closed layers. Where one follows from the others, as in two liquids that fill a rigid tank,
-            it is left out: the constant of its ψ then means nothing.
+            it is left out: the constant of its ψ is then arbitrary.
         free_constants: owned unknowns of ψ, one for each layer whose constraint was left out.
         surface_sizes: number of own unknowns of each surface on this process; they follow those of the bodies.
     """
@@ -100,19 +100,19 @@ class CoupledPencil:
 
     @property
     def unstable(self) -> np.ndarray:
-        """Indices of the body unknowns of negative stiffness: a float that would rather turn over."""
+        """Indices of the body unknowns of negative stiffness: unstable motions of floats."""
         return np.flatnonzero(self.body_stiffness < 0.0)
 
     @property
     def free_rigid(self) -> np.ndarray:
-        """Indices of the body unknowns without stiffness: rigid motions that nothing restores."""
+        """Indices of the body unknowns without stiffness: rigid motions without restoring force."""
         return np.flatnonzero(self.body_stiffness == 0.0)
 
     @cached_property
     def rigid_volumes(self) -> np.ndarray:
-        """What each of them takes from each constrained layer, shape (motions, constraints) (collective).
+        """Volume that each of them takes from each constrained layer, shape (motions, constraints) (collective).
 
-        Pitch displaces none but for round-off: what is below it is zero.
+        Pitch displaces none; values within round-off are set to zero.
         """
         volumes = [self.body_values(constraint.volume) for constraint in self.constraints]
         largest = self.coupling.norm(PETSc.NormType.NORM_1)
@@ -121,8 +121,8 @@ class CoupledPencil:
 
     @cached_property
     def rigid_constraints(self) -> tuple[np.ndarray, int]:
-        """Orthogonal combinations of the constraints as columns, and in how many, the first, they take part
-        (collective)."""
+        """Orthogonal combinations of the constraints as columns, and the number of the first ones that rigid motions
+        enter (collective)."""
         if not self.rigid_volumes.size:
             return np.eye(len(self.constraints)), 0
         _, sizes, turn = np.linalg.svd(self.rigid_volumes)
@@ -152,7 +152,7 @@ def build_pencil(
     Args:
         liquid: space of the potential.
         matrices: A and S on that space.
-        bodies: what floats.
+        bodies: the floating bodies.
         surfaces: those of the liquids that move under gravity: free surface and interface.
 
     Returns:
@@ -187,7 +187,7 @@ def build_pencil(
         coupling=coupling,
         momentum=_weighed(liquid, coupling),
         laplace=laplace,
-        # A layer on which nothing moves has no flux to balance.
+        # A layer without moving surfaces has no flux to balance.
         solver=LiquidSolver(laplace, grounded_dofs(liquid), tuple(layer for layer in closed if layer.measure > 0.0)),
         constraints=constraints,
         free_constants=free_constants,
@@ -203,7 +203,7 @@ def _body_coupling(liquid: LiquidSpace, bodies: tuple[Body, ...], laplace: PETSc
     matrix = PETSc.Mat().createAIJ(
         ((rows, PETSc.DETERMINE), (columns if comm.rank == 0 else 0, columns)), comm=laplace.comm
     )
-    # Collective; left to the first value it would wait for processes that a body does not touch.
+    # Collective, and evaluated here: not all processes take part in later evaluations.
     matrix.setUp()
     first = laplace.getOwnershipRange()[0]
     column = 0
@@ -231,9 +231,9 @@ def _weighed(liquid: LiquidSpace, coupling: PETSc.Mat) -> PETSc.Mat:
 
 
 def _volume_constraints(liquid: LiquidSpace, coupling: PETSc.Mat) -> tuple[tuple[VolumeConstraint, ...], np.ndarray]:
-    """The constraints of the closed layers that do not follow from those before, and an unknown of ψ for each other.
+    """The independent constraints of the closed layers, and an unknown of ψ for each dependent one.
 
-    A constraint may say nothing at all: what a beam pushes down it takes from above, where liquids move as one.
+    A constraint may be trivial: with continuous pressure a beam displaces as much below as above.
     """
     constraints: list[VolumeConstraint] = []
     free = [np.empty(0, dtype=np.int32)]
@@ -251,13 +251,13 @@ def _volume_constraints(liquid: LiquidSpace, coupling: PETSc.Mat) -> tuple[tuple
 
 
 def _is_new(volume: PETSc.Vec, constraints: list[VolumeConstraint], largest: float) -> bool:
-    """Whether a constraint says something that others do not; ``largest`` is what a unit moves in and out at most."""
+    """Whether a constraint is independent of others; ``largest`` is the largest volume that a unit moves in and out."""
     if volume.norm(PETSc.NormType.NORM_INFINITY) <= _SAME_VOLUME * largest:
         return False
     if not constraints:
         return True
     size, rest = volume.norm(), volume.copy()
-    # Least squares on the few others; they are independent.
+    # Least squares on the others, which are few and independent.
     gram = np.array([[one.volume.dot(other.volume) for other in constraints] for one in constraints])
     parts = np.linalg.solve(gram, [one.volume.dot(volume) for one in constraints])
     for part, one in zip(parts, constraints, strict=True):

@@ -1,8 +1,8 @@
 """How well polynomials resolve a singularity on a ring of triangles around it.
 
 On the triangles between two rings, r = σ and 1, the gradient of ψ = Re z^α, or Re z^α ln z where α is whole, with
-z = x + iy, is written in orthonormal polynomials. What those of degree p − 1 leave of its energy is what ψ of degree p
-leaves at least. In the end the error falls by a factor ρ² a degree: a triangle of barycentric coordinates λ has
+z = x + iy, is written in orthonormal polynomials. The energy that those of degree p − 1 leave is a lower bound of what
+ψ of degree p leaves. In the end the error falls by a factor ρ² a degree: a triangle of barycentric coordinates λ has
 
     ρ = t + √(t² − 1),    t = min Σ|λ_j|    on the complex lines x ± iy = 0, where ψ is singular
 
@@ -17,7 +17,7 @@ import numpy as np
 
 from hydroelastic.meshes.grading import TipRings
 
-# So many degrees more hold all that is left but for a few per cent.
+# Number of further degrees that hold the remainder up to a few per cent.
 _BEYOND = 12
 
 

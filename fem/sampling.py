@@ -1,4 +1,4 @@
-"""Fields as plain arrays on one process, to draw and to write: ψ and ∇ψ on small triangles, ψ along surfaces."""
+"""Fields as plain arrays on one process, for pictures and files: ψ and ∇ψ on small triangles, ψ along surfaces."""
 
 from __future__ import annotations
 
@@ -107,7 +107,7 @@ def _sample_cells(liquid: LiquidSpace, functions: list[fem.Function], cells: np.
     gradient = np.einsum("mcpj,cpji->mcpi", reference_gradient, inverse)
     connectivity = (np.arange(len(cells)) * len(reference))[:, None, None] + triangles[None]
     modes = len(functions)
-    # No unknown is shared by two liquids: the first of a cell tells its liquid.
+    # No unknown is shared by two liquids: the first one of a cell determines its liquid.
     layers = liquid.layer_of[dofs[:, 0]].astype(np.int64)
     return LiquidSample(
         points=points.reshape(-1, 2),
@@ -155,7 +155,7 @@ def sample_surface(
         liquid: the space of ψ.
         functions: ψ of each mode.
         name: of the line.
-        layer: the liquid on whose side of it ψ is meant.
+        layer: the liquid on whose side of it ψ is evaluated.
 
     Returns:
         The trace on rank 0, ``None`` elsewhere (collective).

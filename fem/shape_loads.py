@@ -20,7 +20,7 @@ from hydroelastic.fem.surfaces import Body, Shapes
 
 # Gauss points beyond what the polynomial and half a radian each need; the error then falls faster than exponentially.
 _SPARE_POINTS = 8
-# Corners of curved cells miss a point by rounding; parts of the facet's length.
+# Relative to the facet's length: corners of curved cells may miss a point by rounding.
 _AT_CORNER = 1e-3
 
 
@@ -81,7 +81,7 @@ def singular_corner(body: Body, group: FacetGroup) -> np.ndarray:
 
 
 def _clustered(local: np.ndarray, weights: np.ndarray, corner: int) -> tuple[np.ndarray, np.ndarray]:
-    """Quadrature on a line by t = s² from one of its ends: what behaves like t^{-1/2} there becomes smooth."""
+    """Quadrature on a line by t = s² from one of its ends: integrands like t^{-1/2} there become smooth."""
     s = local[:, 0] if corner == 0 else 1.0 - local[:, 0]
     t = s**2 if corner == 0 else 1.0 - s**2
     return t[:, None], 2.0 * s * weights

@@ -1,11 +1,12 @@
-"""How far a mode's frequency lies above the exact one, read off the decay of its liquid motion with the degree.
+"""Frequency error of a mode from the decay of its liquid motion with the polynomial degree.
 
 Ritz values come from above: with ψ_h the best continuous polynomial of degree p, at unit generalized mass,
 
     (λ_h − λ)/λ = ρ ∫|∇(ψ − ψ_h)|²    up to terms of higher order,
 
-for the error in ψ is the only one while the surfaces carry every motion of the trace. In each cell ∇ψ_h is written in
-orthonormal polynomials; s_k is the energy ∫|∇ψ|² in those of degree k. Beyond p − 1 the s_k go on as they fell before:
+because the error in ψ is the only one while the surface unknowns represent every boundary value of ψ. In each cell ∇ψ_h
+is written in
+orthonormal polynomials; s_k is the energy ∫|∇ψ|² in those of degree k. Beyond p − 1 the decay of s_k is extrapolated:
 by a factor r = s_k/s_{k−1} a degree where ψ is smooth, like a power of k beside a singularity, where r rises towards 1.
 Either way the missing part is about s_{p−1} r/(1 − r), summed over the cells. Where ψ is nearly even or odd in a cell,
 the s_k of every other degree are small, and pairs of them are compared instead.
@@ -28,7 +29,8 @@ from hydroelastic.fem.liquid import LiquidSpace, as_functions
 LOWEST_DEGREE = 4
 """Four degrees of ∇ψ must be there to see a decay."""
 
-# A continuous polynomial does worse than the cell by cell best one. Measured on 21 tanks with exact frequencies,
+# A continuous polynomial has a larger error than the best one of each cell. Measured on 21 tanks with exact
+# frequencies,
 # degrees 4 to 9: 0.6 to 2.2 times, 1.75 where the decay is clear.
 _CONTINUITY = 2.0
 # A step this much steeper than the one before is that of a ψ that is nearly even or odd in the cell.
@@ -79,7 +81,7 @@ def _missing_energy(last: np.ndarray, second: np.ndarray, third: np.ndarray, fou
 
 
 def _series(last: np.ndarray, ratio: np.ndarray) -> np.ndarray:
-    """What follows the last term of a geometric series."""
+    """The remainder of a geometric series after its last term."""
     rest: np.ndarray = last * ratio / (1.0 - ratio)
     return rest
 

@@ -1,4 +1,4 @@
-"""What a run tells while it goes on: seconds by stage, and what is being done."""
+"""Progress of a run: seconds by stage, and reports of the current step."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What moves on the boundary of the liquids: surface unknowns ζ with a stiffness, a mass and a trace there."""
+"""Moving boundaries of the liquids: surface unknowns ζ with a stiffness, a mass and a coupling to ψ."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Body:
         mass: generalized mass, symmetric, shape (functions, functions).
         motions: the functions as columns in the motions that ``dofs`` names, shape (functions, functions); the identity
             but for the principal motions of floats.
-        singular_points: where the shapes have slopes without bound, like the root of the distance; shape (points,
+        singular_points: where the shapes have unbounded slopes, like the square root of the distance; shape (points,
             gdim).
     """
 

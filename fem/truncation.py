@@ -1,8 +1,8 @@
-"""What the dry modes that a body leaves out would take off the frequencies.
+"""Frequency error from truncating the dry-mode basis of a body.
 
 Leaving out a shape of stiffness k and amplitude a raises λ by the part k a²/λ of the mode's potential energy that it
-holds. Those parts fall like n⁻⁸ with the number n of the shape (measured, n⁻⁷ for their sum), so what lies beyond the
-last shape follows from the last ones kept.
+holds. Those parts fall like n⁻⁸ with the number n of the shape (measured, n⁻⁷ for their sum), so the remainder follows
+from the last shapes kept.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ _ORDER = 7.0
 
 
 def truncation_errors(bodies: tuple[Body, ...], amplitudes: np.ndarray, eigenvalues: np.ndarray) -> np.ndarray:
-    """Estimate (λ_h − λ)/λ from the shapes that the bodies lack.
+    """Estimate (λ_h − λ)/λ by the shapes that the bases leave out.
 
     Args:
         bodies: the bodies.

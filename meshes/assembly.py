@@ -1,4 +1,4 @@
-"""One mesh from gmsh's cells and the rings: nodes and cells joined, tagged, cut open where the outline says so."""
+"""Assembly of gmsh's cells and the rings into one mesh: nodes and cells joined, tagged, and cut along `cut` curves."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from hydroelastic.meshes.outline import Outline, Point, as_points, enclosed_area
 from hydroelastic.meshes.rings import ring_triangles
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 
-# Sums of areas agree to a few digits less than these.
+# Relative tolerance of the sum of areas.
 _AREA_ROUNDING = 1e-9
 
 
 def assemble(layout: Layout, filling: Filling) -> tuple[TaggedMesh, list[Sides]]:
-    """Join what was laid and what was filled.
+    """Join the rings and the cells of gmsh.
 
     Returns:
         The mesh of straight triangles, and the cells at each curve of the outline.
@@ -106,7 +106,7 @@ def _joined(layout: Layout, filling: Filling) -> _Joined:
 
 
 def _check_areas(outline: Outline, joined: _Joined) -> None:
-    """Refuse a mesh that is not the domain: gmsh says nothing where lines cross.
+    """Check that the area of the mesh is that of the domain: gmsh reports no crossing lines.
 
     Raises:
         MeshError: naming the region.

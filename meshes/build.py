@@ -12,9 +12,9 @@ from hydroelastic.meshes.layout import Layout, lay_out
 from hydroelastic.meshes.outline import Outline
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 
-# So often are the elements of curved pieces halved where they are too long for the cells at them.
+# Largest number of halvings of elements on curved pieces that are too long for their cells.
 _REFINEMENTS = 4
-# A curved cell is accepted if its map is nowhere compressed more than this beside the straight cell's.
+# Smallest Jacobian of an accepted curved cell, relative to the straight cell.
 _SMALLEST_JACOBIAN = 0.1
 
 
@@ -45,10 +45,11 @@ def build_mesh(
         The mesh, on the calling process only.
 
     Raises:
-        MeshError: if gmsh fails, if two curves leave no room at a corner, if a slit is too short to be opened, or if no
+        MeshError: if gmsh fails, if the angle between two curves at a corner is too small, if a slit is too short to be
+            opened, or if no
             mesh fine enough for the curved pieces is found.
     """
-    # Elements on straight lines are gmsh's: only curved ones can be made smaller here.
+    # Elements on straight lines are made by gmsh: only curved ones can be refined here.
     refinements = _REFINEMENTS if any(curve.path is not None for curve in outline.curves) else 0
     for halvings in range(refinements + 1):
         turn = largest_turn * 0.5**halvings
@@ -70,7 +71,7 @@ def _curved(mesh: TaggedMesh, layout: Layout, sides: list[Sides], degree: int) -
     """Curve the cells at curved pieces and measure how far their edges are from these.
 
     Raises:
-        MeshError: if a cell is turned over, or nearly so.
+        MeshError: if a cell is inverted, or nearly so.
     """
     pieces = [(edges, side) for number, side in enumerate(sides) if (edges := layout.curved_edges(number)) is not None]
     if not pieces:

@@ -1,4 +1,4 @@
-"""The one module that knows which dolfinx is installed. It probes features; nothing else asks for the version."""
+"""Differences between versions of dolfinx, by probing features; no other module depends on the version."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def coordinate_degree(mesh: Any) -> int:
 
 
 def cell_partitioner(mode: GhostMode) -> Any:
-    """What hands the cells of a mesh to processes; from 0.11 on it must be told how many cells a facet may have."""
+    """The partitioner of cells; from 0.11 on it needs the largest number of cells at a facet."""
     try:
         return create_cell_partitioner(mode)
     except TypeError:

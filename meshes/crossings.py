@@ -1,4 +1,4 @@
-"""Straight lines that cross or touch: gmsh would fail on them, or never end."""
+"""Detection of straight lines that cross or touch, on which gmsh fails or does not terminate."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ def crossing_pair(starts: NDArray[np.float64], ends: NDArray[np.float64]) -> tup
         ends: shape (n, 2).
 
     Returns:
-        Their indices, ``None`` if there are no such two.
+        Their indices, ``None`` if there are none.
     """
     # Side of each segment on which each end of each other one lies, shape (segments, others).
     from_start, from_end = (_sides(starts, ends, points) for points in (starts, ends))
@@ -28,7 +28,7 @@ def _sides(starts: NDArray[np.float64], ends: NDArray[np.float64], points: NDArr
     edges = (ends - starts)[:, None]
     away = points - starts[:, None]
     sides: NDArray[np.float64] = edges[..., 0] * away[..., 1] - edges[..., 1] * away[..., 0]
-    # An end that two segments share is on the line of either, whatever rounding says.
+    # A shared end lies exactly on both lines, in spite of rounding.
     shared = (points == starts[:, None]).all(axis=2) | (points == ends[:, None]).all(axis=2)
     sides[shared] = 0.0
     return sides

@@ -11,14 +11,14 @@ from hydroelastic.meshes.outline import Corner, Curve, Outline
 from hydroelastic.meshes.rings import RingEnds
 from hydroelastic.meshes.size_field import Discs, SizeField
 
-# Rings reach at most this part of the way to the next curve or corner.
+# Largest radius of rings relative to the distance of the next curve or corner.
 _ROOM = 0.45
 # Triangles of the rings have angles of 17 degrees at a curve: within the rings it turns by this part of an element's.
 _TURN_OF_RINGS = 0.5
 # Samples of a curved piece turn by at most this part of what an element may, and are this part of its size at most.
 _FINE = 0.125
 _FIRST_SAMPLES = 65
-# Where a ring first meets a curve is looked for on so many points, then by bisection.
+# Number of points on which the first intersection of a ring with a curve is bracketed before bisection.
 _GRID = 1025
 # Directions of shorter samples, as parts of the extent, are rounding.
 _SHORTEST = 1e-6
@@ -29,8 +29,8 @@ _BISECTIONS = 100
 def outermost_ring(outline: Outline, corner: Corner, largest_turn: float) -> float:
     """Radius of the outermost ring that fits at a corner.
 
-    It is `Corner.outer`, or less: the size of the curves that meet there, almost half the way to what is next to the
-    corner, and so small that the curves there turn within the ring by less than half of ``largest_turn`` (radians).
+    It is `Corner.outer`, or less: the size of the curves that meet there, almost half the distance to the nearest curve
+    or corner, and so small that the curves there turn within the ring by less than half of ``largest_turn`` (radians).
     """
     place = np.array(corner.point)
     rooms, limits = [], [corner.outer]
@@ -60,7 +60,8 @@ def distances(
 
 
 def _bent_radius(curve: Curve, corner: Corner, largest_turn: float) -> float:
-    """Distance from the corner within which a curve turns by less than ``largest_turn`` and does not come back."""
+    """Distance from the corner up to which a curve turns by less than ``largest_turn`` and moves away from the
+    corner."""
     parameters = curve_samples(curve, 0.0, 1.0, largest_turn)
     if corner.point == curve.end:
         parameters = parameters[::-1]
@@ -81,7 +82,7 @@ def _turns(points: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def curve_samples(curve: Curve, first: float, last: float, largest_turn: float) -> NDArray[np.float64]:
-    """Parameters from first to last, so close that a curve turns little from one sample to the next."""
+    """Parameters from first to last, dense enough that a curve turns little between samples."""
     parameters = np.linspace(first, last, _FIRST_SAMPLES, dtype=np.float64)
     shortest = _SHORTEST * float(np.ptp(curve.polyline(), axis=0).max())
     while True:
@@ -131,7 +132,7 @@ def _fractions_at(curve: Curve, at_start: bool, radii: NDArray[np.float64]) -> N
 
 
 def bend_sources(outline: Outline, number: int, span: tuple[float, float], largest_turn: float) -> Discs:
-    """A curved piece as sources of fineness.
+    """A curved piece as sources of the size field.
 
     Elements are as large as the curve allows, or smaller: they turn by at most ``largest_turn``, and their chord is off
     the curve by at most an eighth of the way to other curves.
@@ -151,7 +152,7 @@ def bend_sources(outline: Outline, number: int, span: tuple[float, float], large
     with np.errstate(divide="ignore"):
         radius = 1.0 / np.maximum(curvature[:-1], curvature[1:])
     sizes = np.minimum(largest_turn * radius, curve.size)
-    # A chord of length h is off by h²/8R: only curves that are nearer than this ask for a smaller one.
+    # A chord of length h is off by h²/8R: only nearer curves require a smaller one.
     counts = float((sizes**2 / radius).max())
     sizes = np.minimum(sizes, np.sqrt(radius * _gaps(outline, number, centres, counts)))
     finite = np.isfinite(sizes)

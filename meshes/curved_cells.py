@@ -22,15 +22,15 @@ from numpy.typing import NDArray
 from hydroelastic.meshes.outline import Curve
 from hydroelastic.meshes.tagged_mesh import CurvedCells, Deviation
 
-# basix belongs to dolfinx, and meshes are made without it where all cells are straight.
+# Imported here: meshes of straight cells are made without dolfinx, to which basix belongs.
 if TYPE_CHECKING:
     import basix
 
-# Where the chord's normal meets the curve is found to the last bit.
+# Bisection steps for the intersection of the chord's normal with the curve.
 _BISECTIONS = 60
 # Smaller deviations, in parts of the largest coordinate, are rounding of the curve's points.
 _ROUNDING = 1e-15
-# The exact curve between the nodes, for what is measured there, is a polynomial of so many degrees more.
+# Additional degrees of the polynomial that represents the exact curve between the nodes in measures of deviation.
 _MORE_DEGREES = 6
 
 

@@ -1,7 +1,7 @@
 """Cutting a mesh open along edges: the cells on both sides get nodes of their own.
 
-Around each node the cells fall into parts that hang together through edges which are not cut; every part has its own
-node. The tip of a slit inside the liquid stays one node, an interface that divides the liquids doubles all of its own.
+Around each node the cells form parts that are connected through uncut edges; every part has its own node. The tip of a
+slit inside the liquid stays one node, an interface that divides the liquids doubles all of its own.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""From plain arrays on one process to a tagged dolfinx mesh spread over all."""
+"""Distribution of a mesh in plain arrays on one process as a tagged dolfinx mesh."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class TankMesh:
 
 
 def distribute_mesh(comm: MPI.Comm, tagged: TaggedMesh | None) -> TankMesh:
-    """Spread a mesh over the processes of ``comm``.
+    """Distribute a mesh over the processes of ``comm``.
 
     Args:
         comm: communicator.

@@ -17,7 +17,7 @@ from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 
 _TAG = "gmsh:physical"
 
-# Twice the area of a triangle over the squares of its sides: what is less is rounding.
+# Twice the area of a triangle over the squares of its sides: less is rounding.
 _FLAT = 1e-12
 
 
@@ -100,9 +100,9 @@ def load_mesh(path: Path) -> TaggedMesh:
 
 def _read(path: Path) -> meshio.Mesh:
     try:
-        # meshio prints what it finds, and exits the process on some unreadable files.
+        # meshio prints messages, and exits the process on some unreadable files.
         with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()), warnings.catch_warnings():
-            # NumPy only warns of numbers that end too early.
+            # NumPy only warns of truncated numbers.
             warnings.filterwarnings("error", message="string or file could not be read")
             return meshio.read(path)
     except (Exception, SystemExit) as error:

@@ -1,4 +1,4 @@
-"""gmsh fills the regions of a domain outside the rings, between straight lines."""
+"""Triangulation by gmsh of the regions of a domain outside the rings, between straight lines."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class Line:
 
 @dataclass(frozen=True, kw_only=True)
 class Filling:
-    """What gmsh made.
+    """The mesh of gmsh.
 
     Attributes:
         points: nodes, shape (nodes, 2).
@@ -79,7 +79,7 @@ def fill(points: Iterable[NDArray[np.float64]], loops: Iterable[list[Line]], siz
 
 @contextmanager
 def _gmsh_model() -> Iterator[None]:
-    """A fresh, silent gmsh model; gmsh is started only once in a process and left as it was found."""
+    """A new gmsh model without messages; gmsh is initialized once in a process, and its state is restored."""
     if not gmsh.isInitialized():
         # gmsh would otherwise take over Ctrl-C, and a long run could no longer be interrupted.
         gmsh.initialize(readConfigFiles=False, interruptible=False)
@@ -88,7 +88,7 @@ def _gmsh_model() -> Iterator[None]:
     try:
         yield
     except Exception as error:  # gmsh raises bare Exception
-        # After a failure its mesh generator stays locked until gmsh is started anew.
+        # After a failure the mesh generator stays locked until gmsh is initialized again.
         gmsh.finalize()
         raise MeshError(f"gmsh could not mesh the tank: {error}") from error
     finally:
@@ -98,14 +98,14 @@ def _gmsh_model() -> Iterator[None]:
 
 
 class _Drawing:
-    """Points and lines as gmsh knows them, each made once."""
+    """Points and lines in gmsh, each created once."""
 
     def __init__(self, points: Iterable[NDArray[np.float64]]) -> None:
         self._points: dict[Point, int] = {}
         for x, y in as_points(np.vstack(list(points))):
             if (x, y) not in self._points:
                 self._points[x, y] = int(gmsh.model.geo.addPoint(x, y, 0.0))
-        # Of each line from its first to its last point; negative tags for what gmsh was given the other way.
+        # Tags of each line from its first to its last point; negative for reversed lines.
         self._lines: dict[Key, list[int]] = {}
 
     def surface(self, loop: list[Line]) -> int:

@@ -1,4 +1,4 @@
-"""Mesh file formats that can be read and written, by suffix; apart, so that a scene is validated without meshio."""
+"""Mesh file formats that can be read and written, by suffix; separate, so that a scene is validated without meshio."""
 
 FORMATS = {
     ".msh": "a mesh of gmsh, format 2.2 or 4.1, as gmsh writes it",

@@ -34,7 +34,7 @@ class TankGeometry:
         length: of the rectangle.
         depth: of the rectangle.
         segments: the top.
-        mirrored: whether x = length is not a wall but the plane about which the tank goes on as its mirror image.
+        mirrored: whether x = length is a plane of symmetry instead of a wall.
 
     Raises:
         ValueError: if the segments do not cover the top, one after the other, without gap or overlap.
@@ -63,7 +63,7 @@ class TankGeometry:
         joints = [segment.end for segment in self.segments[:-1]]
         if self.segments[0].name not in (FREE_SURFACE, LID):
             joints.insert(0, 0.0)
-        # A body goes on beyond a plane of symmetry: it has no end there.
+        # A body continues beyond a plane of symmetry: it has no end there.
         if not self.mirrored and self.segments[-1].name not in (FREE_SURFACE, LID):
             joints.append(self.length)
         return tuple(joints)

@@ -40,7 +40,7 @@ def geometry_nodes(mesh: TaggedMesh) -> tuple[NDArray[np.float64], NDArray[np.in
     numbers[:, inner] = count + np.arange(len(mesh.cells) * len(inner)).reshape(len(mesh.cells), len(inner))
     points = np.empty((count + len(inner) * len(mesh.cells), 2))
     points[numbers] = positions
-    # What a straight neighbour says of a curved edge does not count.
+    # The nodes of an edge are those of its curved cell, not of a straight neighbour.
     points[numbers[mesh.curved.cells]] = mesh.curved.nodes
     points[: len(mesh.points)] = mesh.points
     return points, numbers, degree

@@ -1,4 +1,4 @@
-"""How fine the mesh is and where: geometric rings of triangles around each tip, growing elements elsewhere.
+"""Grading of meshes: geometric rings of triangles around each tip, growing elements elsewhere.
 
 ψ behaves like r ln r at the end of a body (r^{1/2} where ψ = 0 on the water). Rings whose radii shrink by a constant
 ratio towards the tip, with a high polynomial degree, give exponential convergence in spite of it.
@@ -24,8 +24,8 @@ class Grading:
     """Element sizes of a tank mesh, in the unit of length of the geometry.
 
     Attributes:
-        surface_sizes: largest element on each segment of the top, from left to right, set by the shortest wave that the
-            modes asked for carry there.
+        surface_sizes: largest element on each segment of the top, from left to right, set by the shortest wave of the
+            requested modes there.
         bulk_size: largest element anywhere.
         growth: increase of the element size per unit of distance from the surface, or from a tip.
         tip_size: radius of the innermost ring around a tip; ``None`` gives no rings (a uniform mesh).
@@ -66,7 +66,8 @@ class TipRings:
 
 
 def tip_rings(geometry: TankGeometry, grading: Grading) -> tuple[TipRings, ...]:
-    """Rings around every tip of the geometry; the outermost reaches at most 0.45 of the way to what is next to it."""
+    """Rings around every tip of the geometry; the outermost radius is at most 0.45 of the distance to the next tip or
+    wall."""
     if grading.tip_size is None:
         return ()
     rings = []

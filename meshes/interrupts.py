@@ -1,4 +1,4 @@
-"""Ctrl-C and the signals that end a process: when they may act, and what they leave behind."""
+"""Handling of Ctrl-C and the signals that end a process."""
 
 from __future__ import annotations
 
@@ -32,10 +32,10 @@ def end_process(number: int, _frame: FrameType | None) -> None:
 
 
 def end_on_interrupt() -> None:
-    """Let Ctrl-C end the process by `end_process`; for programs, not for who imports this package.
+    """Let Ctrl-C end the process by `end_process`; for programs, not for importers of this package.
 
-    A job that a shell started with Ctrl-C ignored keeps ignoring it. One that the launcher has held back while Python
-    started arrives now.
+    A job that a shell started with Ctrl-C ignored keeps ignoring it. A signal deferred by the launcher while Python
+    started is delivered now.
     """
     if signal.getsignal(signal.SIGINT) != signal.SIG_IGN:
         signal.signal(signal.SIGINT, end_process)
@@ -65,10 +65,10 @@ def unfinished(folder: Path) -> Iterator[None]:
 
 @contextmanager
 def interrupts_deferred() -> Iterator[None]:
-    """Hold back signals whose handlers raise, Ctrl-C first of all, until the block is done.
+    """Defer signals whose handlers raise, such as Ctrl-C, to the end of the block.
 
-    An exception while gmsh or PETSc calls back into Python would leave their objects half way. What ends the process
-    is not held back.
+    An exception while gmsh or PETSc calls back into Python would leave their objects inconsistent. Signals that end the
+    process are not deferred.
     """
     if threading.current_thread() is not threading.main_thread():
         # Python delivers signals to its main thread only.

@@ -1,4 +1,5 @@
-"""What of a mesh is laid by rule before gmsh fills the rest: rings at corners, elements of curved pieces, sizes."""
+"""The structured part of a mesh, made before gmsh fills the rest: rings at corners, elements of curved pieces,
+sizes."""
 
 from __future__ import annotations
 
@@ -86,7 +87,7 @@ class Layout:
         )
 
     def check_crossings(self) -> None:
-        """Refuse lines that meet elsewhere than at common ends.
+        """Check that lines meet at common ends only.
 
         Raises:
             MeshError: naming the curves.
@@ -125,13 +126,13 @@ class Layout:
 def lay_out(
     outline: Outline, *, bulk_size: float, growth: float, ring_ratio: float, largest_turn: float
 ) -> tuple[Layout, SizeField]:
-    """Lay rings and the elements of curved pieces.
+    """Create rings and the elements of curved pieces.
 
     Returns:
-        The layout, and the size field for what is left.
+        The layout, and the size field for the rest.
 
     Raises:
-        MeshError: if a region has no room at a corner.
+        MeshError: if the angle of a region at a corner is too small.
     """
     radii = {
         corner.point: ring_radii(corner.inner, outermost_ring(outline, corner, largest_turn), ring_ratio)

@@ -1,4 +1,4 @@
-"""Meshes of a line that hangs: nodes between which waves travel for equal times, graded towards a singular end.
+"""Meshes of a hanging line: nodes at equal travel times of waves, graded towards a singular end.
 
 The square of the wave speed on 0 ≤ x ≤ 1 is linear, c² = a + bx. Waves of one frequency have equal wavelengths in the
 travel time ∫dx/c, not in x. Where c² vanishes at an end of the line the solutions are entire functions of x, but where
@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from hydroelastic.meshes.compat import cell_partitioner
 
-# By which c² changes over an element at most, unless it vanishes at one end: a polynomial of degree n on an element
+# Largest ratio of c² over an element, unless it vanishes at one end: a polynomial of degree n on an element
 # from d to 4d away from a logarithm converges like 3^{−n}.
 _GROWTH = 4.0
 
@@ -44,7 +44,7 @@ def travel_nodes(count: int, bottom: float, slope: float) -> NDArray[np.float64]
 
 
 def graded_nodes(nodes: NDArray[np.float64], bottom: float, slope: float) -> NDArray[np.float64]:
-    """Cut elements that are long beside their distance from the zero of a + bx outside the line.
+    """Divide elements that are long relative to their distance from the zero of a + bx outside the line.
 
     Args:
         nodes: coordinates from 0 to 1, increasing.
@@ -67,12 +67,12 @@ def graded_nodes(nodes: NDArray[np.float64], bottom: float, slope: float) -> NDA
 
 
 def line_mesh(comm: MPI.Comm, nodes: NDArray[np.float64], *, ghosts: bool = False) -> Mesh:
-    """Spread a line over the processes.
+    """Distribute a line over the processes.
 
     Args:
         comm: communicator.
         nodes: coordinates, increasing, the same on all processes.
-        ghosts: whether each process knows both elements of its nodes, which integrals over nodes between need.
+        ghosts: whether each process has both elements at its nodes, which integrals over inner nodes need.
 
     Returns:
         A mesh of intervals (collective).

@@ -1,4 +1,4 @@
-"""The least of many functions that grow with the distance from where they belong, without asking all of them."""
+"""The minimum of many functions that grow with the distance from their boxes, by a bounding-volume hierarchy."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import TypeAlias
 Box: TypeAlias = tuple[float, float, float, float]
 """Left, right, low, high."""
 
-# So few sources are asked one after the other: more steps into smaller boxes would take longer.
+# Number of sources below which a box is not divided further.
 _FEW = 8
 
 
@@ -20,7 +20,7 @@ class Source:
     """A function of a point that is at least its floor plus the growth times the distance from its box.
 
     Attributes:
-        box: where it belongs.
+        box: its bounding box.
         floor: see above.
         value: x, y → its value.
     """
@@ -32,7 +32,7 @@ class Source:
 
 @dataclass(frozen=True, kw_only=True)
 class Sources:
-    """Sources that may be asked for the least of their values: near ones are, of far ones only their boxes.
+    """A hierarchy of sources for the minimum of their values: only near sources are evaluated.
 
     Attributes:
         sources: all of them.
@@ -52,7 +52,7 @@ class Sources:
                 continue
             if group._halves:
                 one, other = ((half._floor(x, y), half) for half in group._halves)
-                # The last one is asked first.
+                # The last source is evaluated first.
                 waiting += (other, one) if one[0] <= other[0] else (one, other)
             else:
                 found = min(found, *(source.value(x, y) for source in group.sources))
@@ -70,7 +70,7 @@ class Sources:
 
     @cached_property
     def _halves(self) -> tuple[Sources, ...]:
-        """The sources of either half of the box; none of a few."""
+        """The sources of both halves of the box; none if there are few."""
         if len(self.sources) <= _FEW:
             return ()
         left, right, low, high, _ = self._whole

@@ -36,7 +36,7 @@ class NestedMeshes:
     """The meshes of one domain with straight boundaries.
 
     Attributes:
-        make: makes the first mesh, of straight triangles: those at a corner are its fan.
+        make: creates the first mesh, of straight triangles: those at a corner are its fan.
         corners: the corners, each with the radius of its fan, or a larger one, as the outer one; no two fans touch.
     """
 
@@ -48,8 +48,7 @@ class NestedMeshes:
 
         Args:
             halvings: how often all elements of the first mesh are halved.
-            exponents: β ≥ 1 of each corner; ``None`` leaves the mesh uniform. Whatever they are, the mesh has the same
-                triangles.
+            exponents: β ≥ 1 of each corner; ``None`` leaves the mesh uniform. The triangles do not depend on them.
 
         Raises:
             MeshError: if gmsh fails, or if cells are curved.
@@ -82,7 +81,7 @@ def rectangle_meshes(geometry: TankGeometry, *, size: float, bulk_size: float) -
         size: largest element at the top in the first mesh, in the geometry's unit of length.
         bulk_size: largest element anywhere in the first mesh.
     """
-    # No ring is to be smaller than this: there is one.
+    # A single ring.
     grading = Grading(surface_sizes=(size,) * len(geometry.segments), bulk_size=bulk_size, tip_size=inf)
     corners = tuple(
         Corner(point=(ring.centre, 0.0), inner=inf, outer=float(ring.radii[-1]))

@@ -1,4 +1,4 @@
-"""From the mesh of a basin to that of open water: frames of elongated cells around it, wider and wider outwards.
+"""Mesh of open water: the mesh of a basin, surrounded by frames of elongated cells whose width grows outwards.
 
 Every node on the sides that are extended leaves on a straight ray: sideways, downwards, upwards, and from each corner
 between two such sides also diagonally, so that the number of cells in a frame does not grow with its size.

@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 Point = tuple[float, float]
 Path = Callable[[NDArray[np.floating[Any]]], NDArray[np.floating[Any]]]
 
-# A path may miss the ends that it is said to have by this part of its extent; its nodes there are the ends.
+# Largest deviation of a path from its stated ends, relative to its extent; its nodes there are the ends.
 _PATH_ROUNDING = 1e-9
-# Points on a curved piece for measures that need no accuracy: which way a loop turns, how far curves are apart.
+# Points on a curved piece for measures that need no accuracy: orientation of loops, distances between curves.
 _COARSE = 65
 
 
@@ -30,7 +30,7 @@ class Curve:
         start: first point.
         end: last point, another than the first.
         path: points, shape (n, 2), at parameters 0 … 1, shape (n,), from the start to the end; ``None`` is straight.
-        size: largest element on the curve; elements grow with the distance from it. Infinite asks for nothing.
+        size: largest element on the curve; elements grow with the distance from it. Infinite sets no limit.
         cut: whether the regions on both sides have nodes of their own on it.
     """
 
@@ -115,7 +115,7 @@ class Outline:
     corners: tuple[Corner, ...] = ()
 
     def __post_init__(self) -> None:
-        """Refuse what is not a planar domain cut into regions."""
+        """Check that it is a planar domain divided into regions."""
         for number, curve in enumerate(self.curves):
             _check_curve(number, curve)
         for region in self.regions:
@@ -161,7 +161,7 @@ class Outline:
         )
 
     def clockwise(self, region: Region) -> Iterator[tuple[int, bool]]:
-        """The region's loop passed the other way."""
+        """The region's loop in reverse."""
         return ((number, not forward) for number, forward in reversed(region.loop))
 
     def _check_loop(self, region: Region) -> None:
@@ -192,7 +192,7 @@ def as_points(points: NDArray[np.float64]) -> list[Point]:
 
 def enclosed_area(points: NDArray[np.float64]) -> float:
     """Area within a closed polygon, positive if it turns counterclockwise."""
-    # Relative to one of its points, lest far-away polygons lose digits.
+    # Relative to one of its points, to avoid cancellation in polygons far from the origin.
     x, y = (points - points[0]).T
     return 0.5 * float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
 

@@ -1,4 +1,4 @@
-"""Rings of triangles around corners, laid by rule: radii that shrink by one ratio, sectors of at most 60 degrees.
+"""Structured rings of triangles around corners: radii in geometric progression, sectors of at most 60 degrees.
 
 ψ is singular at corners of the liquid: r ln r at the end of a floating beam, r^{1/2} where ψ = 0 on the water, r^{π/ω}
 at a corner of angle ω of a rigid body. Rings whose radii shrink by a constant ratio towards the corner, with a high
@@ -17,7 +17,7 @@ from hydroelastic.meshes.tagged_mesh import MeshError
 
 # A half disc is cut into three sectors of 60 degrees: the innermost triangles are equilateral.
 _WIDEST_SECTOR = pi / 3.0
-# Narrower wedges between two curves are taken for a mistake: their triangles would be needles.
+# Narrower wedges between two curves are refused: their triangles would degenerate.
 _NARROWEST_WEDGE = pi / 180.0
 
 
@@ -72,9 +72,9 @@ def wedge_nodes(
         Nodes ring after ring from the inside, clockwise from the incoming to the outgoing curve.
 
     Raises:
-        MeshError: if the region has no room between the two curves.
+        MeshError: if the angle between the two curves is too small.
     """
-    # In (0, 2π]: both sides of a slit enclose the full angle.
+    # In (0, 2π]: at the tip of a slit the liquid has the full angle.
     openings = 2.0 * pi - np.mod(outgoing.angles - incoming.angles, 2.0 * pi)
     if openings.min() < _NARROWEST_WEDGE or np.ptp(openings) > pi:
         x, y = corner

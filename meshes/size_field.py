@@ -1,4 +1,4 @@
-"""Element size wanted at a point: that of the sources of fineness, growing with the distance from each."""
+"""Element size wanted at a point: those of the sources, growing with the distance from each."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from hydroelastic.meshes.nearest import Source, Sources
 from hydroelastic.meshes.outline import Curve, Point, as_points
 
-# So many discs are asked at once: NumPy takes about as long for one.
+# Number of discs evaluated at once: NumPy takes about as long for one.
 _TOGETHER = 64
 
 
@@ -81,7 +81,7 @@ class SizeField:
 
 
 def _straight_source(curve: Curve, growth: float) -> Source:
-    """A straight curve with a size, in its own directions: along it and across."""
+    """A straight curve with a size, in coordinates along it and across."""
     (x, y), (end_x, end_y), size_there = curve.start, curve.end, curve.size
     length = hypot(end_x - x, end_y - y)
     along_x, along_y = (end_x - x) / length, (end_y - y) / length
@@ -109,8 +109,8 @@ def _ring_source(centre: Point, radius: float, growth: float) -> Source:
 
 
 def _bent_source(discs: Discs, growth: float) -> Source:
-    """Some discs at once."""
-    # gmsh asks for one point after the other, thousands of times: complex numbers take the fewest steps.
+    """A set of discs evaluated at once."""
+    # gmsh evaluates thousands of points one by one: complex numbers are fastest.
     centres = discs.centres @ [1.0, 1.0j]
     sizes, offsets = discs.sizes, discs.sizes - growth * discs.radii
 

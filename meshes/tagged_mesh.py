@@ -1,4 +1,4 @@
-"""A triangulated domain as plain arrays: what gmsh makes, what meshio reads and writes, what dolfinx is given."""
+"""A triangulated domain as plain arrays, independent of gmsh, meshio and dolfinx."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 
 class MeshError(ValueError):
-    """A mesh that cannot be read, or that lacks what its user promised."""
+    """A mesh that cannot be read, or that does not have the required groups."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,7 +31,7 @@ class CurvedCells:
 
 @dataclass(frozen=True, kw_only=True)
 class Deviation:
-    """How far the edges of a mesh are at most from the curves that they stand for, measured between their nodes.
+    """Largest deviation of the edges of a mesh from the curves that they approximate, measured between their nodes.
 
     Attributes:
         distance: in units of length.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -11,6 +12,9 @@ from typing import Literal, Self
 import numpy as np
 
 from hydroelastic.physics.arrays import FloatArray
+from hydroelastic.physics.beam_parts import Joint, Section
+from hydroelastic.physics.bodies import Body
+from hydroelastic.physics.dofs import Dof
 from hydroelastic.physics.motions import Level
 from hydroelastic.physics.scales import Scales
 
@@ -18,38 +22,12 @@ SAME_PLACE = 1e-9
 """Places closer than this part of the beam's length are one: decimal input is not exact."""
 
 _ALIKE = 1e-12
+# α where the slope of a beam jumps, and where its curvature does.
+_KINK, _STEP = 2.0, 3.0
 
 
 @dataclass(frozen=True, kw_only=True)
-class Section:
-    """A uniform part of a beam, per metre of width.
-
-    Attributes:
-        length: its length, m.
-        flexural_rigidity: EI, N·m.
-        mass_per_length: m, kg/m².
-    """
-
-    length: float
-    flexural_rigidity: float
-    mass_per_length: float
-
-
-@dataclass(frozen=True, kw_only=True)
-class Joint:
-    """A place at which the slope may jump: k (w′(x+) − w′(x−)) = EI w″(x).
-
-    Attributes:
-        at: distance from the beam's left end, m.
-        rotational_stiffness: k per metre of width, N·m/rad; 0 is a hinge.
-    """
-
-    at: float
-    rotational_stiffness: float
-
-
-@dataclass(frozen=True, kw_only=True)
-class Beam:
+class Beam(Body):
     """A beam without draught; its sections are welded to each other where there is no joint.
 
     Attributes:
@@ -64,6 +42,7 @@ class Beam:
         ValueError: if a number is not positive and finite, or a joint lies at an end, outside, or upon another.
     """
 
+    is_elastic = True
     sections: tuple[Section, ...]
     joints: tuple[Joint, ...] = ()
     start: float = 0.0
@@ -72,7 +51,7 @@ class Beam:
     ends: Literal["free", "guided"] = "free"
 
     def __post_init__(self) -> None:
-        """Refuse what is no beam."""
+        """Check the numbers and the places of the joints."""
         values = (value for part in self.sections for value in vars(part).values())
         if not self.sections or not all(isfinite(value) and value > 0.0 for value in values):
             raise ValueError("a beam needs sections with positive lengths, flexural rigidities and masses")
@@ -93,13 +72,51 @@ class Beam:
         return self.start + self.length
 
     @property
+    def waterplane(self) -> tuple[float, float]:
+        """x of its ends, m."""
+        return self.start, self.end
+
+    @property
+    def rigid_motions(self) -> tuple[Dof, ...]:
+        """Heave, pitch of free ends, and one motion for each hinge."""
+        rigid = ("heave",) if self.ends == "guided" else ("heave", "pitch")
+        return (*map(Dof, rigid), *(Dof.hinge(number + 1) for number in range(len(self.hinges))))
+
+    def zero_stiffness_motions(self) -> Iterator[tuple[Dof, bool]]:
+        """A free beam without hydrostatics heaves, pitches and turns about its hinges without energy."""
+        if not self.hydrostatic and self.ends == "free":
+            yield from ((motion, motion == "heave") for motion in self.rigid_motions)
+
+    @property
+    def displaces_volume(self) -> bool:
+        """Whether one of its motions displaces a net volume: heave does."""
+        return True
+
+    @property
+    def nodes(self) -> dict[float, float]:
+        """Steps and joints: where the slope jumps ψ has a term r² ln r, and r³ ln r where the curvature does."""
+        kinks = {self.node_of(joint) for joint in self.joints}
+        inner = range(1, len(self.edges) - 1)
+        return {self.edges[number]: _KINK if number in kinks else _STEP for number in inner}
+
+    @property
+    def flexural_sections(self) -> tuple[Section, ...]:
+        """Its sections."""
+        return self.sections
+
+    @property
+    def is_restored(self) -> bool:
+        """Whether the hydrostatic restoring acts on it."""
+        return self.hydrostatic
+
+    @property
     def is_uniform(self) -> bool:
         """Whether it has one section and no joints."""
         return len(self.sections) == 1 and not self.joints
 
     @property
     def flexural_rigidity(self) -> float:
-        """EI of the uniform beam as flexible on the whole, l/EI = Σ lᵢ/EIᵢ, N·m per metre of width."""
+        """EI of the uniform beam of the same mean flexibility, l/EI = Σ lᵢ/EIᵢ, N·m per metre of width."""
         if len(self.sections) == 1:
             return self.sections[0].flexural_rigidity
         return self.length / fsum(part.length / part.flexural_rigidity for part in self.sections)
@@ -112,8 +129,8 @@ class Beam:
         return fsum(part.length * part.mass_per_length for part in self.sections) / self.length
 
     @property
-    def has_even_mass(self) -> bool:
-        """Whether its mass per length is the same everywhere."""
+    def has_uniform_mass(self) -> bool:
+        """Whether its mass per length is uniform."""
         return len({part.mass_per_length for part in self.sections}) == 1
 
     def moved(self, shift: float) -> Self:
@@ -122,7 +139,7 @@ class Beam:
 
     def scaled(self, units: Scales, start: float, end: float) -> Self:
         """Return the beam in other units, between given ends in these units."""
-        # One section fills the whole length to the last digit.
+        # One section has exactly the whole length.
         stretch = (end - start) / self.length
         only = end - start if len(self.sections) == 1 else None
         return replace(
@@ -145,15 +162,15 @@ class Beam:
             ),
         )
 
-    def mirrors(self, other: object) -> bool:
-        """Whether it is the mirror image of another body, wherever both float, but for rounding."""
+    def is_mirror_image_of(self, other: object) -> bool:
+        """Whether it is the mirror image of another body up to rounding, wherever both float."""
         return (
             isinstance(other, Beam)
             and (self.hydrostatic, self.ends) == (other.hydrostatic, other.ends)
-            and alike(self, other.reversed)
+            and same_beam(self, other.reversed)
         )
 
-    def with_even_mass(self) -> Self:
+    def with_uniform_mass(self) -> Self:
         """Return the beam with a mass per length of 1 everywhere, and its left end at the origin."""
         return replace(self, start=0.0, sections=tuple(replace(part, mass_per_length=1.0) for part in self.sections))
 
@@ -189,11 +206,11 @@ class Beam:
         return tuple(parts)
 
     def rigidity_of(self, span: int, fractions: FloatArray) -> FloatArray:
-        """EI at fractions of the length of a span, N·m, in their shape."""
+        """EI, N·m, at fractions of the length of a span; in the shape of `fractions`."""
         return np.full_like(fractions, self.spans[span].flexural_rigidity)
 
     def mass_of(self, span: int, fractions: FloatArray) -> FloatArray:
-        """m at fractions of the length of a span, kg/m², in their shape."""
+        """m, kg/m², at fractions of the length of a span; in the shape of `fractions`."""
         return np.full_like(fractions, self.spans[span].mass_per_length)
 
     def node_of(self, joint: Joint) -> int:
@@ -211,12 +228,12 @@ class Beam:
 
     @cached_property
     def is_mirror_image(self) -> bool:
-        """Whether it is its own mirror image, but for rounding."""
-        return self.mirrors(self)
+        """Whether it is its own mirror image up to rounding."""
+        return self.is_mirror_image_of(self)
 
 
-def alike(one: Beam, other: Beam) -> bool:
-    """Whether two beams are equal, wherever they float, but for rounding."""
+def same_beam(one: Beam, other: Beam) -> bool:
+    """Whether two beams are equal up to rounding, wherever they float."""
     numbers, others = _numbers(one), _numbers(other)
     return len(numbers) == len(others) and all(
         abs(a - b) <= _ALIKE * max(abs(a), abs(b), scale) for (a, scale), (b, _) in zip(numbers, others, strict=True)
@@ -224,7 +241,7 @@ def alike(one: Beam, other: Beam) -> bool:
 
 
 def _numbers(beam: Beam) -> list[tuple[float, float]]:
-    """All that describes a beam, each number with the size beside which it may be rounding."""
+    """The numbers that describe a beam, each with the magnitude that its rounding is relative to."""
     spans = [
         number
         for part in beam.spans
@@ -234,8 +251,8 @@ def _numbers(beam: Beam) -> list[tuple[float, float]]:
     return [*spans, *joints, (float(len(beam.joints)), 0.0)]
 
 
-def comes_first(beam: Beam) -> bool:
-    """Whether of a beam and its reverse this is the one in whose direction shapes are computed.
+def defines_shape_direction(beam: Beam) -> bool:
+    """Whether shapes are computed in the direction of this beam, and not in that of its reverse.
 
     Twins then have shapes that are mirror images of each other, with their signs.
     """

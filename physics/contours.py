@@ -25,7 +25,7 @@ CORNER = 1e-6
 
 # Enough for the profiles' elementary functions to the last digits, and for any polynomial up to degree 79.
 _GAUSS_POINTS, _GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(40)
-# How many steps of each smooth stretch are looked at for turning points.
+# Number of intervals of each smooth stretch in which turning points are sought.
 _STEPS = 64
 
 

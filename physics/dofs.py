@@ -1,4 +1,4 @@
-"""Degrees of freedom of bodies: their names, and what follows from these."""
+"""Degrees of freedom of bodies: names, units and kinds."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Dof(str):
         return cls(f"hinge {number}")
 
     def of_body(self, number: int) -> Dof:
-        """The same of one of several bodies, counted from 1."""
+        """The same degree of freedom of one of several bodies, counted from 1."""
         return Dof(f"{body_name(number)}{_JOINT}{self}")
 
     @property
@@ -42,16 +42,16 @@ class Dof(str):
 
     @property
     def kind(self) -> str:
-        """What it is, whatever its number: "heave", "elastic" …"""
+        """The name without a number: "heave", "elastic" …"""
         return self.motion.split()[0]
 
     @property
     def is_elastic(self) -> bool:
-        """Whether it bends the body."""
+        """Whether it is a bending mode."""
         return self.kind == "elastic"
 
     @property
-    def turns(self) -> bool:
+    def is_rotation(self) -> bool:
         """Whether it is an angle, rad, and not a length, m: the pitch of a beam is the deflection of its ends."""
         return self.kind == "roll"
 
@@ -63,7 +63,7 @@ class Dof(str):
 
     @property
     def words(self) -> str:
-        """The name as a person reads it: "body 2 heave"."""
+        """The name in words: "body 2 heave"."""
         return self.replace(_JOINT, " ").replace("_", " ")
 
 

@@ -1,4 +1,4 @@
-"""A rigid section at rest at a still level: where it floats, by Archimedes, and what restores it."""
+"""A rigid section at rest at a still level: its equilibrium by Archimedes' law, and its hydrostatic stiffness."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class Hydrostatics:
         heave_stiffness: c33 = Δρ g B, N/m².
         coupling_stiffness: c35 = c53 = Δρ g ∫(x − x_G) dx over the waterplane, N/m.
         roll_stiffness: c55 = Δρ g ∫(x − x_G)² dx + g Σ ρⱼ Aⱼ (y_Bⱼ − y_G), N.
-        free_roll_stiffness: c55 − c35²/c33, the stiffness of a roll that heave follows without force, N.
+        free_roll_stiffness: c55 − c35²/c33, the stiffness of roll with free heave, N.
     """
 
     mass: float

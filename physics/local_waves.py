@@ -1,4 +1,4 @@
-"""How short the waves are that modes carry: wavenumbers and mode counts from local dispersion.
+"""Wavenumbers and mode counts from the local dispersion relation.
 
 In a piece of a still level of length s, waves of wavenumber k(ω) fit about k s/π times. Summed over the pieces this
 counts the modes below ω well enough to choose a mesh; the a-posteriori estimate then judges the choice.
@@ -11,10 +11,10 @@ from math import pi, tanh
 
 from scipy.optimize import brentq
 
-from hydroelastic.physics.beams import Section
+from hydroelastic.physics.beam_parts import Section
 from hydroelastic.physics.tank import Piece, StillLevel, Tank
 
-_WIDEST = 1e12  # dimensionless wavenumbers beyond this are nobody's
+_WIDEST = 1e12  # Upper bound of dimensionless wavenumbers.
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -24,9 +24,9 @@ class LevelPiece:
     Attributes:
         length: its length.
         beam: the section of a beam that floats there; ``None`` is a surface of the liquids.
-        jump: ρ below less ρ above it, which restores it.
-        restored: whether it restores a beam too.
-        layers: density and depth of each layer that moves with it.
+        jump: ρ below less ρ above it, the hydrostatic restoring.
+        restored: whether the hydrostatic restoring acts on the beam too.
+        layers: density and depth of each adjoining layer.
     """
 
     length: float
@@ -44,8 +44,8 @@ class LevelPiece:
         return stiffness / (self.beam.mass_per_length + liquid)
 
     def wavenumber(self, squared_frequency: float) -> float:
-        """The k of a wave at λ; zero where even the longest wave is faster."""
-        # Below a millionth of a wave in the tank nothing travels.
+        """The wavenumber k at λ; zero where even the longest wave has a larger λ."""
+        # Waves longer than a million tank lengths are left out.
         shortest = 1e-6
         if self.squared_frequency(shortest) >= squared_frequency:
             return 0.0
@@ -58,42 +58,42 @@ class LevelPiece:
 
 
 def moving_pieces(tank: Tank) -> tuple[LevelPiece, ...]:
-    """How waves travel on the still levels of a tank, from the bottom up and from left to right."""
+    """The pieces of the still levels that carry waves, from the bottom up and from left to right."""
     return tuple(
         moving for level in tank.levels for piece in level.pieces for moving in moving_parts(tank, level, piece)
     )
 
 
 def moving_parts(tank: Tank, level: StillLevel, piece: Piece) -> tuple[LevelPiece, ...]:
-    """How waves travel on a piece of a level, on each section of a beam; none where none do."""
+    """The parts of a piece of a level that carry waves, one for each section of a beam; empty where there are none."""
     layers = _layers_at(tank, level)
-    if piece.body in tank.beams:
-        beam = tank.beams[piece.body]
+    if piece.body is not None:
+        body = tank.bodies[piece.body]
         return tuple(
-            LevelPiece(length=part.length, beam=part, jump=level.jump, restored=beam.hydrostatic, layers=layers)
-            for part in beam.sections
+            LevelPiece(length=part.length, beam=part, jump=level.jump, restored=body.is_restored, layers=layers)
+            for part in body.flexural_sections
         )
-    if piece.body is not None or not level.moves:
+    if not level.moves:
         return ()
     return (LevelPiece(length=piece.length, beam=None, jump=level.jump, restored=True, layers=layers),)
 
 
 def _layers_at(tank: Tank, level: StillLevel) -> tuple[tuple[float, float], ...]:
-    """Density and depth of the layers that move with a level; at a top over two of them, as if they were one."""
+    """Density and depth of the layers at a level; at a free surface above two layers these count as one."""
     if level.above is None:
         return ((tank.layers[-1].density, sum(layer.depth for layer in tank.layers)),)
     return tuple((tank.layers[number].density, tank.layers[number].depth) for number in (level.below, level.above))
 
 
 def modes_below(pieces: tuple[LevelPiece, ...], squared_frequency: float) -> float:
-    """About how many modes lie below λ."""
+    """Approximate number of modes below λ."""
     return sum(piece.wavenumber(squared_frequency) * piece.length / pi for piece in pieces)
 
 
 def squared_frequency_of_mode(pieces: tuple[LevelPiece, ...], number: int) -> float:
-    """About the λ of a mode, counted from 1; an overestimate by a mode or so."""
+    """Approximate λ of a mode, counted from 1; an overestimate by about one mode."""
     low, high = 1e-12, 1.0
-    # End effects hold modes back.
+    # End effects shift modes upwards.
     wanted = number + 1
     while modes_below(pieces, high) < wanted:
         high *= 4.0

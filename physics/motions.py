@@ -1,4 +1,4 @@
-"""Where a body floats, and in what ways a rigid one may move."""
+"""Levels at which bodies float, and the motions of rigid bodies."""
 
 from __future__ import annotations
 

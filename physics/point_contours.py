@@ -22,7 +22,7 @@ MOST_UNEVEN = 4.0
 """Ratio of neighbouring steps from point to point that a spline may join: a much longer one is rather a straight side,
 which the spline would bend."""
 
-# Parts of a smooth piece between two points that are looked at as straight, to see whether a contour crosses itself.
+# Straight parts into which a smooth piece between two points is divided to test whether a contour crosses itself.
 _PARTS = 4
 # Areas below this part of the square of the contour's size are rounding.
 _ROUND_OFF = 1e-12

@@ -63,7 +63,7 @@ class Profile:
     tail: float = 0.0
 
     def __post_init__(self) -> None:
-        """Refuse what is no section."""
+        """Check the ranges."""
         if self.shape not in get_args(FloatShape):
             raise ValueError(f"shape is {self.shape!r}; known are {', '.join(get_args(FloatShape))}")
         for name in ("half_width", "half_height"):

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, kw_only=True)
 class Ship:
-    """What the roll of a ship depends on.
+    """Parameters of the roll of a ship.
 
     Attributes:
         natural_frequency: k, rad/s, without damping.
@@ -24,7 +24,7 @@ class Ship:
     quadratic_damping: float = 0.0
 
     def __post_init__(self) -> None:
-        """Refuse what no ship can have."""
+        """Check the ranges."""
         if not (math.isfinite(self.natural_frequency) and self.natural_frequency > 0):
             raise ValueError(f"natural_frequency is {self.natural_frequency}; it must be finite and positive")
         for name in ("damping", "quadratic_damping"):

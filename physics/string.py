@@ -42,7 +42,7 @@ class HangingString:
     tip_displaced_mass: float = 0.0
 
     def __post_init__(self) -> None:
-        """Refuse what does not hang under tension."""
+        """Check the ranges and the tension."""
         for name in ("length", "linear_density", "gravity"):
             _require(name, getattr(self, name), positive=True)
         for name in ("tip_mass", "added_mass", "displaced_mass", "tip_displaced_mass"):
@@ -114,7 +114,7 @@ class HangingString:
         return np.asarray(2.0 * sqrt(self.inertia) * positions / (sqrt(bottom) + np.sqrt(bottom + slope * positions)))
 
     def arrival_times(self, positions: ArrayLike) -> NDArray[np.float64]:
-        """Return R − s(x), s: what sets out from the upper end at t = 0 first passes the positions x, m, then."""
+        """Return R − s(x), s: first arrival, at the positions x, m, of a wave that leaves the upper end at t = 0."""
         return self.travel_time - self.travel_times(positions)
 
     def front_distance(self, positions: NDArray[np.float64], times: NDArray[np.float64]) -> NDArray[np.float64]:

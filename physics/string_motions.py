@@ -54,7 +54,7 @@ class _Values:
 
 class _Endless(_Values):
     def __post_init__(self) -> None:
-        """Refuse parameters that are no numbers."""
+        """Check that the parameters are finite."""
         for parameter in fields(self):  # type: ignore[arg-type]
             value = getattr(self, parameter.name)
             if not math.isfinite(value):
@@ -62,7 +62,7 @@ class _Endless(_Values):
 
     @property
     def end(self) -> float:
-        """Infinity: the motion is known for ever."""
+        """Infinity: the motion is known at all times."""
         return math.inf
 
 
@@ -137,7 +137,7 @@ class Smooth(_Endless):
     rate: float
 
     def __post_init__(self) -> None:
-        """Refuse what does not approach a rest."""
+        """Check that the rate is positive."""
         super().__post_init__()
         if self.rate <= 0:
             raise ValueError(f"rate is {self.rate}: it must be positive")
@@ -170,7 +170,7 @@ class TabulatedMotion(_Values):
 def tabulated(
     times: ArrayLike, values: ArrayLike, interpolation: Literal["linear", "cubic"] = "linear"
 ) -> TabulatedMotion:
-    """Return the motion that goes through a table.
+    """Return the motion that interpolates a table.
 
     Args:
         times: s, rising from 0, shape (rows,), at least 2.
@@ -268,7 +268,7 @@ def _sample(
     values = evaluate(times)
     while True:
         spline, spans = CubicSpline(times, values), np.diff(times)
-        # Thirds and halves: a deviation that vanishes at one of them does not at the others.
+        # Compared at thirds and halves: a deviation may vanish at one of them by chance.
         checks = np.asarray(times[:-1] + spans * np.array([[1 / 3], [1 / 2], [2 / 3]]), dtype=float)
         found = evaluate(checks)
         coarse = (np.abs(found - spline(checks)) > tolerance).any(axis=0)

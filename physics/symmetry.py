@@ -1,7 +1,7 @@
 """Tanks that are their own mirror image: modes are symmetric or antisymmetric, and half a tank holds either kind.
 
-On the mirror plane symmetric modes have ∂ψ/∂x = 0 and antisymmetric ones ψ = 0. Half the unknowns are solved for
-twice, and modes that nearly coincide by symmetry can no longer be confused.
+On the mirror plane symmetric modes have ∂ψ/∂x = 0 and antisymmetric ones ψ = 0. Two problems of half the size are
+solved, and nearly equal frequencies of different symmetry are separated.
 """
 
 from __future__ import annotations
@@ -30,12 +30,15 @@ def is_mirror_image(tank: Tank) -> bool:
 def _mirrored(tank: Tank, piece: Piece, image: Piece) -> bool:
     """Whether on both pieces bodies lie that are each other's mirror image."""
     return (
-        piece.body is not None and image.body is not None and tank.bodies[piece.body].mirrors(tank.bodies[image.body])
+        piece.body is not None
+        and image.body is not None
+        and tank.bodies[piece.body].is_mirror_image_of(tank.bodies[image.body])
     )
 
 
 def twin_of(tank: Tank, body: int) -> int:
-    """The body that is the mirror image of one of a symmetric tank's: itself where the mirror plane cuts it."""
+    """The body that is the mirror image of one of a symmetric tank's: the body itself where the mirror plane cuts
+    it."""
     bodies = [piece.body for piece in tank.level_of(body).pieces if piece.body is not None]
     return bodies[-1 - bodies.index(body)]
 

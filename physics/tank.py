@@ -1,4 +1,4 @@
-"""A tank, or open water: its liquids, their still levels cut into pieces, and what floats there."""
+"""A tank, or open water: its liquids, their still levels divided into pieces, and the floating bodies."""
 
 from __future__ import annotations
 
@@ -9,12 +9,14 @@ from math import inf
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from hydroelastic.physics.beams import Beam
+from hydroelastic.physics.bodies import Body
 from hydroelastic.physics.motions import Level
 from hydroelastic.physics.scales import Scales
 
 if TYPE_CHECKING:
-    # Contours need SciPy's root finders, which take a while to import, and most tanks have no float.
+    # Contours need SciPy's root finders, whose import is slow, and most tanks have no float.
     from hydroelastic.physics.floats import RigidFloat
+    from hydroelastic.physics.hulls import Hull
 
 Top: TypeAlias = Literal["free", "rigid", "pressure_release"]
 
@@ -26,9 +28,6 @@ MIDDLE = 0.5
 
 ROUNDING = 1e-14
 """Lengths that decimal input means to be equal differ by a few units of the last place."""
-
-# α where the slope of a beam jumps, and where its curvature does.
-_KINK, _STEP = 2.0, 3.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,7 +52,7 @@ class Layer:
 
 @dataclass(frozen=True, kw_only=True)
 class Piece:
-    """A piece of a still level from left to right: a body's, or what lies beside the bodies.
+    """A piece of a still level from left to right: a body's, or open surface.
 
     Attributes:
         start: its left end, m.
@@ -79,7 +78,7 @@ class StillLevel:
         height: its ordinate.
         below: index of the layer below.
         above: index of the layer above, ``None`` at the top.
-        kind: what it is beside the bodies: "interface", or the condition of the top.
+        kind: "interface", or the boundary condition of the top.
         jump: ρ below less ρ above, kg/m³.
         pieces: from left to right.
     """
@@ -107,23 +106,23 @@ class StillLevel:
 
     @property
     def name(self) -> Level:
-        """What bodies call it."""
+        """Its name in the attribute `level` of bodies."""
         return "surface" if self.above is None else "interface"
 
     @property
     def moves(self) -> bool:
-        """Whether waves travel on it beside the bodies."""
+        """Whether its open part carries waves."""
         return self.kind in ("free", "interface")
 
     @property
     def is_open(self) -> bool:
-        """Whether there is something beside the bodies."""
+        """Whether the bodies leave part of it open."""
         return any(piece.body is None for piece in self.pieces)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Tank:
-    """Liquids at rest with what floats on them, per metre of width; in SI units, or in those of `scaled`.
+    """Liquids at rest with floating bodies, per metre of width; in SI units, or in those of `scaled`.
 
     Attributes:
         length: between the walls, or of the stretch of open water that is of interest, m.
@@ -139,7 +138,7 @@ class Tank:
     is_open: bool
     layers: tuple[Layer, ...]
     levels: tuple[StillLevel, ...]
-    bodies: tuple[Beam | RigidFloat, ...]
+    bodies: tuple[Body, ...]
 
     @property
     def units(self) -> Scales:
@@ -172,34 +171,54 @@ class Tank:
 
     @property
     def depth(self) -> float:
-        """Depth of the thinnest layer: rounding grows in it, and cells follow it."""
+        """Depth of the thinnest layer, which determines rounding errors and the size of cells."""
         return min(layer.depth for layer in self.layers)
 
     @property
     def top(self) -> Top:
-        """What lies on the uppermost layer beside the bodies."""
+        """Boundary condition of the uppermost layer beside the bodies."""
         kind = self.levels[-1].kind
         assert kind != "interface"
         return kind
 
     @cached_property
+    def elastic(self) -> tuple[int, ...]:
+        """Indices of the bodies that bend."""
+        return tuple(index for index, body in enumerate(self.bodies) if body.is_elastic)
+
+    @cached_property
+    def rigid(self) -> tuple[int, ...]:
+        """Indices of the bodies that do not bend."""
+        return tuple(index for index, body in enumerate(self.bodies) if not body.is_elastic)
+
+    @cached_property
     def beams(self) -> dict[int, Beam]:
-        """The beams by their index among the bodies."""
+        """The beams, for theories of beams alone, by their index among the bodies."""
         return {index: body for index, body in enumerate(self.bodies) if isinstance(body, Beam)}
 
     @cached_property
     def floats(self) -> dict[int, RigidFloat]:
-        """The floats by their index among the bodies."""
-        return {index: body for index, body in enumerate(self.bodies) if not isinstance(body, Beam)}
+        """The rigid floats, for theories of floats alone, by their index among the bodies."""
+        if not self.hulls:
+            return {}
+        from hydroelastic.physics.floats import RigidFloat
+
+        return {index: body for index, body in enumerate(self.bodies) if isinstance(body, RigidFloat)}
+
+    @cached_property
+    def hulls(self) -> dict[int, Hull]:
+        """The hulls of bodies with draught, by their index among the bodies."""
+        return {index: body.hull for index, body in enumerate(self.bodies) if body.hull is not None}
 
     @property
     def has_high_frequency_limit(self) -> bool:
-        """Whether there is something that moves freely far above the waves: open water, or an interface."""
+        """Whether bodies have an infinite-frequency added mass: beside an open top that is not a lid, or with two
+        liquids."""
         return len(self.layers) > 1 or (self.top != "rigid" and self.levels[-1].is_open)
 
     @property
     def moves_as_one(self) -> bool:
-        """Whether two liquids meet beside the bodies, and so move as one far above the waves."""
+        """Whether there is open interface beside the bodies, across which ρψ is continuous at infinite frequency."""
         return len(self.layers) > 1 and self.levels[0].is_open
 
     @property
@@ -211,6 +230,10 @@ class Tank:
     def pieces(self) -> tuple[Piece, ...]:
         """The pieces of all levels, from the bottom up and from left to right."""
         return tuple(piece for level in self.levels for piece in level.pieces)
+
+    def density_at(self, level: StillLevel) -> float:
+        """ρ of the liquids that meet at a still level together."""
+        return sum(self.layers[layer].density for layer in (level.below, level.above) if layer is not None)
 
     def level_of(self, body: int) -> StillLevel:
         """The level at which a body floats."""
@@ -226,19 +249,9 @@ class Tank:
         return {piece.body: (level, piece) for level in self.levels for piece in level.pieces if piece.body is not None}
 
     def nodes_of(self, body: int) -> dict[float, float]:
-        """Abscissae of the steps and joints of a beam, with α of ψ ~ r^α there; none of other bodies.
-
-        Where the slope of a beam jumps, ψ has a term r² ln r, and r³ ln r where its curvature does.
-        """
-        if body not in self.beams or self.beams[body].is_uniform:
-            return {}
-        beam, start = self.beams[body], self.piece_of(body).start
-        joints = {beam.node_of(joint) for joint in beam.joints}
-        return {
-            _snapped(start + edge): _KINK if number in joints else _STEP
-            for number, edge in enumerate(beam.edges)
-            if 0 < number < len(beam.edges) - 1
-        }
+        """Abscissae at which the slope or curvature of a body jumps, with α of ψ ~ r^α there."""
+        start = self.piece_of(body).start
+        return {_snapped(start + place): exponent for place, exponent in self.bodies[body].nodes.items()}
 
 
 def density_jump(layers: tuple[Layer, ...], below: int) -> float:
@@ -253,7 +266,7 @@ def tank(
     is_open: bool,
     liquids: tuple[tuple[float, float], ...],
     top: Top,
-    bodies: tuple[Beam | RigidFloat, ...],
+    bodies: tuple[Body, ...],
 ) -> Tank:
     """Cut the still levels of a tank into pieces.
 
@@ -262,7 +275,7 @@ def tank(
         gravity: m/s².
         is_open: whether waves leave to both sides.
         liquids: density, kg/m³, and depth, m, from the bottom up; the second lies on y = 0.
-        top: what lies on the uppermost liquid beside the bodies.
+        top: boundary condition of the uppermost liquid beside the bodies.
         bodies: in any order, each at its level, without overlap.
     """
     floors = [-liquids[0][1], 0.0]
@@ -287,10 +300,10 @@ def tank(
     return Tank(length=length, gravity=gravity, is_open=is_open, layers=layers, levels=tuple(levels), bodies=bodies)
 
 
-def _pieces(bodies: tuple[Beam | RigidFloat, ...], name: Level, length: float, *, is_open: bool) -> Iterator[Piece]:
+def _pieces(bodies: tuple[Body, ...], name: Level, length: float, *, is_open: bool) -> Iterator[Piece]:
     """A still level from wall to wall, or from −∞ to ∞ in open water, without gaps.
 
-    A beam whose end is within `ROUND_OFF` of a wall ends exactly there. A float takes up its waterplane.
+    A body takes up its waterplane. One whose end is within `ROUND_OFF` of a wall ends exactly there.
     """
     left, right = (-inf, inf) if is_open else (0.0, length)
     negligible = 0.0 if is_open else ROUND_OFF * length
@@ -298,11 +311,9 @@ def _pieces(bodies: tuple[Beam | RigidFloat, ...], name: Level, length: float, *
     for index, body in enumerate(bodies):
         if body.level != name:
             continue
-        if not isinstance(body, Beam):
-            places.append((*body.waterplane, index))
-            continue
-        start = body.start if is_open or body.start > negligible else 0.0
-        places.append((start, body.end if is_open or body.end < length - negligible else length, index))
+        start, end = body.waterplane
+        start = start if is_open or start > negligible else 0.0
+        places.append((start, end if is_open or end < length - negligible else length, index))
     reached = left
     for start, end, index in sorted(places):
         if start > reached:
@@ -314,5 +325,5 @@ def _pieces(bodies: tuple[Beam | RigidFloat, ...], name: Level, length: float, *
 
 
 def _snapped(x: float) -> float:
-    """The middle of the tank for what lies there but for rounding: a mirror plane must not miss a thin float."""
+    """The middle of the tank for points within rounding of it: a thin float must lie on the mirror plane exactly."""
     return MIDDLE if abs(x - MIDDLE) <= ROUNDING else x

@@ -206,7 +206,7 @@ class Thread:
             stream=self.stream,
         )
 
-    def in_stream_times(self, factor: float) -> Thread:
+    def with_stream_factor(self, factor: float) -> Thread:
         """Return the thread with the velocities of its stream multiplied by a factor, 0 for a liquid at rest."""
         if self.stream is None or factor == 1.0:
             return self

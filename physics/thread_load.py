@@ -81,7 +81,7 @@ class ThreadLoad:
         return by_stream @ self.stream.gradient_at(np.asarray(points, dtype=float))
 
     def load_by_tangent(self, points: ArrayLike, tangents: ArrayLike) -> FloatArray:
-        """Return ∂q/∂τ at fixed r, of the formula of q, for any change of τ; that of a unit vector is τ's P dτ.
+        """Return ∂q/∂τ at fixed r from the formula of q, for arbitrary dτ; a unit vector changes by P dτ.
 
         q_τ = −(kₙ D(uₙ) + νₙ I)(τuᵀ + uₜ I) + kₜ(2|uₜ| τuᵀ + |uₜ|uₜ I).
 

@@ -16,13 +16,13 @@ from hydroelastic.physics.scales import Scales
 AlongBeam: TypeAlias = Callable[[FloatArray], FloatArray]
 """A property of a beam at distances from its left end."""
 
-# Points of each section that tell two beams apart, and how far apart they may be for rounding alone.
+# Points of each section at which beams are compared, and the relative difference allowed for rounding.
 _SAMPLES, _ALIKE = 9, 1e-12
 
 
 @dataclass(frozen=True, kw_only=True)
 class VaryingBeam(Beam):
-    """A beam of which EI(x) and m(x) are smooth within each section; they may jump or kink between two.
+    """A beam whose EI(x) and m(x) are smooth within each section; they or their slopes may jump between two.
 
     The sections hold their lengths, the flexural rigidity as flexible on the whole and the mean mass: enough for what
     only needs to know about how stiff the beam is, such as the choice of a mesh.
@@ -42,7 +42,7 @@ class VaryingBeam(Beam):
         return False
 
     @property
-    def has_even_mass(self) -> bool:
+    def has_uniform_mass(self) -> bool:
         """It is not known to have one."""
         return False
 
@@ -68,9 +68,9 @@ class VaryingBeam(Beam):
             mass=lambda x: mass(x / stretch) / units.mass_per_length,
         )
 
-    def with_even_mass(self) -> Self:
+    def with_uniform_mass(self) -> Self:
         """Return the beam with a mass per length of 1 everywhere, and its left end at the origin."""
-        return replace(super().with_even_mass(), mass=np.ones_like)
+        return replace(super().with_uniform_mass(), mass=np.ones_like)
 
     @cached_property
     def reversed(self) -> Self:
@@ -78,9 +78,9 @@ class VaryingBeam(Beam):
         rigidity, mass, length = self.rigidity, self.mass, self.length
         return replace(super().reversed, rigidity=lambda x: rigidity(length - x), mass=lambda x: mass(length - x))
 
-    def mirrors(self, other: object) -> bool:
-        """Whether it is the mirror image of another body, wherever both float, but for rounding."""
-        if not isinstance(other, VaryingBeam) or not super().mirrors(other):
+    def is_mirror_image_of(self, other: object) -> bool:
+        """Whether it is the mirror image of another body up to rounding, wherever both float."""
+        if not isinstance(other, VaryingBeam) or not super().is_mirror_image_of(other):
             return False
         image = other.reversed
         return all(

@@ -26,7 +26,7 @@ class WaveTrain:
     slopes: FloatArray
 
     def __post_init__(self) -> None:
-        """Take any sequences of numbers; refuse what are no waves."""
+        """Convert sequences to arrays and check the ranges."""
         for name in ("periods", "slopes"):
             values = np.array(getattr(self, name), dtype=float)
             values.setflags(write=False)
@@ -48,7 +48,7 @@ class WaveTrain:
     @property
     def starts(self) -> FloatArray:
         """Times t_{i−1} at which the waves begin, and that at which the last one ends, s, shape (waves + 1,)."""
-        # In extended precision: ten thousand rounded sums would move the late waves.
+        # Extended precision: rounding of ten thousand sums would shift the late waves.
         ends = np.cumsum(self.periods, dtype=np.longdouble).astype(float)
         return np.concatenate([[0.0], ends])
 

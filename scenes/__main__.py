@@ -1,4 +1,4 @@
-"""``python -m hydroelastic.scenes`` and the command ``hydroelastic``: first of all, what Ctrl-C does."""
+"""``python -m hydroelastic.scenes`` and the command ``hydroelastic``: sets the handling of Ctrl-C before all else."""
 
 from hydroelastic.meshes.interrupts import end_on_interrupt
 

@@ -1,4 +1,5 @@
-"""The command ``hydroelastic``. What is heavy is imported inside the commands, so that help and errors come at once."""
+"""The command ``hydroelastic``. Heavy libraries are imported inside the commands, so that help and errors come at
+once."""
 
 from __future__ import annotations
 
@@ -29,7 +30,7 @@ from hydroelastic.scenes.command_options import (
 )
 from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
 from hydroelastic.scenes.kinds import checker_of, comparer_of, runner_of
-from hydroelastic.scenes.output.folder import check_output, place_of_results
+from hydroelastic.scenes.output.folder import check_output, results_message
 from hydroelastic.scenes.output.manifest import read_manifest
 from hydroelastic.scenes.program import PROGRAM
 from hydroelastic.scenes.progress import progress
@@ -46,7 +47,7 @@ RANK_VARIABLES = ("OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK")
 
 
 class _BadInput(click.ClickException):
-    """What the user gave cannot be used."""
+    """The input of the user is invalid."""
 
     exit_code = BAD_INPUT
 
@@ -79,7 +80,7 @@ class _Commands(click.Group):
 
 
 def _end_without_output(error: OSError) -> NoReturn:
-    """End the process with a message, because what is printed cannot be written: to a full disk, say."""
+    """End the process with a message, because the output cannot be written, for example to a full disk."""
     click.echo(f"Error: nothing can be printed: {error.strerror}. Redirect the output, or use --quiet.", err=True)
     # The interpreter flushes once more when it ends, and would complain.
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
@@ -87,10 +88,10 @@ def _end_without_output(error: OSError) -> NoReturn:
 
 
 def _folder_of_results(scene: str, out: Path | None, *, suffix: str = "") -> Path:
-    """Return where results of a scene go, and see that nothing is lost there.
+    """Return the result folder of a scene, after a check that nothing in it would be lost.
 
     Raises:
-        SceneError: if the folder cannot be written, or is not the user's choice and has the results of another scene.
+        SceneError: if the folder cannot be written, or is the default one and has the results of another scene.
     """
     file = Path(os.path.realpath(scene_path(scene)))
     folder = out if out is not None else Path("results") / f"{file.stem}{suffix}"
@@ -158,7 +159,7 @@ def main() -> None:
       hydroelastic list
       hydroelastic run aquarium
     """
-    # A terminal without Greek letters shows question marks instead of ending in an error.
+    # A terminal whose encoding lacks Greek letters shows question marks.
     if isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(errors="replace")
 
@@ -293,7 +294,7 @@ def study(
         if _is_first_rank():
             write_study(measured, folder, picture_options(formats, dpi=dpi), scene_file=scene_path(scene))
     click.echo(study_table(measured))
-    click.echo(f"Written to {place_of_results(folder, replaces=replaces)}")
+    click.echo(f"Written to {results_message(folder, replaces=replaces)}")
 
 
 @main.command()
@@ -311,7 +312,7 @@ def check(scene: str, overrides: tuple[str, ...]) -> None:
 
     from hydroelastic.scenes.output.check_text import print_check
 
-    # All of it first: what is refused half way leaves nothing on the output.
+    # Evaluated completely before printing: an error leaves no partial output.
     print_check(checked.title, tuple(checker_of(checked)(checked)), Console())
 
 
@@ -366,13 +367,13 @@ def bench(
     arguments += [] if out is None else ["--out", os.fspath(out)]
     arguments += [word for name in problem for word in ("--problem", name)]
     arguments += [] if repeats is None else ["--repeats", str(repeats)]
-    # A process of its own, for nothing here may depend on the benchmark.
+    # A separate process: the package may not import the benchmarks.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     process = subprocess.Popen([sys.executable, "-m", "hydroelastic.benchmarks", *arguments])
     try:
         code = process.wait()
     except KeyboardInterrupt:
-        # Ctrl-C reaches both processes; the other one ends its own, and says so.
+        # Ctrl-C reaches both processes; the other one reports it.
         try:
             process.wait(timeout=_SECONDS_TO_END)
         except subprocess.TimeoutExpired:

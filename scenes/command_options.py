@@ -1,4 +1,4 @@
-"""Arguments and options that commands share, and how pictures are asked for."""
+"""Arguments and options that commands share, and options of pictures."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Errors of a scene, said so that its author can mend them: where, what was found, what is allowed, what to do."""
+"""Error messages of a scene: place, value found, values allowed, remedy."""
 
 from __future__ import annotations
 
@@ -27,10 +27,10 @@ class Problem:
     """One thing that is wrong.
 
     Args:
-        wrong: what is wrong, a phrase that continues the key.
+        wrong: the error, a phrase that follows the key.
         key: where, as the author reads it, for example ``[[body]] number 1, key "start"``.
-        value: what was found, as TOML writes it; empty where there is nothing short to show.
-        allowed: what may stand there.
+        value: the value found, in TOML; empty if it has no short form.
+        allowed: the values allowed.
         remedy: what to do.
     """
 
@@ -120,7 +120,7 @@ def readable_key(location: Location, *, table: Literal["", "one", "many"] = "") 
 
 
 def scene_error(error: ValidationError, model: type[BaseModel], *, file: str | Path | None = None) -> SceneError:
-    """Return what the validation of a scene found, in the words of its author.
+    """Convert a validation error of a scene to a `SceneError` in terms of the scene file.
 
     Args:
         error: what pydantic raised.
@@ -137,7 +137,7 @@ def scene_error(error: ValidationError, model: type[BaseModel], *, file: str | P
 
 
 def _follows(detail: Any, proposed: set[Location], broken: set[Location]) -> bool:
-    """Whether a detail only repeats another: a misspelt key is also missing, a broken entry is not counted."""
+    """Whether an error follows from another: a misspelt key is also missing, an invalid entry is not counted."""
     if detail["type"] == "missing":
         return detail["loc"] in proposed
     return detail["type"] == "too_short" and detail["loc"] in broken
@@ -258,7 +258,7 @@ def _remedy(kind: str, place: _Place, value: object) -> str:
 
 
 def _allowed(place: _Place) -> str:
-    """Say what a field takes: its kind and range, then its description."""
+    """Describe the values of a field: type and range, then its description."""
     field = place.field
     if field is None:
         return ""
@@ -275,7 +275,7 @@ def _is_list(annotation: Any) -> bool:
 
 
 def _value_type(field: FieldInfo) -> tuple[Any, list[Any]]:
-    """What a single value of a field is, and its limits: without None where it may be left out, and out of a list."""
+    """Type and limits of a single value of a field: without None, and for an entry of a list."""
     annotation, limits = field.annotation, list(field.metadata)
     while True:
         if get_origin(annotation) is Annotated:
@@ -312,12 +312,12 @@ _RANGES: tuple[tuple[Callable[[Any], bool], Callable[[Any, list[Any]], str]], ..
 
 @dataclass(frozen=True, kw_only=True)
 class _Place:
-    """Where a location of pydantic leads.
+    """The part of a scene at a location of pydantic.
 
     Args:
-        location: the same as the author sees it: pydantic names the kind of an entry on the way into it.
-        field: the last field on the way, if it is known.
-        model: the model that the location is, or None.
+        location: the location without the kinds of entries, which pydantic inserts.
+        field: the last known field along the location.
+        model: the model at the location, or None.
         siblings: by their kind, all models that the model was chosen from.
     """
 
@@ -364,4 +364,4 @@ def _table(field: FieldInfo | None) -> Literal["", "one", "many"]:
 
 
 class UnsolvedError(Exception):
-    """A valid scene that could not be solved; its text says what failed."""
+    """A valid scene that could not be solved; the message states the failure."""

@@ -1,4 +1,4 @@
-"""What each command does with each kind of scene. Its libraries are imported when it is asked for."""
+"""The functions of the commands run, compare and check for each kind of scene, imported when needed."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from hydroelastic.scenes.read import Scene, closed_tank
 
 
 def runner_of(scene: Scene) -> Callable[..., Outcome]:
-    """Return what runs a scene: ``run(scene, out=…, images=…, page=…, import_seconds=…, report=…)``."""
+    """Return the function that runs a scene: ``run(scene, out=…, images=…, page=…, import_seconds=…, report=…)``."""
     if isinstance(scene, TankScene):
         if scene.is_open:
             from hydroelastic.scenes.open_water.run import run_open
@@ -38,7 +38,7 @@ def runner_of(scene: Scene) -> Callable[..., Outcome]:
 
 
 def comparer_of(scene: Scene) -> Callable[..., Outcome]:
-    """Return what sets the field solution of a scene beside the theories: ``compare(scene, report=…)``.
+    """Return the function that compares the field solution of a scene with the theories: ``compare(scene, report=…)``.
 
     Raises:
         SceneError: if there is no field solution of such a scene, or no theory.
@@ -68,7 +68,7 @@ def comparer_of(scene: Scene) -> Callable[..., Outcome]:
 
 
 def checker_of(scene: Scene) -> Callable[[Any], Iterator[Section]]:
-    """Return what says how a scene will be modelled, in tables and lines: ``check(scene)``."""
+    """Return the function that describes the model of a scene in tables and lines: ``check(scene)``."""
     if isinstance(scene, TankScene):
         if scene.is_open:
             from hydroelastic.scenes.open_water.check import check_open

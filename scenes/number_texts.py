@@ -11,10 +11,10 @@ _SAID_UNIT = re.compile(rf", ({_UNIT}(?:[/·]{_UNIT})*)(?=$|[;,.])")
 
 
 def how_to_write(text: str, description: str = "") -> str:
-    """Return how to write the number that a text nearly is; empty if it is nothing of the kind.
+    """Return the corrected form of a text that is nearly a number; empty otherwise.
 
     Args:
-        text: what was found, with or without quotes.
+        text: the text found, with or without quotes.
         description: of the value, in which its unit stands after a comma.
     """
     bare = text.strip().strip("\"'").strip()

@@ -1,4 +1,4 @@
-"""What the user calls the program, for usage, help and hints."""
+"""The command name of the program, for usage, help and hints."""
 
 import os
 

@@ -1,4 +1,4 @@
-"""The line on the terminal that tells what a command is doing."""
+"""The progress line on the terminal."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from collections.abc import Callable, Iterator
 
 @contextlib.contextmanager
 def progress(title: str, *, shown: bool) -> Iterator[Callable[[str], None]]:
-    """Show on the terminal of what scene what is being done; nothing where there is no terminal.
+    """Show the scene and the current step on the terminal; nothing where there is no terminal.
 
     Args:
         title: of the scene.
-        shown: whether there is a terminal, and words are wanted.
+        shown: whether to show progress on a terminal.
 
     Yields:
-        What is told the work at hand.
+        A function to call with the name of each step.
     """
     if not shown:
         yield lambda _message: None
@@ -29,5 +29,5 @@ def progress(title: str, *, shown: bool) -> Iterator[Callable[[str], None]]:
 
     console = Console(stderr=True)
     with console.status(line("libraries")) as status:
-        console.show_cursor(True)  # A signal that ends the process would leave it hidden.
+        console.show_cursor(True)  # A signal that ends the process would leave the cursor hidden.
         yield lambda message: status.update(line(message))

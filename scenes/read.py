@@ -51,7 +51,7 @@ class ShippedScene:
 def shipped_scenes() -> tuple[ShippedScene, ...]:
     """Return the scenes that come with the package, by name."""
     return tuple(
-        # Not validated: the sections of floats need SciPy, which takes a while to import.
+        # Not validated: the sections of floats need SciPy, whose import is slow.
         ShippedScene(name=path.stem, path=path, title=_parse(path)["title"])
         for path in sorted(SHIPPED_FOLDER.glob("*.toml"))
     )
@@ -97,13 +97,13 @@ def read_scene(path: str | Path, overrides: Iterable[str] = ()) -> Scene:
     Args:
         path: a TOML file, or the bare name of a shipped scene such as ``aquarium``.
         overrides: replacements ``key=value`` with dotted keys and TOML values, made before validation:
-            ``body.1.start=2.5`` (entries are numbered from 1), ``accuracy.tolerance=1e-8``. A bare word is a text.
+            ``body.1.start=2.5`` (entries are numbered from 1), ``accuracy.tolerance=1e-8``. An unquoted word is a text.
 
     Returns:
         The scene; the path of a mesh file is complete.
 
     Raises:
-        SceneError: if anything about the file, the overrides or the values is wrong; it lists all problems.
+        SceneError: if the file, an override or a value is invalid; it lists all errors.
     """
     file = scene_path(path)
     document = _parse(file)
@@ -124,7 +124,7 @@ def closed_tank(scene: Scene, because: str) -> TankScene:
 
     Args:
         scene: the scene.
-        because: why another scene is of no use here.
+        because: reason why other scenes are refused.
 
     Raises:
         SceneError: if it is of another kind, or the ends of the tank are open.
@@ -173,7 +173,7 @@ def _parse(file: Path) -> Document:
 
 
 def _mended_line(text: str, error: str) -> str:
-    """How to write the number in the line that an error of TOML names, if that is what is wrong."""
+    """The corrected number in the line of a TOML error, if a number is the cause."""
     named = re.search(r"at line (\d+)", error)
     return how_to_write_line(text.split("\n")[int(named[1]) - 1]) if named else ""
 
@@ -221,7 +221,7 @@ def _override(document: Document, change: str, file: Path) -> None:
 
 
 def _index_in(holder: Any, names: list[str], place: int, change: str) -> Any:
-    """Return what selects the name at a place in a table (the key) or in a list (the number of the entry)."""
+    """Return the index of a name in a table (the key) or in a list (the number of the entry)."""
     name = names[place]
     if isinstance(holder, dict) and not name.isdigit():
         return name
@@ -247,7 +247,7 @@ def _override_value(change: str, text: str) -> Any:
         if list(parsed) == ["value"]:  # a line break in the text would start another key
             return parsed["value"]
     except (ValueError, RecursionError):
-        # What is nearly a number is refused later, where it is known what may stand there.
+        # A text that is nearly a number is refused later by validation, where the allowed values are known.
         if _BARE_TEXT.fullmatch(text) or how_to_write(text):
             return text
     raise _bad_override(change, "the value is not TOML", "Put a text in quotes")
@@ -258,7 +258,7 @@ def _bad_override(change: str, wrong: str, remedy: str = "", *, allowed: str = "
 
 
 def _with_mesh_beside(scene: TankScene, file: Path) -> TankScene:
-    """Complete the path of a user's mesh from the folder of the scene, and see that the mesh is there."""
+    """Complete the path of a user's mesh from the folder of the scene, and check that it exists."""
     if scene.mesh is None:
         return scene
     try:

@@ -30,7 +30,7 @@ def run_scene(
         images: how to draw; ``None`` draws nothing.
         page: whether to write ``report.html`` into the folder.
         import_seconds: time that importing libraries took, for the record.
-        report: told what is being done.
+        report: called with the name of each step.
 
     Returns:
         The solution, its summary and its tables.
@@ -50,7 +50,7 @@ def run_scene(
 
 
 def page_writer(scene: Scene) -> Callable[[Outcome, Path], None]:
-    """Return what writes ``report.html`` about the outcome of a scene into its folder. Its libraries are imported now.
+    """Return the function that writes ``report.html`` into a result folder. Its libraries are imported now.
 
     Args:
         scene: the scene.

@@ -1,11 +1,11 @@
-"""Which known word the author of a scene meant: by its spelling, or by what others call the same thing."""
+"""Suggestions for unknown words in a scene: by spelling, or by synonyms."""
 
 from __future__ import annotations
 
 import difflib
 from collections.abc import Iterable
 
-# What others call it, and our words for it; of these the first one that is known at the place counts.
+# Synonyms, and the words of scenes for them; the first one that is allowed at the place is suggested.
 _SYNONYMS = {
     "added_mass": ("radiation",),
     "anchor": ("fixed",),
@@ -50,7 +50,7 @@ _CONVERSIONS = {"period": "omega = 2π/T in rad/s", "frequenc": "omega = 2πf in
 
 
 def nearest(word: str, known: Iterable[str]) -> str | None:
-    """Return the known word that ``word`` stands for or is most like, or None where none is near."""
+    """Return the known word that ``word`` is a synonym of or most similar to; None if there is none."""
     by_lower_case = {name.lower(): name for name in known}
     for meant in _SYNONYMS.get(word.lower(), ()):
         if meant in by_lower_case:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from hydroelastic.benchmarks.tank.cases import MODES, TANKS, BenchmarkTank, tank_named
-from hydroelastic.modal import gravity_tones
+from hydroelastic.modal.beam.gravity_added_mass import gravity_tones
 
 NAMES = [tank.name for tank in TANKS]
 

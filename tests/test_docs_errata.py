@@ -6,7 +6,9 @@ from pathlib import Path
 import pytest
 from errata_numbers import ROLL_NUMBERS, STRING_NUMBERS, Number, row
 
-from hydroelastic.modal import ROLL_ERRATA, STRING_ERRATA, Erratum
+from hydroelastic.modal.beam.paper_model import Erratum
+from hydroelastic.modal.roll.paper import ROLL_ERRATA
+from hydroelastic.modal.string.paper import STRING_ERRATA
 
 PAGE = Path(__file__).parent.parent / "docs" / "errata_string_and_roll.md"
 STRING_PART, ROLL_PART = PAGE.read_text(encoding="utf-8").split("## The ship on a swell")

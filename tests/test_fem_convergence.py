@@ -10,7 +10,7 @@ import pytest
 
 from hydroelastic.fem.modes import solve_modes
 from hydroelastic.meshes.nested import halved
-from hydroelastic.modal import sloshing_frequencies
+from hydroelastic.modal.liquid.sloshing import sloshing_frequencies
 from hydroelastic.physics.tank import Tank
 from hydroelastic.scenes.models.tank import TankScene
 

@@ -12,7 +12,7 @@ from float_problems import ALL, UNSTABLE, raw_problem
 from layered_tanks import GRAVITY, PlainProblem, check_processes, frequencies, layered, pencils, rigid
 
 from hydroelastic.fem.added_mass import body_added_mass
-from hydroelastic.fem.bodies.rigid_float import float_body
+from hydroelastic.fem.bodies.rigid_float import in_principal_motions
 from hydroelastic.fem.modes import solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.tank.solve import TankSolution
@@ -236,7 +236,7 @@ def test_frequencies_do_not_depend_on_the_principal_motions(name: str) -> None:
 def test_the_principal_motions_diagonalize_stiffness_and_inertia() -> None:
     for scene in FLOATS.values():
         floating = physical_tank(scene).scaled().floats[0]
-        body = float_body(floating, 0, None)
+        body = in_principal_motions(floating, 0, None)
         square = np.linalg.eigvalsh(floating.stiffness / np.sqrt(np.outer(floating.inertia, floating.inertia)))
         # The eigenvalues of the float alone, in vacuo; zero is zero to rounding of the largest.
         assert np.sort(body.stiffness / body.mass.diagonal()) == pytest.approx(

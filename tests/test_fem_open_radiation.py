@@ -34,8 +34,8 @@ from open_two_liquids import TwoLiquids
 from hydroelastic.fem.open_water import basin as open_basin
 from hydroelastic.fem.open_water import field_model as open_model
 from hydroelastic.fem.open_water.radiation import RadiationSolution
-from hydroelastic.modal import float_profile
 from hydroelastic.modal.floats.thin_float_radiation import thin_float_radiation
+from hydroelastic.physics.profiles import float_profile
 
 CIRCLE = stored("open_circle.json")["radiation"]
 PUBLISHED = stored("open_water.json")["cylinder"]["rows"]

@@ -12,8 +12,8 @@ from open_cases import GRAVITY, RADIUS, SLOW, THIN_LIQUIDS, circle, problem_of, 
 from hydroelastic.fem.open_water import resonance as open_resonance
 from hydroelastic.fem.open_water.requests import ResonanceRequest
 from hydroelastic.fem.open_water.resonance import ResonanceSolution, solve_resonance
-from hydroelastic.modal import float_profile
 from hydroelastic.modal.floats.open_float import open_float_estimate
+from hydroelastic.physics.profiles import float_profile
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.solve import resonance_reasons
 

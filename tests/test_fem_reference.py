@@ -14,7 +14,7 @@ from petsc4py import PETSc
 
 from hydroelastic.fem.added_mass import body_added_mass
 from hydroelastic.fem.liquid import surface_mass_matrix
-from hydroelastic.modal import guided_cover_frequencies, sloshing_frequencies
+from hydroelastic.modal.liquid.sloshing import guided_cover_frequencies, sloshing_frequencies
 from hydroelastic.modal.tank_estimates import floating_beam
 from hydroelastic.scenes.models.physical import physical_tank
 

@@ -15,7 +15,7 @@ from scipy.special import ellipk
 from thread_cases import inputs, results, tolerance, worst_difference
 from thread_motions import chain, extrapolated, follow, free, held, liquid, swing
 
-from hydroelastic.fem.thread.motion import MovingStart
+from hydroelastic.fem.thread.motion import InitialMotion
 from hydroelastic.fem.thread.motion_results import ThreadMotion
 from hydroelastic.physics.thread import Thread
 
@@ -32,7 +32,7 @@ def test_pendulum_limit() -> None:
     period, angle = results("D01")["period"], np.deg2rad(60.0)
     assert period == pytest.approx(4.0 / np.sqrt(9.81) * ellipk(np.sin(angle / 2.0) ** 2), rel=1e-12)
     model = Thread(dimension=2, length=1.0, ends=(held([0, 0]), free([0.0, -9.81], mass=1.0)), mass=1e-8)
-    start = MovingStart(position=lambda s: np.outer(s, [np.sin(angle), -np.cos(angle)]))
+    start = InitialMotion(position=lambda s: np.outer(s, [np.sin(angle), -np.cos(angle)]))
     late = []
     for count in (100, 200, 400):
         tip = follow(model, 4, start, [0.0, 0.75 * period], period / count).positions[-1, -1]
@@ -61,7 +61,7 @@ def test_free_fall_follows_the_two_laws() -> None:
     )
     rows = []
     for step in (0.01, 0.005, 0.0025):
-        motion = follow(model, 4, MovingStart(position=lambda s: np.outer(s, along)), [0.0, *given["t"]], step)
+        motion = follow(model, 4, InitialMotion(position=lambda s: np.outer(s, along)), [0.0, *given["t"]], step)
         fall, speed = motion.positions[0] - motion.positions[1:], -motion.velocities[1:]
         rows.append(np.array([speed @ across, fall @ across, speed @ along, fall @ along])[:, :, 2])
         # Rounding grows as it falls: broadside is no stable way to fall.
@@ -135,7 +135,7 @@ def test_length_is_kept() -> None:
     assert np.all(chords > 0.1 * (1.0 - 0.05))
 
 
-def oblique(azimuth: float) -> MovingStart:
+def oblique(azimuth: float) -> InitialMotion:
     """The swing, with a helix of velocity so that it is no plane motion."""
     base = swing(2.5, azimuth, dimension=3)
 
@@ -144,7 +144,7 @@ def oblique(azimuth: float) -> MovingStart:
         side = np.array([-np.sin(azimuth), np.cos(azimuth), 0.0])
         return base.velocity(s) + np.outer(np.sin(3.0 * s), side)
 
-    return MovingStart(position=base.position, velocity=velocity)
+    return InitialMotion(position=base.position, velocity=velocity)
 
 
 def test_rotation_about_the_vertical() -> None:

@@ -12,7 +12,7 @@ from thread_cases import inputs, results
 from thread_motions import CHAIN_OMEGA, chain, follow, free, held, liquid, swing
 
 from hydroelastic.fem.thread.equilibrium import Start, solve_on_mesh
-from hydroelastic.fem.thread.motion import MovingStart, move_from_rest
+from hydroelastic.fem.thread.motion import InitialMotion, move_from_rest
 from hydroelastic.fem.thread.motion_plan import MotionPlan, PrescribedEnd, ThreadMotionError
 from hydroelastic.physics.stream import UniformStream
 from hydroelastic.physics.thread import Thread
@@ -22,9 +22,9 @@ G = 9.81
 FREE_COURSE = PrescribedEnd()
 
 
-def straight(direction: Any) -> MovingStart:
+def straight(direction: Any) -> InitialMotion:
     """A straight thread at rest from the origin."""
-    return MovingStart(position=lambda s: np.outer(s, direction))
+    return InitialMotion(position=lambda s: np.outer(s, direction))
 
 
 @pytest.mark.parametrize("reactive", ["none", "moving_load", "lighthill"])
@@ -48,7 +48,7 @@ def test_towed_thread_is_one_in_a_current(reactive: Any) -> None:
     towed = follow(
         Thread(ends=ends, **options),
         6,
-        MovingStart(position=lambda s: np.outer(s, direction), velocity=lambda s: np.tile(-speed, (len(s), 1))),
+        InitialMotion(position=lambda s: np.outer(s, direction), velocity=lambda s: np.tile(-speed, (len(s), 1))),
         times,
         step,
         ends=(PrescribedEnd(position=lambda time: -speed * time), FREE_COURSE),
@@ -81,7 +81,7 @@ def test_accelerated_end() -> None:
     model = Thread(dimension=2, length=1.0, ends=(held([0.0, 0.0]), free([0.0, 0.0])), weight=G, mass=1.0)
     lead = PrescribedEnd(position=lambda time: np.array([0.5 * push * time**2, 0.0]))
     direction = np.array([-push, -G]) / pull
-    start = MovingStart(
+    start = InitialMotion(
         position=lambda s: np.outer(s, direction) + np.array([0.5 * push * 0.3**2, 0.0]),
         velocity=lambda s: np.tile([push * 0.3, 0.0], (len(s), 1)),
     )
@@ -130,7 +130,7 @@ def test_tension_just_after_an_end_is_let_go() -> None:
     )
     course = PrescribedEnd(release=(0.1, 0.1))
     motion = follow(
-        model, 20, MovingStart(position=catenary), [0.0, 0.09, 0.1, 0.101, 0.2], 0.01, ends=(FREE_COURSE, course)
+        model, 20, InitialMotion(position=catenary), [0.0, 0.09, 0.1, 0.101, 0.2], 0.01, ends=(FREE_COURSE, course)
     )
     nodes = motion.nodes
     at_rest = G * np.hypot(nodes - 0.5, height)
@@ -267,9 +267,9 @@ def test_recovery_of_the_steady_state() -> None:
     assert np.log(away[3] / away[2]) / 300.0 == pytest.approx(rate, rel=5e-3)
     # The known ones have two digits.
     assert away[1:] == pytest.approx([4.7e-2, 7.1e-4, 1.3e-6], rel=0.015)
-    stopped = follow(model, 10, straight(up), [0.0, 1e4], 10.0, tolerance=1e-5, still_speed=1e-5, dissipation=0.6)
-    assert stopped.still is not None
-    assert stopped.still < 600.0
+    stopped = follow(model, 10, straight(up), [0.0, 1e4], 10.0, tolerance=1e-5, rest_speed=1e-5, dissipation=0.6)
+    assert stopped.rest_time is not None
+    assert stopped.rest_time < 600.0
     # What is left moves at the rate times the distance.
     assert np.linalg.norm(stopped.positions[-1] - quiet.positions[0], axis=1).max() < 2.0 * 1e-5 / abs(rate)
 
@@ -306,7 +306,7 @@ def test_both_reactive_loads_are_one_for_small_motions() -> None:
             reactive=reactive,  # type: ignore[arg-type]
             stream=UniformStream((0.6, 0.0, 0.0)),
         )
-        start = MovingStart(
+        start = InitialMotion(
             position=lambda s: np.outer(s, [1.0, 0.0]),
             velocity=lambda s: np.outer(1e-3 * np.sin(np.pi * s) ** 2, [0.0, 1.0]),
         )
@@ -322,7 +322,7 @@ def test_tension_at_the_start_is_where_later_ones_come_from(case: str) -> None:
     if case == "hung up":
         ends = (held([0.0, 0.0]), free([0.0, 0.0]))
         model = Thread(dimension=2, length=1.0, ends=ends, weight=G, mass=1.0, **liquid())
-        motion = follow(model, 10, MovingStart(position=catenary), [0.0, 0.01], 1e-3)
+        motion = follow(model, 10, InitialMotion(position=catenary), [0.0, 0.01], 1e-3)
     else:
         motion = follow(chain(), 10, swing(), [0.0, 0.01], 1e-3)
     first, *rest = motion.history.tensions[:4]

@@ -11,7 +11,7 @@ from mpi4py import MPI
 from thread_motions import chain, follow, free, liquid, swing
 
 from hydroelastic.fem.thread.motion import move_thread
-from hydroelastic.fem.thread.motion_errors import halved, measure_motion
+from hydroelastic.fem.thread.motion_errors import halved, motion_with_errors
 from hydroelastic.fem.thread.motion_plan import MotionPlan, PrescribedEnd
 from hydroelastic.fem.thread.motion_results import ThreadMotion
 from hydroelastic.fem.thread.step_control import StepControl
@@ -58,7 +58,7 @@ def test_halved_steps_and_elements_tell_the_error() -> None:
         return move_thread(MPI.COMM_WORLD, chain(**liquid()), nodes, swing(), plan, degree=2)
 
     plan = MotionPlan(times=np.array(TIMES), step=0.01)
-    measured = measure_motion(run, plan, mesh=True)
+    measured = motion_with_errors(run, plan, mesh=True)
     assert len(measured.motion.history.solutions) == 200
     assert measured.mesh is not None
     tips = [motion.positions[:, -1] for motion in (measured.motion, fine_swing())]
@@ -117,7 +117,7 @@ def test_generalised_alpha_loses_energy() -> None:
         ({"step": 0.0}, "step is 0.0"),
         ({"tolerance": 2.0}, "tolerance is 2.0"),
         ({"dissipation": 1.0}, "dissipation is 1.0.*below 1"),
-        ({"still_speed": 0.0}, "still_speed is 0.0"),
+        ({"rest_speed": 0.0}, "rest_speed is 0.0"),
     ],
 )
 def test_plans_that_are_refused(changes: dict[str, Any], message: str) -> None:

@@ -7,7 +7,10 @@ import time
 import pytest
 from base_beam import BASE
 
-from hydroelastic.modal import Estimate, FloatingBeam, all_estimates, frequency_from_added_mass, term_tones
+from hydroelastic.modal.beam.estimates import all_estimates
+from hydroelastic.modal.beam.floating_beam import FloatingBeam
+from hydroelastic.modal.beam.grammel_terms import term_tones
+from hydroelastic.modal.estimate import Estimate, frequency_from_added_mass
 
 NAMES = {
     "grammel_1",

@@ -13,19 +13,14 @@ import pytest
 from scipy.linalg import eigh
 from vertical_modes import added_masses
 
-from hydroelastic.modal import (
-    FloatInTank,
-    NoEstimateError,
-    TwoLayers,
-    box_modes,
-    float_mode,
-    float_profile,
-    interface_frequencies,
-    thin_float_mass,
-    thin_float_stiffness,
-)
+from hydroelastic.modal.estimate import NoEstimateError
+from hydroelastic.modal.floats.box import box_modes, float_mode
 from hydroelastic.modal.floats.box_inertia import interface_moment, layer_inertia, layer_wave_moment, liquid_inertia
+from hydroelastic.modal.floats.in_tank import FloatInTank
+from hydroelastic.modal.floats.thin_float import thin_float_mass, thin_float_stiffness
 from hydroelastic.modal.floats.thin_shapes import sine_moment
+from hydroelastic.modal.liquid.two_layer import TwoLayers, interface_frequencies
+from hydroelastic.physics.profiles import float_profile
 
 REFERENCE = json.loads((Path(__file__).parent / "reference" / "two_fluid_float.json").read_text(encoding="utf-8"))
 CASES = {case["id"]: case for case in REFERENCE["cases"]}

@@ -7,16 +7,12 @@ import math
 
 import pytest
 
-from hydroelastic.modal import (
-    FloatEstimate,
-    FloatInTank,
-    TwoLayers,
-    all_float_estimates,
-    box_modes,
-    float_profile,
-    thin_float_mass,
-    thin_float_stiffness,
-)
+from hydroelastic.modal.floats.box import box_modes
+from hydroelastic.modal.floats.estimates import FloatEstimate, all_float_estimates
+from hydroelastic.modal.floats.in_tank import FloatInTank
+from hydroelastic.modal.floats.thin_float import thin_float_mass, thin_float_stiffness
+from hydroelastic.modal.liquid.two_layer import TwoLayers
+from hydroelastic.physics.profiles import float_profile
 
 NAMES = ["hydrostatic", "high_frequency", "thin_float", "thin_float_printed", "thin_float_box"]
 

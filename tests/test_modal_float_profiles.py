@@ -8,7 +8,7 @@ import math
 import numpy as np
 import pytest
 
-from hydroelastic.modal import Profile, float_profile
+from hydroelastic.physics.profiles import Profile, float_profile
 
 SHAPES = ["exponential", "parabola", "ellipse", "wedge", "rectangle"]
 EPS = np.finfo(float).eps

@@ -10,7 +10,8 @@ from scipy.optimize import brentq
 
 from hydroelastic.modal.beam.dry_modes import free_free_roots, free_free_shape
 from hydroelastic.modal.beam.jointed_modes import JointedModes, jointed_modes
-from hydroelastic.physics.beams import Beam, Joint, Section
+from hydroelastic.physics.beam_parts import Joint, Section
+from hydroelastic.physics.beams import Beam
 
 Parts = tuple[tuple[float, float, float], ...]
 

@@ -8,23 +8,19 @@ import numpy as np
 import pytest
 from base_beam import BASE
 
-from hydroelastic.modal import (
-    NoEstimateError,
-    deep_open_constant,
+from hydroelastic.modal.beam.added_mass import cosine_cube_sum, deep_open_constant, lid_added_mass, shallow_added_mass
+from hydroelastic.modal.beam.cosine_moments import cosine_moments
+from hydroelastic.modal.beam.dry_modes import free_free_shape
+from hydroelastic.modal.beam.gravity_added_mass import gravity_added_mass, gravity_tones
+from hydroelastic.modal.beam.pressure_release import pressure_release_added_mass
+from hydroelastic.modal.beam.surface_operator import surface_operator
+from hydroelastic.modal.estimate import NoEstimateError
+from hydroelastic.modal.liquid.sloshing import (
     deep_sloshing_frequencies,
-    gravity_added_mass,
-    gravity_tones,
     guided_cover_frequencies,
-    lid_added_mass,
-    pressure_release_added_mass,
-    shallow_added_mass,
     shallow_sloshing_frequencies,
     sloshing_frequencies,
 )
-from hydroelastic.modal.beam.added_mass import cosine_cube_sum
-from hydroelastic.modal.beam.cosine_moments import cosine_moments
-from hydroelastic.modal.beam.dry_modes import free_free_shape
-from hydroelastic.modal.beam.surface_operator import surface_operator
 
 MIRROR = np.outer([1, -1, 1, -1], [1, -1, 1, -1])
 

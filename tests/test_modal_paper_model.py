@@ -5,8 +5,12 @@ import math
 
 import pytest
 
-from hydroelastic.modal import ERRATA, FloatingBeam, free_free_roots, lid_added_mass, one_term_root
+from hydroelastic.modal.beam.added_mass import lid_added_mass
+from hydroelastic.modal.beam.dry_modes import free_free_roots
+from hydroelastic.modal.beam.floating_beam import FloatingBeam
+from hydroelastic.modal.beam.grammel_terms import one_term_root
 from hydroelastic.modal.beam.paper_model import (
+    ERRATA,
     added_mass,
     free_end_determinant,
     one_term_lid_added_mass,

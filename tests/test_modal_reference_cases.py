@@ -9,35 +9,32 @@ from typing import Any
 import numpy as np
 import pytest
 
-from hydroelastic.modal import (
-    FloatingBeam,
-    Tones,
-    added_mass_from_frequency,
-    beam_quotients,
-    best_term,
+from hydroelastic.modal.beam.added_mass import (
     deep_open_added_mass,
     deep_open_constant,
-    free_free_roots,
-    gravity_added_mass,
-    gravity_tones,
-    guided_cover_frequencies,
     lid_added_mass,
-    one_term_root,
-    paper_equivalent_mass,
-    pressure_release_added_mass,
+    rigid_heave_added_mass,
+    rigid_pitch_added_inertia,
+    shallow_constant,
+    strip_added_mass,
+)
+from hydroelastic.modal.beam.dry_modes import free_free_roots
+from hydroelastic.modal.beam.floating_beam import FloatingBeam
+from hydroelastic.modal.beam.grammel import beam_quotients
+from hydroelastic.modal.beam.grammel_terms import best_term, one_term_root, term_tones
+from hydroelastic.modal.beam.gravity_added_mass import gravity_added_mass, gravity_tones
+from hydroelastic.modal.beam.pressure_release import pressure_release_added_mass
+from hydroelastic.modal.beam.rayleigh import (
     pressure_release_tones,
     rayleigh,
     rayleigh_dry_mode,
     rayleigh_lid,
     rayleigh_pressure_release,
     rayleigh_pressure_release_dry_mode,
-    rigid_heave_added_mass,
-    rigid_pitch_added_inertia,
-    shallow_constant,
-    sloshing_frequencies,
-    strip_added_mass,
-    term_tones,
 )
+from hydroelastic.modal.beam.tone_pencil import Tones
+from hydroelastic.modal.estimate import added_mass_from_frequency, paper_equivalent_mass
+from hydroelastic.modal.liquid.sloshing import guided_cover_frequencies, sloshing_frequencies
 
 REFERENCE = json.loads((Path(__file__).parent / "reference" / "aquarium.json").read_text(encoding="utf-8"))
 CASES: dict[str, dict[str, Any]] = {case["name"]: case for case in REFERENCE["cases"]}

@@ -9,14 +9,10 @@ import numpy as np
 import pytest
 from section_panels import added_masses
 
-from hydroelastic.modal import (
-    NoEstimateError,
-    float_profile,
-    half_immersed_ellipse,
-    interface_ellipse,
-    section_heave_added_mass,
-    thin_float_added_mass,
-)
+from hydroelastic.modal.estimate import NoEstimateError
+from hydroelastic.modal.floats.rigid_limits import half_immersed_ellipse, interface_ellipse, section_heave_added_mass
+from hydroelastic.modal.floats.thin_float import thin_float_added_mass
+from hydroelastic.physics.profiles import float_profile
 
 PANELS = 3e-4
 """Error of the extrapolated panels over the largest added mass; at most 1.0e-4 was measured in these tests."""

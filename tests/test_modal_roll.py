@@ -11,9 +11,11 @@ import pytest
 from roll_trains import PRINTED, SHIPS, TRAIN, K, exponential_motion, reference_ship
 from scipy.integrate import solve_ivp
 
-from hydroelastic.modal import Ship, WaveTrain, roll_path, roll_response
 from hydroelastic.modal.damped_pair import damped_pair
+from hydroelastic.modal.roll.motion import roll_path, roll_response
 from hydroelastic.modal.roll.wave import response_from_rest
+from hydroelastic.physics.ship import Ship
+from hydroelastic.physics.wave import WaveTrain
 
 DAMPINGS = [0.0, 1e-6, 0.1, 0.96, 1 - 1e-9, 1.0, 1 + 1e-9, 1.5, 4.0, 200.0]
 """n/k."""

@@ -10,19 +10,19 @@ import numpy as np
 import pytest
 from scipy.integrate import quad, solve_ivp
 
-from hydroelastic.modal import (
+from hydroelastic.modal.roll.decrement import (
     FroudeCoefficients,
-    Ship,
-    WaveTrain,
     damping_from_froude,
     equivalent_roll_damping,
     fit_froude,
     froude_coefficients,
     linear_decrement,
     quadratic_decrement,
-    roll_response,
     swing_amplitudes,
 )
+from hydroelastic.modal.roll.motion import roll_response
+from hydroelastic.physics.ship import Ship
+from hydroelastic.physics.wave import WaveTrain
 
 IMO = np.loadtxt(Path(__file__).parent / "reference" / "imo_roll_decay.csv", delimiter=",", skiprows=2)
 """φ_m, °, and Bertin's N, 1/°; two digits after the first."""

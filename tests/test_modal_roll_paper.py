@@ -8,8 +8,17 @@ import numpy as np
 import pytest
 from roll_trains import SHIPS, TRAIN, K, reference_ship
 
-from hydroelastic.modal import ROLL_ERRATA, RollSlip, Ship, paper_roll_angle, printed_roll_constants, roll_response
-from hydroelastic.modal.roll.paper import ALL_ROLL_SLIPS, PRINTED_ROLL, PRINTED_TRAIN
+from hydroelastic.modal.roll.motion import roll_response
+from hydroelastic.modal.roll.paper import (
+    ALL_ROLL_SLIPS,
+    PRINTED_ROLL,
+    PRINTED_TRAIN,
+    ROLL_ERRATA,
+    RollSlip,
+    paper_roll_angle,
+    printed_roll_constants,
+)
+from hydroelastic.physics.ship import Ship
 
 LIGHT, HEAVY = PRINTED_ROLL, Ship(natural_frequency=K, damping=0.96 * K)
 TIMES = np.linspace(0, 54.6, 20_001)[1:]

@@ -10,7 +10,11 @@ import pytest
 from roll_trains import TRAIN, K
 from scipy.integrate import solve_ivp
 
-from hydroelastic.modal import Ship, WaveTrain, quadratic_roll_path, roll_response, swing_amplitudes
+from hydroelastic.modal.roll.decrement import swing_amplitudes
+from hydroelastic.modal.roll.motion import roll_response
+from hydroelastic.modal.roll.quadratic import quadratic_roll_path
+from hydroelastic.physics.ship import Ship
+from hydroelastic.physics.wave import WaveTrain
 
 END = 60.0
 TIMES = np.linspace(-1.0, END, 400)

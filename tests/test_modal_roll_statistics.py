@@ -10,15 +10,13 @@ import numpy as np
 import pytest
 from roll_trains import PRINTED, TRAIN, K
 
-from hydroelastic.modal import (
-    Ship,
-    WaveTrain,
-    quadratic_roll_path,
-    roll_path,
-    roll_statistics,
-    swing_amplitudes,
-)
 from hydroelastic.modal.bracketed_roots import bracketed_roots, sign_change_roots
+from hydroelastic.modal.roll.decrement import swing_amplitudes
+from hydroelastic.modal.roll.motion import roll_path
+from hydroelastic.modal.roll.quadratic import quadratic_roll_path
+from hydroelastic.modal.roll.statistics import roll_statistics
+from hydroelastic.physics.ship import Ship
+from hydroelastic.physics.wave import WaveTrain
 
 NO_WAVES = WaveTrain(periods=[], slopes=[])
 

@@ -9,7 +9,6 @@ import pytest
 from scipy.special import iv, j0, jn_zeros
 from uniform_strings import uniform_string
 
-from hydroelastic.modal import nearest_resonance, string_resonance
 from hydroelastic.modal.bessel_zeros import bessel_zeros
 from hydroelastic.modal.string.closed_form import (
     first_oscillating_mode,
@@ -21,6 +20,7 @@ from hydroelastic.modal.string.closed_form import (
     steady_amplitude,
     transfer,
 )
+from hydroelastic.modal.string.resonance import nearest_resonance, string_resonance
 
 STRING = uniform_string(damping=0.5)
 S0 = math.sqrt(9.81)

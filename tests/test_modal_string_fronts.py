@@ -10,8 +10,10 @@ from string_bromwich import bromwich
 from string_cases import image_of
 from uniform_strings import uniform_string
 
-from hydroelastic.modal import HangingString, Ramp, Sine, Smooth, Step, string_response, tabulated
 from hydroelastic.modal.string.closed_form import front_jump
+from hydroelastic.modal.string.response import string_response
+from hydroelastic.physics.string import HangingString
+from hydroelastic.physics.string_motions import Ramp, Sine, Smooth, Step, tabulated
 
 MOTIONS = [Ramp(speed=1.3), Sine(amplitude=0.4, omega=7.0), Smooth(amplitude=1.0, rate=4.0), Step(amplitude=0.5)]
 STRING = uniform_string(length=2.0, damping=0.8)

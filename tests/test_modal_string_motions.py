@@ -9,7 +9,8 @@ import pytest
 from numpy.typing import NDArray
 from uniform_strings import uniform_string
 
-from hydroelastic.modal import Ramp, Sine, Smooth, Step, TabulatedMotion, sampled, string_response, tabulated
+from hydroelastic.modal.string.response import string_response
+from hydroelastic.physics.string_motions import Ramp, Sine, Smooth, Step, TabulatedMotion, sampled, tabulated
 
 Floats = NDArray[np.float64]
 POSITIONS = np.array([0.0, 0.1, 0.45, 0.8, 0.99])

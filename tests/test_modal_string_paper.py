@@ -11,18 +11,14 @@ import pytest
 from scipy.special import iv
 from uniform_strings import uniform_string
 
-from hydroelastic.modal import (
-    STRING_ERRATA,
-    HangingString,
-    NoEstimateError,
-    Ramp,
-    Sine,
-    Smooth,
-    partial_sum,
-    string_response,
-)
+from hydroelastic.modal.estimate import NoEstimateError
 from hydroelastic.modal.string import paper as paper
 from hydroelastic.modal.string.closed_form import free_roots
+from hydroelastic.modal.string.paper import STRING_ERRATA
+from hydroelastic.modal.string.partial_sum import partial_sum
+from hydroelastic.modal.string.response import string_response
+from hydroelastic.physics.string import HangingString
+from hydroelastic.physics.string_motions import Ramp, Sine, Smooth
 
 REFERENCE = json.loads((Path(__file__).parent / "reference" / "string_and_roll.json").read_text(encoding="utf-8"))
 PRINTED = {case["id"]: case for case in REFERENCE["cases"] if case["paper"] == "000" and "as_printed" in case}

@@ -9,7 +9,8 @@ import pytest
 from string_cases import CASES, StringCase
 from uniform_strings import uniform_string
 
-from hydroelastic.modal import Ramp, Sine, Smooth, Step, string_response
+from hydroelastic.modal.string.response import string_response
+from hydroelastic.physics.string_motions import Ramp, Sine, Smooth, Step
 
 REFERENCE = json.loads((Path(__file__).parent / "reference" / "string_and_roll.json").read_text(encoding="utf-8"))
 STORED = {case["id"]: case for case in REFERENCE["cases"] if case["paper"] == "000"}

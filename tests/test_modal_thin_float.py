@@ -11,9 +11,8 @@ import pytest
 from scipy.integrate import quad
 from scipy.special import iv, modstruve
 
-from hydroelastic.modal import (
-    NoEstimateError,
-    float_profile,
+from hydroelastic.modal.estimate import NoEstimateError
+from hydroelastic.modal.floats.thin_float import (
     thin_constants,
     thin_float_added_mass,
     thin_float_frequency,
@@ -30,7 +29,7 @@ from hydroelastic.modal.floats.thin_shapes import (
     wave_moment,
     wave_moment_series,
 )
-from hydroelastic.physics.profiles import Profile
+from hydroelastic.physics.profiles import Profile, float_profile
 
 REFERENCE = json.loads((Path(__file__).parent / "reference" / "two_fluid_float.json").read_text(encoding="utf-8"))
 CASES = {case["id"]: case for case in REFERENCE["cases"]}

@@ -8,27 +8,18 @@ import numpy as np
 import pytest
 from thin_floats import CASES, CHANNEL, SHAPES, UNIT, number, thin
 
-from hydroelastic.modal import (
-    FloatInTank,
-    NoEstimateError,
-    TwoLayers,
-    box_modes,
-    channel_free_motion,
-    channel_resonance,
-    crossover_time,
-    float_profile,
-    free_motion,
-    heave_pole,
-    open_float_estimate,
-    pole_count,
-    released_float,
-    thin_float_mass,
-    thin_float_radiation,
-    thin_float_stiffness,
-)
-from hydroelastic.modal.floats.thin_float_radiation import natural_rate
+from hydroelastic.modal.estimate import NoEstimateError
+from hydroelastic.modal.floats.box import box_modes
+from hydroelastic.modal.floats.channel_motion import channel_free_motion, channel_resonance
+from hydroelastic.modal.floats.in_tank import FloatInTank
+from hydroelastic.modal.floats.open_float import open_float_estimate, released_float
+from hydroelastic.modal.floats.thin_float import thin_float_mass, thin_float_stiffness
+from hydroelastic.modal.floats.thin_float_decay import crossover_time, free_motion
+from hydroelastic.modal.floats.thin_float_radiation import natural_rate, thin_float_radiation
+from hydroelastic.modal.floats.thin_float_resonance import heave_pole, pole_count
 from hydroelastic.modal.floats.wave_integral import wave_integral
-from hydroelastic.physics.profiles import FloatShape
+from hydroelastic.modal.liquid.two_layer import TwoLayers
+from hydroelastic.physics.profiles import FloatShape, float_profile
 
 
 @pytest.mark.parametrize("shape", SHAPES)

@@ -11,23 +11,15 @@ from scipy.integrate import quad
 from scipy.special import exp1, expi
 from thin_floats import CASES, EPS, SHAPES, UNIT, gauss, number, of_case, of_coupling, thin
 
-from hydroelastic.modal import (
-    NoEstimateError,
-    TwoLayers,
-    crossover_time,
-    free_motion,
-    free_motion_tail,
-    heave_pole,
-    pole_count,
-    second_pole,
-    thin_constants,
-    thin_float_mass,
-    thin_float_radiation,
-    thin_float_stiffness,
-)
+from hydroelastic.modal.estimate import NoEstimateError
 from hydroelastic.modal.floats import thin_float_decay as decay
+from hydroelastic.modal.floats.thin_float import thin_constants, thin_float_mass, thin_float_stiffness
+from hydroelastic.modal.floats.thin_float_decay import crossover_time, free_motion, free_motion_tail
+from hydroelastic.modal.floats.thin_float_radiation import thin_float_radiation
+from hydroelastic.modal.floats.thin_float_resonance import heave_pole, pole_count, second_pole
 from hydroelastic.modal.floats.thin_shapes import wave_moment
 from hydroelastic.modal.floats.wave_integral import greatest_angle
+from hydroelastic.modal.liquid.two_layer import TwoLayers
 from hydroelastic.physics.profiles import FloatShape, Profile
 
 MOTIONS = [name for name in CASES if name.startswith("f_")]

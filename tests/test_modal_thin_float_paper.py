@@ -11,17 +11,13 @@ import pytest
 from scipy.integrate import quad
 from section_panels import added_masses
 
-from hydroelastic.modal import (
-    THIN_FLOAT_ERRATA,
-    FloatInTank,
-    NoEstimateError,
-    TwoLayers,
-    box_modes,
-    float_profile,
-    printed_constants,
-    thin_float_mass,
-    thin_float_stiffness,
-)
+from hydroelastic.modal.estimate import NoEstimateError
+from hydroelastic.modal.floats.box import box_modes
+from hydroelastic.modal.floats.in_tank import FloatInTank
+from hydroelastic.modal.floats.thin_float import thin_float_mass, thin_float_stiffness
+from hydroelastic.modal.floats.thin_float_paper import THIN_FLOAT_ERRATA, printed_constants
+from hydroelastic.modal.liquid.two_layer import TwoLayers
+from hydroelastic.physics.profiles import float_profile
 
 REFERENCE = json.loads((Path(__file__).parent / "reference" / "two_fluid_float.json").read_text(encoding="utf-8"))
 CASES = {case["id"]: case for case in REFERENCE["cases"]}

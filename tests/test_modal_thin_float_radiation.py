@@ -9,18 +9,14 @@ import pytest
 from scipy.integrate import quad
 from thin_floats import CASES, CHANNEL, EPS, SHAPES, UNIT, gauss, thin
 
-from hydroelastic.modal import (
-    TwoLayers,
-    complex_added_mass,
-    float_profile,
-    open_float_estimate,
-    thin_constants,
-    thin_float_radiation,
-)
 from hydroelastic.modal.floats.complex_moments import complex_wave_moment
+from hydroelastic.modal.floats.open_float import open_float_estimate
+from hydroelastic.modal.floats.thin_float import thin_constants
+from hydroelastic.modal.floats.thin_float_radiation import complex_added_mass, thin_float_radiation
 from hydroelastic.modal.floats.thin_shapes import inertia_factor, wave_moment
 from hydroelastic.modal.floats.wave_integral import wave_integral
-from hydroelastic.physics.profiles import FloatShape, Profile
+from hydroelastic.modal.liquid.two_layer import TwoLayers
+from hydroelastic.physics.profiles import FloatShape, Profile, float_profile
 
 
 @pytest.mark.parametrize("name", ["ab_exponential", "ab_parabola"])

@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hydroelastic.modal import InterfacePlate, TwoLayers, interface_frequencies, sloshing_frequencies, tank_modes
+from hydroelastic.modal.liquid.sloshing import sloshing_frequencies
+from hydroelastic.modal.liquid.two_layer import InterfacePlate, TwoLayers, interface_frequencies, tank_modes
 
 REFERENCE = json.loads((Path(__file__).parent / "reference" / "two_liquid_beam.json").read_text(encoding="utf-8"))
 ROUNDING = 8 * np.finfo(float).eps

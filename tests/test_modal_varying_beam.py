@@ -11,7 +11,8 @@ from scipy.optimize import brentq
 
 from hydroelastic.modal.beam.beam_shapes import beam_shapes, first_dry_eigenvalue
 from hydroelastic.modal.beam.jointed_modes import jointed_modes
-from hydroelastic.physics.beams import Beam, Section
+from hydroelastic.physics.beam_parts import Section
+from hydroelastic.physics.beams import Beam
 from hydroelastic.physics.varying_beam import VaryingBeam
 
 Function = Callable[[np.ndarray], np.ndarray]
@@ -100,9 +101,9 @@ def test_steps_of_a_varying_beam_are_those_of_a_stepped_one() -> None:
 
 
 def test_mirror_images_have_mirrored_shapes_and_are_known_as_such() -> None:
-    assert TAPERED.mirrors(TAPERED.reversed)
+    assert TAPERED.is_mirror_image_of(TAPERED.reversed)
     assert not TAPERED.is_mirror_image
-    assert not TAPERED.mirrors(BULGED.reversed)
+    assert not TAPERED.is_mirror_image_of(BULGED.reversed)
     # The means of its sections are alike, what varies within them is not.
     leaning = varying(lambda x: 2.0 + 0.5 * (x % 2.0 - 1.0), np.ones_like, 2.0, 2.0)
     assert leaning.sections[0] == leaning.sections[1]

@@ -21,7 +21,7 @@ def test_all_follows_from_the_name(
     name: str, body: int | None, kind: str, capitalised: str, words: str, elastic: bool, turns: bool
 ) -> None:
     dof = Dof(name)
-    found = dof.body, dof.kind, dof.capitalised, dof.words, dof.is_elastic, dof.turns
+    found = dof.body, dof.kind, dof.capitalised, dof.words, dof.is_elastic, dof.is_rotation
     assert found == (body, kind, capitalised, words, elastic, turns)
 
 

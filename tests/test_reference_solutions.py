@@ -21,7 +21,7 @@ from surface_reference import (
     without_waves,
 )
 
-from hydroelastic.modal import gravity_tones
+from hydroelastic.modal.beam.gravity_added_mass import gravity_tones
 from hydroelastic.modal.tank_estimates import floating_beam
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene

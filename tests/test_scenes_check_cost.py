@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from hydroelastic.fem.tank.expected import expected_tones
+from hydroelastic.fem.bodies.registry import expected_tones
 from hydroelastic.fem.tank.resolution import initial_resolution
 from hydroelastic.meshes.geometry import tank_geometry
 from hydroelastic.meshes.grading import Grading

@@ -14,7 +14,7 @@ from eyes import EYES, lab
 from PIL import Image
 
 from hydroelastic.output.pictures.colours import diverging_colours
-from hydroelastic.output.pictures.curves import COLOURS, Sheets, dress, plot_curve, sequence_colours
+from hydroelastic.output.pictures.curves import COLOURS, Sheets, label_axes, plot_curve, sequence_colours
 from hydroelastic.output.pictures.options import PictureOptions
 
 ALL = PictureOptions(formats=("png", "svg", "pdf"), dpi=80)
@@ -29,7 +29,7 @@ def draw(folder: Path, options: PictureOptions = ALL, *, title: str = "A chain",
         axes = figure.subplots()
         plot_curve(axes, x, x**2, 0, "upper")
         plot_curve(axes, x, x, 1, "lower")
-        dress(axes, "length, m", "force, kN")
+        label_axes(axes, "length, m", "force, kN")
 
 
 def words_of(svg: Path) -> list[str]:

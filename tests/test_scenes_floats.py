@@ -68,7 +68,7 @@ def force(points: np.ndarray, pivot: np.ndarray, mass: float, densities: tuple[f
 
 def measured_stiffness(given: TankScene, found: Hydrostatics) -> np.ndarray:
     """Stiffness of heave and roll from a section displaced and turned by a little, as a polygon of many corners."""
-    contour = placed_float(given, 0).contour
+    contour = placed_float(given, 0).hull.contour
     t = np.linspace(0, 1, 4001)[:-1]
     points = np.vstack([arc.point(t[:1] if arc.straight else t) for arc in contour.arcs]) - [0.0, found.level]
     pivot = np.array(found.centre_of_mass) - [0.0, found.level]

@@ -19,7 +19,7 @@ from hydroelastic.modal.beam.estimates import all_estimates, estimates_of_jointe
 from hydroelastic.modal.beam.jointed_modes import jointed_modes
 from hydroelastic.modal.tank_estimates import floating_beam, tone_estimates
 from hydroelastic.physics import beams
-from hydroelastic.physics.beams import Joint, Section
+from hydroelastic.physics.beam_parts import Joint, Section
 from hydroelastic.physics.rigid_motions import zero_mode_count
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.models import Accuracy, Beam, Liquid, Tank, TankScene

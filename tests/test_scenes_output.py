@@ -15,7 +15,7 @@ import pytest
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.output import exchange as exchange_module
 from hydroelastic.scenes.output import folder as output
-from hydroelastic.scenes.output.folder import check_output, place_of_results, result_folder
+from hydroelastic.scenes.output.folder import check_output, result_folder, results_message
 
 SUMMARY = json.dumps({"scene": {}, "status": "ok"})
 
@@ -74,7 +74,7 @@ def test_what_no_run_has_written_is_kept(tmp_path: Path) -> None:
         assert (target / "folder").is_symlink()
         # The same file: an editor that has it open goes on with it.
         assert (target / "mine.toml").stat().st_ino == inode
-        assert place_of_results(target, replaces=True).endswith(
+        assert results_message(target, replaces=True).endswith(
             "(replacing earlier ones, keeping folder, mine.toml, mine/link and 1 more)"
         )
     assert [path.name for path in tmp_path.iterdir()] == ["result"]

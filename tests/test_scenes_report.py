@@ -23,7 +23,7 @@ from hydroelastic.scenes.read import SHIPPED_FOLDER, read_scene, shipped_scenes
 from hydroelastic.scenes.report import content, write
 from hydroelastic.scenes.report.answer import answer
 from hydroelastic.scenes.report.captions import place_and_caption
-from hydroelastic.scenes.report.page import Part, ReportPage, is_loud, is_numeric
+from hydroelastic.scenes.report.page import Part, ReportPage, is_numeric, is_warning
 from hydroelastic.scenes.report.pictures import pictures_of
 from hydroelastic.scenes.report.scene_text import scene_text
 from hydroelastic.scenes.run import run_scene
@@ -294,10 +294,10 @@ def test_columns_of_numbers_stand_to_the_right(cells: list[str], numeric: bool) 
 
 
 def test_warnings_are_told_from_formulas() -> None:
-    assert is_loud("UNSTABLE: a motion grows")
-    assert is_loud("NO: larger than")
-    assert not is_loud("EI w⁗ = 0")
-    assert not is_loud("Float 1: mass")
+    assert is_warning("UNSTABLE: a motion grows")
+    assert is_warning("NO: larger than")
+    assert not is_warning("EI w⁗ = 0")
+    assert not is_warning("Float 1: mass")
 
 
 MODES = {

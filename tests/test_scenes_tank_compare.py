@@ -9,7 +9,7 @@ import pytest
 from click.testing import CliRunner
 from scene_files import BEAM_IN_TANK
 
-from hydroelastic.modal import Estimate
+from hydroelastic.modal.estimate import Estimate
 from hydroelastic.scenes.command_line import main
 from hydroelastic.scenes.output.sections import markdown_sections
 from hydroelastic.scenes.tank.compare import compare_tank

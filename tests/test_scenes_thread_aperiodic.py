@@ -7,7 +7,7 @@ import pytest
 from mpi4py import MPI
 
 from hydroelastic.scenes.models.thread import ThreadScene
-from hydroelastic.scenes.output.provenance import framed_summary
+from hydroelastic.scenes.output.provenance import complete_summary
 from hydroelastic.scenes.thread.results import ThreadSolutionOfScene
 from hydroelastic.scenes.thread.solve import solve_thread_scene
 
@@ -57,4 +57,4 @@ def test_a_real_root_of_a_large_error_is_unconverged(solution: ThreadSolutionOfS
     rough = replace(solution, modes=(replace(modes, aperiodic=replace(modes.aperiodic, errors=errors)),))
     (reason,) = rough.reasons
     assert "root that does not oscillate is 6.1e-06" in reason
-    assert framed_summary(rough, {}, rough.size, MPI.COMM_WORLD, 0.0)["status"] == "unconverged"
+    assert complete_summary(rough, {}, rough.size, MPI.COMM_WORLD, 0.0)["status"] == "unconverged"

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from mpi4py import MPI
 
-from hydroelastic.fem.thread.motion_errors import MeasuredMotion, MotionDifference
+from hydroelastic.fem.thread.motion_errors import MotionDifference, MotionWithErrors
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.thread.dataset import thread_dataset
@@ -62,7 +62,7 @@ def test_all_that_is_told_is_of_all_steps(sparse: ThreadSolutionOfScene) -> None
 
 def test_slack_is_judged_by_the_error_of_its_time() -> None:
     nothing = MotionDifference(positions=0.0, velocities=0.0, tensions=0.0)
-    measured = MeasuredMotion(
+    measured = MotionWithErrors(
         motion=None,  # type: ignore[arg-type]
         steps=nothing,
         mesh=nothing,

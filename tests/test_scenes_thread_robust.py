@@ -124,7 +124,7 @@ def test_light_body_at_the_end(part: float, sign: float) -> None:
 def test_arch_is_refused() -> None:
     """From above its ends a thread without rigidity comes to stand as an arch, in compression."""
     scene = ThreadScene.model_validate(scene_of(1.5, 1.0, fixed(1.0, 0.0, 0.0)))
-    model = frame_of(scene).thread(thread_of(scene))
+    model = frame_of(scene).thread_in_frame(thread_of(scene))
     hanging = equilibrium_of(MPI.COMM_WORLD, scene).solution.profile
     arch = Start(
         position=lambda s: hanging.position(s) * [1.0, -1.0], force=lambda s: np.asarray(-hanging.tension_at(s))

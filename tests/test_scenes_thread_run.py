@@ -148,8 +148,8 @@ def test_a_stream_by_a_table_grows_like_any_other() -> None:
     table = "stream={density = 1000.0, profile = [[-10.0, 1.0, 0.0], [10.0, 2.0, 0.5]]}"
     thread = thread_of(thread_scene("fluttering_hose", table, "analysis=[]"))
     faster = TabulatedStream((-10.0, 10.0), ((2.0, 0.0, 0.0), (4.0, 1.0, 0.0)))
-    assert thread.in_stream_times(2.0).stream == faster
-    assert thread.in_stream_times(0.0).stream is None
+    assert thread.with_stream_factor(2.0).stream == faster
+    assert thread.with_stream_factor(0.0).stream is None
 
 
 def clamped(axial_rigidity: float | None, **changes: Any) -> ThreadScene:

@@ -15,8 +15,8 @@ from thread_motions import follow, free, held
 
 from hydroelastic.fem.thread import motion_refinement as motion_module
 from hydroelastic.fem.thread.force_scale import force_scale
-from hydroelastic.fem.thread.motion import MovingStart
-from hydroelastic.fem.thread.motion_errors import MeasuredMotion, Run, measure_motion
+from hydroelastic.fem.thread.motion import InitialMotion
+from hydroelastic.fem.thread.motion_errors import MotionWithErrors, Run, motion_with_errors
 from hydroelastic.fem.thread.motion_plan import MotionPlan, PrescribedEnd, ThreadMotionError
 from hydroelastic.fem.thread.time_integrator import TimeIntegrator
 from hydroelastic.physics.thread import Thread
@@ -75,11 +75,11 @@ def test_a_motion_that_refinement_makes_worse_is_given_at_its_best(monkeypatch: 
     """Short waves of a thread without tension grow by themselves, and a finer mesh holds shorter ones."""
     errors = iter([2e-3, 3e-3])
 
-    def measured(run: Run, plan: MotionPlan, *, mesh: bool) -> MeasuredMotion:
-        found = measure_motion(run, plan, mesh=mesh)
+    def measured(run: Run, plan: MotionPlan, *, mesh: bool) -> MotionWithErrors:
+        found = motion_with_errors(run, plan, mesh=mesh)
         return replace(found, steps=replace(found.steps, positions=next(errors)))
 
-    monkeypatch.setattr(motion_module, "measure_motion", measured)
+    monkeypatch.setattr(motion_module, "motion_with_errors", measured)
     solution = solve(falling(times=[0.0, 0.2], tolerance=1e-3))
     assert solution.motions[0].step_error == 2e-3
     assert any("of positions" in reason for reason in solution.reasons)
@@ -152,7 +152,7 @@ def test_a_stiff_thread_that_becomes_slack_is_given_up(attempts: list[float]) ->
     bob = free([0.0, -BOB], mass=1e5)
     model = Thread(dimension=2, length=1.0, ends=(held([0.0, 0.0]), bob), weight=9.81, mass=1.0, axial_rigidity=1e12)
     lead = PrescribedEnd(position=lambda time: np.array([0.02 * time**2, -20.0 * time**2]))
-    hanging = MovingStart(position=lambda s: np.outer(s, [0.0, -1.0]))
+    hanging = InitialMotion(position=lambda s: np.outer(s, [0.0, -1.0]))
     with pytest.raises(ThreadMotionError, match=r"slack.*flexural_rigidity"):
         follow(model, 4, hanging, [0.0, 0.5], 0.05, tolerance=1e-5, ends=(lead, PrescribedEnd()))
     assert len(attempts) > 100

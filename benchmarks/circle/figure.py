@@ -10,7 +10,7 @@ from hydroelastic.benchmarks.error_curves import CurveStyle, plot_errors
 from hydroelastic.benchmarks.page import NAMES
 from hydroelastic.benchmarks.rows import Row
 from hydroelastic.output.pictures.colours import BLUE, SKY, VERMILLION
-from hydroelastic.output.pictures.curves import Sheets, dress
+from hydroelastic.output.pictures.curves import Sheets, label_axes
 
 # The longer the cylinder, the darker.
 _COLOURS = dict(zip(LENGTHS, (SKY, BLUE, "#0b2f52"), strict=True))
@@ -27,7 +27,7 @@ def draw_circle(rows: Sequence[Row], sheets: Sheets, name: str) -> None:
                 series = [row for row in rows if _key(row) == (code, variant, length) and row.case.tank == frequency]
                 plot_errors(panel, series, *_style(code, variant, length))
             panel.set_title(frequency)
-            dress(panel, "time from scene or panels to numbers, s", "", legend="")
+            label_axes(panel, "time from scene or panels to numbers, s", "", legend="")
         panels[0].set_ylabel("relative error of heave or sway, the larger one")
         figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
 

@@ -9,7 +9,7 @@ from hydroelastic.benchmarks.error_curves import CurveStyle, plot_errors
 from hydroelastic.benchmarks.page import NAMES
 from hydroelastic.benchmarks.rows import Row
 from hydroelastic.output.pictures.colours import BLUE, VERMILLION
-from hydroelastic.output.pictures.curves import GREY, Sheets, dress
+from hydroelastic.output.pictures.curves import GREY, Sheets, label_axes
 
 _STYLES: dict[Code, CurveStyle] = {
     "string field": CurveStyle(colour=VERMILLION, marker="o"),
@@ -29,6 +29,6 @@ def draw_strings(rows: Sequence[Row], sheets: Sheets, name: str) -> None:
                 series = [row for row in rows if row.case.code == code and row.case.tank == motion]
                 plot_errors(panel, series, _STYLES[code], NAMES[code])
             panel.set_title(f"motion: {motion}")
-            dress(panel, "time to all displacements, s", "", legend="")
+            label_axes(panel, "time to all displacements, s", "", legend="")
         panels[0].set_ylabel("largest error over the largest displacement")
         figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=3)

@@ -11,7 +11,7 @@ from hydroelastic.benchmarks.page import NAMES
 from hydroelastic.benchmarks.rows import Row
 from hydroelastic.benchmarks.tank.cases import tank_named
 from hydroelastic.output.pictures.colours import BLUE, GREEN, VERMILLION
-from hydroelastic.output.pictures.curves import GREY, Sheets, dress
+from hydroelastic.output.pictures.curves import GREY, Sheets, label_axes
 
 _STYLES: dict[tuple[Code, Variant], tuple[CurveStyle, str]] = {
     ("hydroelastic", "certified"): (
@@ -46,7 +46,7 @@ def draw_speed(rows: Sequence[Row], sheets: Sheets, name: str) -> None:
             panel.set_title(_described(tank))
             # Shared axes hide the numbers of panels that have others below them; the last row may be short.
             panel.tick_params(labelbottom=True, labelleft=True)
-            dress(panel, "time from mesh to frequencies, s", "largest relative error of ω", legend="")
+            label_axes(panel, "time from mesh to frequencies, s", "largest relative error of ω", legend="")
         for panel in panels[len(tanks) :]:
             panel.set_axis_off()
         handles, labels = panels[0].get_legend_handles_labels()

@@ -12,7 +12,7 @@ from hydroelastic.benchmarks.page import NAMES
 from hydroelastic.benchmarks.rows import Row
 from hydroelastic.benchmarks.thread.cases import TENSION_TIMES, Reference, jumper_tension
 from hydroelastic.output.pictures.colours import BLUE, GREEN, ORANGE, VERMILLION
-from hydroelastic.output.pictures.curves import GREY, Sheets, dress
+from hydroelastic.output.pictures.curves import GREY, Sheets, label_axes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -52,7 +52,7 @@ def draw_threads(rows: Sequence[Row], sheets: Sheets, name: str) -> None:
                     plot_errors(panel, series, style, f"{NAMES[code]}, {variant}" if named else NAMES[code])
             handles |= {line.get_label(): line for line in panel.get_lines()}
             panel.set_title(thread)
-            dress(panel, "time, s", "relative error", legend="")
+            label_axes(panel, "time, s", "relative error", legend="")
         _draw_tension(panels[len(threads)])
         for panel in panels[len(threads) + 1 :]:
             panel.set_axis_off()
@@ -64,5 +64,5 @@ def _draw_tension(panel: Axes) -> None:
         label = f"{name}, digitised" if name == "OrcaFlex" else f"{name}, fine run"
         panel.plot(TENSION_TIMES, jumper_tension(name) / 1e3, color=colour, linestyle=dashes, label=label)
     panel.set_title("top tension of the moved jumper")
-    dress(panel, "time, s", "tension, kN", legend="")
+    label_axes(panel, "time, s", "tension, kN", legend="")
     panel.legend(loc="upper left")

@@ -24,9 +24,9 @@ from hydroelastic.benchmarks.thread.cases import (
 from hydroelastic.fem.thread.equilibrium import solve_on_mesh
 from hydroelastic.fem.thread.equilibrium_search import FoundEquilibrium
 from hydroelastic.fem.thread.frame import Frame
-from hydroelastic.fem.thread.motion import MovingStart, move_from_rest, move_thread
+from hydroelastic.fem.thread.motion import InitialMotion, move_from_rest, move_thread
 from hydroelastic.fem.thread.motion_plan import MotionPlan, PrescribedEnd
-from hydroelastic.fem.thread.motion_refinement import follow_motion
+from hydroelastic.fem.thread.motion_refinement import motion_to_tolerance
 from hydroelastic.fem.thread.motion_request import MotionRequest
 from hydroelastic.fem.thread.profile import start_from
 from hydroelastic.modal.thread.catenary import elastic_catenary
@@ -112,7 +112,9 @@ def _certified(case: Case, scene: ThreadScene, found: FoundEquilibrium) -> Answe
         times=tuple(map(float, TENSION_TIMES)), displacements=((), (swayed,)), tolerance=case.tolerance
     )
     tolerance = scene.accuracy.tolerance
-    motion = follow_motion(MPI.COMM_WORLD, thread_of(scene), _PLANE, found.solution, request, rest_tolerance=tolerance)
+    motion = motion_to_tolerance(
+        MPI.COMM_WORLD, thread_of(scene), _PLANE, found.solution, request, rest_tolerance=tolerance
+    )
     estimate = (motion.step_error + motion.mesh_error) / scene.thread.length
     tension = motion.tension_error / float(np.abs(motion.tensions).max())
     words = f"estimates: positions {estimate:.1e}, tensions {tension:.1e}"
@@ -134,7 +136,7 @@ def _moved(case: Case, scene: ThreadScene, found: FoundEquilibrium) -> Answer:
     nodes = np.linspace(0.0, line.length, case.segments + 1, dtype=np.float64)
     start = start_from(found.solution.profile)
     # At rest on its own mesh: a thread that is interpolated begins to ring along itself.
-    rest = solve_on_mesh(MPI.COMM_WORLD, _PLANE.thread(thread_of(scene)), nodes, start, degree=_DEGREE)
+    rest = solve_on_mesh(MPI.COMM_WORLD, _PLANE.thread_in_frame(thread_of(scene)), nodes, start, degree=_DEGREE)
     history = move_from_rest(rest, plan).history
     pulls = np.linalg.norm(history.reactions[:, 1], axis=1)
     values = np.interp(TENSION_TIMES, history.ends, pulls)
@@ -167,7 +169,7 @@ def _swing(case: Case) -> Answer:
     def sideways(s: Array) -> Array:
         return np.asarray(np.outer(CHAIN.velocity(s), [1.0, 0.0]), dtype=np.float64)
 
-    start = MovingStart(position=hanging, velocity=sideways)
+    start = InitialMotion(position=hanging, velocity=sideways)
     nodes = np.linspace(0.0, CHAIN.length, case.segments + 1, dtype=np.float64)
     plan = MotionPlan(times=np.array([0.0, *SWING_TIMES]), step=case.step)
     motion = move_thread(MPI.COMM_WORLD, model, nodes, start, plan, degree=_DEGREE)

@@ -3,21 +3,78 @@
 from __future__ import annotations
 
 from functools import partial
+from math import ceil, pi
 
 import numpy as np
 
+from hydroelastic.fem.bodies.model import BodyModel
 from hydroelastic.fem.surfaces import Body
-from hydroelastic.modal.beam.beam_shapes import BeamShapes, beam_shapes
+from hydroelastic.modal.beam.beam_shapes import BeamShapes, beam_shapes, first_bending
+from hydroelastic.physics.beams import Beam
 from hydroelastic.physics.dofs import body_name
 from hydroelastic.physics.symmetry import Parity
 from hydroelastic.physics.tank import Tank
 
+# Added mass per ρ l of dry mode 1 and of heave, and between them, on deep open water with ψ = 0 beside the beam.
+_DEEP_ELASTIC = 0.12787
+_DEEP_HEAVE = 0.39270
+_DEEP_COUPLING = 0.114
+# Dry modes beyond the shortest wave, in units of its half waves and of tolerance^(-1/7).
+_TAIL = 0.45
+# Half waves of the first bending shape of a section.
+_FIRST_BENDING = 1.5
+# A section stiffer than the softest one by this over the tolerance bends less than can be told.
+_RIGID = 100.0
+# Sections whose flexural rigidities differ by less than this factor bend together.
+_ALIKE = 10.0
 
-def beam_body(tank: Tank, index: int, count: int, parity: Parity | None) -> Body:
-    """A beam in its first ``count`` shapes, rigid ones included; dimensionless.
 
-    With a parity, only the shapes of that parity about its middle, and the energies of half the beam.
-    """
+class BeamModel(BodyModel):
+    """A beam in its first dry modes."""
+
+    @property
+    def beam(self) -> Beam:
+        """The beam."""
+        return self.tank.beams[self.index]
+
+    def moving(self, count: int, parity: Parity | None) -> Body:
+        """See `BodyModel.moving`."""
+        return _in_dry_modes(self.tank, self.index, count, parity)
+
+    def dry_mode_count(self, wavenumber: float, tolerance: float) -> int:
+        """Those up to the shortest wave, and a tail whose error falls like N⁻⁷.
+
+        Dry modes have wavenumbers κ ~ EI^{-1/4} in the sections, and the shortest wave is in the softest one. What
+        stiffer ones bend counts less, like 1/EI, but is not seen before their first bending shape, of 3/2 half waves.
+        """
+        sections = self.beam.sections
+        softest = min(part.flexural_rigidity for part in sections)
+        phase = sum((softest / part.flexural_rigidity) ** 0.25 * part.length for part in sections)
+        needed = 0.0
+        for part in sections:
+            ratio = part.flexural_rigidity / softest
+            length = sum(
+                other.length
+                for other in sections
+                if 1.0 / _ALIKE <= other.flexural_rigidity / part.flexural_rigidity <= _ALIKE
+            )
+            half_waves = wavenumber * ratio**-0.25 * length / pi
+            tail = _TAIL * (half_waves + 2.0) * (tolerance * ratio) ** (-1.0 / 7.0)
+            hidden = _FIRST_BENDING if _ALIKE < ratio < _RIGID / tolerance else 0.0
+            needed = max(needed, (half_waves + tail + hidden) * phase * ratio**0.25 / length)
+        return ceil(needed) + 4 + len(self.beam.hinges)
+
+    def expected_tones(self) -> tuple[float, ...]:
+        """Dry mode 1 with the recoil in heave, on deep open liquids that move freely beside the beam."""
+        beam, level = self.beam, self.tank.level_of(self.index)
+        liquid = beam.length * self.tank.density_at(level)
+        elastic = beam.mass_per_length + _DEEP_ELASTIC * liquid
+        heave = beam.mass_per_length + _DEEP_HEAVE * liquid
+        inertia = elastic - (_DEEP_COUPLING * liquid) ** 2 / heave
+        return ((first_bending(beam) + float(beam.hydrostatic) * level.jump) / inertia,)
+
+
+def _in_dry_modes(tank: Tank, index: int, count: int, parity: Parity | None) -> Body:
     beam, piece, jump = tank.beams[index], tank.piece_of(index), tank.level_of(index).jump
     part = 1.0 if parity is None else 0.5
     shapes = beam_shapes(beam, count)

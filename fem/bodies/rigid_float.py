@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from functools import partial
+from math import pi
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 
+from hydroelastic.fem.bodies.model import FAR_ENOUGH, BodyModel
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.physics.dofs import Dof, body_name
 from hydroelastic.physics.floats import RigidFloat
@@ -16,27 +18,49 @@ from hydroelastic.physics.symmetry import Parity, motion_parity
 
 # Coupling and stiffness below this part of the largest are rounding.
 _NEGLIGIBLE = 1e-12
+# Added mass of a float's heave in ρ times the square of its waterplane's width: that of any half-immersed ellipse.
+_ADDED_IN_HEAVE = pi / 8.0
 
 
-def float_body(body: RigidFloat, index: int, parity: Parity | None) -> Body:
+class FloatModel(BodyModel):
+    """A rigid float in its principal motions."""
+
+    def moving(self, count: int, parity: Parity | None) -> Body:
+        """See `BodyModel.moving`; a float has all of its motions whatever the count."""
+        return in_principal_motions(self.tank.floats[self.index], self.index, parity)
+
+    def ends_of_motions(self) -> tuple[float, ...]:
+        """Those of the motions that gravity restores, beyond their λ at infinite frequency."""
+        body, level = self.tank.floats[self.index], self.tank.level_of(self.index)
+        width = body.stiffness[0, 0] / level.jump
+        ends = []
+        for place, motion in enumerate(MOTIONS):
+            if motion in body.motions and body.stiffness[place, place] > 0.0:
+                added = _ADDED_IN_HEAVE * self.tank.density_at(level) * width**2 if motion == "heave" else 0.0
+                expected = float(body.stiffness[place, place] / (body.inertia[place] + added))
+                ends.append(FAR_ENOUGH * expected)
+        return tuple(ends)
+
+
+def in_principal_motions(body: RigidFloat, index: int, parity: Parity | None) -> Body:
     """A float in its principal motions; dimensionless.
 
     They are heave, sway and roll where gravity does not couple heave and roll, as it does in a section that is not its
     own mirror image. The two are then replaced by the motions in which the float alone, without liquid, would oscillate
-    under its hydrostatic stiffness; each is named after the one with the larger part of its kinetic energy, and has
-    that one's unit.
+    under its hydrostatic stiffness; each has the name and unit of the one with the larger part of its kinetic energy.
 
     Args:
         body: the float.
         index: of it among the bodies.
-        parity: of the motions that are meant, with the energies of half the float; ``None`` takes all, and the whole.
+        parity: of the motions to include, with the energies of half the float; ``None`` takes all motions of the whole
+            float.
     """
     motions = tuple(motion for motion in body.motions if parity in (None, motion_parity(motion)))
     part = 1.0 if parity is None else 0.5
     turn, stiffness, inertia = principal_motions(body, motions)
     return Body(
         surface=body_name(index + 1),
-        shapes=partial(_thin_shape if body.is_thin else _exact_shape, body, motions, turn),
+        shapes=partial(_thin_shape if body.hull.is_thin else _exact_shape, body, motions, turn),
         wavenumber=0.0,
         dofs=tuple(map(Dof, motions)),
         parities=tuple(map(motion_parity, motions)),
@@ -51,7 +75,7 @@ def float_body(body: RigidFloat, index: int, parity: Parity | None) -> Body:
 def principal_motions(
     body: RigidFloat, motions: tuple[Motion, ...]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Motions that neither stiffness nor inertia couples.
+    """Motions without coupling by stiffness or inertia.
 
     Returns:
         Their parts in the given motions as columns, their stiffness and their inertia.
@@ -59,13 +83,13 @@ def principal_motions(
     places = [MOTIONS.index(motion) for motion in motions]
     stiffness, inertia = body.stiffness[np.ix_(places, places)], body.inertia[places]
     turn = np.eye(len(motions))
-    # A roll that moves the float's rim by a unit of length, so that it compares with heave.
-    units = np.array([1.0 / body.smallest_extent if motion == "roll" else 1.0 for motion in motions])
+    # Roll is scaled by the displacement of the float's rim, to be comparable with heave.
+    units = np.array([1.0 / body.hull.smallest_extent if motion == "roll" else 1.0 for motion in motions])
     alike = np.abs(stiffness * units * units[:, None])
     if (alike - np.diag(np.diag(alike))).max(initial=0.0) > _NEGLIGIBLE * alike.max(initial=0.0):
         pair = [motions.index("heave"), motions.index("roll")]
         _, vectors = eigh(stiffness[np.ix_(pair, pair)], np.diag(inertia[pair]))
-        # Of two vectors that are orthogonal in the inertia one leans to heave and the other to roll.
+        # Of two vectors orthogonal in the inertia, one is dominated by heave and the other by roll.
         if abs(vectors[0, 0]) ** 2 * inertia[pair[0]] < 0.5:
             vectors = vectors[:, ::-1]
         turn[np.ix_(pair, pair)] = vectors / np.diag(vectors)
@@ -76,9 +100,10 @@ def principal_motions(
 
 def _singular_points(body: RigidFloat) -> NDArray[np.float64] | None:
     """Where the slope of a thin float's profile has no bound: the ends of a thin ellipse."""
-    if not body.is_thin or body.profile is None or body.profile.shape != "ellipse":
+    hull = body.hull
+    if not hull.is_thin or hull.profile is None or hull.profile.shape != "ellipse":
         return None
-    return np.array([[body.waterplane[0], y] for y in body.slit])
+    return np.array([[hull.waterplane[0], y] for y in hull.slit])
 
 
 def _exact_shape(
@@ -106,9 +131,10 @@ def _thin_shape(
     number: int,
 ) -> NDArray[np.float64]:
     """The flux through the contour x = x₀ ± ω(y) put on x = x₀: n ds = (∓1, ω') dy out of the liquid."""
-    assert body.profile is not None
-    y = points[1] - body.hydrostatics.reference_level
+    profile = body.hull.profile
+    assert profile is not None
+    y = points[1] - body.hull.reference_level
     # The liquid on the right has its normal to the left, and the contour to the right.
-    on_contour = np.array([points[0] - normals[0] * body.profile.half_width_at(y), points[1]])
-    flux = np.array([normals[0], body.profile.slope_at(y)])
+    on_contour = np.array([points[0] - normals[0] * profile.half_width_at(y), points[1]])
+    flux = np.array([normals[0], profile.slope_at(y)])
     return _exact_shape(body, motions, turn, on_contour, flux, number)

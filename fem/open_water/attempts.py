@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
-from hydroelastic.fem.memory import hand_back_memory
+from hydroelastic.fem.memory import release_memory
 from hydroelastic.fem.open_water.basin import open_basin
 from hydroelastic.fem.open_water.field_model import Band, first_resolution
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
@@ -55,7 +55,7 @@ def best_attempt(
         if resolution is None:
             break
         attempt = solve(resolution)
-        hand_back_memory()
+        release_memory()
         if best is None or attempt.error < best.error:
             best = attempt
         if attempt.error <= tolerance:

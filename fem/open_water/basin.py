@@ -18,7 +18,6 @@ from hydroelastic.meshes.open_sea import Frames
 from hydroelastic.modal.liquid.travelling_waves import TravellingWave, travelling_waves
 from hydroelastic.modal.liquid.two_layer import TwoLayers
 from hydroelastic.modal.tank_estimates import two_layers
-from hydroelastic.physics.beams import Beam
 from hydroelastic.physics.scales import Scales
 from hydroelastic.physics.tank import Tank
 from hydroelastic.physics.tank import tank as closed_tank
@@ -150,13 +149,11 @@ def _extent(water: Tank) -> tuple[float, float, float, float]:
     """Smallest and largest x, smallest and largest y of all bodies, and the still levels at which they float."""
     bounds = []
     for index, body in enumerate(water.bodies):
-        if isinstance(body, Beam):
-            left, right = body.start, body.end
-            low = high = water.level_of(index).height
-        else:
-            left, right, low, high = body.bounds
-            if body.is_thin:
-                left, right = body.waterplane
+        (left, right), height = body.waterplane, water.level_of(index).height
+        low, high = height, height
+        if body.hull is not None:
+            lowest, rightmost, low, high = body.hull.bounds
+            left, right = (left, right) if body.hull.is_thin else (lowest, rightmost)
         bounds.append((left, right, min(low, 0.0), max(high, 0.0)))
     lefts, rights, lows, highs = zip(*bounds, strict=True)
     return min(lefts), max(rights), min(lows), max(highs)

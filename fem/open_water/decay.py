@@ -184,7 +184,7 @@ def _solution(request: DecayRequest, resonant: _ResonantMotion, waves: _Waves) -
     motion = resonant.motion + found.motion
     # The difference from the initial displacement at t = 0 is of high frequency, and decays but in vibrating beams.
     missed = np.abs(motion[-1] - initial).max()
-    fades = not model.basin.tank.beams
+    fades = not model.basin.tank.elastic
     times = np.array(request.times) * model.basin.units.frequency
     errors = (resonant.errors + found.errors.total)[:-1] + missed / (1.0 + fades * (resonant.fastest * times) ** 2)
     return DecaySolution(

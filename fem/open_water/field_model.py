@@ -211,9 +211,9 @@ def first_resolution(water: Tank, tolerance: float, band: Band, *, drawn: float 
             own = shortest.get("surface", 0.0)
         for piece in level.pieces:
             bent = max((moving.wavenumber(squared) for moving in moving_parts(tank, level, piece)), default=0.0)
-            flexural.append(bent if piece.body in tank.beams else 0.0)
+            flexural.append(bent if piece.body is not None else 0.0)
             # What waves scatter under a beam is as short as they are.
-            meshed.append(0.0 if piece.body in tank.floats else max(own, flexural[-1]))
+            meshed.append(0.0 if piece.body in tank.hulls else max(own, flexural[-1]))
     tolerance = workable_tolerance(tolerance, tank.depth)
     exponent = sharpest_exponent(tank, released=False)
     # A beam moves in its own waves, whatever those of the water.
@@ -319,7 +319,7 @@ def open_mesh(basin: OpenBasin, resolution: Resolution, frames: Reach, *, releas
     """
     from hydroelastic.meshes.build import build_mesh
 
-    curved = any(not body.is_thin for body in basin.tank.floats.values())
+    curved = any(not hull.is_thin for hull in basin.tank.hulls.values())
     mesh = build_mesh(
         graded_outline(basin.tank, resolution, half=False, released=released),
         bulk_size=resolution.bulk_size,

@@ -75,7 +75,7 @@ def _narrow(omegas: Floats, resonances: Complexes) -> Iterator[float]:
 
 
 def _motions(table: ResponseTable, peaks: ResponseTable) -> Iterator[_Curve]:
-    turns = np.array([dof.turns for dof in table.dofs], dtype=bool)
+    turns = np.array([dof.is_rotation for dof in table.dofs], dtype=bool)
     sizes = np.abs(table.amplitudes)
     for incident, wave in enumerate(table.waves):
         for place, dof in enumerate(table.dofs):

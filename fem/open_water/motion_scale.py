@@ -73,5 +73,5 @@ def motion_scale(basin: OpenBasin, bodies: tuple[Body, ...]) -> MotionScale:
         units=basin.units,
         dofs=dofs,
         turn=block_diag(*(body.motions for body in bodies)),
-        lengths=np.array([1.0 if dof.turns else basin.units.length for dof in dofs]),
+        lengths=np.array([1.0 if dof.is_rotation else basin.units.length for dof in dofs]),
     )

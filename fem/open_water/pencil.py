@@ -20,6 +20,7 @@ import numpy as np
 from mpi4py import MPI
 from petsc4py import PETSc
 
+from hydroelastic.fem.interface_coupling import density_jump
 from hydroelastic.fem.liquid import LiquidSpace
 from hydroelastic.fem.open_water.complex_direct import ShiftedSolver
 from hydroelastic.fem.open_water.complex_scaling import (
@@ -30,7 +31,6 @@ from hydroelastic.fem.open_water.complex_scaling import (
 )
 from hydroelastic.fem.shape_loads import shape_loads
 from hydroelastic.fem.surfaces import Body, LiquidSurface
-from hydroelastic.fem.traces import density_jump
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -25,8 +25,6 @@ from hydroelastic.fem.tank.resolution import Resolution
 from hydroelastic.modal.tank_estimates import two_layers
 from hydroelastic.physics.tank import Tank
 
-# Heave and pitch of a beam, and one more motion for each hinge, come before its elastic shapes.
-_RIGID = 2
 # Parts of √(g/length) that stand for ω = 0, where added mass differs from its limit like their squares; slower waves
 # leave too few digits. Between the two −ln ω grows by more than this.
 _SLOW = (1e-3, 3e-3)
@@ -64,10 +62,7 @@ def solve_radiation(problem: OpenWaterProblem, request: RadiationRequest) -> Rad
 
 
 def _reported_shapes(tank: Tank, elastic: int) -> tuple[int, ...]:
-    return tuple(
-        _RIGID + len(tank.beams[index].hinges) + elastic if index in tank.beams else 0
-        for index in range(len(tank.bodies))
-    )
+    return tuple(len(body.rigid_motions) + elastic if body.is_elastic else 0 for body in tank.bodies)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -137,7 +137,7 @@ def _truncation(motions: np.ndarray, model: OpenModel) -> float:
     for index, body in enumerate(model.pencil.bodies):
         own = np.abs(motions[first : first + body.size])
         first += body.size
-        if index in model.basin.tank.beams:
+        if model.basin.tank.bodies[index].is_elastic:
             worst = max(worst, _TAIL * body.size * float(own[-2:].max()))
     return worst / float(largest)
 
@@ -191,7 +191,7 @@ def _plates(request: ResponseRequest, model: OpenModel, motions: np.ndarray) -> 
     for index, body in enumerate(model.pencil.bodies):
         own = motions[..., first : first + body.size]
         first += body.size
-        if index in model.basin.tank.beams:
+        if model.basin.tank.bodies[index].is_elastic:
             piece, length = model.basin.tank.piece_of(index), model.basin.units.length
             x = np.linspace(piece.start, piece.end, request.positions)
             plates.append(

@@ -74,7 +74,7 @@ class Collocation:
 
     Args:
         mass: M, symmetric and positive.
-        resistance: C, symmetric and not negative.
+        resistance: C, symmetric and positive semidefinite.
         stiffness: K, symmetric and positive.
         stages: s.
     """
@@ -101,8 +101,8 @@ class Collocation:
         Args:
             displacement: w, own entries.
             velocity: v, own entries.
-            step: h; another one than before costs a factorization.
-            loads: F at the nodes, own entries, shape (stages, own entries); ``None`` for none.
+            step: h; a new length requires a new factorization.
+            loads: F at the nodes, own entries, shape (stages, own entries); ``None`` without loads.
 
         Returns:
             w and v at the end of the step.
@@ -142,7 +142,8 @@ class Collocation:
         self.factorizations += len(self._solvers)
 
     def _system(self, scaled: complex) -> Solve:
-        """Return the solver of M + hλC + h²λ²K, turned so that its real part is positive definite: no pivoting."""
+        """Return the solver of M + hλC + h²λ²K, multiplied by a phase so that its real part is positive definite and no
+        pivoting is needed."""
         if abs(scaled.imag) < 1e-12 * abs(scaled):
             return self._real_system(scaled.real)
         # The angles of the three terms become −θ, 0 and θ, and that of λ is acute.

@@ -65,13 +65,13 @@ def damped_modes(
         elements: number of elements of equal travel time; by default enough for about thirteen digits.
         degree: polynomial degree.
         quadratic: solve the quadratic problem even where the drag is in proportion to the mass. Near a double root it
-            gives half of the digits of p only.
+            gives p to half of the digits only.
 
     Returns:
         The motions (collective).
 
     Raises:
-        EigenSolverError: if SLEPc does not deliver them.
+        EigenSolverError: if SLEPc does not converge.
     """
     if string.uniform_damping is not None and not quadratic:
         undamped = string_modes(comm, string, count, positions, elements=elements, degree=degree)

@@ -1,4 +1,4 @@
-"""Motion of the upper end of a string as the field solution uses it."""
+"""Interface of the motion of a string's upper end that the field solution uses."""
 
 from __future__ import annotations
 

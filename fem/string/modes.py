@@ -23,7 +23,7 @@ from hydroelastic.physics.string import HangingString
 MODE_DEGREE = 10
 """Polynomial degree for modes."""
 
-# Polynomials two degrees higher are so much more accurate that the change is the error.
+# The change by polynomials two degrees higher estimates the error.
 _RICHER = 2
 _RESIDUAL = 1e-12
 
@@ -66,7 +66,7 @@ def string_modes(
         The modes (collective).
 
     Raises:
-        EigenSolverError: if SLEPc does not deliver them.
+        EigenSolverError: if SLEPc does not converge.
     """
     pencil, richer = mode_pencils(comm, string, count, elements, degree)
     squares, vectors = undamped_pairs(pencil, count)

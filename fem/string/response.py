@@ -4,13 +4,13 @@ Fronts limit the accuracy on a uniform mesh: the error is of order s·2n/(2n + 1
 after a step, 1½ after a ramp and 2½ after a motion that starts with a jump of its acceleration. The motion is therefore
 smoothed at its breaks (`smoothed_motion.py`), and errors are estimated separately for three causes:
 
-    cause   reduced by                                                 estimated by
-    front   less reach of the smoothing, a finer mesh, shorter steps   the last changes; within a front its height
-    space   more elements                                              a mesh of four fifths of the elements
-    time    shorter steps                                              Richardson's extrapolation from steps twice and
-                                                                       four times as long
+    cause   reduced by                             estimated by
+    front   smaller half-width of the smoothing,   the last changes; within a front its height
+            a finer mesh, shorter steps
+    space   more elements                          a mesh of four fifths of the elements
+    time    shorter steps                          Richardson's extrapolation from steps twice and four times as long
 
-Before a front comes within reach the string is at rest but for ripples of the size of the tolerance.
+Before a front comes within the half-width the string is at rest up to ripples within the tolerance.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ from mpi4py import MPI
 from numpy.typing import ArrayLike, NDArray
 
 from hydroelastic.fem.string.end_motion import EndMotion
-from hydroelastic.fem.string.march import March
 from hydroelastic.fem.string.runs import DEGREE, Resolution, StringRuns
+from hydroelastic.fem.string.time_integration import TimeHistory
 from hydroelastic.physics.string import HangingString
 
 # Part of the tolerance for each cause.
@@ -33,7 +33,7 @@ _COARSER = 0.8
 _TIGHTER = 0.75
 _CLOSER = sqrt(0.5)
 # Of the travel time of a wave along the string.
-_FIRST_REACH = 0.35
+_FIRST_HALF_WIDTH = 0.35
 _MOST_TIGHTENINGS = 6
 _CAUTION = 4.0
 
@@ -47,16 +47,16 @@ class FieldSizes:
         degree: polynomial degree.
         unknowns: number of free unknowns.
         steps: number of time steps.
-        reach: time from a front within which values are smoothed, s.
-        marches: number of motions computed in all, trials and error estimates included.
+        half_width: time from a front within which values are smoothed, s.
+        motions_computed: number of motions computed in all, trials and error estimates included.
     """
 
     elements: int
     degree: int
     unknowns: int
     steps: int
-    reach: float
-    marches: int
+    half_width: float
+    motions_computed: int
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -155,14 +155,14 @@ def field_response(
         errors=errors,
         causes=causes,
         tolerance=tolerance,
-        problem=_problem(causes, front[judged], share, checked.resolution.reach),
+        problem=_problem(causes, front[judged], share, checked.resolution.half_width),
         sizes=FieldSizes(
             elements=pencil.cell_count,
             degree=DEGREE,
             unknowns=pencil.size,
             steps=checked.steps,
-            reach=checked.resolution.reach,
-            marches=runs.marches,
+            half_width=checked.resolution.half_width,
+            motions_computed=runs.motions_computed,
         ),
         seconds=runs.seconds,
     )
@@ -200,10 +200,10 @@ class _Checked:
         return float(self.space.max()), float(self.time.max())
 
 
-def _checked(runs: StringRuns, resolution: Resolution, known: March | None = None) -> _Checked:
+def _checked(runs: StringRuns, resolution: Resolution, known: TimeHistory | None = None) -> _Checked:
     """Solve, unless the solution is known, and estimate the errors of mesh and step."""
     fine = known or runs.move(resolution)
-    double, fourfold = (runs.move(resolution.tighter(factor, space=False, time=True)) for factor in (2.0, 4.0))
+    double, fourfold = (runs.move(resolution.refined(factor, space=False, time=True)) for factor in (2.0, 4.0))
     coarse = runs.move(resolution, elements=int(_COARSER * runs.elements(resolution)))
     last, before = np.abs(fine.values - double.values), np.abs(double.values - fourfold.values)
     tiny = np.finfo(float).tiny
@@ -211,7 +211,7 @@ def _checked(runs: StringRuns, resolution: Resolution, known: March | None = Non
     return _Checked(
         values=fine.values,
         space=np.abs(fine.values - coarse.values),
-        # Below order one a smaller step is not known to be better.
+        # At an observed order below one a smaller step need not reduce the error.
         time=last / (2.0 ** np.clip(order, 1.0, 8.0) - 1.0),
         order=order,
         steps=fine.steps,
@@ -219,14 +219,14 @@ def _checked(runs: StringRuns, resolution: Resolution, known: March | None = Non
     )
 
 
-def _settled(runs: StringRuns, resolution: Resolution, share: float, known: March | None = None) -> _Checked:
+def _settled(runs: StringRuns, resolution: Resolution, share: float, known: TimeHistory | None = None) -> _Checked:
     """Tighten mesh and step until their errors are below a part of the tolerance, or no longer fall."""
     checked = _checked(runs, resolution, known)
     for _ in range(_MOST_TIGHTENINGS):
         space, time = checked.worst
         if max(space, time) <= share:
             break
-        tighter = checked.resolution.tighter(_TIGHTER, space=space > share, time=time > share)
+        tighter = checked.resolution.refined(_TIGHTER, space=space > share, time=time > share)
         attempt = _checked(runs, tighter)
         if 1.5 * max(attempt.worst) > max(space, time):
             break
@@ -237,19 +237,19 @@ def _settled(runs: StringRuns, resolution: Resolution, share: float, known: Marc
 def _refined(
     runs: StringRuns, share: float, judged: NDArray[np.bool_], most_unknowns: int, most_steps: int
 ) -> tuple[_Checked, NDArray[np.float64]]:
-    """Reduce the reach of the smoothing until its errors are below a part of the tolerance, or the limits are met.
+    """Reduce the half-width of the smoothing until its errors are below a part of the tolerance, or the limits are met.
 
     Returns:
         The solution, and its errors from fronts, m, shape (positions, times).
     """
-    checked = _settled(runs, Resolution(reach=_FIRST_REACH * runs.string.travel_time), share)
-    resolution, values, last = checked.resolution.suited(*checked.worst, share), checked.values, None
+    checked = _settled(runs, Resolution(half_width=_FIRST_HALF_WIDTH * runs.string.travel_time), share)
+    resolution, values, last = checked.resolution.for_error(*checked.worst, share), checked.values, None
     front = np.full(values.shape, np.inf)
     change, ratio = np.zeros(values.shape), 1.0
     while last is None or front[judged].max(initial=0.0) > share:
-        finer = resolution.closer(_CLOSER)
+        finer = resolution.with_smaller_half_width(_CLOSER)
         large = runs.elements(finer) * DEGREE > most_unknowns or runs.steps(finer) > most_steps
-        # Without a second smoothing nothing is known about the first.
+        # The error of the smoothing is estimated from two smoothings.
         if large and last is not None:
             break
         last = runs.move(finer)
@@ -265,13 +265,13 @@ def _refined(
     return checked, front
 
 
-def _problem(causes: ErrorsByCause, front: NDArray[np.float64], share: float, reach: float) -> str:
+def _problem(causes: ErrorsByCause, front: NDArray[np.float64], share: float, half_width: float) -> str:
     """Why the tolerance is not reached everywhere."""
     problems = []
     if causes.front > share:
         problems.append(
-            f"{np.count_nonzero(front > share)} of {front.size} values lie nearer than about {reach:.2g} s to a front,"
-            f" which is resolved to {causes.front:.2g} m with the unknowns and steps allowed"
+            f"{np.count_nonzero(front > share)} of {front.size} values lie nearer than about {half_width:.2g} s to a "
+            f"front, which is resolved to {causes.front:.2g} m with the unknowns and steps allowed"
         )
     for name, value in (("mesh", causes.space), ("step", causes.time)):
         if value > share:

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from hydroelastic.fem.string.end_motion import EndMotion
 from hydroelastic.fem.string.fronts import front_errors
-from hydroelastic.fem.string.march import March, StepControl, march, schedule
 from hydroelastic.fem.string.pencil import StringPencil, build_string_pencil, string_nodes
 from hydroelastic.fem.string.probe import StringProbe
 from hydroelastic.fem.string.smoothed_motion import SmoothedMotion
+from hydroelastic.fem.string.time_integration import StepControl, TimeHistory, integrate_motion, schedule
 from hydroelastic.physics.string import HangingString
 
 DEGREE = 10
@@ -31,32 +31,33 @@ class Resolution:
     """Resolution of the fastest waves that the smoothed motion excites.
 
     Attributes:
-        reach: reach of the smoothing, s.
+        half_width: of the smoothing, s.
         element: phase of the fastest waves over an element, rad.
         step: their phase over a time step, rad.
     """
 
-    reach: float
+    half_width: float
     element: float = 8.0
     step: float = 1.2
 
-    def closer(self, ratio: float) -> Resolution:
-        """Return the resolution that keeps the errors with a reach, and waves, shorter by a ratio."""
+    def with_smaller_half_width(self, ratio: float) -> Resolution:
+        """Return the resolution that keeps the errors for a half-width, and waves, shorter by a ratio."""
         return replace(
             self,
-            reach=ratio * self.reach,
+            half_width=ratio * self.half_width,
             element=ratio ** (1.0 / _ELEMENT_ORDER) * self.element,
             step=ratio ** (1.0 / _STEP_ORDER) * self.step,
         )
 
-    def suited(self, space: float, time: float, share: float) -> Resolution:
-        """Return elements and steps whose errors will be about a thirtieth of the share allowed, from those known."""
+    def for_error(self, space: float, time: float, share: float) -> Resolution:
+        """Return elements and steps whose errors are expected to be a thirtieth of the share allowed, from known
+        errors."""
         target = share / 30.0
         element = (target / max(space, 1e-3 * target)) ** (1.0 / _ELEMENT_ORDER)
         step = (target / max(time, 1e-3 * target)) ** (1.0 / _STEP_ORDER)
         return replace(self, element=self.element * element, step=self.step * step)
 
-    def tighter(self, ratio: float, *, space: bool, time: bool) -> Resolution:
+    def refined(self, ratio: float, *, space: bool, time: bool) -> Resolution:
         """Return the resolution with shorter elements or steps, or both."""
         return replace(
             self, element=self.element * (ratio if space else 1.0), step=self.step * (ratio if time else 1.0)
@@ -94,13 +95,13 @@ class StringRuns:
         self._smoothed: dict[float, SmoothedMotion] = {}
         self._meshes: dict[int, tuple[StringPencil, StringProbe]] = {}
         self.seconds = {"mesh": 0.0, "motion": 0.0}
-        self.marches = 0
+        self.motions_computed = 0
 
     def smoothed(self, resolution: Resolution) -> SmoothedMotion:
         """Return the motion with the smoothing of a resolution."""
-        if resolution.reach not in self._smoothed:
-            self._smoothed[resolution.reach] = SmoothedMotion(self._motion, resolution.reach, self._digits)
-        return self._smoothed[resolution.reach]
+        if resolution.half_width not in self._smoothed:
+            self._smoothed[resolution.half_width] = SmoothedMotion(self._motion, resolution.half_width, self._digits)
+        return self._smoothed[resolution.half_width]
 
     def elements(self, resolution: Resolution) -> int:
         """Return the number of elements of equal travel time."""
@@ -109,8 +110,8 @@ class StringRuns:
     def step_control(self, resolution: Resolution) -> StepControl:
         """Return the step lengths: waves decay at least like e^{−αt}, α the smallest damping along the string."""
         damping = self.string.smallest_damping
-        quiet = self._digits * log(10.0) / damping if damping > 0.0 else inf
-        return StepControl(longest=resolution.step / self.smoothed(resolution).highest, quiet=quiet)
+        decay_time = self._digits * log(10.0) / damping if damping > 0.0 else inf
+        return StepControl(longest=resolution.step / self.smoothed(resolution).highest, decay_time=decay_time)
 
     def steps(self, resolution: Resolution) -> int:
         """Return the number of time steps."""
@@ -118,7 +119,7 @@ class StringRuns:
             count for _, _, count in schedule(self.smoothed(resolution), self._times, self.step_control(resolution))
         )
 
-    def move(self, resolution: Resolution, elements: int | None = None) -> March:
+    def move(self, resolution: Resolution, elements: int | None = None) -> TimeHistory:
         """Compute the motion (collective).
 
         Args:
@@ -128,10 +129,10 @@ class StringRuns:
         started = perf_counter()
         pencil, probe = self._on_mesh(elements or self.elements(resolution))
         meshed = perf_counter()
-        result = march(pencil, probe, self.smoothed(resolution), self._times, self.step_control(resolution))
+        result = integrate_motion(pencil, probe, self.smoothed(resolution), self._times, self.step_control(resolution))
         self.seconds["mesh"] += meshed - started
         self.seconds["motion"] += perf_counter() - meshed
-        self.marches += 1
+        self.motions_computed += 1
         return result
 
     def _on_mesh(self, elements: int) -> tuple[StringPencil, StringProbe]:
@@ -143,7 +144,7 @@ class StringRuns:
     def front_errors(self, resolution: Resolution) -> NDArray[np.float64]:
         """Return the errors of the values next to fronts, m, shape (positions, times)."""
         fronts = front_errors(self.string, self._motion, self.smoothed(resolution), self._positions, self._times)
-        # What is beyond the digits of the smoothing is the same whatever its reach.
+        # The error of the kernel's truncation does not depend on the half-width.
         return fronts + self._cut
 
     def pencil(self, resolution: Resolution) -> StringPencil:

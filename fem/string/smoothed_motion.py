@@ -2,10 +2,10 @@
 
     f_d = f ∗ φ,    φ(t) = sin(ω₀t)/(πt) e^{−t²/2w²},    w = d/L,  ω₀ = L²/d,  L² = 2D ln 10
 
-A jump of f, or of a derivative, travels along the string as a front that no polynomials resolve. The string does not
-change with time, so that its answer to f_d is U ∗ φ. Farther than the reach d, where φ < 10^{−D}, from the times at
-which a front passes, it is U to about D digits, for U is analytic there; and it has no waves faster than 2ω₀ beyond the
-D-th digit. On the side of the frequencies this is the cut ½ erfc of a series of modes.
+A jump of f, or of a derivative, travels along the string as a front that no polynomials resolve. The string is
+time-invariant, so that its response to f_d is U ∗ φ. At times farther than d (where φ < 10^{−D}) from the passage of a
+front it equals U to about D digits, because U is analytic there, and it contains no frequencies above 2ω₀ beyond the
+D-th digit. In the frequency domain this is the window ½ erfc of a series of modes.
 """
 
 from __future__ import annotations
@@ -29,35 +29,37 @@ class SmoothedMotion:
 
     Args:
         motion: f.
-        reach: d, s, within which of a break f is changed.
+        half_width: d, s: f is changed within this time of a break.
         digits: D.
 
     Attributes:
-        reach: d, s.
+        half_width: d, s.
         middle: ω₀, 1/s.
         width: w, s.
         highest: 2ω₀, 1/s.
     """
 
-    def __init__(self, motion: EndMotion, reach: float, digits: float) -> None:
+    def __init__(self, motion: EndMotion, half_width: float, digits: float) -> None:
         """Take the jumps of f and f' at the breaks."""
         span = sqrt(2.0 * digits * log(10.0))
-        self.reach = reach
-        self.middle = span**2 / reach
+        self.half_width = half_width
+        self.middle = span**2 / half_width
         self.highest = 2.0 * self.middle
-        self.width = reach / span
+        self.width = half_width / span
         self._motion = motion
         self._centres = np.array([float(time) for time in motion.breaks])
         self._jumps = np.array([jumps(motion, time) for time in self._centres])
-        self._starts, self._ends = _merged(self._centres - reach, self._centres + reach)
+        self._starts, self._ends = _merged(self._centres - half_width, self._centres + half_width)
         self._places, self._weights = self._panels()
-        # Weighted f, f' and f'' at the nodes, once they are needed.
+        # Weighted f, f' and f'' at the nodes, computed when first needed.
         self._samples: dict[int, NDArray[np.float64]] = {}
 
     def _panels(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return nodes and weights of a quadrature between breaks, within twice the reach of them."""
+        """Return nodes and weights of a quadrature between breaks, within twice the half-width of them."""
         places, weights = [], []
-        for low, high in zip(*_merged(self._centres - 2.0 * self.reach, self._centres + 2.0 * self.reach), strict=True):
+        for low, high in zip(
+            *_merged(self._centres - 2.0 * self.half_width, self._centres + 2.0 * self.half_width), strict=True
+        ):
             low = max(low, self._centres[0])
             inside = self._centres[(self._centres > low) & (self._centres < high)]
             for start, end in pairwise([low, *inside, high]):
@@ -107,10 +109,10 @@ class SmoothedMotion:
         if order not in self._samples:
             self._samples[order] = self._weights * self._known(self._places, order)
         # Panels are cut where the kernel is below the D-th digit.
-        near = slice(*np.searchsorted(self._places, [time - self.reach, time + self.reach]))
+        near = slice(*np.searchsorted(self._places, [time - self.half_width, time + self.half_width]))
         total = float(self._samples[order][near] @ self._kernel(time - self._places[near]))
         if order > 0:
-            close = np.abs(time - self._centres) < self.reach
+            close = np.abs(time - self._centres) < self.half_width
             distances = time - self._centres[close]
             values, slopes = self._jumps[close].T
             if order == 1:

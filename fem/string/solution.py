@@ -21,7 +21,7 @@ FIELD_FRONT_MARGIN = 0.05
 # Of the tolerance: the largest displacement is known after the solution only, the largest f before.
 _SHARE = 0.5
 _SAMPLES = 400
-# Beyond these the last digits, or a front, are not worth minutes.
+# Limits of the cost of the last digits, or of values next to a front.
 _MOST_UNKNOWNS = 5_000
 _STEPS_PER_TRAVEL_TIME = 3_500
 
@@ -47,7 +47,7 @@ def field_solution(
         times: t, s, increasing, shape (times,).
         tolerance: asked error of the displacement, relative to the largest one.
         modes: number of free motions.
-        report: called with a word on what is being done.
+        report: called with the name of each step.
 
     Raises:
         EigenSolverError: if SLEPc does not deliver the free motions.

@@ -126,7 +126,7 @@ def boundary_error(mesh: TankMesh, tank: Tank) -> float:
     on circles, ellipses 10:1 and 1:10 and parabolas, degrees 2 to 8: 0.05 to 0.8 times 10 (δ/s)^{3/2}, less above it,
     with the smallest extent s of the contour.
     """
-    sizes = [body.smallest_extent for body in tank.floats.values() if not body.is_thin]
+    sizes = [hull.smallest_extent for hull in tank.hulls.values() if not hull.is_thin]
     return 10.0 * (mesh.deviation / min(sizes)) ** 1.5 if sizes else 0.0
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from mpi4py import MPI
 
-from hydroelastic.fem.bodies.beam import beam_body
+from hydroelastic.fem.bodies.registry import body_model
 from hydroelastic.fem.liquid import Layer, liquid_matrices, liquid_space
 from hydroelastic.fem.pencil import CoupledPencil, build_pencil
 from hydroelastic.fem.surfaces import Body, LiquidSurface
@@ -172,20 +172,11 @@ def whole_bodies(tank: Tank, shapes: tuple[int, ...]) -> tuple[Body, ...]:
 
     A beam without dry modes is held still.
     """
-    return tuple(_body(tank, index, count, None) for index, count in enumerate(shapes))
+    return tuple(body_model(tank, index).moving(count, None) for index, count in enumerate(shapes))
 
 
 def _half_bodies(tank: Tank, shapes: tuple[int, ...], parity: Parity) -> tuple[Body, ...]:
     return tuple(
-        _body(tank, index, shapes[index], parity if twin_of(tank, index) == index else None)
+        body_model(tank, index).moving(shapes[index], parity if twin_of(tank, index) == index else None)
         for index in left_bodies(tank)
     )
-
-
-def _body(tank: Tank, index: int, count: int, parity: Parity | None) -> Body:
-    if index in tank.beams:
-        return beam_body(tank, index, count, parity)
-    # Contours need SciPy's root finders, which take a while to import.
-    from hydroelastic.fem.bodies.rigid_float import float_body
-
-    return float_body(tank.floats[index], index, parity)

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hydroelastic.fem.bodies.model import FAR_ENOUGH
 from hydroelastic.fem.modes import ModeSet
 from hydroelastic.fem.surfaces import Body
-from hydroelastic.fem.tank.expected import FAR_ENOUGH
 from hydroelastic.fem.tank.infinite_frequency import HighFrequencyAddedMass
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.physics.tank import Tank
@@ -65,7 +65,7 @@ def _restored(tank: Tank, bodies: tuple[Body, ...]) -> list[_Motion]:
             stiffness=stiffness,
             mass=mass,
         )
-        for index in tank.floats
+        for index in tank.rigid
         for number, (dof, stiffness, mass) in enumerate(
             zip(bodies[index].dofs, bodies[index].stiffness, bodies[index].mass.diagonal(), strict=True)
         )

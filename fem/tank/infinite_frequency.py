@@ -132,7 +132,7 @@ def _relevant(tank: Tank, restriction: np.ndarray, added: np.ndarray) -> np.ndar
     """The motions of a part that move liquid: a circle that turns about its centre does not."""
     scales = np.concatenate(
         [
-            [body.smallest_extent ** (4 if motion == "roll" else 2) for motion in body.motions]
+            [body.hull.smallest_extent ** (4 if motion == "roll" else 2) for motion in body.motions]
             for body in tank.floats.values()
         ]
     )

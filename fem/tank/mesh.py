@@ -58,7 +58,7 @@ def make_mesh(tank: Tank, resolution: Resolution, *, half: bool = False, release
         return build_tank_mesh(geometry, grading)
     from hydroelastic.meshes.build import build_mesh
 
-    curved = any(not body.is_thin for body in tank.floats.values())
+    curved = any(not hull.is_thin for hull in tank.hulls.values())
     return build_mesh(
         graded_outline(tank, resolution, half=half, released=released),
         bulk_size=resolution.bulk_size,
@@ -72,7 +72,7 @@ def graded_outline(tank: Tank, resolution: Resolution, *, half: bool, released: 
     contours = {
         piece.body: size
         for piece, size in zip(tank.pieces, resolution.surface_sizes, strict=True)
-        if piece.body in tank.floats
+        if piece.body in tank.hulls
     }
     sizes = Sizes(pieces=resolution.surface_sizes, contours=contours)
     outline = tank_outline(tank, sizes, half=half, released=released)
@@ -102,7 +102,7 @@ def tip_points(tank: Tank, *, half: bool, released: bool = False) -> np.ndarray:
 
 def is_plain(tank: Tank) -> bool:
     """Whether the liquid is a rectangle whose top is cut into pieces, with beams that are smooth on each."""
-    return len(tank.layers) == 1 and not tank.floats and not any(tank.nodes_of(index) for index in tank.beams)
+    return len(tank.layers) == 1 and not tank.hulls and not any(body.nodes for body in tank.bodies)
 
 
 def unknown_count(points: int, triangles: int, degree: int, *, parts: int = 1) -> int:
@@ -145,7 +145,7 @@ def check_mesh(tank: Tank, tagged: TaggedMesh) -> None:
 
 
 def _check_nodes(tank: Tank, tagged: TaggedMesh) -> None:
-    for index in tank.beams:
+    for index in range(len(tank.bodies)):
         name = body_name(index + 1)
         x = tagged.facet_nodes(name)[:, 0]
         for place in tank.nodes_of(index):

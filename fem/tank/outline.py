@@ -30,7 +30,7 @@ from hydroelastic.meshes.outline import Curve, Outline, Point, Region
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.physics.contours import Arc, root
 from hydroelastic.physics.dofs import body_name, body_number
-from hydroelastic.physics.floats import RigidFloat
+from hydroelastic.physics.hulls import Hull
 from hydroelastic.physics.tank import MIDDLE, Piece, StillLevel, Tank
 
 Directed = tuple[int, bool]
@@ -46,7 +46,7 @@ class Sizes:
 
 def unsized(tank: Tank) -> Sizes:
     """No wishes for the sizes of elements."""
-    return Sizes(pieces=(inf,) * len(tank.pieces), contours=dict.fromkeys(tank.floats, inf))
+    return Sizes(pieces=(inf,) * len(tank.pieces), contours=dict.fromkeys(tank.hulls, inf))
 
 
 def layer_names(tank: Tank) -> tuple[str, ...]:
@@ -105,10 +105,10 @@ class _Builder:
     def _splits(self, number: int) -> dict[float, list[int]]:
         """Abscissae of the thin floats in a layer, and which they are."""
         splits: dict[float, list[int]] = {}
-        for index, body in self.tank.floats.items():
+        for index, hull in self.tank.hulls.items():
             level = self.tank.level_of(index)
-            if body.is_thin and number in (level.below, level.above):
-                splits.setdefault(body.waterplane[0], []).append(index)
+            if hull.is_thin and number in (level.below, level.above):
+                splits.setdefault(hull.waterplane[0], []).append(index)
         return dict(sorted(splits.items()))
 
     def _floor(self, number: int, marks: tuple[float, ...]) -> list[Directed]:
@@ -132,9 +132,9 @@ class _Builder:
         for place, piece in enumerate(level.pieces, first):
             if piece.start >= self.right:
                 break
-            body = self.tank.floats.get(piece.body) if piece.body is not None else None
-            if body is not None:
-                path += self._contour(piece, body, stops, upper_side=upper_side)
+            hull = self.tank.hulls.get(piece.body) if piece.body is not None else None
+            if hull is not None:
+                path += self._contour(piece, hull, stops, upper_side=upper_side)
             else:
                 path += self._flat(level, piece, stops, self.sizes.pieces[place])
         return path
@@ -157,14 +157,14 @@ class _Builder:
             return ("", False) if self.released else (INTERFACE, True)
         return (LID if level.kind == "rigid" else FREE_SURFACE), False
 
-    def _contour(self, piece: Piece, body: RigidFloat, stops: list[float], *, upper_side: bool) -> list[Directed]:
+    def _contour(self, piece: Piece, hull: Hull, stops: list[float], *, upper_side: bool) -> list[Directed]:
         assert piece.body is not None
-        if body.is_thin:
+        if hull.is_thin:
             return []
-        low, high = body.bounds[:2]
+        low, high = hull.bounds[:2]
         if any(low < x < high for x in stops):
             raise MeshError(f"a thin float needs free liquid above and below it: body {piece.body + 1} is in its way")
-        arcs = body.above if upper_side else body.below
+        arcs = hull.above if upper_side else hull.below
         if self.half and high > self.right:
             arcs = _left_of(arcs, self.right)
         size, name = self.sizes.contours[piece.body], body_name(piece.body + 1)
@@ -182,12 +182,12 @@ class _Builder:
         pieces = [(bottom, top, name)]
         # From the floor up: a slit may stand on it, and another hang from the ceiling.
         for index in sorted(splits.get(x, []), key=lambda index: self.tank.level_of(index).below == number):
-            body = self.tank.floats[index]
-            low, high = body.slit
+            hull = self.tank.hulls[index]
+            low, high = hull.slit
             (start, end, _) = pieces.pop()
             hangs = self.tank.level_of(index).below == number
             first, last = ((x, low), end) if hangs else (start, (x, high))
-            stops = [first, *(kink for kink in body.kinks if first[1] < kink[1] < last[1]), last]
+            stops = [first, *(kink for kink in hull.kinks if first[1] < kink[1] < last[1]), last]
             pieces += [(start, first, name)] if hangs else []
             pieces += [(*ends, body_name(index + 1)) for ends in pairwise(stops)]
             pieces += [] if hangs else [(last, end, name)]

@@ -5,10 +5,10 @@ from __future__ import annotations
 from bisect import bisect_left
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from math import ceil, e, log10, pi
+from math import ceil, e, log10
 from typing import TYPE_CHECKING
 
-from hydroelastic.physics.beams import Beam
+from hydroelastic.fem.bodies.registry import body_model
 from hydroelastic.physics.local_waves import (
     LevelPiece,
     modes_below,
@@ -19,7 +19,7 @@ from hydroelastic.physics.local_waves import (
 from hydroelastic.physics.tank import Piece, StillLevel, Tank
 
 if TYPE_CHECKING:
-    from hydroelastic.physics.floats import RigidFloat
+    from hydroelastic.physics.hulls import Hull
 
 HIGHEST_DEGREE = 10
 MOST_SHAPES = 400
@@ -27,14 +27,6 @@ MOST_SHAPES = 400
 SMALLEST_TIP = 1e-13
 # Every cause of error has a part of the tolerance, rounding too.
 _ROOM_FOR_ROUNDING = 5.0
-# Dry modes beyond the shortest wave, in units of its half waves and of tolerance^(-1/7).
-_TAIL = 0.45
-# Half waves of the first bending shape of a section.
-_FIRST_BENDING = 1.5
-# A section stiffer than the softest one by this over the tolerance bends less than can be told.
-_RIGID = 100.0
-# Sections whose flexural rigidities differ by less than this factor bend together.
-_ALIKE = 10.0
 # κ₁ l of the first elastic dry mode.
 _FIRST_ROOT = 4.73
 # Below the pressure-release tone of a beam lie at most its rigid motions, and with several beams modes of softer ones.
@@ -174,17 +166,17 @@ def companion_resolution(tank: Tank, tolerance: float, tones: tuple[float, ...])
         tolerance: asked relative error.
         tones: about the (dimensionless) λ of the first elastic tone of each beam.
     """
-    expected = dict(zip(tank.beams, tones, strict=True))
+    expected = dict(zip(tank.elastic, tones, strict=True))
     wavenumbers = tuple(
         max(_FIRST_ROOT / piece.length, _wavenumber(tank, level, piece, expected[piece.body]))
-        if piece.body in tank.beams
+        if piece.body in expected
         else 0.0
         for level in tank.levels
         for piece in level.pieces
     )
     exponent = sharpest_exponent(tank, released=True)
     resolution = resolution_for(tank, workable_tolerance(tolerance, tank.depth), wavenumbers, exponent=exponent)
-    return replace(resolution, modes=_COMPANION_MODES * len(tank.beams))
+    return replace(resolution, modes=_COMPANION_MODES * len(tank.elastic))
 
 
 def sharpest_exponent(tank: Tank, *, released: bool) -> float:
@@ -194,7 +186,7 @@ def sharpest_exponent(tank: Tank, *, released: bool) -> float:
         tank: the scene.
         released: whether gravity is left out: ψ = 0 on the top, and liquids move as one.
     """
-    if not tank.floats:
+    if not tank.hulls:
         return 0.5 if released or tank.top == "pressure_release" else 1.0
     from hydroelastic.fem.tank.outline import unsized
     from hydroelastic.fem.tank.singularities import tank_singular_points
@@ -222,18 +214,18 @@ def resolution_for(tank: Tank, tolerance: float, wavenumbers: tuple[float, ...],
     while degree > 6 and rounding_error(degree, tank.depth) > 0.3 * tolerance:
         degree -= 1
     sizes = tuple(
-        _contour_size(tank.floats[piece.body])
-        if piece.body in tank.floats
+        _contour_size(tank.hulls[piece.body])
+        if piece.body in tank.hulls
         # Never fewer than two elements on a piece.
         else min(radians(degree, tolerance) / max(wavenumber, 1e-9), 0.5 * piece.length, 0.25)
         for piece, wavenumber in zip(tank.pieces, wavenumbers, strict=True)
     )
     on_bodies = {piece.body: wavenumber for piece, wavenumber in zip(tank.pieces, wavenumbers, strict=True)}
     shapes = tuple(
-        min(MOST_SHAPES, _shapes_for(body, on_bodies[index], tolerance)) if isinstance(body, Beam) else 0
-        for index, body in enumerate(tank.bodies)
+        min(MOST_SHAPES, body_model(tank, index).dry_mode_count(on_bodies[index], tolerance))
+        for index in range(len(tank.bodies))
     )
-    shortest = min((piece.length for piece in tank.pieces if piece.body not in tank.floats), default=1.0)
+    shortest = min((piece.length for piece in tank.pieces if piece.body not in tank.hulls), default=1.0)
     outermost = min(0.45 * shortest, 0.45 * tank.depth, *sizes)
     return Resolution(
         degree=degree,
@@ -253,35 +245,12 @@ def _innermost(exponent: float, tolerance: float) -> float:
     return min((5.0 + 10.0 * exponent) * float(tolerance ** (0.5 / exponent)), 0.25)
 
 
-def _contour_size(body: RigidFloat) -> float:
+def _contour_size(hull: Hull) -> float:
     """Largest element along a contour; where it bends, the mesh takes smaller ones."""
-    left, right, low, high = body.bounds
+    left, right, low, high = hull.bounds
     return min(_OF_CONTOUR * max(right - left, high - low), 0.25)
 
 
 def radians(degree: int, tolerance: float) -> float:
     """How much of a wave one element resolves: the error of polynomials on it is about (e kh/(4p))^{2p}."""
     return 4.0 / e * degree * float((0.1 * tolerance) ** (0.5 / degree))
-
-
-def _shapes_for(beam: Beam, wavenumber: float, tolerance: float) -> int:
-    """Dry modes of one beam: those up to the shortest wave, and a tail whose error falls like N⁻⁷.
-
-    Dry modes have wavenumbers κ ~ EI^{-1/4} in the sections, and the shortest wave is in the softest one. What stiffer
-    ones bend counts less, like 1/EI, but is not seen before their first bending shape, of 3/2 half waves.
-    """
-    softest = min(part.flexural_rigidity for part in beam.sections)
-    phase = sum((softest / part.flexural_rigidity) ** 0.25 * part.length for part in beam.sections)
-    needed = 0.0
-    for part in beam.sections:
-        ratio = part.flexural_rigidity / softest
-        length = sum(
-            other.length
-            for other in beam.sections
-            if 1.0 / _ALIKE <= other.flexural_rigidity / part.flexural_rigidity <= _ALIKE
-        )
-        half_waves = wavenumber * ratio**-0.25 * length / pi
-        tail = _TAIL * (half_waves + 2.0) * (tolerance * ratio) ** (-1.0 / 7.0)
-        hidden = _FIRST_BENDING if _ALIKE < ratio < _RIGID / tolerance else 0.0
-        needed = max(needed, (half_waves + tail + hidden) * phase * ratio**0.25 / length)
-    return ceil(needed) + 4 + len(beam.hinges)

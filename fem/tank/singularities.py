@@ -148,10 +148,10 @@ def tank_singular_points(tank: Tank, sizes: Sizes, *, half: bool, released: bool
 
 def _kinks(tank: Tank) -> dict[Point, float]:
     """Points of bodies at which the displacement of a thin float jumps, or the slope or curvature of a beam."""
-    on_floats = {kink: _SIDE_JUMPS for body in tank.floats.values() for kink in body.kinks}
-    on_beams = {
+    on_hulls = {kink: _SIDE_JUMPS for hull in tank.hulls.values() for kink in hull.kinks}
+    on_levels = {
         (x, tank.level_of(index).height): exponent
-        for index in tank.beams
+        for index in range(len(tank.bodies))
         for x, exponent in tank.nodes_of(index).items()
     }
-    return on_floats | on_beams
+    return on_hulls | on_levels

@@ -12,12 +12,12 @@ from math import ceil
 import numpy as np
 from mpi4py import MPI
 
+from hydroelastic.fem.bodies.registry import ends_of_motions, expected_tones
 from hydroelastic.fem.kept_tolerance import kept_tolerance
 from hydroelastic.fem.modes import Mode, ModeSet
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.fem.tank.elastic_tone import ElasticTone, elastic_tone
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors, frequency_errors, refined
-from hydroelastic.fem.tank.expected import ends_of_float_motions, expected_tones
 from hydroelastic.fem.tank.field_model import bring_mesh, build_mesh, moving_surfaces
 from hydroelastic.fem.tank.field_solution import FieldSolution, count_is_confirmed, solve_field
 from hydroelastic.fem.tank.float_modes import FloatMode, float_modes
@@ -158,7 +158,7 @@ def solve_tank(
     with watch.stage("plan"):
         tank = physical.scaled()
         tones = expected_tones(tank)
-        motions = ends_of_float_motions(tank)
+        motions = ends_of_motions(tank)
         resolution: Resolution | None = initial_resolution(tank, tolerance, modes=modes, tones=tones, motions=motions)
     brought = _brought_mesh(comm, tank, mesh, 1.0 / physical.length, watch)
     half = halves and brought is None and is_mirror_image(tank)

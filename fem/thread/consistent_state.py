@@ -47,7 +47,7 @@ class ConsistentState:
 
     def project_positions(self, held: HeldUnknowns) -> bool:
         """Solve for the positions that are nearest to `before`; the result is in the unknown."""
-        self._unknown.x.array[:] = self._step.before.x.array
+        self._unknown.x.array[:] = self._step.old_state.x.array
         return self._solve("place", held, self._position_equations, 1.0)
 
     def project_velocities(self, held: HeldUnknowns) -> bool:
@@ -70,7 +70,7 @@ class ConsistentState:
     def _solve(self, name: str, held: HeldUnknowns, equations: Any, step: float) -> bool:
         if name not in self._solvers:
             stream = self._forms.stream
-            position = ufl.split(self._step.before)[0]
+            position = ufl.split(self._step.old_state)[0]
 
             def update() -> None:
                 if stream is not None:
@@ -83,7 +83,7 @@ class ConsistentState:
         return ufl.split(self._unknown)[0], ufl.split(self._unknown)[1]
 
     def _position_equations(self) -> Any:
-        old = ufl.split(self._step.before)[0]
+        old = ufl.split(self._step.old_state)[0]
         position, force = self._parts()
         form = ufl.inner(position - old, self._tests[0]) + force * ufl.inner(tangent(position), self._tests[0].dx(0))
         form *= self._forms.space.dx
@@ -93,7 +93,7 @@ class ConsistentState:
 
     def _velocity_equations(self) -> Any:
         forms = self._forms
-        position, speed = ufl.split(self._step.before)[0], ufl.split(self._step.speed)[0]
+        position, speed = ufl.split(self._step.old_state)[0], ufl.split(self._step.old_velocity)[0]
         velocity, impulse = self._parts()
         tau = tangent(position)
         form = forms.inertia(position, velocity - speed, self._tests[0])
@@ -113,7 +113,7 @@ class ConsistentState:
 
     def _acceleration_equations(self, rigidity: float | None = None) -> Any:
         step, forms = self._step, self._forms
-        position, speed = ufl.split(step.before)[0], ufl.split(step.speed)[0]
+        position, speed = ufl.split(step.old_state)[0], ufl.split(step.old_velocity)[0]
         acceleration, force = self._parts()
         curvature = ufl.split(self._unknown)[2] if forms.model.bends else None
         state = ThreadState(position, force, curvature)

@@ -31,9 +31,9 @@ _GROWTH = 1.5
 _CRUSHED = 0.5
 _INNER = (np.arange(12) + 0.5) / 12.0
 _MOST_STEPS = 60
-# Of the length: between such places the direction of a start is taken.
+# Of the length: distance over which the direction of a start is evaluated.
 _NEAR = 1e-4
-# Directions whose cosine is below this are opposite: no plane is given in which one turns to the other.
+# Directions whose cosine is below this are opposite: the plane of the rotation between them is undetermined.
 _OPPOSITE = -1.0 + 1e-4
 
 # Number of places at which a start is evaluated.
@@ -53,7 +53,7 @@ class RampedEquilibrium:
     Attributes:
         equilibrium: of the thread itself.
         ramp: name of the continuation, empty if none was needed.
-        steps: number of equilibria on the way, failed ones included.
+        steps: number of intermediate equilibria, failed ones included.
     """
 
     equilibrium: Equilibrium
@@ -102,8 +102,8 @@ def solve_with_ramps(
     raise ThreadSolverError("; ".join(reasons))
 
 
-def start_with_fading_rigidity(comm: MPI.Comm, model: Thread, start: Start, *, degree: int) -> Start:
-    """The shape of a slack thread by continuation to smaller and smaller flexural rigidity.
+def start_with_decreasing_rigidity(comm: MPI.Comm, model: Thread, start: Start, *, degree: int) -> Start:
+    """The shape of a slack thread by continuation to decreasing flexural rigidity.
 
     Args:
         comm: communicator.
@@ -161,7 +161,7 @@ def with_stiffness(model: Thread, part: float, force: float) -> Thread:
 
 
 def with_turned_clamps(model: Thread, part: float, start: Start) -> Thread:
-    """The thread with clamps turned by a part of the angle from the direction of a start to their own.
+    """The thread with clamps rotated by a part of the angle from the direction of a start to their own.
 
     Args:
         model: the thread.

@@ -1,8 +1,8 @@
 """Eigenpairs of the small motions of a thread, by SLEPc with shift-and-invert near zero.
 
 Without velocity terms K y = ω² M y by Krylov–Schur, λ = iω; with them (λ² M + λ C + K) y = 0 by the two-level
-orthogonal Arnoldi method. The rows of axial force and curvature are constraints: their eigenvalues are infinite and the
-inverse maps them to zero, out of sight.
+orthogonal Arnoldi method. The rows of axial force and curvature are constraints: their eigenvalues are infinite, and
+the inverse maps them to zero.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.thread.operators import ThreadOperators
 from hydroelastic.meshes.interrupts import interrupts_deferred
 
-# Beside zero, where a motion without stiffness would make the factorization fail.
+# Shift, different from zero: a motion without stiffness would make the matrix singular there.
 _LINEAR_SHIFT = -1e-2
 _QUADRATIC_SHIFT = -1e-3
 _TOLERANCE = 1e-12
-# Next to a double root the iteration comes less close; the residuals are looked at besides.
+# Next to a double root the iteration converges to fewer digits; the residuals are checked as well.
 _TOLERANCES = (_TOLERANCE, 1e-9, 1e-6)
 # Backward error, of the sum of the norms of the terms; measured 1e-15 to 1e-12.
 _LARGEST_RESIDUAL = 1e-9
@@ -57,8 +57,8 @@ def eigenpairs(operators: ThreadOperators, count: int) -> list[Eigenpair]:
         count: how many pairs of conjugate roots.
 
     Returns:
-        Of each pair the root above the real axis, and all real ones on the way, by ascending magnitude; the last one
-        oscillates (collective).
+        Of each pair the root above the real axis, and all real ones of smaller magnitude, by ascending magnitude; the
+        last one oscillates (collective).
 
     Raises:
         EigenSolverError: if there are not so many.
@@ -70,7 +70,7 @@ def eigenpairs(operators: ThreadOperators, count: int) -> list[Eigenpair]:
 def roots_near_zero(operators: ThreadOperators, count: int) -> NDArray[np.complex128]:
     """The roots of `eigenpairs`, and those that were found beyond the last of them.
 
-    On another mesh a real root may change places with the last one that oscillates.
+    On another mesh a real root may exceed the last oscillating one in magnitude, or fall below it.
 
     Args:
         operators: of the thread.
@@ -102,7 +102,7 @@ def _slowest(operators: ThreadOperators, count: int) -> tuple[list[Eigenpair], i
 
 
 def is_oscillating(root: complex) -> bool:
-    """Whether a root has an imaginary part that is no rounding."""
+    """Whether a root has an imaginary part above rounding."""
     return abs(root.imag) > _PURE * abs(root)
 
 
@@ -117,11 +117,11 @@ def stiffness_eigenvalues(operators: ThreadOperators, count: int) -> NDArray[np.
         In ascending order, in 1/s² (collective).
     """
     solver = _linear_solver(operators, count)
-    # Where all motions across a straight thread lose their stiffness at once, Lanczos' vectors run out, and with the
-    # inner product of a semidefinite M there are no others.
+    # Where all motions across a straight thread lose their stiffness at once, Lanczos' method breaks down, and the
+    # inner product of a semidefinite M gives no further vectors.
     solver.setProblemType(SLEPc.EPS.ProblemType.GNHEP)
     _run(solver)
-    # By their distance from zero: more than were sought may be infinite ones with rounding.
+    # By their distance from zero: further ones may be infinite eigenvalues with rounding.
     found = range(min(count, solver.getConverged()))
     values = np.array([solver.getEigenvalue(number) for number in found], dtype=np.complex128)
     real = values.real[np.abs(values.imag) <= _SAME * (1.0 + np.abs(values))]

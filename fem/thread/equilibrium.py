@@ -47,11 +47,11 @@ class Equilibrium:
         space: mesh of 0 ≤ s ≤ 1 and function spaces.
         forms: of the thread in `units`; the stream is that at the solution.
         solution: (r, S) or (r, S, κ) in `units`, a function in `space.mixed`.
-        fixed: what of the unknowns is given, boundary conditions.
-        newton_steps: how many there were.
-        stretch_response: how the solution changes with a stretch of the whole thread, by that stretch, a function in
-            `space.mixed`; nothing where the solution was given.
-        residual: what is left of the equations, owned unknowns; none where the solution was given.
+        fixed: prescribed unknowns, as boundary conditions.
+        newton_steps: their number.
+        stretch_response: derivative of the solution by a uniform stretch of the thread, a function in `space.mixed`;
+            none where the solution was given.
+        residual: residual of the equations at the owned unknowns; none where the solution was given.
     """
 
     model: Thread
@@ -92,7 +92,7 @@ def solve_on_mesh(
         degree: of the positions.
 
     Returns:
-        The equilibrium (collective). Nothing is said of its error, nor whether the thread is in compression.
+        The equilibrium (collective). Neither its error nor compression of the thread is checked.
 
     Raises:
         ThreadSolverError: where Newton's method fails.
@@ -136,7 +136,7 @@ def natural_units(model: Thread, start: Start, nodes: NDArray[np.float64]) -> Un
 
     Args:
         model: the thread, SI.
-        start: about where it is.
+        start: approximate shape.
         nodes: s at which to look, m.
 
     Returns:
@@ -179,7 +179,8 @@ def interpolate_start(solution: Any, start: Start, units: Units) -> None:
 
 
 def _between_ends(model: Thread, start: Start) -> Start:
-    """The start with its ends where they are held; to move the end nodes alone would fold the elements there."""
+    """The start moved linearly so that its ends are where they are held; moving the end nodes alone would fold
+    elements."""
     places = start.position(np.array([0.0, model.length]))
     held = np.array([np.where(end.held, end.position, place) for end, place in zip(model.ends, places, strict=True)])
     moves = held - places
@@ -202,7 +203,7 @@ def fixed_components(model: Thread, space: ThreadSpace) -> list[Any]:
     space.mesh.topology.create_connectivity(0, 1)
     for tag, end in enumerate(model.ends, start=1):
         facets = space.end_tags.find(tag)
-        # Which unknown, which of its components, and its value.
+        # Unknown, component and value.
         given = [(0, axis, float(end.position[axis])) for axis in range(model.dimension) if end.held[axis]]
         if model.bends and end.clamp is None:
             given += [(2, axis, 0.0) for axis in range(model.dimension)]

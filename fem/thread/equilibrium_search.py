@@ -1,4 +1,4 @@
-"""The equilibrium of a thread to a tolerance: starts are tried in turn until one leads to a thread in tension."""
+"""The equilibrium of a thread to a tolerance: starts are tried until one leads to a thread in tension."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from mpi4py import MPI
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from hydroelastic.fem.thread.continuation import start_with_fading_rigidity
+from hydroelastic.fem.thread.continuation import start_with_decreasing_rigidity
 from hydroelastic.fem.thread.equilibrium import Start
 from hydroelastic.fem.thread.frame import Frame
 from hydroelastic.fem.thread.newton import ThreadSolverError
@@ -21,9 +21,9 @@ from hydroelastic.physics.thread import Thread
 
 Array = NDArray[np.float64]
 
-# A chord whose sine with the vertical is below this does not tell in which direction the thread sags.
+# A chord whose sine with the vertical is below this leaves the plane of the sag undetermined.
 _ALONG = 1e-6
-# Of the positions of the start with fading rigidity.
+# Degree of the positions of the start with decreasing rigidity.
 _DEGREE = 4
 
 
@@ -34,7 +34,7 @@ class FoundEquilibrium:
     Attributes:
         solution: the field solution.
         start: name of the start that led to it.
-        failed: why the starts before it did not.
+        failed: why the starts before it failed.
     """
 
     solution: ThreadSolution
@@ -60,7 +60,7 @@ def find_equilibrium(comm: MPI.Comm, thread: Thread, frame: Frame, tolerance: fl
     if thread.tension is not None:
         solution = solve_with_given_tension(comm, thread, frame)
         return FoundEquilibrium(solution=solution, start="its tension", failed=())
-    model, failed = frame.thread(thread), list[str]()
+    model, failed = frame.thread_in_frame(thread), list[str]()
     for name, start in _starts(comm, thread, frame, failed):
         try:
             solution = solve_thread(comm, model, start, tolerance=tolerance)
@@ -86,18 +86,18 @@ def end_forces_without_bending(comm: MPI.Comm, thread: Thread, frame: Frame, tol
     first, last = (replace(end, clamp=None) for end in thread.ends)
     loose = replace(thread, flexural_rigidity=0.0, ends=(first, last))
     profile = find_equilibrium(comm, loose, frame, tolerance).solution.profile
-    return frame.outside(profile.contact_force(profile.nodes[[0, -1]]))
+    return frame.to_space(profile.contact_force(profile.nodes[[0, -1]]))
 
 
 def _starts(comm: MPI.Comm, thread: Thread, frame: Frame, failed: list[str]) -> Iterator[tuple[str, Start]]:
-    """Shapes without bending stiffness, from which a slack thread may also be found as one of fading rigidity; for a
+    """Shapes without bending stiffness, from which a slack thread may also be found by decreasing the rigidity; for a
     thread with bending stiffness an arc, and straight along a clamp or along the chord.
     """
     shapes = []
     for found in thread_starts(thread, failed):
 
         def position(s: Array, found: ThreadStart = found) -> Array:
-            return frame.inside(found.position(s))
+            return frame.to_frame(found.position(s))
 
         shapes.append(Start(position=position, force=found.tension))
         yield found.name, shapes[-1]
@@ -105,11 +105,11 @@ def _starts(comm: MPI.Comm, thread: Thread, frame: Frame, failed: list[str]) -> 
     chord = b.position - a.position
     if a.is_fixed and b.is_fixed and np.linalg.norm(chord) < thread.length:
         if thread.bends:
-            yield "a bow", _bow(frame.inside(a.position), frame.inside(chord), thread.length, thread.weight)
+            yield "a bow", _bow(frame.to_frame(a.position), frame.to_frame(chord), thread.length, thread.weight)
         elif shapes:
             name = "a thread that bends less and less"
             try:
-                faded = start_with_fading_rigidity(comm, frame.thread(thread), shapes[0], degree=_DEGREE)
+                faded = start_with_decreasing_rigidity(comm, frame.thread_in_frame(thread), shapes[0], degree=_DEGREE)
             except ThreadSolverError as error:
                 failed.append(f"{name}: {error}")
             else:
@@ -156,6 +156,6 @@ def _straight(thread: Thread, frame: Frame) -> Start:
     first = held.position if sign > 0.0 else held.position - way * thread.length
 
     def position(s: Array) -> Array:
-        return frame.inside(first + np.outer(s, way))
+        return frame.to_frame(first + np.outer(s, way))
 
     return Start(position=position, force=np.zeros_like)

@@ -1,4 +1,4 @@
-"""The force in whose parts errors of tensions and forces are told: where a thread falls freely no tension is one."""
+"""The force to which errors of tensions and forces are relative: in free fall the tension vanishes and is no scale."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from math import inf
 
 from hydroelastic.physics.thread import Thread
 
-# Stretch whose force counts where nothing else acts on a thread.
+# Stretch whose force is the scale where no other force acts on a thread.
 _STRETCH = 1e-6
 
 

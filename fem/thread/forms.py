@@ -1,4 +1,4 @@
-"""Virtual work of a thread in a stream: contact force, load, what the liquid's reaction adds, inertia.
+"""Virtual work of a thread in a stream: contact force, load, reaction of the liquid, inertia.
 
 For all η, μ, ψ
 
@@ -25,9 +25,9 @@ from hydroelastic.fem.thread.space import ThreadSpace
 from hydroelastic.fem.thread.stream import StreamField
 from hydroelastic.physics.thread import PointLoad, Thread
 
-# Speeds below this part of the unit of speed act as if smooth: √(v² + ν²) has a derivative at rest.
+# Regularization of speeds, of the unit of speed: √(v² + ν²) is differentiable at rest.
 _SMOOTHED_SPEED = 1e-8
-# Of the unit of length: weight of what is asked of the curvature at a clamp.
+# Of the unit of length: penalty of the curvature along a clamp.
 _STIFF = 1e6
 
 
@@ -56,13 +56,13 @@ class ThreadForms:
     Attributes:
         model: as given.
         space: as given.
-        stream: where the thread meets it, or nothing in a liquid at rest; update it with the thread's position.
+        stream: at the position of the thread, or none in a liquid at rest; to be updated with that position.
         point_force: dead forces at nodes, a function that may be changed.
-        dead_force: those of the model.
+        dead_force: dead forces of the model at nodes.
     """
 
     def __init__(self, model: Thread, space: ThreadSpace) -> None:
-        """Make the functions of what is known at nodes."""
+        """Create the functions of loads, masses and clamps at nodes."""
         self.model, self.space = model, space
         self.stream = None
         if model.stream is not None and (model.drags or model.reactive != "none"):
@@ -86,7 +86,7 @@ class ThreadForms:
         return self.space.at_nodes(given, self.space.scalars) if given else None
 
     def constant(self, value: float) -> Any:
-        """A number that forms know by name only: compiled ones serve all its values."""
+        """A constant of the forms whose value is not compiled into them."""
         return fem.Constant(self.space.mesh, value)
 
     def contact_work(self, state: ThreadState, test: ThreadState) -> Any:
@@ -102,7 +102,7 @@ class ThreadForms:
 
     def stretch(self, state: ThreadState, test: ThreadState) -> Any:
         """∫ μ (|r_s| − 1 − S/EA)."""
-        # One kernel for threads that stretch and those that do not.
+        # The same compiled kernel serves extensible and inextensible threads.
         compliance = self.constant(1.0 / self.model.axial_rigidity)
         excess = _length(state.position.dx(0)) - 1.0 - compliance * state.force
         return test.force * excess * self.space.dx
@@ -116,8 +116,8 @@ class ThreadForms:
             along = self._normal * ufl.inner(self._clamp, test.curvature)
             if self.model.axial_rigidity == inf:
                 return form - along * self.space.ds
-            # r_s has the clamp's direction, whatever its length. What is left open by that is the curvature along the
-            # clamp, that of a stretch that changes: none.
+            # r_s has the clamp's direction, whatever its length. This leaves the curvature along the clamp, that of a
+            # varying stretch, undetermined: it is set to zero.
             form -= ufl.inner(state.position.dx(0), self._clamp) * along * self.space.ds
             bent = ufl.inner(state.curvature, self._clamp) * ufl.inner(self._clamp, test.curvature)
             form += self.constant(_STIFF) * bent * self.space.ds
@@ -134,7 +134,7 @@ class ThreadForms:
         return -self.constant(self.model.weight) * self._up
 
     def load(self, position: Any, velocity: Any) -> Any:
-        """q, with the thread's velocity v, or nothing for a thread at rest."""
+        """q for the thread's velocity v, which is ``None`` for a thread at rest."""
         model = self.model
         load = self.load_of_weight()
         if model.normal_drag + model.tangential_drag + model.viscous_drag == 0.0:
@@ -157,7 +157,7 @@ class ThreadForms:
         return load + drag
 
     def point_load(self, position: Any, velocity: Any) -> Any:
-        """Dead force and drag of what is carried at nodes."""
+        """Dead force and drag of the bodies at nodes."""
         if self._drag is None or (self.stream is None and velocity is None):
             return self.point_force
         relative = self._relative(position, velocity, nodes=True)
@@ -169,18 +169,18 @@ class ThreadForms:
         return work + self.node_work(self.point_load(position, velocity), test)
 
     def node_work(self, force: Any, test: Any) -> Any:
-        """Σ F_k·η(s_k) over the ends, and over the nodes between if the thread carries something there."""
+        """Σ F_k·η(s_k) over the ends, and over the inner nodes if the thread carries bodies there."""
         work = ufl.inner(force, test)
         form = work * self.space.ds
         # Continuous on both sides: the mean is the value.
         return form + ufl.avg(work) * self.space.dS if self.model.loads else form
 
     def reactive_work(self, position: Any, velocity: Any, test: Any) -> Any:
-        """What the moving liquid adds besides the inertia of the added mass; zero if `reactive` is "none".
+        """Reaction of the moving liquid besides the inertia of the added mass; ``None`` if `reactive` is "none".
 
         Lighthill: ∫ G·η_s − (1 − f) [G·η] at free ends with G = ma (W V_n + |V_n|² τ/2), W = u_t, V_n = P(v − u). At
-        an end that is free of all constraints and does not bend, τ is the direction of the force on it: with the trace
-        of r_s the order of convergence drops by half.
+        an end that is free of all constraints and does not bend, τ is the direction of the force on it: with the
+        boundary value of r_s the order of convergence drops by half.
         The moving load: −∫ ma (W² τ_s + 2 W P v_s)·η with the jumps of τ at nodes, also that to the direction of the
         force on a free end, + f ma [W V_n·η] there.
         """
@@ -198,7 +198,7 @@ class ThreadForms:
         return work + mass * at_node**2 * ufl.inner(jump, ufl.avg(test)) * self.space.dS
 
     def reactive_elements(self, position: Any, velocity: Any, test: Any) -> Any:
-        """What of the reactive work the elements do: ∫ G·η_s, or −∫ ma (W² τ_s + 2 W P v_s)·η of the moving load."""
+        """Reactive work within the elements: ∫ G·η_s, or −∫ ma (W² τ_s + 2 W P v_s)·η of the moving load."""
         if self.model.reactive == "lighthill":
             mass = self.constant(self.model.added_mass)
             tau = tangent(position)

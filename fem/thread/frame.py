@@ -1,4 +1,4 @@
-"""The coordinates in which a thread is solved: a vertical plane that contains all of it, else space."""
+"""The coordinate frame in which a thread is solved: a vertical plane that contains all of it, else space."""
 
 from __future__ import annotations
 
@@ -44,32 +44,32 @@ class Frame:
         rows = [[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]]
         return np.array([rows[0], rows[2]] if self.dimension == 2 else rows)
 
-    def inside(self, vectors: FloatArray) -> Array:
+    def to_frame(self, vectors: FloatArray) -> Array:
         """Return components in these coordinates, shape (..., dimension), of vectors (x, y, z)."""
         return np.asarray(np.asarray(vectors, dtype=float) @ self.axes.T)
 
-    def outside(self, vectors: NDArray[_Number]) -> NDArray[_Number]:
+    def to_space(self, vectors: NDArray[_Number]) -> NDArray[_Number]:
         """Return components (x, y, z), shape (..., 3), of vectors in these coordinates."""
         return np.asarray(vectors @ self.axes, dtype=vectors.dtype)
 
-    def places(self, points: Array) -> Array:
+    def positions_in_space(self, points: Array) -> Array:
         """Return positions (x, y, z), m, shape (..., 3), of points in these coordinates."""
         c, s = self.direction
-        return self.outside(points) + self.offset * np.array([-s, c, 0.0])
+        return self.to_space(points) + self.offset * np.array([-s, c, 0.0])
 
-    def thread(self, thread: Thread) -> Thread:
+    def thread_in_frame(self, thread: Thread) -> Thread:
         """Return a thread in space in these coordinates."""
 
         def load(body: PointLoad) -> PointLoad:
-            return replace(body, force=self.inside(body.force))
+            return replace(body, force=self.to_frame(body.force))
 
         def end(given: ThreadEnd) -> ThreadEnd:
-            clamp = None if given.clamp is None else self.inside(given.clamp)
+            clamp = None if given.clamp is None else self.to_frame(given.clamp)
             return replace(
                 given,
                 load=load(given.load),
                 held=given.held[3 - self.dimension :],
-                position=self.inside(given.position),
+                position=self.to_frame(given.position),
                 clamp=None if clamp is None else np.asarray(clamp / np.linalg.norm(clamp)),
             )
 
@@ -113,7 +113,7 @@ def choose_frame(thread: Thread, motions: Sequence[MotionRequest] = (), *, in_sp
     Args:
         thread: in space, with a fixed end.
         motions: motions that will be solved in these coordinates.
-        in_space: whether motions out of the plane are wanted, as modes are.
+        in_space: whether motions out of the plane are required, as for modes.
     """
     directions = [vector for vector in _horizontal(thread, motions) if hypot(*vector) > 0.0]
     longest = max(directions, key=lambda vector: hypot(*vector), default=(1.0, 0.0))
@@ -163,6 +163,6 @@ def _stream_directions(stream: Stream | None) -> Iterator[tuple[float, float]]:
         case TabulatedStream():
             vectors = stream.velocities
         case _:
-            # No plane contains a stream that turns with the height.
+            # No plane contains a stream whose direction varies with the height.
             vectors = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
     yield from ((x, y) for x, y, _ in vectors)

@@ -1,12 +1,12 @@
-"""Where small motions of a thread without bending stiffness have no limit on finer meshes.
+"""Well-posedness of the small motions of a thread without bending stiffness.
 
 With the added mass M as a load that moves at W along a thread of mass m and tension T, waves of short length travel at
 the speeds c of (m + M) c² − 2 M W c + M W² − T = 0. They are real for
 
     T ≥ m M W²/(m + M),
 
-and T ≥ 0 without that load. Elsewhere a wave grows the faster the shorter it is (Hadamard): only bending stiffness
-limits it.
+and T ≥ 0 without that load. Elsewhere waves grow at a rate that increases without bound with the wavenumber (Hadamard
+instability), and solutions on finer meshes have no limit; only bending stiffness bounds the rate.
 """
 
 from __future__ import annotations
@@ -17,18 +17,18 @@ from hydroelastic.fem.thread.equilibrium import Equilibrium, in_space
 from hydroelastic.fem.thread.table import line_table
 
 _SAMPLES_PER_ELEMENT = 8
-# Of the largest tension. Next to a free tail without tension the field solution may leave this much of either sign.
+# Of the largest tension. Next to a free tail without tension the field solution may have this error, of either sign.
 _SLACK = 1e-4
-# Where a stream along the thread asks for tension, rounding alone may be missing.
+# Where a stream along the thread requires tension, only rounding may be lacking.
 _ROUNDING = 1e-9
 
 
 class IllPosedError(ValueError):
-    """Short waves grow without limit; the message says where, and why."""
+    """The growth rate of short waves is unbounded; the message says where, and why."""
 
 
 def require_real_wave_speeds(equilibrium: Equilibrium) -> None:
-    """Refuse equilibria whose small motions no mesh resolves.
+    """Refuse equilibria whose small motions are ill-posed.
 
     Args:
         equilibrium: about which the thread moves.

@@ -30,7 +30,7 @@ def initial_nodes(model: Thread, start: Start) -> NDArray[np.float64]:
 
     Args:
         model: the thread, SI.
-        start: about where it is.
+        start: approximate shape.
 
     Returns:
         s of the nodes, m.

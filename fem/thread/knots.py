@@ -1,8 +1,8 @@
-"""Nodes where the thread passes heights at which its stream has a kink, which polynomials do not approximate well.
+"""Nodes where the thread passes heights at which a derivative of its stream jumps.
 
 Between rows of a table the stream is smooth; at them a derivative jumps, the first one of straight lines, the second of
-monotone cubics, the third of a spline. An element with such a place inside has an error of low order, which depends on
-where in it the place is: halving its element does not tell it.
+monotone cubics, the third of a spline. An element that contains such a place has an error of low order that depends on
+the position within it: comparison with halved elements does not estimate it.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ _LOOKS = 16
 _BISECTIONS = 50
 # Of the smaller element beside it: a node this near is moved to the passage, otherwise there is another one.
 _NEAR = 0.4
-# Of the same: what is left of a kink's error falls with its square.
+# Of the same: the remaining error of a kink falls with its square.
 _THERE = 1e-3
 # With more passages elements are as short as the rows of the table are dense, and nodes are left where they are.
 _MOST = 300
@@ -38,7 +38,7 @@ def knots_along(heights: tuple[float, ...], position: Along, nodes: NDArray[np.f
     if len(breaks) == 0:
         return breaks
     looks = np.append((nodes[:-1, None] + np.diff(nodes)[:, None] * np.arange(_LOOKS) / _LOOKS).ravel(), nodes[-1])
-    # How many of the breaks are below each place: where that changes, some are passed.
+    # The number of breaks below each place changes where the thread passes some.
     below = np.searchsorted(breaks, position(looks)[:, -1])
     if np.sum(np.abs(np.diff(below))) > _MOST:
         return np.empty(0)

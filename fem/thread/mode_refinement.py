@@ -18,7 +18,7 @@ from hydroelastic.fem.thread.stability import Stability, stability
 from hydroelastic.fem.thread.straight import equilibrium_on
 from hydroelastic.physics.thread import Thread
 
-# How often elements are halved for modes, whose errors may be larger than those of the equilibrium.
+# Number of halvings for modes, whose errors may exceed those of the equilibrium.
 _MOST_HALVINGS = 4
 
 
@@ -44,7 +44,7 @@ def modes_to_tolerance(
         velocity_damping: whether the change of drag with the velocity of the thread damps them.
 
     Returns:
-        The modes (collective); those of the finest mesh if no mesh reaches the tolerance.
+        The modes (collective); those of the finest mesh if the tolerance is not reached.
 
     Raises:
         IllPosedError: where they have no limit on finer meshes.
@@ -91,7 +91,7 @@ def stability_in_growing_stream(
     def equilibrium_at(factor: float, step: int = 1) -> Equilibrium:
         nonlocal last
         nodes, degree = rest.profile.nodes[::step], rest.equilibrium.space.degree
-        found = equilibrium_on(comm, thread.in_stream_times(factor), frame, nodes, last, degree)
+        found = equilibrium_on(comm, thread.with_stream_factor(factor), frame, nodes, last, degree)
         last = start_from(thread_profile(found))
         return found
 

@@ -17,9 +17,9 @@ from hydroelastic.fem.thread.hyperbolicity import require_real_wave_speeds
 from hydroelastic.fem.thread.operators import ThreadOperators, thread_operators
 from hydroelastic.fem.thread.table import line_table
 
-# Beside its extent: a thread is planar, or straight, if it leaves a plane, or a line, by less.
+# Relative to its extent: a thread is planar, or straight, if it deviates less from a plane, or a line.
 _FLAT = 1e-8
-# Relative change of a root that convergence of the iteration may leave.
+# Relative error of a root by the iteration.
 _CONVERGED = 1e-12
 
 
@@ -62,7 +62,7 @@ class ThreadModes:
 
     Attributes:
         nodes: s of the shapes, m, shape (nodes,).
-        oscillating: as many as were asked for, one of each conjugate pair; ω = Im λ.
+        oscillating: as many as requested, one of each conjugate pair; ω = Im λ.
         aperiodic: all with real λ up to the magnitude of the last oscillating one; in a stream often the slowest.
         quadratic_decay: rates at which the amplitudes asked for begin to decay by quadratic drag in a liquid at rest,
             1/s, shape (oscillating,); an estimate, besides −Re λ.
@@ -223,7 +223,7 @@ def _product(matrix: PETSc.Mat, left: PETSc.Vec, right: PETSc.Vec) -> float:
 
 
 def _rounding(stiffness: PETSc.Mat, vector: PETSc.Vec) -> float:
-    """By how much rounding of the entries of K may change yᵀKy, their errors taken as independent (collective)."""
+    """Bound of the change of yᵀKy by rounding of the entries of K, taken as independent (collective)."""
     terms = stiffness.getDiagonal().array_r * vector.array_r**2
     total = stiffness.comm.tompi4py().allreduce(float(terms @ terms), op=MPI.SUM)
     return float(4.0 * np.finfo(float).eps * np.sqrt(total))

@@ -27,20 +27,20 @@ from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.stream import Stream
 from hydroelastic.physics.thread import Thread
 
-# Of the unit of force: smaller compression at the start vanishes as the thread turns.
+# Of the unit of force: smaller compression at the start is tolerated: it vanishes as the thread turns.
 _SLACK_AT_START = 1e-3
 # How often a step may be shortened while the thread is slack: shorter folds move faster, and no step resolves them.
 _MOST_REJECTED_SLACK = 100
 
 
 @dataclass(frozen=True, kw_only=True)
-class MovingStart:
+class InitialMotion:
     """Positions and velocities at the beginning.
 
     Attributes:
-        position: r in m at s of shape (n,) in m, shape (n, dimension); moved a little where the thread would be
-            stretched that cannot be.
-        velocity: r_t in m/s, likewise; a thread at rest without it.
+        position: r in m at s of shape (n,) in m, shape (n, dimension); projected to |r_s| = 1 if the thread is
+            inextensible.
+        velocity: r_t in m/s, likewise; ``None`` for a thread at rest.
     """
 
     position: Along
@@ -86,7 +86,7 @@ def move_thread(
     comm: MPI.Comm,
     model: Thread,
     nodes: NDArray[np.float64],
-    start: MovingStart,
+    start: InitialMotion,
     plan: MotionPlan,
     *,
     degree: int = 2,
@@ -111,9 +111,9 @@ def move_thread(
     units = motion_units(model)
     space = ThreadSpace(comm, np.asarray(nodes / model.length, dtype=np.float64), degree, model.dimension, model.bends)
     integrator = _make_integrator(model, units, space, plan)
-    _interpolate(integrator.step.before, start.position, units.length, units.length)
+    _interpolate(integrator.step.old_state, start.position, units.length, units.length)
     if start.velocity is not None:
-        _interpolate(integrator.step.speed, start.velocity, units.length, units.length / units.time)
+        _interpolate(integrator.step.old_velocity, start.velocity, units.length, units.length / units.time)
     return _Run(integrator, units, plan, model.length).go(place=True)
 
 
@@ -121,7 +121,7 @@ def move_from_rest(equilibrium: Equilibrium, plan: MotionPlan) -> ThreadMotion:
     """Solve for the motion of a thread from rest.
 
     Args:
-        equilibrium: the thread at rest; its model may hang in another stream than the plan's factor gives.
+        equilibrium: the thread at rest; the stream of its model may differ from that of the plan's factor.
         plan: what is asked.
 
     Returns:
@@ -134,7 +134,7 @@ def move_from_rest(equilibrium: Equilibrium, plan: MotionPlan) -> ThreadMotion:
     model = equilibrium.model
     units = replace(equilibrium.units, time=motion_units(model).time)
     integrator = _make_integrator(model, units, equilibrium.space, plan)
-    integrator.step.before.x.array[:] = equilibrium.solution.x.array
+    integrator.step.old_state.x.array[:] = equilibrium.solution.x.array
     return _Run(integrator, units, plan, model.length).go(place=False)
 
 
@@ -230,7 +230,7 @@ class _Run:
                 "there is no thread near the given positions, or its tension is undetermined; give positions with "
                 "|r_s| = 1 nearby, and more thread than the distance of its held ends"
             )
-        self._begin(velocities_jump=True, look_for_slack=self._plan.tension_at_start)
+        self._begin(velocities_jump=True, check_slack=self._plan.tension_at_start)
         self._record.ends.append(integrator.time)
         self._record.energies.append(integrator.energies())
         self._output()
@@ -245,7 +245,7 @@ class _Run:
                 break
         return self._result(moved * self._length if moved else 0.0, still)
 
-    def _begin(self, *, velocities_jump: bool, look_for_slack: bool = False) -> None:
+    def _begin(self, *, velocities_jump: bool, check_slack: bool = False) -> None:
         """Consistent velocities, accelerations and tensions at the start, or after a discontinuity."""
         integrator = self._integrator
         if velocities_jump:
@@ -254,7 +254,7 @@ class _Run:
                 self._fail("no impulse of the ends gives the thread the velocities asked for")
             else:
                 self._velocity_change = max(self._velocity_change, velocity_change)
-        if look_for_slack and not integrator.forms.model.bends:
+        if check_slack and not integrator.forms.model.bends:
             self._refuse_slack()
         tensions = integrator.solve_accelerations()
         if tensions is None:
@@ -290,7 +290,10 @@ class _Run:
             if stop - integrator.time < 1e-9 * length:
                 integrator.time = stop
             self._record.ends[-1] = integrator.time
-            if plan.still_speed is not None and integrator.speed() * self._length / self._units.time < plan.still_speed:
+            if (
+                plan.rest_speed is not None
+                and integrator.largest_velocity() * self._length / self._units.time < plan.rest_speed
+            ):
                 return integrator.time
         return None
 
@@ -395,5 +398,5 @@ class _Run:
             slack=()
             if self._integrator.forms.model.bends
             else find_slack(history.ends, nodes, history.tensions, units.force),
-            still=None if still is None else still * units.time,
+            rest_time=None if still is None else still * units.time,
         )

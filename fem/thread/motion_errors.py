@@ -30,13 +30,13 @@ class MotionDifference:
 
 
 @dataclass(frozen=True, kw_only=True)
-class MeasuredMotion:
+class MotionWithErrors:
     """A motion and its errors.
 
     Attributes:
         motion: that of the halved steps on the mesh as given.
-        steps: difference from that of the whole steps; the error that is left is a third of it while steps are of
-            second order.
+        steps: difference from that of the whole steps; a third of it estimates the remaining error of second-order
+            steps.
         mesh: difference from that of halved elements with the whole steps, if it was asked for.
         ends: times at which the whole steps end, s, shape (n,).
         tension_changes: largest difference of a tension at each of them, by halving steps and, if that was asked for,
@@ -89,13 +89,13 @@ def motion_difference(first: ThreadMotion, second: ThreadMotion, every: int = 1)
     )
 
 
-def measure_motion(run: Run, plan: MotionPlan, *, mesh: bool = False) -> MeasuredMotion:
+def motion_with_errors(run: Run, plan: MotionPlan, *, mesh: bool = False) -> MotionWithErrors:
     """Solve for a motion with steps as planned, with all of them halved and, if asked, on halved elements.
 
     Args:
         run: follows a plan on a mesh whose elements are cut in so many parts (collective).
         plan: what is asked.
-        mesh: whether to look at the mesh too.
+        mesh: whether to estimate the error of the mesh as well.
 
     Returns:
         The motion of halved steps, with the differences (collective).
@@ -109,7 +109,7 @@ def measure_motion(run: Run, plan: MotionPlan, *, mesh: bool = False) -> Measure
         parted = run(replace(plan, grid=grid), 2)
         cut = motion_difference(whole, parted, every=2)
         changes = changes + _tension_changes(whole, parted, every=2)
-    return MeasuredMotion(
+    return MotionWithErrors(
         motion=finer, steps=motion_difference(whole, finer), mesh=cut, ends=grid, tension_changes=changes
     )
 

@@ -16,7 +16,7 @@ VectorOfTime = Callable[[float], NDArray[np.float64]]
 
 
 class ThreadMotionError(RuntimeError):
-    """The motion could not be solved for; the message says when, why, and what to do."""
+    """The motion could not be computed; the message says when, why, and what to do."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,7 +58,7 @@ class MotionPlan:
             steps do not resolve; without it the midpoint rule, which conserves energy.
         shedding: vortices, if any.
         grid: times at which steps end, s, increasing, in place of `step` and `tolerance`.
-        still_speed: m/s; the motion ends when no component of a velocity is larger, after at least one step. With long
+        rest_speed: m/s; the motion ends when no component of a velocity is larger, after at least one step. With long
             steps this needs `dissipation`: the midpoint rule keeps oscillating.
         tension_at_start: whether a thread without flexural rigidity is refused that would be in compression at once.
     """
@@ -72,7 +72,7 @@ class MotionPlan:
     dissipation: float | None = None
     shedding: VortexShedding | None = None
     grid: NDArray[np.float64] | None = None
-    still_speed: float | None = None
+    rest_speed: float | None = None
     tension_at_start: bool = False
 
     def __post_init__(self) -> None:
@@ -89,8 +89,8 @@ class MotionPlan:
                 f"dissipation is {self.dissipation}: it must be at least 0 and below 1; at 1 stiff stretching grows "
                 "without bound, 0.5 to 0.7 is usual"
             )
-        if self.still_speed is not None and not self.still_speed > 0.0:
-            raise ValueError(f"still_speed is {self.still_speed}: it must be positive")
+        if self.rest_speed is not None and not self.rest_speed > 0.0:
+            raise ValueError(f"rest_speed is {self.rest_speed}: it must be positive")
 
     def check(self, model: Thread) -> None:
         """Check that the plan fits a thread.

@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
 from hydroelastic.fem.thread.equilibrium import solve_on_mesh
 from hydroelastic.fem.thread.equilibrium_search import find_equilibrium
-from hydroelastic.fem.thread.followed_motion import FollowedMotion, followed_motion
 from hydroelastic.fem.thread.frame import Frame
 from hydroelastic.fem.thread.initial_mesh import initial_nodes
-from hydroelastic.fem.thread.motion import MovingStart, move_from_rest, move_thread
-from hydroelastic.fem.thread.motion_errors import MeasuredMotion, halved, measure_motion
+from hydroelastic.fem.thread.motion import InitialMotion, move_from_rest, move_thread
+from hydroelastic.fem.thread.motion_errors import MotionWithErrors, halved, motion_with_errors
+from hydroelastic.fem.thread.motion_in_space import MotionInSpace, motion_in_space
 from hydroelastic.fem.thread.motion_plan import MotionPlan, PrescribedEnd, ThreadMotionError
 from hydroelastic.fem.thread.motion_request import MotionRequest
 from hydroelastic.fem.thread.motion_results import ThreadMotion
@@ -34,13 +34,13 @@ _DEGREE = 2
 # Error that a step may add, of the tolerance: errors of steps add up, and partly decay.
 _STEP_PART = 0.1
 _MOST_ATTEMPTS = 4
-# Error at which a further attempt aims, of the tolerance.
+# Target error of a further attempt, of the tolerance.
 _AIM = 0.5
 
 
-def follow_motion(
+def motion_to_tolerance(
     comm: MPI.Comm, thread: Thread, frame: Frame, rest: ThreadSolution, request: MotionRequest, *, rest_tolerance: float
-) -> FollowedMotion:
+) -> MotionInSpace:
     """Solve for a motion; halve steps and elements to estimate the errors, and refine until they are small enough.
 
     Args:
@@ -48,7 +48,7 @@ def follow_motion(
         thread: in space, SI units.
         frame: coordinates of the solution.
         rest: the equilibrium.
-        request: what is asked, with the tolerance.
+        request: the request, with the tolerance.
         rest_tolerance: relative, of an equilibrium in the liquid at rest from which the motion may start.
 
     Returns:
@@ -61,11 +61,13 @@ def follow_motion(
     run = _run_from_start(comm, thread, frame, rest, request, rest_tolerance)
     allowed = request.tolerance * thread.length
 
-    def solve(discretization: tuple[Array, MotionPlan]) -> MeasuredMotion:
+    def solve(discretization: tuple[Array, MotionPlan]) -> MotionWithErrors:
         nodes, plan = discretization
-        return measure_motion(lambda plan, parts: run(nodes if parts == 1 else halved(nodes), plan), plan, mesh=True)
+        return motion_with_errors(
+            lambda plan, parts: run(nodes if parts == 1 else halved(nodes), plan), plan, mesh=True
+        )
 
-    def refine(discretization: tuple[Array, MotionPlan], found: MeasuredMotion) -> tuple[Array, MotionPlan]:
+    def refine(discretization: tuple[Array, MotionPlan], found: MotionWithErrors) -> tuple[Array, MotionPlan]:
         nodes, plan = discretization
         assert found.mesh is not None
         if found.mesh.positions > _AIM * allowed:
@@ -75,7 +77,7 @@ def follow_motion(
         return nodes, plan
 
     found = adaptive_solve(
-        (initial_nodes(frame.thread(thread), start_from(rest.profile)), _plan(thread, frame, request)),
+        (initial_nodes(frame.thread_in_frame(thread), start_from(rest.profile)), _plan(thread, frame, request)),
         solve,
         lambda found: ErrorEstimate(discretization=found.error),
         refine,
@@ -85,7 +87,7 @@ def follow_motion(
         while_error_falls=True,
         failures=(ThreadMotionError, ThreadSolverError),
     )
-    return followed_motion(frame, rest, found.solution)
+    return motion_in_space(frame, rest, found.solution)
 
 
 def _with_smaller_steps(plan: MotionPlan, ratio: float) -> MotionPlan:
@@ -99,16 +101,16 @@ def _run_from_start(
     comm: MPI.Comm, thread: Thread, frame: Frame, rest: ThreadSolution, request: MotionRequest, rest_tolerance: float
 ) -> _Run:
     """The motion on given nodes, by a given plan, from the start of the request."""
-    model = frame.thread(thread)
+    model = frame.thread_in_frame(thread)
     if request.start == "straight":
-        straight = MovingStart(position=_straight(thread, frame, request))
+        straight = InitialMotion(position=_straight(thread, frame, request))
         return lambda nodes, plan: move_thread(comm, model, nodes, straight, plan, degree=_DEGREE)
     begin = rest.profile
     if request.start == "still_liquid":
-        begin = find_equilibrium(comm, thread.in_stream_times(0.0), frame, rest_tolerance).solution.profile
+        begin = find_equilibrium(comm, thread.with_stream_factor(0.0), frame, rest_tolerance).solution.profile
 
     def from_rest(nodes: Array, plan: MotionPlan) -> ThreadMotion:
-        # At rest on this very mesh: in a stiff thread the difference of two meshes is a large tension.
+        # Equilibrium on this very mesh: in a stiff thread the difference of two meshes is a large tension.
         still = solve_on_mesh(comm, begin.model, nodes, start_from(begin), degree=_DEGREE)
         return move_from_rest(replace(still, model=model), plan)
 
@@ -119,7 +121,7 @@ def _straight(thread: Thread, frame: Frame, request: MotionRequest) -> Callable[
     way = np.array(request.direction) / np.linalg.norm(request.direction)
     a, b = thread.ends
     first = a.position if a.is_fixed else b.position - thread.length * way
-    return lambda s: frame.inside(first + np.outer(s, way))
+    return lambda s: frame.to_frame(first + np.outer(s, way))
 
 
 def _plan(thread: Thread, frame: Frame, request: MotionRequest) -> MotionPlan:
@@ -138,7 +140,7 @@ def _plan(thread: Thread, frame: Frame, request: MotionRequest) -> MotionPlan:
 
 def _course(end: ThreadEnd, frame: Frame, moves: tuple[EndDisplacement, ...], release: float) -> PrescribedEnd:
     def position(time: float) -> Array:
-        return frame.inside(end.position + sum(move(time) for move in moves))
+        return frame.to_frame(end.position + sum(move(time) for move in moves))
 
     return PrescribedEnd(
         position=position if moves else None,

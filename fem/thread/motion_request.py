@@ -1,4 +1,4 @@
-"""What motion of a thread is asked for, in space and independent of a mesh."""
+"""Request of a motion of a thread, in space and independent of a mesh."""
 
 from __future__ import annotations
 

@@ -43,7 +43,7 @@ class StepHistory:
 
 @dataclass(frozen=True, kw_only=True)
 class Slack:
-    """A time in which a part of the thread is in compression, which a thread without bending stiffness cannot carry.
+    """An interval with compression, which a thread without bending stiffness cannot carry.
 
     Attributes:
         start: first end of a step with compression, s.
@@ -74,7 +74,7 @@ class ThreadMotion:
         velocity_change: largest change of velocities to consistent ones, at the start and at discontinuities, m/s.
         rejected: number of steps that were repeated with a shorter length.
         slack: times in compression.
-        still: time at which the thread came to rest, s, if that was asked for and reached.
+        rest_time: time at which the thread came to rest, s, if that was asked for and reached.
     """
 
     times: NDArray[np.float64]
@@ -88,7 +88,7 @@ class ThreadMotion:
     velocity_change: float
     rejected: int
     slack: tuple[Slack, ...]
-    still: float | None
+    rest_time: float | None
 
 
 # Of the characteristic force: compression below it is rounding, or an end without force.

@@ -20,7 +20,7 @@ STEP_LIMIT = 0.3
 # The last step of a position and the residual, in units of the length and of the characteristic tension.
 STEP_TOLERANCE = 1e-10
 RESIDUAL_TOLERANCE = 1e-9
-# Layers of bending that are far shorter than the thread leave more by rounding: where steps no longer lessen it.
+# Bending layers far shorter than the thread increase rounding: iteration then ends where steps no longer reduce it.
 _ROUNDING = 1e-6
 _MOST_STEPS = 40
 # A step may increase the residual by this factor: far from the solution converging iterations do so too.
@@ -40,9 +40,9 @@ class NewtonSolver:
     Args:
         residual: F, a form with one argument.
         unknowns: w in the mixed space of a thread whose length is one; its fixed components must have their values.
-        fixed: unknowns that are given, one or more boundary conditions.
-        update: called before each assembly, for what F knows of w besides.
-        disturbance: D, a form with one argument, whose part in F is small.
+        fixed: prescribed unknowns, one or more boundary conditions.
+        update: called before each assembly to update coefficients of F that depend on w.
+        disturbance: D, a form with one argument, a small perturbation of F.
 
     Attributes:
         jacobian: matrix of the last linear system.
@@ -94,7 +94,7 @@ class NewtonSolver:
         except PETSc.Error as error:
             raise ThreadSolverError("a linear system of Newton's method could not be factored") from error
         finally:
-            # It knows this object, and this object it: nothing else would free them.
+            # The two objects refer to each other: the cycle must be broken to free them.
             for part in (solver, place, value):
                 part.destroy()
         if reason <= 0:
@@ -120,7 +120,7 @@ class NewtonSolver:
         factors.setFactorSolverType("mumps")
         linear.setOperators(self.jacobian)
         factors.setFactorSetUpSolverType()
-        # Room for pivots, in per cent: much of the diagonal is zero.
+        # Additional memory for pivots, per cent: much of the diagonal is zero.
         factors.getFactorMatrix().setMumpsIcntl(14, _ROOM)
         return solver
 
@@ -201,7 +201,7 @@ class NewtonSolver:
 
     def _largest(self, values: NDArray[np.float64]) -> float:
         local = float(np.max(np.abs(values))) if len(values) else 0.0
-        # MPI's maximum may lose what is not a number.
+        # MPI's maximum may drop NaN.
         local = local if np.isfinite(local) else np.inf
         return float(self._comm.allreduce(local, op=MPI.MAX))
 

@@ -35,7 +35,7 @@ class ThreadOperators:
     Attributes:
         equilibrium: about which the thread moves.
         stiffness: K.
-        damping: C, or nothing where no force is linear in the velocity or where it was left out.
+        damping: C; ``None`` where no force is linear in the velocity or damping is neglected.
         mass: M; nothing acts on the axial force and on the curvature.
         free: owned unknowns of the mixed space that are not held.
         time_unit: s.
@@ -78,7 +78,8 @@ def thread_operators(equilibrium: Equilibrium, *, velocity_damping: bool = True)
     Args:
         equilibrium: about which the thread moves. Where both ends of a straight thread that does not stretch are held,
             its tension is that of the equilibrium and does not change.
-        velocity_damping: with it, C is what depends on the thread's velocity; without it, nothing. The drag of the
+        velocity_damping: whether C contains the forces that depend on the thread's velocity; without it C is ``None``.
+            The drag of the
             stream enters K in both cases.
 
     Raises:
@@ -117,7 +118,7 @@ def thread_operators(equilibrium: Equilibrium, *, velocity_damping: bool = True)
 
 
 def damping_form(forms: ThreadForms, solution: Any, trial: ThreadState, test: ThreadState) -> Any:
-    """−∂(q·η)/∂v, and what is linear in the velocity of the liquid's reaction, or nothing if no force depends on it.
+    """−∂(q·η)/∂v and the part of the liquid's reaction linear in the velocity; ``None`` if no force depends on it.
 
     Lighthill's momentum ma V_n with V_n = P (v − u) changes by ∂(−ma P u)/∂r · v besides.
     """
@@ -152,7 +153,7 @@ def free_unknowns(equilibrium: Equilibrium) -> NDArray[np.int32]:
 
 
 def straight_direction(equilibrium: Equilibrium) -> NDArray[np.float64] | None:
-    """Unit vector of a thread that lies on the chord between its ends, nothing for any other (collective)."""
+    """Unit vector of a thread that lies on the chord between its ends; ``None`` for any other (collective)."""
     table = line_table(equilibrium.solution, equilibrium.space.nodes, 0)
     ends = table.at(table.nodes[[0, -1]])
     span = float(np.linalg.norm(ends[1] - ends[0]))
@@ -165,7 +166,7 @@ def straight_direction(equilibrium: Equilibrium) -> NDArray[np.float64] | None:
 
 
 def _undetermined_tension(equilibrium: Equilibrium) -> NDArray[np.int32]:
-    """One unknown of the axial force where a constant may be added to it, and nothing elsewhere (collective).
+    """One unknown of the axial force if a constant may be added to it; empty otherwise (collective).
 
     The condition that belongs to it, that one element keeps its length, follows from those of all the others.
     """

@@ -46,7 +46,7 @@ class ThreadProfile:
         curvature_table: κ, 1/m, of a thread that bends.
         force: N at both nodes of each element, N, shape (elements, 2, dimension).
         tension: T there, N, shape (elements, 2).
-        balance: what is in balance with the load, N or N − G, as Legendre series on each element, N, shape
+        balance: the force in balance with the load, N or N − G, as Legendre series on each element, N, shape
             (elements, terms, dimension).
     """
 
@@ -213,7 +213,8 @@ def _load_table(equilibrium: Equilibrium) -> NDArray[np.float64]:
 
 
 def _balance(held: NDArray[np.float64], load: NDArray[np.float64], sizes: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Legendre series of what N_s = −q makes of the values at the nodes; a line takes what is left at the second."""
+    """Legendre series from N_s = −q and the values at the nodes; a linear term corrects the residual at the second
+    node."""
     count = load.shape[1]
     points, _ = legendre.leggauss(count)
     terms = np.einsum("ij,ejk->eik", np.linalg.inv(legendre.legvander(points, count - 1)), load)

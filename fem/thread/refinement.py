@@ -28,11 +28,11 @@ _FOLDED = 0.05
 # Inner points of an element at which two solutions are compared.
 _PLACES = np.arange(1, 8) / 8.0
 _MOST_ROUNDS = 12
-# Meshes after which nodes need no longer be where the thread passes kinks of its stream.
+# Number of meshes after which nodes are no longer moved to kinks of the stream.
 _SETTLED = 6
 _MOST_PARTS = 8
 _MOST_ELEMENTS = 4_000
-# Error at which refined elements aim, of the tolerance.
+# Target error of refined elements, of the tolerance.
 _AIM = 0.3
 
 
@@ -75,7 +75,7 @@ class ThreadSolution:
         errors: the difference of the two, which bounds the error of the finer one, and rounding.
         elements: numbers of elements of all meshes, in order.
         newton_steps: on each of them.
-        ramps: what had to grow where Newton's method failed at once, and in how many steps.
+        ramps: name and number of steps of each continuation that was needed.
     """
 
     equilibrium: Equilibrium
@@ -105,7 +105,7 @@ def solve_thread(
         CompressionError: where the solution has compression.
         ThreadSolverError: where Newton's method fails, with growing drag or stiffness too, or the tolerance is out
             of reach.
-        ValueError: where an argument is none.
+        ValueError: where an argument is out of its range.
     """
     if not 1e-11 <= tolerance <= 0.1:
         raise ValueError(f"tolerance is {tolerance}: it must be between 1e-11 and 0.1")
@@ -148,7 +148,7 @@ def solve_thread(
             comparison=comparison,
             differences=comparison.errors(),
             errors=comparison.errors(thread_rounding(equilibrium)),
-            # A thread that touches the height of a knot passes it on one mesh and not on the next.
+            # A thread tangent to the height of a knot may pass it on one mesh and not on the next.
             knots_moved=moved and len(elements) < _SETTLED,
         )
         return last
@@ -242,7 +242,7 @@ class _Comparison:
     def errors(self, rounding: ThreadRounding = _NOTHING) -> ThreadErrors:
         """Return the estimated errors: the differences and rounding."""
         position = max(_size(self._inner), _size(self._nodal)) + ROUNDING * self.length + rounding.position
-        # With a kink of the load two errors of its integral may agree by chance: what a polynomial misses counts too.
+        # At a kink of the load two errors of its integral may agree by chance: the polynomial remainder counts as well.
         missed = float(np.sum(_tail(self.fine))) + ROUNDING * self.largest
         tension = float(max(np.max(self._tension), np.max(self._nodal_tension))) + missed + rounding.tension
         reaction = _size(self.fine.reactions() - self.coarse.reactions()) + missed + rounding.reaction
@@ -260,7 +260,7 @@ class _Comparison:
 
         The shape of an element between its nodes is its own, of order p + 1; so is the change of the contact force
         along it, where the load has kinks; where the thread bends its tension, N along a tangent of order p, too. If
-        they do not tell, all elements are halved.
+        none of these exceeds its share, all elements are halved.
         """
         linear = (1.0 - _PLACES[:, None]) * self._nodal[:-1, None] + _PLACES[:, None] * self._nodal[1:, None]
         shape = np.max(np.linalg.norm(self._inner - linear, axis=2), axis=1) / self.length
@@ -300,7 +300,7 @@ def _cut(nodes: NDArray[np.float64], parts: NDArray[np.int64]) -> NDArray[np.flo
 
 
 def _refuse_compression(profile: ThreadProfile, limit: float) -> None:
-    # A thread that bends bears some.
+    # A thread with bending stiffness may be in compression.
     if profile.model.bends:
         return
     smallest, place = profile.smallest_tension()

@@ -25,7 +25,7 @@ class RestingThread:
         curvatures: |r_ss|, 1/m, shape (positions,).
         end_positions: of A and B, m, shape (2, 3).
         end_tensions: at A and B, N, shape (2,).
-        reactions: forces on the thread by what holds A and B, N, shape (2, 3).
+        reactions: support forces on the thread at A and B, N, shape (2, 3).
         end_moments: EI κ at A and B, N·m, shape (2,).
         largest_tension: of the whole thread, N.
         smallest_tension: of the whole thread, N.
@@ -35,9 +35,9 @@ class RestingThread:
         reaction_error: estimated, of reactions, N.
         moment_error: estimated, of the end moments, N·m.
         relative_error: the largest of them, of length, largest force and largest moment.
-        start: how Newton's method was begun.
+        start: name of the start of Newton's method.
         newton_steps: on each of the meshes.
-        failed_starts: why starts before it did not lead to a thread under tension.
+        failed_starts: why the starts before it failed.
     """
 
     positions: Array
@@ -73,13 +73,13 @@ def resting_thread(found: FoundEquilibrium, frame: Frame, s: Array) -> RestingTh
     ends = profile.nodes[[0, -1]]
     smallest, place = profile.smallest_tension()
     return RestingThread(
-        positions=frame.places(profile.position(s)),
+        positions=frame.positions_in_space(profile.position(s)),
         tensions=profile.tension_at(s),
-        forces=frame.outside(profile.contact_force(s)),
+        forces=frame.to_space(profile.contact_force(s)),
         curvatures=_curvatures(profile, s),
-        end_positions=frame.places(profile.position(ends)),
+        end_positions=frame.positions_in_space(profile.position(ends)),
         end_tensions=np.array([profile.tension[0, 0], profile.tension[-1, 1]]),
-        reactions=frame.outside(profile.reactions()),
+        reactions=frame.to_space(profile.reactions()),
         end_moments=profile.end_moments(),
         largest_tension=float(np.max(profile.tension)),
         smallest_tension=smallest,

@@ -58,8 +58,8 @@ def thread_rounding(equilibrium: Equilibrium) -> ThreadRounding:
 
 
 def _stretch_unknown(equilibrium: Equilibrium) -> float:
-    """What the stretch of the whole thread is uncertain by: what is left of ∫μ(|r_s| − 1 − S/EA), whose test functions
-    add up to one, all with one sign; and no less than eps for each element and each length from the origin.
+    """Uncertainty of the stretch of the whole thread: the residuals of ∫μ(|r_s| − 1 − S/EA), whose test functions add
+    up to one, with equal signs; and no less than eps for each element and each length from the origin.
     """
     space = equilibrium.space
     rows = np.asarray(space.mixed.sub(1).collapse()[1])

@@ -1,4 +1,4 @@
-"""Function spaces of a thread: positions, axial force, curvature, and what is known at nodes.
+"""Function spaces of a thread: positions, axial force, curvature, and data at nodes.
 
 Positions are continuous polynomials of degree p, the axial force discontinuous ones of degree p − 1 (a displacement
 form with p ≥ 2 locks), the curvature κ = r_ss of a thread that bends again continuous of degree p.
@@ -35,7 +35,7 @@ class ThreadSpace:
         dimension: as given.
         mesh: intervals in s.
         mixed: space of (r, S) or (r, S, κ).
-        scalars: linear functions, for what is known at nodes.
+        scalars: linear functions, for data at nodes.
         vectors: linear vectors.
         quadrature_degree: of all forms.
         end_tags: 1 for the node of end A, 2 for that of end B.

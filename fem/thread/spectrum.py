@@ -1,4 +1,4 @@
-"""The slowest motions of a thread at one value of a parameter, and how they go on to another value."""
+"""The slowest motions of a thread at one value of a parameter, and their continuation to other values."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ _Number = TypeVar("_Number", np.float64, np.complex128)
 
 EquilibriumAt = Callable[[float], Equilibrium]
 
-# Of the smallest frequency: below it rounding next to a double root may put the real part of a root.
+# Of the smallest frequency: a real part below it may be rounding next to a double root.
 _GROWTH = 1e-6
 # Of the magnitude: roots that are closer are one, of both directions across a straight thread.
 _SAME = 1e-5
 
 
 class Spectrum:
-    """The slowest motions at one value of the parameter, solved when they are asked for.
+    """The slowest motions at one value of the parameter, solved for on first access.
 
     Args:
         value: of the parameter.
@@ -55,12 +55,12 @@ class Spectrum:
         return self._same_everywhere(stiffness_eigenvalues(self._operators, 2 * self._count))
 
     def _same_everywhere(self, values: NDArray[_Number]) -> NDArray[_Number]:
-        """Those of rank 0, to the last digit: the search for a threshold must take the same way on all processes."""
+        """The values of rank 0, exactly: the search for a threshold must branch in the same way on all processes."""
         shared: NDArray[_Number] = self._operators.comm.bcast(values)
         return shared
 
     @property
-    def whole(self) -> NDArray[np.complex128]:
+    def with_conjugates(self) -> NDArray[np.complex128]:
         """The roots with their conjugates."""
         return np.concatenate([self.roots, np.conj(self.roots[self.roots.imag != 0.0])])
 
@@ -72,18 +72,18 @@ class Spectrum:
 
     @property
     def growing_pairs(self) -> NDArray[np.complex128]:
-        """Those of them that oscillate."""
+        """The growing roots that oscillate."""
         growing = self.growing
         return growing[growing.imag > _SAME * np.abs(growing)]
 
     @property
-    def negative(self) -> int:
-        """How many κ are negative."""
+    def negative_stiffness_count(self) -> int:
+        """Number of negative κ."""
         return int(np.count_nonzero(self.stiffnesses < 0.0))
 
     def nearest(self, place: complex, count: int) -> NDArray[np.complex128]:
         """Up to `count` different roots nearest to a place, conjugates among them."""
-        roots = self.whole[np.argsort(np.abs(self.whole - place), kind="stable")]
+        roots = self.with_conjugates[np.argsort(np.abs(self.with_conjugates - place), kind="stable")]
         different: list[complex] = []
         for root in roots:
             if all(abs(root - other) > _SAME * abs(root) for other in different):
@@ -115,8 +115,8 @@ def spectrum_at(equilibrium_at: EquilibriumAt, value: float, count: int) -> Spec
 def branches(spectra: list[Spectrum]) -> NDArray[np.complex128]:
     """Follow the roots of the first spectrum through all others.
 
-    Each spectrum is matched with what the last two make expect, by the least sum of distances; a pair that meets the
-    real axis goes on as two real roots.
+    Each spectrum is matched with the extrapolation of the last two by the least sum of distances; a pair that meets the
+    real axis continues as two real roots.
 
     Args:
         spectra: by ascending values.
@@ -124,7 +124,7 @@ def branches(spectra: list[Spectrum]) -> NDArray[np.complex128]:
     Returns:
         λ, 1/s, shape (spectra, roots); NaN from where a root has left the slowest ones.
     """
-    first = spectra[0].whole
+    first = spectra[0].with_conjugates
     followed = np.full((len(spectra), len(first)), np.nan, dtype=np.complex128)
     followed[0] = first
     for row in range(1, len(spectra)):
@@ -134,7 +134,7 @@ def branches(spectra: list[Spectrum]) -> NDArray[np.complex128]:
             slope = (followed[row - 1] - followed[row - 2]) / (last - before)
             expected = expected + slope * (here - last)
         alive = np.flatnonzero(~np.isnan(expected))
-        roots = spectra[row].whole
+        roots = spectra[row].with_conjugates
         distances = np.abs(expected[alive][:, None] - roots)
         rows, columns = linear_sum_assignment(distances)
         followed[row, alive[rows]] = roots[columns]

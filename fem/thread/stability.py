@@ -29,7 +29,7 @@ _HALVINGS = 4
 _TOLERANCE = 1e-11
 # By how many of its widths the bracket may be moved to hold the threshold of the coarser mesh.
 _WIDENINGS = 3
-# What changes its sign is zero at a threshold; beside its values at the ends of the bracket.
+# A function that changes its sign at a threshold is zero there, relative to its values at the ends of the bracket.
 _JUMP = 1e-3
 # Of the magnitude of a root: roots that lie this symmetrically about the imaginary axis are those of a system without
 # damping.
@@ -47,7 +47,7 @@ class Threshold:
         error: estimate of its absolute error; infinite if the coarser mesh shows no threshold nearby.
         kind: "divergence", K is singular, or "flutter", an oscillating motion begins or ceases to grow.
         frequency: Im λ there, rad/s.
-        growing: how many motions, of those looked at, grow below and above it.
+        growing: number of growing motions, of those computed, below and above it.
     """
 
     value: float
@@ -62,12 +62,12 @@ class Stability:
     """A sweep.
 
     Attributes:
-        values: of the parameter, shape (values,); those at which the problem is ill-posed are left out.
+        values: of the parameter, shape (values,), without those at which the problem is ill-posed.
         roots: λ followed by continuity, 1/s, with conjugates; NaN where one is no longer among the slowest; shape
             (values, roots).
-        growing: how many motions, of those looked at, grow, shape (values,).
+        growing: number of growing motions, of those computed, shape (values,).
         thresholds: in ascending order.
-        ill_posed: the first value left out and why, or nothing.
+        ill_posed: the first value left out and why, or ``None``.
     """
 
     values: NDArray[np.float64]
@@ -82,13 +82,13 @@ def stability(
 ) -> Stability:
     """Find the thresholds of stability between values of a parameter.
 
-    A motion that begins and ceases to grow between two neighbouring values is not seen.
+    A motion that grows only between two neighbouring values is not found.
 
     Args:
         equilibrium_at: the equilibrium by the parameter.
         coarser_at: the same on a coarser mesh, or of a lower degree, to estimate errors.
         values: of the parameter, ascending, at least two.
-        count: how many oscillating motions are looked at, from the slowest.
+        count: number of oscillating motions to compute, from the slowest.
 
     Returns:
         The sweep and its thresholds (collective).
@@ -149,7 +149,7 @@ def _between(at: _At, coarse: _At, low: Spectrum, high: Spectrum) -> list[Thresh
 
 
 _CHANGES: dict[Kind, Callable[[Spectrum], int]] = {
-    "divergence": lambda spectrum: spectrum.negative,
+    "divergence": lambda spectrum: spectrum.negative_stiffness_count,
     "flutter": lambda spectrum: len(spectrum.growing_pairs),
 }
 
@@ -179,7 +179,8 @@ def _brackets(
 
 
 def _threshold(at: _At, coarse: _At, low: Spectrum, high: Spectrum, kind: Kind, change: _Change) -> Threshold | None:
-    """The zero of what changes its sign; nothing if it jumps, where a root has left those that are looked at."""
+    """The zero of a function that changes its sign; ``None`` if it jumps because a root is no longer among those
+    computed."""
     ends = change(low), change(high)
     if not ends[0] * ends[1] < 0.0:
         return None
@@ -236,7 +237,7 @@ class _Change:
 
 def _divergence(low: Spectrum, high: Spectrum) -> _Change:
     """The κ that becomes negative, by its place in ascending order."""
-    index = min(low.negative, high.negative)
+    index = min(low.negative_stiffness_count, high.negative_stiffness_count)
 
     def kappa(spectrum: Spectrum) -> float:
         return float(spectrum.stiffnesses[index]) if index < len(spectrum.stiffnesses) else 0.0
@@ -248,7 +249,7 @@ def _flutter(low: Spectrum, high: Spectrum) -> _Change:
     """The real part of a root, or (λ₁ − λ₂)² of two that meet."""
     fewer, more = (low, high) if len(low.growing_pairs) < len(high.growing_pairs) else (high, low)
     root = complex(max(more.growing_pairs, key=lambda pair: min(np.abs(fewer.growing_pairs - pair), default=np.inf)))
-    mirrored = float(np.min(np.abs(more.whole + np.conj(root)))) < _MIRRORED * abs(root)
+    mirrored = float(np.min(np.abs(more.with_conjugates + np.conj(root)))) < _MIRRORED * abs(root)
     if mirrored and abs(root.real) < abs(root.imag):
         return _meeting(1j * root.imag, fewer, more)
     if abs(root.imag) < abs(root.real):
@@ -263,7 +264,7 @@ def _flutter(low: Spectrum, high: Spectrum) -> _Change:
 
 
 def _meeting(place: complex, fewer: Spectrum, more: Spectrum) -> _Change:
-    """Re (λ₁ − λ₂)² of the two roots at a place; zero where they cannot be told from each other."""
+    """Re (λ₁ − λ₂)² of the two roots at a place; zero where they are equal up to rounding."""
     farthest = max(float(np.max(np.abs(spectrum.nearest(place, 2) - place))) for spectrum in (fewer, more))
     reach = _REACH * farthest
 

@@ -8,12 +8,12 @@ Nonlinear Sci. 6 (1996) 449), with r_m = (r₀ + r₁)/2 and a = 2 (v̄ − v₀
     ∫ η·M(r_m) a + ∫ (S 2 r_m,s/(|r₀,s| + |r₁,s|) − EI κ_m,s)·η_s − ∫ q(r_m, v̄)·η − Σ F_k·η(s_k) = 0,
     ∫ μ (|r₁,s| − 1 − S₁/EA) = 0,    ∫ κ₁·ψ + ∫ r₁,s·ψ_s − [t_c·ψ] = 0,    S = (S₀ + S₁)/2.
 
-The axial force does the work ∫ S (|r₁,s| − |r₀,s|), which is what ∫ S²/2EA has grown by, and nothing if EA is infinite:
+The axial force does the work ∫ S (|r₁,s| − |r₀,s|), which equals the growth of ∫ S²/2EA, and is zero if EA is infinite:
 without liquid the energy is kept exactly.
 
 Generalised alpha (J. Chung, G. M. Hulbert, J. Appl. Mech. 60 (1993) 371) takes the equations of `ThreadForms` at
-t + (1 − α_f) Δt with the acceleration at t + (1 − α_m) Δt, but |r₁,s| = 1 at the end, and damps what the step does
-not resolve.
+t + (1 − α_f) Δt with the acceleration at t + (1 − α_m) Δt, but |r₁,s| = 1 at the end, and damps frequencies that the
+step does not resolve.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ ExtraLoad = Callable[[Any, Any], Any]
 
 @dataclass(frozen=True)
 class Weights:
-    """How position, velocity and acceleration of the equations follow from v̄, v₀ and a₀.
+    """Weights of v̄, v₀ and a₀ in the position, velocity and acceleration of the equations.
 
     r = r₀ + c v̄,  v = b·(v̄, v₀, a₀),  a = d·(v̄, v₀, a₀).
 
@@ -125,11 +125,11 @@ class ThreadStep:
         """Set up the equations."""
         self.forms, self.conservative = forms, conservative
         mixed = forms.space.mixed
-        self.unknown, self.before, self.speed, self.rate = (fem.Function(mixed) for _ in range(4))
+        self.unknown, self.old_state, self.old_velocity, self.old_acceleration = (fem.Function(mixed) for _ in range(4))
         self._c, self._step = (fem.Constant(forms.space.mesh, 0.0) for _ in range(2))
         self._b, self._d = ([fem.Constant(forms.space.mesh, 0.0) for _ in range(3)] for _ in range(2))
-        parts, old = ufl.split(self.unknown), ufl.split(self.before)
-        past = (ufl.split(self.speed)[0], ufl.split(self.rate)[0])
+        parts, old = ufl.split(self.unknown), ufl.split(self.old_state)
+        past = (ufl.split(self.old_velocity)[0], ufl.split(self.old_acceleration)[0])
         self._mean, self._old = parts[0], old
         self._force, self._curvature = parts[1], parts[2] if forms.model.bends else None
         self._speed = past[0]
@@ -181,7 +181,7 @@ class ThreadStep:
         return own * forms.space.dx + forms.carried_inertia(self.acceleration, self._test.position)
 
     def liquid_work(self, test: Any) -> Any:
-        """Virtual work of the liquid's reaction to accelerations, and of what it does besides as it streams along."""
+        """Virtual work of the liquid's inertia, and of its reaction to the flow along the thread."""
         forms, model = self.forms, self.forms.model
         form = -self._added_momentum_rate(test) * forms.space.dx
         work = forms.reactive_work(self.position, self.velocity, test) if model.reactive != "none" else None
@@ -203,7 +203,7 @@ class ThreadStep:
         return velocity if stream is None else velocity - stream.along(position)
 
     def _kept(self) -> Any:
-        """Stretch and curvature at the end of the step."""
+        """Constraints of stretch and curvature at the end of the step."""
         forms, test = self.forms, self._test
         last = 2.0 * self._force - self._old[1]
         state = ThreadState(self._end, last, self._curvature)
@@ -212,7 +212,7 @@ class ThreadStep:
         return form + forms.bending(state, test) if forms.model.bends else form
 
     def _collocated(self) -> Any:
-        """Stretch and curvature where the equations are taken; a length that is kept, at the end of the step."""
+        """Constraints of stretch and curvature at the time of the equations; inextensibility at the end of the step."""
         forms, test = self.forms, self._test
         place = self._end if forms.model.axial_rigidity == inf else self.position
         form = forms.stretch(ThreadState(place, self._force), ThreadState(None, test.force / self._step))

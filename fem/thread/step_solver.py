@@ -23,7 +23,7 @@ _FARTHEST = 3.0
 
 
 class HeldUnknowns:
-    """Components of unknowns whose values are given, and change from step to step.
+    """Prescribed components of unknowns, whose values change from step to step.
 
     Args:
         space: mixed space.
@@ -53,7 +53,7 @@ class StepSolver:
     Args:
         residual: F.
         unknown: w, a function; its first part counts for convergence.
-        update: called before each assembly, for what F knows of w besides.
+        update: called before each assembly to update coefficients of F that depend on w.
 
     Attributes:
         reaction: F of the last solution, owned unknowns: forces on the thread where it is held.
@@ -86,8 +86,8 @@ class StepSolver:
         """Change w until F vanishes.
 
         Args:
-            held: unknowns that are given.
-            step: by which changes of the first part are multiplied to be lengths.
+            held: prescribed unknowns.
+            step: factor that converts changes of the first part to lengths.
 
         Returns:
             Number of linear systems, nothing where the method did not converge (collective).
@@ -128,5 +128,5 @@ class StepSolver:
         self._unknown.x.array[: self._owned] -= change
         self._unknown.x.scatter_forward()
         local = float(np.max(np.abs(change[self._positions]), initial=0.0))
-        # MPI's maximum may lose what is not a number.
+        # MPI's maximum may drop NaN.
         return float(self._comm.allreduce(local if np.isfinite(local) else np.inf, op=MPI.MAX))

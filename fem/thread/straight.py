@@ -1,4 +1,4 @@
-"""Straight equilibria with a given tension, where statics alone does not tell it: T(s) between two held ends."""
+"""Straight equilibria with a given tension T(s) between two held ends, where statics alone does not determine it."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ from hydroelastic.fem.thread.units import Units
 from hydroelastic.modal.thread.library_warnings import suppressed_library_warnings
 from hydroelastic.physics.thread import Thread
 
-# Residual of the equations beside the largest force: what interpolation of a smooth tension leaves is below it.
+# Residual of the equations relative to the largest force; above the interpolation error of a smooth tension.
 _BALANCE = 1e-8
-# Of the mesh of a straight thread whose tension is given: enough for its first modes.
+# Elements of a straight thread whose tension is given: enough for its first modes.
 _ELEMENTS, _DEGREE = 32, 5
 
 
@@ -52,7 +52,7 @@ def straight_equilibrium(
         The equilibrium, its equations checked (collective).
 
     Raises:
-        ValueError: if the thread stretches, its ends are not its length apart, or it is not at rest so.
+        ValueError: if the thread stretches, its ends are not its length apart, or it is not in equilibrium.
     """
     if np.isfinite(model.axial_rigidity):
         raise ValueError(
@@ -106,7 +106,7 @@ def equilibrium_on(
         ThreadSolverError: where Newton's method fails (collective).
         NoEquilibriumError: where a thread of given tension is not at rest.
     """
-    model = frame.thread(thread)
+    model = frame.thread_in_frame(thread)
     if thread.tension is None:
         assert start is not None
         return solve_on_mesh(comm, model, nodes, start, degree=degree)

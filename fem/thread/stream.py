@@ -1,4 +1,4 @@
-"""The stream where the thread is: velocities and gradients at quadrature points and nodes, renewed as the thread moves.
+"""The stream at the thread: velocities and gradients at quadrature points and nodes, updated as the thread moves.
 
 A form sees u(r) as u_k + G_k (r − r_k) about the positions r_k of the last `update`: its value there and its derivative
 are exact for every profile, and one compiled form serves them all.
@@ -27,7 +27,7 @@ class _Places:
         self.velocity = fem.Function(self.position.function_space)
         self.gradient = fem.Function(fem.functionspace(mesh, element((dimension, dimension))))
         self._points = points
-        # The last position that was asked for, and its expression: to make one takes longer than to evaluate it.
+        # The last position and its expression: creating an expression takes longer than evaluating it.
         self._expression: tuple[Any, Any] = (None, None)
 
     def update(self, position: Any, stream: Stream) -> None:
@@ -57,7 +57,7 @@ class StreamField:
     """
 
     def __init__(self, mesh: Any, dimension: int, stream: Stream, quadrature_degree: int) -> None:
-        """Make the functions."""
+        """Create the functions."""
         self.stream = stream
         rule, _ = basix.make_quadrature(basix.CellType.interval, quadrature_degree)
 
@@ -71,7 +71,7 @@ class StreamField:
         self._nodes = _Places(mesh, linear, (dimension,), np.array([[0.0], [1.0]]))
 
     def update(self, position: Any) -> None:
-        """Look the stream up where the thread is.
+        """Evaluate the stream at the position of the thread.
 
         Args:
             position: r, a function or expression of UFL.

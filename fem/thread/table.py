@@ -28,7 +28,7 @@ class LineTable:
     values: NDArray[np.float64]
 
     def at(self, s: NDArray[np.float64], derivative: int = 0) -> NDArray[np.float64]:
-        """Values, or derivatives by s; at nodes between elements those of the element beyond.
+        """Values, or derivatives by s; at nodes between elements those of the next element.
 
         Args:
             s: shape (m,).
@@ -92,7 +92,7 @@ def gather_elements(mesh: Any, local: NDArray[np.float64], points: NDArray[np.fl
     """
     ends = mesh.geometry.x[geometry_dofmap(mesh)[: len(local)], 0]
     backwards = ends[:, 0] > ends[:, 1]
-    # The same points seen from the other end.
+    # The points in the order from the other end.
     mirrored = np.argmin(np.abs(points[:, 0][None, :] - (1.0 - points[:, 0])[:, None]), axis=1)
     local = np.where(backwards[:, None, None], local[:, mirrored], local)
     comm: MPI.Comm = mesh.comm

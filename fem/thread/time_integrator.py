@@ -1,4 +1,4 @@
-"""The state of a moving thread on one mesh and how a step changes it, in the units of its forms."""
+"""Time integration of a moving thread on one mesh, in the units of its forms."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ from hydroelastic.fem.thread.table import gather_elements
 from hydroelastic.fem.thread.vortex_shedding import SheddingLoad
 
 _ENDS = np.array([[0.0], [1.0]])
-# Of the unit of time, for one-sided differences of how an end is led.
+# Of the unit of time, for one-sided differences of the prescribed motion of an end.
 _DIFFERENCE = 1e-4
 
 
 @dataclass(frozen=True)
 class ExternalActions:
-    """Prescribed ends and the stream by the time, in the units of the forms.
+    """Prescribed ends and stream as functions of time, in the units of the forms.
 
     Attributes:
         ends: of A and B.
@@ -84,7 +84,7 @@ class TimeIntegrator:
         tests = [ufl.TestFunction(fem.functionspace(space.mesh, ("DG", 0, (count,)))) for count in (4, 3)]
         self._energies = compiled_form(self.step.energies(tests[0]))
         self._powers = compiled_form(self.step.powers(tests[1]))
-        state = [*ufl.split(self.step.before)[0], *ufl.split(self.step.speed)[0]]
+        state = [*ufl.split(self.step.old_state)[0], *ufl.split(self.step.old_velocity)[0]]
         self._sample = compiled_expression(ufl.as_vector(state), _ENDS)
         self._tension = compiled_expression(self.step.tension, _ENDS)
         self._cells = np.arange(space.mesh.topology.index_map(1).size_local, dtype=np.int32)
@@ -141,7 +141,7 @@ class TimeIntegrator:
             The largest change, ``None`` where there is no solution (collective).
         """
         self._prescribe(lambda position: position(self.time))
-        before = self.step.before.x.array
+        before = self.step.old_state.x.array
         if self.forms.model.axial_rigidity < inf:
             self._held.set(before)
             return 0.0
@@ -158,7 +158,7 @@ class TimeIntegrator:
         self._prescribe(lambda position: _slope(position, self.time))
         if not self._consistent.project_velocities(self._held):
             return None
-        return self._replace(self.step.speed.x.array, self.step.unknown.x.array)
+        return self._replace(self.step.old_velocity.x.array, self.step.unknown.x.array)
 
     def _replace(self, old: NDArray[np.float64], new: NDArray[np.float64]) -> float:
         change = np.max(np.abs(new[self._places] - old[self._places]), initial=0.0)
@@ -177,7 +177,7 @@ class TimeIntegrator:
         if not self._consistent.solve_accelerations(self._held):
             return None
         self._keep_rate(self.step.unknown.x.array)
-        before = self.step.before.x.array
+        before = self.step.old_state.x.array
         others = np.setdiff1d(np.arange(len(before)), self._places)
         before[others] = self.step.unknown.x.array[others]
         return self.tensions()
@@ -185,7 +185,7 @@ class TimeIntegrator:
     def tension_without_stretch(self) -> NDArray[np.float64] | None:
         """Tension at the nodes in the present state if the thread were inextensible.
 
-        An extensible thread that starts with its unstretched length has none at first.
+        An extensible thread that starts with its unstretched length initially has no tension.
 
         Returns:
             Shape (nodes,), ``None`` where there is no solution (collective).
@@ -196,7 +196,7 @@ class TimeIntegrator:
         return self.tensions() if self._consistent.solve_accelerations(self._held, unstretched=True) else None
 
     def _keep_rate(self, values: NDArray[np.float64]) -> None:
-        self.step.rate.x.array[self._places] = values[self._places]
+        self.step.old_acceleration.x.array[self._places] = values[self._places]
 
     def solve_step(self, length: float) -> int | None:
         """Solve the equations of a step from the present state.
@@ -217,7 +217,9 @@ class TimeIntegrator:
         self._prescribe(lambda position: (position(end) - position(start)) / length)
         places, unknown = self._places, self.step.unknown.x.array
         old = unknown.copy()
-        unknown[places] = self.step.speed.x.array[places] + 0.5 * length * self.step.rate.x.array[places]
+        unknown[places] = (
+            self.step.old_velocity.x.array[places] + 0.5 * length * self.step.old_acceleration.x.array[places]
+        )
         solutions = self._solver.solve(self._held, length)
         if solutions is None:
             unknown[:] = old
@@ -230,14 +232,18 @@ class TimeIntegrator:
             length: of the step.
             rate_age: time from the known acceleration to the beginning of the step.
         """
-        change = np.max(np.abs(self._new_rate(length) - self.step.rate.x.array)[self._places], initial=0.0)
+        change = np.max(np.abs(self._new_rate(length) - self.step.old_acceleration.x.array)[self._places], initial=0.0)
         # Between midpoints of steps with the midpoint rule, between their ends with generalised α.
         between = rate_age + 0.5 * length if self._alpha is None else length
         local = length**3 / 12.0 * float(change) / between
         return float(self.forms.space.mesh.comm.allreduce(local, op=MPI.MAX))
 
     def _new_rate(self, length: float) -> NDArray[np.float64]:
-        mean, speed, rate = self.step.unknown.x.array, self.step.speed.x.array, self.step.rate.x.array
+        mean, speed, rate = (
+            self.step.unknown.x.array,
+            self.step.old_velocity.x.array,
+            self.step.old_acceleration.x.array,
+        )
         if self._alpha is None:
             new: NDArray[np.float64] = 2.0 * (mean - speed) / length
             return new
@@ -245,8 +251,12 @@ class TimeIntegrator:
 
     def accept(self, length: float) -> None:
         """Advance the state by the solved step."""
-        places, before = self._places, self.step.before.x.array
-        mean, speed, rate = self.step.unknown.x.array, self.step.speed.x.array, self.step.rate.x.array
+        places, before = self._places, self.step.old_state.x.array
+        mean, speed, rate = (
+            self.step.unknown.x.array,
+            self.step.old_velocity.x.array,
+            self.step.old_acceleration.x.array,
+        )
         if self._shedding is not None:
             self._shedding.advance()
         new_rate = self._new_rate(length)
@@ -308,9 +318,9 @@ class TimeIntegrator:
         """T of the unknown at the nodes, the mean of both sides, shape (nodes,) (collective)."""
         return self._at_nodes(self._tension, 1)[:, 0]
 
-    def speed(self) -> float:
+    def largest_velocity(self) -> float:
         """The largest component of the velocities (collective)."""
-        local = float(np.max(np.abs(self.step.speed.x.array[self._places]), initial=0.0))
+        local = float(np.max(np.abs(self.step.old_velocity.x.array[self._places]), initial=0.0))
         return float(self.forms.space.mesh.comm.allreduce(local, op=MPI.MAX))
 
     def _at_nodes(self, expression: Any, count: int) -> NDArray[np.float64]:

@@ -1,4 +1,4 @@
-"""The one place where a thread is made dimensionless."""
+"""Dimensionless form of a thread."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ from hydroelastic.physics.thread_motion import VortexShedding
 
 
 class SheddingLoad:
-    """The force of vortices in the middle of a step, with the ways |u_n| dt of all points of the quadrature.
+    """The vortex force at the middle of a step, with the path lengths ∫|u_n| dt at all quadrature points.
 
     Args:
         forms: of the thread.
@@ -28,7 +28,7 @@ class SheddingLoad:
     """
 
     def __init__(self, forms: ThreadForms, shedding: VortexShedding) -> None:
-        """Set all ways to zero."""
+        """Set all path lengths to zero."""
         mesh, degree = forms.space.mesh, forms.space.quadrature_degree
         self._forms, self._shedding = forms, shedding
         element = basix.ufl.quadrature_element("interval", degree=degree)

@@ -68,10 +68,10 @@ def _closed_shapes(beam: Beam, count: int) -> BeamShapes:
 
 
 def _computed_shapes(beam: Beam, count: int) -> BeamShapes:
-    modes = even_modes(beam, count)
+    modes = uniform_mass_modes(beam, count)
     length = beam.length
     # Exactly diagonal where it is so.
-    mass = beam.mass_per_length * np.eye(len(modes.dofs)) if beam.has_even_mass else modes.products(beam)
+    mass = beam.mass_per_length * np.eye(len(modes.dofs)) if beam.has_uniform_mass else modes.products(beam)
     scale = float(np.sqrt(length))
     return BeamShapes(
         dofs=modes.dofs,
@@ -100,9 +100,9 @@ class _AllAtOnce:
         return values
 
 
-def even_modes(beam: Beam, count: int) -> JointedModes:
+def uniform_mass_modes(beam: Beam, count: int) -> JointedModes:
     """Dry modes of a stepped or jointed beam as if its mass were 1 everywhere."""
-    return jointed_modes(beam.with_even_mass(), count)
+    return jointed_modes(beam.with_uniform_mass(), count)
 
 
 def first_dry_eigenvalue(beam: Beam) -> float:

@@ -26,7 +26,8 @@ from scipy.linalg import lapack, qr, solve_triangular
 
 from hydroelastic.modal.beam.dry_modes import RIGID_SHAPES
 from hydroelastic.physics.arrays import FloatArray
-from hydroelastic.physics.beams import Beam, Section, comes_first
+from hydroelastic.physics.beam_parts import Section
+from hydroelastic.physics.beams import Beam, defines_shape_direction
 from hydroelastic.physics.dofs import Dof, beam_dofs
 
 Side = Literal["left", "right"]
@@ -148,7 +149,7 @@ def jointed_modes(beam: Beam, count: int) -> JointedModes:
     """
     if count < 0:
         raise ValueError(f"count is {count}; it must not be negative")
-    if not comes_first(beam):
+    if not defines_shape_direction(beam):
         return _mirrored(jointed_modes(beam.reversed, count), beam)
     basis = _Basis(beam, _degrees(beam, count))
     rigid, rigid_parities = basis.rigid_shapes()

@@ -49,7 +49,7 @@ def _float_in_tank(tank: Tank, layers: TwoLayers, body: RigidFloat) -> FloatInTa
         position=0.5 * sum(rest.waterplane),
         mass=rest.mass,
         stiffness=rest.heave_stiffness,
-        profile=body.profile if rest.reference_level == rest.level else None,
+        profile=body.hull.profile if rest.reference_level == rest.level else None,
     )
 
 

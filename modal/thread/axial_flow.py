@@ -112,7 +112,7 @@ class AxialFlowBeam:
         return self.added_mass / (self.mass + self.added_mass)
 
     @property
-    def pull(self) -> float:
+    def tension_parameter(self) -> float:
         """Γ = T L²/EI."""
         return self.tension * self.length**2 / self.flexural_rigidity
 
@@ -134,7 +134,8 @@ class AxialFlowBeam:
         """
         if self.ends == "clamped-free":
             raise ValueError("ends is 'clamped-free': divergence is known of pinned and clamped beams")
-        return math.hypot(math.pi if self.ends == "pinned" else 2 * math.pi, math.sqrt(self.pull)) * self.speed_unit
+        wavenumber = math.pi if self.ends == "pinned" else 2 * math.pi
+        return math.hypot(wavenumber, math.sqrt(self.tension_parameter)) * self.speed_unit
 
     def exponents(self, speed: float, count: int) -> ComplexArray:
         """Return the λ of smallest |λ| with Im λ ≥ 0, by Galerkin's method with polynomials.
@@ -194,7 +195,7 @@ class AxialFlowBeam:
         return (
             (values * weights) @ values.T,
             cross - cross.T + (1 - self.taper) * np.outer(end, end),
-            (bends * weights) @ bends.T + self.pull * (slopes * weights) @ slopes.T,
+            (bends * weights) @ bends.T + self.tension_parameter * (slopes * weights) @ slopes.T,
             -(slopes * weights) @ slopes.T + (1 - self.taper) * np.outer(end, end_slope),
         )
 
@@ -245,9 +246,9 @@ class AxialFlowBeam:
         It is divided by the product of all pⱼ − pₖ, with which it vanishes where two pⱼ meet.
         """
         drift = math.sqrt(self.mass_ratio) * speed * 1j * omega
-        p = np.roots([1.0, 0.0, speed**2 - self.pull, 2 * drift, -(omega**2)])
+        p = np.roots([1.0, 0.0, speed**2 - self.tension_parameter, 2 * drift, -(omega**2)])
         end = np.exp(p)
-        shear = p**3 - self.pull * p + self.taper * (drift + speed**2 * p)
+        shear = p**3 - self.tension_parameter * p + self.taper * (drift + speed**2 * p)
         matrix = np.stack([np.ones(4), p, p**2 * end, shear * end])
         differences = (p[:, None] - p[None, :])[np.triu_indices(4, 1)]
         return complex(np.linalg.det(matrix) / np.prod(differences))

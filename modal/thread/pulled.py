@@ -39,11 +39,11 @@ class PulledThread:
 
     Attributes:
         thread: in space, SI units, with one fixed and one free end.
-        places_from_a: where the shape is wanted, m from end A.
+        positions_from_a: where the shape is wanted, m from end A.
     """
 
     thread: Thread
-    places_from_a: FloatArray
+    positions_from_a: FloatArray
 
     @staticmethod
     def fits(thread: Thread) -> bool:
@@ -79,7 +79,7 @@ class PulledThread:
     @property
     def places(self) -> FloatArray:
         """Where the shape is wanted, m from the fixed end."""
-        places = self.places_from_a
+        places = self.positions_from_a
         return np.asarray(self.thread.length - places[::-1]) if self.reverse else places
 
     def shape(self, found: ThreadShape) -> ThreadShape:
@@ -89,7 +89,7 @@ class PulledThread:
         places = self.thread.length - found.s[::-1]
         return ThreadShape(s=places, positions=found.positions[::-1], forces=-found.forces[::-1])
 
-    def pulled_by_its_force(self, find: Callable[[FloatArray], AsymptoticThread]) -> AsymptoticThread:
+    def consistent_with_end_force(self, find: Callable[[FloatArray], AsymptoticThread]) -> AsymptoticThread:
         """The shape that is consistent with the force at the position of its end.
 
         Args:
@@ -101,17 +101,17 @@ class PulledThread:
         size = float(np.linalg.norm(first))
         require(size > 0.0, "no force pulls at the end")
 
-        def found_at(height: float) -> AsymptoticThread:
+        def at_height(height: float) -> AsymptoticThread:
             return find(self.force(np.array([0.0, 0.0, height])))
 
         def miss(height: float) -> float:
-            return float(found_at(height).shape.positions[-1, 2]) - height
+            return float(at_height(height).shape.positions[-1, 2]) - height
 
         length = self.thread.length
         guess = level + length * first[2] / size
         solved = root_scalar(miss, x0=guess, x1=guess - 0.01 * length, xtol=_FOUND * length, method="secant")
         require(solved.converged, "no end lies where it is pulled that way")
-        return found_at(solved.root)
+        return at_height(solved.root)
 
 
 def pulled_thread(thread: Thread, places: FloatArray, *, stretch: bool = False) -> PulledThread:

@@ -81,7 +81,7 @@ def _tension_dominated(thread: Thread, places: FloatArray, order: int) -> ShapeE
         )
 
     name = _NAMES["tension"].format(order=order)
-    return _estimate(name, pulled, pulled.pulled_by_its_force(find), _TENSION)
+    return _estimate(name, pulled, pulled.consistent_with_end_force(find), _TENSION)
 
 
 def _drag_dominated(thread: Thread, places: FloatArray, order: int) -> ShapeEstimate:
@@ -91,7 +91,7 @@ def _drag_dominated(thread: Thread, places: FloatArray, order: int) -> ShapeEsti
         found = drag_dominated(load, force, length=thread.length, order=order, count=LEVELS, start=pulled.start)
         return replace(found, shape=shape_at(found.shape, pulled.places))
 
-    return _estimate(_NAMES["drag"].format(order=order), pulled, pulled.pulled_by_its_force(find), _WEIGHT)
+    return _estimate(_NAMES["drag"].format(order=order), pulled, pulled.consistent_with_end_force(find), _WEIGHT)
 
 
 def _weightless(thread: Thread, places: FloatArray) -> ShapeEstimate:

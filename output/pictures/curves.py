@@ -52,10 +52,10 @@ _STYLE: dict[str, Any] = {
     "grid.linewidth": 0.6,
     "lines.linewidth": 1.6,
     "lines.markersize": 5.0,
-    # Letters of SVG and PDF stay letters, to be found, read out, copied and edited.
+    # Text in SVG and PDF is stored as text, which can be searched, copied and edited.
     "svg.fonttype": "none",
     "pdf.fonttype": 42,
-    # Names inside SVG files are the same each time.
+    # Reproducible names inside SVG files.
     "svg.hashsalt": "hydroelastic",
 }
 # Without the time of writing, files of the same curves are the same.
@@ -66,7 +66,7 @@ _LETTERS_PER_INCH = 8.5
 _LEGEND_BELOW = 0.55
 # Labels of more letters do not stand two in a row.
 _LONG = 26
-# Up to so many points a curve shows them: beyond, they would make a thick line.
+# Curves with up to this number of points show markers.
 _FEW, _SOME = 20, 200
 # Axes of fewer decades have numbers at 2 and 5 besides.
 _SHORT_AXIS = 2.0
@@ -76,7 +76,7 @@ _TICK = 3.5
 
 @contextmanager
 def curve_style() -> Iterator[None]:
-    """Draw in the style of the project, whatever the reader's own settings of matplotlib are."""
+    """Draw in the style of the project, independently of the user's settings of matplotlib."""
     from matplotlib import style
 
     with style.context(["default", _STYLE]):
@@ -99,7 +99,7 @@ class Sheets:
 
     @contextmanager
     def sheet(self, name: str, heading: str, *, width: float, height: float = 5.4) -> Iterator[Figure]:
-        """Give a figure to draw into; when the block ends well it is written as ``<name>.png`` and so on.
+        """Provide a figure to draw into; at the end of the block it is written as ``<name>.png`` and so on.
 
         Args:
             name: of the files.
@@ -123,20 +123,20 @@ class Sheets:
                 path = self.folder / f"{name}.{kind}"
                 metadata = {"Title": " ".join(title.split())} | _METADATA[kind]
                 with catch_warnings():
-                    # Where long words leave curves no room, they are drawn over each other: a reader sees that.
+                    # Where long labels leave no room, matplotlib warns and draws them over each other.
                     filterwarnings("ignore", message="constrained_layout not applied", category=UserWarning)
                     figure.savefig(path, dpi=self.options.dpi, metadata=metadata)
 
 
 def _title(title: str, heading: str, letters: int) -> str:
-    """What is shown after what it is of, in lines of so many letters at the most."""
+    """The title and the heading, wrapped to lines of at most this number of letters."""
     if not title:
         return fill(heading[:1].upper() + heading[1:], letters)
     together = f"{title}: {heading}"
     return together if len(together) <= letters else f"{fill(title, letters)}\n{fill(heading, letters)}"
 
 
-def dress(
+def label_axes(
     axes: Axes, across: str, up: str, *, legend: Literal["below", "beside", ""] = "below", heading: str = ""
 ) -> None:
     """Name the axes, with units, and put a legend, which may have a heading, below or at the right."""
@@ -156,7 +156,7 @@ def dress(
 
 
 def plot_curve(axes: Axes, x: np.ndarray, y: np.ndarray, number: int, label: str) -> None:
-    """A curve, with its points where they are not many: between them it is not known."""
+    """A curve, with markers at its points where they are few."""
     axes.plot(
         x,
         y,
@@ -192,7 +192,7 @@ def _label_decades(axis: Axis) -> None:
 
 
 def _power(value: float) -> str:
-    """A number as such, or times a power of ten where it is very small or large."""
+    """A number in decimal notation, or with a power of ten where it is very small or large."""
     if 1e-4 <= value < 1e5:
         return f"{value:g}"
     digit, power = f"{value:.0e}".split("e")

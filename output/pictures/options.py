@@ -22,7 +22,7 @@ OF_MOTIONS: frozenset[PictureOption] = frozenset(("animate",))
 """Options that what moves heeds."""
 
 _NO_CURVES = "this scene has only rendered pictures, which are PNG files as wide as --image-width says"
-_UNHEEDED: dict[PictureOption, str] = {
+_WITHOUT_EFFECT: dict[PictureOption, str] = {
     "formats": "a format of curves has no effect: " + _NO_CURVES,
     "dpi": "a resolution of curves has no effect: " + _NO_CURVES,
     "scale": "a scale of curves has no effect: " + _NO_CURVES,
@@ -67,14 +67,14 @@ class PictureOptions:
         """Of animations, pixels: half of that of pictures, which keeps their files small."""
         return max(self.width // 2, WIDTH_LIMITS[0])
 
-    def without_effect(self, heeded: frozenset[PictureOption]) -> tuple[str, ...]:
+    def without_effect(self, used: frozenset[PictureOption]) -> tuple[str, ...]:
         """Say which options were changed in vain.
 
         Args:
-            heeded: the options that the pictures of a scene heed.
+            used: the options that the pictures of a scene heed.
         """
         changed = [field.name for field in fields(self) if getattr(self, field.name) != field.default]
-        return tuple(words for name, words in _UNHEEDED.items() if name in changed and name not in heeded)
+        return tuple(words for name, words in _WITHOUT_EFFECT.items() if name in changed and name not in used)
 
 
 def _require(name: str, value: Any, limits: tuple[float, float]) -> None:

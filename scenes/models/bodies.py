@@ -20,8 +20,9 @@ from pydantic import (
 from pydantic_core import InitErrorDetails
 
 from hydroelastic.physics import beams
+from hydroelastic.physics.beam_parts import Joint, Section
 from hydroelastic.physics.motions import Level, Motion
-from hydroelastic.scenes.models.problems import misfit
+from hydroelastic.scenes.models.problems import problem_at
 
 SMALLEST, LARGEST = 1e-30, 1e30
 """Range of any positive quantity in SI: no product of a few of them overflows."""
@@ -57,7 +58,7 @@ class BeamSection(SceneModel):
 
 
 class BeamJoint(SceneModel):
-    """A place at which the slope of a beam may jump."""
+    """A joint of a beam, at which its slope may jump."""
 
     at: PositiveNumber = Field(description="distance from the left end of the beam, m")
     rotational_stiffness: Annotated[float, Strict(), Field(ge=0, le=LARGEST)] = Field(
@@ -65,20 +66,18 @@ class BeamJoint(SceneModel):
     )
 
 
-def physical_sections(parts: tuple[BeamSection, ...]) -> tuple[beams.Section, ...]:
+def physical_sections(parts: tuple[BeamSection, ...]) -> tuple[Section, ...]:
     """Return the sections of a beam."""
     return tuple(
-        beams.Section(
-            length=part.length, flexural_rigidity=part.flexural_rigidity, mass_per_length=part.mass_per_length
-        )
+        Section(length=part.length, flexural_rigidity=part.flexural_rigidity, mass_per_length=part.mass_per_length)
         for part in parts
     )
 
 
-def physical_joints(joints: tuple[BeamJoint, ...]) -> tuple[beams.Joint, ...]:
+def physical_joints(joints: tuple[BeamJoint, ...]) -> tuple[Joint, ...]:
     """Return the joints of a beam, from left to right."""
     ordered = sorted(joints, key=lambda joint: joint.at)
-    return tuple(beams.Joint(at=joint.at, rotational_stiffness=joint.rotational_stiffness) for joint in ordered)
+    return tuple(Joint(at=joint.at, rotational_stiffness=joint.rotational_stiffness) for joint in ordered)
 
 
 UNIFORM_KEYS = ("length", "flexural_rigidity", "mass_per_length")
@@ -89,7 +88,7 @@ class Beam(SceneModel):
     """An Euler–Bernoulli beam without draught that floats on a liquid: uniform, or of uniform sections.
 
     Of a beam of sections the length is their sum, the mass per length their mean, and the flexural rigidity that of the
-    uniform beam as flexible on the whole, l/EI = Σ lᵢ/EIᵢ: enough for what only needs to know about how stiff it is.
+    uniform beam of the same mean flexibility, l/EI = Σ lᵢ/EIᵢ; these means serve estimates of the resolution.
 
     Raises:
         ValidationError: (a ValueError) if sections stand beside the keys of a uniform beam.
@@ -161,11 +160,11 @@ class Beam(SceneModel):
     @model_validator(mode="before")
     @classmethod
     def _of_sections(cls, given: Any) -> Any:
-        """Complete a beam of sections by what it is on the whole."""
+        """Add the length and the means of a beam of sections."""
         if not isinstance(given, dict) or not given.get("sections"):
             return given
         problems = [
-            misfit(
+            problem_at(
                 (key,),
                 given[key],
                 "it is given beside sections, which have their own",
@@ -180,14 +179,15 @@ class Beam(SceneModel):
 
     @model_serializer(mode="wrap")
     def _as_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        """Write a beam as it may be read again."""
+        """Serialize a beam with the keys with which it was given."""
         left_out = UNIFORM_KEYS if self.sections else ()
         empty = tuple(key for key in ("sections", "joints") if not getattr(self, key))
         return {key: value for key, value in write(self).items() if key not in (*left_out, *empty)}
 
 
 def _on_the_whole(sections: Any) -> dict[str, float]:
-    """Length, mean flexural rigidity and mean mass of sections; of what are none, anything: they are refused."""
+    """Length, mean flexural rigidity and mean mass of sections; arbitrary for invalid ones, which validation
+    refuses."""
     try:
         parts = [part if isinstance(part, BeamSection) else BeamSection.model_validate(part) for part in sections]
     except (TypeError, ValidationError):
@@ -263,8 +263,18 @@ class Float(SceneModel):
     )
 
     @property
+    def start(self) -> float:
+        """x by which it counts among the bodies, m: its position."""
+        return self.position
+
+    @property
+    def end(self) -> float:
+        """The same: where it ends follows from its shape."""
+        return self.position
+
+    @property
     def shape_key(self) -> str:
-        """The key that says most about the section."""
+        """The key that defines the section."""
         return {"polygon": "vertices", "outline": "file"}.get(self.shape, "half_width")
 
     @model_validator(mode="after")
@@ -298,10 +308,12 @@ def _keys_of_the_shape(body: Float) -> Iterator[InitErrorDetails]:
         value = getattr(body, key)
         if key in needed and value is None:
             description = Float.model_fields[key].description
-            yield misfit((key,), None, f'it is missing, and shape = "{body.shape}" needs it', allowed=f"{description}")
+            yield problem_at(
+                (key,), None, f'it is missing, and shape = "{body.shape}" needs it', allowed=f"{description}"
+            )
         elif value is not None and key not in (*needed, *further):
             owners = [shape for shape in NEEDED_KEYS if key in (*NEEDED_KEYS[shape], *FURTHER_KEYS.get(shape, ()))]
-            yield misfit(
+            yield problem_at(
                 (key,),
                 value,
                 f'it does not belong to shape = "{body.shape}", which takes {" and ".join((*needed, *further))}',
@@ -311,14 +323,14 @@ def _keys_of_the_shape(body: Float) -> Iterator[InitErrorDetails]:
 
 def _motions_differ(body: Float) -> Iterator[InitErrorDetails]:
     if len(set(body.motions)) < len(body.motions):
-        yield misfit(("motions",), ", ".join(body.motions), "a motion is named twice", remedy="Name each once")
+        yield problem_at(("motions",), ", ".join(body.motions), "a motion is named twice", remedy="Name each once")
 
 
 def _thin_floats(body: Float) -> Iterator[InitErrorDetails]:
     if body.boundary == "exact":
         return
     if body.shape not in THIN_SHAPES:
-        yield misfit(
+        yield problem_at(
             ("boundary",),
             body.boundary,
             f'a thin float ends in a point or a rounding above and below, shape = "{body.shape}" need not',

@@ -14,7 +14,7 @@ AnyBeam: TypeAlias = Beam | VaryingBeam
 
 
 def _kind_of(body: Any) -> str:
-    """Which model a body is read with; what is no table is left to the beam's model to refuse."""
+    """The model with which a body is read; that of the beam refuses what is not a table."""
     kind = body.get("kind", "beam") if isinstance(body, dict) else getattr(body, "kind", "beam")
     return str(kind)
 

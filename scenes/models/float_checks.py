@@ -1,4 +1,4 @@
-"""What must hold of the floats of a scene: sections, sizes, equilibrium, room and stability."""
+"""Checks of the floats of a scene: sections, sizes, equilibrium, clearance and stability."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from pydantic_core import InitErrorDetails
 
 from hydroelastic.scenes.models.bodies import THIN_SHAPES, Float
 from hydroelastic.scenes.models.body_kinds import AnyBeam
-from hydroelastic.scenes.models.open_checks import bodies_span
-from hydroelastic.scenes.models.problems import misfit
+from hydroelastic.scenes.models.open_checks import length_scale_of_bodies
+from hydroelastic.scenes.models.problems import problem_at
 
-# Contours need NumPy and SciPy, which take a while to import: functions that are called for floats import them.
+# Contours need NumPy and SciPy, whose import is slow: they are imported by the functions that are called for floats.
 if TYPE_CHECKING:
     from hydroelastic.physics.contours import Contour
     from hydroelastic.scenes.models.tank_parts import TankParts
@@ -38,7 +38,7 @@ LONGEST_ARM = 1e3
 _Box: TypeAlias = tuple[float, float, float, float]
 
 
-def floats_float_in_the_tank(scene: TankParts) -> Iterator[InitErrorDetails]:
+def floats_are_in_equilibrium(scene: TankParts) -> Iterator[InitErrorDetails]:
     """Yield the first problem of each float, alone in the tank: its section, its equilibrium, its place."""
     for index, body in scene.floats:
         found = next(_problems_of(scene, index, body), None)
@@ -55,7 +55,7 @@ def _problems_of(scene: TankParts, index: int, body: Float) -> Iterator[InitErro
     try:
         contour = float_contour(body, scene.folder)
     except ValueError as error:
-        yield misfit(
+        yield problem_at(
             shape,
             str(body.file),
             str(error),
@@ -75,15 +75,15 @@ def _problems_of(scene: TankParts, index: int, body: Float) -> Iterator[InitErro
     try:
         placed = placed_float(scene, index)
     except ValueError as error:
-        yield misfit(
+        yield problem_at(
             ("body", index, "mass" if body.mass is not None else body.shape_key),
             body.mass,
             f"{error}; that level is y = {level:g} m in the float's frame",
             allowed="a section that the still level cuts once, into one part below and one above",
         )
         return
-    yield from _has_room(scene, index, body, placed.contour.bounds)
-    yield from _arms_fit(index, body, placed.contour.bounds)
+    yield from _has_room(scene, index, body, placed.hull.bounds)
+    yield from _arms_fit(index, body, placed.hull.bounds)
 
 
 def _vertices_make_a_polygon(index: int, vertices: tuple[tuple[float, float], ...]) -> Iterator[InitErrorDetails]:
@@ -92,7 +92,7 @@ def _vertices_make_a_polygon(index: int, vertices: tuple[tuple[float, float], ..
     location = ("body", index, "vertices")
     length, size, number = shortest_side(vertices)
     if length <= SHORTEST_SIDE * size:
-        yield misfit(
+        yield problem_at(
             location,
             None,
             f"the side that begins with vertex {number + 1} is {length:g} m long, too short beside the section",
@@ -108,7 +108,7 @@ def _section_is_simple(location: tuple[str | int, ...], contour: Contour) -> Ite
     crossing = self_crossing(contour)
     if crossing is not None:
         x, y = crossing
-        yield misfit(
+        yield problem_at(
             location,
             None,
             f"the contour crosses, touches or folds back on itself near ({x:g}, {y:g})",
@@ -120,7 +120,7 @@ def _sizes_fit(scene: TankParts, index: int, body: Float, contour: Contour) -> I
     width, height = _extents(contour.bounds)
     least, most = SLENDERNESS[body.boundary]
     if not least <= width / height <= most:
-        yield misfit(
+        yield problem_at(
             ("body", index, body.shape_key),
             body.half_width,
             f"the section is {width:g} m wide and {height:g} m high, too "
@@ -128,12 +128,12 @@ def _sizes_fit(scene: TankParts, index: int, body: Float, contour: Contour) -> I
             allowed=f"a width of {least:g} to {most:g} heights",
             remedy=_other_models(body) if width < height else "A beam is flat",
         )
-    smallest = SMALLEST_FLOAT * bodies_span(scene)
+    smallest = SMALLEST_FLOAT * length_scale_of_bodies(scene)
     beside, of_what = (
         ("the other bodies", "the length they take up") if scene.is_open else ("the tank", "the tank's length")
     )
     if max(width, height) < smallest:
-        yield misfit(
+        yield problem_at(
             ("body", index, body.shape_key),
             body.half_width,
             f"the float is too small beside {beside} for one mesh to show both",
@@ -148,7 +148,7 @@ def _other_models(body: Float) -> str:
 def _floats_elsewhere(index: int, body: Float, area: float, densities: tuple[float, float]) -> InitErrorDetails:
     below, above = densities
     heavy = (body.mass or 0.0) >= below * area
-    return misfit(
+    return problem_at(
         ("body", index, "mass"),
         body.mass,
         f"with a section of {area:g} m² it {'sinks' if heavy else 'rises to the top of the upper liquid'}",
@@ -161,7 +161,7 @@ def _parts_on_both_sides(index: int, body: Float, contour: Contour, level: float
     _, _, low, high = contour.bounds
     least = SMALLEST_PART * (high - low)
     if body.mass is not None and not low + least <= level <= high - least:
-        yield misfit(
+        yield problem_at(
             ("body", index, "mass"),
             body.mass,
             f"only {min(level - low, high - level):.3g} m of its height of {high - low:g} m lie "
@@ -177,14 +177,14 @@ def _has_room(scene: TankParts, index: int, body: Float, bounds: _Box) -> Iterat
     if scene.is_open:
         yield from _lies_in_the_stretch(scene, index, body)
     elif right - left > length - 2 * gap:
-        yield misfit(
+        yield problem_at(
             ("body", index, body.shape_key),
             body.half_width,
             f"the float is {right - left:g} m wide, and the tank {length:g} m long",
             allowed=f"{gap:g} m of liquid on either side",
         )
     elif left < gap or right > length - gap:
-        yield misfit(
+        yield problem_at(
             ("body", index, "position"),
             body.position,
             f"the float reaches from {left:g} to {right:g} m, and touches or leaves a wall of the tank",
@@ -193,7 +193,7 @@ def _has_room(scene: TankParts, index: int, body: Float, bounds: _Box) -> Iterat
     floor, ceiling = _limits(scene, body)
     location = ("body", index, "half_height" if body.shape_key == "half_width" else body.shape_key)
     if low < floor + gap:
-        yield misfit(
+        yield problem_at(
             location,
             body.half_height,
             f"the float reaches down to y = {low:g} m, and the liquid below it ends at y = {floor:g} m",
@@ -201,7 +201,7 @@ def _has_room(scene: TankParts, index: int, body: Float, bounds: _Box) -> Iterat
             remedy="Make the liquid deeper, the float lower or its mass smaller",
         )
     elif ceiling is not None and high > ceiling - gap:
-        yield misfit(
+        yield problem_at(
             location,
             body.half_height,
             f"the float reaches up to y = {high:g} m, and the layer above its level ends at y = {ceiling:g} m",
@@ -211,9 +211,9 @@ def _has_room(scene: TankParts, index: int, body: Float, bounds: _Box) -> Iterat
 
 
 def _lies_in_the_stretch(scene: TankParts, index: int, body: Float) -> Iterator[InitErrorDetails]:
-    """There are no walls that a float might touch."""
+    """Floats in open water lie within the drawn length."""
     if body.position > scene.tank.length:
-        yield misfit(
+        yield problem_at(
             ("body", index, "position"),
             body.position,
             f"the float lies outside the stretch that is drawn, of {scene.tank.length:g} m",
@@ -233,7 +233,7 @@ def _arms_fit(index: int, body: Float, bounds: _Box) -> Iterator[InitErrorDetail
     for key, least in (("centre_of_mass", 0.0), ("radius_of_gyration", longest * 1e-9)):
         value = getattr(body, key)
         if value is not None and not least <= abs(value) <= longest:
-            yield misfit(
+            yield problem_at(
                 ("body", index, key),
                 value,
                 "it is beyond what double precision can tell from zero or from the section's own size",
@@ -248,16 +248,16 @@ def _bodies_keep_apart(scene: TankParts) -> Iterator[InitErrorDetails]:
         if _nearer_than(gap, boxes[first], boxes[second]):
             later = scene.body[second]
             left, right, _, _ = boxes[first]
-            yield misfit(
-                ("body", second, "position" if isinstance(later, Float) else "start"),
-                later.position if isinstance(later, Float) else later.start,
+            yield problem_at(
+                ("body", second, "position" if _is_float(scene, second) else "start"),
+                later.start,
                 f"the body overlaps or touches [[body]] number {first + 1}, which reaches from {left:g} to {right:g} m",
                 remedy=f"Leave a gap of at least {gap:g} m between them",
             )
 
 
 def _neighbours(scene: TankParts, boxes: list[_Box]) -> list[tuple[int, int]]:
-    """Pairs of bodies, one a float at least, that lie over one another or nearly so: found from left to right."""
+    """Pairs of bodies, at least one of them a float, that overlap in x or nearly so, by a sweep from left to right."""
     if not scene.floats:
         return []
     widest_gap = SMALLEST_GAP * max(max(_extents(boxes[index])) for index, _ in scene.floats)
@@ -283,7 +283,7 @@ def _box(scene: TankParts, index: int, body: AnyBeam | Float) -> _Box:
         return body.start, body.end, height, height
     from hydroelastic.scenes.models.floats import placed_float
 
-    return placed_float(scene, index).contour.bounds
+    return placed_float(scene, index).hull.bounds
 
 
 def _nearer_than(gap: float, one: _Box, other: _Box) -> bool:
@@ -306,12 +306,12 @@ def _floats_are_stable(scene: TankParts) -> Iterator[InitErrorDetails]:
         at_rest, stiffness = placed.hydrostatics, placed.roll_stiffness
         if "roll" not in body.motions or body.unstable == "solve" or stiffness >= 0.0:
             continue
-        # Where the centre of mass would make the float neutral.
+        # Height of the centre of mass at which the roll stiffness is zero.
         arm = stiffness / (at_rest.mass * scene.tank.gravity)
         metacentre = at_rest.centre_of_mass[1] - at_rest.reference_level + arm
         height = at_rest.centre_of_mass[1] - at_rest.reference_level
         given = body.centre_of_mass is not None
-        yield misfit(
+        yield problem_at(
             ("body", index, "centre_of_mass" if given else "motions"),
             body.centre_of_mass if given else ", ".join(body.motions),
             f"the float capsizes: its centre of mass lies {height:g} m above its reference level, and the metacentre "
@@ -327,13 +327,13 @@ def _thin_floats_have_free_liquid(scene: TankParts) -> Iterator[InitErrorDetails
     for other, section in scene.floats:
         if section.boundary == "thin" or not thin:
             continue
-        # SciPy takes a while to import, and most scenes have no float.
+        # The import of SciPy is slow, and most scenes have no float.
         from hydroelastic.scenes.models.floats import placed_float
 
-        left, right = placed_float(scene, other).contour.bounds[:2]
+        left, right = placed_float(scene, other).hull.bounds[:2]
         for index, position in thin:
             if left < position < right:
-                yield misfit(
+                yield problem_at(
                     ("body", index, "position"),
                     position,
                     f"the thin float lies straight above or below [[body]] number {other + 1}, which reaches from "

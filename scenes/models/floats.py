@@ -1,4 +1,4 @@
-"""From a float of a scene to the rigid float that it is, in metres and kilograms per metre of width."""
+"""Conversion of a float of a scene to a rigid float, in metres and kilograms per metre of width."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from pathlib import Path
 
 from hydroelastic.physics.contours import Contour
 from hydroelastic.physics.floats import RigidFloat
+from hydroelastic.physics.hulls import Hull
 from hydroelastic.physics.hydrostatics import hydrostatics, still_level
 from hydroelastic.physics.motions import MOTIONS, Level
 from hydroelastic.physics.point_contours import outline_contour, polygon_contour
@@ -32,10 +33,10 @@ def float_contour(body: Float, folder: Path) -> Contour:
 
     Args:
         body: the float.
-        folder: where the path of an outline's file starts.
+        folder: to which the path of an outline's file is relative.
 
     Raises:
-        ValueError: if an outline cannot be read, or is no contour.
+        ValueError: if an outline cannot be read, or is not a contour.
     """
     profile = float_section(body)
     if profile is not None:
@@ -47,7 +48,7 @@ def float_contour(body: Float, folder: Path) -> Contour:
 
 
 def placed_float(scene: TankParts, index: int) -> RigidFloat:
-    """Return a float of a scene where it rests, in the frame of the tank, m.
+    """Return a float of a scene at rest, in the frame of the tank, m.
 
     Args:
         scene: the scene.
@@ -72,7 +73,7 @@ def placed_float(scene: TankParts, index: int) -> RigidFloat:
     )
 
 
-# Many ask for the same float. The state of an outline's file is that of its last change: it may be edited meanwhile.
+# Cached; the key contains the time of the last change of an outline's file, which may be edited meanwhile.
 @lru_cache(maxsize=2 * MOST_BODIES)
 def _placed(
     body: Float,
@@ -98,12 +99,16 @@ def _placed(
     place = (body.position, height)
     at_rest, thin = at_rest.moved(place), body.boundary == "thin"
     return RigidFloat(
-        contour=contour.moved(place),
+        hull=Hull(
+            contour=contour.moved(place),
+            profile=float_section(body),
+            is_thin=thin,
+            height=at_rest.level,
+            reference_level=at_rest.reference_level,
+            wet_above=level == "interface" and densities[1] > 0.0,
+            waterplane=(body.position, body.position) if thin else at_rest.waterplane,
+        ),
         hydrostatics=at_rest,
-        profile=float_section(body),
-        is_thin=thin,
         level=level,
-        wet_above=level == "interface" and densities[1] > 0.0,
-        waterplane=(body.position, body.position) if thin else at_rest.waterplane,
         motions=tuple(motion for motion in MOTIONS if motion in body.motions),
     )

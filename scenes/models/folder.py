@@ -17,7 +17,7 @@ class SceneInFolder(SceneModel):
     _source: str | None = PrivateAttr(default=None)
 
     def model_post_init(self, context: Any) -> None:
-        """Keep what the reader of a scene file gives: its folder, and how messages name it."""
+        """Keep the folder of the scene file and its name in messages."""
         if context is not None:
             self._folder = context["folder"]
             self._source = context.get("source")
@@ -29,5 +29,5 @@ class SceneInFolder(SceneModel):
 
     @property
     def source(self) -> str | None:
-        """How messages name the scene file, with what was overridden; ``None`` if there is none."""
+        """Name of the scene file in messages, with its overrides; ``None`` if there is no file."""
         return self._source

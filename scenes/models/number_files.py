@@ -21,15 +21,15 @@ _WORDS = {2: "two", 3: "three", 4: "four"}
 def read_columns(file: Path, columns: int) -> list[tuple[float, ...]]:
     """Return the rows of a file with a few columns of numbers.
 
-    Columns are separated by commas, semicolons or blanks. Empty lines, what follows a ``#``, and one line of headings
-    before the numbers count for nothing. What holds too many rows is not read to its end.
+    Columns are separated by commas, semicolons or blanks. Empty lines, text after a ``#``, and one line of headings
+    before the numbers are ignored. A file with too many rows is not read to its end.
 
     Args:
         file: the file.
         columns: how many.
 
     Raises:
-        ValueError: saying what is wrong with the file, and in which line.
+        ValueError: with the error in the file and its line.
     """
     rows: list[tuple[float, ...]] = []
     headed = False

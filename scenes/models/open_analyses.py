@@ -43,7 +43,7 @@ class Response(SceneModel):
 
 
 class Resonance(SceneModel):
-    """Complex frequencies of motions that die out by themselves."""
+    """Complex frequencies of damped free motions."""
 
     kind: Literal["resonance"] = Field(default="resonance", description="kind of the analysis")
     count: Annotated[int, Strict(), Field(ge=1, le=200)] = Field(
@@ -58,7 +58,7 @@ class Resonance(SceneModel):
 
 
 class Release(SceneModel):
-    """Where a float is let go, at rest."""
+    """Displacement from which a float is released at rest."""
 
     heave: AnyNumber = Field(default=0.0, description="upwards, m")
     roll: AnyNumber = Field(default=0.0, description="anticlockwise, rad")
@@ -71,12 +71,12 @@ class Release(SceneModel):
 
 
 def _as_heave(value: Any) -> Any:
-    """A bare number is a heave."""
+    """A number without a name is a heave."""
     return {"heave": value} if not isinstance(value, dict | Release) else value
 
 
 class Decay(SceneModel):
-    """The motion of a float that is let go."""
+    """The motion of a released float."""
 
     kind: Literal["decay"] = Field(default="decay", description="kind of the analysis")
     displacement: Annotated[Release, BeforeValidator(_as_heave)] = Field(

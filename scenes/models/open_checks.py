@@ -1,4 +1,4 @@
-"""What must hold of a scene with open ends, and what only such a scene may hold."""
+"""Checks of scenes with open ends, and of keys that are reserved for them."""
 
 from __future__ import annotations
 
@@ -10,20 +10,20 @@ from pydantic_core import InitErrorDetails
 from hydroelastic.fem.open_water.region import MOST_DAMPING_ANYWHERE
 from hydroelastic.scenes.models.bodies import Float
 from hydroelastic.scenes.models.open_analyses import Decay, Resonance
-from hydroelastic.scenes.models.problems import misfit
+from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.tank_parts import TankParts
 
 SLOWEST, FASTEST = 1e-6, 1e3
 """Frequencies in √(g/length), with the length that is drawn, between which waves can be meshed beside bodies."""
 
 
-def tanks_with_walls_end(scene: TankParts) -> Iterator[InitErrorDetails]:
-    """Yield what only open water has."""
+def closed_tanks_have_no_open_water_keys(scene: TankParts) -> Iterator[InitErrorDetails]:
+    """Yield keys of a closed tank that are reserved for open water."""
     if scene.is_open:
         return
     for index, liquid in enumerate(scene.liquid):
         if isinf(liquid.depth):
-            yield misfit(
+            yield problem_at(
                 ("liquid", index, "depth"),
                 liquid.depth,
                 "a tank with walls is not infinitely deep",
@@ -31,7 +31,7 @@ def tanks_with_walls_end(scene: TankParts) -> Iterator[InitErrorDetails]:
                 remedy='Waves that leave need ends = "open" in [tank]',
             )
     if scene.analysis:
-        yield misfit(
+        yield problem_at(
             ("analysis",),
             None,
             "of a tank with walls the modes are found, and no other analysis is known",
@@ -39,30 +39,32 @@ def tanks_with_walls_end(scene: TankParts) -> Iterator[InitErrorDetails]:
         )
 
 
-def open_water_has_bodies_and_waves(scene: TankParts) -> Iterator[InitErrorDetails]:
-    """Yield what open water lacks, and keys that have no effect there."""
+def open_water_is_complete(scene: TankParts) -> Iterator[InitErrorDetails]:
+    """Yield what a scene of open water is missing, and keys that have no effect there."""
     if not scene.is_open:
         return
     if not scene.body:
-        yield misfit(("body",), None, "open water without a body does not oscillate by itself", remedy="Add a [[body]]")
+        yield problem_at(
+            ("body",), None, "open water without a body does not oscillate by itself", remedy="Add a [[body]]"
+        )
     if scene.mesh is not None:
-        yield misfit(
+        yield problem_at(
             ("mesh", "file"),
             str(scene.mesh.file),
             "a mesh of your own ends somewhere, and open water does not",
             remedy="Leave [mesh] out",
         )
     if len(scene.layers) == 1 and scene.top != "free":
-        yield misfit(
+        yield problem_at(
             ("tank", "top"),
             scene.top,
             "without a free surface or an interface no wave leaves",
             allowed='"free"',
             remedy='Set ends = "walls", or add a second [[liquid]]',
         )
-    # A default that is written out, as summaries do, is no wish.
+    # A default that is written out, as in summaries, is accepted.
     if scene.accuracy.modes != type(scene.accuracy).model_fields["modes"].default:
-        yield misfit(
+        yield problem_at(
             ("accuracy", "modes"),
             scene.accuracy.modes,
             "open water has no modes, so this has no effect",
@@ -72,7 +74,7 @@ def open_water_has_bodies_and_waves(scene: TankParts) -> Iterator[InitErrorDetai
 
 
 def frequencies_and_times_can_be_resolved(scene: TankParts) -> Iterator[InitErrorDetails]:
-    """Yield analyses whose waves are out of all proportion to what is drawn."""
+    """Yield analyses whose wavelengths are too long or too short relative to the drawn length."""
     unit = sqrt(scene.tank.gravity / scene.tank.length)
     slowest, fastest = SLOWEST * unit, FASTEST * unit
     for index, analysis in enumerate(scene.analysis if scene.is_open else ()):
@@ -82,7 +84,7 @@ def frequencies_and_times_can_be_resolved(scene: TankParts) -> Iterator[InitErro
         ):
             wrong = [value for value in values if 0.0 < value < slowest or fastest < value < inf]
             if wrong:
-                yield misfit(
+                yield problem_at(
                     ("analysis", index, key),
                     wrong[0],
                     "its waves are too long or too short beside the length that is drawn for one mesh to show both",
@@ -90,7 +92,7 @@ def frequencies_and_times_can_be_resolved(scene: TankParts) -> Iterator[InitErro
                 )
         late = [time for time in getattr(analysis, "times", ()) if time * slowest > 1.0]
         if late:
-            yield misfit(
+            yield problem_at(
                 ("analysis", index, "times"),
                 late[0],
                 "the waves that matter so late are too long beside the length that is drawn",
@@ -98,12 +100,12 @@ def frequencies_and_times_can_be_resolved(scene: TankParts) -> Iterator[InitErro
             )
 
 
-def fast_decay_is_sought_in_endless_liquids(scene: TankParts) -> Iterator[InitErrorDetails]:
-    """Yield resonance analyses that reach to where water of finite depth has not been continued."""
+def resonance_regions_are_covered_by_theory(scene: TankParts) -> Iterator[InitErrorDetails]:
+    """Yield resonance analyses beyond the sector to which the waves of finite depth are continued analytically."""
     finite = [layer.depth for layer in scene.layers if not isinf(layer.depth)]
     for index, analysis in enumerate(scene.analysis if scene.is_open and finite else ()):
         if isinstance(analysis, Resonance) and analysis.largest_damping > MOST_DAMPING_ANYWHERE:
-            yield misfit(
+            yield problem_at(
                 ("analysis", index, "largest_damping"),
                 analysis.largest_damping,
                 "resonances that die out so fast are found in endless liquids alone, and one here has a finite depth",
@@ -116,7 +118,7 @@ def _nothing_lies_above_an_infinite_liquid(scene: TankParts) -> Iterator[InitErr
     if len(scene.layers) < 2 or not isinf(scene.layers[1].depth):
         return
     if scene.tank.top != "free":
-        yield misfit(
+        yield problem_at(
             ("tank", "top"),
             scene.tank.top,
             "the upper liquid goes on upwards without end, so this has no effect",
@@ -124,7 +126,7 @@ def _nothing_lies_above_an_infinite_liquid(scene: TankParts) -> Iterator[InitErr
         )
     for index, body in enumerate(scene.body):
         if body.at == "surface":
-            yield misfit(
+            yield problem_at(
                 ("body", index, "at"),
                 body.at,
                 "the upper liquid goes on upwards without end, so it has no surface",
@@ -132,11 +134,11 @@ def _nothing_lies_above_an_infinite_liquid(scene: TankParts) -> Iterator[InitErr
             )
 
 
-def beams_in_open_water_are_free(scene: TankParts) -> Iterator[InitErrorDetails]:
-    """Yield the beams that walls would have to guide."""
+def open_water_beams_have_free_ends(scene: TankParts) -> Iterator[InitErrorDetails]:
+    """Yield beams with guided ends, which need walls."""
     for index, beam in scene.beams:
         if scene.is_open and beam.ends == "guided":
-            yield misfit(
+            yield problem_at(
                 ("body", index, "ends"),
                 beam.ends,
                 "ends are guided by walls, and open water has none",
@@ -144,8 +146,8 @@ def beams_in_open_water_are_free(scene: TankParts) -> Iterator[InitErrorDetails]
             )
 
 
-def what_decays_is_a_float(scene: TankParts) -> Iterator[InitErrorDetails]:
-    """Yield the decay analyses of what is no float or may not move so."""
+def decaying_bodies_are_floats(scene: TankParts) -> Iterator[InitErrorDetails]:
+    """Yield the decay analyses of bodies that are not floats, or of motions that the float does not have."""
     for index, analysis in enumerate(scene.analysis):
         if not isinstance(analysis, Decay):
             continue
@@ -153,7 +155,7 @@ def what_decays_is_a_float(scene: TankParts) -> Iterator[InitErrorDetails]:
         body = scene.body[analysis.body - 1] if analysis.body <= len(scene.body) else None
         if not isinstance(body, Float):
             what = "there is no body of that number" if body is None else "it is a beam, and a float is let go"
-            yield misfit(
+            yield problem_at(
                 ("analysis", index, "body"),
                 analysis.body,
                 what,
@@ -163,7 +165,7 @@ def what_decays_is_a_float(scene: TankParts) -> Iterator[InitErrorDetails]:
         for motion in ("heave", "roll"):
             value = getattr(analysis.displacement, motion)
             if value != 0.0 and motion not in body.motions:
-                yield misfit(
+                yield problem_at(
                     ("analysis", index, "displacement", motion),
                     value,
                     f"[[body]] number {analysis.body} does not move so: its motions are {', '.join(body.motions)}",
@@ -171,13 +173,11 @@ def what_decays_is_a_float(scene: TankParts) -> Iterator[InitErrorDetails]:
                 )
 
 
-def bodies_span(scene: TankParts) -> float:
-    """Return the length beside which no body may be too small, m: of the tank, or over which bodies in open water lie.
+def length_scale_of_bodies(scene: TankParts) -> float:
+    """Return the length to which sizes of bodies are relative, m: of the tank, or of the extent of bodies.
 
     Floats count by their position.
     """
     if not scene.is_open:
         return scene.tank.length
-    starts = [beam.start for _, beam in scene.beams] + [body.position for _, body in scene.floats]
-    ends = [beam.end for _, beam in scene.beams] + [body.position for _, body in scene.floats]
-    return max(ends) - min(starts)
+    return max(body.end for body in scene.body) - min(body.start for body in scene.body)

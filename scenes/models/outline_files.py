@@ -17,7 +17,7 @@ def read_outline(file: Path) -> NDArray[np.float64]:
     """Return the points of an outline, m, shape (n, 2): without repeated ones, and not closed by its first point.
 
     Raises:
-        ValueError: saying what is wrong with the file, and in which line.
+        ValueError: with the error in the file and its line.
     """
     rows = read_columns(file, 2)
     points = [row for place, row in enumerate(rows) if place == 0 or row != rows[place - 1]]

@@ -1,4 +1,4 @@
-"""From a scene to the tank that it describes: `physics.tank.Tank`, in SI units."""
+"""Conversion of a scene to a `physics.tank.Tank`, in SI units."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def physical_tank(scene: TankParts) -> Tank:
 def _body(scene: TankParts, index: int) -> Beam | RigidFloat:
     body = scene.body[index]
     if isinstance(body, Float):
-        # Contours need SciPy's root finders, which take a while to import.
+        # Contours need SciPy's root finders, whose import is slow.
         from hydroelastic.scenes.models.floats import placed_float
 
         return placed_float(scene, index)

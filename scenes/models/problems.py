@@ -1,4 +1,4 @@
-"""What the checks of a scene find, in the form that pydantic takes and `scenes/errors.py` puts into words."""
+"""Errors found by the checks of a scene, in the form of pydantic, from which `scenes/errors.py` makes messages."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def problem(wrong: str, *, allowed: str = "", remedy: str = "") -> PydanticCusto
     return PydanticCustomError("scene", "{message}", context)
 
 
-def misfit(
+def problem_at(
     location: tuple[str | int, ...], value: object, wrong: str, *, allowed: str = "", remedy: str = ""
 ) -> InitErrorDetails:
     """Return a problem of the value at a location of the scene, for example ``("body", 0, "start")``."""
@@ -27,10 +27,10 @@ def misfit(
 
 
 def require_fit(model: BaseModel, stages: Iterable[Iterable[Check]]) -> None:
-    """Run checks of a model in stages: a later one needs what the earlier ones have found in order.
+    """Run the checks of a model in stages: later ones assume that the earlier ones have passed.
 
     Args:
-        model: the model that its checks are called with.
+        model: the model to check.
         stages: the checks.
 
     Raises:

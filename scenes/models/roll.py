@@ -1,4 +1,4 @@
-"""The scene of a ship on a swell: parts that fit together."""
+"""The scene of a ship on a swell: its model with all checks."""
 
 from __future__ import annotations
 

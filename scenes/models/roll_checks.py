@@ -1,4 +1,4 @@
-"""What must fit together in the scene of a rolling ship."""
+"""Checks of the consistency of the scene of a rolling ship."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from math import pi, radians, sqrt
 from pydantic_core import InitErrorDetails
 
 from hydroelastic.scenes.models.bodies import LARGEST
-from hydroelastic.scenes.models.problems import misfit
+from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.roll_parts import RollParts
 
 MOST_WAVES = 100_000
@@ -37,65 +37,67 @@ LEAST_QUADRATIC_TOLERANCE = 1e-11
 
 
 def frequency_is_given_once(scene: RollParts) -> Iterator[InitErrorDetails]:
-    """One of the period, the frequency and a section tells how the ship rolls by itself."""
+    """Exactly one of period, frequency and section gives the natural frequency."""
     roll = scene.roll
     given = [name for name in ("natural_period", "natural_frequency", "section") if getattr(roll, name) is not None]
     if len(given) != 1:
         key = given[1] if given else "natural_period"
         wrong = f"it stands beside {given[0]}" if given else "it is missing"
         value = getattr(roll, key)
-        yield misfit(
+        yield problem_at(
             ("roll", key),
             str(value) if key == "section" else value,
             wrong,
             allowed="one of natural_period, natural_frequency and section",
         )
     if roll.damping is not None and roll.damping_ratio is not None:
-        yield misfit(
+        yield problem_at(
             ("roll", "damping_ratio"), roll.damping_ratio, "it stands beside damping", allowed="one of the two, or none"
         )
 
 
 def waves_can_be_read(scene: RollParts) -> Iterator[InitErrorDetails]:
-    """Waves stand in the scene or in a table of positive periods."""
+    """Waves are given in the scene or by a table of positive periods."""
     if scene.train is None:
         return
     key, value = ("train", "file"), str(scene.train.file)
     if scene.wave:
-        yield misfit(key, value, "it stands beside [[wave]]", allowed="one of the two")
+        yield problem_at(key, value, "it stands beside [[wave]]", allowed="one of the two")
         return
     try:
         waves = scene.waves
     except ValueError as error:
-        yield misfit(key, value, str(error))
+        yield problem_at(key, value, str(error))
         return
     if not waves:
-        yield misfit(key, value, "it holds no waves", allowed="at least one row: period, slope")
+        yield problem_at(key, value, "it holds no waves", allowed="at least one row: period, slope")
     for row, (period, _) in enumerate(waves, start=1):
         if period <= 0.0:
-            yield misfit(key, value, f"the period of row {row} is {period:g}", allowed="a positive number of seconds")
+            yield problem_at(
+                key, value, f"the period of row {row} is {period:g}", allowed="a positive number of seconds"
+            )
             return
 
 
-def something_moves(scene: RollParts) -> Iterator[InitErrorDetails]:
-    """There are waves, or the ship is let go."""
+def ship_is_excited(scene: RollParts) -> Iterator[InitErrorDetails]:
+    """There are waves, or the ship is released from an angle."""
     if not scene.waves and scene.roll.angle == scene.roll.rate == 0.0:
-        yield misfit(
+        yield problem_at(
             ("wave",), None, "there is none, and the ship rests", allowed="waves, or an angle or a rate at t = 0"
         )
     if len(scene.waves) > MOST_WAVES:
         place = ("wave",) if scene.train is None else ("train", "file")
-        yield misfit(place, None, f"there are {len(scene.waves)} waves", allowed=f"up to {MOST_WAVES}")
+        yield problem_at(place, None, f"there are {len(scene.waves)} waves", allowed=f"up to {MOST_WAVES}")
 
 
 def waves_are_not_too_steep(scene: RollParts) -> Iterator[InitErrorDetails]:
-    """No wave is steeper than one that breaks: that catches degrees, too."""
+    """No wave is steeper than a breaking one; this also detects slopes in degrees."""
     for number, (_, slope) in enumerate(scene.waves):
         if abs(slope) <= STEEPEST:
             continue
         in_table = scene.train is not None
         subject = f"the slope of wave {number + 1}, {slope:g} rad, is" if in_table else "it is"
-        yield misfit(
+        yield problem_at(
             ("train", "file") if in_table else ("wave", number, "slope"),
             str(scene.train.file) if scene.train is not None else slope,
             f"{subject} steeper than any wave at sea",
@@ -106,7 +108,7 @@ def waves_are_not_too_steep(scene: RollParts) -> Iterator[InitErrorDetails]:
 
 
 def rates_are_comparable(scene: RollParts) -> Iterator[InitErrorDetails]:
-    """Periods and damping lie within what double precision follows."""
+    """Ratios of periods and damping lie within the range of double precision."""
     frequency = scene.natural_frequency
     if frequency is None:
         return
@@ -115,24 +117,24 @@ def rates_are_comparable(scene: RollParts) -> Iterator[InitErrorDetails]:
         if not SHORTEST * period <= wave <= LONGEST * period:
             place = ("wave", number, "period") if scene.train is None else ("train", "file")
             allowed = f"{SHORTEST * period:g} to {LONGEST * period:g} s beside a natural period of {period:g} s"
-            yield misfit(
+            yield problem_at(
                 place, wave if scene.train is None else None, f"a wave of {wave:g} s is too far off", allowed=allowed
             )
             return
     damping = scene.damping(frequency)
     if damping is not None and damping > HEAVIEST * frequency:
         key = "damping" if scene.roll.damping is not None else "damping_ratio"
-        yield misfit(("roll", key), getattr(scene.roll, key), "it is too large", allowed=f"n up to {HEAVIEST:g} k")
+        yield problem_at(("roll", key), getattr(scene.roll, key), "it is too large", allowed=f"n up to {HEAVIEST:g} k")
 
 
 def motion_can_be_followed(scene: RollParts) -> Iterator[InitErrorDetails]:
-    """The motion ends after t = 0, and not after more oscillations, or steps of an integrator, than are worth it."""
+    """The motion ends after t = 0, within the limits of oscillations and of steps of the integrator."""
     frequency = scene.natural_frequency
     if scene.output.times is not None and scene.output.times[-1] == 0.0:
-        yield misfit(("output", "times"), 0.0, "the motion is not followed at all", allowed="a last time above 0")
+        yield problem_at(("output", "times"), 0.0, "the motion is not followed at all", allowed="a last time above 0")
         return
     if scene.roll.quadratic_damping > 0.0 and scene.accuracy.tolerance < LEAST_QUADRATIC_TOLERANCE:
-        yield misfit(
+        yield problem_at(
             ("accuracy", "tolerance"),
             scene.accuracy.tolerance,
             "with quadratic damping it is too small",
@@ -144,9 +146,9 @@ def motion_can_be_followed(scene: RollParts) -> Iterator[InitErrorDetails]:
     longest = MOST_PERIODS * 2.0 * pi / frequency
     if last > min(longest, LARGEST):
         allowed = f"up to {min(longest, LARGEST):g} s, or {MOST_PERIODS} natural periods if that is less"
-        yield misfit(("output", "times"), last, "it is too late", allowed=allowed)
+        yield problem_at(("output", "times"), last, "it is too late", allowed=allowed)
     elif scene.roll.quadratic_damping > 0.0 and _steps(scene, frequency, last) > MOST_STEPS:
-        yield misfit(
+        yield problem_at(
             ("roll", "quadratic_damping"),
             scene.roll.quadratic_damping,
             "with these waves and times the integration in time would take too many steps",
@@ -156,9 +158,9 @@ def motion_can_be_followed(scene: RollParts) -> Iterator[InitErrorDetails]:
 
 
 def _steps(scene: RollParts, frequency: float, last: float) -> float:
-    """About how many steps an explicit integrator takes: ten in a radian of the fastest oscillation or decay.
+    """Approximate number of steps of an explicit integrator: ten per radian of the fastest oscillation or decay.
 
-    Where quadratic damping rules, d φ'² = k² a holds the rate, and decays are as fast as d|φ'|.
+    Where quadratic damping dominates, the rate follows from d φ'² = k² a, and decays are as fast as d|φ'|.
     """
     roll = scene.roll
     steepest = max((abs(slope) for _, slope in scene.waves), default=0.0)
@@ -171,17 +173,17 @@ def _steps(scene: RollParts, frequency: float, last: float) -> float:
 
 
 def levels_differ(scene: RollParts) -> Iterator[InitErrorDetails]:
-    """Levels of angle go up, and are not too many."""
+    """Levels of angle ascend, and their number is limited."""
     levels = scene.output.levels
     if len(levels) > MOST_LEVELS:
-        yield misfit(("output", "levels"), None, f"there are {len(levels)}", allowed=f"up to {MOST_LEVELS}")
+        yield problem_at(("output", "levels"), None, f"there are {len(levels)}", allowed=f"up to {MOST_LEVELS}")
     if any(after <= before for before, after in pairwise(levels)):
-        yield misfit(("output", "levels"), None, "they do not go up", allowed="levels in ascending order")
+        yield problem_at(("output", "levels"), None, "they do not go up", allowed="levels in ascending order")
 
 
 STAGES = (
     (frequency_is_given_once, waves_can_be_read),
-    (something_moves, waves_are_not_too_steep, rates_are_comparable, levels_differ),
+    (ship_is_excited, waves_are_not_too_steep, rates_are_comparable, levels_differ),
     (motion_can_be_followed,),
 )
 """Checks in stages: a later one needs what the earlier ones have found in order."""

@@ -60,7 +60,7 @@ class SwellTable(SceneModel):
 
 
 class RollOutput(SceneModel):
-    """When the motion is reported, and what is counted."""
+    """Times at which the motion is reported, and levels of angle."""
 
     times: Annotated[tuple[NumberFromZero, ...], *ascending_values(MOST_TIMES)] | None = Field(
         default=None,
@@ -73,7 +73,7 @@ class RollOutput(SceneModel):
 
 
 class RollAccuracy(SceneModel):
-    """What is asked of the answer."""
+    """Requested accuracy."""
 
     tolerance: Annotated[float, Strict(), Field(ge=1e-12, le=1e-1)] = Field(
         default=1e-8, description="asked error of the angle, relative to the largest one"
@@ -81,7 +81,7 @@ class RollAccuracy(SceneModel):
 
 
 class RollParts(SceneInFolder):
-    """The parts of the scene of a ship on a swell, each allowed for itself; `RollScene` checks that they fit."""
+    """The parts of the scene of a ship on a swell, each valid by itself; `RollScene` checks their consistency."""
 
     kind: Literal["roll"] = Field(default="roll", description="kind of the scene")
     title: Title = Field(default="", description="title of tables and images")
@@ -95,7 +95,7 @@ class RollParts(SceneInFolder):
 
     @property
     def section_file(self) -> Path | None:
-        """The scene of the section, complete; a bare name without such a file is that of a shipped scene."""
+        """Path of the scene of the section; a name without such a file is that of a shipped scene."""
         if self.roll.section is None:
             return None
         beside = self._folder / self.roll.section

@@ -1,4 +1,4 @@
-"""The scene of a hanging string: parts that fit together."""
+"""The scene of a hanging string: its model with all checks."""
 
 from __future__ import annotations
 

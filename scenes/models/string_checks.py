@@ -1,4 +1,4 @@
-"""What must fit together in the scene of a hanging string."""
+"""Checks of the consistency of the scene of a hanging string."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from itertools import pairwise
 from pydantic_core import InitErrorDetails
 
 from hydroelastic.scenes.models.bodies import LARGEST
-from hydroelastic.scenes.models.problems import misfit
+from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.string_parts import StringParts
 
 MOST_POINTS = 1_000_000
@@ -26,18 +26,18 @@ LONGEST = {"series": 1e4, "field": 200.0}
 """Largest time of a response in travel times of a wave along the string, by method."""
 
 
-def liquid_lets_the_string_hang(scene: StringParts) -> Iterator[InitErrorDetails]:
-    """A string that is lighter than the liquid it displaces would rise."""
+def string_outweighs_its_displaced_liquid(scene: StringParts) -> Iterator[InitErrorDetails]:
+    """A string lighter than the liquid that it displaces is not under tension."""
     string = scene.string
     if string.displaced_mass >= string.linear_density:
-        yield misfit(
+        yield problem_at(
             ("string", "displaced_mass"),
             string.displaced_mass,
             "the string would float up",
             allowed=f"less than linear_density = {string.linear_density:g} kg/m",
         )
     if string.tip_displaced_mass >= string.tip_mass > 0.0 or string.tip_displaced_mass > string.tip_mass:
-        yield misfit(
+        yield problem_at(
             ("string", "tip_displaced_mass"),
             string.tip_displaced_mass,
             "the body on the free end would float up",
@@ -45,10 +45,10 @@ def liquid_lets_the_string_hang(scene: StringParts) -> Iterator[InitErrorDetails
         )
 
 
-def method_is_there(scene: StringParts) -> Iterator[InitErrorDetails]:
+def method_is_available(scene: StringParts) -> Iterator[InitErrorDetails]:
     """The series needs a uniform resistance and a free lower end."""
     if scene.accuracy.method == "series" and not scene.string.physical.has_closed_form:
-        yield misfit(
+        yield problem_at(
             ("accuracy", "method"),
             "series",
             "there is no series with a tip mass or a resistance that varies",
@@ -57,7 +57,7 @@ def method_is_there(scene: StringParts) -> Iterator[InitErrorDetails]:
 
 
 def table_can_be_followed(scene: StringParts) -> Iterator[InitErrorDetails]:
-    """A motion by a table has one table, whose times go up from 0."""
+    """A motion by a table has one table, whose times ascend from 0."""
     motion = scene.motion
     if motion.kind != "table":
         return
@@ -65,49 +65,51 @@ def table_can_be_followed(scene: StringParts) -> Iterator[InitErrorDetails]:
     if (motion.file is not None) == written:
         wrong = "it stands beside times and values" if written else "it is missing"
         value = str(motion.file) if written else None
-        yield misfit(("motion", "file"), value, wrong, allowed="either file, or times and values")
+        yield problem_at(("motion", "file"), value, wrong, allowed="either file, or times and values")
         return
     if motion.file is None and len(motion.times or ()) != len(motion.values or ()):
         numbers = f"{len(motion.times or ())} times, {len(motion.values or ())} values"
-        yield misfit(("motion", "values"), None, f"there are {numbers}", allowed="as many values as times")
+        yield problem_at(("motion", "values"), None, f"there are {numbers}", allowed="as many values as times")
         return
     key = ("motion", "times" if motion.file is None else "file")
     value = None if motion.file is None else str(motion.file)
     try:
         table = scene.table
     except ValueError as error:
-        yield misfit(key, value, str(error))
+        yield problem_at(key, value, str(error))
         return
     assert table is not None
     least = 4 if motion.interpolation == "cubic" else 2
     if not least <= len(table) <= MOST_TABLE_ROWS:
         allowed = f"{least} to {MOST_TABLE_ROWS} rows"
-        yield misfit(key, value, f"it holds {len(table)} rows", allowed=allowed)
+        yield problem_at(key, value, f"it holds {len(table)} rows", allowed=allowed)
         return
     if table[0][0] != 0.0:
-        yield misfit(key, value, f"its first time is {table[0][0]:g}", allowed="a table that begins at t = 0")
+        yield problem_at(key, value, f"its first time is {table[0][0]:g}", allowed="a table that begins at t = 0")
     for row, (before, after) in enumerate(pairwise(table), start=2):
         if after[0] <= before[0]:
             wrong = f"the time of row {row} is not greater than that before it"
-            yield misfit(key, value, wrong, allowed="times that go up")
+            yield problem_at(key, value, wrong, allowed="times that go up")
             return
 
 
-def waves_arrive(scene: StringParts) -> Iterator[InitErrorDetails]:
-    """A wave runs along the string in a time that can be written."""
+def travel_time_is_finite(scene: StringParts) -> Iterator[InitErrorDetails]:
+    """The travel time of a wave along the string is a finite number."""
     travel = scene.string.physical.travel_time
     longest = LARGEST / LONGEST["series"]
     if travel > longest:
         wrong = f"a wave would take {travel:g} s along the string"
         remedy = "Make the string shorter, or gravity stronger"
-        yield misfit(("string", "length"), scene.string.length, wrong, allowed=f"up to {longest:g} s", remedy=remedy)
+        yield problem_at(
+            ("string", "length"), scene.string.length, wrong, allowed=f"up to {longest:g} s", remedy=remedy
+        )
 
 
-def output_lies_within(scene: StringParts) -> Iterator[InitErrorDetails]:
-    """Places lie on the string, times within the table of the motion; and there are not too many of both."""
+def output_is_in_range(scene: StringParts) -> Iterator[InitErrorDetails]:
+    """Positions lie on the string and times within the table of the motion; the number of values is limited."""
     length, times = scene.string.length, scene.times
     if scene.positions[-1] > length:
-        yield misfit(
+        yield problem_at(
             ("output", "positions"),
             scene.positions[-1],
             "it lies above the upper end",
@@ -115,7 +117,7 @@ def output_lies_within(scene: StringParts) -> Iterator[InitErrorDetails]:
         )
     table = scene.table
     if table is not None and times[-1] > table[-1][0]:
-        yield misfit(
+        yield problem_at(
             ("output", "times"),
             times[-1],
             "the table of the motion ends before",
@@ -124,14 +126,14 @@ def output_lies_within(scene: StringParts) -> Iterator[InitErrorDetails]:
     number = LONGEST[scene.method]
     longest = number * scene.string.physical.travel_time
     if times[-1] > longest:
-        yield misfit(
+        yield problem_at(
             ("output", "times"),
             times[-1],
             f"it is more than {number:g} travel times of a wave",
             allowed=f"up to {longest:g} s",
         )
     if len(scene.positions) * len(times) > MOST_POINTS:
-        yield misfit(
+        yield problem_at(
             ("output", "times"),
             len(times),
             f"with {len(scene.positions)} positions there are too many points",
@@ -140,7 +142,7 @@ def output_lies_within(scene: StringParts) -> Iterator[InitErrorDetails]:
 
 
 def motion_is_not_too_fast(scene: StringParts) -> Iterator[InitErrorDetails]:
-    """Rates lie within what terms or elements can follow."""
+    """Rates lie within what the allowed terms or elements resolve."""
     travel, motion = scene.string.physical.travel_time, scene.motion
     limit = (FASTEST if scene.method == "series" else FASTEST_FIELD) / travel
     rates: list[tuple[tuple[str, str], float]] = []
@@ -150,16 +152,18 @@ def motion_is_not_too_fast(scene: StringParts) -> Iterator[InitErrorDetails]:
         rates.append((("motion", "rate"), motion.rate))
     for place, rate in rates:
         if rate > limit:
-            yield misfit(place, rate, "it is too fast for waves on this string", allowed=f"up to {limit:g} 1/s here")
+            yield problem_at(
+                place, rate, "it is too fast for waves on this string", allowed=f"up to {limit:g} 1/s here"
+            )
     heaviest = max(scene.string.resistance.bottom, scene.string.resistance.top)
     most = FASTEST / travel * scene.string.physical.inertia
     if heaviest > most:
-        yield misfit(("string", "resistance"), heaviest, "it is too large", allowed=f"up to {most:g} kg/(m·s) here")
+        yield problem_at(("string", "resistance"), heaviest, "it is too large", allowed=f"up to {most:g} kg/(m·s) here")
 
 
 STAGES = (
-    (liquid_lets_the_string_hang, table_can_be_followed),
-    (waves_arrive,),
-    (method_is_there, output_lies_within, motion_is_not_too_fast),
+    (string_outweighs_its_displaced_liquid, table_can_be_followed),
+    (travel_time_is_finite,),
+    (method_is_available, output_is_in_range, motion_is_not_too_fast),
 )
 """Checks in stages: a later one needs what the earlier ones have found in order."""

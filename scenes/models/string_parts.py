@@ -39,13 +39,13 @@ class Resistance(SceneModel):
 
 
 def _uniform(value: Any) -> Any:
-    """A bare number is a uniform resistance."""
+    """A number is a uniform resistance."""
     is_number = isinstance(value, int | float) and not isinstance(value, bool)
     return {"bottom": value, "top": value} if is_number else value
 
 
 class HangingString(SceneModel):
-    """The string, and what hangs on it."""
+    """The string and its tip mass."""
 
     length: PositiveNumber = Field(description="length of the string, m")
     linear_density: PositiveNumber = Field(description="ρ, mass of the string per length, kg/m")
@@ -68,7 +68,7 @@ class HangingString(SceneModel):
 
     @property
     def physical(self) -> PhysicalString:
-        """The string in SI units, and what follows from its numbers.
+        """The string in SI units.
 
         Raises:
             ValueError: if it is not under tension; the checks of a scene refuse that first.
@@ -119,7 +119,7 @@ class StepMotion(SceneModel):
 
 
 class TableMotion(SceneModel):
-    """f by a table, from a file or written out."""
+    """f by a table, from a file or in the scene."""
 
     kind: Literal["table"] = Field(default="table", description="kind of the motion")
     file: Path | None = Field(
@@ -145,7 +145,7 @@ Motion: TypeAlias = Annotated[
 
 
 class StringOutput(SceneModel):
-    """Where and when the displacement is reported."""
+    """Positions and times at which the displacement is reported."""
 
     positions: Annotated[tuple[NumberFromZero, ...], *ascending_values(MOST_POSITIONS)] | None = Field(
         default=None,
@@ -161,7 +161,7 @@ class StringOutput(SceneModel):
 
 
 class StringAccuracy(SceneModel):
-    """What is asked of the answer."""
+    """Requested accuracy."""
 
     tolerance: Annotated[float, Strict(), Field(ge=1e-12, le=1e-1)] = Field(
         default=1e-6,
@@ -177,7 +177,7 @@ class StringAccuracy(SceneModel):
 
 
 class StringParts(SceneInFolder):
-    """The parts of the scene of a hanging string, each allowed for itself; `StringScene` checks that they fit."""
+    """The parts of the scene of a hanging string, each valid by itself; `StringScene` checks their consistency."""
 
     kind: Literal["string"] = Field(default="string", description="kind of the scene")
     title: Title = Field(default="", description="title of tables and images")
@@ -188,7 +188,7 @@ class StringParts(SceneInFolder):
 
     @property
     def positions(self) -> tuple[float, ...]:
-        """Where the displacement is reported, m."""
+        """Positions at which the displacement is reported, m."""
         if self.output.positions is not None:
             return self.output.positions
         # Evenly spread over the travel time of waves, which slow down towards the free end.
@@ -197,7 +197,7 @@ class StringParts(SceneInFolder):
 
     @property
     def times(self) -> tuple[float, ...]:
-        """When the displacement is reported, s."""
+        """Times at which the displacement is reported, s."""
         if self.output.times is not None:
             return self.output.times
         last = DEFAULT_TRAVEL_TIMES * self.string.physical.travel_time
@@ -206,7 +206,7 @@ class StringParts(SceneInFolder):
 
     @cached_property
     def table(self) -> tuple[tuple[float, ...], ...] | None:
-        """The rows of a motion by a table, time in s and displacement in m; of other motions ``None``.
+        """The rows of a motion by a table, time in s and displacement in m; ``None`` for other motions.
 
         Raises:
             ValueError: if its file cannot be read.
@@ -219,7 +219,7 @@ class StringParts(SceneInFolder):
 
     @property
     def method(self) -> Literal["series", "field"]:
-        """How the response is found."""
+        """Method of solution."""
         if self.accuracy.method != "auto":
             return self.accuracy.method
         return "series" if self.string.physical.has_closed_form else "field"

@@ -1,4 +1,4 @@
-"""The scene of a closed tank, or of open water: parts that fit together."""
+"""The scene of a closed tank, or of open water: its model with all checks."""
 
 from __future__ import annotations
 

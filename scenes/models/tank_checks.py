@@ -1,4 +1,4 @@
-"""What must fit together in a scene: liquids, lengths and bodies. Each check yields the problems it finds."""
+"""Checks of the consistency of a scene: liquids, lengths and bodies. Each check yields the errors it finds."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from pydantic_core import InitErrorDetails
 
 from hydroelastic.physics.tank import ROUND_OFF
 from hydroelastic.scenes.models.body_kinds import AnyBeam
-from hydroelastic.scenes.models.float_checks import CHECKS_OF_FLOATS_AT_REST, floats_float_in_the_tank
+from hydroelastic.scenes.models.float_checks import CHECKS_OF_FLOATS_AT_REST, floats_are_in_equilibrium
 from hydroelastic.scenes.models.open_checks import (
-    beams_in_open_water_are_free,
-    bodies_span,
-    fast_decay_is_sought_in_endless_liquids,
+    closed_tanks_have_no_open_water_keys,
+    decaying_bodies_are_floats,
     frequencies_and_times_can_be_resolved,
-    open_water_has_bodies_and_waves,
-    tanks_with_walls_end,
-    what_decays_is_a_float,
+    length_scale_of_bodies,
+    open_water_beams_have_free_ends,
+    open_water_is_complete,
+    resonance_regions_are_covered_by_theory,
 )
-from hydroelastic.scenes.models.problems import misfit
+from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.tank_parts import TankParts
 
 DEPTH_TO_LENGTH = (1e-4, 1e3)
@@ -49,7 +49,7 @@ MASS_GROUP = (1e-12, 1e12)
 def _densities_are_in_order(scene: TankParts) -> Iterator[InitErrorDetails]:
     lower = scene.liquid[0].density
     if lower == 0.0:
-        yield misfit(
+        yield problem_at(
             ("liquid", 0, "density"),
             lower,
             "it must be a liquid; only the upper one of two may be air, with density 0",
@@ -58,7 +58,7 @@ def _densities_are_in_order(scene: TankParts) -> Iterator[InitErrorDetails]:
     elif len(scene.layers) == 2:
         upper = scene.liquid[1].density
         if upper >= lower:
-            yield misfit(
+            yield problem_at(
                 ("liquid", 1, "density"),
                 upper,
                 f"it floats on a liquid of {lower:g} kg/m³: with the lighter liquid below, the interface overturns at "
@@ -67,14 +67,14 @@ def _densities_are_in_order(scene: TankParts) -> Iterator[InitErrorDetails]:
                 remedy="List the liquids from the bottom up",
             )
         elif upper / lower < LIGHTEST:
-            yield misfit(
+            yield problem_at(
                 ("liquid", 1, "density"),
                 upper,
                 f"ρ₁/ρ₂ = {upper / lower:g}: the upper liquid is lost in the rounding of the lower one",
                 allowed=f"0, for air, or at least {LIGHTEST * lower:g} kg/m³ over this lower liquid",
             )
         elif (lower - upper) / lower < SMALLEST_DIFFERENCE:
-            yield misfit(
+            yield problem_at(
                 ("liquid", 1, "density"),
                 upper,
                 f"(ρ₂ − ρ₁)/ρ₂ = {(lower - upper) / lower:.3g}: what carries the waves is lost in rounding",
@@ -85,7 +85,7 @@ def _densities_are_in_order(scene: TankParts) -> Iterator[InitErrorDetails]:
 def _bodies_have_their_level(scene: TankParts) -> Iterator[InitErrorDetails]:
     for index, body in enumerate(scene.body):
         if body.at == "interface" and len(scene.liquid) == 1:
-            yield misfit(
+            yield problem_at(
                 ("body", index, "at"),
                 body.at,
                 "there is only one liquid, so there is no interface",
@@ -93,7 +93,7 @@ def _bodies_have_their_level(scene: TankParts) -> Iterator[InitErrorDetails]:
                 remedy="Leave it out, or add a second [[liquid]] above the first",
             )
         elif body.at == "surface" and len(scene.layers) < len(scene.liquid):
-            yield misfit(
+            yield problem_at(
                 ("body", index, "at"),
                 body.at,
                 "above the lower liquid there is air, and nothing floats on top of it",
@@ -105,7 +105,7 @@ def _meshes_are_those_of_beams(scene: TankParts) -> Iterator[InitErrorDetails]:
     if scene.mesh is None or scene.is_open or (len(scene.layers) == 1 and not scene.floats):
         return
     because = "two liquids" if len(scene.layers) == 2 else "a float"
-    yield misfit(
+    yield problem_at(
         ("mesh", "file"),
         str(scene.mesh.file),
         f"a mesh of your own is for one liquid with or without beams; this scene has {because}",
@@ -122,7 +122,7 @@ def _depths_fit_the_length(scene: TankParts) -> Iterator[InitErrorDetails]:
     for index, layer in enumerate(scene.layers):
         depth = layer.depth
         if not least <= depth / length <= most:
-            yield misfit(
+            yield problem_at(
                 ("liquid", index, "depth"),
                 depth,
                 f"it is {depth / length:g} of the tank's length, too {'thin' if depth < length else 'deep'} to mesh",
@@ -131,11 +131,11 @@ def _depths_fit_the_length(scene: TankParts) -> Iterator[InitErrorDetails]:
 
 
 def _depths_fit_the_bodies(scene: TankParts) -> Iterator[InitErrorDetails]:
-    """Frames of cells reach as far down as they are needed: open water may be deep."""
-    least = DEPTH_TO_LENGTH[0] * bodies_span(scene)
+    """The absorbing layer is as deep as needed: open water may be deep."""
+    least = DEPTH_TO_LENGTH[0] * length_scale_of_bodies(scene)
     for index, layer in enumerate(scene.layers):
         if layer.depth < least:
-            yield misfit(
+            yield problem_at(
                 ("liquid", index, "depth"),
                 layer.depth,
                 "the layer is too thin to mesh beside the length that the bodies take up",
@@ -149,9 +149,9 @@ def _beams_lie_in_the_tank(scene: TankParts) -> Iterator[InitErrorDetails]:
     for index, beam in scene.beams:
         if beam.length > length * (1 + ROUND_OFF):
             key = beam.location_of(0, "length")[0]
-            yield misfit(("body", index, key), beam.length, f"the beam is longer than the {place} ({length:g} m)")
+            yield problem_at(("body", index, key), beam.length, f"the beam is longer than the {place} ({length:g} m)")
         elif beam.end > length * (1 + ROUND_OFF):
-            yield misfit(
+            yield problem_at(
                 ("body", index, "start"),
                 beam.start,
                 f"the beam ends at {beam.end:g} m, outside the {place}, of {length:g} m",
@@ -165,7 +165,7 @@ def _beams_keep_apart(scene: TankParts) -> Iterator[InitErrorDetails]:
         ordered = sorted(beams, key=lambda numbered: numbered[1].start)
         for (first, left), (second, right) in pairwise(ordered):
             if right.start - left.end <= ROUND_OFF * scene.tank.length:
-                yield misfit(
+                yield problem_at(
                     ("body", second, "start"),
                     right.start,
                     f"the beam overlaps or touches [[body]] number {first + 1}, which ends at {left.end:g} m",
@@ -174,11 +174,11 @@ def _beams_keep_apart(scene: TankParts) -> Iterator[InitErrorDetails]:
 
 
 def _beams_are_not_too_short(scene: TankParts) -> Iterator[InitErrorDetails]:
-    shortest = SHORTEST_BEAM * bodies_span(scene)
+    shortest = SHORTEST_BEAM * length_scale_of_bodies(scene)
     others = "the others" if scene.is_open else "the tank"
     for index, beam in scene.beams:
         if beam.length < shortest:
-            yield misfit(
+            yield problem_at(
                 ("body", index, "length"),
                 beam.length,
                 f"the beam is too short beside {others} for one mesh to show both",
@@ -196,7 +196,7 @@ def _groups_are_in_range(scene: TankParts) -> Iterator[InitErrorDetails]:
             for key, formula, scale, (least, most) in _groups(scene, beam):
                 value = getattr(part, key)
                 if not least <= value / scale <= most:
-                    yield misfit(
+                    yield problem_at(
                         ("body", index, *beam.location_of(number, key)),
                         value,
                         f"{formula} = {value / scale:g} is beyond what double precision can tell apart",
@@ -210,7 +210,7 @@ def _joints_are_in_range(scene: TankParts, index: int, beam: AnyBeam) -> Iterato
     least = SOFTEST_JOINT * (below - above) * scene.tank.gravity * beam.length**3
     for number, joint in enumerate(beam.joints):
         if 0.0 < joint.rotational_stiffness < least:
-            yield misfit(
+            yield problem_at(
                 ("body", index, "joints", number, "rotational_stiffness"),
                 joint.rotational_stiffness,
                 "it is too small for double precision to tell it from none",
@@ -219,23 +219,25 @@ def _joints_are_in_range(scene: TankParts, index: int, beam: AnyBeam) -> Iterato
 
 
 def _joints_lie_in_their_beams(scene: TankParts) -> Iterator[InitErrorDetails]:
-    negligible, nearest = ROUND_OFF * scene.tank.length, SHORTEST_BEAM * bodies_span(scene)
+    negligible, nearest = ROUND_OFF * scene.tank.length, SHORTEST_BEAM * length_scale_of_bodies(scene)
     for index, beam in scene.beams:
         steps = list(accumulate(part.length for part in beam.parts[:-1]))
         for number, joint in enumerate(beam.joints):
             where = ("body", index, "joints", number, "at")
             others = [other.at for other in beam.joints[:number]]
             if not negligible < joint.at < beam.length - negligible:
-                yield misfit(
+                yield problem_at(
                     where,
                     joint.at,
                     f"a joint lies within its beam of {beam.length:g} m, and not at an end: both are free",
                     allowed=f"more than 0 and less than {beam.length:g} m from its left end",
                 )
             elif any(abs(joint.at - other) <= negligible for other in others):
-                yield misfit(where, joint.at, "there is another joint at this place", remedy="Leave one of them out")
+                yield problem_at(
+                    where, joint.at, "there is another joint at this place", remedy="Leave one of them out"
+                )
             elif any(negligible < abs(joint.at - other) < nearest for other in (0.0, beam.length, *steps, *others)):
-                yield misfit(
+                yield problem_at(
                     where,
                     joint.at,
                     "it is too close to an end, to a step of the beam or to another joint for one mesh to show both",
@@ -244,11 +246,11 @@ def _joints_lie_in_their_beams(scene: TankParts) -> Iterator[InitErrorDetails]:
 
 
 def _sections_are_not_too_short(scene: TankParts) -> Iterator[InitErrorDetails]:
-    shortest = SHORTEST_BEAM * bodies_span(scene)
+    shortest = SHORTEST_BEAM * length_scale_of_bodies(scene)
     for index, beam in scene.beams:
         for number, part in enumerate(beam.sections):
             if part.length < shortest:
-                yield misfit(
+                yield problem_at(
                     ("body", index, "sections", number, "length"),
                     part.length,
                     "the section is too short for one mesh to show it and all the rest",
@@ -271,14 +273,14 @@ def _guided_beams_cover_the_tank(scene: TankParts) -> Iterator[InitErrorDetails]
     for index, beam in scene.beams:
         covers = beam.start <= negligible and beam.end >= scene.tank.length - negligible
         if beam.ends == "guided" and not beam.is_uniform:
-            yield misfit(
+            yield problem_at(
                 ("body", index, "ends"),
                 beam.ends,
                 f"guided ends are for uniform beams; this one has {'sections' if beam.sections else 'joints'}",
                 allowed='"free"',
             )
         elif beam.ends == "guided" and not covers and not scene.is_open:
-            yield misfit(
+            yield problem_at(
                 ("body", index, "ends"),
                 beam.ends,
                 "ends are guided by the walls, but this beam does not reach from wall to wall",
@@ -286,21 +288,21 @@ def _guided_beams_cover_the_tank(scene: TankParts) -> Iterator[InitErrorDetails]
             )
 
 
-def _something_moves(scene: TankParts) -> Iterator[InitErrorDetails]:
+def _model_has_motions(scene: TankParts) -> Iterator[InitErrorDetails]:
     from hydroelastic.physics.rigid_motions import mode_count
     from hydroelastic.scenes.models.physical import physical_tank
 
     if scene.is_open or mode_count(physical_tank(scene)) != 0:
         return
     if not scene.body:
-        yield misfit(
+        yield problem_at(
             ("tank", "top"),
             scene.top,
             "without a body and without a free surface nothing oscillates",
             remedy='Set top = "free" for sloshing, or add a [[body]]',
         )
     else:
-        yield misfit(
+        yield problem_at(
             ("tank", "top"),
             scene.top,
             "nothing oscillates: the floats have no motion that has stiffness and that the volume of the liquid allows",
@@ -311,12 +313,17 @@ def _something_moves(scene: TankParts) -> Iterator[InitErrorDetails]:
 _Check: TypeAlias = Callable[["TankParts"], Iterator[InitErrorDetails]]
 
 STAGES: tuple[tuple[_Check, ...], ...] = (
-    (_densities_are_in_order, _bodies_have_their_level, _meshes_are_those_of_beams, tanks_with_walls_end),
     (
-        open_water_has_bodies_and_waves,
-        what_decays_is_a_float,
+        _densities_are_in_order,
+        _bodies_have_their_level,
+        _meshes_are_those_of_beams,
+        closed_tanks_have_no_open_water_keys,
+    ),
+    (
+        open_water_is_complete,
+        decaying_bodies_are_floats,
         frequencies_and_times_can_be_resolved,
-        fast_decay_is_sought_in_endless_liquids,
+        resonance_regions_are_covered_by_theory,
     ),
     (
         _depths_fit_the_length,
@@ -324,12 +331,12 @@ STAGES: tuple[tuple[_Check, ...], ...] = (
         _beams_lie_in_the_tank,
         _beams_keep_apart,
         _guided_beams_cover_the_tank,
-        beams_in_open_water_are_free,
+        open_water_beams_have_free_ends,
         _sections_are_not_too_short,
         _joints_lie_in_their_beams,
-        floats_float_in_the_tank,
+        floats_are_in_equilibrium,
     ),
     (_groups_are_in_range, *CHECKS_OF_FLOATS_AT_REST),
-    (_something_moves,),
+    (_model_has_motions,),
 )
 """Each stage is made when those before found nothing, so that one wrong length is one message."""

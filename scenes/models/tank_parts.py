@@ -33,7 +33,7 @@ from hydroelastic.scenes.models.title import Title
 
 
 class Tank(SceneModel):
-    """The rectangular tank and what closes it on top where no body floats."""
+    """The rectangular tank and the boundary condition of its top beside the bodies."""
 
     length: PositiveNumber = Field(
         description="length of the tank between its walls, or of the stretch of open water that is drawn, m"
@@ -68,7 +68,7 @@ class Liquid(SceneModel):
 
 
 class Accuracy(SceneModel):
-    """What is asked of the answer."""
+    """Requested accuracy."""
 
     tolerance: Annotated[float, Strict(), Field(ge=1e-12, le=1e-1)] = Field(
         default=1e-6, description="asked relative error of the frequencies"
@@ -79,7 +79,7 @@ class Accuracy(SceneModel):
 
 
 class MeshFile(SceneModel):
-    """A mesh of the liquid made by the user instead of the built-in one."""
+    """A mesh of the liquid by the user, in place of the built-in one."""
 
     file: Path = Field(
         description=f"mesh file ({', '.join(FORMATS)}); a relative path starts at the folder of the scene"
@@ -94,7 +94,7 @@ class MeshFile(SceneModel):
 
 
 class TankParts(SceneModel):
-    """The parts of the scene of a tank, each allowed for itself; `TankScene` checks that they fit."""
+    """The parts of the scene of a tank, each valid by itself; `TankScene` checks their consistency."""
 
     kind: Literal["tank"] = Field(default="tank", description="kind of the scene")
     title: Title = Field(default="", description="title of tables and images")
@@ -115,9 +115,9 @@ class TankParts(SceneModel):
     _source: str | None = PrivateAttr(default=None)
 
     def model_post_init(self, context: Any) -> None:
-        """Keep the folder of the scene file, from which the files of outlines are found, and how messages name it.
+        """Keep the folder of the scene file, to which paths of outlines are relative, and the file's name in messages.
 
-        Only where a file is named: scenes of the same values are else the same wherever they come from.
+        Only where a file is named: otherwise scenes of equal values compare equal.
         """
         if context is None:
             return
@@ -133,7 +133,7 @@ class TankParts(SceneModel):
 
     @property
     def source(self) -> str | None:
-        """How messages name the scene file where a mesh of the user's is refused; ``None`` if there is none."""
+        """Name of the scene file in messages about a user mesh; ``None`` if there is no file."""
         return self._source
 
     @property
@@ -143,9 +143,9 @@ class TankParts(SceneModel):
 
     @property
     def top(self) -> Literal["free", "rigid", "pressure_release"]:
-        """What lies on the uppermost modelled liquid beside the bodies: with air above it, the top is free.
+        """Boundary condition of the uppermost modelled liquid beside the bodies: with air above it, the top is free.
 
-        An upper liquid without end has no top; far away, a lid makes no difference.
+        An infinitely deep upper liquid has no top; a distant lid is equivalent.
         """
         if len(self.layers) == 2 and isinf(self.layers[1].depth):
             return "rigid"
@@ -158,7 +158,7 @@ class TankParts(SceneModel):
 
     @property
     def analyses(self) -> tuple[Analysis, ...]:
-        """What is asked of open water; nothing of a closed tank, whose modes are found."""
+        """Analyses of open water; empty for a closed tank, whose modes are computed."""
         return (self.analysis or (Resonance(),)) if self.is_open else ()
 
     @property
@@ -172,7 +172,7 @@ class TankParts(SceneModel):
         return tuple((index, body) for index, body in enumerate(self.body) if isinstance(body, Float))
 
     def level_of(self, body: AnyBeam | Float) -> Level:
-        """Return where a body floats; of one modelled liquid there is only the surface."""
+        """Return the level at which a body floats; with one modelled liquid it is the surface."""
         if len(self.layers) == 1:
             return "surface"
         return body.at if body.at is not None else "interface"
@@ -189,5 +189,5 @@ class TankParts(SceneModel):
 
     @model_serializer(mode="wrap")
     def _without_idle_keys(self, written: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        """Leave out the analyses where there are none, as in every closed tank."""
+        """Leave out an empty list of analyses."""
         return {key: value for key, value in written(self).items() if key != "analysis" or value}

@@ -1,4 +1,4 @@
-"""The scene of a flexible thread in a stream: parts that fit together."""
+"""The scene of a flexible thread in a stream: its model with all checks."""
 
 from __future__ import annotations
 

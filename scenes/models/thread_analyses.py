@@ -1,4 +1,4 @@
-"""What is asked of a thread besides its equilibrium: modes, stability in a growing stream, motion in time. SI units."""
+"""Analyses of a thread besides its equilibrium: modes, stability in a growing stream, motion in time. SI units."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class ThreadModes(SceneModel):
 
 
 class ThreadStability(SceneModel):
-    """At which stream an equilibrium begins to diverge or to flutter."""
+    """Stream factors at which an equilibrium begins to diverge or to flutter."""
 
     kind: Literal["stability"] = Field(default="stability", description="kind of the analysis")
     factors: Annotated[tuple[PositiveNumber, ...], *ascending_values(1000)] = Field(
@@ -37,7 +37,7 @@ class ThreadStability(SceneModel):
 
 
 class EndMotion(SceneModel):
-    """How a fixed end is moved from where it was; what is given adds up."""
+    """Displacement of a fixed end from its position; the given parts add up."""
 
     end: EndName = Field(description="which end")
     velocity: Vector = Field(default=(0.0, 0.0, 0.0), description="steady velocity, m/s")
@@ -53,7 +53,7 @@ class EndMotion(SceneModel):
 
 
 class EndRelease(SceneModel):
-    """An end that is let go."""
+    """Release of an end."""
 
     end: EndName = Field(description="which end")
     time: NumberFromZero = Field(default=0.0, description="when, s")

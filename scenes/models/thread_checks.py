@@ -1,4 +1,4 @@
-"""What must fit together in the scene of a thread, as far as it shows before anything is solved."""
+"""Checks of the consistency of the scene of a thread that need no solution."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from math import dist, hypot
 
 from pydantic_core import InitErrorDetails
 
-from hydroelastic.scenes.models.problems import misfit
+from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.thread_analyses import ThreadMotion, ThreadStability
 from hydroelastic.scenes.models.thread_motion_checks import motion_can_be_followed
 from hydroelastic.scenes.models.thread_parts import ThreadParts
@@ -26,16 +26,16 @@ _WAYS = "velocity (and shear), veer, profile or file"
 
 
 def stream_is_given_once(scene: ThreadParts) -> Iterator[InitErrorDetails]:
-    """One way of saying how the liquid streams, and a profile that can be read."""
+    """The stream is given in one way, and its profile can be read."""
     stream = scene.stream
     if stream is None:
         return
     ways = [name for name in ("velocity", "veer", "profile", "file") if getattr(stream, name) is not None]
     if len(ways) > 1:
-        yield misfit(("stream", ways[1]), None, f"it stands beside {ways[0]}", allowed=f"one of {_WAYS}")
+        yield problem_at(("stream", ways[1]), None, f"it stands beside {ways[0]}", allowed=f"one of {_WAYS}")
         return
     if stream.shear is not None and stream.velocity is None:
-        yield misfit(
+        yield problem_at(
             ("stream", "shear"), None, "there is no velocity that it adds to", remedy="Give velocity, if only [0, 0]"
         )
     if not ways or ways[0] not in ("profile", "file"):
@@ -44,14 +44,16 @@ def stream_is_given_once(scene: ThreadParts) -> Iterator[InitErrorDetails]:
     try:
         rows = scene.profile
     except ValueError as error:
-        yield misfit(key, value, str(error))
+        yield problem_at(key, value, str(error))
         return
     assert rows is not None
     if not 2 <= len(rows) <= MOST_PROFILE_ROWS:
-        yield misfit(key, value, f"it holds {len(rows)} rows", allowed=f"2 to {MOST_PROFILE_ROWS} rows")
+        yield problem_at(key, value, f"it holds {len(rows)} rows", allowed=f"2 to {MOST_PROFILE_ROWS} rows")
     for number, (below, above) in enumerate(pairwise(rows), start=2):
         if above[0] <= below[0]:
-            yield misfit(key, value, f"row {number} does not lie above that before it", allowed="heights that go up")
+            yield problem_at(
+                key, value, f"row {number} does not lie above that before it", allowed="heights that go up"
+            )
             return
 
 
@@ -59,33 +61,35 @@ def liquid_acts_on_something(scene: ThreadParts) -> Iterator[InitErrorDetails]:
     """Coefficients of the liquid need a liquid and a diameter."""
     thread = scene.thread
     if thread.viscous_drag > 0.0 and scene.stream is None:
-        yield misfit(("thread", "viscous_drag"), thread.viscous_drag, "there is no liquid", remedy="Give [stream]")
+        yield problem_at(("thread", "viscous_drag"), thread.viscous_drag, "there is no liquid", remedy="Give [stream]")
     for name in ("normal_drag", "tangential_drag", "added_mass"):
         value = getattr(thread, name)
         if value == 0.0:
             continue
         if scene.stream is None:
-            yield misfit(
+            yield problem_at(
                 ("thread", name), value, "there is no liquid", remedy="Give [stream] with its density, or leave it out"
             )
         elif thread.diameter is None:
-            yield misfit(("thread", "diameter"), None, f"it is missing, and {name} needs it", allowed="a diameter in m")
+            yield problem_at(
+                ("thread", "diameter"), None, f"it is missing, and {name} needs it", allowed="a diameter in m"
+            )
     bodies: list[tuple[tuple[str | int, ...], CarriedBody]] = []
     bodies += [(("load", place), body) for place, body in enumerate(scene.load)]
     bodies += [(("ends", name), end) for name, end in (("a", scene.ends.a), ("b", scene.ends.b)) if end.kind != "fixed"]
     for where, body in bodies:
         for name in ("drag_area", "added_mass"):
             if getattr(body, name) > 0.0 and scene.stream is None:
-                yield misfit((*where, name), getattr(body, name), "there is no liquid", remedy="Give [stream]")
+                yield problem_at((*where, name), getattr(body, name), "there is no liquid", remedy="Give [stream]")
     if thread.reactive != "none" and (thread.added_mass == 0.0 or not scene.streams):
-        yield misfit(
+        yield problem_at(
             ("thread", "reactive"),
             thread.reactive,
             "it takes a stream and an added mass",
             allowed='"none", or a stream and added_mass > 0',
         )
     if thread.stretch_drag == "volume" and thread.axial_rigidity is None:
-        yield misfit(
+        yield problem_at(
             ("thread", "stretch_drag"), thread.stretch_drag, "the thread does not stretch", allowed='"none" here'
         )
 
@@ -96,7 +100,7 @@ def bodies_lie_on_the_thread(scene: ThreadParts) -> Iterator[InitErrorDetails]:
     places = [load.at for load in scene.load]
     for number, place in enumerate(places):
         if place >= length:
-            yield misfit(
+            yield problem_at(
                 ("load", number, "at"),
                 place,
                 "it does not lie between the ends",
@@ -104,7 +108,7 @@ def bodies_lie_on_the_thread(scene: ThreadParts) -> Iterator[InitErrorDetails]:
                 remedy="What hangs on an end belongs to [ends]",
             )
         elif min(place, length - place) < LEAST_DISTANCE * length:
-            yield misfit(
+            yield problem_at(
                 ("load", number, "at"),
                 place,
                 "it is as good as at an end",
@@ -112,11 +116,11 @@ def bodies_lie_on_the_thread(scene: ThreadParts) -> Iterator[InitErrorDetails]:
                 remedy="What hangs on an end belongs to [ends]",
             )
         elif any(abs(place - other) < LEAST_DISTANCE * length for other in places[:number]):
-            yield misfit(("load", number, "at"), place, "another body is there", remedy="Add the two up")
+            yield problem_at(("load", number, "at"), place, "another body is there", remedy="Add the two up")
     if len(places) > MOST_LOADS:
-        yield misfit(("load",), len(places), "there are too many", allowed=f"up to {MOST_LOADS} bodies")
+        yield problem_at(("load",), len(places), "there are too many", allowed=f"up to {MOST_LOADS} bodies")
     if scene.positions[-1] > length:
-        yield misfit(
+        yield problem_at(
             ("output", "positions"),
             scene.positions[-1],
             "it lies beyond end B",
@@ -130,20 +134,20 @@ def clamps_need_rigidity(scene: ThreadParts) -> Iterator[InitErrorDetails]:
         if end.kind != "fixed" or end.clamp is None:
             continue
         if scene.thread.flexural_rigidity == 0.0:
-            yield misfit(
+            yield problem_at(
                 ("ends", name, "clamp"),
                 None,
                 "a thread without flexural rigidity turns freely at its ends",
                 remedy="Give flexural_rigidity, or leave the clamp out",
             )
         elif hypot(*end.clamp) == 0.0:
-            yield misfit(("ends", name, "clamp"), None, "it has no direction", allowed="a vector other than 0")
+            yield problem_at(("ends", name, "clamp"), None, "it has no direction", allowed="a vector other than 0")
 
 
-def something_is_held(scene: ThreadParts) -> Iterator[InitErrorDetails]:
-    """Without a fixed end nothing keeps the thread from drifting off."""
+def one_end_is_fixed(scene: ThreadParts) -> Iterator[InitErrorDetails]:
+    """A thread without a fixed end would drift."""
     if scene.ends.a.kind != "fixed" and scene.ends.b.kind != "fixed":
-        yield misfit(
+        yield problem_at(
             ("ends", "a"),
             None,
             "neither end is fixed: the thread drifts off and has no equilibrium",
@@ -161,14 +165,14 @@ def tension_is_determined(scene: ThreadParts) -> Iterator[InitErrorDetails]:
         return
     allowed = f"{chord * (1.0 + 2.0 * LEAST_SLACK):.12g} m or more, or axial_rigidity"
     if length < chord * (1.0 - 1e-12):
-        yield misfit(
+        yield problem_at(
             ("thread", "length"),
             length,
             f"the ends are {chord:.12g} m apart and the thread does not stretch",
             allowed=allowed,
         )
     elif length <= chord * (1.0 + LEAST_SLACK):
-        yield misfit(
+        yield problem_at(
             ("thread", "length"),
             length,
             f"it is within {LEAST_SLACK:g} of the distance of the fixed ends, {chord:.12g} m: a straight thread that "
@@ -178,7 +182,7 @@ def tension_is_determined(scene: ThreadParts) -> Iterator[InitErrorDetails]:
 
 
 def given_tension_is_needed(scene: ThreadParts) -> Iterator[InitErrorDetails]:
-    """A tension is given only where nothing else tells it, and where the thread does not leave that state."""
+    """A tension is given only where it is otherwise undetermined, and where no motion starts from another state."""
     given = scene.thread.tension
     if given is None:
         return
@@ -190,14 +194,14 @@ def given_tension_is_needed(scene: ThreadParts) -> Iterator[InitErrorDetails]:
         and abs(dist(a.position, b.position) - scene.thread.length) <= 1e-10 * scene.thread.length
     )
     if not straight:
-        yield misfit(
+        yield problem_at(
             ("thread", "tension"),
             given,
             "the equilibrium tells the tension",
             allowed="a thread between fixed ends, as far apart as it is long, without axial_rigidity",
         )
     elif scene.motions:
-        yield misfit(
+        yield problem_at(
             ("thread", "tension"),
             given,
             "in a large motion of a straight thread that does not stretch no tension is determined",
@@ -205,8 +209,8 @@ def given_tension_is_needed(scene: ThreadParts) -> Iterator[InitErrorDetails]:
         )
 
 
-def something_pulls(scene: ThreadParts) -> Iterator[InitErrorDetails]:
-    """A slack thread without flexural rigidity takes a shape by its load alone."""
+def slack_thread_is_loaded(scene: ThreadParts) -> Iterator[InitErrorDetails]:
+    """The shape of a slack thread without flexural rigidity is determined by its load."""
     if scene.thread.flexural_rigidity > 0.0:
         return
     dragged = scene.streams and scene.normal_drag + scene.tangential_drag + scene.thread.viscous_drag > 0.0
@@ -216,7 +220,7 @@ def something_pulls(scene: ThreadParts) -> Iterator[InitErrorDetails]:
     a, b = scene.ends.a, scene.ends.b
     if isinstance(a, FixedEnd) and isinstance(b, FixedEnd):
         if dist(a.position, b.position) < scene.thread.length:
-            yield misfit(
+            yield problem_at(
                 ("thread", "weight"),
                 scene.weight,
                 "nothing loads the thread, and between its ends it is slack: any shape would do",
@@ -225,7 +229,7 @@ def something_pulls(scene: ThreadParts) -> Iterator[InitErrorDetails]:
         return
     for name, end in (("a", a), ("b", b)):
         if not isinstance(end, FixedEnd) and not _pulls(scene, end) and not any(end.force):
-            yield misfit(
+            yield problem_at(
                 ("ends", name),
                 None,
                 "nothing pulls at this end or along the thread: any shape would do",
@@ -239,7 +243,8 @@ def _pulls(scene: ThreadParts, body: object) -> bool:
 
 
 def _slack_along_a_line(scene: ThreadParts) -> Iterator[InitErrorDetails]:
-    """A slack thread whose whole load acts along the chord folds: part of it has no tension, and no shape."""
+    """A slack thread whose whole load acts along the chord folds: part of it has no tension, and its shape is
+    undetermined."""
     a, b = scene.ends.a, scene.ends.b
     if not isinstance(a, FixedEnd) or not isinstance(b, FixedEnd) or scene.load:
         return
@@ -249,7 +254,7 @@ def _slack_along_a_line(scene: ThreadParts) -> Iterator[InitErrorDetails]:
     stream = scene.stream
     if stream is not None and stream.velocity is not None and stream.shear is None and scene.weight == 0.0:
         if z == 0.0 and stream.velocity[0] * y == stream.velocity[1] * x:
-            yield misfit(
+            yield problem_at(
                 ("thread", "length"),
                 scene.thread.length,
                 "the stream runs along the line between the ends, and the downstream part of a slack thread without "
@@ -257,7 +262,7 @@ def _slack_along_a_line(scene: ThreadParts) -> Iterator[InitErrorDetails]:
                 remedy="Give weight, flexural_rigidity, a stream at an angle, or a length below the ends' distance",
             )
     elif not scene.streams and x == y == 0.0:
-        yield misfit(
+        yield problem_at(
             ("thread", "length"),
             scene.thread.length,
             "both ends lie on one vertical, and the thread folds at its lowest point with no tension there",
@@ -271,7 +276,7 @@ def reactive_tail_is_stiff(scene: ThreadParts) -> Iterator[InitErrorDetails]:
         return
     for name, end in (("a", scene.ends.a), ("b", scene.ends.b)):
         if end.kind == "free" and not _pulls(scene, end) and not any(end.force):
-            yield misfit(
+            yield problem_at(
                 ("thread", "reactive"),
                 scene.thread.reactive,
                 f"near the free end {name.upper()} the tension falls below that which the moving liquid takes: without "
@@ -284,22 +289,28 @@ def analyses_can_be_done(scene: ThreadParts) -> Iterator[InitErrorDetails]:
     """Motions need mass, stability a stream."""
     for number, analysis in enumerate(scene.analysis):
         if isinstance(analysis, ThreadStability) and not scene.streams:
-            yield misfit(
+            yield problem_at(
                 ("analysis", number, "kind"), analysis.kind, "there is no stream", allowed='"modes" or "motion"'
             )
         if isinstance(analysis, ThreadStability) and len(analysis.factors) < 2:
-            yield misfit(
+            yield problem_at(
                 ("analysis", number, "factors"), analysis.factors[0], "there is one", allowed="two or more factors"
             )
         if isinstance(analysis, ThreadMotion):
             yield from motion_can_be_followed(scene, analysis, ("analysis", number))
     if scene.analysis and scene.thread.mass == 0.0:
-        yield misfit(("thread", "mass"), 0.0, f"the analysis {scene.analysis[0].kind} needs it", allowed="> 0")
+        yield problem_at(("thread", "mass"), 0.0, f"the analysis {scene.analysis[0].kind} needs it", allowed="> 0")
 
 
 STAGES = (
     (stream_is_given_once, bodies_lie_on_the_thread),
-    (liquid_acts_on_something, clamps_need_rigidity, something_is_held),
-    (tension_is_determined, given_tension_is_needed, something_pulls, reactive_tail_is_stiff, analyses_can_be_done),
+    (liquid_acts_on_something, clamps_need_rigidity, one_end_is_fixed),
+    (
+        tension_is_determined,
+        given_tension_is_needed,
+        slack_thread_is_loaded,
+        reactive_tail_is_stiff,
+        analyses_can_be_done,
+    ),
 )
 """Checks in stages: a later one needs what the earlier ones have found in order."""

@@ -21,7 +21,7 @@ DEFAULT_POSITIONS = 101
 
 
 class ThreadOutput(SceneModel):
-    """Where the thread is reported."""
+    """Positions at which the thread is reported."""
 
     positions: Annotated[tuple[NumberFromZero, ...], *ascending_values(MOST_POSITIONS)] | None = Field(
         default=None,
@@ -33,7 +33,7 @@ class ThreadOutput(SceneModel):
 
 
 class ThreadAccuracy(SceneModel):
-    """What is asked of the answer."""
+    """Requested accuracy."""
 
     tolerance: Annotated[float, Strict(), Field(ge=1e-11, le=1e-1)] = Field(
         default=1e-6,
@@ -43,7 +43,7 @@ class ThreadAccuracy(SceneModel):
 
 
 class ThreadParts(SceneInFolder):
-    """The parts of the scene of a thread in a stream, each allowed for itself; `ThreadScene` checks that they fit."""
+    """The parts of the scene of a thread in a stream, each valid by itself; `ThreadScene` checks their consistency."""
 
     kind: Literal["thread"] = Field(default="thread", description="kind of the scene")
     title: Title = Field(default="", description="title of tables and images")
@@ -115,7 +115,7 @@ class ThreadParts(SceneInFolder):
 
     @property
     def motions(self) -> tuple[ThreadMotion, ...]:
-        """The motions in time that are asked for."""
+        """The requested motions in time."""
         return tuple(analysis for analysis in self.analysis if isinstance(analysis, ThreadMotion))
 
     @property
@@ -127,7 +127,7 @@ class ThreadParts(SceneInFolder):
 
     @property
     def positions(self) -> tuple[float, ...]:
-        """Where the thread is reported, m along it from end A."""
+        """Arc lengths from end A at which the thread is reported, m."""
         if self.output.positions is not None:
             return self.output.positions
         return Sweep(start=0.0, stop=self.thread.length, number=DEFAULT_POSITIONS).values

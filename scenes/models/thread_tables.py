@@ -67,7 +67,7 @@ class Veer(SceneModel):
 
 
 class LiquidStream(SceneModel):
-    """The liquid, and how it streams: uniform, sheared, turning, or by a table. Without any of them it is at rest."""
+    """The liquid and its stream: uniform, sheared, veering, or by a table. Without any of them it is at rest."""
 
     density: PositiveNumber = Field(description="density of the liquid, kg/m³")
     velocity: Horizontal | None = Field(default=None, description="(x, y) of the velocity at the height level, m/s")
@@ -94,7 +94,7 @@ class LiquidStream(SceneModel):
 
 
 class CarriedBody(SceneModel):
-    """What a thread carries at a point."""
+    """A body carried by a thread at a point."""
 
     weight: AnyNumber = Field(default=0.0, description="weight in the liquid, N; negative for a buoy")
     drag_area: NumberFromZero = Field(default=0.0, description="drag coefficient times area, of ρ C A |u| u/2, m²")

@@ -1,4 +1,4 @@
-"""The title of a scene: one line that tables, pictures and pages can show."""
+"""The title of a scene: one line of printable text."""
 
 from __future__ import annotations
 

@@ -9,7 +9,7 @@ from pydantic import AfterValidator, BeforeValidator, Field, Strict, ValidationE
 
 from hydroelastic.scenes.errors import scene_error
 from hydroelastic.scenes.models.bodies import LARGEST, SMALLEST, SceneModel
-from hydroelastic.scenes.models.problems import misfit, problem
+from hydroelastic.scenes.models.problems import problem, problem_at
 
 MOST_VALUES = 10000
 """Frequencies or times of one analysis."""
@@ -33,17 +33,21 @@ class Sweep(SceneModel):
     def _goes_up(self) -> Sweep:
         problems = []
         if self.stop <= self.start:
-            problems.append(misfit(("stop",), self.stop, "it is not greater than start", allowed=f"> {self.start:g}"))
+            problems.append(
+                problem_at(("stop",), self.stop, "it is not greater than start", allowed=f"> {self.start:g}")
+            )
         elif self.start < SMALLEST and self.spacing == "logarithmic":
             allowed = f'from {SMALLEST:g}, or spacing = "linear"'
-            problems.append(misfit(("start",), self.start, "equal ratios cannot begin so near to 0", allowed=allowed))
+            problems.append(
+                problem_at(("start",), self.start, "equal ratios cannot begin so near to 0", allowed=allowed)
+            )
         if problems:
             raise ValidationError.from_exception_data(type(self).__name__, problems)
         return self
 
     @property
     def values(self) -> tuple[float, ...]:
-        """The values themselves; of equal differences those that are meant, 0.3 rather than 0.30000000000000004."""
+        """The values; equal steps are rounded to the decimal numbers intended, 0.3 rather than 0.30000000000000004."""
         steps = [place / (self.number - 1) for place in range(self.number)]
         if self.spacing == "linear":
             inner = [_shortest(self.start + step * (self.stop - self.start)) for step in steps]
@@ -96,7 +100,7 @@ OR_SWEEP = "or a table {start, stop, number, spacing} of them"
 
 
 def ascending_values(most: int) -> tuple[Any, ...]:
-    """Return what a list of places or times that go up is made with, of ``most`` values."""
+    """Return the type of an ascending list of at most ``most`` places or times."""
     return BeforeValidator(_expanded), AfterValidator(_going_up), Field(min_length=1, max_length=most)
 
 

@@ -24,7 +24,7 @@ from hydroelastic.scenes.models.bodies import (
     physical_joints,
     physical_sections,
 )
-from hydroelastic.scenes.models.problems import misfit
+from hydroelastic.scenes.models.problems import problem_at
 
 Table: TypeAlias = Annotated[tuple[tuple[Place, PositiveNumber], ...], Field(min_length=2, max_length=MOST_SECTIONS)]
 
@@ -80,7 +80,7 @@ class VaryingBeam(SceneModel):
 
     @property
     def is_uniform(self) -> bool:
-        """It is not, or is given so that nobody asks."""
+        """False: a varying beam counts as not uniform."""
         return False
 
     @property
@@ -155,7 +155,7 @@ class VaryingBeam(SceneModel):
 
     @model_serializer(mode="wrap")
     def _as_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        """Leave out the keys of the other way, and joints where there are none."""
+        """Leave out the keys of the alternative form, and an empty list of joints."""
         return {key: value for key, value in write(self).items() if value not in (None, (), [])}
 
 
@@ -169,7 +169,7 @@ def _given_in_one_way(beam: VaryingBeam) -> Iterator[InitErrorDetails]:
         needed, idle = idle, ("youngs_modulus", "poisson_ratio", "density")
     for key in needed:
         if getattr(beam, key) is None:
-            yield misfit(
+            yield problem_at(
                 (key,),
                 None,
                 "it is missing",
@@ -178,32 +178,32 @@ def _given_in_one_way(beam: VaryingBeam) -> Iterator[InitErrorDetails]:
     for key in idle:
         if getattr(beam, key) is not None:
             given = "a thickness" if beam.thickness is not None else "no thickness"
-            yield misfit((key,), getattr(beam, key), f"it has no effect: there is {given}", remedy="Leave it out")
+            yield problem_at((key,), getattr(beam, key), f"it has no effect: there is {given}", remedy="Leave it out")
 
 
 def _covers(beam: VaryingBeam, key: str) -> Iterator[InitErrorDetails]:
-    """Each table begins at the left end, and goes to the right."""
+    """Each table begins at the left end, and its x ascends."""
     table = getattr(beam, key) or ()
     places = [x for x, _ in table]
     if places and places[0] != 0.0:
-        yield misfit((key, 0), places[0], "the first row is not at the left end", allowed="x = 0")
+        yield problem_at((key, 0), places[0], "the first row is not at the left end", allowed="x = 0")
     for number, (left, right) in enumerate(pairwise(places), 1):
         if right < left or (number > 1 and right == places[number - 2]):
-            yield misfit(
+            yield problem_at(
                 (key, number),
                 right,
                 "rows go from left to right, with at most two at one x, which are a step",
                 allowed=f"at least {left:g}",
             )
     if len(places) > 1 and (places[-1] == places[-2] or places[1] == 0.0):
-        yield misfit((key,), places[-1], "a step lies at an end of the beam", remedy="Leave one of both rows out")
+        yield problem_at((key,), places[-1], "a step lies at an end of the beam", remedy="Leave one of both rows out")
 
 
 def _of_one_length(beam: VaryingBeam) -> Iterator[InitErrorDetails]:
     if beam.thickness is None and beam.flexural_rigidity and beam.mass_per_length:
         one, other = beam.flexural_rigidity[-1][0], beam.mass_per_length[-1][0]
         if one != other:
-            yield misfit(
+            yield problem_at(
                 ("mass_per_length",),
                 other,
                 f"it ends at {other:g} m, and flexural_rigidity at {one:g} m",

@@ -91,7 +91,7 @@ OPEN_NAMES = SummaryNames(
         "estimates.thin_float.rows": ("thin_float_row",),
     },
     prefixes={"estimates": "", "estimates.thin_float.rows": "thin_float", "response.missed_peaks": "missed_peak"},
-    told=frozenset(
+    reported_by_arrays=frozenset(
         f"{analysis}.{name}"
         for analysis, table in (
             ("radiation", RadiationTable),
@@ -131,7 +131,7 @@ def open_dataset(solution: OpenSolution) -> xarray.Dataset:
     found = found.set_coords([name for name in ("wavenumber", "wavelength", "period") if name in found])
     found = found.squeeze([name for name in ("wave", "outgoing_wave") if found.sizes.get(name) == 1])
     found = found.assign_coords(_of_the_scene(solution.scene))
-    turning = any(dof.turns for dof in (*motions, *others))
+    turning = any(dof.is_rotation for dof in (*motions, *others))
     for name in found.variables:
         found[name].attrs |= _attributes(str(name), turning=turning)
         if name in _PHASED or str(name).startswith("deflection_of_body"):

@@ -163,7 +163,7 @@ def _responding(problem: _Problem, table: ResponseTable, number: int) -> Iterato
 
 def _largest_response(solution: OpenSolution, table: ResponseTable) -> tuple[int, int]:
     """Places of the frequency and of the wave that move a body most, turns at a distance of half the drawn length."""
-    arms = np.array([0.5 * solution.scene.tank.length if dof.turns else 1.0 for dof in table.dofs])
+    arms = np.array([0.5 * solution.scene.tank.length if dof.is_rotation else 1.0 for dof in table.dofs])
     sizes = (np.abs(table.amplitudes) * arms).max(axis=2)
     row, wave = np.unravel_index(int(np.argmax(sizes)), sizes.shape)
     return int(row), int(wave)
@@ -225,4 +225,4 @@ def _metres(model: OpenModel, motion: int) -> float:
 
 def _unit_motion(model: OpenModel, motion: int) -> str:
     name = model.scale.dofs[motion]
-    return f"{name.words} of 1 {'rad' if name.turns else 'm'}"
+    return f"{name.words} of 1 {'rad' if name.is_rotation else 'm'}"

@@ -10,7 +10,7 @@ import numpy as np
 
 from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, ResonanceTable, ResponseTable
 from hydroelastic.output.pictures.colours import BLUE
-from hydroelastic.output.pictures.curves import COLOURS, GREY, Sheets, dress, plot_curve, sequence_colours
+from hydroelastic.output.pictures.curves import COLOURS, GREY, Sheets, label_axes, plot_curve, sequence_colours
 from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.scenes.open_water.results import OpenSolution
@@ -52,7 +52,7 @@ def draw_open(solution: OpenSolution, folder: Path, options: PictureOptions) -> 
 
 def _by_unit(dofs: tuple[Dof, ...]) -> list[tuple[bool, list[int]]]:
     """Places of the motions that are rotations, rad, and of the others, m; those first that come first."""
-    turns = [motion.turns for motion in dofs]
+    turns = [motion.is_rotation for motion in dofs]
     return [(kind, [place for place, turn in enumerate(turns) if turn == kind]) for kind in dict.fromkeys(turns)]
 
 
@@ -85,9 +85,9 @@ def _draw_radiation(table: RadiationTable, sheets: Sheets, name: str) -> None:
             if len(places) > _MOST_MOTIONS:
                 left.set_title(f"the first {_MOST_MOTIONS} of {len(places)} motions")
             mass_name, unit = ("added inertia", "kg·m") if turns else ("added mass", "kg/m")
-            dress(left, _FREQUENCY, f"{mass_name} a, {unit}")
-            dress(right, _FREQUENCY, f"radiation damping b, {unit}/s")
-            dress(last, _FREQUENCY, "excitation moment |f|, N/m" if turns else "excitation force |f|, N/m²")
+            label_axes(left, _FREQUENCY, f"{mass_name} a, {unit}")
+            label_axes(right, _FREQUENCY, f"radiation damping b, {unit}/s")
+            label_axes(last, _FREQUENCY, "excitation moment |f|, N/m" if turns else "excitation force |f|, N/m²")
 
 
 def _plot_forces(axes: Axes, table: RadiationTable, order: np.ndarray, places: list[int]) -> None:
@@ -117,7 +117,7 @@ def _draw_response(table: ResponseTable, sheets: Sheets, name: str) -> None:
                     size = np.abs(table.amplitudes[order, incident, motion])
                     plot_curve(axes, table.omega[order], size, number, table.dofs[motion].words + which)
                     number += 1
-            dress(axes, _FREQUENCY, "size of rotation, rad/m" if turns else "size of motion, m/m")
+            label_axes(axes, _FREQUENCY, "size of rotation, rad/m" if turns else "size of motion, m/m")
             if len(largest) < len(table.dofs):
                 axes.set_title(f"the {len(largest)} largest of {len(table.dofs)} motions")
 
@@ -130,7 +130,7 @@ def _plot_waves(axes: Axes, table: ResponseTable, order: np.ndarray) -> None:
             for ratio, label in ((table.reflection, "reflection |R|"), (table.transmission, "transmission |T|")):
                 plot_curve(axes, table.omega[order], np.abs(ratio[order, incident, outgoing]), number, label + which)
                 number += 1
-    dress(axes, _FREQUENCY, "size of elevation, m/m")
+    label_axes(axes, _FREQUENCY, "size of elevation, m/m")
 
 
 def _incident(table: RadiationTable | ResponseTable) -> list[str]:
@@ -150,7 +150,7 @@ def _draw_deflection(table: ResponseTable, place: int, sheets: Sheets, name: str
             for row, colour in zip(shown, sequence_colours(len(shown)), strict=True):
                 size = np.abs(plate.deflection[row, incident])
                 axes.plot(plate.positions, size, color=colour, label=f"ω = {table.omega[row]:.4g} rad/s")
-            dress(axes, "x, m", f"size of deflection, m/m{which}")
+            label_axes(axes, "x, m", f"size of deflection, m/m{which}")
             axes.set_ylim(bottom=0.0)
 
 
@@ -177,7 +177,7 @@ def _draw_resonances(table: ResonanceTable, sheets: Sheets, name: str) -> None:
                 fontsize=9,
             )
         axes.margins(0.2)
-        dress(axes, "Re ω, rad/s", "Im ω, 1/s: decay below 0", legend="")
+        label_axes(axes, "Re ω, rad/s", "Im ω, 1/s: decay below 0", legend="")
 
 
 def _resonance_words(omega: complex, label: Dof) -> Iterator[str]:
@@ -208,7 +208,7 @@ def _draw_decay(table: DecayTable, sheets: Sheets, name: str) -> None:
         for axes, (turns, places) in zip(panels, groups, strict=True):
             for number in places:
                 plot_curve(axes, times, displacement[:, number], number, table.dofs[number].words)
-            dress(axes, "time t, s", f"{'rotation, rad' if turns else 'displacement, m'}")
+            label_axes(axes, "time t, s", f"{'rotation, rad' if turns else 'displacement, m'}")
             steps = np.diff(times[times > 0.0])
             if len(steps) and steps.max() > _SPREAD * steps.min():
                 # On an even axis late times would be too sparse to follow the motion.
@@ -231,7 +231,7 @@ def _draw_tail(axes: Axes, table: DecayTable, released: int) -> None:
     if np.count_nonzero(motion) < 2:
         axes.set_axis_off()
         return
-    unit, name = "rad" if table.dofs[released].turns else "m", table.dofs[released].words
+    unit, name = "rad" if table.dofs[released].is_rotation else "m", table.dofs[released].words
     axes.loglog(times, motion, ".-", markersize=4, color=COLOURS[released % len(COLOURS)], label=f"|{name}|")
     axes.loglog(times, table.absolute_error[order], ":", color=GREY, label="estimated error")
     if table.tail is not None:
@@ -239,4 +239,4 @@ def _draw_tail(axes: Axes, table: DecayTable, released: int) -> None:
         axes.loglog(times, tail / times**2, "--", color=GREY, label=f"tail {tail:.3g} {unit}·s²/t²")
         low = max(0.1 * float(motion[motion > 0.0].min()), 1e-16)
         axes.set_ylim(low, 10.0 * float(motion.max()))
-    dress(axes, "time t, s", f"size of the displacement, {unit}")
+    label_axes(axes, "time t, s", f"size of the displacement, {unit}")

@@ -86,9 +86,9 @@ run_open = StagedRun(
     sections=open_sections,
     cost=open_cost,
     sample=_sample,
-    unsampled=lambda water: water.missing,
+    sampling_warnings=lambda water: water.missing,
     write=_write,
     dataset=LabelledResults(arrays=lambda water: open_dataset(water.solution), names=OPEN_NAMES),
     draw=_draw,
-    heeds=OF_CURVES | OF_FIELDS | OF_MOTIONS,
+    used_options=OF_CURVES | OF_FIELDS | OF_MOTIONS,
 )

@@ -10,7 +10,7 @@ import numpy as np
 from mpi4py import MPI
 
 from hydroelastic.fem.kept_tolerance import kept_tolerance
-from hydroelastic.fem.memory import hand_back_memory
+from hydroelastic.fem.memory import release_memory
 from hydroelastic.fem.open_water.decay import DecaySolution, DriftingFloatError, UnstableFloatError, solve_decay
 from hydroelastic.fem.open_water.field_model import OpenModel
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
@@ -83,7 +83,7 @@ def solve_open(scene: TankScene, comm: MPI.Comm, report: Report) -> OpenSolution
         size = size.with_model(solution.model)
         reasons += _reasons(problem.tolerance, number, analysis, solution)
         del solution
-        hand_back_memory()
+        release_memory()
     return OpenSolution(
         scene=scene,
         radiation=tuple(one for one in tables if isinstance(one, RadiationTable)),

@@ -96,7 +96,7 @@ def _radiation(table: RadiationTable) -> Iterator[Section]:
         f"{worst} {table.factorizations} factorizations.",
     )
     for place, motion in enumerate(table.dofs):
-        mass, force = ("kg·m", "N/m") if motion.turns else ("kg/m", "N/m²")
+        mass, force = ("kg·m", "N/m") if motion.is_rotation else ("kg/m", "N/m²")
         rows = []
         for row in shown:
             error = float(table.relative_error[row])
@@ -176,7 +176,7 @@ def _response(table: ResponseTable) -> Iterator[Section]:
         title=f"Motions in waves from the {table.waves_from}, per unit elevation",
         headings=(
             *headings,
-            *(f"{motion.words}, {'rad/m' if motion.turns else 'm/m'}" for motion in motions),
+            *(f"{motion.words}, {'rad/m' if motion.is_rotation else 'm/m'}" for motion in motions),
         ),
         rows=amplitudes,
         lines=(
@@ -245,7 +245,7 @@ def _decay(table: DecayTable) -> Section:
         )
         for row in shown
     ]
-    units = ["rad" if motion.turns else "m" for motion in dofs]
+    units = ["rad" if motion.is_rotation else "m" for motion in dofs]
     tail = (
         ()
         if table.tail is None

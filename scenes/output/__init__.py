@@ -1,1 +1,1 @@
-"""What all kinds of scenes share of their results: tables, folders, curves, provenance."""
+"""Output that all kinds of scenes share: tables, folders, curves, provenance."""

@@ -1,4 +1,4 @@
-"""What the command check prints."""
+"""The output of the command check."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from hydroelastic.scenes.output.sections import Section
 
 
 def print_check(title: str, sections: Iterable[Section], console: Console) -> None:
-    """Print what a scene will be modelled as; of what has no table, the heading is left out.
+    """Print the model of a scene; sections without a table have no heading.
 
     Args:
         title: of the scene.
-        sections: what is modelled.
+        sections: tables of the model.
         console: where to print.
     """
     # Text, not str: a title may hold brackets, which rich would read as markup.

@@ -1,4 +1,4 @@
-"""All that is known of a scene as one labelled dataset, `dataset.nc`: arrays of its kind and the whole summary."""
+"""All results of a scene as one labelled dataset, `dataset.nc`: arrays of its kind and the whole summary."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ DATASET = "dataset.nc"
 SUMMARY_TEXT = "summary"
 """The variable that holds the summary as the text of ``summary.json``."""
 
-# Keys of summaries whose variables come last: how it was solved, and what that took.
+# Keys of summaries whose variables come last: those about the solution and its cost.
 _BOOKKEEPING = ("reasons", "solver", "size", "timing", "memory_peak", "versions")
 
 
 @dataclass(frozen=True, kw_only=True)
 class LabelledResults:
-    """What the datasets of one kind of scene are made of.
+    """The contents of the datasets of one kind of scene.
 
     Attributes:
-        arrays: gives the labelled arrays of what was solved; they may be complex.
-        names: of what the summary holds.
+        arrays: function that returns the labelled arrays of a solution, which may be complex.
+        names: of the tables of the summary.
     """
 
     arrays: Callable[[Any], xarray.Dataset]
@@ -39,7 +39,7 @@ class LabelledResults:
 
 
 def with_summary(arrays: xarray.Dataset, summary: Summary, names: SummaryNames) -> xarray.Dataset:
-    """Return labelled arrays with all that the summary says beside them: as variables, and as it is, as text.
+    """Return labelled arrays with the summary: its values as variables, and its whole text.
 
     Args:
         arrays: of the kind of scene.
@@ -49,7 +49,7 @@ def with_summary(arrays: xarray.Dataset, summary: Summary, names: SummaryNames) 
     import xarray
 
     content = json_ready(summary)
-    # The scene, a tree without numbers that one would plot, is in the text alone.
+    # The scene is in the text only.
     told = {key: value for key, value in content.items() if key not in ("scene", "status")}
     told |= {key: told.pop(key) for key in _BOOKKEEPING if key in told}
     text = xarray.Variable((), json.dumps(content, ensure_ascii=False), {"long_name": "content of summary.json"})
@@ -96,7 +96,7 @@ def _without_complex_numbers(dataset: xarray.Dataset) -> xarray.Dataset:
     separated = dataset.copy()
     for name, values in dataset.data_vars.items():
         if np.iscomplexobj(values):
-            # What was not computed has no imaginary part either.
+            # Values that were not computed are NaN in both parts.
             parts = xarray.concat([values.real, values.imag], dim="complex").where(values.notnull())
             separated[name] = parts.assign_coords(complex=["re", "im"]).assign_attrs(values.attrs)
     return separated

@@ -6,7 +6,7 @@ from math import floor, log10
 
 
 def with_certain_digits(value: float, relative_error: float) -> str:
-    """A number with the digits that its error leaves certain, between 4 and 13."""
+    """A number with the digits that are certain by its error estimate, between 4 and 13."""
     digits = 4
     while digits < 13 and 10.0 ** (-digits) > relative_error:
         digits += 1
@@ -14,7 +14,7 @@ def with_certain_digits(value: float, relative_error: float) -> str:
 
 
 def beyond_error(value: float, absolute_error: float) -> str:
-    """A number as far as its error leaves it certain, with up to six digits; 0 where it is no larger than that."""
+    """A number with its certain digits, at most six; 0 where it is not larger than its error."""
     if abs(value) <= absolute_error:
         return "0"
     certain = floor(log10(abs(value))) - floor(log10(absolute_error)) if absolute_error > 0.0 else 6

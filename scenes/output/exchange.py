@@ -15,8 +15,8 @@ _RENAME_EXCHANGE = 2
 def exchange(new: Path, old: Path) -> None:
     """Let two folders of one file system exchange their names.
 
-    On Linux it is one step: whoever looks sees either folder whole, and a process that is killed leaves one of both
-    states. Some network file systems, and other systems, need two steps. Between them the old folder has the name of
+    On Linux the exchange is atomic: at any time, also after a killed process, one of both states is seen. Some network
+    file systems, and other systems, need two steps. Between them the old folder has the name of
     the new one with the ending ``.previous``.
 
     Args:
@@ -24,7 +24,7 @@ def exchange(new: Path, old: Path) -> None:
         old: the other one; afterwards it has the name of the first.
 
     Raises:
-        OSError: if the folders cannot be renamed; both have their names still.
+        OSError: if the folders cannot be renamed; both keep their names.
     """
     if sys.platform == "linux":
         # Python has no function for it. glibc 2.28 of 2018 is the first one that has.

@@ -1,4 +1,4 @@
-"""Result folders that appear whole or not at all, and that keep what a run did not write."""
+"""Result folders, written atomically; files that no run wrote are kept."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ MOST_KEPT_NAMED = 3
 
 
 def check_output(path: str | Path) -> Manifest | None:
-    """See, before any solving, that a result folder can be written; leaves nothing behind.
+    """Check, before solving, that a result folder can be written; leaves no files.
 
-    What runs that were killed have left beside the folder is removed.
+    Temporary folders of killed runs beside the folder are removed.
 
     Args:
         path: the folder to be written. Missing folders above it would be made. The files of a previous run
@@ -61,10 +61,10 @@ def check_output(path: str | Path) -> Manifest | None:
 
 @contextmanager
 def result_folder(path: str | Path, *, scene_file: Path | None = None) -> Iterator[Path]:
-    """Give a folder to write into; when the block ends well it becomes ``path``, else it vanishes.
+    """Provide a folder to write into; when the block ends without an error it becomes ``path``, else it is removed.
 
     The folder is made beside ``path``, so that moving it is a renaming within one file system. Files that a previous
-    run listed and that are unchanged are replaced only then. All else that is in ``path`` keeps its place; where the
+    run listed and that are unchanged are replaced only then. All other files in ``path`` are kept; where the
     new results have a file of that name, it gets the ending ``.kept``. Exceptions, Ctrl-C and the signals that end a
     job remove what was written. Under MPI only one rank may enter.
 
@@ -97,9 +97,9 @@ def result_folder(path: str | Path, *, scene_file: Path | None = None) -> Iterat
 
 @contextmanager
 def _aside(target: Path) -> Iterator[Path]:
-    """Give an empty folder beside another one, which vanishes at the end of the block, and with the process.
+    """Provide an empty folder beside another one; it is removed at the end of the block or of the process.
 
-    A shared lock on it, which ends with the process however that ends, tells later runs that it is in use.
+    A shared lock on it, which ends with the process, shows later runs that it is in use.
     """
     aside = target.parent / f".{target.name}.{secrets.token_hex(4)}.partial"
     with unfinished(aside):
@@ -108,7 +108,8 @@ def _aside(target: Path) -> Iterator[Path]:
         try:
             with contextlib.suppress(OSError):  # Some network file systems have no locks.
                 fcntl.flock(held, fcntl.LOCK_SH)
-            aside.mkdir(exist_ok=True)  # A run that looked for remains may have removed it before it was locked.
+            # Another run may have removed it as a remainder before it was locked.
+            aside.mkdir(exist_ok=True)
             yield aside
         finally:
             shutil.rmtree(aside, ignore_errors=True)
@@ -116,7 +117,7 @@ def _aside(target: Path) -> Iterator[Path]:
 
 
 def _clear_remains(target: Path) -> None:
-    """Remove what killed runs have left beside a folder; where one was killed amid a move, move back."""
+    """Remove temporary folders of killed runs beside a folder; undo a move that was interrupted."""
     name = f".{glob.escape(target.name)}.????????"
     for remains in target.parent.glob(f"{name}.previous"):
         if not target.exists():
@@ -132,7 +133,7 @@ def _clear_remains(target: Path) -> None:
 
 
 def _concerns(error: OSError, folder: Path) -> bool:
-    """Whether an error comes from writing below ``folder``, and not from something else that the block did."""
+    """Whether an error comes from writing below ``folder``, and not from other operations of the block."""
     full_or_locked = error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EROFS)
     return full_or_locked or (error.filename is not None and Path(os.fsdecode(error.filename)).is_relative_to(folder))
 
@@ -157,7 +158,7 @@ def _refuse_occupied(target: Path) -> None:
 
 
 def _move_in(aside: Path, target: Path) -> None:
-    """Put the finished folder in place of the previous one, together with what no run wrote there."""
+    """Put the finished folder in place of the previous one, together with files that no run wrote."""
     if not target.exists():
         aside.rename(target)
         return
@@ -165,12 +166,12 @@ def _move_in(aside: Path, target: Path) -> None:
     found = file_names(target)
     _keep([name for name in found if not earlier.is_own(target, name)], target, aside)
     exchange(aside, target)
-    # What came after the look is where the new results have been made.
+    # Files created since the listing are in the folder that has been exchanged.
     _keep(sorted(set(file_names(aside)) - set(found)), aside, target)
 
 
 def _keep(names: list[str], source: Path, target: Path) -> None:
-    # What keeps its name goes first.
+    # Files that keep their name are moved first.
     for name in sorted(names, key=lambda name: os.path.lexists(target / name)):
         _link(source / name, _free_name(target / name))
 
@@ -183,7 +184,7 @@ def _free_name(path: Path) -> Path:
 
 
 def _link(source: Path, target: Path) -> None:
-    """Give a file a second name; where the file system has no such thing, copy it."""
+    """Hard-link a file; copy it where the file system has no hard links."""
     target.parent.mkdir(parents=True, exist_ok=True)
     try:
         os.link(source, target, follow_symlinks=False)
@@ -191,8 +192,8 @@ def _link(source: Path, target: Path) -> None:
         shutil.copy2(source, target, follow_symlinks=False)
 
 
-def place_of_results(folder: Path, *, replaces: bool) -> str:
-    """Return where results are, in words: what was there before, and what of it is there still.
+def results_message(folder: Path, *, replaces: bool) -> str:
+    """Return the message about the place of results: earlier files that were replaced, and those that are kept.
 
     Args:
         folder: the result folder.
@@ -212,7 +213,7 @@ def _remove_if_empty(folders: list[Path]) -> None:
         try:
             folder.rmdir()
         except OSError:
-            return  # it holds something by now, and so do the folders above it
+            return  # it is no longer empty, nor are the folders above it
 
 
 def write_summary(summary: dict[str, Any], folder: Path) -> None:
@@ -222,7 +223,7 @@ def write_summary(summary: dict[str, Any], folder: Path) -> None:
 
 
 def raise_on_all(problem: BaseException | None, comm: MPI.Comm) -> None:
-    """Raise on all processes what went wrong on rank 0, which alone writes (collective).
+    """Raise an error of rank 0, which alone writes, on all processes (collective).
 
     Raises:
         SceneError: on the other processes.

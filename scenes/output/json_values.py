@@ -1,4 +1,4 @@
-"""Values of a summary in what JSON knows."""
+"""Conversion of the values of a summary to types of JSON."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 
 
 def json_ready(value: Any) -> Any:
-    """Return a value in what JSON knows: arrays as lists, complex numbers as pairs, no infinity and no NaN."""
+    """Return a value in types of JSON: arrays as lists, complex numbers as pairs, no infinity and no NaN."""
     if isinstance(value, np.ndarray):
         return json_ready(value.tolist())
     if isinstance(value, dict):

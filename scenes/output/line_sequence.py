@@ -1,4 +1,4 @@
-"""A line in motion as files that ParaView plays: a VTU file for each frame, and a PVD file that tells the times."""
+"""A moving line as a sequence for ParaView: a VTU file for each frame, and a PVD file with the times."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Frame = tuple[float, NDArray[np.float64], dict[str, NDArray[np.float64]]]
 
 
 def frame_numbers(frames: int, times: int) -> list[int]:
-    """Return which of so many times are frames of a sequence, evenly spread over all."""
+    """Return the indices of the times that are frames of a sequence, evenly spread."""
     count = min(frames, times)
     return sorted({int(place) for place in np.linspace(0, times - 1, count).round()})
 

@@ -1,8 +1,8 @@
-"""What the main numbers of summaries are, in words."""
+"""Long names of the main numbers of summaries."""
 
 from __future__ import annotations
 
-_SAID = {
+_LONG_NAMES = {
     "modes.omega": "angular frequency of a mode",
     "modes.frequency_hz": "frequency of a mode",
     "modes.relative_error": "estimated relative error of the frequency of a mode",
@@ -31,9 +31,9 @@ _SAID = {
 
 
 def long_name_of(place: str) -> str:
-    """Return what stands at a place: in words where there are any, by the keys that lead to it elsewhere.
+    """Return the long name of a place; by default its keys.
 
     Args:
         place: keys that lead to it, joined by dots.
     """
-    return _SAID.get(place) or place.replace(".", ", ").replace("_", " ")
+    return _LONG_NAMES.get(place) or place.replace(".", ", ").replace("_", " ")

@@ -1,4 +1,4 @@
-"""The list of the files that a run wrote into its result folder: what a later run may replace, and nothing else."""
+"""The list of the files that a run wrote into its result folder: the only files that a later run may replace."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ MANIFEST = "manifest.json"
 
 @dataclass(frozen=True, kw_only=True)
 class Manifest:
-    """What an earlier run left in a result folder.
+    """The files that an earlier run wrote into a result folder.
 
     Attributes:
         scene: the scene file as a path relative to the folder, so that both may be moved together; empty where the
@@ -45,7 +45,7 @@ def write_manifest(folder: Path, *, scene_file: Path | None, place: Path) -> Non
     """List all files of a finished folder in its ``manifest.json``, the last file to be written.
 
     Args:
-        folder: what is finished.
+        folder: the finished folder.
         scene_file: the scene file; ``None`` where the scene came from Python.
         place: the folder's absolute path after it is moved in.
     """
@@ -68,7 +68,7 @@ def read_manifest(folder: Path) -> Manifest | None:
 
 
 def file_names(folder: Path) -> list[str]:
-    """Return all that is in a folder and is not a folder itself, links among it, as paths relative to it."""
+    """Return all files and links below a folder, as paths relative to it."""
     names = []
     for place, folders, files in os.walk(folder):
         links = [name for name in folders if os.path.islink(os.path.join(place, name))]

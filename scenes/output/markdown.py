@@ -1,18 +1,18 @@
-"""Text that Markdown (CommonMark, with the tables of GitHub) shows as it is."""
+"""Escaping of text for Markdown (CommonMark, with the tables of GitHub)."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Sequence
 
-# Signs that begin something wherever they stand, and those that do so only before or beside something.
+# Characters that are markup anywhere, and those that are markup only before or beside certain others.
 _SIGNS = re.compile(r"[\\`*~|$#\[\]]|<(?=[A-Za-z/!?])|&(?=#|\w+;)|(?<![^\W_])_|_(?![^\W_])")
-# What stands before the sign of a quotation, a list or a rule at the beginning of a line; numbers have theirs.
+# Characters that begin a quotation, a list or a rule at the beginning of a line; numbered lists are separate.
 _BEGINNING = re.compile(r"^\s*(?=>|[+-](?:[\s-]|$))|^\s*\d{1,9}(?=[.)](?:\s|$))")
 
 
 def markdown_text(text: str) -> str:
-    """Return a text of one line as it is written in Markdown: as a heading, a line or a cell it is read as given."""
+    """Return a text of one line escaped for a heading, a line or a cell of Markdown."""
     return _BEGINNING.sub(r"\g<0>\\", _SIGNS.sub(r"\\\g<0>", text))
 
 

@@ -1,4 +1,4 @@
-"""What the run of any scene gives."""
+"""The outcome of a run of any scene."""
 
 from __future__ import annotations
 
@@ -7,24 +7,24 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from hydroelastic.scenes.output.folder import place_of_results
+from hydroelastic.scenes.output.folder import results_message
 from hydroelastic.scenes.output.provenance import Summary
 from hydroelastic.scenes.output.sections import Section, printed_sections
 
 
 @dataclass(frozen=True, kw_only=True)
 class Outcome:
-    """What a run gave.
+    """The outcome of a run.
 
     Attributes:
-        solution: what was solved, a value of its own for each kind of scene.
+        solution: the solution, of a type for each kind of scene.
         summary: content of ``summary.json``.
         sections: the tables that a person reads.
-        cost: a line that says what the result took.
+        cost: a line about size and time.
         notes: whether the notes of the tables are printed.
         folder: where the results were written; ``None`` if nowhere.
-        replaces: whether results of an earlier run were there, and are gone.
-        warnings: what was asked and could not be done, beside the solution.
+        replaces: whether results of an earlier run were replaced.
+        warnings: requests besides the solution that could not be fulfilled.
     """
 
     solution: Any
@@ -43,7 +43,7 @@ class Outcome:
 
     @property
     def reasons(self) -> tuple[str, ...]:
-        """Why the solution does not keep what was asked; empty if it does."""
+        """Reasons why the requested accuracy is not reached; empty if it is."""
         return tuple(self.summary["reasons"])
 
     @cached_property
@@ -52,7 +52,7 @@ class Outcome:
         return printed_sections(self.summary, self.sections, self.cost, notes=self.notes)
 
     def table(self) -> str:
-        """The tables for a terminal, and where the results are."""
+        """The tables for a terminal, and the place of the results."""
         if self.folder is None:
             return self.tables
-        return f"{self.tables}\nResults written to {place_of_results(self.folder, replaces=self.replaces)}"
+        return f"{self.tables}\nResults written to {results_message(self.folder, replaces=self.replaces)}"

@@ -1,4 +1,4 @@
-"""What a summary says of how its numbers came about: status, size, seconds, versions and memory."""
+"""Provenance of the numbers of a summary: status, size, seconds, versions and memory."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ PACKAGES = ("hydroelastic", "fenics-dolfinx", "petsc4py", "slepc4py", "gmsh", "n
 
 
 def versions() -> dict[str, str]:
-    """Return the versions of what a solution rests on."""
+    """Return the versions of the packages behind a solution."""
     found = {"python": platform.python_version()}
     for package in PACKAGES:
         try:
@@ -39,7 +39,7 @@ def memory_of_process() -> int:
 
 
 class Solved(Protocol):
-    """What the solution of any scene tells of itself."""
+    """Interface of the solution of any scene."""
 
     @property
     def scene(self) -> Any:
@@ -47,22 +47,22 @@ class Solved(Protocol):
 
     @property
     def reasons(self) -> Sequence[str]:
-        """Why it does not keep what was asked; empty if it does."""
+        """Reasons why the requested accuracy is not reached; empty if it is."""
 
     @property
     def seconds(self) -> dict[str, float]:
         """Time by stage."""
 
 
-def framed_summary(
+def complete_summary(
     solution: Solved, content: Summary, size: dict[str, int], comm: MPI.Comm, import_seconds: float
 ) -> Summary:
-    """Put what every summary has about the content of one (collective: peak memory is summed over processes).
+    """Add the parts common to all summaries to the content of one (collective: peak memory is summed over processes).
 
     Args:
         solution: of the scene.
-        content: what the kind of the scene has of its own.
-        size: of the problem that was solved.
+        content: content specific to the kind of scene.
+        size: size of the problem.
         comm: the processes.
         import_seconds: time spent importing libraries.
 

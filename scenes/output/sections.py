@@ -1,4 +1,4 @@
-"""What a person reads of a result: tables under headings, for a terminal and in Markdown."""
+"""Results as tables under headings, for a terminal and in Markdown."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ Row: TypeAlias = tuple[str, ...]
 
 @dataclass(frozen=True, kw_only=True)
 class Section:
-    """A table with a heading and what is said below it.
+    """A table with a heading and lines below it.
 
     Attributes:
         title: heading.
         headings: of the columns.
-        rows: cells as text; none where there are only lines.
-        lines: what is said below the table.
-        notes: what explains the rows, for who asks: printed by the command compare alone.
-        compares: whether it sets a theory beside the solution; a report puts those apart.
+        rows: cells as text; empty if there are only lines.
+        lines: lines below the table.
+        notes: explanations of the rows: printed by the command compare only.
+        compares: whether it compares the solution with a theory; a report shows these separately.
     """
 
     title: str
@@ -42,12 +42,12 @@ class Section:
 def printed_sections(
     summary: Summary, sections: Iterable[Section], cost: str, *, notes: bool = False, width: int = 120
 ) -> str:
-    """All of a result as text for a terminal.
+    """A result as text for a terminal.
 
     Args:
         summary: content of ``summary.json``.
         sections: the tables.
-        cost: a line that says what the result took.
+        cost: a line about size and time.
         notes: whether to print the notes of the tables.
         width: of the text, in characters.
     """
@@ -66,7 +66,7 @@ def printed_sections(
 
 
 def markdown_sections(summary: Summary, sections: Iterable[Section], cost: str) -> str:
-    """All of a result as Markdown, with all notes; the arguments are those of `printed_sections`."""
+    """A result as Markdown, with all notes; the arguments are those of `printed_sections`."""
     parts = [f"# {markdown_text(title_of(summary))}", ""]
     complaint, *reasons = status_lines(summary) or [""]
     parts += [f"**{complaint}**", *(f"- {markdown_text(reason)}" for reason in reasons), ""] if complaint else []
@@ -86,7 +86,7 @@ def title_of(summary: Summary) -> str:
 
 
 def status_lines(summary: Summary) -> list[str]:
-    """A loud word if the answer does not keep what was asked, then the reasons."""
+    """A warning if the requested accuracy is not reached, then the reasons."""
     if summary["status"] == "ok":
         return []
     tolerance = summary["scene"]["accuracy"]["tolerance"]

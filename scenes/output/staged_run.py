@@ -1,4 +1,4 @@
-"""The run of a scene in stages that each kind has its own of: solve, summarize, tabulate, write, draw."""
+"""The run of a scene in stages, which each kind of scene implements: solve, summarize, tabulate, write, draw."""
 
 from __future__ import annotations
 
@@ -36,20 +36,20 @@ def _nothing(_solution: Any) -> tuple[str, ...]:
 
 @dataclass(frozen=True, kw_only=True)
 class StagedRun(Generic[_Scene, _Solution]):
-    """What runs scenes of one kind.
+    """Runs scenes of one kind.
 
     Attributes:
-        solve: gives the solution of a scene (collective).
-        summarize: gives the content of ``summary.json`` (collective).
-        sections: gives the tables that a person reads.
-        cost: gives a line that says what the result took.
+        solve: returns the solution of a scene (collective).
+        summarize: returns the content of ``summary.json`` (collective).
+        sections: returns the tables.
+        cost: returns a line about size and time.
         write: writes files of numbers into a folder, on rank 0.
-        dataset: what `dataset.nc` is made of.
-        draw: draws into a folder, on rank 0, and tells what is being drawn.
-        heeds: the options that the pictures heed; of others a run says that they have no effect.
-        lacking: says what an animation of the solution lacks, and which key gives it; nothing by default.
-        sample: makes what is written and drawn of the solution and its summary (collective); the solution by default.
-        unsampled: says what could not be sampled, and why; nothing by default.
+        dataset: contents of `dataset.nc`.
+        draw: draws into a folder, on rank 0, and reports each picture.
+        used_options: the options that the pictures use; a run warns that others have no effect.
+        animation_warnings: returns limitations of an animation of the solution, and the key to set; none by default.
+        sample: samples the solution for files and pictures (collective); the solution itself by default.
+        sampling_warnings: returns what could not be sampled, and why; none by default.
     """
 
     solve: Callable[[_Scene, MPI.Comm, Report], _Solution]
@@ -59,10 +59,10 @@ class StagedRun(Generic[_Scene, _Solution]):
     write: Callable[[Any, Path], None]
     dataset: LabelledResults
     draw: Callable[[Any, Path, PictureOptions, Report], None]
-    heeds: frozenset[PictureOption]
-    lacking: Callable[[_Solution], tuple[str, ...]] = _nothing
+    used_options: frozenset[PictureOption]
+    animation_warnings: Callable[[_Solution], tuple[str, ...]] = _nothing
     sample: Callable[[_Solution, Summary], Any] = _as_solved
-    unsampled: Callable[[Any], tuple[str, ...]] = _nothing
+    sampling_warnings: Callable[[Any], tuple[str, ...]] = _nothing
 
     def __call__(
         self,
@@ -84,7 +84,7 @@ class StagedRun(Generic[_Scene, _Solution]):
             images: how to draw; ``None`` draws nothing.
             page: writes a page about the outcome into the folder, on rank 0 and last; ``None`` writes none.
             import_seconds: time that importing libraries took, for the record.
-            report: told what is being done.
+            report: called with the name of each step.
 
         Raises:
             SceneError: if a file that the scene names cannot be used, or the folder cannot be written.
@@ -96,19 +96,19 @@ class StagedRun(Generic[_Scene, _Solution]):
         sections = tuple(self.sections(solution, summary))
         outcome = Outcome(solution=solution, summary=summary, sections=sections, cost=self.cost(summary), folder=out)
         if out is not None:
-            # Asked before anything is written there.
+            # Read before anything is written there.
             replaces = read_manifest(out) is not None
             watch = Stopwatch()
             report("fields")
             with watch.stage("sample"):
                 sampled = self.sample(solution, summary)
             summary["timing"].update(watch.seconds)
-            missing = self.unsampled(sampled)
+            missing = self.sampling_warnings(sampled)
             if images is not None:
-                missing += images.without_effect(self.heeds)
-                missing += self.lacking(solution) if images.animate else ()
+                missing += images.without_effect(self.used_options)
+                missing += self.animation_warnings(solution) if images.animate else ()
 
-            def told(warnings: tuple[str, ...]) -> Outcome:
+            def with_warnings(warnings: tuple[str, ...]) -> Outcome:
                 # Writing has added its seconds to the summary.
                 return replace(outcome, cost=self.cost(summary), warnings=(*warnings, *missing), replaces=replaces)
 
@@ -121,8 +121,8 @@ class StagedRun(Generic[_Scene, _Solution]):
                 names=self.dataset.names,
                 pictures=None if images is None else (lambda folder: self.draw(sampled, folder, images, report)),
                 text=lambda content: markdown_sections(content, sections, self.cost(content)),
-                page=None if page is None else lambda folder, warnings: page(told(warnings), folder),
+                page=None if page is None else lambda folder, warnings: page(with_warnings(warnings), folder),
                 report=report,
             )
-            return told(warnings)
+            return with_warnings(warnings)
         return outcome

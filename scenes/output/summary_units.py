@@ -42,7 +42,7 @@ _BY_UNIT = {
     "byte": "memory_peak",
 }
 _UNITS = {key: unit for unit, keys in _BY_UNIT.items() for key in keys.split()}
-# Where the key before tells what a word means.
+# Units that depend on the preceding key.
 _UNITS |= {
     "floats.coupling_stiffness": "N/m",
     "floats.modes.added_mass": "kg/m or, of roll, kg m",
@@ -57,7 +57,7 @@ _UNITS |= {
 
 
 def unit_of(place: str) -> str | None:
-    """Return the unit of a number; ``None`` where it is not known, or differs from entry to entry.
+    """Return the unit of a number; ``None`` if it is unknown, or differs between entries.
 
     Args:
         place: keys that lead to it, joined by dots.

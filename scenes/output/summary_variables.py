@@ -1,7 +1,8 @@
 """A summary as labelled variables: every number, word and truth value under the keys that lead to it.
 
 `size: {cells: 83}` becomes the variable `size_cells`. The entries of a list lie along a dimension, so that a list of
-entries with keys of their own becomes a variable for each of the keys. What an entry lacks is NaN, or the text "".
+entries with keys of their own becomes a variable for each of the keys. Values missing from an entry are NaN, or the
+text "".
 """
 
 from __future__ import annotations
@@ -26,20 +27,20 @@ _INTEGERS = np.iinfo(np.int32)
 
 @dataclass(frozen=True, kw_only=True)
 class SummaryNames:
-    """How the tables in the summary of a kind of scene are named. A place is the keys that lead to it, joined by dots.
+    """Names of the tables in the summary of a kind of scene. A place is the keys that lead to it, joined by dots.
 
     Attributes:
         dimensions: of the list at a place, one for each level of lists within lists; of a dictionary whose keys are
             labels, one. Those of other lists are named after their place.
-        prefixes: what stands for a place in the names of the variables below it.
-        units: of numbers at a place, where the key does not tell.
-        told: places that are left out, for the labelled arrays of the kind tell the same.
+        prefixes: prefix that replaces a place in the names of the variables below it.
+        units: of numbers at a place, where the key does not determine it.
+        reported_by_arrays: places that are left out because the labelled arrays contain the same.
     """
 
     dimensions: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     prefixes: Mapping[str, str] = field(default_factory=dict)
     units: Mapping[str, str] = field(default_factory=dict)
-    told: frozenset[str] = frozenset()
+    reported_by_arrays: frozenset[str] = frozenset()
 
 
 # Tables that all summaries have.
@@ -48,7 +49,7 @@ _DIMENSIONS = {"timing": ("stage",), "versions": ("package",), "reasons": ("reas
 
 @dataclass(frozen=True, kw_only=True)
 class _Column:
-    """What stands at one place of a summary, in each entry of the tables around it.
+    """The values at one place of a summary, one for each entry of the enclosing tables.
 
     Attributes:
         place: keys that lead to it.
@@ -66,7 +67,7 @@ class _Column:
 
     @property
     def first(self) -> Any:
-        """The first value that there is."""
+        """The first value that is not missing."""
         return next((entry for entry in self.entries.flat if entry is not None), None)
 
     @property
@@ -99,13 +100,13 @@ class _Column:
 
 
 def summary_variables(summary: Summary, names: SummaryNames) -> xarray.Dataset:
-    """Return a summary as variables with units, but for what `SummaryNames.told` says.
+    """Return a summary as variables with units, without the places of `SummaryNames.reported_by_arrays`.
 
     Args:
-        summary: content of ``summary.json``, in what JSON knows.
+        summary: content of ``summary.json``, in types of JSON.
         names: of its tables.
     """
-    # xarray takes a while to import.
+    # The import of xarray is slow.
     import xarray
 
     whole = np.empty((), dtype=object)
@@ -118,8 +119,8 @@ def summary_variables(summary: Summary, names: SummaryNames) -> xarray.Dataset:
 
 
 def _leaves(column: _Column, names: SummaryNames) -> Iterator[_Column]:
-    """The columns of numbers, words and truth values."""
-    if column.place in names.told:
+    """The columns of numbers, texts and truth values."""
+    if column.place in names.reported_by_arrays:
         return
     column = _unrolled(column, list(names.dimensions.get(column.place, _DIMENSIONS.get(column.place, ()))))
     if isinstance(column.first, dict):
@@ -147,7 +148,7 @@ def _unrolled(column: _Column, dimensions: list[str]) -> _Column:
 
 
 def _typed(column: _Column, names: SummaryNames) -> tuple[NDArray[Any], dict[str, str]]:
-    """The values of a column in a type that NetCDF knows, and what they are."""
+    """The values of a column in a type of NetCDF, with their attributes."""
     unit = names.units.get(column.place, unit_of(column.place))
     said = {"long_name": long_name_of(column.place)}
     known = [entry for entry in column.entries.flat if entry is not None]

@@ -1,4 +1,4 @@
-"""Write what was solved: on the first process, whole or not at all."""
+"""Write the results on the first process, all or nothing."""
 
 from __future__ import annotations
 
@@ -40,15 +40,15 @@ def write_results(
         summary: content of ``summary.json``; the seconds that writing takes are added.
         scene_file: where the scene was read; ``None`` if it was made in Python.
         tables: writes files of numbers into a folder.
-        arrays: gives the labelled arrays of ``dataset.nc``.
-        names: of what the summary adds to them.
+        arrays: returns the labelled arrays of ``dataset.nc``.
+        names: names of the variables from the summary.
         pictures: draws into a folder; ``None`` draws nothing.
-        text: gives the content of ``summary.md``.
-        page: writes a page about all the rest, and the warnings, into the folder; ``None`` writes none.
-        report: told what is being done.
+        text: returns the content of ``summary.md``.
+        page: writes a page about the results and warnings into the folder; ``None`` writes none.
+        report: called with the name of each step.
 
     Returns:
-        Warnings: what could not be drawn, and why.
+        Warnings: pictures that could not be drawn, and why.
 
     Raises:
         SceneError: if the folder cannot be written.
@@ -75,13 +75,13 @@ def write_results(
                 summary["timing"].update(watch.seconds)
                 (folder / "summary.md").write_text(text(summary), encoding="utf-8")
                 write_summary(summary, folder)
-                # It holds the same summary, which knows all seconds by now but those that its own writing takes.
+                # The dataset contains the summary, which by now has the seconds of all stages except this one.
                 write_dataset(with_summary(labelled, summary, names), folder / DATASET)
                 if page is not None:
                     report("page")
                     page(folder, tuple(warnings))
         except BaseException as error:
-            # Whatever it is, the other processes wait to hear of it.
+            # Any exception must reach the other processes, which wait for it.
             problem = error
     raise_on_all(problem, comm)
     return tuple(warnings)

@@ -1,4 +1,4 @@
-"""The answer of a run in a few numbers, each with its estimated error: what a reader looks for first."""
+"""The main results of a run, each with its estimated error."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from hydroelastic.scenes.output.digits import with_certain_digits
 from hydroelastic.scenes.output.provenance import Summary
 from hydroelastic.scenes.output.sections import Row, Section
 
-# Frequencies of one analysis; the others stand in its table.
+# Number of frequencies of one analysis; the others are in its table.
 _MOST_MODES = 3
 _ROUNDING = 1e-13
-# As JSON has it: a number, or "inf", or nothing.
+# In types of JSON: a number, "inf" or null.
 _Error: TypeAlias = float | str | None
 
 
 def answer(summary: Summary) -> Section:
-    """Return the numbers that stand for a result, with their relative errors.
+    """Return the main numbers of a result, with their relative errors.
 
     Args:
         summary: content of ``summary.json``.
@@ -39,7 +39,7 @@ def _row(quantity: str, value: float, relative_error: _Error) -> Row:
 
 
 def _of_absolute(quantity: str, value: float, error: _Error) -> Row:
-    """A value whose error is known in its own unit."""
+    """A value with an absolute error."""
     if not isinstance(error, float):
         return _row(quantity, value, None)
     if abs(value) <= error:
@@ -48,7 +48,7 @@ def _of_absolute(quantity: str, value: float, error: _Error) -> Row:
 
 
 def _tank(summary: Summary) -> Iterator[Row]:
-    """Motions that grow, the lowest frequencies, and those that belong to a body."""
+    """Growing motions, the lowest frequencies, and those of the bodies."""
     for growing in summary["growing"][:1]:
         yield _row("fastest growth of an unstable motion, 1/s", growing["growth_rate"], growing["relative_error"])
     for number, mode in enumerate(summary["modes"][:_MOST_MODES], 1):
@@ -67,7 +67,7 @@ def _tank(summary: Summary) -> Iterator[Row]:
 
 
 def _open_water(summary: Summary) -> Iterator[Row]:
-    """Of each analysis what is largest, and the slowest resonances."""
+    """The largest values of each analysis, and the slowest resonances."""
     for table in summary["radiation"]:
         yield from _largest_damping(table)
     for table in summary["response"]:
@@ -86,23 +86,25 @@ def _open_water(summary: Summary) -> Iterator[Row]:
             yield _of_absolute(f"decay of resonance {number}, −Im ω, 1/s", -growth, absolute)
     for table in summary["decay"]:
         released = max(range(len(table["dofs"])), key=lambda place: abs(table["initial"][place]))
-        # At late times next to nothing is left: how far it swings to the other side says more.
+        # At late times the motion has decayed: the largest swing to the other side is reported instead.
         sign = -1.0 if table["initial"][released] > 0.0 else 1.0
         back = max(range(len(table["times"])), key=lambda place: sign * table["displacement"][place][released])
         motion = Dof(table["dofs"][released])
         name = f"{motion.words} furthest to the other side after release, at t = {table['times'][back]:.4g} s"
-        name += ", rad" if motion.turns else ", m"
+        name += ", rad" if motion.is_rotation else ", m"
         yield _of_absolute(name, table["displacement"][back][released], table["absolute_error"][back])
 
 
 def _largest_damping(table: Summary) -> Iterator[Row]:
-    """Of each motion of a rigid body, at finite frequencies."""
+    """The largest damping of each motion of a rigid body, at finite frequencies."""
     finite = [place for place, omega in enumerate(table["omega"]) if omega != "inf"]
     for motion, dof in enumerate(map(Dof, table["dofs"][:_MOST_MODES] if finite else ())):
         damping = [table["radiation_damping"][place][motion][motion] or -inf for place in finite]
         place = finite[damping.index(max(damping))]
         quantity = f"largest radiation damping of {dof.words}, at ω = {table['omega'][place]:.4g} rad/s"
-        yield _row(f"{quantity}, {'kg·m/s' if dof.turns else 'kg/m/s'}", max(damping), table["relative_error"][place])
+        yield _row(
+            f"{quantity}, {'kg·m/s' if dof.is_rotation else 'kg/m/s'}", max(damping), table["relative_error"][place]
+        )
 
 
 def _string(summary: Summary) -> Iterator[Row]:

@@ -1,4 +1,4 @@
-"""What the pictures of a result folder show, by their names."""
+"""Captions of the pictures of a result folder, by their names."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ _NAME = re.compile(r"(?P<name>.+?)(?:_(?P<number>\d+)(?P<rest>.*))?")
 
 
 def place_and_caption(stem: str, summary: Summary) -> tuple[tuple[int, int, str], str]:
-    """Return where among the pictures one stands, and what it shows.
+    """Return the position of a picture among the others, and its caption.
 
     Args:
         stem: name of its file, without the ending.
@@ -75,7 +75,7 @@ def place_and_caption(stem: str, summary: Summary) -> tuple[tuple[int, int, str]
         caption, numbered = caption(summary, number), ""
         rest = re.sub(r"^_(\d+)$", r"_analysis_\1", rest)
     words = " ".join(rest.replace("_", " ").split())
-    # What has a number within its analysis is a resonance.
+    # Numbered pictures within an analysis are resonances.
     words = re.sub(r"\b0*(\d+)$", r"resonance \1", words) if name == "waves_resonance" else words
     further = ", ".join(word for word in (numbered, words) if word)
     return order, caption + (f" ({further})" if further else "")

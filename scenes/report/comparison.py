@@ -1,4 +1,4 @@
-"""What a report sets beside a solution: estimates of older theories, the other method, printed formulas."""
+"""Comparisons in a report: estimates of older theories, the other method of solution, printed formulas."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def comparison_of(scene: Scene, outcome: Outcome) -> tuple[Section, ...] | str:
-    """Return the tables of what a solution is compared with; where there is nothing, why, on this process alone.
+    """Return the tables of comparisons, or the reason why there are none, on this process only.
 
     Args:
         scene: the scene.
@@ -35,7 +35,7 @@ def comparison_of(scene: Scene, outcome: Outcome) -> tuple[Section, ...] | str:
 
 
 def _tank(scene: TankScene, outcome: Outcome) -> tuple[Section, ...] | str:
-    """The run has them already."""
+    """The run has computed the estimates."""
     found = tuple(section for section in outcome.sections if section.compares)
     if found:
         return found
@@ -68,7 +68,7 @@ def _thread(scene: ThreadScene, outcome: Outcome) -> Iterator[Section]:
     from hydroelastic.scenes.thread.differences import thread_differences
     from hydroelastic.scenes.thread.estimates import thread_estimates
 
-    # The other processes wait for the report: what is solved here is solved on this one alone.
+    # The other processes wait for the report: further solutions run on this process only.
     estimates = thread_estimates(scene, MPI.COMM_SELF)
     yield from comparison_sections(thread_differences(outcome.solution, estimates))
 

@@ -1,4 +1,4 @@
-"""What a report says of a run, in its order: answer, results, comparison, pictures, model, scene, cost."""
+"""The content of a report, in its order: answer, results, comparison, pictures, model, scene, cost."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from hydroelastic.scenes.report.scene_text import scene_text
 
 
 def report_page(scene: Scene, outcome: Outcome, folder: Path) -> ReportPage:
-    """Return the report of a run, on this process alone.
+    """Return the report of a run, on this process only.
 
     Args:
         scene: the scene.
@@ -39,7 +39,7 @@ def report_page(scene: Scene, outcome: Outcome, folder: Path) -> ReportPage:
 
 
 def _parts(scene: Scene, outcome: Outcome, images: Path) -> Iterator[Part]:
-    """What was found first, then how, and what it took."""
+    """The parts: results, then the model, then the cost."""
     summary = outcome.summary
     shown, left_out = pictures_of(images, summary)
     compared = comparison_of(scene, outcome)

@@ -1,4 +1,4 @@
-"""What a result took, in tables: seconds, size, memory, versions."""
+"""The cost of a result in tables: seconds, size, memory, versions."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from hydroelastic.scenes.output.sections import Section
 
 
 def cost_sections(summary: Summary) -> Iterator[Section]:
-    """Yield what a result took, by `summary`, the content of ``summary.json``."""
+    """Yield tables of the cost of a result; `summary` is the content of ``summary.json``."""
     timing = summary["timing"]
     rows = [(stage, f"{seconds:.3f}") for stage, seconds in timing.items()]
     yield Section(title="Seconds by stage", headings=("stage", "seconds"), rows=[*rows, _sum(timing)])

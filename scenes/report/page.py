@@ -1,4 +1,4 @@
-"""What a report holds, as values: parts with tables, lines, pictures and the scene's text."""
+"""Data of a report: parts with tables, lines, pictures and the scene's text."""
 
 from __future__ import annotations
 
@@ -10,20 +10,20 @@ from hydroelastic.scenes.output.provenance import Summary
 from hydroelastic.scenes.output.sections import Section
 
 _NUMBER = re.compile(r"[+\-−–≥≤]?\s*(\d[\d.]*(e[+-]?\d+)?( ?[+\-−]\d[\d.]*(e[+-]?\d+)?i)?|inf)?( %)?")
-# A line such as "UNSTABLE: …" is meant to be seen.
+# Lines such as "UNSTABLE: …" are highlighted.
 _LOUD = re.compile(r"[A-Z]{2,}:")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Picture:
-    """An image that stands in the page itself.
+    """An image embedded in the page.
 
     Attributes:
         source: a ``data:`` address.
         caption: what it shows.
-        width: pixels; ``None`` of drawings without pixels.
+        width: pixels; ``None`` for vector graphics.
         height: the same.
-        moving: whether it moves, and is seen only when asked for: what moves beside a text hinders its reader.
+        moving: whether it is an animation, which is shown on request only.
     """
 
     source: str
@@ -38,11 +38,11 @@ class Part:
     """A part of the page under a heading of its own.
 
     Attributes:
-        anchor: name that the contents lead to.
+        anchor: target of the link in the contents.
         title: heading.
         lines: paragraphs at its beginning.
-        text: a text in which every space counts; empty if there is none.
-        sections: tables and what is said below them.
+        text: preformatted text; empty if there is none.
+        sections: tables with lines below them.
         pictures: images.
     """
 
@@ -60,10 +60,10 @@ class ReportPage:
 
     Attributes:
         title: of the scene.
-        kind: of the scene, as a person says it.
+        kind: of the scene, in words.
         tolerance: that was asked.
-        reasons: why it is not kept; empty if it is.
-        warnings: what was asked and could not be done, beside the solution.
+        reasons: why it is not reached; empty if it is.
+        warnings: requests besides the solution that could not be fulfilled.
         version: of this project.
         parts: in their order.
     """
@@ -78,7 +78,7 @@ class ReportPage:
 
 
 def kind_of(summary: Summary) -> str:
-    """Return what a scene is, as a person says it."""
+    """Return the kind of a scene in words."""
     scene = summary["scene"]
     if scene["kind"] == "tank":
         return "open water" if scene["tank"]["ends"] == "open" else "closed tank"
@@ -86,10 +86,10 @@ def kind_of(summary: Summary) -> str:
 
 
 def is_numeric(cells: Iterable[str]) -> bool:
-    """Return whether a column holds numbers alone, which stand to the right."""
+    """Return whether a column holds only numbers, which are aligned to the right."""
     return all(_NUMBER.fullmatch(cell) for cell in cells)
 
 
-def is_loud(line: str) -> bool:
+def is_warning(line: str) -> bool:
     """Return whether a line warns of the result."""
     return _LOUD.match(line) is not None

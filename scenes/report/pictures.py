@@ -1,4 +1,4 @@
-"""Pictures of a result folder, small enough to stand in a page."""
+"""Pictures of a result folder, reduced for embedding in a page."""
 
 from __future__ import annotations
 
@@ -11,30 +11,30 @@ from hydroelastic.scenes.output.provenance import Summary
 from hydroelastic.scenes.report.captions import place_and_caption
 from hydroelastic.scenes.report.page import Picture
 
-# Pixels across, twice what a column of the page shows: sharp on a fine screen and on paper.
+# Width in pixels, twice that of a column of the page, for high-resolution screens and print.
 _WIDEST = 1600
-# WebP ends at 16383.
+# Limit of WebP.
 _HIGHEST = 8000
 # Bytes of one drawing, beyond which its pixels are smaller; of one image that stays as it is; of all together.
 _LARGEST_DRAWING = 400_000
 _SMALL = 120_000
 _ALL = 3_000_000
 _QUALITY = 82
-# More takes twice the time and saves a twentieth.
+# A higher effort takes twice the time and saves 5 %.
 _METHOD = 2
 
 
 def pictures_of(folder: Path, summary: Summary) -> tuple[tuple[Picture, ...], tuple[str, ...]]:
-    """Return the pictures of a folder, and the names of those that there is no room for.
+    """Return the pictures of a folder, and the names of those beyond the size limit.
 
-    Of one that is there in several formats, a drawing (SVG) is taken before pixels (PNG).
+    Of several formats of a picture, vector graphics (SVG) take precedence over pixels (PNG).
 
     Args:
-        folder: the images; there need be none.
+        folder: of the images; may be empty.
         summary: content of ``summary.json``.
     """
     shown, room = [], _ALL
-    # A page cannot hold a PDF.
+    # PDF cannot be embedded.
     left_out = [file.name for file in sorted(folder.glob("*.pdf")) if not _in_a_page(file)]
     for file, caption in _files(folder, summary):
         picture, size = _picture(file, caption)
@@ -47,12 +47,12 @@ def pictures_of(folder: Path, summary: Summary) -> tuple[tuple[Picture, ...], tu
 
 
 def _in_a_page(file: Path) -> bool:
-    """Whether a picture is there in a format that a page shows."""
+    """Whether a picture exists in a format that can be embedded."""
     return any(file.with_suffix(ending).exists() for ending in (".svg", ".png"))
 
 
 def _files(folder: Path, summary: Summary) -> Iterator[tuple[Path, str]]:
-    """A file for each picture, in the order of the page, with its caption; what moves comes last."""
+    """A file for each picture, in the order of the page, with its caption; animations come last."""
     films = []
     stems = {file.stem for file in folder.glob("*.*")}
     ordered = sorted((*place_and_caption(stem, summary), stem) for stem in stems)
@@ -68,7 +68,7 @@ def _files(folder: Path, summary: Summary) -> Iterator[tuple[Path, str]]:
 
 
 def _picture(file: Path, caption: str) -> tuple[Picture, int]:
-    """A picture in the page, and how many bytes it takes there."""
+    """An embedded picture, and its size in bytes."""
     content = file.read_bytes()
     width = height = None
     kind = {".svg": "svg+xml", ".gif": "gif", ".png": "png"}[file.suffix]

@@ -1,4 +1,4 @@
-"""How the tolerance led to the mesh, the degree or the number of terms that an answer was found with."""
+"""The mesh, the degree or the number of terms of a result, and the tolerance that determined them."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from hydroelastic.scenes.output.sections import Section
 
 
 def resolved(summary: Summary) -> Section:
-    """Return what was refined until the answer kept the tolerance, and why.
+    """Return the refinements by which the result reached the tolerance, and their reasons.
 
     Args:
         summary: content of ``summary.json``.

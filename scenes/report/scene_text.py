@@ -1,4 +1,4 @@
-"""A scene as TOML: what was given, and the defaults, each marked as one."""
+"""A scene as TOML: given values, and defaults, which are marked."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def _list(values: list[Any] | tuple[Any, ...]) -> str:
 
 
 def _sweep(values: list[Any] | tuple[Any, ...]) -> str:
-    """Equal steps or ratios, if the very same numbers come out of them."""
+    """A sweep of equal steps or ratios, if it reproduces the numbers exactly."""
     if len(values) <= _FEW or not all(isinstance(value, float) and 0.0 <= value < inf for value in values):
         return ""
     first, last, number = values[0], values[-1], len(values)

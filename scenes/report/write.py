@@ -10,25 +10,25 @@ from markupsafe import Markup
 from hydroelastic.scenes.output.outcome import Outcome
 from hydroelastic.scenes.read import Scene
 from hydroelastic.scenes.report.content import report_page
-from hydroelastic.scenes.report.page import ReportPage, is_loud, is_numeric
+from hydroelastic.scenes.report.page import ReportPage, is_numeric, is_warning
 
 REPORT = "report.html"
 _HERE = Path(__file__).resolve().parent
 
 
 def write_report(scene: Scene, outcome: Outcome, folder: Path) -> None:
-    """Write a page about a run that needs no other file, on this process alone.
+    """Write a self-contained page about a run, on this process only.
 
     Args:
         scene: the scene.
         outcome: of its run.
-        folder: of its results, complete but for the page.
+        folder: of its results, complete except for the page.
     """
     (folder / REPORT).write_text(rendered(report_page(scene, outcome, folder)), encoding="utf-8")
 
 
 def rendered(page: ReportPage) -> str:
-    """Return a report as HTML; whatever its texts hold is shown as text."""
+    """Return a report as HTML; its texts are escaped."""
     environment = Environment(
         loader=FileSystemLoader(_HERE),
         autoescape=True,
@@ -36,6 +36,6 @@ def rendered(page: ReportPage) -> str:
         lstrip_blocks=True,
         undefined=StrictUndefined,
     )
-    environment.tests |= {"loud": is_loud, "numeric": is_numeric}
+    environment.tests |= {"loud": is_warning, "numeric": is_numeric}
     style = Markup((_HERE / "page.css").read_text(encoding="utf-8"))
     return environment.get_template("page.html.jinja").render(page=page, style=style)

@@ -1,4 +1,4 @@
-"""The roll of a ship beside the paper's formulas, as printed and slip by slip."""
+"""The roll of a ship compared with the paper's formulas, as printed and for each erratum."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from hydroelastic.modal.roll.paper import ALL_ROLL_SLIPS, ROLL_SOURCE, RollSlip,
 from hydroelastic.scenes.output.sections import Section
 from hydroelastic.scenes.roll.results import RollResult
 
-# Of the largest angle: rounding of the paper's sums of sines without any slip.
+# Of the largest angle: rounding of the paper's corrected sums of sines.
 _ROUNDING = 1e-11
 
 
 def untreated_by_paper(result: RollResult) -> str:
-    """Return why the paper's formulas do not treat a motion; empty if they do."""
+    """Return why the paper's formulas do not apply to a motion; empty if they do."""
     ship, train, given = result.solution.ship, result.solution.train, result.scene.roll
     if ship.quadratic_damping:
         return "damping is quadratic"
@@ -29,10 +29,10 @@ def untreated_by_paper(result: RollResult) -> str:
 
 
 def paper_section(result: RollResult) -> Section:
-    """Return the error from each of the paper's slips, and from all of them together.
+    """Return the error by each erratum of the paper, and by all of them together.
 
     Args:
-        result: of a motion that the paper treats.
+        result: of a motion to which the paper's formulas apply.
     """
     solution = result.solution
     exact, times = solution.motion.angle, solution.motion.times

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from hydroelastic.output.pictures.colours import BLUE, GREEN, VERMILLION
-from hydroelastic.output.pictures.curves import GREY, Sheets, dress
+from hydroelastic.output.pictures.curves import GREY, Sheets, label_axes
 from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.scenes.roll.results import RollResult
 
@@ -35,8 +35,8 @@ def draw_roll(result: RollResult, folder: Path, options: PictureOptions) -> None
         for axes in (waves, upper, lower):
             axes.axhline(0.0, color="black", linewidth=0.6)
         lower.set_xlim(motion.times[0], motion.times[-1])
-        dress(waves, "", "slope of the waves,\ndegrees", legend="")
-        dress(upper, "", "angle of roll φ, degrees", legend="")
+        label_axes(waves, "", "slope of the waves,\ndegrees", legend="")
+        label_axes(upper, "", "angle of roll φ, degrees", legend="")
         upper.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3)
         figure.align_ylabels()
-        dress(lower, "time t, s", "rate φ',\ndegrees/s", legend="")
+        label_axes(lower, "time t, s", "rate φ',\ndegrees/s", legend="")

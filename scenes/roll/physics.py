@@ -19,8 +19,8 @@ def rolling_ship(scene: RollScene, section: SectionRoll | None) -> Ship:
 
     Args:
         scene: the scene.
-        section: roll of its section, if it has one: it gives k, and in open water the damping by the waves that it
-            makes, to which the damping of the scene is added.
+        section: roll of its section, if it has one: it gives k, and in open water the wave damping, to which the
+            damping of the scene is added.
     """
     frequency = scene.natural_frequency if section is None else section.natural_frequency
     assert frequency is not None

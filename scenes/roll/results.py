@@ -1,4 +1,4 @@
-"""The solution of the scene of a rolling ship, and why it may not keep what was asked."""
+"""The solution of the scene of a rolling ship, and the reasons why it may miss the tolerance."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class RollResult:
 
     @property
     def reasons(self) -> tuple[str, ...]:
-        """Why the solution does not keep the tolerance; empty if it does."""
+        """Reasons why the tolerance is not reached; empty if it is."""
         solution, tolerance = self.solution, self.scene.accuracy.tolerance
         relative = solution.relative_error
         if relative <= tolerance:

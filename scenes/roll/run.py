@@ -18,7 +18,7 @@ run_roll = StagedRun(
     write=write_roll_files,
     dataset=LabelledResults(arrays=roll_dataset, names=ROLL_NAMES),
     draw=lambda result, folder, options, _report: draw_roll(result, folder, options),
-    heeds=OF_CURVES,
+    used_options=OF_CURVES,
     sections=lambda _solution, summary: roll_sections(summary),
     cost=roll_cost,
 )

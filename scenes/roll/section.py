@@ -1,6 +1,6 @@
 """Natural frequency, added inertia and wave damping of the roll of a section, from the field solution of its scene.
 
-In open water, with motions ∝ e^{−iωt}, other motions that the section may make follow without force:
+In open water, with motions ∝ e^{−iωt}, the other free motions of the section follow without force:
 
     Z(ω) = Z_rr − Z_ro Z_oo⁻¹ Z_or,   Z = K − ω²(M + a) − iωb,
 
@@ -20,7 +20,6 @@ import numpy as np
 from mpi4py import MPI
 from scipy.optimize import root_scalar
 
-from hydroelastic.fem.bodies.rigid_float import principal_motions
 from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import solve_radiation
@@ -52,7 +51,7 @@ class SectionRoll:
         inertia: I of the body, kg·m.
         added_inertia: a at k, kg·m.
         wave_damping: b at k, kg·m/s; ``None`` in a closed tank.
-        followers: motions that follow the roll.
+        followers: motions coupled to the roll without force.
     """
 
     title: str
@@ -76,7 +75,7 @@ def section_roll(scene: TankScene, comm: MPI.Comm, watch: Stopwatch, report: Rep
         report: called with a word on what is being done.
 
     Raises:
-        UnsolvedError: if the field solution does not keep its tolerance or shows no roll of its own.
+        UnsolvedError: if the field solution misses its tolerance or has no distinct roll mode.
     """
     report("section")
     return _in_open_water(scene, comm, watch) if scene.is_open else _in_a_tank(scene, comm, watch, report)
@@ -92,12 +91,11 @@ def _in_a_tank(scene: TankScene, comm: MPI.Comm, watch: Stopwatch, report: Repor
         raise UnsolvedError(f"the section has no mode of roll{'' if mode is None else ': ' + mode.reason}")
     eigenvalue = float(solution.modes.eigenvalues[mode.index])
     natural = solution.omega(eigenvalue)
-    body = solution.tank.floats[mode.body]
-    _, stiffnesses, inertias = principal_motions(body, body.motions)
-    roll = body.motions.index("roll")
+    body = solution.field.bodies[mode.body]
+    roll = body.dofs.index("roll")
     # Per unit of length a moment of inertia is a density times the fourth power of a length.
     unit = solution.units.density * solution.units.length**4
-    added = (float(stiffnesses[roll]) / eigenvalue - float(inertias[roll])) * unit
+    added = (float(body.stiffness[roll]) / eigenvalue - float(body.mass[roll, roll])) * unit
     inertia = _inertia(scene)
     return SectionRoll(
         title=scene.title,
@@ -108,7 +106,7 @@ def _in_a_tank(scene: TankScene, comm: MPI.Comm, watch: Stopwatch, report: Repor
         inertia=inertia,
         added_inertia=added,
         wave_damping=None,
-        followers=tuple(motion for motion in body.motions if motion != "roll"),
+        followers=tuple(motion for motion in body.dofs if motion != "roll"),
     )
 
 
@@ -121,7 +119,7 @@ def _inertia(scene: TankScene) -> float:
 def _in_open_water(scene: TankScene, comm: MPI.Comm, watch: Stopwatch) -> SectionRoll:
     stiffness, inertia = placed_float(scene, 0).roll_stiffness, _inertia(scene)
 
-    # The whole of it is one stage.
+    # Timed as one stage.
     problem = open_water_problem(scene, comm, Stopwatch())
 
     def radiation(omega: float) -> tuple[RadiationTable, float]:
@@ -131,7 +129,7 @@ def _in_open_water(scene: TankScene, comm: MPI.Comm, watch: Stopwatch) -> Sectio
 
     with watch.stage("section"):
         resonance = _resonance(problem)
-    # k differs from the modulus of the complex frequency as far as added inertia and damping change between the two.
+    # k differs from the modulus of the complex frequency by the change of added inertia and damping between the two.
     found = root_scalar(
         lambda omega: float(_impedance(radiation(float(omega))[0]).real),
         method="secant",
@@ -162,7 +160,7 @@ def _in_open_water(scene: TankScene, comm: MPI.Comm, watch: Stopwatch) -> Sectio
 
 def _resonance(problem: OpenWaterProblem) -> complex:
     """Complex frequency of the roll, rad/s."""
-    asked = ResonanceRequest(count=len(problem.tank.floats[0].motions))
+    asked = ResonanceRequest(count=len(problem.tank.bodies[0].rigid_motions))
     try:
         table = solve_resonance(problem, asked).table
     except EigenSolverError as error:

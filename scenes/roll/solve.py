@@ -31,7 +31,7 @@ def solve_roll(scene: RollScene, comm: MPI.Comm, report: Report = lambda _messag
         report: called with a word on what is being done.
 
     Raises:
-        SceneError: if the section's scene cannot be used, or what is asked is impossible with its natural frequency.
+        SceneError: if the section's scene cannot be used, or the requests are impossible with its natural frequency.
         UnsolvedError: if the section, or a motion with quadratic damping, cannot be solved to its tolerance.
     """
     watch = Stopwatch()
@@ -56,7 +56,7 @@ def solve_roll(scene: RollScene, comm: MPI.Comm, report: Report = lambda _messag
 
 
 def _check_with(scene: RollScene, natural_frequency: float) -> None:
-    """See that what the scene asks is possible, now that k is known.
+    """Check the requests of the scene, now that k is known.
 
     Raises:
         SceneError: if not.

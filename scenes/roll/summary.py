@@ -7,7 +7,7 @@ from math import degrees, exp, pi
 from typing import TYPE_CHECKING, Any
 
 from hydroelastic.physics.ship import Ship
-from hydroelastic.scenes.output.provenance import Summary, framed_summary
+from hydroelastic.scenes.output.provenance import Summary, complete_summary
 from hydroelastic.scenes.roll.results import RollResult
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ def summarize_roll(result: RollResult, comm: MPI.Comm, *, import_seconds: float)
             "exceedances": [{"level": level, "swings": statistics.swings_above(level)} for level in levels],
         },
     }
-    return framed_summary(
+    return complete_summary(
         result,
         content,
         {"times": len(solution.motion.times), "waves": len(solution.train.periods)},
@@ -79,7 +79,7 @@ def regime(ship: Ship) -> str:
 
 
 def free_decay(ship: Ship) -> dict[str, float] | None:
-    """Return what linear damping makes of free motion; ``None`` where it does not oscillate.
+    """Return the decay of free oscillations by linear damping; ``None`` where they do not oscillate.
 
     The exact decrement is δ = 2πn/√(k² − n²), the logarithm of the ratio of two largest angles a period apart.
     """

@@ -1,4 +1,4 @@
-"""The tables of a rolling ship that a person reads."""
+"""The tables of a rolling ship."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def _ship(summary: Summary) -> Section:
 
 
 def _response(response: Summary) -> Section:
-    # Nobody needs more digits of an angle; all of them are in summary.json.
+    # Angles are rounded for reading; summary.json has all digits.
     error = max(response["relative_error"], 1e-6)
     rows = [
         ("largest angle, rad", with_certain_digits(response["largest_angle"], error)),
@@ -93,7 +93,7 @@ def _exceedances(response: Summary) -> Section:
 
 
 def roll_cost(summary: Summary) -> str:
-    """Return what the solution took."""
+    """Return a line about size and time of the solution."""
     seconds = ", ".join(f"{stage} {value:.3f}" for stage, value in summary["timing"].items() if value >= 0.0005)
     return (
         f"{summary['size']['times']} times; seconds: {seconds}; peak memory {summary['memory_peak'] / 2**20:.0f} MiB."

@@ -1,4 +1,4 @@
-"""Model and method of the scene of a hanging string, shown before anything is solved."""
+"""Description of the model and method of the scene of a hanging string, without solving it."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ STRING_NAMES = SummaryNames(
     dimensions={"modes": ("mode",), "steady.amplitude": ("position",)},
     prefixes={"modes": "mode"},
     units={"response.absolute_error": "m", "response.beside_fronts.absolute_error": "m"},
-    told=frozenset({"modes.omega", "steady.positions"}),
+    reported_by_arrays=frozenset({"modes.omega", "steady.positions"}),
 )
 
 

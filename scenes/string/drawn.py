@@ -1,4 +1,4 @@
-"""The motion of a string for pictures: at more positions and times where a scene asks for few."""
+"""The motion of a string for pictures, with additional positions and times where a scene has few."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from hydroelastic.scenes.models.string_parts import DEFAULT_POSITIONS, DEFAULT_T
 from hydroelastic.scenes.string.results import StringResult
 from hydroelastic.scenes.string.solve import solve_series
 
-# With so many times a motion, and with so many positions a shape, is smooth as it is.
+# Numbers of times and of positions from which a motion and a shape are drawn smooth.
 _ENOUGH_TIMES = 61
 _ENOUGH_POSITIONS = 61
 # Positions and times at which the fronts of a step are lines and no stairs.
@@ -17,12 +17,12 @@ _OF_FRONTS = (301, 801)
 
 
 def as_drawn(result: StringResult) -> StringSolution:
-    """Return the same motion at more positions and times, those asked included.
+    """Return the same motion at more positions and times, including the requested ones.
 
-    A series is summed once more. A field solution would take its whole time again: it is drawn as it is.
+    A series is summed again. A field solution is drawn as it is, since computing it again is expensive.
 
     Args:
-        result: as the scene asks for it.
+        result: at the positions and times of the scene.
     """
     scene, solution = result.scene, result.solution
     few_positions = len(solution.positions) < _ENOUGH_POSITIONS
@@ -44,8 +44,8 @@ def columns_of(solution: StringSolution, times: Floats) -> list[int]:
     return sorted({int(np.argmin(np.abs(solution.times - time))) for time in times})
 
 
-def jumps_in_animation(result: StringResult) -> tuple[str, ...]:
-    """Return why there is no animation, or a coarse one, and which key gives it."""
+def animation_notes(result: StringResult) -> tuple[str, ...]:
+    """Return why there is no animation, or only a coarse one, and the key to set."""
     solution = result.solution
     if solution.times[-1] == 0.0:
         return ('the string is not animated: give [output] key "times" times after 0',)

@@ -9,7 +9,7 @@ import numpy as np
 
 from hydroelastic.modal.string.solution import Floats, StringSolution
 from hydroelastic.output.pictures.colours import diverging_colours
-from hydroelastic.output.pictures.curves import COLOURS, DASHES, GREY, Sheets, dress, sequence_colours
+from hydroelastic.output.pictures.curves import COLOURS, DASHES, GREY, Sheets, label_axes, sequence_colours
 from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.scenes.output.line_sequence import frame_numbers
 from hydroelastic.scenes.string.drawn import as_drawn, columns_of
@@ -18,7 +18,7 @@ from hydroelastic.scenes.string.results import StringResult
 
 _SHOWN_SHAPES = 9
 _SHOWN_MODES = 5
-# Above this quantile of |U| a few peaks at focuses would leave the rest without colour.
+# Quantile of |U| that limits the colour scale: a few peaks at focuses would dominate it.
 _QUANTILE = 0.995
 # Times this quantile a value is a peak.
 _PEAK = 1.5
@@ -82,11 +82,11 @@ def _draw_space_time(solution: StringSolution, sheets: Sheets) -> None:
         axes.grid(visible=False)
         axes.set_xlim(solution.times[0], solution.times[-1])
         axes.set_ylim(solution.positions[0], solution.positions[-1])
-        dress(axes, "time t, s", HEIGHT)
+        label_axes(axes, "time t, s", HEIGHT)
 
 
 def _colour_limits(displacement: Floats) -> tuple[float, float]:
-    """The least and largest U that have colours of their own, zero between them; a few peaks may lie beyond."""
+    """Limits of the colour scale of U, with zero between them; a few peaks may exceed them."""
     sizes = np.abs(displacement)
     usual, largest = float(np.quantile(sizes, _QUANTILE)), float(sizes.max())
     limit = (largest if largest < _PEAK * usual else usual) or largest
@@ -120,7 +120,7 @@ def _draw_shapes(solution: StringSolution, times: Floats, sheets: Sheets) -> Non
             axes.plot(np.where(sure, curve, np.nan), solution.positions, **_drawn(solution), color=colour, label=label)
         if not known.all():
             axes.plot([], [], ":", color=GREY, linewidth=1.2, label="across a front")
-        dress(axes, "displacement U, m", HEIGHT, legend="beside", heading="time t")
+        label_axes(axes, "displacement U, m", HEIGHT, legend="beside", heading="time t")
 
 
 def _draw_modes(solution: StringSolution, sheets: Sheets) -> None:
@@ -133,7 +133,7 @@ def _draw_modes(solution: StringSolution, sheets: Sheets) -> None:
             decay = f", decay {-root.real:.4g} 1/s" if root.real else ""
             style = {"color": COLOURS[number], "linestyle": DASHES[number % len(DASHES)]} | _drawn(solution)
             axes.plot(shape, solution.positions, **style, label=f"{number + 1}: {oscillation}{decay}")
-        dress(axes, "displacement over the largest one", HEIGHT)
+        label_axes(axes, "displacement over the largest one", HEIGHT)
 
 
 def _drawn(solution: StringSolution) -> dict[str, Any]:

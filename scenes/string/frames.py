@@ -1,4 +1,4 @@
-"""The moving string in one frame of axes: numbered pictures, and an animation."""
+"""The moving string in fixed axes: numbered pictures, and an animation."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 
 from hydroelastic.modal.string.solution import StringSolution
 from hydroelastic.output.pictures.colours import BLUE
-from hydroelastic.output.pictures.curves import curve_style, dress
+from hydroelastic.output.pictures.curves import curve_style, label_axes
 from hydroelastic.output.pictures.gif import FRAMES, SECONDS, write_gif
 from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.scenes.string.drawn import columns_of
@@ -59,7 +59,7 @@ def _frames(
         axes.set_ylim(0.0, 1.02 * solution.string.length)
         (line,) = axes.plot([], [], color=BLUE, linewidth=2.0)
         (end,) = axes.plot([], [], "s", color="black", markersize=6)
-        dress(axes, "displacement U, m", HEIGHT, legend="")
+        label_axes(axes, "displacement U, m", HEIGHT, legend="")
         title = axes.set_title(" ")
         # The layout is the same on all frames, and takes most of the time of one.
         figure.draw_without_rendering()

@@ -1,4 +1,4 @@
-"""The solution of the scene of a hanging string, and why it may not keep what was asked."""
+"""The solution of the scene of a hanging string, and the reasons why it may miss the tolerance."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class StringResult:
 
     @property
     def reasons(self) -> tuple[str, ...]:
-        """Why the solution does not keep the tolerance; empty if it does."""
+        """Reasons why the tolerance is not reached; empty if it is."""
         solution = self.solution
         reasons = []
         if solution.relative_error > solution.tolerance:

@@ -6,7 +6,7 @@ from hydroelastic.output.pictures.options import OF_CURVES, OF_MOTIONS
 from hydroelastic.scenes.output.dataset import LabelledResults
 from hydroelastic.scenes.output.staged_run import StagedRun
 from hydroelastic.scenes.string.dataset import STRING_NAMES, string_dataset
-from hydroelastic.scenes.string.drawn import jumps_in_animation
+from hydroelastic.scenes.string.drawn import animation_notes
 from hydroelastic.scenes.string.figures import draw_string
 from hydroelastic.scenes.string.files import write_string_files
 from hydroelastic.scenes.string.solve import solve_string
@@ -19,8 +19,8 @@ run_string = StagedRun(
     write=write_string_files,
     dataset=LabelledResults(arrays=string_dataset, names=STRING_NAMES),
     draw=lambda result, folder, options, _report: draw_string(result, folder, options),
-    lacking=jumps_in_animation,
-    heeds=OF_CURVES | OF_MOTIONS,
+    animation_warnings=animation_notes,
+    used_options=OF_CURVES | OF_MOTIONS,
     sections=lambda _solution, summary: string_sections(summary),
     cost=string_cost,
 )

@@ -19,12 +19,12 @@ if TYPE_CHECKING:
 
 
 def solve_string(scene: StringScene, comm: MPI.Comm, report: Report = lambda _message: None) -> StringResult:
-    """Solve for the displacement and the free motions by the method that the scene asks for or needs (collective).
+    """Solve for the displacement and the free motions by the method of the scene (collective).
 
     Args:
         scene: the scene.
         comm: MPI communicator.
-        report: called with a word on what is being done.
+        report: called with the name of each step.
 
     Raises:
         UnsolvedError: if the eigen-solver of a field solution fails.

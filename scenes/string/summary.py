@@ -13,7 +13,7 @@ from hydroelastic.modal.string.solution import FreeMotions, StringSolution
 from hydroelastic.physics.string import HangingString
 from hydroelastic.scenes.models.string import StringScene
 from hydroelastic.scenes.models.string_parts import SineMotion
-from hydroelastic.scenes.output.provenance import Summary, framed_summary
+from hydroelastic.scenes.output.provenance import Summary, complete_summary
 from hydroelastic.scenes.string.results import StringResult
 
 if TYPE_CHECKING:
@@ -39,11 +39,11 @@ def summarize_string(result: StringResult, comm: MPI.Comm, *, import_seconds: fl
         "response": _response(solution),
         "steady": _steady(scene, solution),
     }
-    return framed_summary(result, content, solution.size, comm, import_seconds)
+    return complete_summary(result, content, solution.size, comm, import_seconds)
 
 
 def _string(string: HangingString) -> dict[str, Any]:
-    """What is known beforehand; the criterion of oscillation is that of a uniform string with a free end."""
+    """Properties of the string; the criterion of oscillation is that of a uniform string with a free end."""
     found: dict[str, Any] = {
         "travel_time": string.travel_time,
         "damping": string.damping,

@@ -1,4 +1,4 @@
-"""The tables of a hanging string that a person reads."""
+"""The tables of a hanging string."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ def _response(summary: Summary) -> Section:
 
 
 def _steady(steady: Summary) -> Iterator[Row]:
-    """What remains of a sine's response when the free motions have died away."""
+    """The steady response to a sine, after the free motions have decayed."""
     amplitude, peak = steady["amplitude"][0], steady["nearest_resonance"]
     yield f"amplitude of the forced motion at the height {steady['positions'][0]:g} m, m", _or_infinite(amplitude)
     if peak["omega"] is not None:

@@ -24,7 +24,7 @@ _WALL, _PLANE = "wall", "plane"
 
 def plain_outline(tank: Tank, size: float = inf, *, half: bool) -> Outline:
     """The outline of a tank, or of its left half, with elements of one size along levels and floats, without rings."""
-    sizes = Sizes(pieces=(size,) * len(tank.pieces), contours=dict.fromkeys(tank.floats, size))
+    sizes = Sizes(pieces=(size,) * len(tank.pieces), contours=dict.fromkeys(tank.hulls, size))
     return tank_outline(tank, sizes, half=half)
 
 
@@ -98,8 +98,8 @@ def _ends_of_guided_beams(tank: Tank) -> set[Point]:
 
 def _ends_of_thin_ellipses(tank: Tank) -> set[Point]:
     return {
-        (body.waterplane[0], y)
-        for body in tank.floats.values()
-        if body.profile is not None and body.is_thin and body.profile.shape == "ellipse"
-        for y in body.slit
+        (hull.waterplane[0], y)
+        for hull in tank.hulls.values()
+        if hull.profile is not None and hull.is_thin and hull.profile.shape == "ellipse"
+        for y in hull.slit
     }

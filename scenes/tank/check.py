@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from hydroelastic.fem.tank.expected import ends_of_float_motions, expected_tones
+from hydroelastic.fem.bodies.registry import ends_of_motions, expected_tones
 from hydroelastic.fem.tank.resolution import (
     Resolution,
     companion_resolution,
@@ -45,8 +45,9 @@ def modelled_tank(scene: TankScene, *, requests: Iterable[str], scale: Section) 
     yield boundary_table(scene)
     yield unknown_table(scene)
     yield group_table(scene)
-    if scene.floats:
-        yield hydrostatics_table(scene)
+    at_rest = hydrostatics_table(scene)
+    if at_rest.rows:
+        yield at_rest
     yield scale
     expected = hints(scene)
     if expected:
@@ -58,17 +59,17 @@ def _sizes(scene: TankScene) -> Iterator[str]:
     tank, brought = physical_tank(scene).scaled(), _brought(scene)
     tolerance = scene.accuracy.tolerance
     tones = expected_tones(tank)
-    motions = ends_of_float_motions(tank)
+    motions = ends_of_motions(tank)
     resolution = initial_resolution(tank, tolerance, modes=scene.accuracy.modes, tones=tones, motions=motions)
     half = scene.mesh is None and is_mirror_image(tank)
     yield f"First attempt: {_size(tank, resolution, brought, half=half)}."
     if resolution.modes > scene.accuracy.modes:
         what = (
-            "where the energy of the first elastic tone gathers" if tank.beams else "in which mode a float moves most"
+            "where the energy of the first elastic tone gathers" if tank.elastic else "in which mode a float moves most"
         )
         yield f"  {resolution.modes} modes are looked at, to see {what}."
-    dry_modes = "dry modes reach past that wave until their energy has died out, " if tank.beams else ""
-    where = "tips" if not tank.floats else "tips, corners and contact points"
+    dry_modes = "dry modes reach past that wave until their energy has died out, " if tank.elastic else ""
+    where = "tips" if not tank.hulls else "tips, corners and contact points"
     yield (
         f"  Enough for {tolerance:g}: elements follow the shortest wave of the modes reported and the degree, "
         f"{dry_modes}and the rings end where the singularity at the {where} no longer counts. "
@@ -80,10 +81,10 @@ def _sizes(scene: TankScene) -> Iterator[str]:
     limits = [
         *(
             ["the first elastic tone"]
-            if tank.beams and any(level.moves and level.is_open for level in tank.levels)
+            if tank.elastic and any(level.moves and level.is_open for level in tank.levels)
             else []
         ),
-        *(["the added mass of the floats"] if tank.floats and tank.has_high_frequency_limit else []),
+        *(["the added mass of the floats"] if tank.rigid and tank.has_high_frequency_limit else []),
     ]
     if limits:
         limit = companion_resolution(tank, tolerance, tones) if scene.mesh is None else resolution
@@ -115,8 +116,8 @@ def _size(tank: Tank, resolution: Resolution, brought: TaggedMesh | None, *, hal
         f"{len(mesh.cells)} triangles{where}",
         f"{unknowns} unknowns of ψ{twice}",
     ]
-    if tank.beams:
-        parts.append(f"{' + '.join(str(resolution.shapes[index]) for index in tank.beams)} dry modes")
+    if tank.elastic:
+        parts.append(f"{' + '.join(str(resolution.shapes[index]) for index in tank.elastic)} dry modes")
     return ", ".join(parts)
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import TypeAlias
 
-from hydroelastic.fem.tank.expected import expected_tones
+from hydroelastic.fem.bodies.registry import expected_tones
 from hydroelastic.modal.beam.beam_shapes import first_bending
-from hydroelastic.physics.rigid_motions import loose_motions, mode_count, zero_mode_count
+from hydroelastic.physics.rigid_motions import mode_count, zero_mode_count, zero_stiffness_motions
 from hydroelastic.physics.symmetry import is_mirror_image
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
@@ -45,7 +45,7 @@ def _zero_modes(scene: TankScene) -> Iterator[str]:
     count = zero_mode_count(tank)
     if count == 0:
         return
-    loose = loose_motions(tank)
+    loose = zero_stiffness_motions(tank)
     names = ", ".join(f"{motion.name} of {scene.body[motion.body].kind} {motion.body + 1}" for motion in loose)
     held = len(loose) - count
     but = f"; the volume of the liquid forbids {held} of these or of their combinations" if held else ""

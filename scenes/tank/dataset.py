@@ -45,7 +45,7 @@ TANK_NAMES = SummaryNames(
         "estimates": "estimate",
     },
     # The first tone of the first beam is among those of all beams.
-    told=frozenset({"first_elastic", "floats.high_frequency.added_mass"}),
+    reported_by_arrays=frozenset({"first_elastic", "floats.high_frequency.added_mass"}),
 )
 
 
@@ -80,19 +80,22 @@ def _modes(solution: TankSolution, shapes: ModeShapes, modes: slice, dimension: 
     names = _curve_names(solution, shapes.curves[0])
     for name, curves in zip(names, zip(*shapes.curves[modes], strict=True), strict=True):
         found = found.merge(_curve(name, curves, dimension, prefix))
-    for index, sections in zip(solution.tank.floats, zip(*shapes.floats[modes], strict=True), strict=True):
+    for index, sections in zip(solution.tank.rigid, zip(*shapes.floats[modes], strict=True), strict=True):
         found = found.merge(_section(body_name(index + 1), sections, dimension, prefix))
-    if solution.tank.floats:
+    if solution.tank.rigid:
         dofs = [dof.capitalised for dof in _dofs(solution)]
         amplitudes = np.array([np.concatenate(motions) for motions in shapes.motions[modes]])
-        said = {"long_name": "motion of the floats", "units": MOTION_UNITS[any(dof.turns for dof in _dofs(solution))]}
+        said = {
+            "long_name": "motion of the floats",
+            "units": MOTION_UNITS[any(dof.is_rotation for dof in _dofs(solution))],
+        }
         found = found.assign({f"{prefix}motion": ((dimension, "dof"), amplitudes, said)}).assign_coords(dof=dofs)
     return found
 
 
 def _curve_names(solution: TankSolution, curves: tuple[SurfaceCurve, ...]) -> list[str]:
     """Beams, which come first, by their numbers among the bodies; pieces of a level counted from the left."""
-    names, counts = [body_name(index + 1) for index in solution.tank.beams], Counter[str]()
+    names, counts = [body_name(index + 1) for index in solution.tank.elastic], Counter[str]()
     for curve in curves[len(names) :]:
         counts[curve.kind] += 1
         names.append(f"{curve.kind}_{counts[curve.kind]}")
@@ -140,8 +143,7 @@ def _section(name: str, sections: tuple[FloatSection, ...], dimension: str, pref
 
 def _dofs(solution: TankSolution) -> tuple[Dof, ...]:
     """Motions of all floats."""
-    floats = solution.tank.floats
-    return dof_names(floats[index].motions if index in floats else () for index in range(len(solution.tank.bodies)))
+    return dof_names(() if body.is_elastic else body.rigid_motions for body in solution.tank.bodies)
 
 
 def _matrices(solution: TankSolution) -> xarray.Dataset:
@@ -152,7 +154,7 @@ def _matrices(solution: TankSolution) -> xarray.Dataset:
     if not floats:
         return xarray.Dataset()
     dofs = [dof.capitalised for dof in _dofs(solution)]
-    turns = np.concatenate([body.turns for body in floats])
+    turns = np.concatenate([body.is_rotation for body in floats])
     masses = units.density * units.length ** (2.0 + turns[:, None] + turns)
     places = [[MOTIONS.index(motion) for motion in body.motions] for body in floats]
     inertia = block_diag(*(np.diag(body.inertia[place]) for body, place in zip(floats, places, strict=True)))

@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 
-from hydroelastic.fem.bodies.rigid_float import principal_motions
 from hydroelastic.fem.tank.elastic_tone import mode_kind
 from hydroelastic.fem.tank.float_modes import FloatMode
 from hydroelastic.fem.tank.solve import TankSolution
@@ -24,7 +23,7 @@ def float_rows(solution: TankSolution, estimates: dict[int, EstimatesOfFloat]) -
         solution: the field solution.
         estimates: of the theories, by index of the float.
     """
-    return [_float_row(solution, index, estimates.get(index)) for index in solution.tank.floats]
+    return [_float_row(solution, index, estimates.get(index)) for index in solution.tank.rigid]
 
 
 def _float_row(solution: TankSolution, index: int, estimates: EstimatesOfFloat | None) -> dict[str, Any]:
@@ -34,7 +33,7 @@ def _float_row(solution: TankSolution, index: int, estimates: EstimatesOfFloat |
     return {
         "body": index + 1,
         "motions": list(body.motions),
-        "boundary": "thin" if body.is_thin else "exact",
+        "boundary": "thin" if body.hull.is_thin else "exact",
         "mass": rest.mass,
         "moment_of_inertia": rest.mass * rest.radius_of_gyration**2,
         "centre_of_mass": list(rest.centre_of_mass),
@@ -73,7 +72,7 @@ def _high_frequency(solution: TankSolution, index: int) -> dict[str, Any] | None
     """Added mass of heave and sway in kg/m, inertia of roll in kg·m, coupling of roll in kg."""
     if solution.added_mass is None:
         return None
-    turns = solution.tank.floats[index].turns
+    turns = solution.tank.floats[index].is_rotation
     units = solution.units.density * solution.units.length ** (2.0 + turns[:, None] + turns)
     matrix = solution.added_mass.block(solution.tank, index) * units
     return {"added_mass": matrix.tolist(), "relative_error": solution.added_mass.error}
@@ -95,14 +94,13 @@ def _mode(solution: TankSolution, mode: FloatMode) -> dict[str, Any]:
     }
     if mode.index is None:
         return row
-    body = solution.tank.floats[mode.body]
-    _, stiffness, inertia = principal_motions(body, body.motions)
-    number = body.motions.index(mode.motion)
-    unit = solution.units.density * solution.units.length ** (4.0 if mode.motion == "roll" else 2.0)
+    body = solution.field.bodies[mode.body]
+    number = body.dofs.index(mode.motion)
+    unit = solution.units.density * solution.units.length ** (4.0 if mode.motion.is_rotation else 2.0)
     eigenvalue = float(solution.modes.eigenvalues[mode.index])
     error = float(solution.relative_errors[mode.index])
-    whole = float(stiffness[number]) / eigenvalue
-    added = whole - float(inertia[number])
+    whole = float(body.stiffness[number]) / eigenvalue
+    added = whole - float(body.mass[number, number])
     shared = mode.runner_up < SHARED * mode.modal_mass
     row.update(
         index=mode.index + 1,

@@ -162,5 +162,5 @@ run_tank = StagedRun(
     write=_write,
     dataset=LabelledResults(arrays=_arrays, names=TANK_NAMES),
     draw=_draw,
-    heeds=OF_FIELDS | OF_MOTIONS,
+    used_options=OF_FIELDS | OF_MOTIONS,
 )

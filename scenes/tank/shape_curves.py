@@ -9,7 +9,6 @@ import numpy as np
 from dolfinx import fem
 from numpy.typing import NDArray
 
-from hydroelastic.fem.bodies.rigid_float import principal_motions
 from hydroelastic.fem.liquid import LiquidSpace
 from hydroelastic.fem.sampling import SurfaceTrace, sample_surface
 from hydroelastic.fem.surfaces import Body
@@ -95,10 +94,9 @@ def body_shapes(tank: Tank, bodies: tuple[Body, ...], amplitudes: Array) -> Body
     beams, floats, motions, leading = [], [], [], [0.0]
     parts = np.split(amplitudes, np.cumsum([body.size for body in bodies])[:-1]) if bodies else []
     for index, (body, own) in enumerate(zip(bodies, parts, strict=True)):
-        if index in tank.floats:
-            scaled = tank.floats[index]
-            motions.append(principal_motions(scaled, scaled.motions)[0] @ own)
-            section, largest = _displaced_float(scaled, motions[-1])
+        if index in tank.hulls:
+            motions.append(body.motions @ own)
+            section, largest = _displaced_float(tank.floats[index], motions[-1])
             floats.append(section)
             leading.append(largest)
         else:
@@ -141,13 +139,13 @@ def _displaced_float(body: RigidFloat, amplitudes: Array) -> tuple[FloatSection,
 
     The contour's points say nothing of the sign: by roll, some rise as far as others sink.
     """
-    contour = contour_points(body.contour)
+    contour = contour_points(body.hull.contour)
     moved = [
         amplitude * body.displacement(motion, contour.T)
         for motion, amplitude in zip(body.motions, amplitudes, strict=True)
     ]
     sizes = np.array([np.hypot(*part).max() for part in moved]) * np.sign(amplitudes)
-    slit = None if not body.is_thin else np.array([[body.waterplane[0], y] for y in body.slit])
+    slit = np.array([[body.waterplane[0], y] for y in body.hull.slit]) if body.hull.is_thin else None
     displacement = np.sum(moved, axis=0).T
     section = FloatSection(contour=contour, displacement=displacement, waterplane=body.waterplane, slit=slit)
     return section, largest_of(sizes)

@@ -91,7 +91,7 @@ def sample_shapes(solution: TankSolution) -> ModeShapes | None:
         floats.append(tuple(section.scaled(length, sign * to_metres) for section in bodies.floats))
         motions.append(
             tuple(
-                sign * to_metres * moved / length**body.turns
+                sign * to_metres * moved / length**body.is_rotation
                 for body, moved in zip(tank.floats.values(), bodies.motions, strict=True)
             )
         )

@@ -41,7 +41,7 @@ def summarize(
         The content of ``summary.json``.
     """
     # Floats need more of SciPy, which takes a while to import.
-    if solution.tank.floats:
+    if solution.tank.rigid:
         from hydroelastic.scenes.tank.float_summary import float_rows, growing_rows
     first = _first_elastic(solution)
     return {
@@ -52,8 +52,8 @@ def summarize(
         "zero_modes": solution.modes.zero_modes,
         "first_elastic": first[0] if first else None,
         "first_elastic_by_body": first,
-        "floats": float_rows(solution, of_floats or {}) if solution.tank.floats else [],
-        "growing": growing_rows(solution) if solution.tank.floats else [],
+        "floats": float_rows(solution, of_floats or {}) if solution.tank.rigid else [],
+        "growing": growing_rows(solution) if solution.tank.rigid else [],
         "estimates": compared(solution, estimates, first[0] if first else {}),
         "exact": _exact(solution),
         "solver": {
@@ -72,7 +72,7 @@ def summarize(
             "degree": solution.resolution.degree,
             "surface_unknowns": solution.field.surface_unknowns,
             "halves": solution.field.half,
-            "beam_shapes": [solution.resolution.shapes[index] for index in solution.tank.beams],
+            "beam_shapes": [solution.resolution.shapes[index] for index in solution.tank.elastic],
             "processes": solution.field.mesh.mesh.comm.size,
         },
         "timing": {"import": import_seconds, **solution.seconds},

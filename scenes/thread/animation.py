@@ -1,4 +1,4 @@
-"""Notes on animations of a thread: too few times, or nothing that moves."""
+"""Limitations of animations of a thread: too few times, or no analysis with a motion."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from hydroelastic.scenes.thread.results import ThreadSolutionOfScene
 _ENOUGH_TIMES = 24
 
 
-def jumps_in_animation(solution: ThreadSolutionOfScene) -> tuple[str, ...]:
+def animation_notes(solution: ThreadSolutionOfScene) -> tuple[str, ...]:
     """Return notes with the key to set: a motion is known at the output times alone."""
     oscillating = any(len(modes.oscillating.values) for modes in solution.modes)
     if not (solution.motions or oscillating):

@@ -20,7 +20,7 @@ def compare_thread(scene: ThreadScene, *, report: Report = lambda _message: None
 
     Args:
         scene: the scene; its motions in time are left out, of which there is no estimate.
-        report: told what is being done.
+        report: called with the name of each step.
 
     Raises:
         UnsolvedError: if the field solution fails.

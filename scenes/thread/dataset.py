@@ -8,7 +8,7 @@ import numpy as np
 
 from hydroelastic.scenes.output.summary_variables import SummaryNames
 from hydroelastic.scenes.thread.files import numbered
-from hydroelastic.scenes.thread.results import FollowedMotion, ThreadSolutionOfScene
+from hydroelastic.scenes.thread.results import MotionInSpace, ThreadSolutionOfScene
 
 if TYPE_CHECKING:
     import xarray
@@ -39,14 +39,16 @@ THREAD_NAMES = SummaryNames(
         "stability.thresholds": "threshold",
         "motion.slack": "slack",
     },
-    told=frozenset({"equilibrium.reactions", "equilibrium.end_moments", "stability.factors", "stability.growing"}),
+    reported_by_arrays=frozenset(
+        {"equilibrium.reactions", "equilibrium.end_moments", "stability.factors", "stability.growing"}
+    ),
 )
 
 
 def thread_dataset(solution: ThreadSolutionOfScene) -> xarray.Dataset:
     """Return the equilibrium, and modes, stability and motion by analysis, SI units.
 
-    Names of a second analysis of a kind end in a number, as those of files.
+    Names of a second analysis of a kind end in its number, as do those of files.
     """
     # xarray takes a while to import.
     import xarray
@@ -105,7 +107,7 @@ def _mode_variables(solution: ThreadSolutionOfScene, number: int, modes: ThreadM
     mode, node = numbered("mode", number), numbered("mode_s", number)
     roots = np.concatenate([modes.oscillating.values, modes.aperiodic.values])
     errors = np.concatenate([modes.oscillating.errors, modes.aperiodic.errors])
-    shapes = solution.frame.outside(np.concatenate([modes.oscillating.shapes, modes.aperiodic.shapes]))
+    shapes = solution.frame.to_space(np.concatenate([modes.oscillating.shapes, modes.aperiodic.shapes]))
     return xarray.Dataset(
         {
             numbered("root", number): (mode, roots, _said("root λ of a free motion exp(λt)", "1/s")),
@@ -144,7 +146,7 @@ def _stability_variables(number: int, sweep: Stability) -> xarray.Dataset:
     )
 
 
-def _motion_variables(number: int, motion: FollowedMotion) -> xarray.Dataset:
+def _motion_variables(number: int, motion: MotionInSpace) -> xarray.Dataset:
     import xarray
 
     time, node, end = numbered("time", number), numbered("node", number), numbered("step_end", number)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from hydroelastic.fem.thread.modes import ThreadModes
 from hydroelastic.fem.thread.stability import Stability
 from hydroelastic.output.pictures.colours import BLUE, GREEN, VERMILLION
-from hydroelastic.output.pictures.curves import COLOURS, DASHES, GREY, Sheets, dress, sequence_colours
+from hydroelastic.output.pictures.curves import COLOURS, DASHES, GREY, Sheets, label_axes, sequence_colours
 from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.scenes.thread.files import numbered
 from hydroelastic.scenes.thread.line_pictures import (
@@ -23,7 +23,7 @@ from hydroelastic.scenes.thread.line_pictures import (
     tension_unit,
     tensions_at_rest,
 )
-from hydroelastic.scenes.thread.results import Floats, FollowedMotion, ThreadSolutionOfScene
+from hydroelastic.scenes.thread.results import Floats, MotionInSpace, ThreadSolutionOfScene
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 _SHOWN_MODES = 6
 _SHOWN_SHAPES = 9
 _ANIMATED_MODES = 3
-# Of the largest displacement: what moves less is not drawn.
+# Of the largest displacement: smaller components are not drawn.
 _MOVES = 1e-3
 _ALONG = "distance from end A along the thread, m"
 
@@ -75,7 +75,7 @@ def _draw_tension(solution: ThreadSolutionOfScene, sheets: Sheets) -> None:
     with sheets.sheet("tension", "tension at rest", width=8.0) as figure:
         axes = figure.subplots()
         axes.plot(solution.s, tensions, color=BLUE)
-        dress(axes, _ALONG, f"tension, {unit}", legend="")
+        label_axes(axes, _ALONG, f"tension, {unit}", legend="")
 
 
 def _draw_modes(solution: ThreadSolutionOfScene, modes: ThreadModes, sheets: Sheets, name: str) -> None:
@@ -83,7 +83,7 @@ def _draw_modes(solution: ThreadSolutionOfScene, modes: ThreadModes, sheets: She
     count = min(_SHOWN_MODES, len(modes.oscillating.values))
     if count == 0:
         return
-    shapes = solution.frame.outside(modes.oscillating.shapes[:count])
+    shapes = solution.frame.to_space(modes.oscillating.shapes[:count])
     rows = (count + 1) // 2
     with sheets.sheet(name, "free motions about the equilibrium", width=11.0, height=2.4 * rows + 1.2) as figure:
         panels = figure.subplots(rows, 2, squeeze=False, sharex=True, sharey=True).ravel()
@@ -133,12 +133,12 @@ def _draw_stability(sweep: Stability, sheets: Sheets, name: str) -> None:
                 dashes = DASHES[1 + number % 3]
                 axes.axvline(threshold.value, color="black", linestyle=dashes, linewidth=1.3)
             lower.plot([], [], dashes, color="black", label=f"{threshold.kind} at {threshold.value:.5g}")
-        dress(upper, "", "frequency |Im λ|, rad/s", legend="")
-        dress(lower, "factor of the stream", "growth Re λ, 1/s", legend="below")
+        label_axes(upper, "", "frequency |Im λ|, rad/s", legend="")
+        label_axes(lower, "factor of the stream", "growth Re λ, 1/s", legend="below")
 
 
 def _different(roots: NDArray[np.complex128]) -> list[NDArray[np.complex128]]:
-    """Roots that are not another one's conjugate all along, shape (roots, values): those look the same."""
+    """Roots without those that are conjugate to another one at all values, shape (roots, values)."""
     kept: list[NDArray[np.complex128]] = []
     for branch in roots.T:
         upwards = branch.real + 1j * np.abs(branch.imag)
@@ -147,14 +147,14 @@ def _different(roots: NDArray[np.complex128]) -> list[NDArray[np.complex128]]:
     return kept
 
 
-def _draw_motion(motion: FollowedMotion, sheets: Sheets, name: str) -> None:
+def _draw_motion(motion: MotionInSpace, sheets: Sheets, name: str) -> None:
     """The thread at a few times, seen along y, or from three sides if it leaves the plane; how far it has moved."""
     places = sorted({int(place) for place in np.linspace(0, len(motion.times) - 1, _SHOWN_SHAPES).round()})
     spread = np.ptp(motion.positions.reshape(-1, 3), axis=0)
     sides = [(0, 2)] if spread[1] < 1e-6 * spread.max() else [(0, 2), (1, 2), (0, 1)]
     s = smooth_curve(motion.nodes, motion.nodes)
     first = smooth_curve(motion.nodes, motion.positions[0])
-    # Four panels stand two by two: side by side their letters would be small.
+    # Four panels stand two by two: side by side their text would be too small.
     rows = (len(sides) + 1) // 2
     with sheets.sheet(name, "shapes at some times", width=12.0, height=0.6 + 4.8 * rows) as figure:
         *panels, last = figure.subplots(rows, 2).ravel()
@@ -166,11 +166,11 @@ def _draw_motion(motion: FollowedMotion, sheets: Sheets, name: str) -> None:
             last.plot(s, np.linalg.norm(shape - first, axis=1), color=colour, label=label)
         for axes, (across, up) in zip(panels, sides, strict=True):
             axes.set_aspect("equal", adjustable="datalim")
-            dress(axes, f"{'xyz'[across]}, m", f"{'xyz'[up]}, m", legend="")
-        dress(last, _ALONG, "distance moved since the first time, m", legend="beside", heading="time t")
+            label_axes(axes, f"{'xyz'[across]}, m", f"{'xyz'[up]}, m", legend="")
+        label_axes(last, _ALONG, "distance moved since the first time, m", legend="beside", heading="time t")
 
 
-def _draw_tension_in_time(motion: FollowedMotion, sheets: Sheets, name: str) -> None:
+def _draw_tension_in_time(motion: MotionInSpace, sheets: Sheets, name: str) -> None:
     """Of all steps, between the output times too."""
     extremes, times = motion.extremes, motion.step_ends
     unit, size = tension_unit(np.concatenate([extremes.highest, extremes.lowest]))
@@ -182,4 +182,4 @@ def _draw_tension_in_time(motion: FollowedMotion, sheets: Sheets, name: str) -> 
         axes.plot(times, extremes.highest / size, color=GREY, label="largest along the thread", **beneath)
         axes.plot(times, extremes.end_tensions[:, 0] / size, color=BLUE, label="end A")
         axes.plot(times, extremes.end_tensions[:, 1] / size, "--", color=VERMILLION, label="end B")
-        dress(axes, "time t, s", f"tension, {unit}")
+        label_axes(axes, "time t, s", f"tension, {unit}")

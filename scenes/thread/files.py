@@ -9,7 +9,7 @@ import numpy as np
 
 from hydroelastic.fem.thread.modes import Roots
 from hydroelastic.scenes.output.line_sequence import Frame, frame_numbers, write_line, write_sequence
-from hydroelastic.scenes.thread.results import Floats, FollowedMotion, ThreadSolutionOfScene
+from hydroelastic.scenes.thread.results import Floats, MotionInSpace, ThreadSolutionOfScene
 
 SHAPE_COLUMNS = ("s", "x", "y", "z", "tension", "force_x", "force_y", "force_z", "curvature")
 
@@ -53,7 +53,7 @@ def _mode_rows(roots: Roots, oscillates: int) -> Floats:
     )
 
 
-def _rows(motion: FollowedMotion) -> Floats:
+def _rows(motion: MotionInSpace) -> Floats:
     """One row for each time and node."""
     times, s = np.meshgrid(motion.times, motion.nodes, indexing="ij")
     return np.column_stack([times.ravel(), s.ravel(), motion.positions.reshape(-1, 3), motion.tensions.ravel()])
@@ -68,7 +68,7 @@ def _write_fields(solution: ThreadSolutionOfScene, folder: Path) -> None:
             write_sequence(folder, numbered("motion", number), _frames(solution, motion))
 
 
-def _frames(solution: ThreadSolutionOfScene, motion: FollowedMotion) -> Iterator[Frame]:
+def _frames(solution: ThreadSolutionOfScene, motion: MotionInSpace) -> Iterator[Frame]:
     for number in frame_numbers(solution.scene.output.frames, len(motion.times)):
         data = {"s": motion.nodes, "tension": motion.tensions[number]}
         yield float(motion.times[number]), motion.positions[number], data

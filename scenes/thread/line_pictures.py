@@ -14,7 +14,7 @@ from hydroelastic.output.pictures.line import animate_line, draw_lines
 from hydroelastic.output.pictures.line_view import DrawnLine, LineView, line_view
 from hydroelastic.scenes.models.thread_tables import FixedEnd
 from hydroelastic.scenes.output.line_sequence import frame_numbers
-from hydroelastic.scenes.thread.results import Floats, FollowedMotion, ThreadSolutionOfScene
+from hydroelastic.scenes.thread.results import Floats, MotionInSpace, ThreadSolutionOfScene
 
 # Points for each element of a curve that is drawn.
 _SMOOTH = 8
@@ -46,14 +46,14 @@ def draw_equilibrium(solution: ThreadSolutionOfScene, path: Path, *, width: int)
     draw_lines(view, [_drawn(solution, points, tensions, solution.scene.title)], [path], width=width)
 
 
-def draw_frames(solution: ThreadSolutionOfScene, motion: FollowedMotion, folder: Path, *, width: int) -> None:
+def draw_frames(solution: ThreadSolutionOfScene, motion: MotionInSpace, folder: Path, *, width: int) -> None:
     """Draw a motion at evenly spread times, from one point of view; the width of the pictures is in pixels."""
     numbers = frame_numbers(solution.scene.output.frames, len(motion.times))
     view, lines = _in_time(solution, motion, numbers)
     draw_lines(view, lines, [folder / f"frame_{place:04d}.png" for place in range(len(numbers))], width=width)
 
 
-def animate_motion(solution: ThreadSolutionOfScene, motion: FollowedMotion, path: Path, *, width: int) -> None:
+def animate_motion(solution: ThreadSolutionOfScene, motion: MotionInSpace, path: Path, *, width: int) -> None:
     """Draw a motion as a GIF that begins again at its end."""
     view, lines = _in_time(solution, motion, frame_numbers(_MOTION_FRAMES, len(motion.times)))
     if len(lines) > 1:
@@ -69,7 +69,7 @@ def animate_modes(solution: ThreadSolutionOfScene, modes: ThreadModes, paths: Se
     rest, extent = solution.rest.positions, float(np.max(np.ptp(solution.rest.positions, axis=0)))
     found = zip(modes.oscillating.values, modes.oscillating.shapes, paths, strict=False)
     for number, (root, shape, path) in enumerate(found, 1):
-        displacement = _interpolated(modes.nodes, solution.frame.outside(shape), solution.s)
+        displacement = _interpolated(modes.nodes, solution.frame.to_space(shape), solution.s)
         displacement *= _AMPLITUDE * extent / np.max(np.linalg.norm(displacement, axis=1))
         parts = np.arange(FRAMES) / FRAMES
         instants = [rest + (displacement * np.exp(2j * np.pi * part)).real for part in parts]
@@ -94,7 +94,7 @@ def tensions_at_rest(solution: ThreadSolutionOfScene) -> tuple[Floats, str]:
 
 
 def _in_time(
-    solution: ThreadSolutionOfScene, motion: FollowedMotion, numbers: Sequence[int]
+    solution: ThreadSolutionOfScene, motion: MotionInSpace, numbers: Sequence[int]
 ) -> tuple[LineView, list[DrawnLine]]:
     """A motion at some of its times."""
     name, size = tension_unit(motion.tensions)

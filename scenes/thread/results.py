@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.fem.kept_tolerance import kept_tolerance
-from hydroelastic.fem.thread.followed_motion import FollowedMotion
 from hydroelastic.fem.thread.frame import Frame
 from hydroelastic.fem.thread.modes import ThreadModes
+from hydroelastic.fem.thread.motion_in_space import MotionInSpace
 from hydroelastic.fem.thread.resting_thread import RestingThread
 from hydroelastic.fem.thread.stability import Stability
 from hydroelastic.physics.thread import Thread
@@ -19,7 +19,7 @@ from hydroelastic.scenes.models.thread import ThreadScene
 
 Floats = NDArray[np.float64]
 
-# Relative error of tensions above which a motion does not tell whether the thread is slack.
+# Relative error of tensions above which slack of the thread is undetermined.
 _TENSION_KNOWN = 0.1
 
 
@@ -45,7 +45,7 @@ class ThreadSolutionOfScene:
     rest: RestingThread
     modes: tuple[ThreadModes, ...]
     stability: tuple[Stability, ...]
-    motions: tuple[FollowedMotion, ...]
+    motions: tuple[MotionInSpace, ...]
     size: dict[str, int]
     seconds: dict[str, float]
 

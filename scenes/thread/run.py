@@ -8,7 +8,6 @@ from hydroelastic.fem.stopwatch import Report
 from hydroelastic.output.pictures.options import OF_CURVES, OF_FIELDS, OF_MOTIONS, PictureOptions
 from hydroelastic.scenes.output.dataset import LabelledResults
 from hydroelastic.scenes.output.staged_run import StagedRun
-from hydroelastic.scenes.thread.animation import jumps_in_animation
 from hydroelastic.scenes.thread.dataset import THREAD_NAMES, thread_dataset
 from hydroelastic.scenes.thread.files import write_thread_files
 from hydroelastic.scenes.thread.results import ThreadSolutionOfScene
@@ -30,8 +29,8 @@ run_thread = StagedRun(
     write=write_thread_files,
     dataset=LabelledResults(arrays=thread_dataset, names=THREAD_NAMES),
     draw=_draw,
-    lacking=jumps_in_animation,
-    heeds=OF_CURVES | OF_FIELDS | OF_MOTIONS,
+    animation_notes=animation_notes,
+    used_options=OF_CURVES | OF_FIELDS | OF_MOTIONS,
     sections=lambda _solution, summary: thread_sections(summary),
     cost=thread_cost,
 )

@@ -1,4 +1,4 @@
-"""Everything that a scene asks of a thread."""
+"""Solution of all analyses of the scene of a thread."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from mpi4py import MPI
 from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.fem.thread.equilibrium_search import FoundEquilibrium, find_equilibrium
-from hydroelastic.fem.thread.followed_motion import FollowedMotion
 from hydroelastic.fem.thread.hyperbolicity import IllPosedError
 from hydroelastic.fem.thread.mode_refinement import modes_to_tolerance, stability_in_growing_stream
+from hydroelastic.fem.thread.motion_in_space import MotionInSpace
 from hydroelastic.fem.thread.motion_plan import ThreadMotionError
-from hydroelastic.fem.thread.motion_refinement import follow_motion
+from hydroelastic.fem.thread.motion_refinement import motion_to_tolerance
 from hydroelastic.fem.thread.newton import ThreadSolverError
 from hydroelastic.fem.thread.refinement import NoEquilibriumError
 from hydroelastic.fem.thread.resting_thread import resting_thread
@@ -41,7 +41,7 @@ def solve_thread_scene(scene: ThreadScene, comm: MPI.Comm, report: Report) -> Th
         The solution (collective).
 
     Raises:
-        UnsolvedError: if a part of it cannot be solved.
+        UnsolvedError: if an analysis cannot be solved.
     """
     watch, thread, frame, tolerance = Stopwatch(), thread_of(scene), frame_of(scene), scene.accuracy.tolerance
     report("equilibrium")
@@ -61,7 +61,7 @@ def solve_thread_scene(scene: ThreadScene, comm: MPI.Comm, report: Report) -> Th
                 sweeps.append(stability_in_growing_stream(comm, thread, frame, rest, asked.factors))
             else:
                 request = motion_request_of(scene, asked)
-                motions.append(follow_motion(comm, thread, frame, rest, request, rest_tolerance=tolerance))
+                motions.append(motion_to_tolerance(comm, thread, frame, rest, request, rest_tolerance=tolerance))
     return ThreadSolutionOfScene(
         scene=scene,
         thread=thread,
@@ -77,7 +77,7 @@ def solve_thread_scene(scene: ThreadScene, comm: MPI.Comm, report: Report) -> Th
 
 @contextmanager
 def _failures_in_words(asked: analyses.ThreadAnalysis | None = None) -> Iterator[None]:
-    """Raise what the solvers raise as an `UnsolvedError` that says which part of the scene failed."""
+    """Convert errors of the solvers to an `UnsolvedError` that names the part of the scene."""
     try:
         yield
     except NoEquilibriumError as error:
@@ -101,7 +101,7 @@ def equilibrium_of(comm: MPI.Comm, scene: ThreadScene) -> FoundEquilibrium:
         return find_equilibrium(comm, thread_of(scene), frame_of(scene), scene.accuracy.tolerance)
 
 
-def _size(found: FoundEquilibrium, motions: list[FollowedMotion]) -> dict[str, int]:
+def _size(found: FoundEquilibrium, motions: list[MotionInSpace]) -> dict[str, int]:
     space = found.solution.equilibrium.space
     dofmap = space.mixed.dofmap
     size = {

@@ -9,8 +9,8 @@ import numpy as np
 
 from hydroelastic.fem.thread.modes import Roots, ThreadModes
 from hydroelastic.fem.thread.stability import Stability
-from hydroelastic.scenes.output.provenance import Summary, framed_summary
-from hydroelastic.scenes.thread.results import FollowedMotion, ThreadSolutionOfScene
+from hydroelastic.scenes.output.provenance import Summary, complete_summary
+from hydroelastic.scenes.thread.results import MotionInSpace, ThreadSolutionOfScene
 
 if TYPE_CHECKING:
     from mpi4py import MPI
@@ -41,7 +41,7 @@ def summarize_thread(solution: ThreadSolutionOfScene, comm: MPI.Comm, *, import_
         "stability": [_stability(sweep) for sweep in solution.stability],
         "motion": [_motion(motion) for motion in solution.motions],
     }
-    return framed_summary(solution, content, solution.size, comm, import_seconds)
+    return complete_summary(solution, content, solution.size, comm, import_seconds)
 
 
 def _equilibrium(solution: ThreadSolutionOfScene) -> dict[str, Any]:
@@ -111,7 +111,7 @@ def _stability(sweep: Stability) -> dict[str, Any]:
     }
 
 
-def _motion(motion: FollowedMotion) -> dict[str, Any]:
+def _motion(motion: MotionInSpace) -> dict[str, Any]:
     extremes = motion.extremes
     high, low = int(extremes.highest.argmax()), int(extremes.lowest.argmin())
     energy = motion.energies.sum(axis=1)

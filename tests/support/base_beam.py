@@ -1,6 +1,6 @@
 """The beam of the case base_s0, for tests of the estimates, which need no dolfinx."""
 
-from hydroelastic.modal import FloatingBeam
+from hydroelastic.modal.beam.floating_beam import FloatingBeam
 
 BASE = FloatingBeam(
     tank_length=10.0,

@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from uniform_strings import uniform_string
 
-from hydroelastic.modal import HangingString, PrintedAndCorrected, Ramp, Ship, Sine, Smooth, Step, roll_response
+from hydroelastic.modal.beam.paper_model import PrintedAndCorrected
+from hydroelastic.modal.roll.motion import roll_response
 from hydroelastic.modal.roll.paper import (
     ALL_ROLL_SLIPS,
     PRINTED_ROLL,
@@ -30,6 +31,9 @@ from hydroelastic.modal.string.paper import (
     static_slope,
     step_motion,
 )
+from hydroelastic.physics.ship import Ship
+from hydroelastic.physics.string import HangingString
+from hydroelastic.physics.string_motions import Ramp, Sine, Smooth, Step
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,8 @@ import numpy as np
 import numpy.typing as npt
 from scipy.linalg import expm
 
-from hydroelastic.modal import Ship, WaveTrain
+from hydroelastic.physics.ship import Ship
+from hydroelastic.physics.wave import WaveTrain
 
 K = math.pi / 6
 TRAIN = WaveTrain(periods=[8.2, 7.7, 7.5, 8.5, 7.7], slopes=[0.03, -0.05, 0.045, 0.06, 0.02])

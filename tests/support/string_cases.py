@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from string_bromwich import Transform, bromwich, ramp_image, sine_image, smooth_image, step_image
 from uniform_strings import uniform_string
 
-from hydroelastic.modal import HangingString, Ramp, Sine, Smooth, Step
+from hydroelastic.physics.string import HangingString
+from hydroelastic.physics.string_motions import Ramp, Sine, Smooth, Step
 
 FIRST, SECOND, THIRD = 2.404825557695773, 5.520078110286311, 8.653727912911013
 

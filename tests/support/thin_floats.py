@@ -10,11 +10,8 @@ import numpy as np
 import numpy.typing as npt
 from numpy.polynomial.legendre import leggauss
 
-from hydroelastic.modal import (
-    TwoLayers,
-    float_profile,
-)
-from hydroelastic.physics.profiles import FloatShape, Profile
+from hydroelastic.modal.liquid.two_layer import TwoLayers
+from hydroelastic.physics.profiles import FloatShape, Profile, float_profile
 
 REFERENCE = json.loads((Path(__file__).parents[1] / "reference" / "two_fluid_float.json").read_text(encoding="utf-8"))
 CASES = {case["id"]: case for case in REFERENCE["cases"]}

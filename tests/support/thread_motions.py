@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.special import j0, y0
 from thread_cases import inputs, results
 
-from hydroelastic.fem.thread.motion import MovingStart, move_thread
+from hydroelastic.fem.thread.motion import InitialMotion, move_thread
 from hydroelastic.fem.thread.motion_plan import MotionPlan
 from hydroelastic.fem.thread.motion_results import ThreadMotion
 from hydroelastic.physics.thread import PointLoad, Thread, ThreadEnd
@@ -44,7 +44,7 @@ def liquid() -> dict[str, Any]:
     return {"normal_drag": given["kn"], "tangential_drag": given["kt"], "added_mass": given["ma"]}
 
 
-def swing(speed: float = 2.5, azimuth: float = 0.0, dimension: int = 2) -> MovingStart:
+def swing(speed: float = 2.5, azimuth: float = 0.0, dimension: int = 2) -> InitialMotion:
     """The hanging chain with velocities of its first mode without liquid."""
     given = inputs("D05")
     omega = CHAIN_OMEGA
@@ -64,7 +64,7 @@ def swing(speed: float = 2.5, azimuth: float = 0.0, dimension: int = 2) -> Movin
     across[0] = np.cos(azimuth)
     if dimension == 3:
         across[1] = np.sin(azimuth)
-    return MovingStart(
+    return InitialMotion(
         position=lambda s: np.outer(s, down),
         velocity=lambda s: speed * np.outer(shape(s) / shape(np.array([1.0])), across),
     )
@@ -74,7 +74,7 @@ CHAIN_OMEGA = 3.40352409229
 """First frequency of the chain without liquid, as case D05 states it."""
 
 
-def follow(model: Thread, elements: int, start: MovingStart, times: Any, step: float, **rest: Any) -> ThreadMotion:
+def follow(model: Thread, elements: int, start: InitialMotion, times: Any, step: float, **rest: Any) -> ThreadMotion:
     """The motion on equal elements of second degree."""
     degree = rest.pop("degree", 2)
     comm = rest.pop("comm", MPI.COMM_WORLD)

@@ -34,12 +34,12 @@ def true_error(scene: ThreadScene, solution: ThreadSolution) -> float:
     held = isinstance(scene.ends.b, FixedEnd)
     if scene.thread.flexural_rigidity > 0.0 or (held and scene.load):
         positions, tensions = _finer(solution, s)
-        positions = frame.outside(positions)
+        positions = frame.to_space(positions)
     elif held:
         positions, tensions = _shot(scene, solution, s)
     else:
         positions, tensions = _marched(scene, s)
-    moved = np.linalg.norm(frame.outside(profile.position(s)) - positions, axis=1).max() / length
+    moved = np.linalg.norm(frame.to_space(profile.position(s)) - positions, axis=1).max() / length
     largest = np.linalg.norm(profile.force, axis=2).max()
     return float(max(moved, np.abs(profile.tension_at(s) - tensions).max() / largest))
 
@@ -56,7 +56,7 @@ def _finer(solution: ThreadSolution, s: np.ndarray) -> tuple[np.ndarray, np.ndar
 def _shot(scene: ThreadScene, solution: ThreadSolution, s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     thread = thread_of(scene)
     a, b = (end.position for end in thread.ends)
-    guess = frame_of(scene).outside(solution.profile.force[0, 0])
+    guess = frame_of(scene).to_space(solution.profile.force[0, 0])
     shot = shoot(thread.distributed_load, thread.length, a, b, thread.axial_rigidity, guess)
     assert shot.miss < 1e-9
     return shot.positions(s), np.linalg.norm(shot.forces(s), axis=1)

@@ -12,7 +12,9 @@ import numpy as np
 from numpy.polynomial.legendre import leggauss
 from scipy.optimize import brentq
 
-from hydroelastic.modal import FloatInTank, Profile, TwoLayers
+from hydroelastic.modal.floats.in_tank import FloatInTank
+from hydroelastic.modal.liquid.two_layer import TwoLayers
+from hydroelastic.physics.profiles import Profile
 
 
 def added_masses(body: FloatInTank, square: float, counts: list[int]) -> list[float]:

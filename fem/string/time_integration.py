@@ -24,7 +24,7 @@ STAGES = 4
 
 
 @dataclass(frozen=True, kw_only=True)
-class March:
+class TimeHistory:
     """The string at the output times.
 
     Attributes:
@@ -46,11 +46,11 @@ class StepControl:
 
     Attributes:
         longest: largest step while waves from a break of the motion travel, s.
-        quiet: time after a break when they have decayed, s; infinite without resistance.
+        decay_time: time after a break when they have decayed, s; infinite without resistance.
     """
 
     longest: float
-    quiet: float = inf
+    decay_time: float = inf
 
 
 # Factor on the steps when only the motion itself and slow decays remain.
@@ -58,18 +58,18 @@ _STRETCH = 10.0
 
 
 def schedule(motion: EndMotion, times: NDArray[np.float64], control: StepControl) -> list[tuple[float, float, int]]:
-    """Intervals between output times, breaks and beginnings of quiet: start, end, number of steps."""
+    """Intervals between output times, breaks and beginnings of decay_time: start, end, number of steps."""
     first, last = float(motion.breaks[0]), float(times[-1])
     starts = np.array([float(time) for time in motion.breaks])
-    stops = {*map(float, times), *starts, *(starts + control.quiet)}
+    stops = {*map(float, times), *starts, *(starts + control.decay_time)}
     known = np.array(sorted(stop for stop in stops if first <= stop <= last))
     since = known - starts[np.searchsorted(starts, known, side="right") - 1]
-    steps = np.where(since >= control.quiet, _STRETCH * control.longest, control.longest)
+    steps = np.where(since >= control.decay_time, _STRETCH * control.longest, control.longest)
     counts = np.maximum(1, np.ceil(np.diff(known) / steps[:-1] - 1e-9)).astype(int)
     return list(zip(known[:-1].tolist(), known[1:].tolist(), counts.tolist(), strict=True))
 
 
-def march(
+def integrate_motion(
     pencil: StringPencil,
     probe: StringProbe,
     motion: EndMotion,
@@ -77,7 +77,7 @@ def march(
     control: StepControl,
     *,
     stages: int = STAGES,
-) -> March:
+) -> TimeHistory:
     """Integrate the motion of the string in time (collective).
 
     Args:
@@ -117,7 +117,7 @@ def march(
             loads = -unit * np.outer(slope, pencil.resistance_load)
             loads -= unit**2 * np.outer(curvature, pencil.mass_load)
             displacement, velocity = collocation.advance(displacement, velocity, step / unit, loads)
-    return March(
+    return TimeHistory(
         values=np.array([values[time] for time in times]).T,
         energies=np.array([energies[time] for time in times]),
         steps=sum(count for _, _, count in intervals),

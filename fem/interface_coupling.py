@@ -1,7 +1,8 @@
-"""Unknowns of the moving surfaces of liquids: the traces of ψ, and on an interface those of one of its two sides.
+"""Coupling of ψ to the elevations η of free surfaces and interfaces.
 
-η is in the space of the traces, so that K η = λ Σρψ is solved exactly on the surface. The meshes above and below an
-interface have the same facets, and the trace from below serves for both sides: upwards is out of the lower liquid and
+η is in the space of the boundary values of ψ, so that K η = λ Σρψ is solved exactly on the surface. The meshes above
+and below an interface have the same facets, and the unknowns below serve for both sides: upwards is out of the lower
+liquid and
 into the upper one,
 
     C η = S η below,    C η = −S η at the twin unknowns above.
@@ -19,7 +20,7 @@ from hydroelastic.fem.shape_loads import summed_over_processes
 from hydroelastic.fem.surfaces import LiquidSurface
 from hydroelastic.meshes.tagged_mesh import MeshError
 
-# How far unknowns are drawn to the middle of their facets to be told apart: less than half, so that they keep apart.
+# Shift of unknowns towards the middle of their facets, by which those at one point are distinguished; less than half.
 _DRAWN = 0.25
 
 
@@ -46,7 +47,7 @@ def surface_blocks(liquid: LiquidSpace, surface: LiquidSurface, surface_mass: PE
         from_above = surface_mass.createSubMatrix(everything, above)
         coupling.axpy(
             -1.0,
-            from_above.matMult(_twins(liquid, surface.surface, above, below)),
+            from_above.matMult(_pairs(liquid, surface.surface, above, below)),
             structure=PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN,
         )
         jump -= liquid.layers[surface.above].density
@@ -59,7 +60,7 @@ def _global_dofs(liquid: LiquidSpace, name: str, layer: int, matrix: PETSc.Mat) 
     return PETSc.IS().createGeneral(dofs.astype(PETSc.IntType), comm=matrix.comm)
 
 
-def _twins(liquid: LiquidSpace, name: str, above: PETSc.IS, below: PETSc.IS) -> PETSc.Mat:
+def _pairs(liquid: LiquidSpace, name: str, above: PETSc.IS, below: PETSc.IS) -> PETSc.Mat:
     """Matrix from the unknowns below an interface to those at the same places above.
 
     A place may be on one process below and on another above: every process sees the places below, which are those of a
@@ -85,9 +86,9 @@ def _twins(liquid: LiquidSpace, name: str, above: PETSc.IS, below: PETSc.IS) -> 
 
 
 def _places(liquid: LiquidSpace, name: str) -> np.ndarray:
-    """Where the owned unknowns of a surface are, drawn a little to the middle of the facets that they belong to.
+    """Positions of the owned unknowns of a surface, shifted slightly towards the middle of their facets.
 
-    At a slit that crosses the interface there are two unknowns at one point, and only their facets tell them apart.
+    At a slit that crosses the interface there are two unknowns at one point, and only their facets distinguish them.
     Shape (owned unknowns, gdim).
     """
     mesh = liquid.tank.mesh
@@ -120,7 +121,7 @@ def density_jump(liquid: LiquidSpace, surface: LiquidSurface, surface_mass: PETS
     if surface.above is not None:
         above_density = liquid.layers[surface.above].density
         above = _global_dofs(liquid, surface.surface, surface.above, surface_mass)
-        from_above = _twins(liquid, surface.surface, above, below).transposeMatMult(_selection(above, surface_mass))
+        from_above = _pairs(liquid, surface.surface, above, below).transposeMatMult(_selection(above, surface_mass))
         jump.axpy(-above_density, from_above, structure=PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN)
         difference -= above_density
     product = surface_mass.createSubMatrix(below, below).ptap(jump)
@@ -129,7 +130,7 @@ def density_jump(liquid: LiquidSpace, surface: LiquidSurface, surface_mass: PETS
 
 
 def _selection(rows: PETSc.IS, matrix: PETSc.Mat) -> PETSc.Mat:
-    """Matrix that takes some owned unknowns from all."""
+    """Selection matrix of some owned unknowns."""
     local = rows.getLocalSize()
     selection = PETSc.Mat().createAIJ(((local, PETSc.DETERMINE), matrix.getSizes()[1]), nnz=1, comm=rows.comm)
     start = selection.getOwnershipRange()[0]

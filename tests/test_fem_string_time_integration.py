@@ -9,9 +9,9 @@ from numpy.polynomial import legendre
 from string_closed_forms import FREQUENCIES, Motion, ramp, sine, smooth, step
 
 from hydroelastic.fem.string.collocation import Collocation
-from hydroelastic.fem.string.march import StepControl, march
 from hydroelastic.fem.string.pencil import StringPencil, build_string_pencil, string_nodes
 from hydroelastic.fem.string.probe import StringProbe
+from hydroelastic.fem.string.time_integration import StepControl, integrate_motion
 from hydroelastic.physics.string import HangingString
 
 COMM = MPI.COMM_WORLD
@@ -32,11 +32,14 @@ def test_order_in_time(name: str, damping: float, stages: int) -> None:
     probe = StringProbe(pencil, np.array([0.0, 0.1, 0.25, 0.5, 0.7, 0.9, 0.97]))
     # Early too: heavy resistance soon leaves nothing but rounding.
     times = np.array([0.25, 0.5, 2.0])
-    exact = march(pencil, probe, MOTIONS[name], times, StepControl(longest=1.0 / 240.0)).values
+    exact = integrate_motion(pencil, probe, MOTIONS[name], times, StepControl(longest=1.0 / 240.0)).values
     counts = np.array([40, 56, 80] if stages == 4 else [80, 112, 160])
     errors = [
         np.abs(
-            march(pencil, probe, MOTIONS[name], times, StepControl(longest=1.0 / count), stages=stages).values - exact
+            integrate_motion(
+                pencil, probe, MOTIONS[name], times, StepControl(longest=1.0 / count), stages=stages
+            ).values
+            - exact
         ).max()
         for count in counts
     ]
@@ -57,7 +60,7 @@ def test_order_in_space_is_that_of_the_front(name: str, regularity: float, degre
     errors = []
     for count in counts:
         pencil = plain(0.3, degree, int(count))
-        values = march(
+        values = integrate_motion(
             pencil, StringProbe(pencil, positions), motion, times, StepControl(longest=0.7 / count / degree)
         ).values
         errors.append(np.sqrt(weights @ (values - exact)[:, 0] ** 2))
@@ -70,7 +73,7 @@ def test_energy_is_kept_after_a_step() -> None:
     pencil = plain(0.0, 6, 12)
     probe = StringProbe(pencil, np.array([0.0]))
     # ½∫T w_x² of the state after the step is large but finite on a mesh. Measured 1e-11 after 2000 steps: rounding.
-    energies = march(pencil, probe, step(), np.linspace(0.0, 100.0, 9), StepControl(longest=0.05)).energies
+    energies = integrate_motion(pencil, probe, step(), np.linspace(0.0, 100.0, 9), StepControl(longest=0.05)).energies
     np.testing.assert_allclose(energies, energies[0], rtol=5e-11)
 
 
@@ -119,6 +122,6 @@ def test_motions_that_jump_again() -> None:
     pencil = plain(0.2, 6, 10)
     probe = StringProbe(pencil, np.array([0.0, 0.4, 0.8]))
     control = StepControl(longest=0.01)
-    both = march(pencil, probe, twice, np.array([1.5, 2.0]), control).values
-    one = march(pencil, probe, first, np.array([1.0, 1.5, 2.0]), control).values
+    both = integrate_motion(pencil, probe, twice, np.array([1.5, 2.0]), control).values
+    one = integrate_motion(pencil, probe, first, np.array([1.0, 1.5, 2.0]), control).values
     np.testing.assert_allclose(both, one[:, 1:] + 0.5 * one[:, :2], atol=1e-8)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.fem.thread.frame import Frame
-from hydroelastic.fem.thread.motion_errors import MeasuredMotion
+from hydroelastic.fem.thread.motion_errors import MotionWithErrors
 from hydroelastic.fem.thread.motion_results import Slack
 from hydroelastic.fem.thread.refinement import ThreadSolution
 
@@ -42,12 +42,12 @@ class Extremes:
 
     @property
     def size(self) -> float:
-        """The tension in whose parts errors of tensions are judged: the largest one, N."""
+        """The largest tension, N, to which errors of tensions are relative."""
         return max(float(np.max(self.highest)), _TENSION_LEAST * self.force_scale)
 
 
 @dataclass(frozen=True, kw_only=True)
-class FollowedMotion:
+class MotionInSpace:
     """A motion in time.
 
     Attributes:
@@ -59,9 +59,9 @@ class FollowedMotion:
         mesh_error: the same by halving all elements, m.
         tension_error: largest change of a tension at the output times by both, N.
         steps: in time, of the last run.
-        step_ends: times at which energies are told, s, shape (steps + 1,).
+        step_ends: times of the energies, s, shape (steps + 1,).
         energies: kinetic, of weight and dead forces, of stretch, of bending, J, shape (steps + 1, 4).
-        drag_work: of the drag by then, J, shape (steps + 1,).
+        drag_work: of the drag up to these times, J, shape (steps + 1,).
         extremes: tensions at `step_ends`.
         slack: times in which some of the thread was in compression, by more than the error of its tension then.
         distance_to_rest: largest distance of the last shape from the equilibrium, m.
@@ -88,7 +88,7 @@ class FollowedMotion:
         return self.step_error + self.mesh_error
 
 
-def followed_motion(frame: Frame, rest: ThreadSolution, found: MeasuredMotion) -> FollowedMotion:
+def motion_in_space(frame: Frame, rest: ThreadSolution, found: MotionWithErrors) -> MotionInSpace:
     """Return a measured motion in space, with its estimated errors.
 
     Args:
@@ -100,10 +100,10 @@ def followed_motion(frame: Frame, rest: ThreadSolution, found: MeasuredMotion) -
     assert found.mesh is not None
     tensions = history.tensions
     final = motion.positions[-1] - rest.profile.position(motion.nodes)
-    return FollowedMotion(
+    return MotionInSpace(
         times=motion.times,
         nodes=motion.nodes,
-        positions=frame.places(motion.positions),
+        positions=frame.positions_in_space(motion.positions),
         tensions=motion.tensions,
         step_error=found.steps.positions,
         mesh_error=found.mesh.positions,
@@ -128,6 +128,6 @@ def followed_motion(frame: Frame, rest: ThreadSolution, found: MeasuredMotion) -
 
 
 def _between_steps(tensions: Array) -> float:
-    """What extremes at the ends of steps leave out between them, N: less than they change by leaving out every other
-    step, which a curve does four times as much."""
+    """Error of extremes that are taken at the ends of steps only, N: at most their change when every other step is left
+    out, which for a smooth curve is four times as large."""
     return float(max(tensions.max() - tensions[::2].max(), tensions[::2].min() - tensions.min()))

@@ -1,0 +1,28 @@
+"""Which model each body has, and what all of them expect."""
+
+from __future__ import annotations
+
+from hydroelastic.fem.bodies.model import BodyModel
+from hydroelastic.physics.tank import Tank
+
+
+def body_model(tank: Tank, index: int) -> BodyModel:
+    """The model of a body of a scaled tank."""
+    if tank.bodies[index].is_elastic:
+        from hydroelastic.fem.bodies.beam import BeamModel
+
+        return BeamModel(tank=tank, index=index)
+    # Contours need SciPy's root finders, which take a while to import.
+    from hydroelastic.fem.bodies.rigid_float import FloatModel
+
+    return FloatModel(tank=tank, index=index)
+
+
+def expected_tones(tank: Tank) -> tuple[float, ...]:
+    """About the (dimensionless) λ of the first elastic tone of each body that bends."""
+    return tuple(tone for index in range(len(tank.bodies)) for tone in body_model(tank, index).expected_tones())
+
+
+def ends_of_motions(tank: Tank) -> tuple[float, ...]:
+    """Up to which (dimensionless) λ modes are looked at for the motions of all bodies."""
+    return tuple(end for index in range(len(tank.bodies)) for end in body_model(tank, index).ends_of_motions())

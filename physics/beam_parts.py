@@ -1,0 +1,33 @@
+"""The parts of a beam: uniform sections, and joints between them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, kw_only=True)
+class Section:
+    """A uniform part of a beam, per metre of width.
+
+    Attributes:
+        length: its length, m.
+        flexural_rigidity: EI, N·m.
+        mass_per_length: m, kg/m².
+    """
+
+    length: float
+    flexural_rigidity: float
+    mass_per_length: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Joint:
+    """A place at which the slope may jump: k (w′(x+) − w′(x−)) = EI w″(x).
+
+    Attributes:
+        at: distance from the beam's left end, m.
+        rotational_stiffness: k per metre of width, N·m/rad; 0 is a hinge.
+    """
+
+    at: float
+    rotational_stiffness: float

@@ -1,0 +1,50 @@
+"""How `check` describes any body."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import ClassVar
+
+from hydroelastic.physics.motions import Level
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.tank.symbols import Group
+
+
+@dataclass(frozen=True, kw_only=True)
+class BodyWords(ABC):
+    """A body in words.
+
+    Attributes:
+        scene: the scene.
+        index: of the body.
+        symbol: of its unknowns.
+        name: what it is.
+    """
+
+    scene: TankScene
+    index: int
+    symbol: ClassVar[str]
+    name: ClassVar[str]
+
+    @property
+    def level(self) -> Level:
+        """Where it floats."""
+        return self.scene.level_of(self.scene.body[self.index])
+
+    @abstractmethod
+    def condition(self) -> str:
+        """Return what holds on the body."""
+
+    @abstractmethod
+    def basis(self, *, is_held: bool) -> str:
+        """Return in what it moves; ``is_held`` says that the volume of the liquid holds its heave."""
+
+    @abstractmethod
+    def groups(self) -> Iterator[Group]:
+        """Yield its dimensionless groups."""
+
+    def at_rest(self) -> dict[str, str]:
+        """Return how it rests, by quantity and unit; empty of a body without draught."""
+        return {}

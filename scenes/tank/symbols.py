@@ -1,0 +1,31 @@
+"""Symbols of what liquids and levels have, as tables name them: of two liquids 1 is above and 2 below."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import isinf
+
+from hydroelastic.physics.motions import Level
+from hydroelastic.scenes.models.tank import TankScene
+
+Group = tuple[str, float, str]
+"""A dimensionless group: its symbol, its value and what it means."""
+
+
+def potential_of(scene: TankScene, layer: int) -> str:
+    """Return the name of the potential in a layer: as the liquids, 1 is above and 2 below."""
+    return "ψ" if len(scene.layers) == 1 else ("ψ₂", "ψ₁")[layer]
+
+
+def jump_of(scene: TankScene, level: Level) -> str:
+    """Return the name of the difference of density that restores a level."""
+    if len(scene.layers) == 1:
+        return "ρ"
+    return "(ρ₂ − ρ₁)" if level == "interface" else "ρ₁"
+
+
+def depth_group(scene: TankScene, name: str, length: float, meaning: str) -> Iterator[Group]:
+    """Yield the depth of the lowest liquid over a length of a body, where it is finite."""
+    depth = scene.layers[0].depth
+    if not isinf(depth):
+        yield ("H/" if len(scene.layers) == 1 else "h₂/") + name, depth / length, meaning

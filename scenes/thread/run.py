@@ -8,6 +8,7 @@ from hydroelastic.fem.stopwatch import Report
 from hydroelastic.output.pictures.options import OF_CURVES, OF_FIELDS, OF_MOTIONS, PictureOptions
 from hydroelastic.scenes.output.dataset import LabelledResults
 from hydroelastic.scenes.output.staged_run import StagedRun
+from hydroelastic.scenes.thread.animation import animation_notes
 from hydroelastic.scenes.thread.dataset import THREAD_NAMES, thread_dataset
 from hydroelastic.scenes.thread.files import write_thread_files
 from hydroelastic.scenes.thread.results import ThreadSolutionOfScene
@@ -29,7 +30,7 @@ run_thread = StagedRun(
     write=write_thread_files,
     dataset=LabelledResults(arrays=thread_dataset, names=THREAD_NAMES),
     draw=_draw,
-    animation_notes=animation_notes,
+    animation_warnings=animation_notes,
     used_options=OF_CURVES | OF_FIELDS | OF_MOTIONS,
     sections=lambda _solution, summary: thread_sections(summary),
     cost=thread_cost,

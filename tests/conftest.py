@@ -1,6 +1,5 @@
 """Fixtures of more than one test file."""
 
-from collections.abc import Iterator
 from typing import Any
 
 import pytest
@@ -14,14 +13,12 @@ def tanks() -> Any:
     return Tanks()
 
 
-@pytest.fixture(scope="module")
-def canvas() -> Iterator[Any]:
-    """What renders pictures; where nothing can render, a test that asks for it is skipped."""
-    from hydroelastic.output.pictures.rendering import Canvas, NoRendererError
+@pytest.fixture(scope="session")
+def renderer() -> None:
+    """Where nothing can render fields, a test that asks for it is skipped."""
+    from hydroelastic.output.pictures.rendering import NoRendererError, open_plotter
 
     try:
-        opened = Canvas()
+        open_plotter()
     except NoRendererError as error:
         pytest.skip(str(error))
-    with opened:
-        yield opened

@@ -4,7 +4,7 @@ from graphlib import TopologicalSorter
 
 import grimp
 
-PACKAGES = ("physics", "meshes", "modal", "fem", "scenes", "benchmarks")
+PACKAGES = ("physics", "meshes", "modal", "fem", "output", "scenes", "benchmarks")
 
 
 def test_imports_have_no_cycle() -> None:

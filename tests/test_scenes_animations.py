@@ -10,10 +10,8 @@ import pytest
 from mode_pictures import gif_pages
 
 from hydroelastic.output.pictures.gif import FRAMES
-from hydroelastic.output.pictures.line import DrawnLine
-from hydroelastic.output.pictures.line_view import LineView
+from hydroelastic.output.pictures.line_view import DrawnLine, LineView
 from hydroelastic.output.pictures.options import PictureOptions
-from hydroelastic.output.pictures.rendering import Canvas, NoRendererError
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.run import run_scene
@@ -25,14 +23,7 @@ HALF = FRAMES // 2
 MOTION = '{kind="motion",times=[0.0,0.1,0.2],move=[{end="b",amplitude=[0.2,0.0,0.0],omega=3.0}]}'
 
 
-@pytest.fixture(scope="module", autouse=True)
-def _renderer() -> None:
-    """Where nothing can render, nothing is tested here."""
-    try:
-        with Canvas():
-            pass
-    except NoRendererError as error:
-        pytest.skip(str(error))
+pytestmark = pytest.mark.usefixtures("renderer")
 
 
 def animations(folder: Path) -> list[str]:

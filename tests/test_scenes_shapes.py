@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from hydroelastic.output.pictures.mode import SurfaceCurve
-from hydroelastic.output.pictures.modes import Canvas, NoRendererError
 from hydroelastic.output.pictures.options import PictureOptions
+from hydroelastic.output.pictures.rendering import NoRendererError, open_plotter
 from hydroelastic.scenes.models.bodies import Beam, Float
 from hydroelastic.scenes.models.body_kinds import Body
 from hydroelastic.scenes.models.tank import TankScene
@@ -185,7 +185,7 @@ def unstable(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A slender box that capsizes, run to its folder."""
     folder = tmp_path_factory.mktemp("shapes") / "result"
     try:
-        Canvas().__exit__(None, None, None)
+        open_plotter()
         images = PictureOptions()
     except NoRendererError:
         images = None

@@ -41,4 +41,4 @@ def part_of_colours(name: str, first: float, last: float) -> ListedColormap:
     from matplotlib import colormaps
     from matplotlib.colors import ListedColormap
 
-    return ListedColormap(colormaps[name](np.linspace(first, last, _SHADES)))
+    return ListedColormap(colormaps[name](np.linspace(first, last, _SHADES))[:, :3])

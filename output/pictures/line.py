@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import MaxNLocator
+from matplotlib.transforms import Bbox
 from mpl_toolkits.mplot3d.art3d import Line3DCollection
+from mpl_toolkits.mplot3d.proj3d import proj_transform
 
 from hydroelastic.output.pictures.colours import BODY, BODY_EDGE, GREY, INK, SEQUENCE, SKY
 from hydroelastic.output.pictures.gif import SECONDS, write_gif
@@ -143,7 +146,7 @@ def _draw_space(figure: Figure, box: tuple[float, float, float, float], view: Li
         own.set_pane_color("white")
         own.line.set_color(GREY)
         axes.tick_params(axis, labelsize=21.0 * POINT, grid_color=_GRID)
-    axes.set_box_aspect(sides, zoom=1.25)
+    axes.set_box_aspect(sides)
     starts, vectors = _stream(view)
     if len(starts):
         axes.quiver(*starts.T, *vectors.T, color=SKY, lw=4.0 * POINT, arrow_length_ratio=0.2)
@@ -152,6 +155,25 @@ def _draw_space(figure: Figure, box: tuple[float, float, float, float], view: Li
     axes.add_collection3d(Line3DCollection(_pieces(line.points), **_coloured(view, line)), autolim=False)
     axes.plot(*line.fixed.T, **_HELD)
     axes.plot(*line.bodies.T, **_BODY)
+    _fit(figure, axes, box, sides, view)
+
+
+def _fit(figure: Figure, axes: Any, box: tuple[float, float, float, float], sides: Array, view: LineView) -> None:
+    """Let the box and its scales fill their room: first to the size, then to the middle."""
+    left, bottom, width, height = box
+    corners = np.array(list(product(*zip(view.low, view.high, strict=True))))
+    for zoomed in (True, False):
+        figure.draw_without_rendering()
+        x, y, _ = proj_transform(*corners.T, axes.get_proj())
+        edges = axes.transData.transform(np.column_stack([x, y]))
+        scales = [axis.get_tightbbox() for axis in (axes.xaxis, axes.yaxis, axes.zaxis)]
+        pixels_of_box = Bbox.union([Bbox([edges.min(axis=0), edges.max(axis=0)]), *scales])
+        drawn = pixels_of_box.transformed(figure.transFigure.inverted())
+        if zoomed:
+            axes.set_box_aspect(sides, zoom=min(width / drawn.width, height / drawn.height))
+        else:
+            x0, y0 = 2.0 * left + 0.5 * width, 2.0 * bottom + 0.5 * height
+            axes.set_position((x0 - 0.5 * (drawn.x0 + drawn.x1), y0 - 0.5 * (drawn.y0 + drawn.y1), width, height))
 
 
 def _pieces(points: Array) -> Array:

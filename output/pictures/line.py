@@ -128,7 +128,7 @@ def _draw_plane(figure: Figure, box: tuple[float, float, float, float], view: Li
         units="inches", width=4.0 * POINT / 72.0, headwidth=3.8, headlength=4.5, headaxislength=4.5,
     )  # fmt: skip
     plane = line.points[:, [0, 2]]
-    axes.add_collection(LineCollection(_pieces(plane), **_coloured(view, line)), autolim=False)
+    axes.add_collection(LineCollection([*_pieces(plane)], **_coloured(view, line)), autolim=False)
     axes.plot(*line.fixed[:, [0, 2]].T, **_HELD)
     axes.plot(*line.bodies[:, [0, 2]].T, **_BODY)
 

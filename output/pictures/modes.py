@@ -153,9 +153,9 @@ def draw_overview(
         titles.append(axes.set_title(picture.title, fontsize=19.0 * POINT, parse_math=False, pad=12.0 * POINT))
     for title in titles:
         shrink(title, panel / WIDTH * figure.bbox.width)
-    smallest = min(title.get_size() for title in titles)
+    smallest = min(title.get_fontsize() for title in titles)
     for title in titles:
-        title.set_size(smallest)
+        title.set_fontsize(smallest)
     write_keys(figure, keys(key_names(pictures, field_name(pictures[0]), vectors=False)), 66.0)
     write_caption(figure, overview_note(pictures, views))
     save(pixels(figure), path)

@@ -106,7 +106,7 @@ def write(figure: Figure, text: str, y: float, *, size: float, colour: str = INK
 
 def shrink(line: Text, room: float) -> None:
     """Make a line of text as small as fits into so many pixels of the image."""
-    line.set_size(line.get_size() * min(1.0, room / max(line.get_window_extent().width, 1.0)))
+    line.set_fontsize(line.get_fontsize() * min(1.0, room / max(line.get_window_extent().width, 1.0)))
 
 
 def write_title(figure: Figure, text: str) -> Text:
@@ -193,9 +193,9 @@ class ColourBar:
 
 def round_ticks(low: float, high: float, count: int) -> NDArray[np.float64]:
     """Multiples of 1, 2 or 5 times a power of ten in [low, high], about ``count`` of them and never many more."""
-    ticks = MaxNLocator(count, steps=(1, 2, 5, 10)).tick_values(low, high)
+    ticks = np.asarray(MaxNLocator(count, steps=(1, 2, 5, 10)).tick_values(low, high))
     rounding = 1e-9 * (high - low)
-    return np.asarray(ticks)[(ticks >= low - rounding) & (ticks <= high + rounding)]
+    return ticks[(ticks >= low - rounding) & (ticks <= high + rounding)]
 
 
 def tick_labels(ticks: NDArray[np.float64]) -> list[str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import pyvista
@@ -12,6 +13,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
 from matplotlib.patches import Polygon
 from matplotlib.patheffects import withStroke
+from numpy.typing import ArrayLike
 
 from hydroelastic.output.pictures.colours import (
     BODY,
@@ -178,7 +180,7 @@ def _draw_iso_lines(
     if len(steep):
         x, y, _ = mesh.points.T
         axes.tricontour(
-            x, y, steep, picture.drawn_field, iso_levels(limit),
+            x, y, picture.drawn_field, iso_levels(limit), triangles=steep,
             zorder=1.0, colors=_ISO_LINE, linewidths=1.1 * POINT * thin, linestyles="solid",
         )  # fmt: skip
 
@@ -216,7 +218,13 @@ def _draw_wash(axes: Axes, picture: ModePicture, surfaces: tuple[SurfaceCurve, .
                 colour, opacity = (risen, 0.55) if sign > 0 else (UPPER_WASH, 0.55) if inner else ("white", 0.5)
                 level, surface = (view.heights(curve, y) for y in (0.0 * height, height))
                 corners = np.column_stack([np.append(curve.x, curve.x[::-1]), np.append(surface, level[::-1])])
-                style = {"facecolor": colour, "alpha": opacity, "linewidth": 0.0, "clip_on": False, "zorder": 1.5}
+                style: dict[str, Any] = {
+                    "facecolor": colour,
+                    "alpha": opacity,
+                    "linewidth": 0.0,
+                    "clip_on": False,
+                    "zorder": 1.5,
+                }
                 axes.add_patch(Polygon(corners, **style))
 
 
@@ -256,7 +264,7 @@ def _draw_walls(axes: Axes, picture: ModePicture, view: View, pixel: float, thin
 
 
 def _stroke(
-    axes: Axes, lines: Sequence[object], width: float, colour: str, *, dashes: tuple[float, float] | None = None
+    axes: Axes, lines: Sequence[Any], width: float, colour: str, *, dashes: tuple[float, float] | None = None
 ) -> None:
     """Straight strokes and polygons; widths in pixels of a page."""
     style = "solid" if dashes is None else _dashed(dashes, width)
@@ -273,7 +281,7 @@ def _dashed(dashes: tuple[float, float], width: float) -> tuple[float, tuple[flo
     return 0.0, (dashes[0] / width, dashes[1] / width)
 
 
-def _surface(kind: str, x: object, y: object, thin: float, *, label: str = "") -> Line2D:
+def _surface(kind: str, x: ArrayLike, y: ArrayLike, thin: float, *, label: str = "") -> Line2D:
     """A displaced surface in a white edge, or a body in a dark one."""
     colour, width, edge, around = {
         "free_surface": (FREE_SURFACE, 4.5, 7.0, "white"),

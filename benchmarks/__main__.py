@@ -4,24 +4,18 @@ from __future__ import annotations
 
 import contextlib
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NoReturn
+from typing import Any, NoReturn
 
 import click
 
+from hydroelastic.benchmarks import output
 from hydroelastic.benchmarks.cases import Case
 from hydroelastic.benchmarks.circle.cases import CIRCLE, circle_cases
-from hydroelastic.benchmarks.measure import Benchmark, cases_of, run_benchmark
-from hydroelastic.benchmarks.output import (
-    OutputError,
-    check_folder,
-    write_circle,
-    write_results,
-    write_strings,
-    write_threads,
-)
+from hydroelastic.benchmarks.measure import cases_of, run_benchmark
+from hydroelastic.benchmarks.output import Output, OutputError, check_folder, write_results
 from hydroelastic.benchmarks.string.cases import MOTIONS, string_cases
 from hydroelastic.benchmarks.tank.cases import TANKS
 from hydroelastic.benchmarks.thread.cases import THREADS, thread_cases
@@ -33,35 +27,27 @@ INTERRUPTED = 130
 
 @dataclass(frozen=True, kw_only=True)
 class Problem:
-    """What is solved, how often, and where its results go."""
+    """What is solved, how often, and where its results go.
 
-    cases: Callable[[bool], list[Case]]
+    Attributes:
+        members: tanks, frequencies, motions or threads; a quick run takes the first one.
+        cases: gives those of a member, all or for a quick run.
+        repeats: rounds that count.
+        output: what is written of it.
+    """
+
+    members: Sequence[Any]
+    cases: Callable[..., tuple[Case, ...]]
     repeats: int
-    write: Callable[[Benchmark, Path], None]
-
-
-def _tank_cases(quick: bool) -> list[Case]:
-    return [case for tank in (TANKS[:1] if quick else TANKS) for case in cases_of(tank, quick=quick)]
-
-
-def _circle_cases(quick: bool) -> list[Case]:
-    return [case for one in (CIRCLE[:1] if quick else CIRCLE) for case in circle_cases(one, quick=quick)]
-
-
-def _string_cases(quick: bool) -> list[Case]:
-    return [case for motion in (MOTIONS[:1] if quick else MOTIONS) for case in string_cases(motion, quick=quick)]
-
-
-def _thread_cases(quick: bool) -> list[Case]:
-    return [case for thread in (THREADS[:1] if quick else THREADS) for case in thread_cases(thread, quick=quick)]
+    output: Output
 
 
 PROBLEMS = {
-    "tanks": Problem(cases=_tank_cases, repeats=7, write=write_results),
+    "tanks": Problem(members=TANKS, cases=cases_of, repeats=7, output=output.TANKS),
     # Half a minute for each round of each frequency.
-    "circle": Problem(cases=_circle_cases, repeats=3, write=write_circle),
-    "string": Problem(cases=_string_cases, repeats=3, write=write_strings),
-    "thread": Problem(cases=_thread_cases, repeats=3, write=write_threads),
+    "circle": Problem(members=CIRCLE, cases=circle_cases, repeats=3, output=output.CIRCLE),
+    "string": Problem(members=MOTIONS, cases=string_cases, repeats=3, output=output.STRING),
+    "thread": Problem(members=THREADS, cases=thread_cases, repeats=3, output=output.THREADS),
 }
 _QUICK_REPEATS = 3
 
@@ -93,14 +79,16 @@ def main(out: Path, problem: tuple[str, ...], quick: bool, repeats: int | None, 
 
 def _measure(problem: Problem, out: Path, *, quick: bool, repeats: int | None, install: bool) -> None:
     """Measure a problem and write its results; ends the process where there are none."""
+    members = problem.members[:1] if quick else problem.members
+    cases = [case for member in members for case in problem.cases(member, quick=quick)]
     rounds = repeats or (_QUICK_REPEATS if quick else problem.repeats)
     try:
         with _progress() as report:
-            benchmark = run_benchmark(problem.cases(quick), repeats=rounds, install=install, report=report)
+            benchmark = run_benchmark(cases, repeats=rounds, install=install, report=report)
         if not benchmark.rows:
             reasons = "; ".join(f"{code}: {reason}" for code, reason in benchmark.not_measured.items())
             _end(f"nothing was measured: {reasons}", NOTHING_MEASURED)
-        problem.write(benchmark, out)
+        write_results(benchmark, out, problem.output)
     except OutputError as error:
         _end(str(error), BAD_INPUT)
     except KeyboardInterrupt:

@@ -54,7 +54,7 @@ class Case:
     Attributes:
         code: by which code.
         tank: name of the tank, of the frequency of the circle, of the motion of the string, or of the thread.
-        variant: ``certified`` with estimate, count and companion; ``whole`` tank or its two ``halves`` without them;
+        variant: ``certified`` with estimate, count and tones; ``whole`` tank or its two ``halves`` without them;
             ``bare`` factorization and solutions alone; a cylinder of ``one length``, or ``two lengths`` and their
             difference; a series ``cut sharply``; a thread moved in ``one run`` at a chosen resolution, at rest by a
             ``closed form`` or as several ``catenaries`` in a row, or ``lumped`` into point masses, at

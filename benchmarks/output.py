@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import tempfile
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from hydroelastic.benchmarks.circle.figure import draw_circle
@@ -19,13 +20,28 @@ from hydroelastic.benchmarks.thread.figure import draw_threads
 from hydroelastic.benchmarks.thread.report import threads_csv, threads_markdown
 from hydroelastic.output.pictures.curves import Sheets
 
-NAME = "speed_against_error"
-CIRCLE_NAME = "open_circle"
-STRING_NAME = "hanging_string"
-THREAD_NAME = "threads"
 
-Text = Callable[[Benchmark], str]
-Draw = Callable[[Sequence[Row], Sheets, str], None]
+@dataclass(frozen=True, kw_only=True)
+class Output:
+    """What is written of a problem.
+
+    Attributes:
+        name: of its files.
+        rows: gives the rows as CSV.
+        page: gives the page.
+        draw: draws the figure of a name.
+    """
+
+    name: str
+    rows: Callable[[Benchmark], str]
+    page: Callable[[Benchmark], str]
+    draw: Callable[[Sequence[Row], Sheets, str], None]
+
+
+TANKS = Output(name="speed_against_error", rows=speed_csv, page=speed_markdown, draw=draw_speed)
+CIRCLE = Output(name="open_circle", rows=circle_csv, page=circle_markdown, draw=draw_circle)
+STRING = Output(name="hanging_string", rows=strings_csv, page=strings_markdown, draw=draw_strings)
+THREADS = Output(name="threads", rows=threads_csv, page=threads_markdown, draw=draw_threads)
 
 
 class OutputError(Exception):
@@ -46,50 +62,19 @@ def check_folder(folder: Path) -> None:
         raise _unwritable(folder, error) from error
 
 
-def write_results(benchmark: Benchmark, folder: Path) -> None:
-    """Write table, page and figure of the tanks; other files of the folder stay.
+def write_results(benchmark: Benchmark, folder: Path, output: Output) -> None:
+    """Write table, page and figure of a problem; other files of the folder stay.
 
     Raises:
         OutputError: if the folder cannot be written.
     """
-    _write(benchmark, folder, NAME, speed_csv, speed_markdown, draw_speed)
-
-
-def write_circle(benchmark: Benchmark, folder: Path) -> None:
-    """Write table, page and figure of the circle; other files of the folder stay.
-
-    Raises:
-        OutputError: if the folder cannot be written.
-    """
-    _write(benchmark, folder, CIRCLE_NAME, circle_csv, circle_markdown, draw_circle)
-
-
-def write_strings(benchmark: Benchmark, folder: Path) -> None:
-    """Write table, page and figure of the hanging string; other files of the folder stay.
-
-    Raises:
-        OutputError: if the folder cannot be written.
-    """
-    _write(benchmark, folder, STRING_NAME, strings_csv, strings_markdown, draw_strings)
-
-
-def write_threads(benchmark: Benchmark, folder: Path) -> None:
-    """Write table, page and figure of the flexible threads; other files of the folder stay.
-
-    Raises:
-        OutputError: if the folder cannot be written.
-    """
-    _write(benchmark, folder, THREAD_NAME, threads_csv, threads_markdown, draw_threads)
-
-
-def _write(benchmark: Benchmark, folder: Path, name: str, rows: Text, page: Text, draw: Draw) -> None:
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(prefix=".partial.", dir=folder) as scratch:
             inside = Path(scratch)
-            (inside / f"{name}.csv").write_text(rows(benchmark), encoding="utf-8")
-            (inside / f"{name}.md").write_text(page(benchmark), encoding="utf-8")
-            draw(benchmark.rows, Sheets(folder=inside, title=""), name)
+            (inside / f"{output.name}.csv").write_text(output.rows(benchmark), encoding="utf-8")
+            (inside / f"{output.name}.md").write_text(output.page(benchmark), encoding="utf-8")
+            output.draw(benchmark.rows, Sheets(folder=inside, title=""), output.name)
             for file in sorted(inside.iterdir()):
                 os.replace(file, folder / file.name)
     except OSError as error:

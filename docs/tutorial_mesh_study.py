@@ -14,8 +14,8 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 
+from hydroelastic.fem.study.row import StudyRow
 from hydroelastic.scenes.models import Accuracy, Beam, Liquid, Tank, TankScene
-from hydroelastic.scenes.study.rows import StudyRow
 from hydroelastic.scenes.study.run import StudyPlan, study_scene
 
 # %% The tank: a scene is a frozen value, made from Python or read from a file; both are checked alike.

@@ -17,19 +17,26 @@ class ErrorEstimate:
     Attributes:
         discretization: the part that refinement reduces.
         rounding: the part that it does not.
+        missing: how many of the things that were asked for a solution lacks, or cannot vouch for, whatever its error.
     """
 
     discretization: float
     rounding: float = 0.0
+    missing: int = 0
 
     @property
     def total(self) -> float:
         """Both parts together."""
         return self.discretization + self.rounding
 
+    @property
+    def shortfall(self) -> tuple[int, float]:
+        """What is missing, then the error: of two solutions that with the smaller one is the better."""
+        return self.missing, self.total
+
     def within(self, tolerance: float) -> bool:
-        """Whether the error is below a tolerance, or no refinement reduces it: most of it is rounding."""
-        return self.discretization <= max(tolerance - self.rounding, self.rounding)
+        """Whether nothing is missing, and the error is below a tolerance or, mostly rounding, not to be reduced."""
+        return not self.missing and self.discretization <= max(tolerance - self.rounding, self.rounding)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,7 +44,7 @@ class AdaptiveSolution(Generic[Solution]):
     """The result of an adaptive solution.
 
     Attributes:
-        solution: the last one, or the last one whose error fell.
+        solution: the first one within the tolerance, or the best one.
         error: its estimated error.
         converged: whether that is within the tolerance.
     """
@@ -55,40 +62,46 @@ def adaptive_solve(
     tolerance: float,
     *,
     rounds: int,
-    while_error_falls: bool = False,
+    least_gain: float = 0.0,
     failures: tuple[type[Exception], ...] = (),
 ) -> AdaptiveSolution[Solution]:
-    """Solve on successively refined discretizations until the estimated error is within a tolerance.
+    """Solve on successively refined discretizations until the error is within a tolerance, or keep the best solution.
 
     Args:
         start: the first discretization: a mesh, a degree, a step in time.
         solve: solves on a discretization; the solution holds what `estimate` and `refine` need.
         estimate: the error of a solution.
-        refine: the next discretization by the last one and its solution, or ``None`` if that would be too large.
+        refine: the next discretization by the last one and its solution, or ``None`` if none would be better.
         tolerance: in the units of the estimate.
         rounds: largest number of solutions, at least 1.
-        while_error_falls: whether to stop with the solution before at the first whose error is not smaller.
-        failures: errors of `solve` that end the refinement with the solution before; those of the first round are
-            raised.
+        least_gain: the refinement ends where it divides the error of the best solution by less than this: 1 where
+            errors that have begun to grow will grow further, 0 where they may fall again.
+        failures: errors of `solve` that end the refinement; those of the first round are raised.
 
     Returns:
-        The solution (collective, as `solve` is); see whether it converged.
+        The first solution within the tolerance, or else the one of least `ErrorEstimate.shortfall` (collective, as
+        `solve` is); see whether it converged.
     """
     best: AdaptiveSolution[Solution] | None = None
     discretization = start
-    for done in range(rounds):
+    for left in reversed(range(rounds)):
         try:
             solution = solve(discretization)
         except failures:
             if best is None:
                 raise
-            return best
+            break
         error = estimate(solution)
-        if while_error_falls and best is not None and error.total >= best.error.total:
-            return best
-        best = AdaptiveSolution(solution=solution, error=error, converged=error.within(tolerance))
-        finer = None if best.converged or done == rounds - 1 else refine(discretization, solution)
+        found = AdaptiveSolution(solution=solution, error=error, converged=error.within(tolerance))
+        if found.converged:
+            return found
+        stuck = best is not None and least_gain * error.total > best.error.total
+        if best is None or error.shortfall < best.error.shortfall:
+            best = found
+        finer = None if stuck or not left else refine(discretization, solution)
         if finer is None:
-            return best
+            break
         discretization = finer
-    raise ValueError(f"rounds is {rounds}: there must be one at least")
+    if best is None:
+        raise ValueError(f"rounds is {rounds}: there must be one at least")
+    return best

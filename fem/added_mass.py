@@ -36,18 +36,18 @@ def body_added_mass(pencil: CoupledPencil) -> np.ndarray:
     return body_responses(pencil)[0]
 
 
-def body_responses(pencil: CoupledPencil) -> tuple[np.ndarray, list[PETSc.Vec]]:
-    """As `body_added_mass`, with ψ for a unit displacement of each shape (collective)."""
-    size = pencil.body_size
+def body_responses(pencil: CoupledPencil, unknowns: np.ndarray | None = None) -> tuple[np.ndarray, list[PETSc.Vec]]:
+    """As `body_added_mass`, of all or of some body unknowns, with ψ for a unit displacement of each (collective)."""
+    columns = np.arange(pencil.body_size) if unknowns is None else unknowns
     unit, momentum = pencil.stiffness.createVecs()
     rows, potentials = [], []
-    for column in range(size):
-        _set_unit(unit, column)
+    for column in columns:
+        _set_unit(unit, int(column))
         potential = pencil.coupling.createVecLeft()
         _liquid_momentum(pencil, unit, momentum, potential)
-        rows.append(pencil.body_values(momentum))
+        rows.append(pencil.body_values(momentum)[columns])
         potentials.append(potential)
-    return np.array(rows).reshape(size, size), potentials
+    return np.array(rows).reshape(len(columns), len(columns)), potentials
 
 
 def _set_unit(vector: PETSc.Vec, index: int) -> None:

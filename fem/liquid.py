@@ -59,9 +59,9 @@ class LiquidSpace:
         grounded: names of the surfaces on which ψ = 0: pressure release, or the mirror plane of antisymmetric modes.
         layers: the liquids, from the bottom up.
         layer_of: layer of each unknown of this process, owned ones first.
-        glued: whether the liquids move through their interface as one, as they do far above its waves. ψ then stands
-            for the pressure ρψ, which is continuous, and there is one layer of unit density for all that takes ψ; in
-            it A = ∫(1/ρ)∇ψ·∇q.
+        continuous_pressure: the liquids, where the pressure ρψ is continuous across their interface, as it is at
+            infinite frequency. ψ then stands for it, and there is one layer of unit density for all that takes ψ; in it
+            A = ∫(1/ρ)∇ψ·∇q.
     """
 
     tank: TankMesh
@@ -70,7 +70,7 @@ class LiquidSpace:
     grounded: tuple[str, ...]
     layers: tuple[Layer, ...]
     layer_of: np.ndarray
-    glued: tuple[Layer, ...] = ()
+    continuous_pressure: tuple[Layer, ...] = ()
 
     @property
     def size(self) -> int:
@@ -85,9 +85,11 @@ class LiquidSpace:
     def energy_densities(self) -> np.ndarray:
         """Kinetic energy over ½ω²|∇ψ|² in each owned cell: ρ, or 1/ρ where ψ stands for the pressure."""
         densities = np.full(len(owned_cells(self.tank.mesh)), self.layers[0].density)
-        for layer in self.glued or self.layers[1:]:
+        for layer in self.continuous_pressure or self.layers[1:]:
             cells = self.tank.cells(layer.name)
-            densities[cells[cells < len(densities)]] = 1.0 / layer.density if self.glued else layer.density
+            densities[cells[cells < len(densities)]] = (
+                1.0 / layer.density if self.continuous_pressure else layer.density
+            )
         return densities
 
     def facet_dofs(self, place: int) -> np.ndarray:
@@ -111,7 +113,7 @@ def liquid_space(
     grounded: tuple[str, ...] = (),
     layers: tuple[Layer, ...] = ONE_LIQUID,
     *,
-    glued: bool = False,
+    continuous_pressure: bool = False,
 ) -> LiquidSpace:
     """Space of ψ of the given degree; its degree does not depend on the mesh's (collective).
 
@@ -120,21 +122,21 @@ def liquid_space(
         degree: polynomial degree.
         grounded: names of the surfaces on which ψ = 0.
         layers: the liquids, from the bottom up.
-        glued: whether they move through their interface as one; the mesh is then not cut there.
+        continuous_pressure: whether the pressure is continuous across their interface; the mesh is then not cut there.
     """
     space = fem.functionspace(tank.mesh, ("Lagrange", degree))
     index_map = space.dofmap.index_map
     layer_of = np.zeros(index_map.size_local + index_map.num_ghosts, dtype=np.int8)
-    for number, layer in enumerate(() if glued else layers[1:], 1):
+    for number, layer in enumerate(() if continuous_pressure else layers[1:], 1):
         layer_of[space.dofmap.list[tank.cells(layer.name)].ravel()] = number
     return LiquidSpace(
         tank=tank,
         space=space,
         degree=degree,
         grounded=grounded,
-        layers=ONE_LIQUID if glued else layers,
+        layers=ONE_LIQUID if continuous_pressure else layers,
         layer_of=layer_of,
-        glued=layers if glued else (),
+        continuous_pressure=layers if continuous_pressure else (),
     )
 
 
@@ -188,28 +190,28 @@ def as_functions(liquid: LiquidSpace, potentials: list[PETSc.Vec]) -> list[fem.F
 _compiled: set[tuple[str, int, int, bool]] = set()
 
 
-def compile_form(tank: TankMesh, degree: int, *, glued: bool = False) -> None:
+def compile_form(tank: TankMesh, degree: int, *, continuous_pressure: bool = False) -> None:
     """Compile the form of a degree on rank 0, unless the cache of dolfinx has it (collective).
 
     Assembly would compile it as well; called before, it separates the time of compilation.
     """
-    kernel = tank.mesh.topology.cell_name(), coordinate_degree(tank.mesh), degree, glued
+    kernel = tank.mesh.topology.cell_name(), coordinate_degree(tank.mesh), degree, continuous_pressure
     # Collective decision: one process may have solved on its own before.
     if tank.mesh.comm.allreduce(kernel not in _compiled, op=MPI.LOR):
-        weight = fem.Function(fem.functionspace(tank.mesh, ("DG", 0))) if glued else None
+        weight = fem.Function(fem.functionspace(tank.mesh, ("DG", 0))) if continuous_pressure else None
         _form(fem.functionspace(tank.mesh, ("Lagrange", degree)), cells=NO_ENTITIES, facets=NO_ENTITIES, weight=weight)
         _compiled.add(kernel)
 
 
 def laplace_matrix(liquid: LiquidSpace) -> PETSc.Mat:
-    """Assemble A = ∫∇ψ·∇q, or ∫(1/ρ)∇ψ·∇q in glued liquids, every unknown included."""
-    weight = _inverse_density(liquid) if liquid.glued else None
+    """Assemble A = ∫∇ψ·∇q, or ∫(1/ρ)∇ψ·∇q of a continuous pressure, every unknown included."""
+    weight = _inverse_density(liquid) if liquid.continuous_pressure else None
     return assembled(_form(liquid.space, cells=owned_cells(liquid.tank.mesh), facets=NO_ENTITIES, weight=weight))
 
 
 def _inverse_density(liquid: LiquidSpace) -> fem.Function:
     weight = fem.Function(fem.functionspace(liquid.tank.mesh, ("DG", 0)))
-    for layer in liquid.glued:
+    for layer in liquid.continuous_pressure:
         weight.x.array[weight.function_space.dofmap.list[liquid.tank.cells(layer.name)].ravel()] = 1.0 / layer.density
     return weight
 

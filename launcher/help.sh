@@ -21,15 +21,17 @@ print_help_if_asked() {
 
 help_of_test() {
     cat <<'EOF'
-usage: ./hydro test [ARGUMENT ...]
+usage: ./hydro test [--all] [ARGUMENT ...]
 
 Runs pytest on all tests that are not slow, then those marked `mpi` again under two MPI ranks. With a path, -k or any
-other selection it runs only what was selected, once. The arguments are pytest's: ./hydro python -m pytest --help
+other selection it runs only what was selected, once. --all adds the slow tests, on one rank and on two. The other
+arguments are pytest's: ./hydro python -m pytest --help
 
-  ./hydro test                               everything that is not slow
+  ./hydro test                               everything that is not slow: minutes
+  ./hydro test --all                         everything: an hour and more
   ./hydro test tests/test_modal_grammel.py   one file
   ./hydro test -k grammel -x                 tests by name, up to the first failure
-  ./hydro test -m slow                       what takes minutes
+  ./hydro test -m slow                       what --all adds
 EOF
 }
 

@@ -3,13 +3,25 @@
 
 run_tests() {
     local arguments markers flags cores=() status=0
+    choose_markers "$@"
+    set -- "${arguments[@]}"
     absolute_arguments "$@"
     cd -- "$checkout"
-    # The whole suite on all cores, a file at a time on each: files share what is solved once. A selection runs plainly.
-    if selects_nothing "$@"; then cores=(-n auto --maxprocesses 4 --dist loadfile); fi
+    # The whole suite on all cores, a file at a time on each, because the tests of a file share what is solved once;
+    # in the order of tests/conftest.py, which is the longest first. A selection runs plainly.
+    if selects_nothing "$@"; then cores=(-n auto --maxprocesses 4 --dist loadfile --no-loadscope-reorder); fi
     inside python -m pytest -o "cache_dir=$forms/pytest" "${cores[@]}" "${arguments[@]}" || status=$?
     if selects_nothing "$@"; then run_mpi_tests "$@" || status=$((status ? status : $?)); fi
     return "$status"
+}
+
+# Sets arguments: --all becomes an empty expression of markers, which the slow tests fit as well.
+choose_markers() {
+    local argument
+    arguments=()
+    for argument in "$@"; do
+        if [[ $argument == --all ]]; then arguments+=(-m ''); else arguments+=("$argument"); fi
+    done
 }
 
 # Makes relative paths of the caller absolute, because the tests run in the checkout.
@@ -36,6 +48,7 @@ selects_nothing() {
             -q | -qq | -v | -vv | -x | -s | -l | -r* | --tb=* | --durations=* | --maxfail=* | --color=*)
                 flags+=("$1")
                 ;;
+            --junitxml=*) ;; # of the first run only
             *) return 1 ;;
         esac
         shift || true
@@ -44,7 +57,7 @@ selects_nothing() {
 
 # The tests marked mpi, under two ranks. The time limit is for ranks that wait for each other after a failure on one.
 run_mpi_tests() {
-    local status=0 rank_status=0 rank folder color=no
+    local status=0 rank_status=0 rank folder color=no files
     if [[ -t 1 ]]; then color=yes; fi # mpirun gives the ranks a terminal in any case
     if [[ $way == active && $(nproc) == 1 ]]; then
         # Two ranks on one core, under the names of all versions of Open MPI.
@@ -55,9 +68,10 @@ run_mpi_tests() {
     export OMPI_MCA_mpi_yield_when_idle=1
     say "again under two MPI ranks: the tests marked mpi"
     folder=$(mktemp -d -- "$forms/mpi.XXXXXX")
-    inside timeout --foreground 1800 mpirun -n 2 sh "$checkout/launcher/rank.sh" "$folder" \
+    mapfile -t files < <(grep -lE 'mark\.mpi\b' tests/test_*.py) # to collect the others takes half a minute
+    inside timeout --foreground 3600 mpirun -n 2 sh "$checkout/launcher/rank.sh" "$folder" \
         -p no:cacheprovider --import-mode=importlib --color="$color" -o faulthandler_timeout=300 \
-        "${flags[@]}" -m "mpi and ($markers)" || status=$?
+        "${flags[@]}" -m "mpi${markers:+ and ($markers)}" "${files[@]}" || status=$?
     for rank in 0 1; do
         if ((status == 0)); then
             read -r rank_status 2>/dev/null <"$folder/status-$rank" || rank_status=1
@@ -70,7 +84,7 @@ run_mpi_tests() {
             say "no test marked mpi fits -m '$markers'"
             status=0
             ;;
-        124) say "the run under two MPI ranks took more than half an hour and was ended" ;;
+        124) say "the run under two MPI ranks took more than an hour and was ended" ;;
         *)
             say "the run under two MPI ranks failed; the end of rank 1:"
             tail -n 40 -- "$folder/output" >&2 || true

@@ -19,7 +19,9 @@ set_variables() {
     export HYDROELASTIC_CACHE=$cache HYDROELASTIC_INSIDE=$venv
     # dolfinx keeps compiled forms in $XDG_CACHE_HOME/fenics. Forms of two PETSc or Python builds must not mix.
     export XDG_CACHE_HOME=$forms
-    # What else would appear in the checkout.
+    # What else would appear in the checkout. As bytecode does not, it may be written: without any, each start compiles
+    # all libraries anew, because with a prefix Python does not see the bytecode beside them.
+    unset PYTHONDONTWRITEBYTECODE
     export PYTHONPYCACHEPREFIX=${PYTHONPYCACHEPREFIX:-$forms/pycache} HYPOTHESIS_STORAGE_DIRECTORY=$forms/hypothesis
     export RUFF_CACHE_DIR=$forms/ruff MYPY_CACHE_DIR=$forms/mypy
     export OMP_NUM_THREADS=${OMP_NUM_THREADS:-1}

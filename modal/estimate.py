@@ -97,3 +97,8 @@ def frequency_from_added_mass(beam: FloatingBeam, added_mass: float) -> float:
 def _check_omega(omega: float) -> None:
     if not omega > 0:
         raise ValueError(f"omega is {omega}; it must be positive")
+
+
+def difference(value: float | None, reference: float | None) -> float | None:
+    """Relative difference of a value to a reference, where there are both."""
+    return None if value is None or not reference else value / reference - 1.0

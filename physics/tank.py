@@ -211,7 +211,12 @@ class Tank:
         return {index: body.hull for index, body in enumerate(self.bodies) if body.hull is not None}
 
     @property
-    def has_high_frequency_limit(self) -> bool:
+    def has_waves(self) -> bool:
+        """Whether waves travel on an open surface or interface."""
+        return any(level.moves and level.is_open for level in self.levels)
+
+    @property
+    def has_infinite_frequency_limit(self) -> bool:
         """Whether bodies have an infinite-frequency added mass: beside an open top that is not a lid, or with two
         liquids."""
         return len(self.layers) > 1 or (self.top != "rigid" and self.levels[-1].is_open)

@@ -28,7 +28,7 @@ WHAT = {
     "import": "dolfinx, PETSc, SLEPc, SciPy",
     "plan": "choosing the resolution",
     "mesh": "gmsh: import, initialization, mesh",
-    "pressure release": "the companion with ψ = 0 on the water: mesh, assembly, solution",
+    "pressure release": "the tone with ψ = 0 on the water: mesh, assembly, solution",
     "forms": "compiling the forms, or finding them compiled",
     "assemble": "matrices and factorizations",
     "solve": "eigenvalues and modes",

@@ -45,7 +45,7 @@ def comparer_of(scene: Scene) -> Callable[..., Outcome]:
     """
     if isinstance(scene, TankScene):
         closed_tank(scene, "the older theories that are compared are those of closed tanks")
-        from hydroelastic.scenes.tank.compare import compare_tank
+        from hydroelastic.scenes.tank.run import compare_tank
 
         return compare_tank
     if isinstance(scene, StringScene):

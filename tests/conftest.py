@@ -1,8 +1,42 @@
-"""Fixtures of more than one test file."""
+"""Fixtures of more than one test file, and the order of the files."""
 
+import csv
+import os
+from fnmatch import fnmatchcase
+from pathlib import Path
 from typing import Any
 
 import pytest
+
+RANKS = [int(os.environ.get(name, "1")) for name in ("OMPI_COMM_WORLD_SIZE", "PMI_SIZE")]
+ON_RANKS = max(RANKS) > 1
+SLOWEST = Path(__file__).parent / "slowest.csv"
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Mark as slow what `slow_but` leaves out, and `slow_on_ranks_but` under ranks; order the files by `slowest.csv`.
+
+    The files that take longest start first, so that the cores end at about the same time; before them those that the
+    table does not know, which may be long.
+    """
+    kept: dict[str, bool] = {}
+    markers = ("slow_but", "slow_on_ranks_but") if ON_RANKS else ("slow_but",)
+    for item in items:
+        for marker in (marker for name in markers for marker in item.iter_markers(name)):
+            case = item.callspec.id if isinstance(item, pytest.Function) and hasattr(item, "callspec") else ""
+            fast = any(fnmatchcase(case, pattern) for pattern in marker.args)
+            test = item.nodeid.partition("[")[0]
+            kept[test] = kept.get(test, False) or fast
+            if not fast:
+                item.add_marker("slow")
+    # Where whole files are collected, a case that was renamed shall not take its test out of the run unseen.
+    lost = [test for test, fast in kept.items() if not fast]
+    if lost and not ON_RANKS and not any("::" in argument for argument in config.args):
+        raise pytest.UsageError(f"slow_but names no case of {', '.join(lost)}")
+    with SLOWEST.open(encoding="utf-8", newline="") as file:
+        seconds = {row["file"]: float(row["seconds"]) for row in csv.DictReader(file)}
+    items.sort(key=lambda item: -seconds.get(item.path.name, float("inf")))
 
 
 @pytest.fixture(scope="session")

@@ -15,7 +15,8 @@ from hydroelastic.benchmarks.circle.cases import CIRCLE, circle_cases, circle_er
 from hydroelastic.benchmarks.circle.report import CIRCLE_COLUMNS, OWN, PEER, circle_csv, circle_markdown
 from hydroelastic.benchmarks.equal_error import best_of, fastest_as_good
 from hydroelastic.benchmarks.measure import Benchmark
-from hydroelastic.benchmarks.output import CIRCLE_NAME, write_circle
+from hydroelastic.benchmarks.output import CIRCLE as OUTPUT
+from hydroelastic.benchmarks.output import write_results
 from hydroelastic.benchmarks.peers import PeerError, peer_folder
 from hydroelastic.benchmarks.rows import Row
 from hydroelastic.benchmarks.workers import start_worker
@@ -59,7 +60,7 @@ def test_the_error_is_the_larger_one_of_both_motions() -> None:
 @pytest.mark.parametrize("frequency", CIRCLE, ids=lambda frequency: frequency.name)
 def test_hydroelastic_keeps_the_tolerance(frequency) -> None:
     case = circle_cases(frequency, quick=True)[0]
-    answer = hydroelastic_circle.solve(hydroelastic_circle.prepare(case))
+    answer = hydroelastic_circle.solve(case)
     assert circle_error(frequency.name, answer.values) < case.tolerance
     assert answer.unknowns > 100
 
@@ -99,5 +100,5 @@ def test_what_is_written(tmp_path: Path) -> None:
     page = circle_markdown(run)
     assert "| Ka = 1 | two lengths, length 20 and 40, 4 panels | 1.0e-02 | 500.0 | tolerance 1e-03 | 1.0e-05 |" in page
     assert "Capytaine 3.0" in page
-    write_circle(run, tmp_path)
-    assert {path.name for path in tmp_path.iterdir()} == {f"{CIRCLE_NAME}.{ending}" for ending in ("csv", "md", "png")}
+    write_results(run, tmp_path, OUTPUT)
+    assert {path.name for path in tmp_path.iterdir()} == {f"{OUTPUT.name}.{ending}" for ending in ("csv", "md", "png")}

@@ -31,6 +31,7 @@ def folder_or_skip(code: Code) -> Path | None:
         pytest.skip(f"{error}; `./hydro bench` installs it")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("code", TANK_PEERS)
 def test_scripts_of_the_peers_find_the_exact_frequencies(code: Code) -> None:
     with start_worker(code, folder_or_skip(code)) as worker:

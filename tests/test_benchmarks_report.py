@@ -15,7 +15,8 @@ from PIL import Image
 from hydroelastic.benchmarks.cases import CODES, Answer, Case, Code
 from hydroelastic.benchmarks.equal_error import front, seconds_at, times_slower
 from hydroelastic.benchmarks.measure import Benchmark, Solve, cases_of, measure
-from hydroelastic.benchmarks.output import NAME, OutputError, check_folder, write_results
+from hydroelastic.benchmarks.output import TANKS as OUTPUT
+from hydroelastic.benchmarks.output import OutputError, check_folder, write_results
 from hydroelastic.benchmarks.rows import Row
 from hydroelastic.benchmarks.tank.cases import TANKS, tank_named
 from hydroelastic.benchmarks.tank.report import CSV_COLUMNS, speed_csv, speed_markdown
@@ -151,11 +152,16 @@ def test_results_replace_each_other_and_leave_other_files(benchmark_run: Benchma
     folder = tmp_path / "new" / "results"
     check_folder(folder)
     assert not folder.exists()
-    write_results(benchmark_run, folder)
+    write_results(benchmark_run, folder, OUTPUT)
     (folder / "notes.txt").write_text("mine", encoding="utf-8")
-    write_results(benchmark_run, folder)
-    assert {path.name for path in folder.iterdir()} == {f"{NAME}.csv", f"{NAME}.md", f"{NAME}.png", "notes.txt"}
-    with Image.open(folder / f"{NAME}.png") as picture:
+    write_results(benchmark_run, folder, OUTPUT)
+    assert {path.name for path in folder.iterdir()} == {
+        f"{OUTPUT.name}.csv",
+        f"{OUTPUT.name}.md",
+        f"{OUTPUT.name}.png",
+        "notes.txt",
+    }
+    with Image.open(folder / f"{OUTPUT.name}.png") as picture:
         assert min(picture.size) > 400
 
 

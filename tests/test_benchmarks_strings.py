@@ -10,7 +10,8 @@ from string_bromwich import bromwich, ramp_image, sine_image, smooth_image, step
 
 from hydroelastic.benchmarks.cases import Case
 from hydroelastic.benchmarks.measure import Benchmark
-from hydroelastic.benchmarks.output import STRING_NAME, write_strings
+from hydroelastic.benchmarks.output import STRING as OUTPUT
+from hydroelastic.benchmarks.output import write_results
 from hydroelastic.benchmarks.rows import Row, row_of
 from hydroelastic.benchmarks.string import hydroelastic as hydroelastic_string
 from hydroelastic.benchmarks.string.cases import MOTIONS, compared, exact, string_cases, string_error, string_scene
@@ -52,6 +53,7 @@ def test_the_error_is_relative_to_the_largest_displacement() -> None:
     assert string_error("smooth", tuple(values)) == pytest.approx(1e-3, rel=1e-9)
 
 
+@pytest.mark.slow_but("case1*")
 @pytest.mark.parametrize(
     ("case", "bound"),
     [
@@ -78,5 +80,5 @@ def test_all_rows_are_written(tmp_path: Path) -> None:
     assert tuple(rows[0]) == STRING_COLUMNS
     assert [row["code"] for row in rows] == [row.case.code for row in ROWS]
     assert "series, cut sharply" in strings_markdown(BENCHMARK)
-    write_strings(BENCHMARK, tmp_path)
-    assert {path.name for path in tmp_path.iterdir()} == {f"{STRING_NAME}.{end}" for end in ("csv", "md", "png")}
+    write_results(BENCHMARK, tmp_path, OUTPUT)
+    assert {path.name for path in tmp_path.iterdir()} == {f"{OUTPUT.name}.{end}" for end in ("csv", "md", "png")}

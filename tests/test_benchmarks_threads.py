@@ -13,7 +13,8 @@ from thread_shooting import shoot
 
 from hydroelastic.benchmarks.cases import Case, Code
 from hydroelastic.benchmarks.measure import Benchmark
-from hydroelastic.benchmarks.output import THREAD_NAME, write_threads
+from hydroelastic.benchmarks.output import THREADS as OUTPUT
+from hydroelastic.benchmarks.output import write_results
 from hydroelastic.benchmarks.peers import PeerError, peer_folder
 from hydroelastic.benchmarks.rows import Row, row_of
 from hydroelastic.benchmarks.thread import hydroelastic as hydroelastic_thread
@@ -130,10 +131,11 @@ def test_errors_are_relative_to_the_largest() -> None:
     ids=lambda value: f"{value.tank}" if isinstance(value, Case) else "",
 )
 def test_hydroelastic_comes_to_the_exact_values(case: Case, least: float, most: float) -> None:
-    answer = hydroelastic_thread.solve(hydroelastic_thread.prepare(case))
+    answer = hydroelastic_thread.solve(case)
     assert least < row_of(case, answer, (1.0,)).error < most
 
 
+@pytest.mark.slow_but("moorpy-catenary-*")
 @pytest.mark.parametrize(
     ("code", "name", "bounds"),
     [
@@ -171,8 +173,8 @@ def test_all_rows_are_written(tmp_path: Path) -> None:
     assert "| MoorDyn | 2.4e-04 |" in page
     assert "MoorDyn 2.7" in page
     assert all(f"### {name}" in page for name in THREADS)
-    write_threads(BENCHMARK, tmp_path)
-    assert {path.name for path in tmp_path.iterdir()} == {f"{THREAD_NAME}.{end}" for end in ("csv", "md", "png")}
+    write_results(BENCHMARK, tmp_path, OUTPUT)
+    assert {path.name for path in tmp_path.iterdir()} == {f"{OUTPUT.name}.{end}" for end in ("csv", "md", "png")}
 
 
 def test_a_quick_run_has_few_cases() -> None:

@@ -142,6 +142,9 @@ def _beside_the_checkout(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Non
     monkeypatch.setenv("MPLBACKEND", "agg")
 
 
+@pytest.mark.slow_but(
+    "README.md", "CONTRIBUTING.md", "docs/api/*", "docs/[cirst]*/*", "docs/theory*", "docs/structure.md"
+)
 @pytest.mark.parametrize(
     "page", [page for page in PAGES if blocks_of(page)], ids=lambda page: str(page.relative_to(ROOT))
 )

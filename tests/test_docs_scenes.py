@@ -18,6 +18,7 @@ SCENES = [
 ]
 
 
+@pytest.mark.slow_but("roll")
 @pytest.mark.parametrize("text", SCENES, ids=lambda text: text.split('"')[1])
 def test_examples_run(text: str, tmp_path: Path) -> None:
     file = tmp_path / "example.toml"

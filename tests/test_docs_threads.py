@@ -121,6 +121,7 @@ def outcome(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFac
     return runner_of(scene)(scene, out=folder / "results", images=None)
 
 
+@pytest.mark.slow
 def test_examples_run(outcome: Outcome) -> None:
     assert outcome.status == "ok"
 

@@ -47,7 +47,7 @@ def test_no_refinement_is_asked_for_below_rounding() -> None:
     assert found.error.total == pytest.approx(found.error.discretization + 1e-6)
 
 
-def test_the_last_solution_is_returned_if_none_converges() -> None:
+def test_a_solution_is_returned_if_none_converges() -> None:
     found = integrated(1e-9, rounds=3)
     assert (found.converged, found.solution[0]) == (False, 4)
     stopped = adaptive_solve(
@@ -56,26 +56,77 @@ def test_the_last_solution_is_returned_if_none_converges() -> None:
     assert (stopped.converged, stopped.solution[0]) == (False, 1)
 
 
-def test_the_best_solution_is_kept_where_errors_grow_or_a_solution_fails() -> None:
-    errors = {1: 4.0, 2: 1.0, 4: 3.0}
-    options = {"while_error_falls": True, "failures": (ArithmeticError,), "rounds": 9}
+def refined_by_two(
+    errors: dict[int, ErrorEstimate], *, rounds: int = 4, least_gain: float = 0.0
+) -> tuple[AdaptiveSolution[int], list[int]]:
+    """What is found on 1, 2, 4 … elements with given errors and a tolerance of ½, and on how many it was tried."""
+    tried = []
 
-    def solve(errors: dict[int, float]) -> AdaptiveSolution[int]:
-        def at(count: int) -> int:
-            if count not in errors:
-                raise ArithmeticError
-            return count
+    def solve(count: int) -> int:
+        tried.append(count)
+        if count not in errors:
+            raise ArithmeticError
+        return count
 
-        return adaptive_solve(
-            1,
-            at,
-            lambda count: ErrorEstimate(discretization=errors[count]),
-            lambda count, _found: 2 * count,
-            0.5,
-            **options,  # type: ignore[arg-type]
-        )
+    found = adaptive_solve(
+        1,
+        solve,
+        errors.__getitem__,
+        lambda count, _found: 2 * count,
+        0.5,
+        rounds=rounds,
+        least_gain=least_gain,
+        failures=(ArithmeticError,),
+    )
+    return found, tried
 
-    assert solve(errors).solution == 2
-    assert solve({1: 4.0, 2: 1.0}).solution == 2
+
+def of(*errors: float, missing: tuple[int, ...] = (0, 0, 0, 0)) -> dict[int, ErrorEstimate]:
+    return {
+        2**place: ErrorEstimate(discretization=error, missing=lacked)
+        for place, (error, lacked) in enumerate(zip(errors, missing, strict=False))
+    }
+
+
+@pytest.mark.parametrize(
+    ("errors", "best"), [((4.0, 1.0, 3.0, 2.0), 2), ((1.0, 4.0, 3.0, 2.0), 1), ((4.0, 3.0, 2.0, 1.0), 8)]
+)
+def test_the_best_of_all_solutions_is_kept_if_none_converges(errors: tuple[float, ...], best: int) -> None:
+    found, tried = refined_by_two(of(*errors))
+    assert (found.solution, found.error.total, found.converged) == (best, 1.0, False)
+    assert tried == [1, 2, 4, 8]
+
+
+def test_a_solution_that_lacks_less_is_better_whatever_its_error() -> None:
+    found, tried = refined_by_two(of(0.1, 4.0, 3.0, 0.2, missing=(1, 0, 0, 1)))
+    # The first and the last are accurate enough, but not all that was asked for.
+    assert (found.solution, found.converged, tried) == (4, False, [1, 2, 4, 8])
+    found, tried = refined_by_two(of(0.1, 0.4, missing=(1, 0)))
+    assert (found.solution, found.converged, tried) == (2, True, [1, 2])
+
+
+def test_refinement_ends_where_errors_fall_too_little_or_a_solution_fails() -> None:
+    grown, tried = refined_by_two(of(4.0, 1.0, 3.0, 0.4), least_gain=1.0)
+    assert (grown.solution, tried) == (2, [1, 2, 4])
+    # A third less is not enough, but better; what converges is enough, however little it gained.
+    slow, tried = refined_by_two(of(4.0, 1.0, 0.7, 0.4), least_gain=1.5)
+    assert (slow.solution, slow.converged, tried) == (4, False, [1, 2, 4])
+    enough, _ = refined_by_two(of(0.6, 0.5), least_gain=1.5)
+    assert (enough.solution, enough.converged) == (2, True)
+    failed, tried = refined_by_two(of(4.0, 1.0))
+    assert (failed.solution, tried) == (2, [1, 2, 4])
     with pytest.raises(ArithmeticError):
-        solve({})
+        refined_by_two({})
+
+
+def test_nothing_is_refined_after_the_last_round() -> None:
+    refinements = []
+    adaptive_solve(
+        1,
+        trapezoids,
+        lambda found: ErrorEstimate(discretization=found[2]),
+        lambda count, _found: refinements.append(count) or 2 * count,  # type: ignore[func-returns-value]
+        1e-9,
+        rounds=3,
+    )
+    assert refinements == [1, 2]

@@ -25,14 +25,15 @@ from hydroelastic.fem.surfaces import Body
 from hydroelastic.fem.tank.error_estimates import boundary_error
 from hydroelastic.fem.tank.field_model import build_field_model, build_mesh, distributed_mesh
 from hydroelastic.fem.tank.field_solution import solve_field
-from hydroelastic.fem.tank.infinite_frequency import HighFrequencyAddedMass, high_frequency_added_mass
+from hydroelastic.fem.tank.infinite_frequency import InfiniteFrequencyAddedMass, infinite_frequency_limit
 from hydroelastic.fem.tank.mesh import graded_outline
-from hydroelastic.fem.tank.resolution import companion_resolution, initial_resolution
+from hydroelastic.fem.tank.resolution import infinite_frequency_resolution, initial_resolution
 from hydroelastic.meshes.build import build_mesh as build_tagged_mesh
 from hydroelastic.meshes.geometry import BOTTOM, FREE_SURFACE, INTERFACE, LEFT_WALL, RIGHT_WALL
 from hydroelastic.modal.floats.rigid_limits import half_immersed_ellipse, interface_ellipse, section_heave_added_mass
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.physics.profiles import float_profile
+from hydroelastic.physics.tank import Tank
 from hydroelastic.scenes.models.bodies import Beam, Float
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
@@ -75,6 +76,7 @@ def moments(pencil: CoupledPencil, values: Callable[[np.ndarray, np.ndarray], np
     return float(pencil.liquid.tank.mesh.comm.allreduce(shape_loads(pencil.liquid, body).sum()))
 
 
+@pytest.mark.slow_on_ranks_but("ship")
 @pytest.mark.mpi
 @pytest.mark.parametrize("name", SECTIONS)
 def test_normals_of_a_contour_close_and_hold_its_area(name: str) -> None:
@@ -100,6 +102,7 @@ def test_measures_of_surfaces_and_contours_are_exact() -> None:
         assert comm.allreduce(surface_load(pencil.liquid, (name,)).sum()) == pytest.approx(expected, rel=1e-11)
 
 
+@pytest.mark.slow_on_ranks_but("beside a circle-0.333-0.1")
 @pytest.mark.mpi
 @pytest.mark.parametrize(("position", "half_height"), [(0.333, 0.1), (0.4123, 0.0771), (0.29, 0.1234)])
 @pytest.mark.parametrize("beside", [False, True], ids=["alone", "beside a circle"])
@@ -167,6 +170,7 @@ def test_the_energy_of_a_harmonic_function_beside_a_circle_converges_exponential
     assert errors[-1] <= 1e-12
 
 
+@pytest.mark.slow_but("circle_off_centre")
 @pytest.mark.parametrize("name", ["circle", "circle_off_centre", "two_liquids_parabola"])
 def test_frequencies_converge_with_the_degree_of_the_geometry(name: str) -> None:
     """ψ of degree 9 on cells of degree 1, 2, 3, 5, 8: errors fall until those of ψ and of the reference are left."""
@@ -181,7 +185,7 @@ def test_frequencies_converge_with_the_degree_of_the_geometry(name: str) -> None
         mesh = distributed_mesh(
             MPI.COMM_WORLD,
             lambda degree=geometry_degree: build_tagged_mesh(
-                graded_outline(tank, resolution, half=half, released=False),
+                graded_outline(tank, resolution, half=half, infinite_frequency=False),
                 bulk_size=resolution.bulk_size,
                 ring_ratio=resolution.ring_ratio,
                 geometry_degree=degree,
@@ -203,7 +207,14 @@ def test_frequencies_converge_with_the_degree_of_the_geometry(name: str) -> None
 LENGTHS = (500.0, 1000.0)
 
 
-def above_the_waves(length: float, *bodies: Float, densities: tuple[float, ...]) -> HighFrequencyAddedMass:
+def added_mass(comm: MPI.Comm, tank: Tank, tolerance: float, *, half: bool) -> InfiniteFrequencyAddedMass:
+    first = infinite_frequency_resolution(tank, tolerance, ())
+    found = infinite_frequency_limit(comm, tank, first, tolerance, Stopwatch(), half=half).added_mass
+    assert found is not None
+    return found
+
+
+def above_the_waves(length: float, *bodies: Float, densities: tuple[float, ...]) -> InfiniteFrequencyAddedMass:
     scene = layered(
         *bodies,
         densities=densities,
@@ -211,7 +222,7 @@ def above_the_waves(length: float, *bodies: Float, densities: tuple[float, ...])
         length=length,
         top="free" if len(densities) == 1 else "rigid",
     )
-    return high_frequency_added_mass(MPI.COMM_WORLD, physical_tank(scene).scaled(), 1e-9, Stopwatch(), half=True)
+    return added_mass(MPI.COMM_WORLD, physical_tank(scene).scaled(), 1e-9, half=True)
 
 
 def unbounded(shape: str, densities: tuple[float, ...], motions: str = "heave", **keys: Any) -> np.ndarray:
@@ -230,6 +241,7 @@ def unbounded(shape: str, densities: tuple[float, ...], motions: str = "heave", 
     return found[1] + (found[1] - found[0]) / 3.0
 
 
+@pytest.mark.slow_but("1.0-1.0-one", "1.0-1.0-two")
 @pytest.mark.parametrize("densities", [(1000.0,), (1000.0, 800.0), (1000.0, 999.0)], ids=["one", "two", "close"])
 @pytest.mark.parametrize(("half_width", "half_height"), [(1.0, 1.0), (2.0, 1.0), (0.1, 1.0)])
 def test_ellipses_have_their_added_mass_above_the_waves(
@@ -274,13 +286,14 @@ def test_a_rigid_plate_has_its_added_mass_above_the_waves(densities: tuple[float
         beam = Beam(start=0.5 * length - 1.0, length=2.0, flexural_rigidity=1e6, mass_per_length=1.0)
         depths = (0.5 * length,) * len(densities)
         tank = physical_tank(layered(beam, densities=densities, depths=depths, length=length, top="free")).scaled()
-        resolution = companion_resolution(tank, 1e-9, (0.0,))
-        mesh = build_mesh(MPI.COMM_WORLD, tank, resolution, released=True)
-        pencil = build_field_model(mesh, tank, degree=resolution.degree, shapes=(1,), pressure_release=True)
+        resolution = infinite_frequency_resolution(tank, 1e-9, (0.0,))
+        mesh = build_mesh(MPI.COMM_WORLD, tank, resolution, infinite_frequency=True)
+        pencil = build_field_model(mesh, tank, degree=resolution.degree, shapes=(1,), infinite_frequency=True)
         found.append(body_added_mass(pencil)[0, 0] * densities[0] * length**2)
     assert found[1] + (found[1] - found[0]) / 3.0 == pytest.approx(pi / 8.0 * sum(densities) * 4.0, rel=1e-8)
 
 
+@pytest.mark.slow_on_ranks_but("two")
 @pytest.mark.mpi
 @pytest.mark.parametrize("densities", [(1000.0,), (1000.0, 800.0)], ids=["one", "two"])
 def test_processes_agree_on_the_added_mass_above_the_waves(densities: tuple[float, ...]) -> None:
@@ -290,10 +303,7 @@ def test_processes_agree_on_the_added_mass_above_the_waves(densities: tuple[floa
     )
     top = "free" if len(densities) == 1 else "rigid"
     tank = physical_tank(layered(*bodies, densities=densities, top=top)).scaled()
-    together, alone = (
-        high_frequency_added_mass(comm, tank, 1e-8, Stopwatch(), half=False).matrix
-        for comm in (MPI.COMM_WORLD, MPI.COMM_SELF)
-    )
+    together, alone = (added_mass(comm, tank, 1e-8, half=False).matrix for comm in (MPI.COMM_WORLD, MPI.COMM_SELF))
     assert together == pytest.approx(alone, abs=1e-11 * np.abs(alone).max())
     assert np.array_equal(alone, alone.T)
     assert np.linalg.eigvalsh(alone).min() > 0.0

@@ -32,6 +32,7 @@ def assert_seen(estimates: np.ndarray, errors: np.ndarray, *, low: float, high: 
     assert ratios.max() <= high, ratios
 
 
+@pytest.mark.slow_on_ranks_but("0.25-5")
 @pytest.mark.mpi
 @pytest.mark.parametrize("degree", [4, 5, 6, 7])
 @pytest.mark.parametrize("size", [0.25, 0.15])
@@ -43,6 +44,7 @@ def test_the_error_of_smooth_waves_is_seen(tanks: Any, degree: int, size: float)
     assert_seen(estimates, values / exact - 1.0, low=1.0 / 3.0, high=30.0)
 
 
+@pytest.mark.slow_but("base_s0-*")
 @pytest.mark.parametrize("tip_size", [1e-6, None])
 @pytest.mark.parametrize("degree", [4, 6, 8])
 @pytest.mark.parametrize("name", ["base_s0", "offcentre_s0", "wide_0.9_s1"])
@@ -59,6 +61,7 @@ def test_the_error_at_tips_is_seen_with_rings_and_without(
     assert_seen(estimates + missing, values / exact - 1.0, low=1.0 / 3.0, high=30.0)
 
 
+@pytest.mark.slow_on_ranks_but("5")
 @pytest.mark.mpi
 @pytest.mark.parametrize("degree", [5, 9])
 def test_the_error_where_the_water_has_no_weight_is_seen(tanks: Any, degree: int) -> None:
@@ -70,6 +73,7 @@ def test_the_error_where_the_water_has_no_weight_is_seen(tanks: Any, degree: int
     assert_seen(estimates, values / exact - 1.0, low=1.0 / 3.0, high=30.0)
 
 
+@pytest.mark.slow_but("base_s0")
 @pytest.mark.parametrize("name", ["base_s0", "narrow_s1", "wide_0.9_s1", "full_free_s0", "soft_s0", "paper_x1_0"])
 def test_what_dry_modes_left_out_would_add_is_seen(tanks: Any, name: str) -> None:
     """λ with N dry modes against λ with 120 on the same mesh, which has the same error of the liquid."""

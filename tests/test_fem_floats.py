@@ -60,6 +60,7 @@ def symmetric(tanks: Any, scene: TankScene) -> tuple[np.ndarray, np.ndarray]:
     return np.array([solution.omega(mode.eigenvalue) for mode in modes]), np.array(masses)
 
 
+@pytest.mark.slow_on_ranks_but
 @pytest.mark.mpi
 @pytest.mark.parametrize("name", BOXES)
 def test_thin_floats_have_every_digit_of_the_public_boxes(tanks: Any, name: str) -> None:
@@ -117,6 +118,7 @@ def box_theory(scene: TankScene, count: int, *, volume_term: bool = True) -> Box
     return box_modes(floating, count, volume_term=volume_term)
 
 
+@pytest.mark.slow_but("ellipse-two", "*-one")
 @pytest.mark.parametrize("densities", [(1000.0,), (1000.0, 800.0), (1000.0, 999.0)], ids=["one", "two", "close"])
 @pytest.mark.parametrize("shape", THIN)
 def test_thin_floats_of_all_shapes_have_their_exact_modes(tanks: Any, shape: str, densities: tuple[float, ...]) -> None:
@@ -218,6 +220,7 @@ FLOATS: dict[str, TankScene] = {
 }
 
 
+@pytest.mark.slow_but("keel")
 @pytest.mark.parametrize("name", FLOATS)
 def test_frequencies_do_not_depend_on_the_principal_motions(name: str) -> None:
     """Heave and roll of unsymmetric sections are coupled by gravity: against the full 3 × 3 stiffness."""
@@ -244,6 +247,7 @@ def test_the_principal_motions_diagonalize_stiffness_and_inertia() -> None:
         )
 
 
+@pytest.mark.slow_on_ranks_but
 @pytest.mark.mpi
 def test_a_circle_that_turns_about_its_centre_moves_no_liquid(tanks: Any) -> None:
     """Its roll is neutral and without added mass: neither a mode nor an influence on any other."""
@@ -266,6 +270,7 @@ def mirrored(vertices: tuple[tuple[float, float], ...]) -> tuple[tuple[float, fl
     return tuple((-x, y) for x, y in reversed(vertices))
 
 
+@pytest.mark.slow
 def test_the_mirror_image_of_a_tank_has_the_same_frequencies(tanks: Any) -> None:
     ship = FLOATS["ship"].body[0]
     beam = {"length": 0.2, "flexural_rigidity": 1.0, "mass_per_length": 2.0}
@@ -280,6 +285,7 @@ def test_the_mirror_image_of_a_tank_has_the_same_frequencies(tanks: Any) -> None
     assert one.float_modes[0].index == other.float_modes[0].index
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("size", "density"), [(1e-3, 1.0), (1.0, 10.0), (1e3, 0.1)])
 def test_millimetres_and_heavier_liquids_give_the_same_digits(tanks: Any, size: float, density: float) -> None:
     ship = FLOATS["ship"].body[0]
@@ -312,6 +318,8 @@ SYMMETRIC: dict[str, TankScene] = {
 }
 
 
+@pytest.mark.slow_but("rectangle", "thin")
+@pytest.mark.slow_on_ranks_but("rectangle")
 @pytest.mark.mpi
 @pytest.mark.parametrize("name", SYMMETRIC)
 def test_halves_give_the_modes_of_the_whole_tank(tanks: Any, name: str) -> None:
@@ -331,10 +339,10 @@ def test_halves_give_the_modes_of_the_whole_tank(tanks: Any, name: str) -> None:
     assert matrices[0] == pytest.approx(matrices[1], abs=2e-8 * np.abs(matrices[1]).max())
 
 
-@pytest.mark.parametrize("released", [False, True])
+@pytest.mark.parametrize("infinite_frequency", [False, True])
 @pytest.mark.parametrize("name", FLOATS)
-def test_added_mass_is_symmetric_and_positive(name: str, released: bool) -> None:
-    (pencil,) = pencils(FLOATS[name], released=released)
+def test_added_mass_is_symmetric_and_positive(name: str, infinite_frequency: bool) -> None:
+    (pencil,) = pencils(FLOATS[name], infinite_frequency=infinite_frequency)
     added = body_added_mass(pencil)
     largest = np.abs(added).max()
     # One factorization serves all columns: rounding of the largest.
@@ -363,6 +371,7 @@ PROCESSES: dict[str, TankScene] = {
 }
 
 
+@pytest.mark.slow_on_ranks_but("thin", "ship", "unstable", "float, slit and beam")
 @pytest.mark.mpi
 @pytest.mark.parametrize("name", PROCESSES)
 def test_two_processes_find_what_one_finds(name: str) -> None:

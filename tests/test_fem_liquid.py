@@ -126,6 +126,7 @@ def test_a_surface_wave_has_its_exact_added_mass(water: CoupledPencil, number: i
     assert wave_quotient(water, number) == pytest.approx(1.0 / (wavenumber * tanh(wavenumber * DEPTH)), rel=1e-11)
 
 
+@pytest.mark.slow_on_ranks_but
 def test_the_added_mass_of_a_wave_converges_exponentially_in_the_degree(tanks: Any) -> None:
     """The wave is smooth: each degree gains a factor of about (kh/2p)², which is 0.04 at degree 4 and falls on."""
     wavenumber = 4 * pi / LENGTH
@@ -172,6 +173,7 @@ def exact_load(index: int, power: int, start: float, length: float) -> float:
     return length * total
 
 
+@pytest.mark.slow_on_ranks_but("3-60")
 @pytest.mark.parametrize("index", [2, 3, 20, 59, 60, 61])
 @pytest.mark.parametrize("power", [2, 3, 4, 5])
 def test_loads_of_high_dry_modes_are_exact_on_coarse_elements(beam: CoupledPencil, index: int, power: int) -> None:
@@ -186,6 +188,7 @@ def test_loads_of_high_dry_modes_are_exact_on_coarse_elements(beam: CoupledPenci
     assert beam.body_values(loads)[index] == pytest.approx(exact_load(index, power, start, length), abs=1e-13)
 
 
+@pytest.mark.slow_on_ranks_but("3-60")
 @pytest.mark.parametrize("index", [2, 60, 61])
 @pytest.mark.parametrize("power", [1, 3, 5])
 def test_loads_on_a_single_element_are_exact(beam: CoupledPencil, index: int, power: int) -> None:

@@ -41,6 +41,7 @@ def parts_of(tanks: Any, kind: str) -> list[tuple[CoupledPencil, list[Mode]]]:
 KINDS = pytest.mark.parametrize("kind", ["one", "one, hydrostatic", "two", "lid", "pressure release", "water alone"])
 
 
+@pytest.mark.slow_on_ranks_but("one", "water alone")
 @pytest.mark.mpi
 @KINDS
 def test_between_two_modes_the_inertia_counts_those_below(tanks: Any, kind: str) -> None:
@@ -61,6 +62,7 @@ def test_counting_leaves_the_matrices_as_they_were(tanks: Any, kind: str) -> Non
     assert [matrix.norm() for matrix in matrices] == before
 
 
+@pytest.mark.slow_on_ranks_but("one")
 @pytest.mark.mpi
 @KINDS
 def test_modes_are_orthogonal_with_unit_generalized_mass(tanks: Any, kind: str) -> None:
@@ -78,6 +80,7 @@ def test_modes_are_orthogonal_with_unit_generalized_mass(tanks: Any, kind: str) 
             assert one.displacement.dot(momentum) == pytest.approx(float(i == j), abs=1e-9)
 
 
+@pytest.mark.slow_on_ranks_but("one")
 @pytest.mark.mpi
 @KINDS
 def test_residuals_are_small(tanks: Any, kind: str) -> None:
@@ -85,6 +88,7 @@ def test_residuals_are_small(tanks: Any, kind: str) -> None:
     assert max(mode.residual for _, modes in parts_of(tanks, kind) for mode in modes) <= 5e-9
 
 
+@pytest.mark.slow_on_ranks_but("one", "lid")
 @pytest.mark.mpi
 @pytest.mark.parametrize("kind", ["one", "one, hydrostatic", "two", "lid", "water alone"])
 def test_a_closed_liquid_keeps_its_volume(tanks: Any, kind: str) -> None:
@@ -97,6 +101,7 @@ def test_a_closed_liquid_keeps_its_volume(tanks: Any, kind: str) -> None:
             assert abs(moved) <= 1e-11 * mode.displacement.norm(PETSc.NormType.NORM_INFINITY)
 
 
+@pytest.mark.slow_on_ranks_but("one")
 @pytest.mark.mpi
 @pytest.mark.parametrize("kind", ["one", "one, hydrostatic", "two", "water alone"])
 def test_the_water_rises_by_the_potential_with_its_constant(tanks: Any, kind: str) -> None:
@@ -188,6 +193,7 @@ def test_a_mirrored_tank_has_the_same_frequencies(tanks: Any) -> None:
     assert agree_to_estimates(left, right)
 
 
+@pytest.mark.slow
 def test_the_order_of_bodies_in_the_scene_makes_no_difference(tanks: Any) -> None:
     one = tanks.beam(start=1.0, length=3.0, flexural_rigidity=5e2)
     other = tanks.beam(start=6.0, length=2.0, flexural_rigidity=1e2, hydrostatic=True)
@@ -241,6 +247,7 @@ def test_nearly_double_modes_of_twin_beams_are_all_found(tanks: Any) -> None:
         assert energy[0] == pytest.approx(energy[1], rel=1e-3)
 
 
+@pytest.mark.slow_on_ranks_but("one", "pressure release")
 @pytest.mark.mpi
 @KINDS
 def test_halves_give_the_modes_of_the_whole_tank(tanks: Any, kind: str) -> None:

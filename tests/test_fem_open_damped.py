@@ -15,6 +15,7 @@ from hydroelastic.fem.open_water.field_model import Band, first_resolution, open
 from hydroelastic.fem.open_water.incident_waves import Plane, Standing
 from hydroelastic.fem.open_water.requests import ResonanceRequest
 from hydroelastic.fem.open_water.resonance import ResonanceSolution, solve_resonance
+from hydroelastic.fem.open_water.solve import resonance_reasons
 from hydroelastic.fem.open_water.solver import OpenSolver
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.modal.floats.complex_moments import complex_wave_moment
@@ -26,7 +27,6 @@ from hydroelastic.modal.liquid.travelling_waves import travelling_waves
 from hydroelastic.modal.liquid.two_layer import TwoLayers
 from hydroelastic.physics.profiles import Profile
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.solve import resonance_reasons
 
 DEEP = THIN_LIQUIDS["deep"]
 
@@ -73,6 +73,7 @@ def assert_honest(found: ResonanceSolution, profile: Profile) -> None:
         assert -omega.imag < 0.7 * omega.real or estimate <= 4.0 * error
 
 
+@pytest.mark.slow
 def test_second_pole_of_the_exponential() -> None:
     tail = 1e-3
     found = damped(exponential(tail, 1e-3), count=6)

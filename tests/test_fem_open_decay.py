@@ -26,7 +26,6 @@ from hydroelastic.scenes.models.open_analyses import Decay, Release
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.tank_parts import Accuracy, Liquid, Tank
 from hydroelastic.scenes.open_water.check import decay_cost_words, open_requests
-from hydroelastic.scenes.open_water.physics import decay_request
 from hydroelastic.scenes.open_water.solve import solve_open
 from hydroelastic.scenes.read import read_scene
 
@@ -63,6 +62,7 @@ def test_circle_in_deep_water(tolerance: float) -> None:
     assert found.table.tail == pytest.approx(-4.0 / pi / G * 0.1, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_motions_that_nothing_restores_add_no_error() -> None:
     """A circle that may sway: by symmetry it does not, and the error of the heave is as without."""
     times = np.array(STORED["t"]) / np.sqrt(G)
@@ -71,6 +71,7 @@ def test_motions_that_nothing_restores_add_no_error() -> None:
     assert np.abs(found.table.displacement[:, 0] / 0.1 - STORED["s"]).max() < found.error < 1e-4
 
 
+@pytest.mark.slow
 def test_few_factorizations_and_one_alive(monkeypatch: pytest.MonkeyPatch) -> None:
     computed: list[weakref.ref[object]] = []
     most = 0
@@ -107,12 +108,14 @@ def test_cost_is_told_before(name: str, tolerance: float, seconds: float, memory
     scene = read_scene(name, [f"accuracy.tolerance={tolerance}"])
     assert isinstance(scene, TankScene)
     (asked,) = (analysis for analysis in scene.analyses if isinstance(analysis, Decay))
-    told = decay_cost(problem_of(scene).tank, tolerance, decay_request(asked))
+    told = decay_cost(problem_of(scene).tank, tolerance, asked.request)
     assert seconds / WITHIN < told.seconds < seconds * WITHIN
     assert memory / WITHIN < told.memory < memory * WITHIN
     assert any(decay_cost_words(scene, asked) in line for line in open_requests(scene))
 
 
+@pytest.mark.slow_on_ranks_but
+@pytest.mark.slow_but("densities0")
 @pytest.mark.mpi
 @pytest.mark.parametrize("densities", [(1000.0,), (1000.0, 800.0)])
 def test_thin_float_with_its_tail(densities: tuple[float, ...]) -> None:
@@ -130,6 +133,7 @@ def test_thin_float_with_its_tail(densities: tuple[float, ...]) -> None:
     assert found.table.tail == pytest.approx(-4.0 / pi * 0.1 / reduced * 0.1, rel=5e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tolerance", [1e-3, pytest.param(1e-6, marks=pytest.mark.slow)])
 def test_long_exponential_between_two_liquids(tolerance: float) -> None:
     """Twenty decay lengths on either side: the basin is tall, and waves above those of the mesh count."""
@@ -151,6 +155,7 @@ def test_long_exponential_between_two_liquids(tolerance: float) -> None:
     assert found.solved < 30
 
 
+@pytest.mark.slow
 def test_no_such_tail_over_a_bed() -> None:
     scene = _scene(1e-3, depth=2.0, shape="parabola", half_width=0.1, boundary="thin")
     layers = TwoLayers(density_below=1000.0, depth_below=2.0, gravity=G)

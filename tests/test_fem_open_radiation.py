@@ -67,6 +67,7 @@ def circle_cases() -> list[Any]:
     return cases
 
 
+@pytest.mark.slow_but("Ka=0.03-1e-06", "Ka=1*")
 @pytest.mark.parametrize(("row", "tolerance"), circle_cases())
 def test_circle(row: dict[str, Any], tolerance: float) -> None:
     solution = radiation(circle(tolerance), circle_omega(row["Ka"]))
@@ -82,6 +83,7 @@ def test_circle(row: dict[str, Any], tolerance: float) -> None:
     assert abs(found[0, 1]) <= tolerance * np.abs(exact).max()
 
 
+@pytest.mark.slow_but("Ka=0.6")
 @pytest.mark.parametrize(
     "row",
     [
@@ -115,6 +117,7 @@ def test_circle_in_the_limits() -> None:
     assert np.abs(still[:, sway]).max() < 1e-4
 
 
+@pytest.mark.slow
 def test_added_mass_of_long_waves_grows_like_their_logarithm() -> None:
     numbers = np.array([1e-4, 1e-3])
     matrices = circle_matrix(radiation(circle(1e-6), *map(circle_omega, numbers)))
@@ -133,6 +136,7 @@ def section_matrix(solution: RadiationSolution) -> tuple[np.ndarray, np.ndarray]
     return hydrodynamic(solution)[0][np.ix_(order, order)], solution.table.excitation_force[0, 0, 0][order]
 
 
+@pytest.mark.slow_but("1-1e-06", "5-1e-06")
 @pytest.mark.parametrize("tolerance", [1e-6, pytest.param(1e-8, marks=SLOW)])
 @pytest.mark.parametrize("row", half_slow(SECTIONS))
 def test_sections(row: dict[str, Any], tolerance: float) -> None:
@@ -155,6 +159,7 @@ def test_sections(row: dict[str, Any], tolerance: float) -> None:
     assert table.haskind_residual[0] <= 1e-10
 
 
+@pytest.mark.slow_but("8")
 @pytest.mark.parametrize("row", SECTIONS[6:], ids=(7, 8))
 def test_matrices_of_radiation(row: dict[str, Any]) -> None:
     table = radiation(section(row, 1e-4), 0.7 * row["omega"], row["omega"]).table
@@ -174,6 +179,7 @@ def test_matrices_of_radiation(row: dict[str, Any]) -> None:
     )
 
 
+@pytest.mark.slow_but("1", "3")
 @pytest.mark.parametrize("row", half_slow(TWO_LIQUIDS))
 def test_rigid_plates_on_two_liquids(row: dict[str, Any]) -> None:
     table = radiation(two_liquids(row, 1e-6), row["omega"]).table
@@ -189,6 +195,7 @@ def test_rigid_plates_on_two_liquids(row: dict[str, Any]) -> None:
     assert table.haskind_residual[0] <= 1e-8
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("depths", "level", "omega", "ratio"),
     [((2.0, 1.5), "interface", 1.0, 0.8), ((1.5, 0.2), "interface", 2.0, 0.5), ((1.5, 2.0), "surface", 1.0, 0.99)],
@@ -215,6 +222,7 @@ def thin_cases() -> list[Any]:
     ]
 
 
+@pytest.mark.slow_but("wedge-water", "ellipse-channel")
 @pytest.mark.parametrize(("shape", "liquids"), thin_cases())
 def test_thin_floats(shape: Any, liquids: str) -> None:
     omegas = np.array([thin_omega(liquids, kappa) for kappa in (0.05, 0.5, 2.0)])
@@ -231,6 +239,7 @@ def test_thin_floats(shape: Any, liquids: str) -> None:
     assert limit == pytest.approx(closed.infinite_added_mass, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_what_thickness_does_to_an_ellipse() -> None:
     omegas = [thin_omega("water", kappa) for kappa in (0.5, 1.0, 2.0)]
     exact, thin = (
@@ -291,6 +300,7 @@ def invariance_cases() -> list[Any]:
     ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "change", "tolerance"), invariance_cases())
 def test_how_the_sea_is_cut_changes_nothing(
     name: str, change: str, tolerance: float, monkeypatch: pytest.MonkeyPatch
@@ -313,6 +323,7 @@ def test_how_the_sea_is_cut_changes_nothing(
     assert np.abs(other - base).max() > 0.0
 
 
+@pytest.mark.slow_but("plate under a lid")
 @pytest.mark.parametrize("name", ["trapezium", "plate under a lid"])
 def test_ends_farther_away_change_nothing(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     # Far above the waves what decays by itself decays most slowly. With ends a quarter as far: 8e-4 and 2e-5.
@@ -329,6 +340,7 @@ def test_ends_farther_away_change_nothing(name: str, monkeypatch: pytest.MonkeyP
     assert np.abs(hydrodynamic(near) - matrix).max() <= 1e-7 * np.abs(matrix).max()
 
 
+@pytest.mark.slow_on_ranks_but("plate")
 @pytest.mark.mpi
 @pytest.mark.parametrize("name", ["section", "plate"])
 def test_two_processes_find_what_one_finds(name: str) -> None:

@@ -12,10 +12,10 @@ from open_cases import GRAVITY, RADIUS, SLOW, THIN_LIQUIDS, circle, problem_of, 
 from hydroelastic.fem.open_water import resonance as open_resonance
 from hydroelastic.fem.open_water.requests import ResonanceRequest
 from hydroelastic.fem.open_water.resonance import ResonanceSolution, solve_resonance
+from hydroelastic.fem.open_water.solve import resonance_reasons
 from hydroelastic.modal.floats.open_float import open_float_estimate
 from hydroelastic.physics.profiles import float_profile
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.solve import resonance_reasons
 
 CIRCLE = stored("open_circle.json")["resonance"]
 SECTIONS = stored("open_sections.json")["cases"]
@@ -49,6 +49,7 @@ def thin_cases() -> list[Any]:
     ]
 
 
+@pytest.mark.slow_but("wedge-water")
 @pytest.mark.parametrize(("shape", "liquids"), thin_cases())
 def test_thin_floats(shape: Any, liquids: str) -> None:
     found = resonance(slender(shape, liquids, 1e-6), count=1).table

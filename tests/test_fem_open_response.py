@@ -49,6 +49,7 @@ def plate_cases() -> list[Any]:
     ]
 
 
+@pytest.mark.slow_but("1-1e-06", "7-1e-06")
 @pytest.mark.parametrize(("row", "tolerance"), plate_cases())
 def test_plates(row: dict[str, Any], tolerance: float) -> None:
     table = response(plate(row, tolerance), row["omega"]).table
@@ -68,6 +69,7 @@ def test_plates(row: dict[str, Any], tolerance: float) -> None:
     assert table.energy_residual[0, 0] == pytest.approx(outgoing - 1.0, abs=1e-13)
 
 
+@pytest.mark.slow_but("Liu_flat60-0.6")
 @pytest.mark.parametrize("row", PUBLISHED["plates"]["rows"], ids=lambda row: f"{row['case']}-{row['omega_rad_s']}")
 def test_plates_as_published(row: dict[str, Any]) -> None:
     segment = {"length": row["L_m"], "rigidity": row["EI_Nm"], "mass": row["m_kg_m2"]}
@@ -107,6 +109,7 @@ def elevations_over_level(row: dict[str, Any]) -> np.ndarray:
     return np.array([1.0, internal] if row["level"] == "surface" else [1.0 / surface, 1.0])
 
 
+@pytest.mark.slow_but("1-1e-06", "5-1e-06")
 @pytest.mark.parametrize("tolerance", [1e-6, pytest.param(1e-8, marks=SLOW)])
 @pytest.mark.parametrize("row", half_slow(TWO_LIQUIDS))
 def test_plates_on_two_liquids(row: dict[str, Any], tolerance: float) -> None:

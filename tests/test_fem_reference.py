@@ -41,6 +41,7 @@ def reference_rounding(name: str) -> np.ndarray:
     return 10.0 ** (1.0 - np.array(CASES[name]["omega_digits"]))
 
 
+@pytest.mark.slow_on_ranks_but("base_s1")
 @ALL
 def test_the_lowest_modes_keep_the_tolerance_asked(tanks: Any, name: str) -> None:
     solution = tanks.solve(tanks.case_scene(name))
@@ -50,6 +51,7 @@ def test_the_lowest_modes_keep_the_tolerance_asked(tanks: Any, name: str) -> Non
     assert np.abs(errors(tanks, name)).max() <= 1e-6
 
 
+@pytest.mark.slow_on_ranks_but("base_s1")
 @ALL
 def test_no_true_error_exceeds_its_estimate(tanks: Any, name: str) -> None:
     """Measured: the estimate is 1.1 times the true error and more, 2.9 times in the median."""
@@ -57,6 +59,7 @@ def test_no_true_error_exceeds_its_estimate(tanks: Any, name: str) -> None:
     assert np.all(np.abs(errors(tanks, name)) <= estimates + reference_rounding(name))
 
 
+@pytest.mark.slow_on_ranks_but
 @ALL
 def test_no_estimate_is_thirty_times_too_large(tanks: Any, name: str) -> None:
     """Measured: 24 times at the most; below 1e-10, the floor of rounding, none is too large."""
@@ -64,6 +67,7 @@ def test_no_estimate_is_thirty_times_too_large(tanks: Any, name: str) -> None:
     assert np.all(estimates <= 30.0 * np.abs(errors(tanks, name)) + 1e-10)
 
 
+@pytest.mark.slow_on_ranks_but
 @ALL
 def test_ritz_values_come_from_above(tanks: Any, name: str) -> None:
     # Rounding at degrees 7 and 9: measured −4e-12 at the least (vlfs_dock_s1), and −1e-13 but for the widest spectra.
@@ -92,6 +96,7 @@ def test_the_first_elastic_tone_is_the_references(tanks: Any, name: str) -> None
     assert omega == pytest.approx(expected["omega"], rel=1e-6)
 
 
+@pytest.mark.slow_on_ranks_but("base_s1")
 @pytest.mark.parametrize("name", marked([name for name, case in CASES.items() if "psi0" in case]))
 def test_the_pressure_release_tone_is_the_references(tanks: Any, name: str) -> None:
     solution = tanks.solve(tanks.case_scene(name))
@@ -102,6 +107,7 @@ def test_the_pressure_release_tone_is_the_references(tanks: Any, name: str) -> N
     assert -1e-11 <= error <= min(1e-6, tone.pressure_release_error + 1e-11)
 
 
+@pytest.mark.slow_on_ranks_but
 @pytest.mark.mpi
 def test_sloshing_keeps_a_tolerance_of_1e_9(tanks: Any) -> None:
     scene = tanks.scene(tolerance=1e-9, modes=10)
@@ -110,6 +116,7 @@ def test_sloshing_keeps_a_tolerance_of_1e_9(tanks: Any) -> None:
     assert tanks.omega(scene) == pytest.approx(exact, rel=1e-9)
 
 
+@pytest.mark.slow_on_ranks_but
 @pytest.mark.mpi
 @pytest.mark.parametrize("hydrostatic", [True, False])
 def test_a_guided_cover_keeps_a_tolerance_of_1e_9(tanks: Any, hydrostatic: bool) -> None:
@@ -149,6 +156,7 @@ def blocks(tanks: Any) -> tuple[Any, Any, np.ndarray]:
     return to_scipy(pencil.laplace), surface, to_scipy(pencil.coupling)[:, :3].toarray()
 
 
+@pytest.mark.slow_but("0.5")
 @pytest.mark.parametrize(
     "row", [row for row in ROWS if row["lam"] not in (0.0, "inf")], ids=lambda row: str(row["lam"])
 )

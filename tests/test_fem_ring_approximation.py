@@ -9,7 +9,7 @@ import pytest
 from scipy.optimize import minimize
 
 from hydroelastic.fem.ring_approximation import remaining_energy
-from hydroelastic.scenes.study.theory import gain_along_a_ray
+from hydroelastic.fem.study.theory import gain_along_a_ray
 
 
 def limit_of_triangles(ratio: float, sector: float) -> float:

@@ -106,6 +106,7 @@ def test_added_and_displaced_mass_are_another_gravity() -> None:
     np.testing.assert_allclose(roots, -damping + 1j * np.sqrt(exact**2 - damping**2), rtol=2e-12)
 
 
+@pytest.mark.slow_on_ranks_but("0.1")
 @pytest.mark.mpi
 @pytest.mark.parametrize("tip", [1e-6, 1e-3, 0.1, 1.0, 30.0])
 def test_tip_mass_against_its_characteristic_equation(tip: float) -> None:
@@ -160,6 +161,7 @@ def test_next_to_a_double_root_sum_and_product_are_kept() -> None:
         assert modes.errors[0] < 1e-5
 
 
+@pytest.mark.slow_on_ranks_but("resistance0")
 @pytest.mark.mpi
 @pytest.mark.parametrize("resistance", [(0.0, 0.5), (0.6, 0.1), (4.0, 1.0), (0.2, 9.0)])
 def test_linear_resistance_against_legendre_polynomials(resistance: tuple[float, float]) -> None:

@@ -24,6 +24,7 @@ def plain(damping: float) -> HangingString:
     return HangingString(length=1.0, linear_density=1.0, gravity=1.0, resistance=(damping, damping))
 
 
+@pytest.mark.slow_but("ramp-1.2*", "*-0.0")
 @pytest.mark.parametrize("damping", [0.0, float(FREQUENCIES[0]), 9.0])
 @pytest.mark.parametrize("name", list(MOTIONS))
 def test_closed_forms_are_met_to_the_tolerance(name: str, damping: float) -> None:
@@ -39,6 +40,7 @@ def test_closed_forms_are_met_to_the_tolerance(name: str, damping: float) -> Non
         assert solution.errors.max() <= tolerance
 
 
+@pytest.mark.slow_on_ranks_but
 @pytest.mark.mpi
 def test_smooth_motion_to_seven_digits_in_si_units() -> None:
     # U(0.36 m, 0.9 s) of a metre of string with damping 0.5 1/s moved by (1 − e^{−4t})² m: a series of 20 digits.

@@ -23,6 +23,7 @@ def plain(damping: float, degree: int, elements: int) -> StringPencil:
     return build_string_pencil(COMM, string, degree, string_nodes(string, elements))
 
 
+@pytest.mark.slow_but("ramp-8.0-2", "smooth-0.3-3", "step-0.0-4")
 @pytest.mark.parametrize("stages", [2, 3, 4])
 @pytest.mark.parametrize("damping", [0.0, 0.3, float(FREQUENCIES[0]), 8.0])
 @pytest.mark.parametrize("name", list(MOTIONS))
@@ -46,6 +47,7 @@ def test_order_in_time(name: str, damping: float, stages: int) -> None:
     assert -np.polyfit(np.log(counts), np.log(errors), 1)[0] == pytest.approx(2 * stages, abs=0.25)
 
 
+@pytest.mark.slow_but("ramp-1.5-1", "step-0.5-2")
 @pytest.mark.parametrize("degree", [1, 2, 4])
 @pytest.mark.parametrize(("name", "regularity"), [("smooth", 2.5), ("ramp", 1.5), ("step", 0.5)])
 def test_order_in_space_is_that_of_the_front(name: str, regularity: float, degree: int) -> None:

@@ -116,6 +116,7 @@ def test_layer_at_the_clamp(start: Start) -> None:
     assert differences[-1] < 2e-5
 
 
+@pytest.mark.slow
 def test_moment_converges_where_the_layer_is_resolved(start: Start, by_angle: NDArray[np.float64]) -> None:
     moment = rigidity(THICKNESS) * abs(by_angle[3, 0])
     # h from 1.2 to 0.3 thicknesses: measured slopes 3.2 and 5.7, on their way to 4 and 6.

@@ -66,6 +66,7 @@ def test_taut_string_and_honest_errors(degree: int, rtol: float) -> None:
         assert np.all(ratios < 2.0 * 4.0**degree)
 
 
+@pytest.mark.slow_but("2-*")
 @pytest.mark.parametrize("bends", [False, True])
 @pytest.mark.parametrize(("degree", "counts"), [(1, (16, 24, 36)), (2, (8, 12, 18)), (3, (6, 9, 12))])
 def test_order_is_twice_the_degree(degree: int, counts: tuple[int, ...], bends: bool) -> None:

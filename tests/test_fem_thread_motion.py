@@ -117,6 +117,7 @@ VACUUM: list[dict[str, float]] = [
 ]
 
 
+@pytest.mark.slow_but("stiff-1000")
 @pytest.mark.parametrize("steps", [1_000, pytest.param(10_000, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("rigidity", VACUUM, ids=["inextensible", "stiff", "soft and bending"])
 def test_energy_is_kept(rigidity: dict[str, float], steps: int) -> None:

@@ -31,6 +31,7 @@ def fine() -> ThreadProfile:
     return solved(model_of("S10"), "S10", 64, 5)
 
 
+@pytest.mark.slow_but("2-*")
 @pytest.mark.parametrize(
     ("degree", "elements", "largest"),
     # Measured 2.6e-6, 2.0e-9, 2.4e-10 of length and tension on the last mesh.
@@ -88,6 +89,7 @@ def axial_flow(reactive: Reactive) -> tuple[NDArray[np.float64], float]:
     return -state[:2], float(state[3])
 
 
+@pytest.mark.slow_but("lighthill")
 @pytest.mark.parametrize("reactive", ["lighthill", "moving_load"])
 def test_nearly_axial_flow_with_the_liquids_reaction(reactive: Reactive) -> None:
     place, tension = axial_flow(reactive)

@@ -47,6 +47,8 @@ def known(name: str) -> dict[str, Any]:
     return {key: value[axes] if value.ndim else value for key, value in values.items()}
 
 
+@pytest.mark.slow_but("S0*", "S12", "S16a", "S19b")
+@pytest.mark.slow_on_ranks_but("S19b")
 @pytest.mark.parametrize("name", [pytest.param(name, marks=TWICE.get(name, ())) for name in NAMES])
 def test_forty_quadratic_elements(name: str) -> None:
     model = model_of(name, dimension_of(name))
@@ -62,6 +64,7 @@ def test_forty_quadratic_elements(name: str) -> None:
             assert np.linalg.norm(found[key][0] - value) < tolerance * scale, key
 
 
+@pytest.mark.slow_but("S0*", "S12")
 @pytest.mark.parametrize("name", [pytest.param(name, marks=pytest.mark.mpi if name == "S07" else ()) for name in NAMES])
 def test_errors_are_within_what_is_stated(name: str) -> None:
     model = model_of(name, dimension_of(name))

@@ -47,6 +47,7 @@ def assert_threshold(found: Any, kind: str, value: float, rtol: float) -> None:
 
 # Five digits are known of where two pairs of roots meet: on the real axis for small shares of the liquid's mass, where
 # the second divergence lets two motions grow, elsewhere on the imaginary axis after the first has become stable again.
+@pytest.mark.slow_but("0.5*")
 @pytest.mark.parametrize(
     ("share", "flutter", "growing"),
     [
@@ -66,6 +67,7 @@ def test_pinned_beam(share: float, flutter: float, growing: tuple[int, int]) -> 
     assert found.ill_posed is None
 
 
+@pytest.mark.slow
 def test_divergence_does_not_depend_on_the_share_and_grows_with_tension() -> None:
     for share in (0.2, 0.6):
         found = sweep(lambda speed, share=share: in_axial_flow(speed, share), [3.3, 3.6], tension=2.0, count=2)
@@ -106,6 +108,7 @@ def string_in_stream() -> Stability:
     return sweep(string, [0.2, 0.5, 0.8, 1.2, 1.5], tension=1.0)
 
 
+@pytest.mark.slow
 def test_string_diverges_and_is_ill_posed_beyond(string_in_stream: Stability) -> None:
     # M U² = T for all motions at once; above, until M U² = T (m + M)/m, they are stable again.
     found = string_in_stream

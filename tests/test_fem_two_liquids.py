@@ -59,6 +59,7 @@ def check(tanks: Any, scene: TankScene, omega: np.ndarray, bound: float) -> None
 DEPTHS = [((0.3, 0.2), 1e-10), ((1.0, 0.01), 1e-9), ((0.01, 1.0), 1e-9)]
 
 
+@pytest.mark.slow_on_ranks_but("alike-850.0-free")
 @pytest.mark.mpi
 @pytest.mark.parametrize("top", TOPS)
 @pytest.mark.parametrize("density", [990.0, 999.9, 850.0])
@@ -71,6 +72,7 @@ def test_waves_of_two_layers_keep_a_tolerance(
     check(tanks, scene, exact(scene), tolerance)
 
 
+@pytest.mark.slow_on_ranks_but
 @pytest.mark.mpi
 @pytest.mark.parametrize("density", [850.0, 100.0])
 def test_both_branches_of_a_free_top_are_found(tanks: Any, density: float) -> None:
@@ -82,6 +84,7 @@ def test_both_branches_of_a_free_top_are_found(tanks: Any, density: float) -> No
     check(tanks, scene, exact(scene), 1e-9)
 
 
+@pytest.mark.slow_on_ranks_but("True-rigid")
 @pytest.mark.mpi
 @pytest.mark.parametrize("top", TOPS)
 @pytest.mark.parametrize("hydrostatic", [True, False])
@@ -92,6 +95,7 @@ def test_a_guided_plate_on_the_interface_keeps_a_tolerance(tanks: Any, top: Laye
     check(tanks, scene, exact(scene, plate), 1e-9)
 
 
+@pytest.mark.slow_on_ranks_but
 @pytest.mark.mpi
 @pytest.mark.parametrize("hydrostatic", [True, False])
 def test_a_cover_between_two_liquids_has_its_tone_above_the_waves(tanks: Any, hydrostatic: bool) -> None:
@@ -129,6 +133,7 @@ THIN_AIR = {
 }
 
 
+@pytest.mark.slow_but("beam")
 @pytest.mark.parametrize("kind", THIN_AIR)
 def test_a_lighter_and_lighter_upper_liquid_becomes_air(tanks: Any, kind: str) -> None:
     """ω is a smooth function of ρ₁ up to ρ₁ = 0; the least that is modelled is ρ₁ = 10⁻⁶ ρ₂."""
@@ -146,6 +151,7 @@ def test_a_lighter_and_lighter_upper_liquid_becomes_air(tanks: Any, kind: str) -
     assert 2.0 * once - twice == pytest.approx(air, rel=1e-9)
 
 
+@pytest.mark.slow_but("*free*")
 @pytest.mark.parametrize("kind", THIN_AIR)
 @pytest.mark.parametrize("top", TOPS)
 def test_an_upper_liquid_without_density_is_air(tanks: Any, kind: str, top: LayerTop) -> None:
@@ -165,6 +171,8 @@ SYMMETRIC = {
 }
 
 
+@pytest.mark.slow_on_ranks_but("free top")
+@pytest.mark.slow_but("beam", "free top")
 @pytest.mark.mpi
 @pytest.mark.parametrize("kind", SYMMETRIC)
 def test_halves_give_the_modes_of_the_whole_tank(tanks: Any, kind: str) -> None:
@@ -181,12 +189,14 @@ def test_halves_give_the_modes_of_the_whole_tank(tanks: Any, kind: str) -> None:
         assert one.energy == pytest.approx(other.energy, abs=1e-3)
 
 
+@pytest.mark.slow
 def test_the_mirror_image_has_the_same_frequencies(tanks: Any) -> None:
     left = layered(interface_beam(start=0.1, length=0.3), interface_beam(start=0.5, length=0.2))
     right = layered(interface_beam(start=0.3, length=0.2), interface_beam(start=0.6, length=0.3))
     assert tanks.omega(left) == pytest.approx(tanks.omega(right), rel=2e-8)
 
 
+@pytest.mark.slow_but("0.001-10.0")
 @pytest.mark.parametrize(("size", "density"), [(1e-3, 1.0), (1e3, 1.0), (1.0, 10.0), (1e-3, 10.0)])
 def test_metres_millimetres_and_heavier_liquids_give_the_same_digits(tanks: Any, size: float, density: float) -> None:
     """ω²L/g is a function of ratios of densities, of lengths, of EI/ρgL⁴ and m/ρL."""
@@ -204,6 +214,7 @@ def test_metres_millimetres_and_heavier_liquids_give_the_same_digits(tanks: Any,
     assert tanks.omega(scaled) * np.sqrt(size) == pytest.approx(tanks.omega(plain), rel=1e-10)
 
 
+@pytest.mark.slow_on_ranks_but("rigid")
 @pytest.mark.mpi
 @pytest.mark.parametrize(
     ("top", "constraints", "loose"), [("rigid", 1, 1), ("free", 2, 0), ("pressure_release", 1, 0)], ids=TOPS
@@ -219,6 +230,7 @@ def test_one_volume_follows_from_the_other_in_a_closed_tank(
         assert pencil.laplace.comm.tompi4py().allreduce(len(pencil.free_constants)) == loose
 
 
+@pytest.mark.slow_on_ranks_but("free")
 @pytest.mark.mpi
 @pytest.mark.parametrize("top", TOPS)
 def test_each_liquid_keeps_its_volume(top: LayerTop) -> None:
@@ -247,6 +259,7 @@ LOADED = {
 }
 
 
+@pytest.mark.slow_on_ranks_but("slit-free", "loose beam-rigid")
 @pytest.mark.mpi
 @pytest.mark.parametrize("top", TOPS)
 @pytest.mark.parametrize("kind", LOADED)
@@ -322,6 +335,7 @@ def test_momentum_is_the_coupling_times_the_density() -> None:
     assert np.array_equal(sparse(pencil.momentum).toarray(), densities[:, None] * sparse(pencil.coupling).toarray())
 
 
+@pytest.mark.slow_on_ranks_but("free")
 @pytest.mark.mpi
 @pytest.mark.parametrize("top", TOPS)
 def test_two_processes_find_what_one_finds(top: LayerTop) -> None:

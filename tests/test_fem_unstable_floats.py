@@ -24,6 +24,7 @@ LOOSE = {
 }
 
 
+@pytest.mark.slow_on_ranks_but("2-free-all motions")
 @pytest.mark.mpi
 @pytest.mark.parametrize("kind", LOOSE)
 @pytest.mark.parametrize("top", ["rigid", "free", "pressure_release"])
@@ -44,6 +45,7 @@ def test_motions_without_stiffness_are_counted_and_not_listed(kind: str, top: st
             assert count_below(pencil, float(np.sqrt(lower * upper))) == number
 
 
+@pytest.mark.slow_but("upright between two liquids", "top-heavy")
 @pytest.mark.parametrize("name", UNSTABLE)
 def test_unstable_floats_grow_as_the_full_matrices_say(name: str) -> None:
     scene = UNSTABLE[name]
@@ -72,6 +74,7 @@ def test_a_float_that_turns_over_much_faster_than_waves_travel_is_found() -> Non
     assert values[0] == pytest.approx(growing.eigenvalue, rel=1e-9)
 
 
+@pytest.mark.slow_on_ranks_but("top-heavy")
 @pytest.mark.mpi
 @pytest.mark.parametrize("name", UNSTABLE)
 def test_growing_motions_are_counted_below_every_mode(name: str) -> None:

@@ -39,6 +39,7 @@ def rigid(shape: str, position: float, width: float, height: float, **keys: Any)
     return {"kind": "float", "shape": shape, "position": position, "half_width": width, "half_height": height} | keys
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", some_slow(FLOATS, {"circle_off_centre", "thin_wedge"}))
 def test_stored_floats_are_made_anew(name: str) -> None:
     thin_layer = name == "two_liquids_1_to_100"
@@ -141,6 +142,7 @@ def test_two_liquids_under_a_lid_are_those_of_an_older_reference(name: str) -> N
     np.testing.assert_allclose(numbers(BEAMS[name]["omega"]), older[name], rtol=4e-8)
 
 
+@pytest.mark.slow
 def test_values_come_from_above() -> None:
     scene = FLOATS["rectangle"]["scene"]
     coarse = reference_modes(float_tank(scene), 6, Fineness(corner=8, inner=8, waves=30, powers=0)).omega

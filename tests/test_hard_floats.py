@@ -129,6 +129,7 @@ ASKED = pytest.mark.parametrize(
 )
 
 
+@pytest.mark.slow_but("*-1e-03", "circle_all_motions-1e-08", "two_liquids_rectangle-1e-08", "thin_wedge-1e-08")
 @ASKED
 def test_each_frequency_keeps_the_tolerance(name: str, tolerance: float) -> None:
     case = CASES[name]
@@ -138,6 +139,7 @@ def test_each_frequency_keeps_the_tolerance(name: str, tolerance: float) -> None
     assert found(scene).attempts == 1
 
 
+@pytest.mark.slow_but("circle_all_motions", "two_liquids_rectangle", "thin_wedge")
 @pytest.mark.parametrize("name", CASES)
 def test_motions_of_floats_have_their_modal_masses(name: str) -> None:
     """1/a² of each motion; a errs in parts of the largest by about the root of what the frequency does."""
@@ -174,6 +176,7 @@ def random_tanks() -> list[Any]:
     ]
 
 
+@pytest.mark.slow_but("5", "7", "9", "11")
 @pytest.mark.parametrize("entry", random_tanks())
 def test_tanks_at_random_keep_their_tolerance(entry: dict[str, Any]) -> None:
     scene = TankScene.model_validate(entry["scene"])
@@ -200,6 +203,7 @@ def strict_complaint(scene: TankScene) -> str:
     return ""
 
 
+@pytest.mark.slow_but("0")
 @pytest.mark.parametrize("number", range(WIDE_FAST))
 def test_all_kinds_of_floats_at_random_keep_their_tolerance(number: int) -> None:
     scene = draw_floats(WIDE_SEED, WIDE_FAST, wide=True)[number]

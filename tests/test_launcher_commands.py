@@ -68,7 +68,8 @@ def prepared(tmp_path):
     (folder / "bin").mkdir(parents=True)
     executable(
         folder / "bin" / "python",
-        '#!/bin/sh\nprintf "%s\\n" "$@"\necho "threads=$OMP_NUM_THREADS path=$PYTHONPATH"\nexit 7\n',
+        '#!/bin/sh\nprintf "%s\\n" "$@"\necho '
+        '"threads=$OMP_NUM_THREADS bytecode=${PYTHONDONTWRITEBYTECODE-kept} path=$PYTHONPATH"\nexit 7\n',
     )
     return folder
 
@@ -251,6 +252,10 @@ def test_exec_needs_a_program(inside):
 def test_one_thread_unless_told_otherwise(inside):
     assert "threads=1 " in inside("python", OMP_NUM_THREADS="").stdout
     assert "threads=4 " in inside("python", OMP_NUM_THREADS="4").stdout
+
+
+def test_bytecode_is_kept_in_the_cache(inside):
+    assert "bytecode=kept " in inside("python", PYTHONDONTWRITEBYTECODE="1").stdout
 
 
 def test_prepared_start_is_silent(inside):

@@ -68,6 +68,28 @@ def test_markers_hold_for_both_runs(run):
     assert parallel.endswith(" -m mpi and (slow)")
 
 
+def test_all_runs_the_slow_tests_too_on_one_rank_and_on_two(run, tmp_path):
+    tests = tmp_path / "checkout" / "tests"
+    (tests / "test_ranks.py").write_text("@pytest.mark.mpi\n")
+    serial, parallel = run("--all", "-q").stdout.split("\n")[:2]
+    assert serial.endswith(" -m  -q")
+    assert parallel.endswith(" -q -m mpi tests/test_ranks.py")
+    selected = run("--all", "test_some.py", folder=tests)
+    assert selected.stdout.rstrip().endswith(f" -m  {tests}/test_some.py")
+
+
+def test_ranks_collect_only_the_files_with_tests_for_them(run, tmp_path):
+    (tmp_path / "checkout" / "tests" / "test_ranks.py").write_text("pytestmark = [pytest.mark.mpi]\n")
+    _, parallel = run().stdout.splitlines()
+    assert parallel.endswith(" -m mpi and (not slow) tests/test_ranks.py")
+
+
+def test_report_is_of_the_run_on_one_rank(run):
+    serial, parallel = run("--junitxml=report.xml").stdout.splitlines()
+    assert serial.endswith(" --junitxml=report.xml")
+    assert "report.xml" not in parallel
+
+
 @pytest.mark.parametrize("arguments", [("tests/test_some.py",), ("-k", "some"), ("--collect-only",)])
 def test_selection_runs_once(run, arguments):
     ended = run(*arguments)

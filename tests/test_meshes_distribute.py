@@ -63,6 +63,7 @@ def test_normals_of_a_float_point_into_it_and_close() -> None:
     assert [integral(normal[axis] * around) for axis in range(2)] == pytest.approx([0.0, 0.0], abs=1e-13)
 
 
+@pytest.mark.slow_but("3")
 @pytest.mark.parametrize("degree", [1, 2, 3, 5])
 def test_every_degree_of_geometry_keeps_straight_parts(degree: int) -> None:
     """Shared nodes are numbered once and in the right order: a wrong one would fold cells."""

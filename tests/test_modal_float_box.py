@@ -207,6 +207,7 @@ def test_a_single_root_lies_between_neighbouring_waves() -> None:
         assert np.all(modes.omega < modes.waves)
 
 
+@pytest.mark.slow
 def test_modes_that_hardly_couple_keep_their_distance() -> None:
     # Far above its resonance the float stands still: Λ − σ² → w σ²/(Λ M − c'), far below rounding of Λ for mode 3000.
     body = box(half_width=1e-3, length=200.0)

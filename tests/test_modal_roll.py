@@ -194,6 +194,7 @@ def test_late_waves_begin_where_their_periods_add_up_to() -> None:
     assert starts[-1] == pytest.approx(math.fsum(periods), abs=1.5e-11)
 
 
+@pytest.mark.slow_but("0.02")
 @pytest.mark.parametrize("ratio", [0.0, 0.02, 1.0, 200.0])
 def test_ten_thousand_waves(ratio: float) -> None:
     random = np.random.default_rng(2)

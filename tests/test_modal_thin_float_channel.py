@@ -22,6 +22,7 @@ from hydroelastic.modal.liquid.two_layer import TwoLayers
 from hydroelastic.physics.profiles import FloatShape, float_profile
 
 
+@pytest.mark.slow_but("parabola")
 @pytest.mark.parametrize("shape", SHAPES)
 def test_motion_in_a_channel_is_that_in_a_long_box_before_waves_return(shape: FloatShape) -> None:
     """Modes of a closed box of length L: no wave is back before L/c₀, and up to then box and channel cannot differ."""
@@ -48,6 +49,7 @@ def test_motion_in_a_channel_is_that_in_a_long_box_before_waves_return(shape: Fl
     assert motion.error.max() < 1e-11
 
 
+@pytest.mark.slow
 def test_channel_motion_and_resonance_tend_to_those_of_deep_water() -> None:
     profile = thin("ellipse", 0.1)
     deep = TwoLayers(density_below=1.0, density_above=0.8, depth_below=math.inf, gravity=9.81)
@@ -109,6 +111,7 @@ def test_estimate_in_si_units() -> None:
     assert open_float_estimate(thin("parabola", 0.1), CHANNEL, [1.0]).crossover_time is None
 
 
+@pytest.mark.slow
 def test_channel_resonance_of_wide_floats() -> None:
     """In a deep channel that of deep water, as far from the real axis as the series reach; then none."""
     far = TwoLayers(density_below=1.0, depth_below=1e5, gravity=9.81)

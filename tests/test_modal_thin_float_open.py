@@ -154,6 +154,7 @@ def test_crossover_of_the_references() -> None:
         crossover_time(of_coupling(1.99))
 
 
+@pytest.mark.slow_but("exponential")
 @pytest.mark.parametrize("shape", ["exponential", "wedge"])
 def test_the_whole_motion_has_mean_zero(shape: FloatShape) -> None:
     """∫ f dθ = 0: the transform vanishes at z = 0. The rest beyond T follows from the tail, next term O(ln T/T³)."""
@@ -177,6 +178,7 @@ def test_motion_against_the_volterra_equation(coupling: float) -> None:
     assert free_motion(of_coupling(coupling), 20.0).heave == pytest.approx(fine, abs=2 * abs(fine - coarse))
 
 
+@pytest.mark.slow_but("2.0-*")
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("slenderness", [1.0, 2.0, 5.0])
 def test_wide_floats_against_the_spectrum(shape: FloatShape, slenderness: float) -> None:

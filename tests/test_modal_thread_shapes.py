@@ -160,6 +160,7 @@ def test_catenaries_end_at_b_and_have_their_length(slack: float, chord: tuple[fl
         assert slope == pytest.approx(near.tangents[1], abs=1e-6)
 
 
+@pytest.mark.slow_but("10.0-*")
 @pytest.mark.parametrize("stretch", [-0.1, -1e-6, 0.0, 1e-6, 0.1, 3.0])
 @pytest.mark.parametrize("axial_rigidity", [0.1, 10.0, 1e6])
 def test_elastic_catenaries(stretch: float, axial_rigidity: float) -> None:

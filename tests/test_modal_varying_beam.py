@@ -55,6 +55,7 @@ BULGED = varying(lambda x: 3.0 + np.sin(3.0 * x), lambda x: 1.0 + 0.3 * x**2, 1.
 KINKED = varying(lambda x: 1.0 + np.abs(x - 1.0), lambda x: np.where(x < 1.0, 1.0, 2.0), 1.0, 0.7)
 
 
+@pytest.mark.slow_but("tapered")
 @pytest.mark.parametrize("beam", [TAPERED, BULGED, KINKED], ids=["tapered", "bulged", "kinked"])
 def test_dry_frequencies_are_those_of_a_shooting_method(beam: VaryingBeam) -> None:
     modes = jointed_modes(beam, 10)

@@ -81,6 +81,7 @@ def test_resonance_of_the_circle() -> None:
     assert found == pytest.approx(complex(resonance["omega"], -resonance["gamma"]), abs=1e-10)
 
 
+@pytest.mark.slow
 def test_released_circle() -> None:
     times, values = np.array(CIRCLE["release"]["t"]), np.array(CIRCLE["release"]["s"])
     found = open_circle.release(np.concatenate([[0.0, 0.02], times]), 32)
@@ -92,6 +93,7 @@ def test_released_circle() -> None:
     assert values[-1] * times[-1] ** 2 == pytest.approx(-4 / math.pi, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_release_is_its_resonance_and_its_tail() -> None:
     omega = open_circle.resonance(80)
     slope = (_deficit_of_release(omega + 1e-4) - _deficit_of_release(omega - 1e-4)) / 2e-4
@@ -137,6 +139,7 @@ def test_kernel_of_two_liquids_is_its_series(ratio: float, lid: bool) -> None:
         np.testing.assert_allclose(level.kernel(6.0)(x), wave_series(level, rates, x), rtol=0, atol=1e-11)
 
 
+@pytest.mark.slow_but("Liu_flat60-0.6")
 @pytest.mark.parametrize("row", PUBLISHED["plates"]["rows"], ids=lambda row: f"{row['case']}-{row['omega_rad_s']}")
 def test_plates_as_published(row: dict[str, Any]) -> None:
     level = one_liquid(row["omega_rad_s"], density=1025.0, depth=row["H_m"])
@@ -149,6 +152,7 @@ def test_plates_as_published(row: dict[str, Any]) -> None:
     assert np.sum(found[:2] ** 2) == pytest.approx(1.0, abs=1e-10)
 
 
+@pytest.mark.slow_but("xi=625")
 @pytest.mark.parametrize("row", PUBLISHED["compound_plate"]["rows"], ids=lambda row: f"xi={row['xi']}")
 def test_compound_plate_as_published(row: dict[str, Any]) -> None:
     stiff, soft = (Segment(length=x, rigidity=ei, mass=8.36) for x, ei in ((2.5, 47100.0), (10.0, 471.0)))
@@ -167,6 +171,7 @@ def complex_of(values: Any) -> np.ndarray:
     return np.asarray(array[..., 0] + 1j * array[..., 1])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("row", some_slow(PLATES["plates"], {4, 14}))
 def test_stored_plates_are_made_anew(row: dict[str, Any]) -> None:
     assert row["error"] <= 2e-11
@@ -179,6 +184,7 @@ def test_stored_plates_are_made_anew(row: dict[str, Any]) -> None:
     np.testing.assert_allclose(result.deflection, complex_of(row["deflection"]), rtol=0, atol=1e-9)
 
 
+@pytest.mark.slow
 def test_transmission_is_the_same_from_both_sides() -> None:
     row = PLATES["plates"][16]
     level = one_liquid(row["omega"], density=row["density"], depth=row["depth"])
@@ -190,6 +196,7 @@ def test_transmission_is_the_same_from_both_sides() -> None:
     assert abs(there.reflected[0]) == pytest.approx(abs(back.reflected[0]), abs=1e-10)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("row", some_slow(TWO_LIQUIDS["cases"], {2, 9}))
 def test_stored_two_liquids_are_made_anew(row: dict[str, Any]) -> None:
     assert row["error"] <= 1e-11
@@ -225,6 +232,7 @@ def test_two_equal_symmetric_layers_are_one_liquid() -> None:
     np.testing.assert_allclose(found, expected, rtol=1e-11, atol=1e-8)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("row", some_slow(SECTIONS["cases"], {7}))
 def test_stored_sections_are_made_anew(row: dict[str, Any]) -> None:
     assert row["error"] <= 1e-10
@@ -240,6 +248,7 @@ def test_stored_sections_are_made_anew(row: dict[str, Any]) -> None:
     np.testing.assert_allclose(answer.flux_damping, np.diag(answer.impedance.imag) * row["omega"], rtol=1e-5)
 
 
+@pytest.mark.slow
 def test_thin_box_is_a_plate() -> None:
     plate, _ = rigid_radiation(1.0, one_liquid(3.0, density=1000.0, depth=1.0), 8)
     gaps = []

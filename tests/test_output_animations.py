@@ -9,13 +9,13 @@ import pytest
 from mode_pictures import gif_pages, has_colour, heave_picture, sloshing_picture
 from PIL import Image
 
+from hydroelastic.fem.pictures.mode import ModePicture
 from hydroelastic.output.pictures.colours import BODY, mode_colours
 from hydroelastic.output.pictures.gif import FRAMES, write_gif
-from hydroelastic.output.pictures.mode import ModePicture
 from hydroelastic.output.pictures.modes import animate_mode, animate_motion
 from hydroelastic.output.pictures.tank import drawn_vectors
 from hydroelastic.output.pictures.view import view_of
-from hydroelastic.scenes.tank.animated import animated_modes
+from hydroelastic.scenes.tank.shapes import animated_modes
 
 pytestmark = pytest.mark.usefixtures("renderer")
 
@@ -41,6 +41,7 @@ def sloshing(tmp_path_factory: pytest.TempPathFactory, renderer: None) -> tuple[
     return folder / "mode.gif", animated(sloshing_picture(), folder)
 
 
+@pytest.mark.slow
 def test_a_period_repeats_itself_and_is_small(sloshing: tuple[Path, list[np.ndarray]]) -> None:
     path, pages = sloshing
     assert len(pages) == FRAMES

@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from hydroelastic.fem.pictures.mode import FloatSection, ModePicture, SurfaceCurve
 from hydroelastic.fem.sampling import SurfaceTrace
 from hydroelastic.output.pictures.colours import BODY, FREE_SURFACE, INTERFACE, LOWER_WASH, UPPER_WASH
 from hydroelastic.output.pictures.floats import up_to_floats
-from hydroelastic.output.pictures.mode import FloatSection, ModePicture, SurfaceCurve
 from hydroelastic.output.pictures.modes import draw_mode, draw_overview
 from hydroelastic.output.pictures.notes import scale_notes
 from hydroelastic.output.pictures.view import view_of

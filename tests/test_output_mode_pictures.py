@@ -14,9 +14,9 @@ from matplotlib import colormaps
 from mode_pictures import has_colour, heave_picture, pixels, sloshing_picture
 from PIL import Image
 
+from hydroelastic.fem.pictures.mode import ModePicture, SurfaceCurve
 from hydroelastic.output.pictures import rendering
 from hydroelastic.output.pictures.colours import BODY, FREE_SURFACE, SEQUENCE, mode_colours
-from hydroelastic.output.pictures.mode import ModePicture, SurfaceCurve
 from hydroelastic.output.pictures.modes import draw_mode, draw_overview
 from hydroelastic.output.pictures.notes import scale_notes, short_number
 from hydroelastic.output.pictures.page import new_page, round_ticks, save, tick_labels

@@ -83,6 +83,7 @@ def test_cosines_are_eigenfunctions_of_the_operator(depth: float) -> None:
 WITHOUT_GUIDES = [name for name, case in AQUARIUM.items() if case["inputs"]["ends"] != "guided"]
 
 
+@pytest.mark.slow_but("base_s0", "full_free_s0")
 @pytest.mark.parametrize("name", some_slow(WITHOUT_GUIDES, {"base_s0", "narrow_s1", "full_free_s0", "vlfs_dock_s1"}))
 def test_frequencies_are_those_of_the_older_references(name: str) -> None:
     # These have 11 to 14 certain digits; measured 2e-14, and 2e-13 for full_free_s0, whose λ span five decades.
@@ -136,6 +137,7 @@ def test_a_slit_beside_a_heavy_beam_sloshes_as_in_the_literature() -> None:
     np.testing.assert_allclose(modes.eigenvalues[1:] * slit, expected[:2], rtol=1e-6)
 
 
+@pytest.mark.slow
 def test_values_come_from_above() -> None:
     coarse = Fineness(degree=3, phase=4.0, smallest=1e-2, bending=8)
     for name in ("base_s0", "vlfs_dock_s1"):
@@ -146,6 +148,7 @@ def test_values_come_from_above() -> None:
         assert above.max() > 1e-9
 
 
+@pytest.mark.slow
 def test_symmetric_and_antisymmetric_modes_are_all_modes() -> None:
     tank = aquarium_tank("narrow_s1")
     halves = [reference_modes(tank, 4, parity=parity).eigenvalues for parity in ("symmetric", "antisymmetric")]
@@ -172,6 +175,7 @@ def test_references_have_converged(name: str) -> None:
         assert tone is None or tone["self_convergence"] <= 3e-10
 
 
+@pytest.mark.slow_but("full_cover")
 @pytest.mark.parametrize("name", some_slow(COMPUTED, {"full_cover", "tip_at_the_wall"}))
 def test_stored_references_are_made_anew(name: str) -> None:
     scene = TankScene.model_validate(COMPUTED[name]["scene"])

@@ -116,6 +116,7 @@ def test_stages_of_the_start_are_those_of_a_run() -> None:
         assert sum(float(row[column]) for row in rows if row["stage"] in stages) <= total + rounding
 
 
+@pytest.mark.slow_but("sloshing")
 @pytest.mark.parametrize(
     "name",
     [

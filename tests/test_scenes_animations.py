@@ -42,6 +42,7 @@ def test_tanks_are_animated_when_asked(tanks: Any, tmp_path: Path) -> None:
     assert animations(tmp_path / "still") == []
 
 
+@pytest.mark.slow
 def test_strings_are_animated_when_asked(tmp_path: Path) -> None:
     scene = read_scene("string_smooth", ["output.times={start=0.0,stop=1.0,number=9}"])
     run_scene(scene, out=tmp_path / "moving", images=ANIMATED)
@@ -57,6 +58,7 @@ def hanging_chain(*analyses: str) -> ThreadScene:
     return scene
 
 
+@pytest.mark.slow
 def test_threads_are_animated_when_asked(tmp_path: Path) -> None:
     run_scene(hanging_chain('{kind="modes",count=1}', MOTION), out=tmp_path / "moving", images=ANIMATED)
     assert animations(tmp_path / "moving") == ["motion.gif", "oscillation_001.gif"]

@@ -35,7 +35,7 @@ def errors(**causes: float) -> FrequencyErrors:
 
 
 def next_after(causes: FrequencyErrors, last: Resolution = LAST, **changes: bool) -> Resolution | None:
-    return refined(last, causes, TOLERANCE, **({"exponent": 1.0, "own_mesh": True} | changes))
+    return refined(last, causes, TOLERANCE, **({"exponent": 1.0, "remesh": True} | changes))
 
 
 def changed(finer: Resolution | None, last: Resolution = LAST) -> set[str]:
@@ -75,8 +75,8 @@ def test_beyond_the_highest_degree_elements_shrink_and_rings_multiply() -> None:
 
 
 def test_a_mesh_of_the_users_own_is_not_changed() -> None:
-    assert changed(next_after(errors(liquid=1e-5, tips=1e-5), own_mesh=False)) == {"degree"}
-    assert next_after(errors(liquid=1e-5), LAST.with_degree(10), own_mesh=False) is None
+    assert changed(next_after(errors(liquid=1e-5, tips=1e-5), remesh=False)) == {"degree"}
+    assert next_after(errors(liquid=1e-5), LAST.with_degree(10), remesh=False) is None
 
 
 def test_nothing_is_tried_against_rounding() -> None:

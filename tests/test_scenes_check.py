@@ -146,6 +146,7 @@ def test_titles_are_printed_as_they_are() -> None:
     assert "[bold]Tank[/nonsense]" in printed(scene(title="[bold]Tank[/nonsense]"))
 
 
+@pytest.mark.slow_but("aquarium", "float_wedge", "open_plate", "catenary", "string_smooth", "swell", "interface_beam")
 @pytest.mark.parametrize("name", [shipped.name for shipped in shipped_scenes()])
 def test_every_shipped_scene_can_be_described(name: str) -> None:
     shipped = read_scene(name)
@@ -181,6 +182,7 @@ def test_levels_are_printed_from_the_top_down() -> None:
         assert words in text
 
 
+@pytest.mark.slow
 def test_groups_of_two_liquids_and_a_float() -> None:
     text = printed(scene(floating(), beam(start=0.5, length=3.0), upper=800.0))
     # ρ₁/ρ₂; h₁/h₂; h₂/L; b/h; B/L; m/(ρ₂ A) = 0.9; EI/((ρ₂ - ρ₁) g l⁴) = 5e3/(200·9.81·81).

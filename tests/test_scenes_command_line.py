@@ -275,6 +275,7 @@ def test_two_scenes_of_one_name_are_kept_apart(tmp_path: Path) -> None:
     assert invoke("run", second, "--no-images").stderr == ""
 
 
+@pytest.mark.slow_but("arguments0")
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device that is always full")
 @pytest.mark.parametrize("arguments", [["list"], ["check", "swell"], ["run", "swell", "--no-images"]])
 def test_an_output_that_is_full_is_one_line(arguments: list[str]) -> None:
@@ -286,6 +287,7 @@ def test_an_output_that_is_full_is_one_line(arguments: list[str]) -> None:
     assert "nothing can be printed: No space left on device" in ended.stderr
 
 
+@pytest.mark.slow_but("arguments[01]-*")
 @pytest.mark.parametrize(
     ("arguments", "needed"),
     [
@@ -314,12 +316,13 @@ def test_nothing_heavy_is_imported_that_is_not_needed(arguments: list[str], need
     assert finished.returncode == 0, finished.stderr
 
 
+@pytest.mark.slow
 def test_a_first_run_compiles_one_form_for_each_degree_and_says_what_it_cost(tmp_path: Path) -> None:
     cache = tmp_path / "cache"
     for forms in (1, 1):
         ended = process("run", "aquarium", "--no-images", "--out", "result", *COARSE, XDG_CACHE_HOME=str(cache))
         assert ended.returncode == 0, ended.stderr
-        # The scene and its pressure-release companion have one degree; the second run finds its form.
+        # The scene and its pressure-release tone have one degree; the second run finds its form.
         assert len(list(cache.glob("fenics/*.c"))) == forms
         timing = json.loads(Path("result", "summary.json").read_text(encoding="utf-8"))["timing"]
         assert {"import", "mesh", "forms", "assemble", "solve", "write"} <= timing.keys()
@@ -339,6 +342,7 @@ def test_a_terminal_without_greek_letters_gets_question_marks() -> None:
     assert "?" in result.stdout
 
 
+@pytest.mark.slow_but("OMPI*")
 @pytest.mark.parametrize("variable", ["OMPI_COMM_WORLD_RANK", "PMI_RANK"])
 def test_only_the_first_rank_prints(variable: str) -> None:
     assert process("list", **{variable: "0"}).stdout != ""

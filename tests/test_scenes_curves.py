@@ -25,9 +25,12 @@ from hydroelastic.benchmarks.rows import Row
 from hydroelastic.benchmarks.string.figure import draw_strings
 from hydroelastic.benchmarks.tank.figure import draw_speed
 from hydroelastic.benchmarks.thread.figure import draw_threads
+from hydroelastic.fem.study.row import StudyRow
+from hydroelastic.fem.study.thinness import QUANTITIES, Comparison, ThinnessRow
 from hydroelastic.fem.thread.stability import Stability, Threshold
 from hydroelastic.output.pictures.curves import Sheets
 from hydroelastic.output.pictures.options import SCALE_LIMITS, PictureOptions
+from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.roll import RollScene
 from hydroelastic.scenes.models.string import StringScene
 from hydroelastic.scenes.models.tank import TankScene
@@ -40,9 +43,7 @@ from hydroelastic.scenes.string.figures import draw_string
 from hydroelastic.scenes.string.solve import solve_string
 from hydroelastic.scenes.study.figure import draw_study
 from hydroelastic.scenes.study.plan import StudyPlan
-from hydroelastic.scenes.study.rows import StudyRow
 from hydroelastic.scenes.study.run import Study
-from hydroelastic.scenes.study.thinness import QUANTITIES, Comparison, ThinnessRow
 from hydroelastic.scenes.study.thinness_figure import draw_thinness
 from hydroelastic.scenes.thread import figures as thread_figures
 from hydroelastic.scenes.thread.solve import solve_thread_scene
@@ -117,7 +118,7 @@ def of_studies(folder: Path) -> None:
     with (RESULTS / "shipped" / "aquarium" / "study.csv").open(encoding="utf-8") as file:
         rows = tuple(map(study_row, csv.DictReader(file)))
     sheets = Sheets(folder=folder, title=scene.title)
-    draw_study(Study(scene=scene, plan=StudyPlan(), halves=True, rows=rows), sheets)
+    draw_study(Study(scene=scene, plan=StudyPlan(), tank=physical_tank(scene).scaled(), halves=True, rows=rows), sheets)
     widths = [0.1, 0.05, 0.025]
     draw_thinness(
         [

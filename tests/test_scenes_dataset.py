@@ -287,7 +287,7 @@ def test_odd_values_survive(tmp_path: Path) -> None:
 
 
 def test_what_arrays_tell_is_not_told_twice(tmp_path: Path) -> None:
-    names = SummaryNames(told=frozenset({"modes.omega"}), dimensions={"modes": ("mode",)})
+    names = SummaryNames(reported_by_arrays=frozenset({"modes.omega"}), dimensions={"modes": ("mode",)})
     summary: Summary = {
         "scene": {"title": ""},
         "status": "ok",

@@ -98,6 +98,7 @@ SECTIONS: dict[str, dict[str, Any]] = {
 }
 
 
+@pytest.mark.slow_but("0.35-800.0-interface-*", "None-800.0-surface-hull", "0.8-None-None-hull")
 @pytest.mark.parametrize("section", SECTIONS)
 @pytest.mark.parametrize(("upper", "at"), [(None, None), (800.0, "interface"), (800.0, "surface"), (0.0, None)])
 @pytest.mark.parametrize("part", [None, 0.35, 0.8])

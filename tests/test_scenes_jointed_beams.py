@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from mpi4py import MPI
 from tanks import Tanks
 
 from hydroelastic.fem.modes import solve_modes
@@ -26,6 +27,7 @@ from hydroelastic.scenes.models import Accuracy, Beam, Liquid, Tank, TankScene
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.tank.check_tables import boundary_table, group_table, unknown_table
+from hydroelastic.scenes.tank.solve import EstimatedTank
 from hydroelastic.scenes.tank.summary import summarize
 
 EI, MASS = 5e3, 50.0
@@ -102,6 +104,7 @@ SYMMETRIC = {
 }
 
 
+@pytest.mark.slow_but("stepped")
 @pytest.mark.parametrize("name", SYMMETRIC)
 def test_halves_of_a_symmetric_tank_give_the_whole(tanks: Tanks, name: str) -> None:
     scene = tanks.scene(*SYMMETRIC[name], tolerance=1e-8, modes=12)
@@ -181,6 +184,7 @@ def test_hinges_of_a_beam_without_hydrostatics_cost_nothing(tanks: Tanks) -> Non
     assert tanks.solve(scene).modes.zero_modes == zero_mode_count(physical_tank(scene))
 
 
+@pytest.mark.slow_on_ranks_but
 @pytest.mark.mpi
 def test_a_stepped_mass_couples_the_shapes(tanks: Tanks) -> None:
     """On a liquid that is far lighter than itself it keeps its dry modes."""
@@ -205,7 +209,8 @@ def test_the_dry_frequency_is_that_of_the_whole_beam(tanks: Tanks) -> None:
     beam = stepped((1.0, EI, MASS), (3.0, 2.0 * EI, 3.0 * MASS), joints=[joint(2.0, 1e4)])
     scene = tanks.scene(beam)
     solution = tanks.solve(scene)
-    summary = summarize(scene, solution, tone_estimates(solution.physical), import_seconds=0.0)
+    estimated = EstimatedTank(scene=scene, tank=solution, beam=tone_estimates(solution.physical))
+    summary = summarize(estimated, MPI.COMM_WORLD, import_seconds=0.0)
     dry = jointed_modes(
         beams.Beam(
             sections=(

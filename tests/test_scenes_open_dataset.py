@@ -17,7 +17,6 @@ from hydroelastic.fem.open_water.radiation import solve_radiation
 from hydroelastic.fem.open_water.response import solve_response
 from hydroelastic.scenes.models.open_analyses import Radiation, Response
 from hydroelastic.scenes.open_water.dataset import open_dataset
-from hydroelastic.scenes.open_water.physics import radiation_request, response_request
 from hydroelastic.scenes.output.dataset import write_dataset
 
 
@@ -76,6 +75,7 @@ def test_capytaines_recipe_for_complex_numbers_and_motions_works(written: xarray
     )
 
 
+@pytest.mark.slow
 def test_motions_in_waves_follow_from_the_dataset_of_radiation() -> None:
     """Radiation and response are solved apart, and meet in the equation of motion by the dataset's labels.
 
@@ -93,11 +93,9 @@ def test_motions_in_waves_follow_from_the_dataset_of_radiation() -> None:
     assert isinstance(radiation, Radiation)
     solution = replace(
         arbitrary_solution(scene),
-        radiation=(solve_radiation(problem, radiation_request(radiation)).table,),
+        radiation=(solve_radiation(problem, radiation.request).table,),
         response=tuple(
-            solve_response(problem, response_request(response)).table
-            for response in responses
-            if isinstance(response, Response)
+            solve_response(problem, response.request).table for response in responses if isinstance(response, Response)
         ),
     )
     found = open_dataset(solution).sel(omega=3.0)

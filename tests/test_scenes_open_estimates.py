@@ -7,12 +7,14 @@ from math import inf
 import pytest
 from mpi4py import MPI
 
+from hydroelastic.fem.open_water.thin_float_theory import Comparison, thin_float_comparisons
 from hydroelastic.scenes.models.bodies import Beam, Float
 from hydroelastic.scenes.models.open_analyses import Decay, Radiation, Release, Resonance
+from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.tank_parts import Accuracy, Liquid, Tank
 from hydroelastic.scenes.open_water.check import open_requests
-from hydroelastic.scenes.open_water.estimates import endless_comparison, endless_words, thin_float_comparisons
+from hydroelastic.scenes.open_water.estimates import endless_comparison, endless_words
 from hydroelastic.scenes.open_water.results import OpenSolution
 from hydroelastic.scenes.open_water.solve import solve_open
 from hydroelastic.scenes.open_water.summary import summarize_open
@@ -33,16 +35,21 @@ def _scene(**changes: object) -> TankScene:
     )
 
 
+def _compared(solution: OpenSolution) -> tuple[tuple[Comparison, ...], str]:
+    return thin_float_comparisons(physical_tank(solution.scene), solution)
+
+
 def test_thin_boundary_is_what_the_theory_solves() -> None:
-    rows, note = thin_float_comparisons(solve_open(_scene(), MPI.COMM_SELF, lambda _message: None))
+    rows, note = _compared(solve_open(_scene(), MPI.COMM_SELF, lambda _message: None))
     assert [row.quantity.split()[0] for row in rows] == ["Re", "γ", "a", "b", "heave"]
     # The field is asked for 1e-3, and is known to be better by a factor of ten; the theory has twelve digits.
     assert max(abs(row.difference) for row in rows) < 2e-4
     assert "thickness" in note
 
 
+@pytest.mark.slow
 def test_exact_contour_differs_by_the_thinness() -> None:
-    rows, _ = thin_float_comparisons(solve_open(_scene(boundary="exact"), MPI.COMM_SELF, lambda _message: None))
+    rows, _ = _compared(solve_open(_scene(boundary="exact"), MPI.COMM_SELF, lambda _message: None))
     differences = {row.quantity.split()[0]: abs(row.difference) for row in rows}
     # τ = 0.1: of first order in a, b and γ, of second order in Re ω.
     assert 1e-3 < differences["γ"] < 0.15
@@ -56,7 +63,7 @@ def test_other_scenes_have_no_such_theory() -> None:
         update={"body": (Beam(start=1.0, length=2.0, flexural_rigidity=1e4, mass_per_length=50.0),)}
     )
     for scene in (heavy, beam):
-        assert thin_float_comparisons(OpenSolution(scene=scene, size={}, seconds={})) == ((), "")
+        assert _compared(OpenSolution(scene=scene, size={}, seconds={})) == ((), "")
 
 
 def test_check_and_summary_tell_of_the_endless_float() -> None:
@@ -75,13 +82,14 @@ def test_check_and_summary_tell_of_the_endless_float() -> None:
 
 def test_blunt_sections_say_why() -> None:
     scene = _scene(shape="rectangle", boundary="exact")
-    rows, note = thin_float_comparisons(OpenSolution(scene=scene, size={}, seconds={}))
+    rows, note = _compared(OpenSolution(scene=scene, size={}, seconds={}))
     assert rows == ()
     assert note.startswith("The thin-float theory has no value")
 
 
+@pytest.mark.slow
 @pytest.mark.mpi
 def test_two_processes_agree() -> None:
     solution = solve_open(_scene(), MPI.COMM_WORLD, lambda _message: None)
-    rows, _ = thin_float_comparisons(solution)
+    rows, _ = _compared(solution)
     assert max(abs(row.difference) for row in rows) < 2e-4

@@ -16,6 +16,8 @@ from PIL import Image
 
 from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.open_water.basin import open_basin
+from hydroelastic.fem.open_water.field_samples import SampledField, sample_field
+from hydroelastic.fem.open_water.fields import OpenField, open_fields
 from hydroelastic.fem.open_water.resonance_search import ResonanceSearch
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.output.pictures.gif import FRAMES
@@ -23,9 +25,9 @@ from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.output.pictures.rendering import NoRendererError
 from hydroelastic.scenes.models.open_analyses import Radiation, Resonance
 from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.open_water.field_files import write_fields
 from hydroelastic.scenes.open_water.field_pictures import draw_fields
-from hydroelastic.scenes.open_water.field_samples import SampledField, sample_field, write_fields
-from hydroelastic.scenes.open_water.fields import OpenField, open_fields
+from hydroelastic.scenes.open_water.physics import open_water_problem
 from hydroelastic.scenes.open_water.results import OpenSolution
 from hydroelastic.scenes.open_water.run import run_open
 from hydroelastic.scenes.open_water.solve import solve_open
@@ -37,7 +39,7 @@ DEPTH = 1.1
 
 
 def fields_of(solution: OpenSolution, comm: MPI.Comm = MPI.COMM_WORLD) -> Iterator[OpenField]:
-    for _, fields in open_fields(solution, comm, Stopwatch()):
+    for _, fields in open_fields(open_water_problem(solution.scene, comm, Stopwatch()), solution):
         yield from fields
 
 
@@ -94,6 +96,7 @@ def free_surface_residual(field: SampledField, body: tuple[float, float]) -> flo
     return float(np.abs(residual).max() / np.abs(upwards).max())
 
 
+@pytest.mark.slow_on_ranks_but
 @pytest.mark.mpi
 @pytest.mark.parametrize("waves_from", ["left", "right"])
 def test_a_response_is_the_wave_that_comes_and_those_that_leave(waves_from: str) -> None:

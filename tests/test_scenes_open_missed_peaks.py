@@ -76,6 +76,7 @@ def test_tables_summary_and_dataset_have_it(coarse: OpenSolution) -> None:
     assert variables["missed_peak_omega"].attrs["units"] == "rad/s"
 
 
+@pytest.mark.slow
 def test_a_resolved_curve_has_none(coarse: OpenSolution) -> None:
     near = peak_of(coarse).omega + 1e-3 * np.arange(-10, 11)
     omegas = sorted([*np.linspace(0.3, 1.7, 15), *near])

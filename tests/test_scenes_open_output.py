@@ -37,7 +37,7 @@ from hydroelastic.scenes.output.provenance import Summary
 from hydroelastic.scenes.output.sections import markdown_sections, printed_sections
 from hydroelastic.scenes.run import run_scene
 from hydroelastic.scenes.study.run import study_scene
-from hydroelastic.scenes.tank.compare import compare_tank
+from hydroelastic.scenes.tank.run import compare_tank
 
 
 def summary_of(solution: OpenSolution) -> Summary:

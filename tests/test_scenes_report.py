@@ -154,6 +154,7 @@ def test_theories_stand_apart_from_results(reports: dict[str, tuple[Outcome, str
     assert theories < html.rindex(outcome.sections[1].rows[0][1]) < model
 
 
+@pytest.mark.slow
 def test_a_string_solved_as_a_field_is_set_beside_its_series(tmp_path: Path) -> None:
     scene = read_scene("string_ramp", ["accuracy.method=field", "accuracy.tolerance=1e-3", "output.frames=0"])
     run_scene(scene, out=tmp_path / "out", images=None, page=True)

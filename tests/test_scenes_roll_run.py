@@ -222,14 +222,15 @@ def test_heavy_damping_keeps_the_default_tolerance() -> None:
     assert abs(result.solution.statistics.largest_angle) < 2e-6 * 0.1
 
 
+@pytest.mark.slow_on_ranks_but
 @pytest.mark.mpi
 def test_a_section_in_open_water_rolls_as_its_resonance_says() -> None:
     from hydroelastic.fem.open_water.requests import ResonanceRequest
     from hydroelastic.fem.open_water.resonance import solve_resonance
+    from hydroelastic.fem.section_roll import section_roll
     from hydroelastic.fem.stopwatch import Stopwatch
     from hydroelastic.scenes.models.tank import TankScene
     from hydroelastic.scenes.open_water.physics import open_water_problem
-    from hydroelastic.scenes.roll.section import section_roll
 
     # A rectangle whose roll makes waves: damping by waves of a per cent.
     scene = read_scene(
@@ -242,8 +243,9 @@ def test_a_section_in_open_water_rolls_as_its_resonance_says() -> None:
     )
     assert isinstance(scene, TankScene)
     comm = MPI.COMM_WORLD
-    found = section_roll(scene, comm, Stopwatch(), lambda _message: None)
-    omega = solve_resonance(open_water_problem(scene, comm, Stopwatch()), ResonanceRequest(count=1)).table.omega[0]
+    problem = open_water_problem(scene, comm, Stopwatch())
+    found = section_roll(problem.tank, tolerance=problem.tolerance, modes=1, comm=comm)
+    omega = solve_resonance(problem, ResonanceRequest(count=1)).table.omega[0]
     assert found.damping is not None
     ratio = found.damping / found.natural_frequency
     assert ratio > 1e-3

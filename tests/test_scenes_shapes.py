@@ -9,7 +9,9 @@ import meshio
 import numpy as np
 import pytest
 
-from hydroelastic.output.pictures.mode import SurfaceCurve
+from hydroelastic.fem.pictures.mode import SurfaceCurve
+from hydroelastic.fem.shape_curves import largest_of
+from hydroelastic.fem.tank.mode_shapes import ModeShapes, sample_shapes
 from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.output.pictures.rendering import NoRendererError, open_plotter
 from hydroelastic.scenes.models.bodies import Beam, Float
@@ -17,8 +19,6 @@ from hydroelastic.scenes.models.body_kinds import Body
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.tank_parts import Accuracy, Liquid, Tank
 from hydroelastic.scenes.run import run_scene
-from hydroelastic.scenes.tank.shape_curves import largest_of
-from hydroelastic.scenes.tank.shapes import ModeShapes, sample_shapes
 
 LENGTH = 10.0
 LOWER, UPPER = (1000.0, 4.0), (800.0, 3.0)

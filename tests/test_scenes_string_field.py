@@ -27,6 +27,7 @@ def field(scene: StringScene) -> StringSolution:
     return solve_string_field(scene.model_copy(update={"accuracy": accuracy}), MPI.COMM_WORLD)
 
 
+@pytest.mark.slow_but("string_smooth-1e-05", "string_ramp-0.001")
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-5])
 @pytest.mark.parametrize("name", ["string_smooth", "string_ramp", "string_sine"])
 def test_field_and_series_agree_within_the_estimate(name: str, tolerance: float) -> None:
@@ -70,6 +71,7 @@ def test_free_motions_of_both_methods_are_one_list() -> None:
     assert by_field.free_motions.shapes == pytest.approx(by_series.free_motions.shapes, abs=1e-9)
 
 
+@pytest.mark.slow_on_ranks_but
 @pytest.mark.mpi
 def test_a_load_on_the_end_changes_frequencies_as_bessel_functions_say() -> None:
     overrides = ("string.resistance=0", SHORT, "accuracy.tolerance=1e-3", "accuracy.modes=6", "string.tip_mass=0.02")

@@ -139,6 +139,7 @@ def test_a_single_place_and_time_are_enough(tmp_path: Path) -> None:
     assert (tmp_path / "one" / "images" / "shapes.png").is_file()
 
 
+@pytest.mark.slow_but("ramp-undamped", "ramp-crit", "ramp-over-big")
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case["id"])
 def test_references_through_a_scene(case: dict[str, Any], tmp_path: Path) -> None:
     given = case["inputs"]

@@ -6,15 +6,16 @@ from typing import Any
 
 import pytest
 
+from hydroelastic.fem.study.corners import corner_exponents, sharpest_of, symmetries_apart
+from hydroelastic.fem.study.meshes import full_order
+from hydroelastic.fem.study.rates import Rate
+from hydroelastic.fem.study.row import Family
+from hydroelastic.fem.study.theory import expected_order
 from hydroelastic.physics.symmetry import Parity
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.study.corners import corner_exponents, sharpest_of, symmetries_apart
-from hydroelastic.scenes.study.plan import Family
-from hydroelastic.scenes.study.rates import Rate
 from hydroelastic.scenes.study.report import study_table
 from hydroelastic.scenes.study.run import Study, StudyPlan, study_scene
-from hydroelastic.scenes.study.theory import expected_order, full_order_grading
 
 WATER = {"density": 1000.0, "depth": 0.6}
 OIL = {"density": 800.0, "depth": 0.5}
@@ -118,13 +119,15 @@ def test_beside_the_middle_all_modes_meet_the_end_of_a_slit() -> None:
 
 
 def test_orders_are_those_of_each_symmetry() -> None:
-    given = scene(THIN)
-    assert expected_order(given, 3) == 1.0
-    assert expected_order(given, 3, parity="symmetric") == 2.0
-    assert expected_order(given, 3, parity="antisymmetric") == 1.0
+    tank = physical_tank(scene(THIN)).scaled()
+    assert expected_order(tank, 3) == 1.0
+    assert expected_order(tank, 3, parity="symmetric") == 2.0
+    assert expected_order(tank, 3, parity="antisymmetric") == 1.0
     # Graded for the sharper, all have the full order.
-    assert full_order_grading(given, 3) == 7.0
-    assert expected_order(given, 3, 7.0, "symmetric") == 6.0
+    exponent = sharpest_of(tank)
+    assert exponent is not None
+    assert full_order(3, exponent) == 7.0
+    assert expected_order(tank, 3, 7.0, "symmetric") == 6.0
 
 
 def test_a_beam_at_an_interface_limits_uniform_meshes_to_order_two(beam: Study) -> None:

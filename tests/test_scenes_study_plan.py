@@ -109,6 +109,7 @@ def test_a_bad_plan_is_refused_from_python_as_well(values: dict[str, Any]) -> No
         StudyPlan(**values)
 
 
+@pytest.mark.slow
 def test_the_command_prints_and_writes_what_was_asked(tmp_path: Path) -> None:
     folder = tmp_path / "out"
     arguments = ["study", "sloshing", "--families", "uniform,tolerance", "--degrees", "2", "--tolerances", "1e-4"]

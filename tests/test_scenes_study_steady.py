@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import pytest
 
-from hydroelastic.scenes.study.rows import StudyRow
-from hydroelastic.scenes.study.steady import steadily_timed
+from hydroelastic.fem.study.row import StudyRow
+from hydroelastic.fem.study.steady import steadily_timed
 
 ROW = StudyRow(
     family="geometric",

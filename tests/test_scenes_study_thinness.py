@@ -12,13 +12,14 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
+from hydroelastic.fem.study.thinness import QUANTITIES, fitted_thinness
 from hydroelastic.scenes.command_line import main
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.study.report import study_table, write_study
 from hydroelastic.scenes.study.run import Study, StudyPlan, study_scene
-from hydroelastic.scenes.study.thinness import QUANTITIES, check_thinness, fitted_thinness
+from hydroelastic.scenes.study.thinness import check_thinness
 from hydroelastic.scenes.study.thinness_report import thinness_csv
 
 FLOAT = {
@@ -74,6 +75,7 @@ def test_differences_are_those_of_the_boundary(study: Study) -> None:
     assert first["added mass"].difference == pytest.approx(-0.5 * 0.005 / 0.3, rel=0.2)
 
 
+@pytest.mark.slow
 def test_a_given_mass_goes_with_the_width() -> None:
     # It floats deeper than with the 3.6 kg/m that keep its widest section at the interface.
     heavier = study_scene(scene(mass=3.7), replace(PLAN, width_halvings=2)).thinness
@@ -82,6 +84,7 @@ def test_a_given_mass_goes_with_the_width() -> None:
         assert row.compared["heave"].is_clear
 
 
+@pytest.mark.slow
 def test_heave_that_is_shared_with_waves_is_said_to_be() -> None:
     rows = study_scene(
         read_scene("float_ellipse", ['body.1.motions=["heave"]', "body.1.half_width=0.2"]),

@@ -7,12 +7,14 @@ from typing import Any
 
 import pytest
 from click.testing import CliRunner
+from mpi4py import MPI
 from scene_files import BEAM_IN_TANK
 
 from hydroelastic.modal.estimate import Estimate
 from hydroelastic.scenes.command_line import main
 from hydroelastic.scenes.output.sections import markdown_sections
-from hydroelastic.scenes.tank.compare import compare_tank
+from hydroelastic.scenes.tank.run import compare_tank
+from hydroelastic.scenes.tank.solve import EstimatedTank
 from hydroelastic.scenes.tank.summary import summarize
 from hydroelastic.scenes.tank.tables import tank_sections
 
@@ -50,7 +52,9 @@ def test_a_broken_bound_is_said_loudly(tanks: Any) -> None:
     low = Estimate(
         omega=0.99 * lowest, added_mass_per_length=1.0, bound="above_mode_index", mode_index=1, note="made up"
     )
-    summary = summarize(scene, solution, {"low": low}, import_seconds=0.0)
+    summary = summarize(
+        EstimatedTank(scene=scene, tank=solution, beam={"low": low}), MPI.COMM_WORLD, import_seconds=0.0
+    )
     assert summary["estimates"]["low"]["bound_holds"] is False
     assert "VIOLATED" in markdown_sections(summary, tank_sections(summary), "")
 

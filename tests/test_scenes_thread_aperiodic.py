@@ -38,6 +38,7 @@ def solution() -> ThreadSolutionOfScene:
     return solved(TOLERANCE)
 
 
+@pytest.mark.slow
 def test_all_roots_keep_the_tolerance(solution: ThreadSolutionOfScene) -> None:
     (modes,) = solution.modes
     # On the first mesh the largest error of an oscillating root is 8.1e-7, that of a real one 6.1e-6.

@@ -143,6 +143,7 @@ OWN_DEPTH = "tension-dominated at the end's own depth, order 1"
 
 # Slopes are measured to 0.05 of the whole number that the order of a theory says, and so 0.1 is allowed; 0.15 where the
 # next order is seen, at a change of the stream of 0.1.
+@pytest.mark.slow_but("pulled-*")
 @pytest.mark.parametrize(
     ("family", "name", "quantity", "expected", "within"),
     [

@@ -31,6 +31,7 @@ def sparse() -> ThreadSolutionOfScene:
     return heaved("[0.0, 4.0, 8.0]")
 
 
+@pytest.mark.slow
 def test_extremes_do_not_depend_on_the_output_times(sparse: ThreadSolutionOfScene) -> None:
     dense = heaved("{start = 0.0, stop = 8.0, number = 161}")
     (few,), (many,) = sparse.motions, dense.motions

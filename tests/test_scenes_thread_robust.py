@@ -59,6 +59,7 @@ def assert_sound(kind: str, number: int, *, truth: bool) -> None:
         assert true_error(ThreadScene.model_validate(data), solution) <= solution.errors.relative + INTEGRATION
 
 
+@pytest.mark.slow_but("free-[02]", "slack-[01]", "taut-0", "tail-1", "bodies-0", "bending-3")
 @pytest.mark.parametrize(("kind", "number"), QUICK)
 def test_random_threads(kind: str, number: int) -> None:
     assert_sound(kind, number, truth=number == 0)
@@ -110,6 +111,7 @@ def test_nearly_vertical_tow() -> None:
     assert end[0] == pytest.approx(6.0 * speed**2 * length**2 / (2.0 * force), rel=2.0 * length / force)
 
 
+@pytest.mark.slow_but("1.0-0.001")
 @pytest.mark.parametrize("part", [1e-2, 1e-3])
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_light_body_at_the_end(part: float, sign: float) -> None:
@@ -133,6 +135,7 @@ def test_arch_is_refused() -> None:
         solve_thread(MPI.COMM_WORLD, model, arch)
 
 
+@pytest.mark.slow_but("1e-10")
 @pytest.mark.parametrize("rigidity", [1e-4, 1e-10])
 def test_clamp_layer_is_resolved(rigidity: float) -> None:
     """M = 2 √(EI T) sin(Δφ/2) at the clamp up to √(EI/T)/L, from where the thread without rigidity leaves."""
@@ -166,6 +169,7 @@ def test_current_that_turns_round() -> None:
     assert true_error(ThreadScene.model_validate(data), solution) < solution.errors.relative < TOLERANCE
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("factor", [pytest.param(1.0, marks=pytest.mark.slow), 1.1])
 def test_weight_that_nearly_cancels_drag(factor: float) -> None:
     """The thread lies along its critical line and turns back in a hook, far from every catenary."""
@@ -184,6 +188,7 @@ def test_ends_on_a_vertical_in_a_weak_stream() -> None:
     assert 0.0 < solved(data).solution.profile.smallest_tension()[0] < 1e-6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("weight", [1.0, 0.0])
 def test_rigidity_gives_a_folded_thread_a_shape(weight: float) -> None:
     """Both ends on one vertical; without weight half a loop of the elastica, whose ends bear the same force."""

@@ -78,6 +78,7 @@ def scene_of(case: str, tolerance: float = 1e-8) -> ThreadScene:
     return ThreadScene.model_validate_json(json.dumps(document))
 
 
+@pytest.mark.slow_but("S01")
 @pytest.mark.parametrize("case", ["S01", "S03", "S05", "S07", "S10", "S12", "S14", "S17"])
 def test_public_references_are_within_the_stated_errors(case: str) -> None:
     solution, expected = solve(scene_of(case)), results(case)

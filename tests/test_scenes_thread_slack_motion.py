@@ -121,6 +121,7 @@ def test_the_force_scale_is_the_largest_force() -> None:
         assert force_scale(given, speed) == pytest.approx(expected, rel=1e-15)
 
 
+@pytest.mark.slow_but("1000*")
 @pytest.mark.parametrize("rigidity", [None, 1e12])
 def test_a_slack_start_is_refused_at_once(rigidity: float | None, attempts: list[float]) -> None:
     asked = scene(

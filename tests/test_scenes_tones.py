@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from mpi4py import MPI
 
 from hydroelastic.fem.tank.elastic_tone import ElasticTone, elastic_tone
 from hydroelastic.fem.tank.resolution import initial_resolution
@@ -15,7 +16,7 @@ from hydroelastic.physics.dofs import FIRST_ELASTIC
 from hydroelastic.scenes.models import Accuracy, Beam, Liquid, Tank, TankScene
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank_checks import MASS_GROUP, STIFFNESS_GROUP
-from hydroelastic.scenes.tank.solve import solve_scene
+from hydroelastic.scenes.tank.solve import EstimatedTank, solve_scene
 from hydroelastic.scenes.tank.summary import summarize
 from hydroelastic.scenes.tank.tables import tone_lines
 
@@ -78,7 +79,7 @@ def test_a_tone_that_is_no_single_modes_is_known(
 
 
 def test_a_tone_that_is_no_single_modes_is_said_so(unlike: TankSolution) -> None:
-    summary = summarize(tank(LONG, SHORT), unlike, {}, import_seconds=0.0)
+    summary = summarize(EstimatedTank(scene=tank(LONG, SHORT), tank=unlike), MPI.COMM_WORLD, import_seconds=0.0)
     long, short = (" ".join(tone_lines(summary | {"first_elastic_by_body": [tone]})) for tone in _tones(summary))
     assert "no single mode; modes from 55 to 65 share it, most of it in mode 60, ω = " in long
     assert "; pressure-release tone (ψ = 0 on the water, the limit far above the waves): " in long

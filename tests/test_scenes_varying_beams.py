@@ -51,6 +51,7 @@ def staircase(steps: int) -> dict[str, Any]:
     return {"kind": "beam", "start": 2.0, "sections": sections}
 
 
+@pytest.mark.slow_on_ranks_but
 @pytest.mark.mpi
 def test_it_is_the_limit_of_beams_of_many_steps() -> None:
     exact = frequencies(scene(plate()))

@@ -34,16 +34,12 @@ _PANEL_LENGTHS = {4: 1.0, 8: 0.75, 12: 0.5}
 # It reads its table from the cache, or makes it: not timed, and shared by all solutions.
 _GREEN_FUNCTION = capytaine.Delhommeau()
 
+capytaine.set_logging("ERROR")  # else a warning for each resolution that is coarse against the wave
+
 
 def versions() -> dict[str, str]:
     """What computes."""
     return {"Capytaine": version("capytaine")}
-
-
-def prepare(case: Case) -> Case:
-    """Nothing: the panels are in the seconds."""
-    capytaine.set_logging("ERROR")  # else a warning for each resolution that is coarse against the wave
-    return case
 
 
 def solve(case: Case) -> Answer:

@@ -15,14 +15,9 @@ from hydroelastic.scenes.models.bodies import Float
 from hydroelastic.scenes.models.open_analyses import Radiation
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.tank_parts import Accuracy, Liquid, Tank
-from hydroelastic.scenes.open_water.physics import open_water_problem, radiation_request
+from hydroelastic.scenes.open_water.physics import open_water_problem
 
 _STRETCH = 10.0  # is drawn only; the answers do not depend on it
-
-
-def prepare(case: Case) -> Case:
-    """Nothing: the scene is in the seconds."""
-    return case
 
 
 def solve(case: Case) -> Answer:
@@ -45,7 +40,7 @@ def solve(case: Case) -> Answer:
         accuracy=Accuracy(tolerance=case.tolerance),
     )
     watch = Stopwatch()
-    solution = solve_radiation(open_water_problem(scene, MPI.COMM_WORLD, watch), radiation_request(asked))
+    solution = solve_radiation(open_water_problem(scene, MPI.COMM_WORLD, watch), asked.request)
     table = solution.table
     values: list[float] = []
     for place in (table.dofs.index("heave"), table.dofs.index("sway")):

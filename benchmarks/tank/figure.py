@@ -16,7 +16,7 @@ from hydroelastic.output.pictures.curves import GREY, Sheets, label_axes
 _STYLES: dict[tuple[Code, Variant], tuple[CurveStyle, str]] = {
     ("hydroelastic", "certified"): (
         CurveStyle(colour=VERMILLION, marker="o"),
-        "with estimate, count and\npressure-release companion",
+        "with estimate, count and\npressure-release tone",
     ),
     ("ngsolve", "whole"): (CurveStyle(colour=BLUE, marker="s"), "whole tank"),
     ("ngsolve", "halves"): (CurveStyle(colour=BLUE, marker="s", dashes=":", hollow=True), "two halves"),

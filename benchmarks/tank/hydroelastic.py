@@ -1,4 +1,4 @@
-"""The tanks on this solver: the whole of `solve_scene`, with estimate, count of modes and companion."""
+"""The tanks on this solver: the whole of `solve_scene`, with estimate, count of modes and pressure-release tone."""
 
 from __future__ import annotations
 

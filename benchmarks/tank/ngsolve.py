@@ -38,11 +38,6 @@ def versions() -> dict[str, str]:
     return {"NGSolve": ngsolve.__version__}
 
 
-def prepare(case: Case) -> Case:
-    """Nothing is done before the clock starts."""
-    return case
-
-
 def solve(case: Case) -> Answer:
     """The ten lowest frequencies of a tank, from the mesh on."""
     tank, halves = tank_named(case.tank), case.variant == "halves"

@@ -28,14 +28,14 @@ against exact ones, *seconds* the median of the rounds with the distance of thei
 
 - **hydroelastic** is the whole of `solve_scene` for a tolerance asked: it chooses its resolution, solves, and
   gives an error estimate for each frequency, a count of the modes by an independent factorization, the
-  pressure-release companion and the first elastic tone. All of that is in its seconds.
+  pressure-release tone and the first elastic tone. All of that is in its seconds.
 - **NGSolve** and **scikit-fem** are scripts for these tanks, with their resolution tuned to them by search, each for
   the whole tank and, where it is its own mirror image, for its two half tanks; the better counts. They solve once and
-  give no estimate, no count and no companion: their error is known here because the exact frequencies are.
+  give no estimate, no count and no such tone: their error is known here because the exact frequencies are.
 - The **lower bound** is one sparse factorization of hydroelastic's own matrix by the fastest library at hand, and the
-  products and solutions of as many Lanczos steps as the ten eigenvalues need. Mesh, assembly, companion, estimate,
-  count and the rest of the iteration are free in it. It is a bound for these matrices, not for all: those of the peers
-  are smaller at high degrees, where unknowns inside of elements are condensed.
+  products and solutions of as many Lanczos steps as the ten eigenvalues need. Mesh, assembly, pressure-release tone,
+  estimate, count and the rest of the iteration are free in it. It is a bound for these matrices, not for all: those of
+  the peers are smaller at high degrees, where unknowns inside of elements are condensed.
 """
 
 

@@ -45,11 +45,6 @@ _DEGREE = 3
 _REST = 1e-6
 
 
-def prepare(case: Case) -> Case:
-    """Nothing: the scene is in the seconds."""
-    return case
-
-
 def solve(case: Case) -> Answer:
     """Solve a case, from numbers to numbers."""
     if case.tank == SWING:

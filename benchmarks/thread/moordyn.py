@@ -106,11 +106,6 @@ def versions() -> dict[str, str]:
     return {"MoorDyn": version("moordyn")}
 
 
-def prepare(case: Case) -> Case:
-    """Nothing: the input file is in the seconds."""
-    return case
-
-
 def solve(case: Case) -> Answer:
     """Solve a case, from the input file to numbers."""
     if case.tank == SWING:

@@ -28,11 +28,6 @@ def versions() -> dict[str, str]:
     return {"MoorPy": version("moorpy")}
 
 
-def prepare(case: Case) -> Case:
-    """Nothing: the system is in the seconds."""
-    return case
-
-
 def solve(case: Case) -> Answer:
     """Bring a line to rest."""
     line = LINES_AT_REST[case.tank]

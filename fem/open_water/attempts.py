@@ -1,68 +1,47 @@
-"""Adaptive resolution: solve, estimate errors by cause, refine where they arise, keep the best of a few attempts."""
+"""Solve open water at finer and finer resolutions, until the tolerance of the problem is kept."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Generic, TypeVar
+from typing import TypeVar
 
 from hydroelastic.fem.memory import release_memory
 from hydroelastic.fem.open_water.basin import open_basin
 from hydroelastic.fem.open_water.field_model import Band, first_resolution
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
-from hydroelastic.fem.tank.error_estimates import FrequencyErrors, refined
-from hydroelastic.fem.tank.resolution import Resolution, sharpest_exponent, workable_tolerance
+from hydroelastic.fem.tank.attempts import Attempt, best_attempt
+from hydroelastic.fem.tank.resolution import Resolution
+from hydroelastic.physics.tank import Tank
 
 Result = TypeVar("Result")
 
 _MOST_ATTEMPTS = 4
 
 
-@dataclass(frozen=True, kw_only=True)
-class Attempt(Generic[Result]):
-    """A result with its estimated errors.
-
-    Attributes:
-        result: the result.
-        causes: its relative errors by cause.
-        resolution: with which it was found.
-    """
-
-    result: Result
-    causes: FrequencyErrors
-    resolution: Resolution
-
-    @property
-    def error(self) -> float:
-        """The largest error."""
-        return float(self.causes.total.max(initial=0.0))
-
-
-def best_attempt(
-    solve: Callable[[Resolution], Attempt[Result]], first: Resolution, tolerance: float, exponent: float
+def best_in_basin(
+    tank: Tank,
+    tolerance: float,
+    solve: Callable[[Resolution], Attempt[Result]],
+    first: Resolution,
+    *,
+    infinite_frequency: bool = False,
 ) -> Attempt[Result]:
-    """Return the first attempt whose error is below a tolerance, or the most accurate of a few (collective).
+    """Return the best of a few attempts in one basin (collective).
 
     Args:
+        tank: the basin.
+        tolerance: largest relative error that is accepted.
         solve: solves at a resolution.
         first: resolution of the first attempt.
-        tolerance: largest relative error that is accepted.
-        exponent: α of ψ ~ r^α at the sharpest tips.
+        infinite_frequency: whether it is the infinite-frequency limit.
     """
-    resolution: Resolution | None = first
-    best: Attempt[Result] | None = None
-    for _ in range(_MOST_ATTEMPTS):
-        if resolution is None:
-            break
+
+    def solved(resolution: Resolution) -> Attempt[Result]:
         attempt = solve(resolution)
         release_memory()
-        if best is None or attempt.error < best.error:
-            best = attempt
-        if attempt.error <= tolerance:
-            break
-        resolution = refined(resolution, attempt.causes, tolerance, exponent=exponent, own_mesh=True)
-    assert best is not None
-    return best
+        return attempt
+
+    return best_attempt(tank, tolerance, solved, first, rounds=_MOST_ATTEMPTS, infinite_frequency=infinite_frequency)
 
 
 def best_over_band(
@@ -76,9 +55,4 @@ def best_over_band(
         solve: solves at a resolution.
     """
     tank = open_basin(problem.tank, band.wavenumbers(problem.tank)[1]).tank
-    return best_attempt(
-        solve,
-        first_resolution(problem.tank, problem.tolerance, band),
-        workable_tolerance(problem.tolerance, tank.depth),
-        sharpest_exponent(tank, released=False),
-    )
+    return best_in_basin(tank, problem.tolerance, solve, first_resolution(problem.tank, problem.tolerance, band))

@@ -18,14 +18,14 @@ from math import pi, tan
 
 import numpy as np
 
-from hydroelastic.fem.open_water.attempts import Attempt, best_over_band
+from hydroelastic.fem.open_water.attempts import best_over_band
 from hydroelastic.fem.open_water.basin import open_basin
 from hydroelastic.fem.open_water.fast_waves import fastest_meshed
 from hydroelastic.fem.open_water.field_model import Band, OpenModel, open_model
 from hydroelastic.fem.open_water.infinite_frequency import (
-    InfiniteFrequencyLimit,
+    BodiesAtInfiniteFrequency,
+    bodies_at_infinite_frequency,
     infinite_frequency_added_mass,
-    infinite_frequency_limit,
 )
 from hydroelastic.fem.open_water.motion_scale import motion_scale
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
@@ -36,6 +36,7 @@ from hydroelastic.fem.open_water.resonance import ANGLE, resonance_errors, rough
 from hydroelastic.fem.open_water.resonance_search import Eigenpair, ResonanceSearch
 from hydroelastic.fem.open_water.results import DecayTable
 from hydroelastic.fem.open_water.slow_waves import is_endless, slowest_meshed
+from hydroelastic.fem.tank.attempts import Attempt
 from hydroelastic.fem.tank.field_model import whole_bodies
 from hydroelastic.fem.tank.resolution import Resolution
 from hydroelastic.physics.tank import Tank
@@ -121,7 +122,7 @@ def solve_decay(problem: OpenWaterProblem, request: DecayRequest) -> DecaySoluti
         UnstableFloatError: if a float would capsize.
         DriftingFloatError: if a float would drift away.
     """
-    limit = infinite_frequency_limit(problem)
+    limit = bodies_at_infinite_frequency(problem)
     _check_release(limit, request)
     # Beams have shapes that vibrate much faster, and bend as if at rest in the motion of the float.
     fastest = max(limit.frequencies(floats=True))
@@ -195,7 +196,7 @@ def _solution(request: DecayRequest, resonant: _ResonantMotion, waves: _Waves) -
     )
 
 
-def _check_release(limit: InfiniteFrequencyLimit, request: DecayRequest) -> None:
+def _check_release(limit: BodiesAtInfiniteFrequency, request: DecayRequest) -> None:
     """Refuse a release after which a body does not come back to rest where it was.
 
     Raises:

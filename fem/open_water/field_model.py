@@ -215,7 +215,7 @@ def first_resolution(water: Tank, tolerance: float, band: Band, *, drawn: float 
             # What waves scatter under a beam is as short as they are.
             meshed.append(0.0 if piece.body in tank.hulls else max(own, flexural[-1]))
     tolerance = workable_tolerance(tolerance, tank.depth)
-    exponent = sharpest_exponent(tank, released=False)
+    exponent = sharpest_exponent(tank, infinite_frequency=False)
     # A beam moves in its own waves, whatever those of the water.
     shapes = resolution_for(tank, tolerance, tuple(flexural), exponent=exponent).shapes
     return replace(resolution_for(tank, tolerance, tuple(meshed), exponent=exponent), shapes=shapes)
@@ -304,24 +304,26 @@ def _liquid(basin: OpenBasin, resolution: Resolution, mesh: TankMesh) -> LiquidS
         Layer(name=name, density=layer.density)
         for name, layer in zip(layer_names(basin.tank), basin.tank.layers, strict=True)
     )
-    grounded = (FAR_END, *grounded_names(basin.tank, released=False))
+    grounded = (FAR_END, *grounded_names(basin.tank, infinite_frequency=False))
     return liquid_space(mesh, resolution.degree, grounded, layers)
 
 
-def open_mesh(basin: OpenBasin, resolution: Resolution, frames: Reach, *, released: bool = False) -> TaggedMesh:
+def open_mesh(
+    basin: OpenBasin, resolution: Resolution, frames: Reach, *, infinite_frequency: bool = False
+) -> TaggedMesh:
     """The basin's mesh by gmsh with its frames, on the calling process.
 
     Args:
         basin: the basin.
         resolution: of it.
         frames: around it.
-        released: whether it is for the limit of high frequency, in which liquids move as one.
+        infinite_frequency: whether it is for the infinite-frequency limit, in which liquids move as one.
     """
     from hydroelastic.meshes.build import build_mesh
 
     curved = any(not hull.is_thin for hull in basin.tank.hulls.values())
     mesh = build_mesh(
-        graded_outline(basin.tank, resolution, half=False, released=released),
+        graded_outline(basin.tank, resolution, half=False, infinite_frequency=infinite_frequency),
         bulk_size=resolution.bulk_size,
         ring_ratio=resolution.ring_ratio,
         geometry_degree=resolution.degree if curved else 1,

@@ -1,4 +1,4 @@
-"""The limit of infinite frequency in open water: ψ = 0 on an open top, liquids that move as one, no damping."""
+"""The infinite-frequency limit of open water, see `fem/tank/infinite_frequency.py`: nothing is radiated."""
 
 from __future__ import annotations
 
@@ -10,19 +10,14 @@ from scipy.linalg import block_diag
 
 from hydroelastic.fem.added_mass import body_responses
 from hydroelastic.fem.liquid import compile_form
-from hydroelastic.fem.open_water.attempts import Attempt, best_attempt
+from hydroelastic.fem.open_water.attempts import best_in_basin
 from hydroelastic.fem.open_water.basin import open_basin, reach
 from hydroelastic.fem.open_water.field_model import ANGLE, GROWTH, NO_WATER, open_mesh
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
-from hydroelastic.fem.tank.error_estimates import FrequencyErrors, boundary_error, energies_missed
+from hydroelastic.fem.tank.attempts import Attempt
+from hydroelastic.fem.tank.error_estimates import added_mass_errors
 from hydroelastic.fem.tank.field_model import build_field_model, distributed_mesh, whole_bodies
-from hydroelastic.fem.tank.resolution import (
-    Resolution,
-    resolution_for,
-    rounding_error,
-    sharpest_exponent,
-    workable_tolerance,
-)
+from hydroelastic.fem.tank.resolution import Resolution, infinite_frequency_resolution, workable_tolerance
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.physics.scales import Scales
 
@@ -33,7 +28,7 @@ _NO_WAVE = 1.0
 
 
 @dataclass(frozen=True, kw_only=True)
-class InfiniteFrequencyLimit:
+class BodiesAtInfiniteFrequency:
     """The bodies with their added mass at infinite frequency, dimensionless.
 
     Attributes:
@@ -71,7 +66,7 @@ class InfiniteFrequencyLimit:
         return [self.units.frequency / sqrt(value) for value in inverse if value > 0.0]
 
 
-def infinite_frequency_limit(problem: OpenWaterProblem) -> InfiniteFrequencyLimit:
+def bodies_at_infinite_frequency(problem: OpenWaterProblem) -> BodiesAtInfiniteFrequency:
     """The bodies in as many shapes as a first look at their frequencies needs (collective)."""
     basin = open_basin(problem.tank, 0.0)
     shapes = tuple(
@@ -80,7 +75,7 @@ def infinite_frequency_limit(problem: OpenWaterProblem) -> InfiniteFrequencyLimi
     )
     added, _ = infinite_frequency_added_mass(problem.rough(), shapes)
     bodies = whole_bodies(basin.tank, shapes)
-    return InfiniteFrequencyLimit(
+    return BodiesAtInfiniteFrequency(
         units=basin.units,
         stiffness=np.diag(np.concatenate([body.stiffness for body in bodies])),
         mass=block_diag(*(body.mass for body in bodies)),
@@ -104,28 +99,21 @@ def infinite_frequency_added_mass(problem: OpenWaterProblem, shapes: tuple[int, 
     basin = open_basin(problem.tank, 0.0)
     tank, watch = basin.tank, problem.watch
     tolerance = workable_tolerance(problem.tolerance, tank.depth)
-    exponent = sharpest_exponent(tank, released=True)
-    first = resolution_for(tank, tolerance, (0.0,) * len(tank.pieces), exponent=exponent)
+    first = infinite_frequency_resolution(tank, tolerance, (0.0,) * len(tank.elastic))
 
     def solve(resolution: Resolution) -> Attempt[np.ndarray]:
         frames = reach(basin, (_NO_WAVE, _NO_WAVE), first=0.5, growth=GROWTH, angle=ANGLE, tolerance=tolerance)
         with watch.stage("mesh"):
-            mesh = distributed_mesh(problem.comm, lambda: open_mesh(basin, resolution, frames, released=True))
+            mesh = distributed_mesh(problem.comm, lambda: open_mesh(basin, resolution, frames, infinite_frequency=True))
         with watch.stage("forms"):
-            compile_form(mesh, resolution.degree, glued=tank.moves_as_one)
+            compile_form(mesh, resolution.degree, continuous_pressure=tank.moves_as_one)
         with watch.stage("added mass"):
-            pencil = build_field_model(mesh, tank, degree=resolution.degree, shapes=shapes, pressure_release=True)
+            pencil = build_field_model(mesh, tank, degree=resolution.degree, shapes=shapes, infinite_frequency=True)
             matrix, potentials = body_responses(pencil)
-            away, tips = energies_missed(pencil.liquid, potentials, tank, resolution, half=False, released=True)
-        inertia = np.concatenate([np.diag(body.mass) for body in pencil.bodies])
-        scale = np.maximum(np.diag(matrix), NO_WATER * inertia)
-        causes = FrequencyErrors(
-            liquid=away / scale + boundary_error(mesh, tank),
-            tips=tips / scale,
-            truncation=np.zeros(len(scale)),
-            rounding=np.full(len(scale), 2.0 * rounding_error(resolution.degree, min(tank.depth, 1.0))),
-        )
+            inertia = np.concatenate([np.diag(body.mass) for body in pencil.bodies])
+            scale = np.maximum(np.diag(matrix), NO_WATER * inertia)
+            causes = added_mass_errors(pencil.liquid, potentials, scale, tank, resolution, half=False)
         return Attempt(result=matrix, causes=causes, resolution=resolution)
 
-    best = best_attempt(solve, replace(first, shapes=shapes), tolerance, exponent)
+    best = best_in_basin(tank, tolerance, solve, replace(first, shapes=shapes), infinite_frequency=True)
     return best.result, best.error

@@ -8,7 +8,7 @@ from math import isfinite, nan
 import numpy as np
 from scipy.linalg import block_diag
 
-from hydroelastic.fem.open_water.attempts import Attempt, best_over_band
+from hydroelastic.fem.open_water.attempts import best_over_band
 from hydroelastic.fem.open_water.basin import open_basin
 from hydroelastic.fem.open_water.field_model import Band, OpenModel, open_model
 from hydroelastic.fem.open_water.frequency import OpenFrequency
@@ -19,7 +19,8 @@ from hydroelastic.fem.open_water.requests import RadiationRequest
 from hydroelastic.fem.open_water.results import DIRECTIONS, RadiationTable
 from hydroelastic.fem.open_water.solver import OpenSolver
 from hydroelastic.fem.open_water.sweep import Problem, Swept, sweep
-from hydroelastic.fem.tank.error_estimates import FrequencyErrors
+from hydroelastic.fem.tank.attempts import Attempt
+from hydroelastic.fem.tank.error_estimates import FrequencyErrors, joined_errors
 from hydroelastic.fem.tank.field_model import whole_bodies
 from hydroelastic.fem.tank.resolution import Resolution
 from hydroelastic.modal.tank_estimates import two_layers
@@ -132,16 +133,6 @@ def between(omegas: np.ndarray, places: list[int], values: np.ndarray) -> np.nda
     above = np.clip(np.searchsorted(known, omegas, side="left"), 0, len(known) - 1)
     larger: np.ndarray = np.maximum(values[below], values[above])
     return larger
-
-
-def joined_errors(causes: list[FrequencyErrors], reduced: float) -> FrequencyErrors:
-    """Errors at several frequencies as one; that of a reduced basis counts as one of the liquid's."""
-    return FrequencyErrors(
-        liquid=np.concatenate([cause.liquid for cause in causes]) + reduced,
-        tips=np.concatenate([cause.tips for cause in causes]),
-        truncation=np.concatenate([cause.truncation for cause in causes]),
-        rounding=np.concatenate([cause.rounding for cause in causes]),
-    )
 
 
 def _tabulated(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import ClassVar, Literal, TypeAlias
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -11,10 +11,11 @@ class RadiationRequest:
     """Added mass, radiation damping and excitation forces.
 
     Attributes:
-        omega: frequencies, rad/s; 0 for very long waves, inf for the limit of high frequency.
+        omega: frequencies, rad/s; 0 for very long waves, inf for the infinite-frequency limit.
         elastic_modes: number of elastic shapes of each beam that are reported.
     """
 
+    kind: ClassVar = "radiation"
     omega: tuple[float, ...]
     elastic_modes: int = 4
 
@@ -29,6 +30,7 @@ class ResponseRequest:
         positions: number of points along each beam at which its deflection is reported.
     """
 
+    kind: ClassVar = "response"
     omega: tuple[float, ...]
     waves_from: Literal["left", "right"] = "left"
     positions: int = 101
@@ -44,6 +46,7 @@ class ResonanceRequest:
         largest_damping: upper limit of −Im ω/Re ω; above `region.MOST_DAMPING_ANYWHERE` all liquids must be endless.
     """
 
+    kind: ClassVar = "resonance"
     count: int = 4
     below: float | None = None
     largest_damping: float = 0.5
@@ -60,7 +63,11 @@ class DecayRequest:
         times: after the release, s.
     """
 
+    kind: ClassVar = "decay"
     body: int = 0
     heave: float = 0.0
     roll: float = 0.0
     times: tuple[float, ...]
+
+
+Request: TypeAlias = RadiationRequest | ResponseRequest | ResonanceRequest | DecayRequest

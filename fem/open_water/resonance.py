@@ -8,11 +8,11 @@ from math import sqrt
 import numpy as np
 
 from hydroelastic.fem.open_water.argument_principle import Solver, zeros_in
-from hydroelastic.fem.open_water.attempts import Attempt, best_over_band
+from hydroelastic.fem.open_water.attempts import best_over_band
 from hydroelastic.fem.open_water.basin import open_basin
 from hydroelastic.fem.open_water.damped import DampedSolver, damped_resonances, mirror_angle
 from hydroelastic.fem.open_water.field_model import FRAMES, Band, OpenModel, first_resolution, open_model
-from hydroelastic.fem.open_water.infinite_frequency import infinite_frequency_limit
+from hydroelastic.fem.open_water.infinite_frequency import bodies_at_infinite_frequency
 from hydroelastic.fem.open_water.motion_scale import motion_scale
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.region import MOST_DAMPING_ANYWHERE, Region
@@ -20,6 +20,7 @@ from hydroelastic.fem.open_water.requests import ResonanceRequest
 from hydroelastic.fem.open_water.resonance_search import Eigenpair, ResonanceSearch
 from hydroelastic.fem.open_water.results import ResonanceTable
 from hydroelastic.fem.open_water.solver import OpenSolver
+from hydroelastic.fem.tank.attempts import Attempt
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors, boundary_error
 from hydroelastic.fem.tank.field_model import whole_bodies
 from hydroelastic.fem.tank.resolution import Resolution, rounding_error
@@ -92,7 +93,7 @@ def solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> Res
         EigenSolverError: if SLEPc fails.
     """
     watch = problem.watch
-    expected = infinite_frequency_limit(problem).frequencies()
+    expected = bodies_at_infinite_frequency(problem).frequencies()
     if not expected:
         return _nothing(problem)
     region = _region(expected, request)

@@ -7,18 +7,19 @@ from math import nan
 
 import numpy as np
 
-from hydroelastic.fem.open_water.attempts import Attempt, best_over_band
+from hydroelastic.fem.open_water.attempts import best_over_band
 from hydroelastic.fem.open_water.field_model import Band, OpenModel, open_model
 from hydroelastic.fem.open_water.frequency import OpenResponse
 from hydroelastic.fem.open_water.missed_peaks import missed_peaks
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
-from hydroelastic.fem.open_water.radiation import between, joined_errors, judged_places, relative_difference
+from hydroelastic.fem.open_water.radiation import between, judged_places, relative_difference
 from hydroelastic.fem.open_water.requests import ResponseRequest
 from hydroelastic.fem.open_water.results import MissedPeak, PlateDeflection, ResponseTable
 from hydroelastic.fem.open_water.solver import OpenSolver
 from hydroelastic.fem.open_water.sweep import FEW, Problem, Swept, sweep
 from hydroelastic.fem.surfaces import Body
-from hydroelastic.fem.tank.error_estimates import FrequencyErrors, boundary_error
+from hydroelastic.fem.tank.attempts import Attempt
+from hydroelastic.fem.tank.error_estimates import FrequencyErrors, boundary_error, joined_errors
 from hydroelastic.fem.tank.resolution import Resolution, rounding_error
 
 # Dry modes of the tail, which the last ones stand for: at the tips their deflections add like Σ n⁻⁵.

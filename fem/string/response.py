@@ -22,6 +22,7 @@ import numpy as np
 from mpi4py import MPI
 from numpy.typing import ArrayLike, NDArray
 
+from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
 from hydroelastic.fem.string.end_motion import EndMotion
 from hydroelastic.fem.string.runs import DEGREE, Resolution, StringRuns
 from hydroelastic.fem.string.time_integration import TimeHistory
@@ -219,19 +220,19 @@ def _checked(runs: StringRuns, resolution: Resolution, known: TimeHistory | None
     )
 
 
-def _settled(runs: StringRuns, resolution: Resolution, share: float, known: TimeHistory | None = None) -> _Checked:
+def _settled(runs: StringRuns, first: Resolution, share: float, known: TimeHistory | None = None) -> _Checked:
     """Tighten mesh and step until their errors are below a part of the tolerance, or no longer fall."""
-    checked = _checked(runs, resolution, known)
-    for _ in range(_MOST_TIGHTENINGS):
-        space, time = checked.worst
-        if max(space, time) <= share:
-            break
-        tighter = checked.resolution.refined(_TIGHTER, space=space > share, time=time > share)
-        attempt = _checked(runs, tighter)
-        if 1.5 * max(attempt.worst) > max(space, time):
-            break
-        checked = attempt
-    return checked
+    return adaptive_solve(
+        first,
+        lambda resolution: _checked(runs, resolution, known if resolution is first else None),
+        lambda found: ErrorEstimate(discretization=max(found.worst)),
+        lambda resolution, found: resolution.refined(
+            _TIGHTER, space=found.worst[0] > share, time=found.worst[1] > share
+        ),
+        share,
+        rounds=_MOST_TIGHTENINGS + 1,
+        least_gain=1.5,
+    ).solution
 
 
 def _refined(

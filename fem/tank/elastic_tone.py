@@ -2,7 +2,8 @@
 
 pₙ = (e₁ᵀ K φₙ)², with the K-normalised dry mode e₁ and K-orthonormal modes φₙ; Σ pₙ = 1. In a tank with a free surface
 the elastic energy is spread over several hybrid modes, the more the shorter the beam beside the water; the tone then
-has a runner-up of nearly the same participation, and the pressure-release tone is the well-posed companion.
+has a runner-up of nearly the same participation. The pressure-release tone, with ψ = 0 on the water, is always in one
+mode.
 """
 
 from __future__ import annotations
@@ -63,14 +64,16 @@ def participations(modes: ModeSet, bodies: tuple[Body, ...], body: int) -> np.nd
     return parts
 
 
-def elastic_tone(modes: ModeSet, bodies: tuple[Body, ...], body: int, *, companion: float | None = None) -> ElasticTone:
+def elastic_tone(
+    modes: ModeSet, bodies: tuple[Body, ...], body: int, *, pressure_release: float | None = None
+) -> ElasticTone:
     """The mode of largest participation.
 
     Args:
         modes: the modes.
         bodies: the bodies of the pencil.
         body: index of the beam.
-        companion: λ of its pressure-release tone, about which the participations gather, where there is one.
+        pressure_release: λ of its pressure-release tone, about which the participations gather, where there is one.
     """
     parts = participations(modes, bodies, body)
     order = np.argsort(parts)[::-1]
@@ -82,19 +85,19 @@ def elastic_tone(modes: ModeSet, bodies: tuple[Body, ...], body: int, *, compani
         participation=float(best),
         runner_up=float(second),
         sharing=(int(sharing[0]), int(sharing[-1])),
-        certain=bool(best > 1.0 - parts.sum()) or _reaches_past(modes, parts, companion),
+        certain=bool(best > 1.0 - parts.sum()) or _reaches_past(modes, parts, pressure_release),
     )
 
 
-def _reaches_past(modes: ModeSet, parts: np.ndarray, companion: float | None) -> bool:
-    """Whether the last fifth of the modes lies above the companion, and holds less than half the largest part.
+def _reaches_past(modes: ModeSet, parts: np.ndarray, tone: float | None) -> bool:
+    """Whether the last fifth of the modes lies above a pressure-release tone, with less than half the largest part.
 
     Without half of the energy in sight, what looks like a flank is not one.
     """
     start = len(parts) - len(parts) // 5
-    if companion is None or start == len(parts):
+    if tone is None or start == len(parts):
         return False
-    past = companion < modes.eigenvalues[start] and parts[start:].max() < 0.5 * parts.max()
+    past = tone < modes.eigenvalues[start] and parts[start:].max() < 0.5 * parts.max()
     return bool(past and parts.sum() > 0.5)
 
 
@@ -119,3 +122,20 @@ def bending_fraction(mode: Mode, bodies: tuple[Body, ...]) -> float:
     """Strain energy of bending over total potential energy."""
     bending = np.concatenate([body.bending_stiffness for body in bodies] or [np.empty(0)])
     return float(bending @ mode.body_amplitudes**2 / mode.eigenvalue)
+
+
+def added_mass(stiffness: float, mass: float, eigenvalue: float, relative_error: float) -> tuple[float, float]:
+    """Added mass m_a = k/λ − m of a tone or a motion from its frequency, and the relative error that follows from ω's.
+
+    Args:
+        stiffness: k: EI κ⁴ + s ρ g of a dry mode, per unit of its shape, or that of a float's motion.
+        mass: m of the dry mode or the float, the same way.
+        eigenvalue: λ = ω².
+        relative_error: of ω.
+
+    Returns:
+        The added mass in the same unit as ``mass``, and its relative error.
+    """
+    whole = stiffness / eigenvalue
+    added = whole - mass
+    return added, 2.0 * relative_error * whole / abs(added) if added else 1.0

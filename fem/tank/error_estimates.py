@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from math import ceil, log
 
 import numpy as np
@@ -45,6 +45,11 @@ class FrequencyErrors:
         """All causes together."""
         return self.liquid + self.tips + self.truncation + self.rounding
 
+    @property
+    def largest_total(self) -> float:
+        """The largest error."""
+        return float(self.total.max(initial=0.0))
+
     def scaled(self, factors: float | np.ndarray) -> FrequencyErrors:
         """What they make of something that moves by so many times each, shape (modes,) or one for all."""
         return FrequencyErrors(**{cause.name: getattr(self, cause.name) * factors for cause in fields(self)})
@@ -54,6 +59,13 @@ class FrequencyErrors:
         return float(getattr(self, cause).max(initial=0.0))
 
 
+def joined_errors(errors: list[FrequencyErrors], reduced: float = 0.0) -> FrequencyErrors:
+    """The errors of several lists as those of one list; that of a reduced basis counts as one of the liquid's."""
+    names = [cause.name for cause in fields(FrequencyErrors)]
+    joined = FrequencyErrors(**{name: np.concatenate([getattr(each, name) for each in errors]) for name in names})
+    return replace(joined, liquid=joined.liquid + reduced)
+
+
 def frequency_errors(
     solution: FieldSolution,
     modes: list[Mode],
@@ -61,7 +73,7 @@ def frequency_errors(
     resolution: Resolution,
     tank: Tank,
     *,
-    released: bool = False,
+    infinite_frequency: bool = False,
 ) -> FrequencyErrors:
     """Estimate the errors of some modes (collective).
 
@@ -71,14 +83,14 @@ def frequency_errors(
         parts: which of the solution's parts each belongs to.
         resolution: that resolution.
         tank: the scene.
-        released: whether it is the limit of high frequency.
+        infinite_frequency: whether it is the infinite-frequency limit.
     """
     liquid, tips = np.empty(len(modes)), np.empty(len(modes))
     for number, part in enumerate(solution.parts):
         own = [place for place, owner in enumerate(parts) if owner == number]
         potentials = [modes[place].potential for place in own]
         liquid[own], tips[own] = energies_missed(
-            part.pencil.liquid, potentials, tank, resolution, half=solution.half, released=released
+            part.pencil.liquid, potentials, tank, resolution, half=solution.half, infinite_frequency=infinite_frequency
         )
     values = np.array([mode.eigenvalue for mode in modes])
     unknowns = sum(body.size for body in solution.bodies)
@@ -101,7 +113,7 @@ def energies_missed(
     resolution: Resolution,
     *,
     half: bool,
-    released: bool,
+    infinite_frequency: bool,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Estimate the kinetic energy that some ψ lack, away from the tips and at them, each of shape (potentials,)
     (collective)."""
@@ -109,7 +121,7 @@ def energies_missed(
     # Without rings no element is made for the tips.
     corners = np.empty((0, 2))
     if resolution.tip_size is not None:
-        corners = tip_points(tank, half=half, released=released)
+        corners = tip_points(tank, half=half, infinite_frequency=infinite_frequency)
     cells = cell_errors(liquid, potentials)
     at_tips = mesh.comm.allreduce(cells[:, cells_at(mesh, corners)].sum(axis=1), op=MPI.SUM)
     whole = mesh.comm.allreduce(cells.sum(axis=1), op=MPI.SUM)
@@ -117,6 +129,34 @@ def energies_missed(
         # Comparisons with a tolerance would let it pass.
         raise EigenSolverError("the error of a mode cannot be told: its energy is not a number")
     return whole - at_tips, at_tips
+
+
+def added_mass_errors(
+    liquid: LiquidSpace,
+    potentials: list[PETSc.Vec],
+    added_mass: np.ndarray,
+    tank: Tank,
+    resolution: Resolution,
+    *,
+    half: bool,
+) -> FrequencyErrors:
+    """Estimate relative errors of added masses in the infinite-frequency limit (collective).
+
+    Args:
+        liquid: the space of ψ.
+        potentials: ψ of a unit of each motion.
+        added_mass: of each, with which its error is compared, shape (motions,).
+        tank: the scene.
+        resolution: of the mesh.
+        half: whether it is that of half the tank.
+    """
+    away, tips = energies_missed(liquid, potentials, tank, resolution, half=half, infinite_frequency=True)
+    return FrequencyErrors(
+        liquid=away / added_mass + boundary_error(liquid.tank, tank),
+        tips=tips / added_mass,
+        truncation=np.zeros(len(potentials)),
+        rounding=np.full(len(potentials), 2.0 * rounding_error(resolution.degree, tank.depth)),
+    )
 
 
 def boundary_error(mesh: TankMesh, tank: Tank) -> float:
@@ -131,7 +171,7 @@ def boundary_error(mesh: TankMesh, tank: Tank) -> float:
 
 
 def refined(
-    resolution: Resolution, errors: FrequencyErrors, tolerance: float, *, exponent: float, own_mesh: bool
+    resolution: Resolution, errors: FrequencyErrors, tolerance: float, *, exponent: float, remesh: bool
 ) -> Resolution | None:
     """What to solve next, so that each cause keeps its part of the tolerance.
 
@@ -140,7 +180,7 @@ def refined(
         errors: what it gave.
         tolerance: of the frequencies.
         exponent: α of ψ ~ r^α at the sharpest tips.
-        own_mesh: whether the mesh is ours to change.
+        remesh: whether meshes may be made anew; that of the user may not.
 
     Returns:
         The next resolution; ``None`` where rounding alone exceeds the tolerance, or all is at its limit.
@@ -153,13 +193,13 @@ def refined(
     if truncation > 1.0:
         # The tail falls like N⁻⁷.
         finer = finer.with_shapes(min(max(1.1 * truncation ** (1.0 / 7.0), 1.1), 3.0))
-    if tips > 1.0 and own_mesh:
+    if tips > 1.0 and remesh:
         finer = finer.with_tips(max(0.3 * tips ** (-0.5 / exponent), 1e-6))
     if liquid > 1.0 or finer == resolution:
         # Each degree gains a factor of five or more.
         wanted = min(max(ceil(log(max(liquid, 1.0)) / log(5.0)), 1), 3)
         if resolution.degree < HIGHEST_DEGREE:
             finer = finer.with_degree(wanted)
-        elif own_mesh:
+        elif remesh:
             finer = finer.with_smaller_elements()
     return None if finer == resolution else finer

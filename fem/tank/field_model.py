@@ -22,7 +22,7 @@ from hydroelastic.physics.tank import Tank
 
 
 def build_mesh(
-    comm: MPI.Comm, tank: Tank, resolution: Resolution, *, half: bool = False, released: bool = False
+    comm: MPI.Comm, tank: Tank, resolution: Resolution, *, half: bool = False, infinite_frequency: bool = False
 ) -> TankMesh:
     """Mesh a scene, or its left half, with gmsh on rank 0 and distribute it (collective).
 
@@ -31,9 +31,9 @@ def build_mesh(
         tank: the scene.
         resolution: sizes of elements.
         half: whether the scene is its own mirror image, and the left half is meant.
-        released: whether the mesh is for the limit of high frequency.
+        infinite_frequency: whether the mesh is for the infinite-frequency limit.
     """
-    return distributed_mesh(comm, lambda: make_mesh(tank, resolution, half=half, released=released))
+    return distributed_mesh(comm, lambda: make_mesh(tank, resolution, half=half, infinite_frequency=infinite_frequency))
 
 
 def distributed_mesh(comm: MPI.Comm, make: Callable[[], TaggedMesh]) -> TankMesh:
@@ -49,32 +49,29 @@ def distributed_mesh(comm: MPI.Comm, make: Callable[[], TaggedMesh]) -> TankMesh
         except Exception as error:
             # Whatever it is, the other processes wait to hear of it.
             problem = str(error) or type(error).__name__
-    return _distributed(comm, tagged, problem)
-
-
-def bring_mesh(comm: MPI.Comm, tank: Tank, tagged: TaggedMesh | None, problem: str = "") -> TankMesh:
-    """Distribute a mesh that the user brought, already in units of the tank, after checking that it fits the scene.
-
-    Raises:
-        MeshError: if a group is missing, or a group does not lie where the scene says.
-    """
-    if comm.rank == 0 and tagged is not None and not problem:
-        try:
-            check_mesh(tank, tagged)
-        except MeshError as error:
-            problem = str(error)
-    return _distributed(comm, tagged, problem)
-
-
-def _distributed(comm: MPI.Comm, tagged: TaggedMesh | None, problem: str) -> TankMesh:
     problem = comm.bcast(problem, root=0)
     if problem:
         raise MeshError(problem)
     return distribute_mesh(comm, tagged)
 
 
+def distributed_user_mesh(comm: MPI.Comm, tank: Tank, tagged: TaggedMesh | None) -> TankMesh:
+    """Distribute a user mesh, on rank 0 in units of the tank, after checking that it fits the scene (collective).
+
+    Raises:
+        MeshError: on all ranks, if a group is missing, or a group does not lie where the scene says.
+    """
+
+    def checked() -> TaggedMesh:
+        assert tagged is not None
+        check_mesh(tank, tagged)
+        return tagged
+
+    return distributed_mesh(comm, checked)
+
+
 def build_field_model(
-    mesh: TankMesh, tank: Tank, *, degree: int, shapes: tuple[int, ...], pressure_release: bool = False
+    mesh: TankMesh, tank: Tank, *, degree: int, shapes: tuple[int, ...], infinite_frequency: bool = False
 ) -> CoupledPencil:
     """Assemble the coupled problem of a whole tank.
 
@@ -83,13 +80,13 @@ def build_field_model(
         tank: the scene.
         degree: polynomial degree of ψ.
         shapes: number of dry modes of each beam, 0 for floats.
-        pressure_release: the limit of high frequency whatever the scene says: ψ = 0 on an open top, and two liquids
+        infinite_frequency: the infinite-frequency limit whatever the scene says: ψ = 0 on an open top, and two liquids
             move as one, on a mesh that is made for it.
 
     Returns:
         The dimensionless pencil (collective).
     """
-    (pencil,) = _field_models(mesh, tank, degree, shapes, pressure_release, (None,))
+    (pencil,) = _field_models(mesh, tank, degree, shapes, infinite_frequency, (None,))
     return pencil
 
 
@@ -99,7 +96,7 @@ def build_half_models(
     *,
     degree: int,
     shapes: tuple[int, ...],
-    pressure_release: bool = False,
+    infinite_frequency: bool = False,
     parities: tuple[Parity, ...] = PARITIES,
 ) -> tuple[CoupledPencil, ...]:
     """Assemble the symmetric and the antisymmetric problem on the left half of a tank that is its own mirror image.
@@ -109,19 +106,19 @@ def build_half_models(
         tank: the whole scene.
         degree: polynomial degree of ψ.
         shapes: number of dry modes of each beam of the whole tank, 0 for floats.
-        pressure_release: the limit of high frequency.
+        infinite_frequency: the infinite-frequency limit.
         parities: which problems.
 
     Returns:
         A pencil for each of the parities, with energies of half the tank (collective). A body that the mirror plane
         cuts keeps its shapes of that parity; of two bodies that are mirror images the left one is there.
     """
-    return _field_models(mesh, tank, degree, shapes, pressure_release, parities)
+    return _field_models(mesh, tank, degree, shapes, infinite_frequency, parities)
 
 
-def moving_parities(tank: Tank, shapes: tuple[int, ...], *, pressure_release: bool) -> tuple[Parity, ...]:
+def moving_parities(tank: Tank, shapes: tuple[int, ...], *, infinite_frequency: bool) -> tuple[Parity, ...]:
     """The symmetries in which something moves: none of a lid's, and none above the waves that no body has."""
-    if not pressure_release and any(level.moves and level.is_open for level in tank.levels):
+    if not infinite_frequency and tank.has_waves:
         return PARITIES
     return tuple(parity for parity in PARITIES if any(body.size for body in _half_bodies(tank, shapes, parity)))
 
@@ -131,15 +128,18 @@ def _field_models(
     tank: Tank,
     degree: int,
     shapes: tuple[int, ...],
-    pressure_release: bool,
+    infinite_frequency: bool,
     parities: tuple[Parity | None, ...],
 ) -> tuple[CoupledPencil, ...]:
-    surfaces = () if pressure_release else moving_surfaces(mesh, tank)
-    grounded = (*grounded_names(tank, released=pressure_release), *((FAR_END,) if FAR_END in mesh.facet_names else ()))
+    surfaces = () if infinite_frequency else moving_surfaces(mesh, tank)
+    grounded = (
+        *grounded_names(tank, infinite_frequency=infinite_frequency),
+        *((FAR_END,) if FAR_END in mesh.facet_names else ()),
+    )
     layers = tuple(
         Layer(name=name, density=layer.density) for name, layer in zip(layer_names(tank), tank.layers, strict=True)
     )
-    liquid = liquid_space(mesh, degree, grounded, layers, glued=pressure_release and tank.moves_as_one)
+    liquid = liquid_space(mesh, degree, grounded, layers, continuous_pressure=infinite_frequency and tank.moves_as_one)
     matrices = liquid_matrices(liquid, tuple(surface.surface for surface in surfaces))
     pencils = []
     for parity in parities:

@@ -27,6 +27,9 @@ from hydroelastic.physics.symmetry import (
 )
 from hydroelastic.physics.tank import Tank
 
+PartPencils = dict[Parity | None, CoupledPencil]
+"""The eigenproblems of a scene by the symmetry of their modes; ``None`` is all of them, on the whole tank."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Part:
@@ -100,7 +103,6 @@ def solve_field(
     watch: Stopwatch,
     *,
     half: bool,
-    pressure_release: bool = False,
 ) -> FieldSolution:
     """Assemble and solve for the lowest modes.
 
@@ -111,7 +113,6 @@ def solve_field(
         count: how many modes; fewer come back if the model has fewer.
         watch: told the time of compiling the form, of assembly and of solution.
         half: whether the tank is its own mirror image and is solved as two halves.
-        pressure_release: the limit of high frequency, on a mesh that is made for it.
 
     Returns:
         The modes (collective).
@@ -120,16 +121,11 @@ def solve_field(
         EigenSolverError: if SLEPc stops before enough pairs have converged.
     """
     with watch.stage("forms"):
-        compile_form(mesh, resolution.degree, glued=pressure_release and tank.moves_as_one)
-    if half:
-        resolution = replace(resolution, shapes=shapes_of_twins(tank, resolution.shapes))
+        compile_form(mesh, resolution.degree)
     with watch.stage("assemble"):
-        parities, pencils = part_models(
-            mesh, tank, resolution.degree, resolution.shapes, half=half, pressure_release=pressure_release
-        )
+        pencils = part_models(mesh, tank, resolution.degree, resolution.shapes, half=half)
     with watch.stage("solve"):
-        parts = _solved_parts(pencils, parities, count)
-        return _merged(mesh, tank, resolution, parts, count)
+        return solve_parts(mesh, tank, resolution.shapes, pencils, count)
 
 
 def part_models(
@@ -139,27 +135,48 @@ def part_models(
     shapes: tuple[int, ...],
     *,
     half: bool,
-    pressure_release: bool,
-) -> tuple[tuple[Parity | None, ...], tuple[CoupledPencil, ...]]:
-    """The problems of a scene with their symmetries: one of the whole tank, or those of its halves in which something
-    moves (collective)."""
+    infinite_frequency: bool = False,
+) -> PartPencils:
+    """The problems of a scene by their symmetries: one of the whole tank, or those of its halves in which something
+    moves (collective).
+
+    Args:
+        mesh: the mesh, of the left half if ``half``.
+        tank: the scene.
+        degree: polynomial degree of ψ.
+        shapes: number of dry modes of each beam, 0 for floats.
+        half: whether the tank is its own mirror image and is solved as two halves.
+        infinite_frequency: the infinite-frequency limit, on a mesh that is made for it.
+    """
     if not half:
-        pencil = build_field_model(mesh, tank, degree=degree, shapes=shapes, pressure_release=pressure_release)
-        return (None,), (pencil,)
-    parities = moving_parities(tank, shapes, pressure_release=pressure_release)
+        pencil = build_field_model(mesh, tank, degree=degree, shapes=shapes, infinite_frequency=infinite_frequency)
+        return {None: pencil}
+    shapes = shapes_of_twins(tank, shapes)
+    parities = moving_parities(tank, shapes, infinite_frequency=infinite_frequency)
     pencils = build_half_models(
-        mesh, tank, degree=degree, shapes=shapes, pressure_release=pressure_release, parities=parities
+        mesh, tank, degree=degree, shapes=shapes, infinite_frequency=infinite_frequency, parities=parities
     )
-    return parities, pencils
+    return dict(zip(parities, pencils, strict=True))
 
 
-def _solved_parts(pencils: tuple[CoupledPencil, ...], parities: tuple[Parity | None, ...], count: int) -> list[Part]:
+def solve_parts(mesh: TankMesh, tank: Tank, shapes: tuple[int, ...], pencils: PartPencils, count: int) -> FieldSolution:
+    """Solve the problems of `part_models`, made with the same arguments, for the lowest modes (collective).
+
+    Raises:
+        EigenSolverError: if SLEPc stops before enough pairs have converged.
+    """
+    if None not in pencils:
+        shapes = shapes_of_twins(tank, shapes)
+    return _merged(mesh, tank, shapes, _solved_parts(pencils, count), count)
+
+
+def _solved_parts(pencils: PartPencils, count: int) -> list[Part]:
     """Solve each part for its share of the modes, and the ones that fall short for more."""
     # The two kinds of modes alternate but for a rigid motion or two.
     shares = [count] if len(pencils) == 1 else [count // 2 + 2] * len(pencils)
     parts = [
         Part(parity=parity, pencil=pencil, modes=solve_modes(pencil, share, shapes=0))
-        for pencil, parity, share in zip(pencils, parities, shares, strict=True)
+        for (parity, pencil), share in zip(pencils.items(), shares, strict=True)
     ]
     while True:
         limit = _rounding_limit(parts)
@@ -182,7 +199,7 @@ def _rounding_limit(parts: list[Part]) -> float:
     return min(lowest, default=np.inf) / HIDDEN
 
 
-def _merged(mesh: TankMesh, tank: Tank, resolution: Resolution, parts: list[Part], count: int) -> FieldSolution:
+def _merged(mesh: TankMesh, tank: Tank, shapes: tuple[int, ...], parts: list[Part], count: int) -> FieldSolution:
     limit = _rounding_limit(parts)
     ordered = sorted(
         (float(value), number, index)
@@ -191,7 +208,7 @@ def _merged(mesh: TankMesh, tank: Tank, resolution: Resolution, parts: list[Part
         if value <= limit
     )[:count]
     origins = tuple((number, index) for _, number, index in ordered)
-    bodies = whole_bodies(tank, resolution.shapes)
+    bodies = whole_bodies(tank, shapes)
     extensions = [extension(tank, bodies, part.parity) for part in parts]
     amplitudes = [extensions[number] @ parts[number].modes.elastic_amplitudes[index] for number, index in origins]
 

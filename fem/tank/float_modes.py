@@ -14,12 +14,14 @@ import numpy as np
 from hydroelastic.fem.bodies.model import FAR_ENOUGH
 from hydroelastic.fem.modes import ModeSet
 from hydroelastic.fem.surfaces import Body
-from hydroelastic.fem.tank.infinite_frequency import HighFrequencyAddedMass
+from hydroelastic.fem.tank.infinite_frequency import InfiniteFrequencyAddedMass
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.physics.tank import Tank
 
 # A motion with a smaller part of a mode's kinetic energy is held: what is left of it is rounding.
 _HELD = 1e-18
+# A runner-up with less than so many times the smallest modal mass makes the mode of a motion a shared one.
+_SHARED = 2.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,6 +33,8 @@ class FloatMode:
         motion: which.
         index: of the mode, from 0; ``None`` where it is not one of the modes computed.
         reason: why there is none, or "".
+        stiffness: hydrostatic stiffness of the motion, in units of the tank.
+        inertia: mass or moment of inertia of the float, in units of the tank.
         modal_mass: smallest 1/a², in units of the tank.
         runner_up: the next smallest.
     """
@@ -39,8 +43,15 @@ class FloatMode:
     motion: Dof
     index: int | None
     reason: str
+    stiffness: float
+    inertia: float
     modal_mass: float
     runner_up: float
+
+    @property
+    def is_shared(self) -> bool:
+        """Whether waves or other bodies share the motion, so that no mode is its alone."""
+        return self.index is not None and self.runner_up < _SHARED * self.modal_mass
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -77,7 +88,7 @@ def float_modes(
     tank: Tank,
     bodies: tuple[Body, ...],
     modes: ModeSet,
-    added: HighFrequencyAddedMass | None,
+    added: InfiniteFrequencyAddedMass | None,
     *,
     complete: bool,
 ) -> tuple[FloatMode, ...]:
@@ -108,6 +119,8 @@ def float_modes(
                 motion=motion.dof,
                 index=None if reason else int(order[0]),
                 reason=reason,
+                stiffness=float(motion.stiffness),
+                inertia=float(motion.mass),
                 modal_mass=_inverse(moved, order, 0),
                 runner_up=_inverse(moved, order, 1),
             )

@@ -1,11 +1,14 @@
-"""Added mass of floats far above the waves: no gravity, ψ = 0 on an open top, liquids that move as one.
+"""The infinite-frequency limit of a tank: ψ = 0 on an open top, the pressure continuous across interfaces, no waves.
 
-The Ritz method gives it from below: M_a − M_a,h = ρ∫|∇(ψ − ψ_h)|², the missing energy of the motion.
+It has a mesh of its own, for all bodies: no elements for waves, but sharper tips. Beams take from it their
+pressure-release tones: in a tank with waves the elastic energy of a stiff beam is spread over several modes, here it is
+always in one mode, smooth in every parameter. Floats take their added mass, with beams held still. The Ritz method
+gives it from below: M_a − M_a,h = ρ∫|∇(ψ − ψ_h)|², the missing energy of the motion.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from mpi4py import MPI
@@ -14,12 +17,20 @@ from scipy.linalg import block_diag
 from hydroelastic.fem.added_mass import body_responses
 from hydroelastic.fem.bodies.rigid_float import principal_motions
 from hydroelastic.fem.liquid import compile_form
-from hydroelastic.fem.stopwatch import Stopwatch
+from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.fem.surfaces import Body
-from hydroelastic.fem.tank.error_estimates import FrequencyErrors, boundary_error, energies_missed, refined
+from hydroelastic.fem.tank.attempts import Attempt, best_attempt
+from hydroelastic.fem.tank.elastic_tone import ElasticTone, elastic_tone
+from hydroelastic.fem.tank.error_estimates import (
+    ROUNDING_OF_SPREAD,
+    FrequencyErrors,
+    added_mass_errors,
+    frequency_errors,
+    joined_errors,
+)
 from hydroelastic.fem.tank.field_model import build_mesh, whole_bodies
-from hydroelastic.fem.tank.field_solution import extension, part_models
-from hydroelastic.fem.tank.resolution import Resolution, companion_resolution, rounding_error, sharpest_exponent
+from hydroelastic.fem.tank.field_solution import FieldSolution, PartPencils, extension, part_models, solve_parts
+from hydroelastic.fem.tank.resolution import Resolution
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.physics.symmetry import Parity
 from hydroelastic.physics.tank import Tank
@@ -30,7 +41,20 @@ _NO_LIQUID = 1e-9
 
 
 @dataclass(frozen=True, kw_only=True)
-class HighFrequencyAddedMass:
+class PressureReleaseTone:
+    """The first elastic tone of a beam at ψ = 0 on the water.
+
+    Attributes:
+        eigenvalue: its λ.
+        error: estimated relative error of its ω.
+    """
+
+    eigenvalue: float
+    error: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class InfiniteFrequencyAddedMass:
     """Added mass of all motions of all floats, in units of the tank.
 
     Attributes:
@@ -54,68 +78,144 @@ class HighFrequencyAddedMass:
         return added
 
 
-def high_frequency_added_mass(
-    comm: MPI.Comm, tank: Tank, tolerance: float, watch: Stopwatch, *, half: bool
-) -> HighFrequencyAddedMass:
+@dataclass(frozen=True, kw_only=True)
+class InfiniteFrequencyLimit:
+    """What bodies take from the limit.
+
+    Attributes:
+        tones: of each beam, ``None`` where it is not among the modes of the model, or rounding hides it; none at all
+            where there are no waves to be far above.
+        eigenvalues: λ of the lowest modes, if there are tones.
+        added_mass: of the floats; ``None`` without floats, or where a lid leaves no such limit.
+    """
+
+    tones: tuple[PressureReleaseTone | None, ...] = ()
+    eigenvalues: tuple[float, ...] = ()
+    added_mass: InfiniteFrequencyAddedMass | None = None
+
+
+def infinite_frequency_limit(
+    comm: MPI.Comm,
+    tank: Tank,
+    first: Resolution,
+    tolerance: float,
+    watch: Stopwatch,
+    *,
+    half: bool,
+    user_mesh: TankMesh | None = None,
+    report: Report = lambda _message: None,
+) -> InfiniteFrequencyLimit:
     """Solve for it to a tolerance, or as near to it as a few attempts come.
 
     Args:
         comm: MPI communicator.
-        tank: the scene; it has floats.
+        tank: the scene.
+        first: resolution of the first attempt, of `infinite_frequency_resolution`.
         tolerance: asked relative error.
         watch: told the time.
         half: whether the tank is its own mirror image and is solved as two halves.
+        user_mesh: a mesh that is to be used, instead of ours.
+        report: told what is being done.
 
     Returns:
-        The matrix and its error (collective).
+        What the bodies take from it; nothing, without a solution, where there is no such limit (collective).
     """
-    resolution: Resolution | None = companion_resolution(tank, tolerance, (0.0,) * len(tank.beams))
-    exponent = sharpest_exponent(tank, released=True)
-    best: HighFrequencyAddedMass | None = None
-    for _ in range(_MOST_ATTEMPTS):
-        if resolution is None:
-            break
-        with watch.stage("added mass"):
-            mesh = build_mesh(comm, tank, resolution, half=half, released=True)
+    has_tones, has_added_mass = tank.elastic and tank.has_waves, tank.rigid and tank.has_infinite_frequency_limit
+    if not has_tones and not has_added_mass:
+        return InfiniteFrequencyLimit()
+    if has_tones:
+        report("pressure-release tone")
+    if has_added_mass:
+        report("added mass far above the waves")
+    stage = "pressure release" if has_tones else "added mass"
+
+    def solve(resolution: Resolution) -> Attempt[InfiniteFrequencyLimit]:
+        with watch.stage(stage):
+            mesh = user_mesh or build_mesh(comm, tank, resolution, half=half, infinite_frequency=True)
         with watch.stage("forms"):
-            compile_form(mesh, resolution.degree, glued=tank.moves_as_one)
-        with watch.stage("added mass"):
-            found, causes = _solved(mesh, tank, resolution, half=half)
-        if best is None or found.error < best.error:
-            best = found
-        if found.error <= tolerance:
+            compile_form(mesh, resolution.degree, continuous_pressure=tank.moves_as_one)
+        shapes = resolution.shapes if has_tones else (0,) * len(tank.bodies)
+        with watch.stage(stage):
+            pencils = part_models(mesh, tank, resolution.degree, shapes, half=half, infinite_frequency=True)
+        limit, causes = InfiniteFrequencyLimit(), []
+        if has_tones:
+            with watch.stage("pressure release"):
+                limit, of_tones = _with_tones(limit, mesh, tank, resolution, pencils, tolerance)
+            causes.append(of_tones)
+        if has_added_mass:
+            with watch.stage("added mass"):
+                added_mass, of_added_mass = _added_mass(tank, resolution, shapes, pencils)
+            limit = replace(limit, added_mass=added_mass)
+            causes.append(of_added_mass)
+        return Attempt(
+            result=limit, causes=joined_errors(causes), resolution=resolution, missing=limit.tones.count(None)
+        )
+
+    remesh = user_mesh is None
+    return best_attempt(
+        tank, tolerance, solve, first, rounds=_MOST_ATTEMPTS, infinite_frequency=True, remesh=remesh
+    ).result
+
+
+def _with_tones(
+    limit: InfiniteFrequencyLimit,
+    mesh: TankMesh,
+    tank: Tank,
+    resolution: Resolution,
+    pencils: PartPencils,
+    tolerance: float,
+) -> tuple[InfiniteFrequencyLimit, FrequencyErrors]:
+    """Solve for more and more modes until they hold the tone of each beam."""
+    count = resolution.modes
+    while True:
+        field = solve_parts(mesh, tank, resolution.shapes, pencils, count)
+        found = [elastic_tone(field.modes, field.bodies, body) for body in tank.elastic]
+        if all(tone.certain for tone in found) or len(field.modes.eigenvalues) < count:
             break
-        resolution = refined(resolution, causes, tolerance, exponent=exponent, own_mesh=True)
-    assert best is not None
-    return best
+        count *= 2
+    seen = [tone.certain and not _is_hidden(field, tone, tolerance) for tone in found]
+    indices = sorted({tone.index for tone, is_seen in zip(found, seen, strict=True) if is_seen})
+    modes = [field.modes.completed(index) for index in indices]
+    causes = frequency_errors(field, modes, field.parts_of(indices), resolution, tank, infinite_frequency=True)
+    tones = {
+        index: PressureReleaseTone(eigenvalue=mode.eigenvalue, error=float(error))
+        for index, mode, error in zip(indices, modes, causes.total, strict=True)
+    }
+    return replace(
+        limit,
+        tones=tuple(tones[tone.index] if is_seen else None for tone, is_seen in zip(found, seen, strict=True)),
+        eigenvalues=tuple(field.modes.eigenvalues),
+    ), causes
 
 
-def _solved(
-    mesh: TankMesh, tank: Tank, resolution: Resolution, *, half: bool
-) -> tuple[HighFrequencyAddedMass, FrequencyErrors]:
-    shapes = (0,) * len(tank.bodies)
-    parities, pencils = part_models(mesh, tank, resolution.degree, shapes, half=half, pressure_release=True)
+def _is_hidden(field: FieldSolution, tone: ElasticTone, tolerance: float) -> bool:
+    """Whether a beam is rigid to double precision: its tone lies so far above other modes that rounding hides it."""
+    values = field.modes.eigenvalues
+    return bool(ROUNDING_OF_SPREAD * values[tone.index] > tolerance * values[0])
+
+
+def _added_mass(
+    tank: Tank, resolution: Resolution, shapes: tuple[int, ...], pencils: PartPencils
+) -> tuple[InfiniteFrequencyAddedMass, FrequencyErrors]:
+    """The floats' part of the added mass of all bodies, with its relative errors."""
     bodies = whole_bodies(tank, shapes)
-    size = sum(body.size for body in bodies)
-    matrix, liquid, tips = np.zeros((size, size)), [np.zeros(0)], [np.zeros(0)]
-    for pencil, parity in zip(pencils, parities, strict=True):
-        own, potentials = body_responses(pencil)
-        restriction = _restriction(tank, bodies, parity)
-        matrix += restriction @ own @ restriction.T
-        away, at_tips = energies_missed(pencil.liquid, potentials, tank, resolution, half=half, released=True)
-        relevant = _relevant(tank, restriction, own)
-        liquid.append(away[relevant] / np.diag(own)[relevant])
-        tips.append(at_tips[relevant] / np.diag(own)[relevant])
-    causes = FrequencyErrors(
-        liquid=np.concatenate(liquid) + boundary_error(mesh, tank),
-        tips=np.concatenate(tips),
-        truncation=np.zeros(1),
-        rounding=np.full(1, 2.0 * rounding_error(resolution.degree, tank.depth)),
-    )
+    of_floats = np.repeat([index in tank.rigid for index in range(len(bodies))], [body.size for body in bodies])
+    matrix = np.zeros((of_floats.sum(), of_floats.sum()))
+    causes = []
+    for parity, pencil in pencils.items():
+        restriction = _restriction(tank, bodies, parity)[of_floats]
+        moving = np.flatnonzero(restriction.any(axis=0))
+        restriction = restriction[:, moving]
+        added, potentials = body_responses(pencil, moving)
+        matrix += restriction @ added @ restriction.T
+        relevant = np.flatnonzero(_is_relevant(tank, restriction, added))
+        own = [potentials[place] for place in relevant]
+        diagonal = np.diag(added)[relevant]
+        causes.append(added_mass_errors(pencil.liquid, own, diagonal, tank, resolution, half=parity is not None))
+    errors = joined_errors(causes)
     turns = block_diag(*(principal_motions(body, body.motions)[0] for body in tank.floats.values()))
     physical = np.linalg.solve(turns.T, np.linalg.solve(turns.T, matrix).T)
-    total = sum(causes.largest(cause) for cause in ("liquid", "tips", "rounding"))
-    return HighFrequencyAddedMass(matrix=0.5 * (physical + physical.T), error=total), causes
+    return InfiniteFrequencyAddedMass(matrix=0.5 * (physical + physical.T), error=errors.largest_total), errors
 
 
 def _restriction(tank: Tank, bodies: tuple[Body, ...], parity: Parity | None) -> np.ndarray:
@@ -128,8 +228,8 @@ def _restriction(tank: Tank, bodies: tuple[Body, ...], parity: Parity | None) ->
     return restriction
 
 
-def _relevant(tank: Tank, restriction: np.ndarray, added: np.ndarray) -> np.ndarray:
-    """The motions of a part that move liquid: a circle that turns about its centre does not."""
+def _is_relevant(tank: Tank, restriction: np.ndarray, added: np.ndarray) -> np.ndarray:
+    """Whether each motion of a part moves liquid: a circle that turns about its centre does not."""
     scales = np.concatenate(
         [
             [body.hull.smallest_extent ** (4 if motion == "roll" else 2) for motion in body.motions]

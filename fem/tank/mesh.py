@@ -16,7 +16,7 @@ from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 from hydroelastic.physics.dofs import body_name
 from hydroelastic.physics.tank import Tank
 
-# A mesh that the user brings may miss the scene's abscissae by this part of the tank's length: files round.
+# A user mesh may miss the scene's abscissae by this part of the tank's length: files round.
 _MESH_ROUNDING = 1e-6
 
 
@@ -32,19 +32,21 @@ def geometry_of(tank: Tank, *, half: bool = False) -> TankGeometry:
     return tank_geometry(length=length, depth=tank.depth, pieces=pieces, mirrored=half)
 
 
-def make_mesh(tank: Tank, resolution: Resolution, *, half: bool = False, released: bool = False) -> TaggedMesh:
+def make_mesh(
+    tank: Tank, resolution: Resolution, *, half: bool = False, infinite_frequency: bool = False
+) -> TaggedMesh:
     """Mesh a scene, or its left half, with gmsh; in units of the tank.
 
     Args:
         tank: the scene.
         resolution: sizes of elements, and the degree, which curved cells have too.
         half: whether the scene is its own mirror image, and the left half is meant.
-        released: whether the mesh is for the limit of high frequency, in which liquids move as one.
+        infinite_frequency: whether the mesh is for the infinite-frequency limit, in which liquids move as one.
 
     Raises:
         MeshError: if gmsh fails.
     """
-    # gmsh takes a third of a second to import, and a scene that brings its mesh does not need it.
+    # gmsh takes a third of a second to import, and a scene with a user mesh does not need it.
     if is_plain(tank):
         from hydroelastic.meshes.tank import build_tank_mesh
 
@@ -60,14 +62,14 @@ def make_mesh(tank: Tank, resolution: Resolution, *, half: bool = False, release
 
     curved = any(not hull.is_thin for hull in tank.hulls.values())
     return build_mesh(
-        graded_outline(tank, resolution, half=half, released=released),
+        graded_outline(tank, resolution, half=half, infinite_frequency=infinite_frequency),
         bulk_size=resolution.bulk_size,
         ring_ratio=resolution.ring_ratio,
         geometry_degree=resolution.degree if curved else 1,
     )
 
 
-def graded_outline(tank: Tank, resolution: Resolution, *, half: bool, released: bool) -> Outline:
+def graded_outline(tank: Tank, resolution: Resolution, *, half: bool, infinite_frequency: bool) -> Outline:
     """The outline of a scene with rings at its singular points, each as deep as its singularity asks for."""
     contours = {
         piece.body: size
@@ -75,12 +77,12 @@ def graded_outline(tank: Tank, resolution: Resolution, *, half: bool, released: 
         if piece.body in tank.hulls
     }
     sizes = Sizes(pieces=resolution.surface_sizes, contours=contours)
-    outline = tank_outline(tank, sizes, half=half, released=released)
+    outline = tank_outline(tank, sizes, half=half, infinite_frequency=infinite_frequency)
     if resolution.tip_size is None:
         return outline
-    exponent = sharpest_exponent(tank, released=released)
+    exponent = sharpest_exponent(tank, infinite_frequency=infinite_frequency)
     depth = resolution.tip_size / resolution.ring_size
-    points = tank_singular_points(tank, sizes, half=half, released=released)
+    points = tank_singular_points(tank, sizes, half=half, infinite_frequency=infinite_frequency)
     corners = tuple(
         Corner(
             point=point.point,
@@ -92,11 +94,11 @@ def graded_outline(tank: Tank, resolution: Resolution, *, half: bool, released: 
     return replace(outline, corners=corners)
 
 
-def tip_points(tank: Tank, *, half: bool, released: bool = False) -> np.ndarray:
+def tip_points(tank: Tank, *, half: bool, infinite_frequency: bool = False) -> np.ndarray:
     """Where meshes of a scene are graded to, shape (points, 2)."""
     if is_plain(tank):
         return np.array([[tip, 0.0] for tip in geometry_of(tank, half=half).tips]).reshape(-1, 2)
-    points = tank_singular_points(tank, unsized(tank), half=half, released=released)
+    points = tank_singular_points(tank, unsized(tank), half=half, infinite_frequency=infinite_frequency)
     return np.array([point.point for point in points]).reshape(-1, 2)
 
 

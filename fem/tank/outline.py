@@ -54,25 +54,27 @@ def layer_names(tank: Tank) -> tuple[str, ...]:
     return (LIQUID,) if len(tank.layers) == 1 else (LOWER_LIQUID, UPPER_LIQUID)
 
 
-def grounded_names(tank: Tank, *, released: bool) -> tuple[str, ...]:
-    """Surfaces on which ψ = 0: the open top in the limit of high frequency, or where the scene says so."""
-    is_grounded = tank.top == "pressure_release" or (released and tank.top == "free")
+def grounded_names(tank: Tank, *, infinite_frequency: bool) -> tuple[str, ...]:
+    """Surfaces on which ψ = 0: the open top in the infinite-frequency limit, or where the scene says so."""
+    is_grounded = tank.top == "pressure_release" or (infinite_frequency and tank.top == "free")
     return (FREE_SURFACE,) if is_grounded and tank.levels[-1].is_open else ()
 
 
-def tank_outline(tank: Tank, sizes: Sizes, *, half: bool = False, released: bool = False) -> Outline:
+def tank_outline(tank: Tank, sizes: Sizes, *, half: bool = False, infinite_frequency: bool = False) -> Outline:
     """The outline of a tank, or of its left half, without graded corners.
 
     Args:
         tank: the scene.
         sizes: of elements.
         half: whether it is its own mirror image, and the left half is meant.
-        released: whether liquids move through the interface as one: it is then no boundary beside the bodies.
+        infinite_frequency: whether liquids move through the interface as one: it is then no boundary beside the bodies.
 
     Raises:
         MeshError: if a thin float has another body straight above or below it.
     """
-    builder = _Builder(tank=tank, sizes=sizes, right=MIDDLE if half else 1.0, half=half, released=released)
+    builder = _Builder(
+        tank=tank, sizes=sizes, right=MIDDLE if half else 1.0, half=half, infinite_frequency=infinite_frequency
+    )
     regions = [region for number in range(len(tank.layers)) for region in builder.layer(number)]
     return Outline(curves=tuple(builder.curves), regions=tuple(regions))
 
@@ -85,7 +87,7 @@ class _Builder:
     sizes: Sizes
     right: float
     half: bool
-    released: bool
+    infinite_frequency: bool
     curves: list[Curve] = field(default_factory=list)
     _numbers: dict[tuple[str, Point, Point], int] = field(default_factory=dict)
 
@@ -154,7 +156,7 @@ class _Builder:
         if piece.body is not None:
             return body_name(piece.body + 1), level.above is not None
         if level.above is not None:
-            return ("", False) if self.released else (INTERFACE, True)
+            return ("", False) if self.infinite_frequency else (INTERFACE, True)
         return (LID if level.kind == "rigid" else FREE_SURFACE), False
 
     def _contour(self, piece: Piece, hull: Hull, stops: list[float], *, upper_side: bool) -> list[Directed]:

@@ -30,7 +30,7 @@ _ROOM_FOR_ROUNDING = 5.0
 # κ₁ l of the first elastic dry mode.
 _FIRST_ROOT = 4.73
 # Below the pressure-release tone of a beam lie at most its rigid motions, and with several beams modes of softer ones.
-_COMPANION_MODES = 6
+_MODES_OF_A_BEAM = 6
 # More modes than this below the first elastic tone are not searched: the tone has then no individual meaning.
 MOST_MODES_TO_TONE = 200
 # More than this below a float's motion, or than twice the modes asked for, are not looked at to find its mode.
@@ -138,7 +138,9 @@ def initial_resolution(
     highest = squared_frequency_of_mode(moving, reported) if moving else 0.0
     tolerance = workable_tolerance(tolerance, tank.depth)
     wavenumbers = tuple(_wavenumber(tank, level, piece, highest) for level in tank.levels for piece in level.pieces)
-    resolution = resolution_for(tank, tolerance, wavenumbers, exponent=sharpest_exponent(tank, released=False))
+    resolution = resolution_for(
+        tank, tolerance, wavenumbers, exponent=sharpest_exponent(tank, infinite_frequency=False)
+    )
     return replace(resolution, modes=modes, reaches_tones=reaches_tones)
 
 
@@ -158,8 +160,8 @@ def _highest(values: tuple[float, ...], reached: Callable[[float], bool]) -> flo
     return ordered[count - 1] if count else None
 
 
-def companion_resolution(tank: Tank, tolerance: float, tones: tuple[float, ...]) -> Resolution:
-    """Resolution for the limit of high frequency: no waves beside the bodies, but sharper tips.
+def infinite_frequency_resolution(tank: Tank, tolerance: float, tones: tuple[float, ...]) -> Resolution:
+    """Resolution of the infinite-frequency limit: no waves beside the bodies, but sharper tips.
 
     Args:
         tank: the scene.
@@ -174,24 +176,24 @@ def companion_resolution(tank: Tank, tolerance: float, tones: tuple[float, ...])
         for level in tank.levels
         for piece in level.pieces
     )
-    exponent = sharpest_exponent(tank, released=True)
+    exponent = sharpest_exponent(tank, infinite_frequency=True)
     resolution = resolution_for(tank, workable_tolerance(tolerance, tank.depth), wavenumbers, exponent=exponent)
-    return replace(resolution, modes=_COMPANION_MODES * len(tank.elastic))
+    return replace(resolution, modes=_MODES_OF_A_BEAM * len(tank.elastic))
 
 
-def sharpest_exponent(tank: Tank, *, released: bool) -> float:
+def sharpest_exponent(tank: Tank, *, infinite_frequency: bool) -> float:
     """The smallest α with which ψ ~ r^α at a tip, a corner or a contact point.
 
     Args:
         tank: the scene.
-        released: whether gravity is left out: ψ = 0 on the top, and liquids move as one.
+        infinite_frequency: whether gravity is left out: ψ = 0 on the top, and liquids move as one.
     """
     if not tank.hulls:
-        return 0.5 if released or tank.top == "pressure_release" else 1.0
+        return 0.5 if infinite_frequency or tank.top == "pressure_release" else 1.0
     from hydroelastic.fem.tank.outline import unsized
     from hydroelastic.fem.tank.singularities import tank_singular_points
 
-    points = tank_singular_points(tank, unsized(tank), half=False, released=released)
+    points = tank_singular_points(tank, unsized(tank), half=False, infinite_frequency=infinite_frequency)
     return min((point.exponent for point in points), default=_SMOOTH)
 
 

@@ -56,20 +56,22 @@ class _Wedge:
 
 
 def singular_points(
-    outline: Outline, *, grounded: tuple[str, ...], glued: bool, kinks: dict[Point, float] | None = None
+    outline: Outline, *, grounded: tuple[str, ...], continuous_pressure: bool, kinks: dict[Point, float] | None = None
 ) -> tuple[SingularPoint, ...]:
     """Find the singular points of an outline.
 
     Args:
         outline: the liquids.
         grounded: names of curves with ψ = 0.
-        glued: whether liquids of different densities move as one across uncut lines.
+        continuous_pressure: whether liquids of different densities move as one across uncut lines.
         kinks: points of smooth sides at which what is prescribed, or a derivative of it, jumps, with α there.
     """
     wedges = _wedges(outline)
     points = []
     for point, around in wedges.items():
-        sharpest = min((_exponent(sector, grounded, glued) for sector in _sectors(outline, around)), default=inf)
+        sharpest = min(
+            (_exponent(sector, grounded, continuous_pressure) for sector in _sectors(outline, around)), default=inf
+        )
         sharpest = min(sharpest, (kinks or {}).get(point, inf))
         if sharpest < inf:
             points.append(SingularPoint(point=point, exponent=sharpest, reach=_reach(outline, point, wedges)))
@@ -118,7 +120,7 @@ def _sectors(outline: Outline, around: list[_Wedge]) -> Iterator[_Sector]:
         yield _Sector(names=names, angle=angle, crossed=last != wedge.coming)
 
 
-def _exponent(sector: _Sector, grounded: tuple[str, ...], glued: bool) -> float:
+def _exponent(sector: _Sector, grounded: tuple[str, ...], continuous_pressure: bool) -> float:
     """α in a sector; infinite where ψ is smooth."""
     if not any(body_number(name) for name in sector.names):
         return inf
@@ -126,7 +128,7 @@ def _exponent(sector: _Sector, grounded: tuple[str, ...], glued: bool) -> float:
     angle = sector.angle * (2.0 if any(name in _MIRRORS for name in sector.names) else 1.0)
     if (len(set(sector.names)) == 1 or SYMMETRY_PLANE in sector.names) and abs(angle - pi) < _SMOOTH:
         # Where two liquids meet a smooth body the slope of ψ jumps.
-        return _JUMP if glued and sector.crossed else inf
+        return _JUMP if continuous_pressure and sector.crossed else inf
     return (0.5 if any(name in grounded for name in sector.names) else 1.0) * pi / angle
 
 
@@ -136,12 +138,14 @@ def _reach(outline: Outline, point: Point, wedges: dict[Point, list[_Wedge]]) ->
     return min(0.45 * min(others), *(outline.curves[number].size for number in beside))
 
 
-def tank_singular_points(tank: Tank, sizes: Sizes, *, half: bool, released: bool) -> tuple[SingularPoint, ...]:
+def tank_singular_points(
+    tank: Tank, sizes: Sizes, *, half: bool, infinite_frequency: bool
+) -> tuple[SingularPoint, ...]:
     """The singular points of a scene, or of its left half; see `tank_outline`."""
     return singular_points(
-        tank_outline(tank, sizes, half=half, released=released),
-        grounded=grounded_names(tank, released=released),
-        glued=released,
+        tank_outline(tank, sizes, half=half, infinite_frequency=infinite_frequency),
+        grounded=grounded_names(tank, infinite_frequency=infinite_frequency),
+        continuous_pressure=infinite_frequency,
         kinks=_kinks(tank),
     )
 

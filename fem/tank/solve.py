@@ -6,27 +6,34 @@ left out would add, and by rounding. An attempt that misses the tolerance is ref
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import cache
+from itertools import count
 from math import ceil
 
 import numpy as np
 from mpi4py import MPI
 
+from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
 from hydroelastic.fem.bodies.registry import ends_of_motions, expected_tones
 from hydroelastic.fem.kept_tolerance import kept_tolerance
 from hydroelastic.fem.modes import Mode, ModeSet
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.fem.tank.elastic_tone import ElasticTone, elastic_tone
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors, frequency_errors, refined
-from hydroelastic.fem.tank.field_model import bring_mesh, build_mesh, moving_surfaces
+from hydroelastic.fem.tank.field_model import build_mesh, distributed_user_mesh
 from hydroelastic.fem.tank.field_solution import FieldSolution, count_is_confirmed, solve_field
 from hydroelastic.fem.tank.float_modes import FloatMode, float_modes
-from hydroelastic.fem.tank.infinite_frequency import HighFrequencyAddedMass, high_frequency_added_mass
-from hydroelastic.fem.tank.pressure_release import Companion, solve_companion
+from hydroelastic.fem.tank.infinite_frequency import (
+    InfiniteFrequencyAddedMass,
+    InfiniteFrequencyLimit,
+    infinite_frequency_limit,
+)
 from hydroelastic.fem.tank.resolution import (
     MOST_MODES_TO_TONE,
     Resolution,
-    companion_resolution,
+    infinite_frequency_resolution,
     initial_resolution,
     sharpest_exponent,
     workable_tolerance,
@@ -76,7 +83,7 @@ class TankSolution:
         asked: the modes asked for, with their shapes.
         relative_errors: estimated relative error of the frequency of each mode of the field; NaN where none was asked.
         growing_errors: estimated relative error of the growth rate of each growing mode.
-        rounding: the part of the largest that no refinement takes away.
+        causes: the errors of the modes whose error is known, and then of the growing ones, by cause.
         counted: whether the inertia of an independent factorization confirms that no mode is missing.
         tones: one for each beam.
         float_modes: one for each motion of a float that gravity restores.
@@ -95,11 +102,11 @@ class TankSolution:
     asked: tuple[Mode, ...]
     relative_errors: np.ndarray
     growing_errors: np.ndarray
-    rounding: float
+    causes: FrequencyErrors
     counted: bool
     tones: tuple[ToneSolution, ...]
     float_modes: tuple[FloatMode, ...]
-    added_mass: HighFrequencyAddedMass | None
+    added_mass: InfiniteFrequencyAddedMass | None
     attempts: int
     reasons: tuple[str, ...]
     seconds: dict[str, float]
@@ -141,8 +148,8 @@ def solve_tank(
         tolerance: asked relative error of the frequencies.
         modes: how many modes are asked for, from the lowest.
         comm: MPI communicator; all processes by default.
-        mesh: a mesh of the liquid in metres that the user brings (on rank 0), instead of ours. Its elements are then
-            kept, and only degree and dry modes are refined.
+        mesh: a user mesh of the liquid in metres (on rank 0), instead of ours. Its elements are then kept, and only
+            degree and dry modes are refined.
         halves: whether a tank that is its own mirror image is solved as two halves; ``False`` is for comparison.
         report: told what is being done.
 
@@ -159,57 +166,46 @@ def solve_tank(
         tank = physical.scaled()
         tones = expected_tones(tank)
         motions = ends_of_motions(tank)
-        resolution: Resolution | None = initial_resolution(tank, tolerance, modes=modes, tones=tones, motions=motions)
-    brought = _brought_mesh(comm, tank, mesh, 1.0 / physical.length, watch)
-    half = halves and brought is None and is_mirror_image(tank)
+        first = initial_resolution(tank, tolerance, modes=modes, tones=tones, motions=motions)
+    user_mesh: TankMesh | None = None
+    if comm.bcast(mesh is not None, root=0):
+        with watch.stage("mesh"):
+            user_mesh = distributed_user_mesh(
+                comm, tank, mesh.scaled(1.0 / physical.length) if mesh is not None else None
+            )
+        first = replace(first, tip_size=None)
+    half = halves and user_mesh is None and is_mirror_image(tank)
     workable = workable_tolerance(tolerance, tank.depth)
-    companion: Companion | None = None
-    added: HighFrequencyAddedMass | None = None
-    best: TankSolution | None = None
-    for attempt in range(1, _MOST_ATTEMPTS + 1):
-        assert resolution is not None
-        if brought is not None:
-            resolution = replace(resolution, tip_size=None)
+    attempts = count(1)
+
+    @cache
+    def limit() -> InfiniteFrequencyLimit:
+        coarsest = infinite_frequency_resolution(tank, workable, tones) if user_mesh is None else first
+        return infinite_frequency_limit(
+            comm, tank, coarsest, workable, watch, half=half, user_mesh=user_mesh, report=report
+        )
+
+    def solve(resolution: Resolution) -> TankSolution:
+        attempt = next(attempts)
         report(f"attempt {attempt}: degree {resolution.degree}, {resolution.modes} modes")
         with watch.stage("mesh"):
-            own_mesh = brought or build_mesh(comm, tank, resolution, half=half)
-        if companion is None and tank.beams and moving_surfaces(own_mesh, tank):
-            report("pressure-release tone")
-            first = companion_resolution(tank, workable, tones) if brought is None else resolution
-            companion = solve_companion(comm, tank, first, workable, brought, watch, half=half)
-        if added is None and tank.floats and tank.has_high_frequency_limit:
-            report("added mass far above the waves")
-            added = high_frequency_added_mass(comm, tank, workable, watch, half=half)
+            own_mesh = user_mesh or build_mesh(comm, tank, resolution, half=half)
+        beside = limit()
         field = solve_field(own_mesh, tank, resolution, resolution.modes + 1, watch, half=half)
-        solution, causes = _judged(
-            physical, tank, (tolerance, modes), resolution, field, (companion, added), watch, attempt
-        )
-        if best is None or _shortfall(solution) <= _shortfall(best):
-            best = solution
-        if not solution.reasons:
-            break
-        resolution = _next_resolution(solution, causes, own_mesh=brought is None)
-        if resolution is None:
-            break
-    assert best is not None
-    return replace(best, seconds=dict(watch.seconds))
+        return _judged(physical, tank, (tolerance, modes), resolution, field, beside, watch, attempt)
+
+    found = adaptive_solve(
+        first,
+        solve,
+        lambda solution: ErrorEstimate(discretization=solution.largest_error, missing=len(solution.reasons)),
+        lambda _, solution: _next_resolution(solution, remesh=user_mesh is None),
+        tolerance,
+        rounds=_MOST_ATTEMPTS,
+    )
+    return replace(found.solution, seconds=dict(watch.seconds))
 
 
-def _brought_mesh(
-    comm: MPI.Comm, tank: Tank, mesh: TaggedMesh | None, factor: float, watch: Stopwatch
-) -> TankMesh | None:
-    if not comm.bcast(mesh is not None, root=0):
-        return None
-    with watch.stage("mesh"):
-        return bring_mesh(comm, tank, mesh.scaled(factor) if mesh is not None else None)
-
-
-def _shortfall(solution: TankSolution) -> tuple[int, float]:
-    """How far a solution falls short: number of complaints, then the largest error."""
-    return len(solution.reasons), solution.largest_error
-
-
-def _next_resolution(solution: TankSolution, causes: FrequencyErrors, *, own_mesh: bool) -> Resolution | None:
+def _next_resolution(solution: TankSolution, *, remesh: bool) -> Resolution | None:
     """More modes if a tone was not among them, else a finer model; ``None`` where neither would help."""
     resolution = solution.resolution
     if any(tone.tone is not None and not tone.tone.certain for tone in solution.tones):
@@ -219,14 +215,15 @@ def _next_resolution(solution: TankSolution, causes: FrequencyErrors, *, own_mes
         return replace(
             wider,
             degree=max(wider.degree, resolution.degree),
+            tip_size=wider.tip_size if remesh else None,
             reaches_tones=resolution.reaches_tones,
             widened=True,
         )
     tolerance = workable_tolerance(solution.tolerance, solution.tank.depth)
     if solution.counted and solution.largest_error <= tolerance:
         return None
-    exponent = sharpest_exponent(solution.tank, released=False)
-    return refined(resolution, causes, tolerance, exponent=exponent, own_mesh=own_mesh)
+    exponent = sharpest_exponent(solution.tank, infinite_frequency=False)
+    return refined(resolution, solution.causes, tolerance, exponent=exponent, remesh=remesh)
 
 
 def _judged(
@@ -235,16 +232,15 @@ def _judged(
     asked_for: tuple[float, int],
     resolution: Resolution,
     field: FieldSolution,
-    limits: tuple[Companion | None, HighFrequencyAddedMass | None],
+    limit: InfiniteFrequencyLimit,
     watch: Stopwatch,
     attempt: int,
-) -> tuple[TankSolution, FrequencyErrors]:
-    """An attempt with all that it says about itself; beside it the limits of high frequency."""
+) -> TankSolution:
+    """An attempt with all that it says about itself."""
     tolerance, count = asked_for
-    companion, added = limits
-    tones = tuple(_tone(field, beam, body, resolution, companion) for beam, body in enumerate(tank.beams))
+    tones = tuple(_tone(field, beam, body, resolution, limit) for beam, body in enumerate(tank.elastic))
     complete = len(field.modes.eigenvalues) <= resolution.modes
-    moved = float_modes(tank, field.bodies, field.modes, added, complete=complete)
+    moved = float_modes(tank, field.bodies, field.modes, limit.added_mass, complete=complete)
     with watch.stage("count"):
         counted = count_is_confirmed(field)
     with watch.stage("errors"):
@@ -267,24 +263,25 @@ def _judged(
         asked=tuple(modes[:asked]),
         relative_errors=errors,
         growing_errors=causes.total[len(indices) :],
-        rounding=causes.largest("rounding"),
+        causes=causes,
         counted=counted,
         tones=tones,
         float_modes=moved,
-        added_mass=added,
+        added_mass=limit.added_mass,
         attempts=attempt,
         reasons=(),
         seconds={},
     )
-    return replace(solution, reasons=_reasons(solution)), causes
+    return replace(solution, reasons=tuple(_reasons(solution)))
 
 
 def _tone(
-    field: FieldSolution, beam: int, body: int, resolution: Resolution, companion: Companion | None
+    field: FieldSolution, beam: int, body: int, resolution: Resolution, limit: InfiniteFrequencyLimit
 ) -> ToneSolution:
-    """The first elastic tone of a beam, with its pressure-release companion."""
-    release = companion.eigenvalue(beam) if companion is not None else None
-    tone: ElasticTone | None = elastic_tone(field.modes, field.bodies, body, companion=release)
+    """The first elastic tone of a beam, with its pressure-release tone."""
+    release = limit.tones[beam] if limit.tones else None
+    eigenvalue = release.eigenvalue if release is not None else None
+    tone: ElasticTone | None = elastic_tone(field.modes, field.bodies, body, pressure_release=eigenvalue)
     reason = ""
     assert tone is not None
     if not tone.certain and not resolution.reaches_tones[beam]:
@@ -297,64 +294,43 @@ def _tone(
         body=body,
         tone=tone,
         reason=reason,
-        pressure_release=release,
-        pressure_release_error=companion.errors[beam] if companion is not None else None,
-        pressure_release_values=tuple(companion.solution.modes.eigenvalues) if companion is not None else (),
+        pressure_release=eigenvalue,
+        pressure_release_error=release.error if release is not None else None,
+        pressure_release_values=limit.eigenvalues,
     )
 
 
-def _reasons(solution: TankSolution) -> tuple[str, ...]:
+def _reasons(solution: TankSolution) -> Iterator[str]:
     """Why a solution does not keep what was asked, in words."""
-    tolerance = solution.tolerance
-    reasons = []
-    errors = solution.relative_errors[: len(solution.asked)]
-    if errors.max(initial=0.0) > tolerance:
-        number = int(np.argmax(errors)) + 1
-        reasons.append(
-            f"mode {number} has an estimated relative error of {errors.max():.1e}, above the tolerance {tolerance:g}; "
-            + (f"rounding alone leaves {solution.rounding:.1e}; " if solution.rounding > 0.5 * tolerance else "")
-            + kept_tolerance(float(errors.max()))
-        )
-    if solution.growing_errors.max(initial=0.0) > tolerance:
-        error = float(solution.growing_errors.max())
-        reasons.append(
-            f"a growth rate has an estimated relative error of {error:.1e}, above the tolerance {tolerance:g}; "
-            + kept_tolerance(error)
-        )
+
+    def excess(quantity: str, error: float | None, *, rounding: float = 0.0) -> Iterator[str]:
+        if error is not None and error > tolerance:
+            cause = f"rounding alone leaves {rounding:.1e}; " if rounding > 0.5 * tolerance else ""
+            yield f"{quantity} of {error:.1e}, above the tolerance {tolerance:g}; {cause}{kept_tolerance(error)}"
+
+    tolerance, errors, estimated = solution.tolerance, solution.relative_errors, "has an estimated error"
+    # Counted from one: without modes the zero is the largest.
+    modes = [0.0, *errors[: len(solution.asked)]]
+    number = int(np.argmax(modes))
+    rounding = solution.causes.largest("rounding")
+    yield from excess(f"mode {number} has an estimated relative error", modes[number], rounding=rounding)
+    yield from excess("a growth rate has an estimated relative error", max(solution.growing_errors, default=0.0))
     if len(solution.asked) < min(solution.count, _modes_there(solution)):
-        reasons.append(f"{len(solution.asked)} of {solution.count} modes can be told from the rounding of the lowest")
+        yield f"{len(solution.asked)} of {solution.count} modes can be told from the rounding of the lowest"
     if not solution.counted:
-        reasons.append("an independent count of the modes by inertia disagrees: a mode may be missing")
+        yield "an independent count of the modes by inertia disagrees: a mode may be missing"
     for tone in solution.tones:
-        number = tone.body + 1
+        beam = f"of beam {tone.body + 1}"
         if tone.tone is not None and not tone.tone.certain:
-            reasons.append(f"the first elastic tone of beam {number} may lie above the modes computed")
-        elif tone.tone is not None and solution.relative_errors[tone.tone.index] > tolerance:
-            error = float(solution.relative_errors[tone.tone.index])
-            reasons.append(
-                f"the first elastic tone of beam {number} has an estimated error of {error:.1e}, above the tolerance "
-                f"{tolerance:g}; {kept_tolerance(error)}"
-            )
-        if tone.pressure_release_error is not None and tone.pressure_release_error > tolerance:
-            reasons.append(
-                f"the pressure-release tone of beam {number} has an estimated error of "
-                f"{tone.pressure_release_error:.1e}, above the tolerance {tolerance:g}; "
-                + kept_tolerance(tone.pressure_release_error)
-            )
+            yield f"the first elastic tone {beam} may lie above the modes computed"
+        elif tone.tone is not None:
+            yield from excess(f"the first elastic tone {beam} {estimated}", errors[tone.tone.index])
+        yield from excess(f"the pressure-release tone {beam} {estimated}", tone.pressure_release_error)
     for mode in solution.float_modes:
-        if mode.index is not None and solution.relative_errors[mode.index] > tolerance:
-            error = float(solution.relative_errors[mode.index])
-            reasons.append(
-                f"the {mode.motion} mode of float {mode.body + 1} has an estimated error of {error:.1e}, above the "
-                f"tolerance {tolerance:g}; {kept_tolerance(error)}"
-            )
-    if solution.added_mass is not None and solution.added_mass.error > tolerance:
-        error = solution.added_mass.error
-        reasons.append(
-            f"the added mass far above the waves has an estimated error of {error:.1e}, above the tolerance "
-            f"{tolerance:g}; {kept_tolerance(error)}"
-        )
-    return tuple(reasons)
+        if mode.index is not None:
+            yield from excess(f"the {mode.motion} mode of float {mode.body + 1} {estimated}", errors[mode.index])
+    if solution.added_mass is not None:
+        yield from excess(f"the added mass far above the waves {estimated}", solution.added_mass.error)
 
 
 def _modes_there(solution: TankSolution) -> float:

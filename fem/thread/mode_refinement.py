@@ -44,7 +44,7 @@ def modes_to_tolerance(
         velocity_damping: whether the change of drag with the velocity of the thread damps them.
 
     Returns:
-        The modes (collective); those of the finest mesh if the tolerance is not reached.
+        The modes (collective); the most accurate ones if the tolerance is not reached.
 
     Raises:
         IllPosedError: where they have no limit on finer meshes.

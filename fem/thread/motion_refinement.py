@@ -84,7 +84,7 @@ def motion_to_tolerance(
         allowed,
         rounds=_MOST_ATTEMPTS,
         # Without tension short waves grow by themselves, the faster the finer the mesh.
-        while_error_falls=True,
+        least_gain=1.0,
         failures=(ThreadMotionError, ThreadSolverError),
     )
     return motion_in_space(frame, rest, found.solution)

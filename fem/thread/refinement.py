@@ -170,7 +170,7 @@ def solve_thread(
     pair = found.solution
     if not found.converged:
         raise ThreadSolverError(
-            f"the error is still {pair.errors.relative:.1e} with {elements[-1]} elements, which is more than "
+            f"the error is still {pair.errors.relative:.1e} with {len(pair.nodes) - 1} elements, which is more than "
             f"{tolerance:.1e}"
         )
     _refuse_compression(pair.fine, COMPRESSION * pair.equilibrium.units.force)

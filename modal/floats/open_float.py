@@ -15,6 +15,7 @@ from hydroelastic.modal.floats.thin_float_radiation import HeaveRadiation, is_de
 from hydroelastic.modal.floats.thin_float_resonance import heave_pole
 from hydroelastic.modal.liquid.two_layer import TwoLayers
 from hydroelastic.physics.profiles import Profile
+from hydroelastic.physics.tank import Tank
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -93,3 +94,13 @@ def _resonance(profile: Profile, layers: TwoLayers) -> complex:
         return channel_resonance(profile, layers)
     # e^{pt} = e^{−iωt}: of both poles the one with Im p < 0.
     return 1j * heave_pole(profile).frequency.conjugate() * natural_rate(profile, layers)
+
+
+def lone_profile(tank: Tank) -> Profile | None:
+    """Return the section of a lone float that heaves about its level; ``None`` of others, which have no such theory."""
+    if len(tank.bodies) > 1 or not tank.floats:
+        return None
+    (body,) = tank.floats.values()
+    hull = body.hull
+    lies_there = body.level == ("surface" if len(tank.layers) == 1 else "interface")
+    return hull.profile if lies_there and "heave" in body.motions and hull.reference_level == hull.height else None

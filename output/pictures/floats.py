@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from hydroelastic.output.pictures.mode import Array, FloatSection, SurfaceCurve
+from hydroelastic.fem.pictures.mode import Array, FloatSection, SurfaceCurve
 from hydroelastic.output.pictures.view import View
 
 # Ends of surfaces miss the contact points by less than this part of the waterplane.

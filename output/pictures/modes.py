@@ -12,9 +12,9 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
+from hydroelastic.fem.pictures.mode import ModePicture
 from hydroelastic.output.pictures.colours import INK, LOWER_WASH, UPPER_WASH, mode_colours
 from hydroelastic.output.pictures.gif import FRAMES, SECONDS, write_gif
-from hydroelastic.output.pictures.mode import ModePicture
 from hydroelastic.output.pictures.notes import field_name, overview_note, scale_notes
 from hydroelastic.output.pictures.page import (
     FOOTER,

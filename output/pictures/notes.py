@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from hydroelastic.output.pictures.mode import UNIT_MASS, ModePicture
+from hydroelastic.fem.pictures.mode import UNIT_MASS, ModePicture
 from hydroelastic.output.pictures.view import View
 
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")

@@ -106,7 +106,7 @@ def write(figure: Figure, text: str, y: float, *, size: float, colour: str = INK
 
 def shrink(line: Text, room: float) -> None:
     """Make a line of text as small as fits into so many pixels of the image."""
-    line.set_fontsize(line.get_fontsize() * min(1.0, room / max(line.get_window_extent().width, 1.0)))
+    line.set_fontsize(float(line.get_fontsize()) * min(1.0, room / max(line.get_window_extent().width, 1.0)))
 
 
 def write_title(figure: Figure, text: str) -> Text:

@@ -15,6 +15,7 @@ from matplotlib.patches import Polygon
 from matplotlib.patheffects import withStroke
 from numpy.typing import ArrayLike
 
+from hydroelastic.fem.pictures.mode import Array, FloatSection, ModePicture, SurfaceCurve
 from hydroelastic.output.pictures.colours import (
     BODY,
     BODY_EDGE,
@@ -26,7 +27,6 @@ from hydroelastic.output.pictures.colours import (
     UPPER_WASH,
 )
 from hydroelastic.output.pictures.floats import up_to_floats
-from hydroelastic.output.pictures.mode import Array, FloatSection, ModePicture, SurfaceCurve
 from hydroelastic.output.pictures.page import POINT, FieldImage, arrow_key, round_ticks
 from hydroelastic.output.pictures.rendering import render_field
 from hydroelastic.output.pictures.view import View, colour_limit

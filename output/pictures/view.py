@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hydroelastic.output.pictures.mode import Array, FloatSection, ModePicture, SurfaceCurve
+from hydroelastic.fem.pictures.mode import Array, FloatSection, ModePicture, SurfaceCurve
 
 _ROUND_NUMBERS = np.array([1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0])
 

@@ -13,6 +13,7 @@ from pydantic import (
     model_validator,
 )
 
+from hydroelastic.fem.open_water.requests import DecayRequest, RadiationRequest, ResonanceRequest, ResponseRequest
 from hydroelastic.scenes.models.bodies import AnyNumber, PositiveNumber, SceneModel
 from hydroelastic.scenes.models.infinity import ZeroOrMoreOrInfinite
 from hydroelastic.scenes.models.problems import problem
@@ -30,6 +31,11 @@ class Radiation(SceneModel):
         default=4, description="how many elastic shapes of each beam are reported"
     )
 
+    @property
+    def request(self) -> RadiationRequest:
+        """What the solver is asked for."""
+        return RadiationRequest(omega=self.omega, elastic_modes=self.elastic_modes)
+
 
 class Response(SceneModel):
     """Motions, reflection and transmission in incident waves."""
@@ -40,6 +46,11 @@ class Response(SceneModel):
     positions: Annotated[int, Strict(), Field(ge=2, le=MOST_VALUES)] = Field(
         default=101, description="points along each beam at which its deflection is reported"
     )
+
+    @property
+    def request(self) -> ResponseRequest:
+        """What the solver is asked for."""
+        return ResponseRequest(omega=self.omega, waves_from=self.waves_from, positions=self.positions)
 
 
 class Resonance(SceneModel):
@@ -55,6 +66,11 @@ class Resonance(SceneModel):
     largest_damping: Annotated[float, Strict(), Field(ge=1e-6, le=2)] = Field(
         default=0.5, description="largest −Im ω/Re ω that is looked for; above 0.7 all liquids must be endless"
     )
+
+    @property
+    def request(self) -> ResonanceRequest:
+        """What the solver is asked for."""
+        return ResonanceRequest(count=self.count, below=self.below, largest_damping=self.largest_damping)
 
 
 class Release(SceneModel):
@@ -86,6 +102,12 @@ class Decay(SceneModel):
         default=1, description="number of the float among the bodies, from 1"
     )
     times: Annotated[tuple[NumberFromZero, ...], *DISTINCT] = Field(description=f"times, s, {OR_SWEEP}")
+
+    @property
+    def request(self) -> DecayRequest:
+        """What the solver is asked for; bodies are counted from 0."""
+        start = self.displacement
+        return DecayRequest(body=self.body - 1, heave=start.heave, roll=start.roll, times=self.times)
 
 
 Analysis: TypeAlias = Annotated[

@@ -11,7 +11,6 @@ from hydroelastic.scenes.models.open_analyses import Analysis, Decay, Radiation,
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.estimates import endless_comparison, endless_words
-from hydroelastic.scenes.open_water.physics import decay_request
 from hydroelastic.scenes.output.sections import Section
 from hydroelastic.scenes.tank.check import modelled_tank
 
@@ -44,7 +43,7 @@ def decay_cost_words(scene: TankScene, analysis: Decay) -> str:
     # This needs dolfinx, which takes a second to import.
     from hydroelastic.fem.open_water.cost import WITHIN, decay_cost
 
-    cost = decay_cost(physical_tank(scene), scene.accuracy.tolerance, decay_request(analysis))
+    cost = decay_cost(physical_tank(scene), scene.accuracy.tolerance, analysis.request)
     unknowns = f"{round(cost.unknowns, -3):,}".replace(",", " ")
     return (
         f"about {unknowns} unknowns, {cost.factorizations} factorizations, {cost.seconds:.2g} s of "

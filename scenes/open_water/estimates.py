@@ -1,71 +1,21 @@
-"""The thin-float theory beside the field solution of a float in open water."""
+"""The endless float of the paper beside the one of a scene, which ends where its tail says."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
-import numpy as np
-
-from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, ResonanceTable
 from hydroelastic.modal.estimate import NoEstimateError
 from hydroelastic.modal.floats.endless_float import EndlessFloat, endless_float
-from hydroelastic.modal.floats.open_float import OpenFloatEstimate, open_float_estimate, released_float
+from hydroelastic.modal.floats.open_float import lone_profile
 from hydroelastic.modal.floats.thin_float_radiation import is_deep
 from hydroelastic.modal.tank_estimates import two_layers
-from hydroelastic.physics.profiles import Profile
-from hydroelastic.scenes.models.floats import float_section
 from hydroelastic.scenes.models.open_analyses import Decay, Resonance
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.results import OpenSolution
-
-
-@dataclass(frozen=True, kw_only=True)
-class Comparison:
-    """One number of the theory beside the field's.
-
-    Attributes:
-        quantity: what it is, with its unit.
-        theory: its value by the thin-float theory.
-        field: by the field solution.
-        difference: relative, of the theory to the field; of a curve the largest over all frequencies or times, with
-            its values at that place.
-    """
-
-    quantity: str
-    theory: float
-    field: float
-    difference: float
-
-
-def thin_float_comparisons(solution: OpenSolution) -> tuple[tuple[Comparison, ...], str]:
-    """Set the thin-float theory beside the heave of a lone float.
-
-    Returns:
-        The comparisons, and what the theory neglects or why it has no value; nothing where it does not apply.
-    """
-    scene = solution.scene
-    profile = _profile(scene)
-    if profile is None:
-        return (), ""
-    layers = two_layers(physical_tank(scene))
-    rows: list[Comparison] = []
-    try:
-        estimate = open_float_estimate(profile, layers, [])
-        for resonance in solution.resonance:
-            rows += _resonance(resonance, estimate)
-        for radiation in solution.radiation:
-            rows += _radiation(radiation, profile, scene)
-        for decay in solution.decay:
-            rows += _decay(decay, profile, scene)
-    except NoEstimateError as reason:
-        return (), f"The thin-float theory has no value: {reason}."
-    return tuple(rows), estimate.note
 
 
 def endless_comparison(scene: TankScene) -> EndlessFloat | None:
     """The endless float of the paper beside a lone exponential that is released in endless liquids; else nothing."""
-    profile, layers = _profile(scene), two_layers(physical_tank(scene))
+    tank = physical_tank(scene)
+    profile, layers = lone_profile(tank), two_layers(tank)
     if profile is None or profile.shape != "exponential" or not is_deep(layers):
         return None
     if not any(isinstance(analysis, Decay | Resonance) for analysis in scene.analyses):
@@ -83,76 +33,3 @@ def endless_words(endless: EndlessFloat) -> str:
         f"up to about {endless.cut:.1g} of the displacement at first, which no estimated error of the field solution "
         "holds: that is of the float with its end. A smaller tail brings them together."
     )
-
-
-def _profile(scene: TankScene) -> Profile | None:
-    """The section of a lone float that heaves about its level; others have no such theory."""
-    if len(scene.body) > 1 or not scene.floats:
-        return None
-    ((_, body),) = scene.floats
-    if body.mass is not None or "heave" not in body.motions or scene.level_of(body) != _theory_level(scene):
-        return None
-    return float_section(body)
-
-
-def _theory_level(scene: TankScene) -> str:
-    return "surface" if len(scene.layers) == 1 else "interface"
-
-
-def _resonance(table: ResonanceTable, estimate: OpenFloatEstimate) -> list[Comparison]:
-    heaves = [omega for omega, label in zip(table.omega, table.labels, strict=True) if label == "heave"]
-    if estimate.resonance is None or not heaves:
-        return []
-    expected = estimate.resonance
-    found = min(heaves, key=lambda omega: abs(omega - expected))
-    return [
-        _compared("Re ω of the resonance, rad/s", expected.real, found.real),
-        _compared("γ = −Im ω, 1/s", -expected.imag, -found.imag),
-    ]
-
-
-def _radiation(table: RadiationTable, profile: Profile, scene: TankScene) -> list[Comparison]:
-    places = np.flatnonzero(np.isfinite(table.omega) & (table.omega > 0.0))
-    if not len(places):
-        return []
-    heave = table.dofs.index("heave")
-    theory = open_float_estimate(profile, two_layers(physical_tank(scene)), table.omega[places]).radiation
-    rows = []
-    for name, unit, values, field in (
-        ("a", "kg/m", theory.added_mass, table.added_mass),
-        ("b", "kg/(m s)", theory.damping, table.radiation_damping),
-    ):
-        own = field[places, heave, heave]
-        # Added mass has zeros, and damping falls to nothing: differences are those from the largest value.
-        differences = np.abs(values - own) / np.abs(own).max()
-        worst = int(np.argmax(differences))
-        rows.append(
-            Comparison(
-                quantity=f"{name} at {table.omega[places[worst]]:.4g} rad/s, {unit}",
-                theory=float(values[worst]),
-                field=float(own[worst]),
-                difference=float((values[worst] - own[worst]) / np.abs(own).max()),
-            )
-        )
-    return rows
-
-
-def _decay(table: DecayTable, profile: Profile, scene: TankScene) -> list[Comparison]:
-    heave = table.dofs.index("heave")
-    if not table.initial[heave]:
-        return []
-    theory = table.initial[heave] * released_float(profile, two_layers(physical_tank(scene)), table.times).heave
-    own = table.displacement[:, heave]
-    worst = int(np.argmax(np.abs(theory - own)))
-    return [
-        Comparison(
-            quantity=f"heave {table.times[worst]:.4g} s after release, m",
-            theory=float(theory[worst]),
-            field=float(own[worst]),
-            difference=float((theory[worst] - own[worst]) / table.initial[heave]),
-        )
-    ]
-
-
-def _compared(quantity: str, theory: float, field: float) -> Comparison:
-    return Comparison(quantity=quantity, theory=theory, field=field, difference=(theory - field) / field)

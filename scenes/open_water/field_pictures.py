@@ -8,10 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
+from hydroelastic.fem.open_water.field_samples import SampledField
 from hydroelastic.output.pictures.gif import FRAMES
 from hydroelastic.output.pictures.modes import animate_motion, draw_mode, phase_words
 from hydroelastic.output.pictures.options import PictureOptions
-from hydroelastic.scenes.open_water.field_samples import SampledField
 
 _PREFIX = "waves_"
 

@@ -8,16 +8,16 @@ from pathlib import Path
 from mpi4py import MPI
 
 from hydroelastic.fem.modes import EigenSolverError
+from hydroelastic.fem.open_water.field_samples import SampledField, sample_field
+from hydroelastic.fem.open_water.fields import open_fields
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.output.pictures.options import OF_CURVES, OF_FIELDS, OF_MOTIONS, PictureOptions
-from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
-from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.csv import write_csv
 from hydroelastic.scenes.open_water.dataset import OPEN_NAMES, open_dataset
-from hydroelastic.scenes.open_water.field_samples import SampledField, sample_field, write_fields
-from hydroelastic.scenes.open_water.fields import open_fields
+from hydroelastic.scenes.open_water.field_files import write_fields
 from hydroelastic.scenes.open_water.figures import draw_open
+from hydroelastic.scenes.open_water.physics import open_water_problem
 from hydroelastic.scenes.open_water.results import OpenSolution
 from hydroelastic.scenes.open_water.solve import solve_open
 from hydroelastic.scenes.open_water.summary import summarize_open
@@ -25,16 +25,6 @@ from hydroelastic.scenes.open_water.tables import open_cost, open_sections
 from hydroelastic.scenes.output.dataset import LabelledResults
 from hydroelastic.scenes.output.provenance import Summary
 from hydroelastic.scenes.output.staged_run import StagedRun
-
-
-def _solve(scene: TankScene, comm: MPI.Comm, report: Report) -> OpenSolution:
-    try:
-        return solve_open(scene, comm, report)
-    except MeshError as error:
-        problem = Problem(wrong=f"no mesh could be made: {error}", remedy="Please report this scene")
-        raise SceneError(problem) from error
-    except EigenSolverError as error:
-        raise UnsolvedError(f"the eigen-solver failed: {error}") from error
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,7 +44,8 @@ class SampledWater:
 
 def _sample(solution: OpenSolution, _summary: Summary) -> SampledWater:
     sampled, missing = [], []
-    for name, fields in open_fields(solution, MPI.COMM_WORLD, Stopwatch()):
+    problem = open_water_problem(solution.scene, MPI.COMM_WORLD, Stopwatch())
+    for name, fields in open_fields(problem, solution):
         try:
             # One field after the other: each comes with a mesh and matrices of its own.
             sampled += [sample_field(field) for field in fields]
@@ -72,6 +63,8 @@ def _write(water: SampledWater, folder: Path) -> None:
 
 def _draw(water: SampledWater, folder: Path, options: PictureOptions, report: Report) -> None:
     # Who only wants the numbers does without what draws.
+
+    # Who only wants the numbers does without what draws.
     from hydroelastic.scenes.open_water.field_pictures import draw_fields
 
     report("pictures of curves")
@@ -81,7 +74,7 @@ def _draw(water: SampledWater, folder: Path, options: PictureOptions, report: Re
 
 
 run_open = StagedRun(
-    solve=_solve,
+    solve=solve_open,
     summarize=summarize_open,
     sections=open_sections,
     cost=open_cost,

@@ -8,10 +8,12 @@ from typing import Any
 from mpi4py import MPI
 
 from hydroelastic.fem.open_water.results import DIRECTIONS, DecayTable, RadiationTable, ResonanceTable, ResponseTable
-from hydroelastic.scenes.open_water.estimates import endless_comparison, thin_float_comparisons
+from hydroelastic.fem.open_water.thin_float_theory import thin_float_comparisons
+from hydroelastic.scenes.models.physical import physical_tank
+from hydroelastic.scenes.open_water.estimates import endless_comparison
 from hydroelastic.scenes.open_water.results import OpenSolution, region_words
 from hydroelastic.scenes.output.json_values import json_ready
-from hydroelastic.scenes.output.provenance import Summary, memory_of_processes, versions
+from hydroelastic.scenes.output.provenance import Summary, complete_summary
 
 
 def summarize_open(solution: OpenSolution, comm: MPI.Comm, *, import_seconds: float) -> Summary:
@@ -27,12 +29,9 @@ def summarize_open(solution: OpenSolution, comm: MPI.Comm, *, import_seconds: fl
     Returns:
         The content of ``summary.json``.
     """
-    comparisons, note = thin_float_comparisons(solution)
+    comparisons, note = thin_float_comparisons(physical_tank(solution.scene), solution)
     endless = endless_comparison(solution.scene)
-    return {
-        "scene": solution.scene.model_dump(mode="json"),
-        "status": solution.status,
-        "reasons": list(solution.reasons),
+    content = {
         "radiation": [_written(table) | {"wave_direction": list(DIRECTIONS)} for table in solution.radiation],
         "response": [_written(table) for table in solution.response],
         "resonance": [_written(table) for table in solution.resonance],
@@ -41,11 +40,8 @@ def summarize_open(solution: OpenSolution, comm: MPI.Comm, *, import_seconds: fl
             "thin_float": {"rows": [json_ready(asdict(row)) for row in comparisons], "note": note},
             "endless_float": json_ready(asdict(endless)) if endless else None,
         },
-        "size": {**solution.size, "processes": comm.size},
-        "timing": {"import": import_seconds, **solution.seconds},
-        "memory_peak": memory_of_processes(comm),
-        "versions": versions(),
     }
+    return complete_summary(solution, content, solution.size, comm, import_seconds)
 
 
 def _written(table: RadiationTable | ResponseTable | ResonanceTable | DecayTable) -> dict[str, Any]:

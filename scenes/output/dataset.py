@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 DATASET = "dataset.nc"
 SUMMARY_TEXT = "summary"
 """The variable that holds the summary as the text of ``summary.json``."""
+
+Labelled: TypeAlias = tuple[Any, Any, str | None, str] | tuple[Any, Any, str | None, str, float | None]
+"""Dimensions of an array, its values, their unit, if they have one, what they are, and their absolute error."""
 
 # Keys of summaries whose variables come last: those about the solution and its cost.
 _BOOKKEEPING = ("reasons", "solver", "size", "timing", "memory_peak", "versions")
@@ -36,6 +39,27 @@ class LabelledResults:
 
     arrays: Callable[[Any], xarray.Dataset]
     names: SummaryNames
+
+
+def labelled(
+    arrays: Mapping[str, Labelled], coordinates: Mapping[str, Labelled], labels: Mapping[str, Sequence[str]] = {}
+) -> xarray.Dataset:
+    """Return labelled arrays, by name.
+
+    Args:
+        arrays: variables.
+        coordinates: places along their dimensions.
+        labels: of dimensions that have names instead of places.
+    """
+    # xarray takes a while to import.
+    import xarray
+
+    def variable(dimensions: Any, values: Any, unit: str | None, said: str, error: float | None = None) -> Any:
+        attributes = {"units": unit, "long_name": said, "absolute_error": error}
+        return dimensions, values, {name: value for name, value in attributes.items() if value is not None}
+
+    places = {name: variable(*one) for name, one in coordinates.items()} | {name: list(labels[name]) for name in labels}
+    return xarray.Dataset({name: variable(*one) for name, one in arrays.items()}, places)
 
 
 def with_summary(arrays: xarray.Dataset, summary: Summary, names: SummaryNames) -> xarray.Dataset:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import platform
 import resource
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
@@ -55,7 +55,7 @@ class Solved(Protocol):
 
 
 def complete_summary(
-    solution: Solved, content: Summary, size: dict[str, int], comm: MPI.Comm, import_seconds: float
+    solution: Solved, content: Summary, size: Mapping[str, Any], comm: MPI.Comm, import_seconds: float
 ) -> Summary:
     """Add the parts common to all summaries to the content of one (collective: peak memory is summed over processes).
 

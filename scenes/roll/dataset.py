@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from hydroelastic.scenes.output.dataset import labelled
 from hydroelastic.scenes.output.summary_variables import SummaryNames
 from hydroelastic.scenes.roll.results import RollResult
 
@@ -19,20 +20,13 @@ ROLL_NAMES = SummaryNames(
 
 def roll_dataset(result: RollResult) -> xarray.Dataset:
     """Return the slope of the waves and the angle of the ship with its derivatives, SI units."""
-    # xarray takes a while to import.
-    import xarray
-
     solution, motion = result.solution, result.solution.motion
-    return xarray.Dataset(
+    return labelled(
         {
-            "wave_slope": (
-                "time",
-                solution.train.slope(motion.times),
-                {"units": "rad", "long_name": "slope of the waves"},
-            ),
-            "angle": ("time", motion.angle, {"units": "rad", "long_name": "angle of roll"}),
-            "rate": ("time", motion.rate, {"units": "rad/s", "long_name": "rate of roll"}),
-            "acceleration": ("time", motion.acceleration, {"units": "rad/s^2", "long_name": "acceleration of roll"}),
+            "wave_slope": ("time", solution.train.slope(motion.times), "rad", "slope of the waves"),
+            "angle": ("time", motion.angle, "rad", "angle of roll"),
+            "rate": ("time", motion.rate, "rad/s", "rate of roll"),
+            "acceleration": ("time", motion.acceleration, "rad/s^2", "acceleration of roll"),
         },
-        {"time": ("time", motion.times, {"units": "s", "long_name": "time"})},
+        {"time": ("time", motion.times, "s", "time")},
     )

@@ -11,7 +11,7 @@ from hydroelastic.physics.wave import WaveTrain
 from hydroelastic.scenes.models.roll import RollScene
 
 if TYPE_CHECKING:
-    from hydroelastic.scenes.roll.section import SectionRoll
+    from hydroelastic.fem.section_roll import SectionRoll
 
 
 def rolling_ship(scene: RollScene, section: SectionRoll | None) -> Ship:

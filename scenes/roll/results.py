@@ -10,7 +10,7 @@ from hydroelastic.modal.roll.solution import RollSolution
 from hydroelastic.scenes.models.roll import RollScene
 
 if TYPE_CHECKING:
-    from hydroelastic.scenes.roll.section import SectionRoll
+    from hydroelastic.fem.section_roll import SectionRoll
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from hydroelastic.fem.stopwatch import Report, Stopwatch
-from hydroelastic.scenes.errors import Problem, SceneError
+from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
 from hydroelastic.scenes.models.bodies import Float
 from hydroelastic.scenes.models.roll import RollScene
 from hydroelastic.scenes.models.tank import TankScene
@@ -13,7 +13,7 @@ from hydroelastic.scenes.models.tank import TankScene
 if TYPE_CHECKING:
     from mpi4py import MPI
 
-    from hydroelastic.scenes.roll.section import SectionRoll
+    from hydroelastic.fem.section_roll import SectionRoll
 
 
 def section_scene(scene: RollScene) -> TankScene:
@@ -62,10 +62,31 @@ def solved_section(scene: RollScene, comm: MPI.Comm, watch: Stopwatch, report: R
     """Read and solve the section (collective).
 
     Raises:
-        SceneError: if its scene cannot be used.
+        SceneError: if its scene, or the mesh that it names, cannot be used.
         UnsolvedError: if it cannot be solved to its tolerance.
     """
     section = section_scene(scene)
     with watch.stage("import"):
-        from hydroelastic.scenes.roll.section import section_roll
-    return section_roll(section, comm, watch, report)
+        from hydroelastic.fem.modes import EigenSolverError
+        from hydroelastic.fem.section_roll import SectionRollError, section_roll
+        from hydroelastic.meshes.tagged_mesh import MeshError
+        from hydroelastic.scenes.models.physical import physical_tank
+        from hydroelastic.scenes.tank.own_mesh import mesh_refused, own_mesh
+    report("section")
+    try:
+        with watch.stage("section"):
+            return section_roll(
+                physical_tank(section),
+                tolerance=section.accuracy.tolerance,
+                modes=section.accuracy.modes,
+                comm=comm,
+                title=section.title,
+                mesh=own_mesh(section, comm),
+                report=report,
+            )
+    except MeshError as error:
+        raise mesh_refused(section, str(error)) from error
+    except EigenSolverError as error:
+        raise UnsolvedError(f"the eigen-solver failed: {error}") from error
+    except SectionRollError as error:
+        raise UnsolvedError(str(error)) from error

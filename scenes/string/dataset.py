@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from hydroelastic.scenes.output.dataset import labelled
 from hydroelastic.scenes.output.summary_variables import SummaryNames
 from hydroelastic.scenes.string.results import StringResult
 
@@ -22,39 +23,21 @@ STRING_NAMES = SummaryNames(
 
 def string_dataset(result: StringResult) -> xarray.Dataset:
     """Return displacement, its error, and the free motions, SI units."""
-    # xarray takes a while to import.
-    import xarray
-
     solution, motions = result.solution, result.solution.free_motions
-    where = ("position", "time")
-    return xarray.Dataset(
+    numbers, where = np.arange(1, len(motions.roots) + 1, dtype=np.int32), ("position", "time")
+    shape = "shape of a free motion, its largest value 1"
+    return labelled(
         {
-            "displacement": (where, solution.displacement, {"units": "m", "long_name": "displacement to the side"}),
-            "absolute_error": (
-                where,
-                solution.absolute_error,
-                {"units": "m", "long_name": "estimated error of the displacement"},
-            ),
-            "beside_front": (where, solution.beside_fronts, {"long_name": "whether a wave front is near"}),
-            "omega": (
-                "mode",
-                motions.frequencies,
-                {"units": "rad/s", "long_name": "magnitude of the root of a free motion"},
-            ),
-            "root": ("mode", motions.roots, {"units": "1/s", "long_name": "root p of a free motion exp(pt)"}),
-            "mode_shape": (
-                ("mode", "position"),
-                motions.shapes,
-                {"units": "1", "long_name": "shape of a free motion, its largest value 1"},
-            ),
+            "displacement": (where, solution.displacement, "m", "displacement to the side"),
+            "absolute_error": (where, solution.absolute_error, "m", "estimated error of the displacement"),
+            "beside_front": (where, solution.beside_fronts, None, "whether a wave front is near"),
+            "omega": ("mode", motions.frequencies, "rad/s", "magnitude of the root of a free motion"),
+            "root": ("mode", motions.roots, "1/s", "root p of a free motion exp(pt)"),
+            "mode_shape": (("mode", "position"), motions.shapes, "1", shape),
         },
         {
-            "position": (
-                "position",
-                solution.positions,
-                {"units": "m", "long_name": "height above the free end at rest"},
-            ),
-            "time": ("time", solution.times, {"units": "s", "long_name": "time"}),
-            "mode": ("mode", np.arange(1, len(motions.roots) + 1, dtype=np.int32), {"long_name": "number of the mode"}),
+            "position": ("position", solution.positions, "m", "height above the free end at rest"),
+            "time": ("time", solution.times, "s", "time"),
+            "mode": ("mode", numbers, None, "number of the mode"),
         },
     )

@@ -7,12 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from hydroelastic.fem.study.row import Family, StudyRow
+from hydroelastic.fem.study.theory import expected_order, expected_remainders
 from hydroelastic.output.pictures.colours import BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILLION
 from hydroelastic.output.pictures.curves import GREY, Sheets
-from hydroelastic.scenes.study.plan import Family
-from hydroelastic.scenes.study.rows import StudyRow
 from hydroelastic.scenes.study.run import Study
-from hydroelastic.scenes.study.theory import expected_order, expected_remainders
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -94,7 +93,7 @@ def _power(row: StudyRow) -> str:
 def _draw_orders(axes: Axes, study: Study) -> None:
     """A slope from one point of the empty upper right corner for every order that theory expects."""
     series = {(row.degree, row.grading) for row in study.rows if row.grading is not None}
-    orders = sorted({expected_order(study.scene, degree, grading) for degree, grading in series})
+    orders = sorted({expected_order(study.tank, degree, grading) for degree, grading in series})
     if not orders:
         return
     (left, right), (low, high) = np.log10(axes.get_xlim()), np.log10(axes.get_ylim())
@@ -128,7 +127,7 @@ def _draw_orders(axes: Axes, study: Study) -> None:
 def _draw_gain(axes: Axes, study: Study) -> None:
     """What the best polynomials on the rings would gain, below the series of geometric rings."""
     rows = [row for row in study.rows_of("geometric") if row.error > row.floor]
-    left = expected_remainders(study.scene, [row.degree for row in rows]) if rows else None
+    left = expected_remainders(study.tank, [row.degree for row in rows]) if rows else None
     if left is None:
         return
     errors = _APART * rows[-1].error * left / left[-1]

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Literal, TypeAlias, get_args
+from typing import Any, get_args
 
+from hydroelastic.fem.study.row import Family
 from hydroelastic.fem.tank.resolution import HIGHEST_DEGREE
 from hydroelastic.scenes.errors import Problem, SceneError, shown_value
 from hydroelastic.scenes.words import proposal
-
-Family: TypeAlias = Literal["uniform", "algebraic", "geometric", "tolerance", "thinness"]
 
 FAMILIES: tuple[Family, ...] = get_args(Family)
 

@@ -14,20 +14,19 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
+from hydroelastic.fem.study.corners import has_curved_contours, sharpest_of, symmetries_apart
+from hydroelastic.fem.study.rates import DIFFERENCE, GAIN_FACTOR, Gain
+from hydroelastic.fem.study.reference import Reference
+from hydroelastic.fem.study.row import Family, StudyRow
+from hydroelastic.fem.study.thinness import fitted_thinness
 from hydroelastic.output.pictures.curves import Sheets
 from hydroelastic.output.pictures.options import DEFAULT_PICTURES, PictureOptions
 from hydroelastic.physics.symmetry import Parity
-from hydroelastic.scenes.models.physical import physical_tank
-from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.physics.tank import Tank
 from hydroelastic.scenes.output.folder import SUMMARY, result_folder
-from hydroelastic.scenes.study.corners import has_curved_contours, sharpest_of, symmetries_apart
 from hydroelastic.scenes.study.figure import draw_study
-from hydroelastic.scenes.study.plan import ERROR_FAMILIES, Family
-from hydroelastic.scenes.study.rates import DIFFERENCE, GAIN_FACTOR, Gain
-from hydroelastic.scenes.study.reference import Reference
-from hydroelastic.scenes.study.rows import StudyRow
+from hydroelastic.scenes.study.plan import ERROR_FAMILIES
 from hydroelastic.scenes.study.run import Study
-from hydroelastic.scenes.study.thinness import fitted_thinness
 from hydroelastic.scenes.study.thinness_figure import draw_thinness
 from hydroelastic.scenes.study.thinness_report import print_thinness, thinness_csv
 
@@ -94,7 +93,7 @@ def _print_errors(console: Console, study: Study, reference: Reference) -> None:
         f"{study.scene.title or 'Untitled scene'}: error against cost",
         f"Reference: {reference.name}{certain}.",
         halves,
-        *_symmetry_lines(study.scene),
+        *_symmetry_lines(study.tank),
         f"error: largest relative error of {modes} frequencies; lowest: of the lowest; ratio: estimate over error.",
         "Seconds by stage, without compiling (ψ=0: pressure-release tone; m_a: added mass); MB: highest resident",
         "memory, above what was held before.",
@@ -109,7 +108,7 @@ def _print_errors(console: Console, study: Study, reference: Reference) -> None:
         if rows:
             console.print(_rows_table(family, rows))
         else:
-            console.print(f"  None: {_why_none(study.scene, family)}.\n", markup=False)
+            console.print(f"  None: {_why_none(study.tank, family)}.\n", markup=False)
     if study.rates:
         console.print("Orders q, error ~ (element size)^q, fitted to the finest three meshes above rounding")
         console.print(_rates_table(study))
@@ -121,16 +120,15 @@ def _print_errors(console: Console, study: Study, reference: Reference) -> None:
         console.print()
 
 
-def _symmetry_lines(scene: TankScene) -> Iterator[str]:
+def _symmetry_lines(tank: Tank) -> Iterator[str]:
     """What the error over all modes follows where their orders differ."""
-    tank = physical_tank(scene).scaled()
     found = [f"{(sharpest_of(tank, parity) or inf):.3g} ({parity} modes)" for parity in symmetries_apart(tank)]
     if found:
         yield f"At the worst corner ψ ~ r^α, α = {' or '.join(found)}: the error of all follows the smaller."
 
 
-def _why_none(scene: TankScene, family: Family) -> str:
-    if family in ("uniform", "algebraic") and has_curved_contours(physical_tank(scene).scaled()):
+def _why_none(tank: Tank, family: Family) -> str:
+    if family in ("uniform", "algebraic") and has_curved_contours(tank):
         return "the contour of a float is curved, and these meshes are halved along straight boundaries only"
     return "ψ is smooth, or no mesh has so few unknowns"
 

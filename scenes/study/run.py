@@ -15,26 +15,25 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from mpi4py import MPI
-
-from hydroelastic.fem.liquid import compile_form
 from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.spectral_error import LOWEST_DEGREE
-from hydroelastic.fem.stopwatch import Report, Stopwatch
-from hydroelastic.fem.tank.field_model import build_mesh
-from hydroelastic.fem.tank.field_solution import solve_field
-from hydroelastic.fem.tank.resolution import HIGHEST_DEGREE, initial_resolution
-from hydroelastic.physics.symmetry import is_mirror_image
+from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.study.rates import Gain, Rate, fitted_gain, fitted_rates
+from hydroelastic.fem.study.reference import Reference
+from hydroelastic.fem.study.row import Family, StudyRow
+from hydroelastic.fem.study.series import compile_forms, geometric_rows, nested_rows, tolerance_rows
+from hydroelastic.fem.study.studied_tank import StudiedTank
+from hydroelastic.fem.study.thinness import ThinnessRow, thinness_rows
+from hydroelastic.fem.tank.resolution import HIGHEST_DEGREE
+from hydroelastic.meshes.tagged_mesh import MeshError
+from hydroelastic.physics.tank import Tank
 from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.read import closed_tank
-from hydroelastic.scenes.study.plan import Family, StudyPlan
-from hydroelastic.scenes.study.rates import Gain, Rate, fitted_gain, fitted_rates
-from hydroelastic.scenes.study.reference import Reference, finest_resolution, reference_of
-from hydroelastic.scenes.study.rows import StudiedTank, StudyRow
-from hydroelastic.scenes.study.series import SERIES
-from hydroelastic.scenes.study.thinness import ThinnessRow, check_thinness, thinness_rows
+from hydroelastic.scenes.study.plan import ERROR_FAMILIES, StudyPlan
+from hydroelastic.scenes.study.thinness import both_boundaries, check_thinness
+from hydroelastic.scenes.tank.own_mesh import mesh_refused
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,6 +43,7 @@ class Study:
     Attributes:
         scene: the scene.
         plan: what was asked.
+        tank: of the scene, in its own units.
         reference: what the errors are measured against; ``None`` if the plan asks for none.
         halves: whether every row solved the tank as two halves.
         rows: all solutions, in the plan's order.
@@ -54,6 +54,7 @@ class Study:
 
     scene: TankScene
     plan: StudyPlan
+    tank: Tank
     reference: Reference | None = None
     halves: bool
     rows: tuple[StudyRow, ...] = ()
@@ -83,8 +84,8 @@ def study_scene(scene: TankScene, plan: StudyPlan | None = None, *, report: Repo
         The rows and the rates they show.
 
     Raises:
-        SceneError: if the scene's ends are open, if it brings a mesh of its own, or if it has no float for the thinness
-            that is asked for.
+        SceneError: if the scene's ends are open, if it brings a mesh of its own, if it has no float for the thinness
+            that is asked for, or if no mesh can be made.
         UnsolvedError: if the eigen-solver fails.
     """
     closed_tank(scene, "a study measures the errors of frequencies of closed tanks")
@@ -96,69 +97,55 @@ def study_scene(scene: TankScene, plan: StudyPlan | None = None, *, report: Repo
         return _study(scene, plan or StudyPlan(), report)
     except EigenSolverError as error:
         raise UnsolvedError(f"the eigen-solver failed: {error}") from error
-
-
-def studied_tank(scene: TankScene) -> StudiedTank:
-    """Solve for the reference of a closed tank, which all rows of its study share (collective)."""
-    tank = physical_tank(scene).scaled()
-    half = is_mirror_image(tank)
-    return StudiedTank(
-        scene=scene,
-        tank=tank,
-        half=half,
-        finest=finest_resolution(scene),
-        reference=reference_of(scene, tank, half=half),
-    )
+    except MeshError as error:
+        raise mesh_refused(scene, str(error)) from error
 
 
 def _study(scene: TankScene, plan: StudyPlan, report: Report) -> Study:
     thinness = tuple(_thinness(scene, plan, report))
-    if not any(family in SERIES for family in plan.families):
-        return Study(scene=scene, plan=plan, halves=is_mirror_image(physical_tank(scene).scaled()), thinness=thinness)
+    studied = StudiedTank(physical=physical_tank(scene), modes=scene.accuracy.modes)
+    study = Study(scene=scene, plan=plan, tank=studied.tank, halves=studied.half, thinness=thinness)
+    if not any(family in ERROR_FAMILIES for family in plan.families):
+        return study
     report("reference solution")
-    studied = studied_tank(scene)
+    parities = studied.reference.parities
     report("forms")
-    _compile_forms(studied, plan)
-    rows = []
-    for family, series in SERIES.items():
-        for row in series(studied, plan) if family in plan.families else ():
-            report(f"{family}, degree {row.degree}: {row.unknowns} unknowns, error {row.error:.1e}")
-            rows.append(row)
-    return Study(
-        scene=scene,
-        plan=plan,
-        reference=studied.reference,
-        halves=studied.half,
-        rows=tuple(rows),
-        rates=fitted_rates(scene, rows, studied.reference.parities),
-        gain=fitted_gain(scene, rows, studied.reference.parities),
-        thinness=thinness,
-    )
-
-
-def _thinness(scene: TankScene, plan: StudyPlan, report: Report) -> Iterator[ThinnessRow]:
-    if "thinness" not in plan.families:
-        return
-    check_thinness(scene)
-    for row in thinness_rows(scene, plan.width_halvings):
-        report(f"thinness, half width {row.half_width:.3g} m")
-        yield row
-
-
-def _compile_forms(studied: StudiedTank, plan: StudyPlan) -> None:
-    """Solve once with each degree that may be needed: a study measures solving, not the compiler."""
     needed: dict[Family, tuple[int, ...]] = {
         "uniform": plan.degrees,
         "algebraic": plan.degrees,
         "geometric": plan.geometric_degrees,
         "tolerance": tuple(range(LOWEST_DEGREE, HIGHEST_DEGREE + 1)),
     }
-    degrees = {degree for family in plan.families if family in needed for degree in needed[family]}
-    coarse = initial_resolution(studied.tank, studied.scene.accuracy.tolerance, modes=1)
-    for degree in sorted(degrees):
-        resolution = replace(coarse, degree=degree)
-        # Cells at curved contours are of the same degree, and have a form of their own.
-        mesh = build_mesh(MPI.COMM_WORLD, studied.tank, resolution, half=studied.half)
-        solve_field(mesh, studied.tank, resolution, 1, Stopwatch(), half=studied.half)
-        if len(studied.tank.layers) > 1:
-            compile_form(mesh, degree, glued=True)
+    compile_forms(studied, (degree for family in plan.families for degree in needed.get(family, ())))
+    rows = []
+    for family in plan.families:
+        for row in _rows(studied, plan, family):
+            report(f"{family}, degree {row.degree}: {row.unknowns} unknowns, error {row.error:.1e}")
+            rows.append(row)
+    return replace(
+        study,
+        reference=studied.reference,
+        rows=tuple(rows),
+        rates=fitted_rates(studied.tank, rows, parities),
+        gain=fitted_gain(studied.tank, rows, parities),
+    )
+
+
+def _rows(studied: StudiedTank, plan: StudyPlan, family: Family) -> Iterator[StudyRow]:
+    match family:
+        case "uniform" | "algebraic":
+            limits = {"halvings": plan.halvings, "most_unknowns": plan.most_unknowns}
+            yield from nested_rows(studied, family, plan.degrees, **limits)
+        case "geometric":
+            yield from geometric_rows(studied, plan.geometric_degrees)
+        case "tolerance":
+            yield from tolerance_rows(studied, plan.tolerances)
+
+
+def _thinness(scene: TankScene, plan: StudyPlan, report: Report) -> Iterator[ThinnessRow]:
+    if "thinness" not in plan.families:
+        return
+    check_thinness(scene)
+    for row in thinness_rows(both_boundaries(scene, plan.width_halvings), scene.accuracy.modes):
+        report(f"thinness, half width {row.half_width:.3g} m")
+        yield row

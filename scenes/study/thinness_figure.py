@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from hydroelastic.fem.study.thinness import QUANTITIES, ThinnessRow
 from hydroelastic.output.pictures.colours import BLUE, GREEN, ORANGE, PURPLE, VERMILLION
 from hydroelastic.output.pictures.curves import GREY, Sheets
-from hydroelastic.scenes.study.thinness import QUANTITIES, ThinnessRow
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -10,8 +10,8 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
-from hydroelastic.scenes.study.rates import DIFFERENCE
-from hydroelastic.scenes.study.thinness import ASKED, QUANTITIES, ThinnessRow, fitted_thinness
+from hydroelastic.fem.study.rates import DIFFERENCE
+from hydroelastic.fem.study.thinness import ASKED, QUANTITIES, ThinnessRow, fitted_thinness
 
 _WHY = {True: "heave is shared with waves", False: "not yet asymptotic"}
 

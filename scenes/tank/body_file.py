@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from hydroelastic.output.pictures.mode import FloatSection, SurfaceCurve
+from hydroelastic.fem.pictures.mode import FloatSection, SurfaceCurve
 
 # Numbers of the array `part`.
 _CURVES = {"free_surface": 1, "interface": 2, "body": 3}

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from hydroelastic.fem.bodies.registry import ends_of_motions, expected_tones
 from hydroelastic.fem.tank.resolution import (
     Resolution,
-    companion_resolution,
+    infinite_frequency_resolution,
     initial_resolution,
     workable_tolerance,
 )
@@ -56,13 +56,13 @@ def modelled_tank(scene: TankScene, *, requests: Iterable[str], scale: Section) 
 
 def _sizes(scene: TankScene) -> Iterator[str]:
     """What the first attempt is, and why it should be enough; the built-in meshes are made to count them."""
-    tank, brought = physical_tank(scene).scaled(), _brought(scene)
+    tank, user_mesh = physical_tank(scene).scaled(), _user_mesh(scene)
     tolerance = scene.accuracy.tolerance
     tones = expected_tones(tank)
     motions = ends_of_motions(tank)
     resolution = initial_resolution(tank, tolerance, modes=scene.accuracy.modes, tones=tones, motions=motions)
     half = scene.mesh is None and is_mirror_image(tank)
-    yield f"First attempt: {_size(tank, resolution, brought, half=half)}."
+    yield f"First attempt: {_size(tank, resolution, user_mesh, half=half)}."
     if resolution.modes > scene.accuracy.modes:
         what = (
             "where the energy of the first elastic tone gathers" if tank.elastic else "in which mode a float moves most"
@@ -79,37 +79,39 @@ def _sizes(scene: TankScene) -> Iterator[str]:
     if workable > tolerance:
         yield f"  Double precision will not keep {tolerance:g} here: {workable:.0e} is worked towards instead."
     limits = [
-        *(
-            ["the first elastic tone"]
-            if tank.elastic and any(level.moves and level.is_open for level in tank.levels)
-            else []
-        ),
-        *(["the added mass of the floats"] if tank.rigid and tank.has_high_frequency_limit else []),
+        *(["the first elastic tone"] if tank.elastic and tank.has_waves else []),
+        *(["the added mass of the floats"] if tank.rigid and tank.has_infinite_frequency_limit else []),
     ]
     if limits:
-        limit = companion_resolution(tank, tolerance, tones) if scene.mesh is None else resolution
-        size = _size(tank, limit, brought, half=half, released=scene.mesh is None)
+        limit = infinite_frequency_resolution(tank, tolerance, tones) if scene.mesh is None else resolution
+        size = _size(tank, limit, user_mesh, half=half, infinite_frequency=scene.mesh is None)
         where = "with ψ = 0 on the water" if len(tank.layers) == 1 else "far above the waves, the liquids moving as one"
         yield f"Beside it {' and '.join(limits)} {where}: {size}."
         yield "  It has no waves to resolve, but a stronger singularity at the tips."
 
 
-def _brought(scene: TankScene) -> TaggedMesh | None:
+def _user_mesh(scene: TankScene) -> TaggedMesh | None:
     if scene.mesh is None:
         return None
     # Only who brings a mesh needs what reads it.
-    from hydroelastic.scenes.tank.own_mesh import own_mesh
+    from hydroelastic.scenes.tank.own_mesh import read_own_mesh
 
-    return own_mesh(scene)
+    return read_own_mesh(scene)
 
 
-def _size(tank: Tank, resolution: Resolution, brought: TaggedMesh | None, *, half: bool, released: bool = False) -> str:
+def _size(
+    tank: Tank, resolution: Resolution, user_mesh: TaggedMesh | None, *, half: bool, infinite_frequency: bool = False
+) -> str:
     from hydroelastic.fem.tank.mesh import make_mesh, unknown_count
 
-    mesh = brought if brought is not None else make_mesh(tank, resolution, half=half, released=released)
+    mesh = (
+        user_mesh
+        if user_mesh is not None
+        else make_mesh(tank, resolution, half=half, infinite_frequency=infinite_frequency)
+    )
     where = " in half the tank" if half else ""
     twice = ", for symmetric and for antisymmetric modes" if half else ""
-    layers = 1 if released else len(tank.layers)
+    layers = 1 if infinite_frequency else len(tank.layers)
     unknowns = unknown_count(len(mesh.points), len(mesh.cells), resolution.degree, parts=layers)
     parts = [
         f"degree {resolution.degree}",

@@ -10,15 +10,16 @@ from scipy.linalg import block_diag
 
 from hydroelastic.physics.dofs import Dof, body_name, dof_names
 from hydroelastic.physics.motions import MOTIONS
+from hydroelastic.scenes.output.dataset import Labelled, labelled
 from hydroelastic.scenes.output.dof_units import INERTIA_UNITS, MOTION_UNITS, STIFFNESS_UNITS
 from hydroelastic.scenes.output.summary_variables import SummaryNames
 
 if TYPE_CHECKING:
     import xarray
 
+    from hydroelastic.fem.pictures.mode import FloatSection, SurfaceCurve
+    from hydroelastic.fem.tank.mode_shapes import ModeShapes
     from hydroelastic.fem.tank.solve import TankSolution
-    from hydroelastic.output.pictures.mode import FloatSection, SurfaceCurve
-    from hydroelastic.scenes.tank.shapes import ModeShapes
 
 TANK_NAMES = SummaryNames(
     dimensions={
@@ -103,41 +104,27 @@ def _curve_names(solution: TankSolution, curves: tuple[SurfaceCurve, ...]) -> li
 
 
 def _curve(name: str, curves: tuple[SurfaceCurve, ...], dimension: str, prefix: str) -> xarray.Dataset:
-    import xarray
-
     what, along = "deflection" if curves[0].kind == "body" else "elevation", f"position_on_{name}"
-    said = {"units": "m", "long_name": f"upward {what} of {name}", "level_at_rest": curves[0].level}
-    return xarray.Dataset(
-        {
-            f"{prefix}{what}_of_{name}": (
-                (dimension, along),
-                np.array([curve.displacement for curve in curves]),
-                said,
-            )
-        },
-        {along: (along, curves[0].x, {"units": "m", "long_name": "distance from the left wall"})},
+    displaced, moved = f"{prefix}{what}_of_{name}", np.array([curve.displacement for curve in curves])
+    found = labelled(
+        {displaced: ((dimension, along), moved, "m", f"upward {what} of {name}")},
+        {along: (along, curves[0].x, "m", "distance from the left wall")},
     )
+    found[displaced].attrs["level_at_rest"] = curves[0].level
+    return found
 
 
 def _section(name: str, sections: tuple[FloatSection, ...], dimension: str, prefix: str) -> xarray.Dataset:
-    import xarray
-
     point = f"point_on_{name}"
     moved = np.array([section.displacement for section in sections])
-    return xarray.Dataset(
+    along = (dimension, point, "axis")
+    return labelled(
         {
-            f"{prefix}displacement_of_{name}": (
-                (dimension, point, "axis"),
-                moved,
-                {"units": "m", "long_name": f"displacement of the contour of {name}"},
-            ),
-            f"contour_of_{name}": (
-                (point, "axis"),
-                sections[0].contour,
-                {"units": "m", "long_name": f"contour of {name} at rest"},
-            ),
+            f"{prefix}displacement_of_{name}": (along, moved, "m", f"displacement of the contour of {name}"),
+            f"contour_of_{name}": ((point, "axis"), sections[0].contour, "m", f"contour of {name} at rest"),
         },
-        {"axis": ["x", "y"]},
+        {},
+        {"axis": ("x", "y")},
     )
 
 
@@ -159,25 +146,13 @@ def _matrices(solution: TankSolution) -> xarray.Dataset:
     places = [[MOTIONS.index(motion) for motion in body.motions] for body in floats]
     inertia = block_diag(*(np.diag(body.inertia[place]) for body, place in zip(floats, places, strict=True)))
     stiffness = block_diag(*(body.stiffness[np.ix_(place, place)] for body, place in zip(floats, places, strict=True)))
-    matrices = {
-        "inertia_matrix": (inertia * masses, INERTIA_UNITS, "inertia of the floats"),
-        "hydrostatic_stiffness": (
-            stiffness * masses * units.frequency**2,
-            STIFFNESS_UNITS,
-            "hydrostatic stiffness of the floats",
-        ),
+    turning, rows = bool(turns.any()), ("influenced_dof", "radiating_dof")
+    said = "hydrostatic stiffness of the floats"
+    matrices: dict[str, Labelled] = {
+        "inertia_matrix": (rows, inertia * masses, INERTIA_UNITS[turning], "inertia of the floats"),
+        "hydrostatic_stiffness": (rows, stiffness * masses * units.frequency**2, STIFFNESS_UNITS[turning], said),
     }
     if solution.added_mass is not None:
-        matrices["infinite_frequency_added_mass"] = (
-            solution.added_mass.matrix * masses,
-            INERTIA_UNITS,
-            "added mass far above the waves",
-        )
-    rows = ("influenced_dof", "radiating_dof")
-    return xarray.Dataset(
-        {
-            name: (rows, matrix, {"units": units_of[bool(turns.any())], "long_name": said})
-            for name, (matrix, units_of, said) in matrices.items()
-        },
-        {"influenced_dof": dofs, "radiating_dof": dofs},
-    )
+        added, said = solution.added_mass.matrix * masses, "added mass far above the waves"
+        matrices["infinite_frequency_added_mass"] = (rows, added, INERTIA_UNITS[turning], said)
+    return labelled(matrices, {}, dict.fromkeys(rows, dofs))

@@ -6,14 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from hydroelastic.fem.tank.elastic_tone import mode_kind
+from hydroelastic.fem.tank.elastic_tone import added_mass, mode_kind
 from hydroelastic.fem.tank.float_modes import FloatMode
 from hydroelastic.fem.tank.solve import TankSolution
+from hydroelastic.modal.estimate import difference
 from hydroelastic.modal.floats.tank_estimates import EstimatesOfFloat
-from hydroelastic.scenes.tank.differences import difference
-
-# A runner-up with less than so many times the smallest modal mass makes the mode of a motion a shared one.
-SHARED = 2.0
 
 
 def float_rows(solution: TankSolution, estimates: dict[int, EstimatesOfFloat]) -> list[dict[str, Any]]:
@@ -94,24 +91,20 @@ def _mode(solution: TankSolution, mode: FloatMode) -> dict[str, Any]:
     }
     if mode.index is None:
         return row
-    body = solution.field.bodies[mode.body]
-    number = body.dofs.index(mode.motion)
     unit = solution.units.density * solution.units.length ** (4.0 if mode.motion.is_rotation else 2.0)
     eigenvalue = float(solution.modes.eigenvalues[mode.index])
     error = float(solution.relative_errors[mode.index])
-    whole = float(body.stiffness[number]) / eigenvalue
-    added = whole - float(body.mass[number, number])
-    shared = mode.runner_up < SHARED * mode.modal_mass
+    added, added_error = added_mass(mode.stiffness, mode.inertia, eigenvalue, error)
     row.update(
         index=mode.index + 1,
         omega=solution.omega(eigenvalue),
         relative_error=error,
         modal_mass=mode.modal_mass * unit,
         runner_up_modal_mass=mode.runner_up * unit if np.isfinite(mode.runner_up) else None,
-        shared=shared,
+        shared=mode.is_shared,
         added_mass=added * unit,
-        added_mass_relative_error=2.0 * error * whole / abs(added) if added else 1.0,
-        note="shared with waves or other bodies: no mode is this motion's alone" if shared else "",
+        added_mass_relative_error=added_error,
+        note="shared with waves or other bodies: no mode is this motion's alone" if mode.is_shared else "",
     )
     return row
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,48 +11,28 @@ from mpi4py import MPI
 from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.fem.tank.solve import TankSolution
-from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
-from hydroelastic.modal.estimate import Estimate
+from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.modal.tank_estimates import tone_estimates
 from hydroelastic.output.pictures.options import OF_FIELDS, OF_MOTIONS, PictureOptions
-from hydroelastic.scenes.errors import SceneError, UnsolvedError
+from hydroelastic.scenes.errors import UnsolvedError
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.output.dataset import LabelledResults
+from hydroelastic.scenes.output.outcome import Outcome
 from hydroelastic.scenes.output.provenance import Summary
 from hydroelastic.scenes.output.staged_run import StagedRun
 from hydroelastic.scenes.read import closed_tank
 from hydroelastic.scenes.tank.check_hints import draughts_left_out
 from hydroelastic.scenes.tank.dataset import TANK_NAMES, tank_dataset
 from hydroelastic.scenes.tank.own_mesh import mesh_refused, own_mesh
-from hydroelastic.scenes.tank.solve import solve_scene
+from hydroelastic.scenes.tank.solve import EstimatedTank, solve_scene
 from hydroelastic.scenes.tank.summary import summarize
-from hydroelastic.scenes.tank.tables import mode_csv, tank_cost, tank_sections
+from hydroelastic.scenes.tank.tables import compared_sections, mode_csv, tank_cost, tank_sections
 
 if TYPE_CHECKING:
     import xarray
 
-    from hydroelastic.modal.floats.tank_estimates import EstimatesOfFloat
-    from hydroelastic.scenes.tank.shapes import ModeShapes
-
-
-@dataclass(frozen=True, kw_only=True)
-class EstimatedTank:
-    """The field solution of a closed tank, and the estimates to set beside it.
-
-    Attributes:
-        scene: what was asked.
-        tank: its field solution.
-        beam: the estimates of the beam, by name.
-        floats: those of the floats, by body; ``None`` without floats.
-        seconds: what the estimates took.
-    """
-
-    scene: TankScene
-    tank: TankSolution
-    beam: dict[str, Estimate]
-    floats: dict[int, EstimatesOfFloat] | None
-    seconds: dict[str, float]
+    from hydroelastic.fem.tank.mode_shapes import ModeShapes
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -90,45 +70,17 @@ def solve_tank(scene: TankScene, comm: MPI.Comm, report: Report) -> EstimatedTan
 
             of_floats = float_estimates(physical)
     try:
-        solution = solve_scene(scene, comm=comm, mesh=_own_mesh(scene, comm), report=report)
+        solution = solve_scene(scene, comm=comm, mesh=own_mesh(scene, comm), report=report)
     except MeshError as error:
         raise mesh_refused(scene, str(error)) from error
     except EigenSolverError as error:
         raise UnsolvedError(f"the eigen-solver failed: {error}") from error
-    return EstimatedTank(scene=scene, tank=solution, beam=estimates, floats=of_floats, seconds=watch.seconds)
-
-
-def summarize_tank(estimated: EstimatedTank, _comm: MPI.Comm, *, import_seconds: float) -> Summary:
-    """Return the content of ``summary.json`` (collective)."""
-    summary = summarize(
-        estimated.scene, estimated.tank, estimated.beam, estimated.floats, import_seconds=import_seconds
-    )
-    summary["timing"].update(estimated.seconds)
-    return summary
-
-
-def _own_mesh(scene: TankScene, comm: MPI.Comm) -> TaggedMesh | None:
-    """The mesh that the user brings, on rank 0."""
-    if scene.mesh is None:
-        return None
-    mesh, refused = None, None
-    if comm.rank == 0:
-        try:
-            mesh = own_mesh(scene)
-        except SceneError as error:
-            refused = error
-        except Exception as error:
-            # Whatever it is, the other processes wait to hear of it.
-            refused = mesh_refused(scene, str(error) or type(error).__name__)
-    refused = comm.bcast(refused, root=0)
-    if refused is not None:
-        raise refused
-    return mesh
+    return EstimatedTank(scene=scene, tank=solution, beam=estimates, floats=of_floats, estimating=watch.seconds)
 
 
 def _sample(estimated: EstimatedTank, summary: Summary) -> SampledTank:
     # Who only wants the numbers does without what draws.
-    from hydroelastic.scenes.tank.shapes import sample_shapes
+    from hydroelastic.fem.tank.mode_shapes import sample_shapes
 
     return SampledTank(solution=estimated.tank, shapes=sample_shapes(estimated.tank), summary=summary)
 
@@ -155,7 +107,7 @@ def _draw(tank: SampledTank, folder: Path, options: PictureOptions, report: Repo
 
 run_tank = StagedRun(
     solve=solve_tank,
-    summarize=summarize_tank,
+    summarize=summarize,
     sections=lambda estimated, summary: tank_sections(summary, draughts_left_out(estimated.scene)),
     cost=tank_cost,
     sample=_sample,
@@ -164,3 +116,14 @@ run_tank = StagedRun(
     draw=_draw,
     used_options=OF_FIELDS | OF_MOTIONS,
 )
+
+
+def compare_tank(scene: TankScene, *, report: Report = lambda _message: None) -> Outcome:
+    """Solve a closed tank and compare, with what each estimate neglects; writes nothing (collective).
+
+    Raises:
+        SceneError: if the scene's ends are open, or its mesh does not fit it.
+        UnsolvedError: if the eigen-solver fails.
+    """
+    outcome = run_tank(scene, report=report)
+    return replace(outcome, sections=tuple(compared_sections(outcome.summary)), notes=True)

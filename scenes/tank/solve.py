@@ -1,14 +1,50 @@
-"""Solve the scene of a tank between walls."""
+"""The solution of the scene of a tank between walls."""
 
 from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from mpi4py import MPI
 
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.tank.solve import TankSolution, solve_tank
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
+from hydroelastic.modal.estimate import Estimate
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
+
+if TYPE_CHECKING:
+    from hydroelastic.modal.floats.tank_estimates import EstimatesOfFloat
+
+
+@dataclass(frozen=True, kw_only=True)
+class EstimatedTank:
+    """The field solution of a closed tank, and the estimates to set beside it.
+
+    Attributes:
+        scene: the scene.
+        tank: its field solution.
+        beam: the estimates of the beam, by name.
+        floats: those of the floats, by body; ``None`` without floats.
+        estimating: the time that the estimates took, by stage.
+    """
+
+    scene: TankScene
+    tank: TankSolution
+    beam: dict[str, Estimate] = field(default_factory=dict)
+    floats: dict[int, EstimatesOfFloat] | None = None
+    estimating: dict[str, float] = field(default_factory=dict)
+
+    @property
+    def reasons(self) -> tuple[str, ...]:
+        """Reasons why the tolerance is not kept; empty if it is."""
+        return self.tank.reasons
+
+    @property
+    def seconds(self) -> dict[str, float]:
+        """Time by stage."""
+        return self.tank.seconds | self.estimating
 
 
 def solve_scene(

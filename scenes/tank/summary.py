@@ -2,59 +2,45 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from mpi4py import MPI
 
-from hydroelastic.fem.tank.elastic_tone import bending_fraction, mode_kind
+from hydroelastic.fem.tank.elastic_tone import added_mass, bending_fraction, mode_kind
 from hydroelastic.fem.tank.solve import TankSolution, ToneSolution
 from hydroelastic.modal.beam.beam_shapes import first_dry_eigenvalue
-from hydroelastic.modal.estimate import Estimate
+from hydroelastic.modal.estimate import Estimate, difference
 from hydroelastic.modal.tank_estimates import exact_frequencies
 from hydroelastic.physics.dofs import FIRST_ELASTIC
-from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.output.provenance import Summary, memory_of_processes, versions
-from hydroelastic.scenes.tank.differences import difference
-
-if TYPE_CHECKING:
-    from hydroelastic.modal.floats.tank_estimates import EstimatesOfFloat
+from hydroelastic.scenes.output.provenance import Summary, complete_summary
+from hydroelastic.scenes.tank.solve import EstimatedTank
 
 
-def summarize(
-    scene: TankScene,
-    solution: TankSolution,
-    estimates: dict[str, Estimate],
-    of_floats: dict[int, EstimatesOfFloat] | None = None,
-    *,
-    import_seconds: float,
-) -> Summary:
+def summarize(estimated: EstimatedTank, comm: MPI.Comm, *, import_seconds: float) -> Summary:
     """Build the summary of a solved scene (collective: peak memory is summed over processes).
 
     Args:
-        scene: what was asked.
-        solution: its field solution.
-        estimates: older theories' estimates of the first beam's tone.
-        of_floats: the theories' estimates of floats, by their indices.
+        estimated: the solution, and the estimates of the first beam's tone and of floats.
+        comm: the processes.
         import_seconds: time spent importing libraries.
 
     Returns:
         The content of ``summary.json``.
     """
+    solution = estimated.tank
     # Floats need more of SciPy, which takes a while to import.
     if solution.tank.rigid:
         from hydroelastic.scenes.tank.float_summary import float_rows, growing_rows
     first = _first_elastic(solution)
-    return {
-        "scene": scene.model_dump(mode="json"),
-        "status": "unconverged" if solution.reasons else "ok",
-        "reasons": list(solution.reasons),
+    content = {
         "modes": _modes(solution),
         "zero_modes": solution.modes.zero_modes,
         "first_elastic": first[0] if first else None,
         "first_elastic_by_body": first,
-        "floats": float_rows(solution, of_floats or {}) if solution.tank.rigid else [],
+        "floats": float_rows(solution, estimated.floats or {}) if solution.tank.rigid else [],
         "growing": growing_rows(solution) if solution.tank.rigid else [],
-        "estimates": compared(solution, estimates, first[0] if first else {}),
+        "estimates": compared(solution, estimated.beam, first[0] if first else {}),
         "exact": _exact(solution),
         "solver": {
             "attempts": solution.attempts,
@@ -66,19 +52,16 @@ def summarize(
             "restarts": solution.modes.iterations,
             "laplace_solutions": solution.modes.solves,
         },
-        "size": {
-            "cells": solution.field.mesh.cell_count,
-            "dofs": solution.field.dofs,
-            "degree": solution.resolution.degree,
-            "surface_unknowns": solution.field.surface_unknowns,
-            "halves": solution.field.half,
-            "beam_shapes": [solution.resolution.shapes[index] for index in solution.tank.elastic],
-            "processes": solution.field.mesh.mesh.comm.size,
-        },
-        "timing": {"import": import_seconds, **solution.seconds},
-        "memory_peak": memory_of_processes(solution.field.mesh.mesh.comm),
-        "versions": versions(),
     }
+    size = {
+        "cells": solution.field.mesh.cell_count,
+        "dofs": solution.field.dofs,
+        "degree": solution.resolution.degree,
+        "surface_unknowns": solution.field.surface_unknowns,
+        "halves": solution.field.half,
+        "beam_shapes": [solution.resolution.shapes[index] for index in solution.tank.elastic],
+    }
+    return complete_summary(estimated, content, size, comm, import_seconds)
 
 
 def _modes(solution: TankSolution) -> list[dict[str, Any]]:
@@ -161,23 +144,6 @@ def _tone(solution: TankSolution, tone: ToneSolution) -> dict[str, Any]:
         note="the tone is shared between hybrid modes; see the pressure-release tone" if shared else "",
     )
     return found
-
-
-def added_mass(stiffness: float, mass: float, eigenvalue: float, relative_error: float) -> tuple[float, float]:
-    """Added mass m_a = k/λ − m of a tone from its frequency, and the relative error that follows from ω's.
-
-    Args:
-        stiffness: EI κ⁴ + s ρ g of the dry mode, per unit of its shape.
-        mass: m of the dry mode, the same way.
-        eigenvalue: λ = ω².
-        relative_error: of ω.
-
-    Returns:
-        The added mass in the same unit as ``mass``, and its relative error.
-    """
-    whole = stiffness / eigenvalue
-    added = whole - mass
-    return added, 2.0 * relative_error * whole / abs(added) if added else 1.0
 
 
 def compared(solution: TankSolution, estimates: dict[str, Estimate], first: dict[str, Any]) -> dict[str, Any]:

@@ -6,9 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from hydroelastic.fem.thread.motion_in_space import MotionInSpace
+from hydroelastic.scenes.output.dataset import Labelled, labelled
 from hydroelastic.scenes.output.summary_variables import SummaryNames
 from hydroelastic.scenes.thread.files import numbered
-from hydroelastic.scenes.thread.results import MotionInSpace, ThreadSolutionOfScene
+from hydroelastic.scenes.thread.results import ThreadSolutionOfScene
 
 if TYPE_CHECKING:
     import xarray
@@ -63,127 +65,81 @@ def thread_dataset(solution: ThreadSolutionOfScene) -> xarray.Dataset:
 
 
 def _rest_variables(solution: ThreadSolutionOfScene) -> xarray.Dataset:
-    import xarray
-
-    rest = solution.rest
-    return xarray.Dataset(
+    rest, along = solution.rest, ("s", "axis")
+    return labelled(
         {
-            "position": (
-                ("s", "axis"),
-                rest.positions,
-                _said("position at rest, z upwards", "m", rest.position_error),
-            ),
-            "tension": ("s", rest.tensions, _said("tension at rest", "N", rest.tension_error)),
-            "contact_force": (
-                ("s", "axis"),
-                rest.forces,
-                _said("force of the part beyond on the part before", "N"),
-            ),
-            "curvature": ("s", rest.curvatures, _said("curvature at rest", "1/m")),
+            "position": (along, rest.positions, "m", "position at rest, z upwards", rest.position_error),
+            "tension": ("s", rest.tensions, "N", "tension at rest", rest.tension_error),
+            "contact_force": (along, rest.forces, "N", "force of the part beyond on the part before"),
+            "curvature": ("s", rest.curvatures, "1/m", "curvature at rest"),
             "reaction": (
                 ("end", "axis"),
-                rest.reactions,
-                _said("force on the thread by what holds it", "N", rest.reaction_error),
+                *(rest.reactions, "N", "force on the thread by what holds it", rest.reaction_error),
             ),
-            "end_moment": ("end", rest.end_moments, _said("bending moment", "N m", rest.moment_error)),
+            "end_moment": ("end", rest.end_moments, "N m", "bending moment", rest.moment_error),
         },
-        {
-            "s": ("s", solution.s, _said("distance from end A along the thread", "m")),
-            "axis": ["x", "y", "z"],
-            "end": ["A", "B"],
-        },
+        {"s": ("s", solution.s, "m", "distance from end A along the thread")},
+        {"axis": ("x", "y", "z"), "end": ("A", "B")},
     )
 
 
-def _said(long_name: str, units: str, absolute_error: float | None = None) -> dict[str, str | float]:
-    """Attributes of a variable."""
-    said: dict[str, str | float] = {"units": units, "long_name": long_name}
-    return said if absolute_error is None else said | {"absolute_error": absolute_error}
-
-
 def _mode_variables(solution: ThreadSolutionOfScene, number: int, modes: ThreadModes) -> xarray.Dataset:
-    import xarray
-
     mode, node = numbered("mode", number), numbered("mode_s", number)
-    roots = np.concatenate([modes.oscillating.values, modes.aperiodic.values])
-    errors = np.concatenate([modes.oscillating.errors, modes.aperiodic.errors])
-    shapes = solution.frame.to_space(np.concatenate([modes.oscillating.shapes, modes.aperiodic.shapes]))
-    return xarray.Dataset(
+    roots, errors, shapes = (
+        np.concatenate([getattr(modes.oscillating, name), getattr(modes.aperiodic, name)])
+        for name in ("values", "errors", "shapes")
+    )
+    moved = "displacement in a free motion, at a generalized mass of that of the thread"
+    return labelled(
         {
-            numbered("root", number): (mode, roots, _said("root λ of a free motion exp(λt)", "1/s")),
-            numbered("root_error", number): (mode, errors, _said("estimated error of the root", "1/s")),
-            numbered("mode_shape", number): (
-                (mode, node, "axis"),
-                shapes,
-                _said("displacement in a free motion, at a generalized mass of that of the thread", "1"),
-            ),
+            numbered("root", number): (mode, roots, "1/s", "root λ of a free motion exp(λt)"),
+            numbered("root_error", number): (mode, errors, "1/s", "estimated error of the root"),
+            numbered("mode_shape", number): ((mode, node, "axis"), solution.frame.to_space(shapes), "1", moved),
         },
         {
-            mode: (mode, np.arange(1, len(roots) + 1, dtype=np.int32), {"long_name": "number of the mode"}),
-            node: (node, modes.nodes, _said("distance from end A along the thread", "m")),
+            mode: (mode, np.arange(1, len(roots) + 1, dtype=np.int32), None, "number of the mode"),
+            node: (node, modes.nodes, "m", "distance from end A along the thread"),
         },
     )
 
 
 def _stability_variables(number: int, sweep: Stability) -> xarray.Dataset:
-    import xarray
-
     factor, branch = numbered("factor", number), numbered("branch", number)
-    return xarray.Dataset(
+    growing = sweep.growing.astype(np.int32)
+    followed = ((factor, branch), sweep.roots, "1/s", "root followed through the factors")
+    return labelled(
         {
-            numbered("followed_root", number): (
-                (factor, branch),
-                sweep.roots,
-                _said("root followed through the factors", "1/s"),
-            ),
-            numbered("growing", number): (
-                factor,
-                sweep.growing.astype(np.int32),
-                _said("number of motions that grow", "1"),
-            ),
+            numbered("followed_root", number): followed,
+            numbered("growing", number): (factor, growing, "1", "number of motions that grow"),
         },
-        {factor: (factor, sweep.values, _said("factor of the stream", "1"))},
+        {factor: (factor, sweep.values, "1", "factor of the stream")},
     )
 
 
 def _motion_variables(number: int, motion: MotionInSpace) -> xarray.Dataset:
-    import xarray
-
     time, node, end = numbered("time", number), numbered("node", number), numbered("step_end", number)
-    return xarray.Dataset(
+    extremes, ends = motion.extremes, "at the ends of steps"
+    tensions = np.column_stack([extremes.lowest, extremes.highest])
+    arrays: dict[str, Labelled] = {
+        "motion_position": (
+            (time, node, "axis"),
+            *(motion.positions, "m", "position in motion", motion.position_error),
+        ),
+        "motion_tension": ((time, node), motion.tensions, "N", "tension in motion", motion.tension_error),
+        "end_tension": ((end, "end"), extremes.end_tensions, "N", f"tension at A and B {ends}", extremes.error),
+        "tension_range": (
+            (end, "extreme"),
+            *(tensions, "N", f"lowest and highest tension along the thread {ends}", extremes.error),
+        ),
+        "energy": ((end, "energy_kind"), motion.energies, "J", f"energy {ends}"),
+        "work_of_drag": (end, motion.drag_work, "J", "work of the drag so far"),
+    }
+    return labelled(
+        {numbered(name, number): array for name, array in arrays.items()},
         {
-            numbered("motion_position", number): (
-                (time, node, "axis"),
-                motion.positions,
-                _said("position in motion", "m", motion.position_error),
-            ),
-            numbered("motion_tension", number): (
-                (time, node),
-                motion.tensions,
-                _said("tension in motion", "N", motion.tension_error),
-            ),
-            numbered("end_tension", number): (
-                (end, "end"),
-                motion.extremes.end_tensions,
-                _said("tension at A and B at the ends of steps", "N", motion.extremes.error),
-            ),
-            numbered("tension_range", number): (
-                (end, "extreme"),
-                np.column_stack([motion.extremes.lowest, motion.extremes.highest]),
-                _said("lowest and highest tension along the thread at the ends of steps", "N", motion.extremes.error),
-            ),
-            numbered("energy", number): (
-                (end, "energy_kind"),
-                motion.energies,
-                _said("energy at the ends of steps", "J"),
-            ),
-            numbered("work_of_drag", number): (end, motion.drag_work, _said("work of the drag so far", "J")),
+            time: (time, motion.times, "s", "time"),
+            node: (node, motion.nodes, "m", "distance from end A along the thread"),
+            end: (end, motion.step_ends, "s", "end of a step in time"),
         },
-        {
-            time: (time, motion.times, _said("time", "s")),
-            node: (node, motion.nodes, _said("distance from end A along the thread", "m")),
-            end: (end, motion.step_ends, _said("end of a step in time", "s")),
-            "extreme": ["lowest", "highest"],
-            "energy_kind": ["kinetic", "potential", "stretch", "bending"],
-        },
+        {"extreme": ("lowest", "highest"), "energy_kind": ("kinetic", "potential", "stretch", "bending")},
     )

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from hydroelastic.fem.thread.compared_values import compared_values
 from hydroelastic.modal.thread.estimate import (
     Found,
     Inapplicable,
@@ -17,7 +18,6 @@ from hydroelastic.modal.thread.estimate import (
 )
 from hydroelastic.scenes.output.provenance import Summary
 from hydroelastic.scenes.thread.estimates import compared_places
-from hydroelastic.scenes.thread.measured import measured
 from hydroelastic.scenes.thread.results import ThreadSolutionOfScene
 
 # Factor of truncation errors, which are estimated by the leading term that is left out, or by the last one kept.
@@ -86,7 +86,7 @@ def _shape(solution: ThreadSolutionOfScene, found: ShapeEstimate) -> dict[str, A
 
 def _values(solution: ThreadSolutionOfScene, found: ValueEstimate) -> dict[str, Any]:
     """Compare the values that the field solution has, too."""
-    fields = measured(solution, found)
+    fields = compared_values(solution, found)
     entries = [
         {
             "number": number,

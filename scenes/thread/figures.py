@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.fem.thread.modes import ThreadModes
+from hydroelastic.fem.thread.motion_in_space import MotionInSpace
 from hydroelastic.fem.thread.stability import Stability
 from hydroelastic.output.pictures.colours import BLUE, GREEN, VERMILLION
 from hydroelastic.output.pictures.curves import COLOURS, DASHES, GREY, Sheets, label_axes, sequence_colours
@@ -23,7 +24,7 @@ from hydroelastic.scenes.thread.line_pictures import (
     tension_unit,
     tensions_at_rest,
 )
-from hydroelastic.scenes.thread.results import Floats, MotionInSpace, ThreadSolutionOfScene
+from hydroelastic.scenes.thread.results import Floats, ThreadSolutionOfScene
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -9,12 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.fem.kept_tolerance import kept_tolerance
-from hydroelastic.fem.thread.frame import Frame
-from hydroelastic.fem.thread.modes import ThreadModes
-from hydroelastic.fem.thread.motion_in_space import MotionInSpace
-from hydroelastic.fem.thread.resting_thread import RestingThread
-from hydroelastic.fem.thread.stability import Stability
-from hydroelastic.physics.thread import Thread
+from hydroelastic.fem.thread.analyses import ThreadAnalyses
 from hydroelastic.scenes.models.thread import ThreadScene
 
 Floats = NDArray[np.float64]
@@ -24,30 +19,14 @@ _TENSION_KNOWN = 0.1
 
 
 @dataclass(frozen=True, kw_only=True)
-class ThreadSolutionOfScene:
+class ThreadSolutionOfScene(ThreadAnalyses):
     """Results of all analyses of a scene.
 
     Attributes:
         scene: the scene.
-        thread: of the scene.
-        frame: coordinates of the model.
-        rest: the equilibrium.
-        modes: of each analysis of modes.
-        stability: of each analysis of stability.
-        motions: of each analysis of motion.
-        size: cells, degree and unknowns of the equilibrium, steps of motions.
-        seconds: time by stage.
     """
 
     scene: ThreadScene
-    thread: Thread
-    frame: Frame
-    rest: RestingThread
-    modes: tuple[ThreadModes, ...]
-    stability: tuple[Stability, ...]
-    motions: tuple[MotionInSpace, ...]
-    size: dict[str, int]
-    seconds: dict[str, float]
 
     @cached_property
     def s(self) -> Floats:

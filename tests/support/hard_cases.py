@@ -38,7 +38,7 @@ class HardCase:
     hard: str
     protects: str
     scene: TankScene
-    fast: tuple[float, ...] = TOLERANCES
+    fast: tuple[float, ...] = (1e-6,)
     may_refuse: tuple[float, ...] = ()
     hidden_tone: tuple[float, ...] = ()
     tone_within: int = 0

@@ -51,16 +51,18 @@ def rigid(shape: str, position: float, motions: str = "heave", **keys: Any) -> F
 
 
 def pencils(
-    scene: TankScene, *, half: bool = False, coarse: bool = True, released: bool = False
+    scene: TankScene, *, half: bool = False, coarse: bool = True, infinite_frequency: bool = False
 ) -> tuple[CoupledPencil, ...]:
     """The matrices of a scene, or of its halves, on a mesh for few unknowns (collective)."""
     tank = physical_tank(scene).scaled()
     resolution = initial_resolution(tank, scene.accuracy.tolerance, modes=scene.accuracy.modes)
     if coarse:
         resolution = replace(resolution, degree=4, shapes=tuple(min(count, 6) for count in resolution.shapes))
-    mesh = build_mesh(MPI.COMM_WORLD, tank, resolution, half=half, released=released)
-    _, parts = part_models(mesh, tank, resolution.degree, resolution.shapes, half=half, pressure_release=released)
-    return parts
+    mesh = build_mesh(MPI.COMM_WORLD, tank, resolution, half=half, infinite_frequency=infinite_frequency)
+    parts = part_models(
+        mesh, tank, resolution.degree, resolution.shapes, half=half, infinite_frequency=infinite_frequency
+    )
+    return tuple(parts.values())
 
 
 def sparse(matrix: PETSc.Mat) -> csr_matrix:

@@ -84,7 +84,7 @@ class Tanks:
     ) -> CoupledPencil:
         """The matrices of a scaled scene on a given mesh (collective)."""
         counts = (shapes,) * len(tank.beams)
-        return build_field_model(mesh, tank, degree=degree, shapes=counts, pressure_release=pressure_release)
+        return build_field_model(mesh, tank, degree=degree, shapes=counts, infinite_frequency=pressure_release)
 
     def pencil(
         self,

@@ -1,4 +1,4 @@
-"""How sharply ψ is singular at the corners of a scene, for all modes or for those of one symmetry.
+"""How sharply ψ is singular at the corners of a tank, for all modes or for those of one symmetry.
 
 In a sector of angle θ between walls, bodies and mirror planes ψ ~ r^α with α = π/θ, and α = π/(2θ) where ψ = 0 on one
 side; whole α bring r^α ln r, from loads that do not fit together. In a tank that is its own mirror image the middle
@@ -37,7 +37,7 @@ def corner_exponents(tank: Tank, parity: Parity | None = None) -> dict[Point, fl
     """α at every corner where ψ is singular, in the left half of a tank that is its own mirror image.
 
     Args:
-        tank: the scene.
+        tank: the tank.
         parity: of the modes; ``None`` is the sharper of both.
     """
     if not tank.bodies:
@@ -51,7 +51,15 @@ def corner_exponents(tank: Tank, parity: Parity | None = None) -> dict[Point, fl
 
 
 def sharpest_of(tank: Tank, parity: Parity | None = None) -> float | None:
-    """α of the worst corner; ``None`` where ψ is smooth."""
+    """α of the worst corner; ``None`` where ψ is smooth.
+
+    1 at a tip beside water with waves or a lid, 1/2 where ψ = 0 on the water, 2 where a free end meets a wall; π/θ at
+    the corner of a float with the liquid's angle θ.
+
+    Args:
+        tank: the tank.
+        parity: symmetry of the modes in a tank that is its own mirror image; ``None`` is the sharper of both.
+    """
     return min(corner_exponents(tank, parity).values(), default=None)
 
 
@@ -65,14 +73,14 @@ def symmetries_apart(tank: Tank) -> tuple[Parity, ...]:
 
 def _exponents(tank: Tank, parity: Parity | None) -> dict[Point, float]:
     outline = plain_outline(tank, half=parity is not None)
-    grounded = grounded_names(tank, released=False)
+    grounded = grounded_names(tank, infinite_frequency=False)
     # Only what is singular to some mode: smooth contours cross the middle plane at right angles.
-    singular = {point.point for point in singular_points(outline, grounded=grounded, glued=False)}
+    singular = {point.point for point in singular_points(outline, grounded=grounded, continuous_pressure=False)}
     unmirrored = replace(
         outline, curves=tuple(replace(curve, name=_unmirrored(curve.name)) for curve in outline.curves)
     )
     plane = (_PLANE,) if parity == "antisymmetric" else ()
-    found = singular_points(unmirrored, grounded=grounded + plane, glued=False)
+    found = singular_points(unmirrored, grounded=grounded + plane, continuous_pressure=False)
     smooth = _ends_of_guided_beams(tank)
     blunt = _ends_of_thin_ellipses(tank)
     return {

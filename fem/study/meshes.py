@@ -1,17 +1,17 @@
-"""The meshes of the uniform and algebraic series of a scene, in units of the tank."""
+"""The meshes of the uniform and algebraic series of a tank, in its own units."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 from math import inf
 
+from hydroelastic.fem.study.corners import corner_exponents, plain_outline
 from hydroelastic.fem.tank.mesh import geometry_of, is_plain
 from hydroelastic.fem.tank.outline import grounded_names
 from hydroelastic.fem.tank.singularities import singular_points
 from hydroelastic.meshes.nested import NestedMeshes, outline_meshes, rectangle_meshes
 from hydroelastic.meshes.outline import Corner
 from hydroelastic.physics.tank import Tank
-from hydroelastic.scenes.study.corners import corner_exponents, plain_outline
 
 # Elements of the first mesh along levels and floats, in tank lengths: six on the half of a beam as long as half the
 # tank.
@@ -40,13 +40,15 @@ def coarsest_size(tank: Tank) -> float:
 
 
 def nested_meshes(tank: Tank, *, half: bool) -> NestedMeshes:
-    """The meshes of a scene with straight boundaries, or of its left half."""
+    """The meshes of a tank with straight boundaries, or of its left half."""
     size = coarsest_size(tank)
     # Far from the levels nothing moves.
     bulk_size = _COARSEST * max(1.0, *(layer.depth for layer in tank.layers))
     if is_plain(tank):
         return rectangle_meshes(geometry_of(tank, half=half), size=size, bulk_size=bulk_size)
     outline = plain_outline(tank, size, half=half)
-    points = singular_points(outline, grounded=grounded_names(tank, released=False), glued=False)
+    points = singular_points(
+        outline, grounded=grounded_names(tank, infinite_frequency=False), continuous_pressure=False
+    )
     corners = tuple(Corner(point=point.point, inner=inf, outer=min(point.reach, 0.45 * tank.depth)) for point in points)
     return outline_meshes(replace(outline, corners=corners), bulk_size=bulk_size)

@@ -8,7 +8,7 @@ from typing import ParamSpec, TypeVar
 
 from mpi4py import MPI
 
-from hydroelastic.scenes.study.rows import StudyRow
+from hydroelastic.fem.study.row import StudyRow
 
 # Seconds below which a solution is repeated, and how often: that adds little to a study.
 _SHORT = 0.15

@@ -15,8 +15,6 @@ from hydroelastic.fem.tank.resolution import Resolution, initial_resolution
 from hydroelastic.modal.tank_estimates import exact_frequencies
 from hydroelastic.physics.symmetry import Parity
 from hydroelastic.physics.tank import Tank
-from hydroelastic.scenes.models.physical import physical_tank
-from hydroelastic.scenes.models.tank import TankScene
 
 # No row of a study asks for this; dry modes, rings and elements of all of them come from it.
 _STRICTEST = 1e-11
@@ -46,34 +44,40 @@ class Reference:
     parities: tuple[Parity | None, ...] = ()
 
 
-def finest_resolution(scene: TankScene) -> Resolution:
-    """Elements, rings and dry modes for a tolerance that no row of a study reaches."""
-    tank = physical_tank(scene).scaled()
-    return initial_resolution(tank, _STRICTEST, modes=scene.accuracy.modes).with_shapes(_MORE_SHAPES)
+def finest_resolution(tank: Tank, modes: int) -> Resolution:
+    """Elements, rings and dry modes of a tank in its own units for a tolerance that no row of a study reaches."""
+    return initial_resolution(tank, _STRICTEST, modes=modes).with_shapes(_MORE_SHAPES)
 
 
-def reference_of(scene: TankScene, tank: Tank, *, half: bool) -> Reference:
-    """The closed form of a scene where there is one, else a finer solution (collective)."""
-    formula, frequencies = exact_frequencies(physical_tank(scene), scene.accuracy.modes)
+def reference_of(physical: Tank, count: int, *, half: bool) -> Reference:
+    """The lowest frequencies of a tank by the closed form where there is one, else by a finer solution (collective).
+
+    Args:
+        physical: the tank, in SI units.
+        count: how many frequencies.
+        half: whether it is solved as two halves.
+    """
+    formula, frequencies = exact_frequencies(physical, count)
     if frequencies:
         return Reference(name=formula, omega=np.array(frequencies), uncertainty=0.0)
-    finest = finest_resolution(scene)
+    finest = finest_resolution(physical.scaled(), count)
     sizes = tuple(_FINER * size for size in finest.surface_sizes)
     finest = replace(finest, surface_sizes=sizes, ring_ratio=_RING_RATIO)
-    candidates = [_solved(scene, tank, replace(finest, degree=degree), half=half) for degree in _DEGREES]
+    candidates = [_solved(physical, count, replace(finest, degree=degree), half=half) for degree in _DEGREES]
     return min(candidates, key=lambda candidate: candidate.uncertainty)
 
 
-def _solved(scene: TankScene, tank: Tank, resolution: Resolution, *, half: bool) -> Reference:
+def _solved(physical: Tank, count: int, resolution: Resolution, *, half: bool) -> Reference:
+    tank = physical.scaled()
     mesh = build_mesh(MPI.COMM_WORLD, tank, resolution, half=half)
-    field = solve_field(mesh, tank, resolution, scene.accuracy.modes, Stopwatch(), half=half)
+    field = solve_field(mesh, tank, resolution, count, Stopwatch(), half=half)
     indices = list(range(len(field.modes.eigenvalues)))
     modes = [field.modes.completed(index) for index in indices]
     errors = frequency_errors(field, modes, field.parts_of(indices), resolution, tank).total
     dry_modes = f", {sum(resolution.shapes)} dry modes" if resolution.shapes else ""
     return Reference(
         name=f"degree {resolution.degree} on geometric rings, {field.dofs} unknowns{dry_modes}",
-        omega=np.sqrt(field.modes.eigenvalues) * physical_tank(scene).units.frequency,
+        omega=np.sqrt(field.modes.eigenvalues) * physical.units.frequency,
         uncertainty=float(errors.max()),
         parities=tuple(field.parity(index) for index in indices),
     )

@@ -9,14 +9,12 @@ from math import exp, inf, log
 
 import numpy as np
 
+from hydroelastic.fem.study.corners import sharpest_of, symmetries_apart
+from hydroelastic.fem.study.row import Family, StudyRow
+from hydroelastic.fem.study.theory import expected_order, expected_remainders, gain_along_a_ray
 from hydroelastic.meshes.grading import Grading
 from hydroelastic.physics.symmetry import Parity
-from hydroelastic.scenes.models.physical import physical_tank
-from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.study.corners import sharpest_of, symmetries_apart
-from hydroelastic.scenes.study.plan import Family
-from hydroelastic.scenes.study.rows import StudyRow
-from hydroelastic.scenes.study.theory import expected_order, expected_remainders, gain_along_a_ray
+from hydroelastic.physics.tank import Tank
 
 DIFFERENCE = 0.1
 """An order that differs from theory by more than this part of it is flagged: not yet asymptotic."""
@@ -91,31 +89,29 @@ class Gain:
         return self.expected is None or abs(log(self.observed / self.expected)) <= log(GAIN_FACTOR)
 
 
-def fitted_rates(scene: TankScene, rows: Sequence[StudyRow], parities: Sequence[Parity | None]) -> tuple[Rate, ...]:
+def fitted_rates(tank: Tank, rows: Sequence[StudyRow], parities: Sequence[Parity | None]) -> tuple[Rate, ...]:
     """Fit the order of every degree on uniform and algebraic meshes that has three meshes above rounding.
 
     Where symmetric and antisymmetric modes meet different singularities each kind has its own order.
 
     Args:
-        scene: the scene.
+        tank: the tank, in its own units.
         rows: of its study.
         parities: symmetry of each mode.
     """
     series = [row for row in rows if row.family in ("uniform", "algebraic")]
-    symmetries = symmetries_apart(physical_tank(scene).scaled()) or (None,)
+    symmetries = symmetries_apart(tank) or (None,)
     rates = []
     for (family, degree), group in groupby(series, key=lambda row: (row.family, row.degree)):
         meshes = list(group)
         for symmetry in symmetries:
             used = _asymptotic(meshes, _of(symmetry, parities, meshes))
             if used is not None:
-                rates.append(_rate(scene, family, degree, symmetry, *used))
+                rates.append(_rate(tank, family, degree, symmetry, *used))
     return tuple(rates)
 
 
-def _rate(
-    scene: TankScene, family: Family, degree: int, symmetry: Parity | None, mode: int, meshes: list[StudyRow]
-) -> Rate:
+def _rate(tank: Tank, family: Family, degree: int, symmetry: Parity | None, mode: int, meshes: list[StudyRow]) -> Rate:
     sizes = [row.element_size for row in meshes]
     slope, deviation = fitted_slope(np.log(sizes), np.log([abs(row.errors[mode]) for row in meshes]))
     grading = meshes[-1].grading or 1.0
@@ -128,13 +124,12 @@ def _rate(
         sizes=tuple(sizes),
         observed=slope,
         deviation=deviation,
-        expected=expected_order(scene, degree, grading, symmetry),
+        expected=expected_order(tank, degree, grading, symmetry),
     )
 
 
-def fitted_gain(scene: TankScene, rows: Sequence[StudyRow], parities: Sequence[Parity | None]) -> Gain | None:
+def fitted_gain(tank: Tank, rows: Sequence[StudyRow], parities: Sequence[Parity | None]) -> Gain | None:
     """Fit the gain per degree on geometric rings; ``None`` with fewer than three degrees above rounding."""
-    tank = physical_tank(scene).scaled()
     symmetry = min(symmetries_apart(tank), key=lambda parity: sharpest_of(tank, parity) or inf, default=None)
     series = [row for row in rows if row.family == "geometric"]
     used = _asymptotic(series, _of(symmetry, parities, series))
@@ -144,7 +139,7 @@ def fitted_gain(scene: TankScene, rows: Sequence[StudyRow], parities: Sequence[P
     degrees = [row.degree for row in fitted]
     x = np.array(degrees, dtype=float)
     slope, deviation = fitted_slope(x, np.log([abs(row.errors[mode]) for row in fitted]))
-    left = expected_remainders(scene, degrees, symmetry)
+    left = expected_remainders(tank, degrees, symmetry)
     return Gain(
         degrees=tuple(degrees),
         symmetry=symmetry,

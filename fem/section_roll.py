@@ -1,4 +1,4 @@
-"""Natural frequency, added inertia and wave damping of the roll of a section, from the field solution of its scene.
+"""Natural frequency, added inertia and wave damping of the roll of a section, from its field solution.
 
 In open water, with motions ∝ e^{−iωt}, the other free motions of the section follow without force:
 
@@ -22,16 +22,15 @@ from scipy.optimize import root_scalar
 
 from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
-from hydroelastic.fem.open_water.radiation import solve_radiation
+from hydroelastic.fem.open_water.radiation import RadiationSolution, solve_radiation
 from hydroelastic.fem.open_water.requests import RadiationRequest, ResonanceRequest
 from hydroelastic.fem.open_water.resonance import solve_resonance
 from hydroelastic.fem.open_water.results import RadiationTable
 from hydroelastic.fem.stopwatch import Report, Stopwatch
-from hydroelastic.scenes.errors import UnsolvedError
-from hydroelastic.scenes.models.floats import placed_float
-from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.physics import open_water_problem
-from hydroelastic.scenes.tank.solve import solve_scene
+from hydroelastic.fem.tank.solve import TankSolution, solve_tank
+from hydroelastic.meshes.tagged_mesh import TaggedMesh
+from hydroelastic.physics.motions import MOTIONS
+from hydroelastic.physics.tank import Tank
 
 # Of the tolerance asked: a step of the root finder that changes k by less is the last.
 _STEP = 0.1
@@ -43,7 +42,7 @@ class SectionRoll:
     """The roll of a section, per metre of its length.
 
     Attributes:
-        title: of its scene.
+        title: of the section.
         natural_frequency: k, rad/s.
         relative_error: estimated, of k and of the added inertia and damping as parts of the whole inertia.
         damping: n, 1/s; ``None`` in a closed tank.
@@ -65,40 +64,55 @@ class SectionRoll:
     followers: tuple[str, ...]
 
 
-def section_roll(scene: TankScene, comm: MPI.Comm, watch: Stopwatch, report: Report) -> SectionRoll:
-    """Solve the scene of a section for its roll (collective).
+class SectionRollError(RuntimeError):
+    """The roll of a section was not found, or not to its tolerance."""
+
+
+def section_roll(
+    tank: Tank,
+    *,
+    tolerance: float,
+    modes: int,
+    comm: MPI.Comm,
+    title: str = "",
+    mesh: TaggedMesh | None = None,
+    report: Report = lambda _message: None,
+) -> SectionRoll:
+    """Solve for the roll of a section (collective).
 
     Args:
-        scene: a tank or open water with one body, a float that may roll and floats upright.
+        tank: a tank or open water with one body, a float that may roll and floats upright; in SI units.
+        tolerance: asked relative error.
+        modes: how many modes of a closed tank are looked at, from the lowest.
         comm: MPI communicator.
-        watch: records the time by stage.
+        title: of the section.
+        mesh: a mesh of a closed tank that the user brings (on rank 0), m.
         report: called with a word on what is being done.
 
     Raises:
-        UnsolvedError: if the field solution misses its tolerance or has no distinct roll mode.
+        SectionRollError: if the field solution does not keep its tolerance or has no distinct roll mode.
+        EigenSolverError: if the eigen-solver of a closed tank fails.
+        MeshError: if no mesh can be made, or the one that is given does not fit.
     """
-    report("section")
-    return _in_open_water(scene, comm, watch) if scene.is_open else _in_a_tank(scene, comm, watch, report)
+    if tank.is_open:
+        problem = OpenWaterProblem(comm=comm, tank=tank, tolerance=tolerance, watch=Stopwatch())
+        return _in_open_water(problem, title)
+    return _in_a_tank(solve_tank(tank, tolerance=tolerance, modes=modes, comm=comm, mesh=mesh, report=report), title)
 
 
-def _in_a_tank(scene: TankScene, comm: MPI.Comm, watch: Stopwatch, report: Report) -> SectionRoll:
-    with watch.stage("section"):
-        solution = solve_scene(scene, comm=comm, report=report)
+def _in_a_tank(solution: TankSolution, title: str) -> SectionRoll:
     if solution.reasons:
-        raise UnsolvedError(f"the section was not solved to its tolerance: {'; '.join(solution.reasons)}")
+        raise SectionRollError(f"the section was not solved to its tolerance: {'; '.join(solution.reasons)}")
     mode = next((mode for mode in solution.float_modes if mode.motion == "roll"), None)
     if mode is None or mode.index is None:
-        raise UnsolvedError(f"the section has no mode of roll{'' if mode is None else ': ' + mode.reason}")
+        raise SectionRollError(f"the section has no mode of roll{'' if mode is None else ': ' + mode.reason}")
+    body = solution.physical.floats[mode.body]
     eigenvalue = float(solution.modes.eigenvalues[mode.index])
-    natural = solution.omega(eigenvalue)
-    body = solution.field.bodies[mode.body]
-    roll = body.dofs.index("roll")
+    natural, inertia = solution.omega(eigenvalue), float(body.inertia[MOTIONS.index("roll")])
     # Per unit of length a moment of inertia is a density times the fourth power of a length.
-    unit = solution.units.density * solution.units.length**4
-    added = (float(body.stiffness[roll]) / eigenvalue - float(body.mass[roll, roll])) * unit
-    inertia = _inertia(scene)
+    added = (mode.stiffness / eigenvalue - mode.inertia) * solution.units.density * solution.units.length**4
     return SectionRoll(
-        title=scene.title,
+        title=title,
         natural_frequency=natural,
         relative_error=float(solution.relative_errors[mode.index]),
         damping=None,
@@ -106,47 +120,39 @@ def _in_a_tank(scene: TankScene, comm: MPI.Comm, watch: Stopwatch, report: Repor
         inertia=inertia,
         added_inertia=added,
         wave_damping=None,
-        followers=tuple(motion for motion in body.dofs if motion != "roll"),
+        followers=tuple(motion for motion in body.motions if motion != "roll"),
     )
 
 
-def _inertia(scene: TankScene) -> float:
-    """Moment of inertia of the body about its centre of mass, kg·m."""
-    at_rest = placed_float(scene, 0).hydrostatics
-    return at_rest.mass * at_rest.radius_of_gyration**2
+def _in_open_water(problem: OpenWaterProblem, title: str) -> SectionRoll:
+    body = problem.tank.floats[0]
+    stiffness, inertia = body.roll_stiffness, float(body.inertia[MOTIONS.index("roll")])
 
+    def radiation(omega: float) -> RadiationSolution:
+        return solve_radiation(problem, RadiationRequest(omega=(omega,)))
 
-def _in_open_water(scene: TankScene, comm: MPI.Comm, watch: Stopwatch) -> SectionRoll:
-    stiffness, inertia = placed_float(scene, 0).roll_stiffness, _inertia(scene)
-
-    # Timed as one stage.
-    problem = open_water_problem(scene, comm, Stopwatch())
-
-    def radiation(omega: float) -> tuple[RadiationTable, float]:
-        with watch.stage("section"):
-            solution = solve_radiation(problem, RadiationRequest(omega=(omega,)))
-        return solution.table, solution.error
-
-    with watch.stage("section"):
-        resonance = _resonance(problem)
+    resonance = _resonance(problem)
     # k differs from the modulus of the complex frequency by the change of added inertia and damping between the two.
     found = root_scalar(
-        lambda omega: float(_impedance(radiation(float(omega))[0]).real),
+        lambda omega: float(_impedance(radiation(float(omega)).table).real),
         method="secant",
         x0=abs(resonance),
         x1=abs(resonance) * (1.0 + _FIRST_STEP),
-        rtol=_STEP * scene.accuracy.tolerance,
+        rtol=_STEP * problem.tolerance,
     )
     if not found.converged:
-        raise UnsolvedError(f"no natural frequency of the section's roll was found near {abs(resonance):.4g} rad/s")
+        raise SectionRollError(f"no natural frequency of the section's roll was found near {abs(resonance):.4g} rad/s")
     natural = float(found.root)
-    table, error = radiation(natural)
-    if error > scene.accuracy.tolerance:
-        raise UnsolvedError(f"the section was not solved to its tolerance: its estimated relative error is {error:.1e}")
+    solution = radiation(natural)
+    table, error = solution.table, solution.error
+    if error > problem.tolerance:
+        raise SectionRollError(
+            f"the section was not solved to its tolerance: its estimated relative error is {error:.1e}"
+        )
     whole = stiffness / natural**2
     wave_damping = -float(_impedance(table).imag) / natural
     return SectionRoll(
-        title=scene.title,
+        title=title,
         natural_frequency=natural,
         relative_error=error,
         damping=0.5 * wave_damping / whole,
@@ -164,9 +170,9 @@ def _resonance(problem: OpenWaterProblem) -> complex:
     try:
         table = solve_resonance(problem, asked).table
     except EigenSolverError as error:
-        raise UnsolvedError(f"no resonance of the section was found: {error}") from error
+        raise SectionRollError(f"no resonance of the section was found: {error}") from error
     if "roll" not in table.labels:
-        raise UnsolvedError("the section has no resonance in which it rolls: its roll may be damped too much")
+        raise SectionRollError("the section has no resonance in which it rolls: its roll may be damped too much")
     return complex(table.omega[table.labels.index("roll")])
 
 

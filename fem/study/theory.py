@@ -20,49 +20,22 @@ from math import ceil, pi, sqrt
 import numpy as np
 
 from hydroelastic.fem.ring_approximation import remaining_energy
+from hydroelastic.fem.study.corners import sharpest_of
 from hydroelastic.meshes.grading import Grading
 from hydroelastic.physics.symmetry import Parity
-from hydroelastic.scenes.models.physical import physical_tank
-from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.study.corners import sharpest_of
-from hydroelastic.scenes.study.meshes import full_order
+from hydroelastic.physics.tank import Tank
 
 # Rings are cut into sectors of at most this.
 _WIDEST_SECTOR = pi / 3.0
 
 
-def singular_exponent(scene: TankScene, parity: Parity | None = None) -> float | None:
-    """α of the worst point of a scene; ``None`` where ψ is smooth.
-
-    1 at a tip beside water with waves or a lid, 1/2 where ψ = 0 on the water, 2 where a free end meets a wall; π/θ at
-    the corner of a float with the liquid's angle θ.
-
-    Args:
-        scene: the scene.
-        parity: symmetry of the modes in a tank that is its own mirror image; ``None`` is the sharper of both.
-    """
-    return sharpest_of(physical_tank(scene).scaled(), parity)
-
-
-def expected_order(scene: TankScene, degree: int, grading: float = 1.0, parity: Parity | None = None) -> float:
+def expected_order(tank: Tank, degree: int, grading: float = 1.0, parity: Parity | None = None) -> float:
     """Order q of the frequencies with degree p on meshes graded with β; 1 is a uniform mesh.
 
     Where corners differ β is that of the sharpest, and the others are graded for the same order.
     """
-    alpha = singular_exponent(scene, parity if grading == 1.0 else None)
+    alpha = sharpest_of(tank, parity if grading == 1.0 else None)
     return 2.0 * degree if alpha is None else min(2.0 * degree, 2.0 * alpha * grading)
-
-
-def full_order_grading(scene: TankScene, degree: int) -> float:
-    """β > p/α that brings the full order 2p.
-
-    Raises:
-        ValueError: where ψ is smooth: no grading is needed.
-    """
-    alpha = singular_exponent(scene)
-    if alpha is None:
-        raise ValueError("ψ is smooth: uniform meshes have the full order")
-    return full_order(degree, alpha)
 
 
 def gain_along_a_ray(ring_ratio: float) -> float:
@@ -71,13 +44,13 @@ def gain_along_a_ray(ring_ratio: float) -> float:
     return ((1.0 + root) / (1.0 - root)) ** 2
 
 
-def expected_remainders(scene: TankScene, degrees: Sequence[int], parity: Parity | None = None) -> np.ndarray | None:
+def expected_remainders(tank: Tank, degrees: Sequence[int], parity: Parity | None = None) -> np.ndarray | None:
     """Relative errors of a frequency, up to a factor, that the geometric rings of our meshes leave with some degrees.
 
     Returns:
         One for each degree; ``None`` where ψ is smooth and rings are not what limits.
     """
-    alpha = singular_exponent(scene, parity)
+    alpha = sharpest_of(tank, parity)
     if alpha is None:
         return None
     # Of the liquid's angle π/α; where ψ = 0 on one side it is half of that, and the sectors are nearly as wide.

@@ -16,19 +16,18 @@ from dataclasses import dataclass, replace
 from math import log
 
 import numpy as np
-from mpi4py import MPI
 
 from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.open_water.field_model import Band, OpenModel, first_resolution, open_model
 from hydroelastic.fem.open_water.incident_waves import Plane
+from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.region import MOST_DAMPING_ANYWHERE
 from hydroelastic.fem.open_water.resonance import ANGLE
 from hydroelastic.fem.open_water.resonance_search import Eigenpair, ResonanceSearch
 from hydroelastic.fem.open_water.results import RadiationTable, ResonanceTable, ResponseTable
+from hydroelastic.fem.open_water.solve import OpenWaterSolution
 from hydroelastic.fem.open_water.solver import OpenSolver
 from hydroelastic.fem.stopwatch import Stopwatch
-from hydroelastic.scenes.open_water.physics import open_water_problem
-from hydroelastic.scenes.open_water.results import OpenSolution
 
 # Motions and resonances of one analysis that are shown.
 _MOST_FIELDS = 4
@@ -67,18 +66,16 @@ class OpenField:
     incident: tuple[Plane, complex] | None = None
 
 
-def open_fields(solution: OpenSolution, comm: MPI.Comm, watch: Stopwatch) -> Iterator[tuple[str, Iterator[OpenField]]]:
+def open_fields(problem: OpenWaterProblem, solution: OpenWaterSolution) -> Iterator[tuple[str, Iterator[OpenField]]]:
     """Yield each analysis by its name with its fields, which are solved for one after the other (collective).
 
     Args:
+        problem: open water; as much of it is drawn as its length says.
         solution: what the tables say.
-        comm: MPI communicator.
-        watch: records the time by stage.
 
     Raises:
         MeshError: by the fields, if no mesh can be made.
     """
-    problem = _Problem(solution=solution, comm=comm, watch=watch)
     for number, radiation in enumerate(solution.radiation, 1):
         yield f"radiation {number}", _radiated(problem, radiation, number)
     for number, response in enumerate(solution.response, 1):
@@ -87,27 +84,24 @@ def open_fields(solution: OpenSolution, comm: MPI.Comm, watch: Stopwatch) -> Ite
         yield f"resonance {number}", _resonant(problem, resonance, number)
 
 
-@dataclass(frozen=True, kw_only=True)
-class _Problem:
-    """A scene whose fields are asked for."""
-
-    solution: OpenSolution
-    comm: MPI.Comm
-    watch: Stopwatch
-
-    def model(
-        self, lowest: float, highest: float, *, motions: int, radians: float = _RADIANS, angle: float | None = None
-    ) -> OpenModel:
-        """Water as wide as it is drawn, for a range of |ω|; beams move in so many ways at least (collective)."""
-        rough = open_water_problem(self.solution.scene, self.comm, self.watch).rough()
-        band = Band(lowest=lowest, highest=highest)
-        resolution = first_resolution(rough.tank, rough.tolerance, band, drawn=radians)
-        shapes = tuple(max(count, motions) if count else 0 for count in resolution.shapes)
-        resolution = replace(resolution, shapes=shapes)
-        return open_model(rough, band, resolution, angle=angle, drawn=radians)
+def _model(
+    problem: OpenWaterProblem,
+    lowest: float,
+    highest: float,
+    *,
+    motions: int,
+    radians: float = _RADIANS,
+    angle: float | None = None,
+) -> OpenModel:
+    """Water as wide as it is drawn, for a range of |ω|; beams move in so many ways at least (collective)."""
+    rough, band = problem.rough(), Band(lowest=lowest, highest=highest)
+    resolution = first_resolution(rough.tank, rough.tolerance, band, drawn=radians)
+    shapes = tuple(max(count, motions) if count else 0 for count in resolution.shapes)
+    resolution = replace(resolution, shapes=shapes)
+    return open_model(rough, band, resolution, angle=angle, drawn=radians)
 
 
-def _radiated(problem: _Problem, table: RadiationTable, number: int) -> Iterator[OpenField]:
+def _radiated(problem: OpenWaterProblem, table: RadiationTable, number: int) -> Iterator[OpenField]:
     """Motions of 1 m or 1 rad at the frequencies of largest damping."""
     waves = np.isfinite(table.omega) & (table.omega > 0.0)
     damping = np.where(waves[:, None], np.diagonal(table.radiation_damping, axis1=1, axis2=2), 0.0)
@@ -115,7 +109,7 @@ def _radiated(problem: _Problem, table: RadiationTable, number: int) -> Iterator
     if not shown:
         return
     peaks = {place: float(table.omega[np.argmax(damping[:, place])]) for place in shown}
-    model = problem.model(min(peaks.values()), max(peaks.values()), motions=max(shown) + 1)
+    model = _model(problem, min(peaks.values()), max(peaks.values()), motions=max(shown) + 1)
     solver = OpenSolver(model, problem.watch)
     for place, omega in peaks.items():
         squared, dof = model.squared_frequency(omega), table.dofs[place]
@@ -134,11 +128,11 @@ def _radiated(problem: _Problem, table: RadiationTable, number: int) -> Iterator
         )
 
 
-def _responding(problem: _Problem, table: ResponseTable, number: int) -> Iterator[OpenField]:
+def _responding(problem: OpenWaterProblem, table: ResponseTable, number: int) -> Iterator[OpenField]:
     """The waves that come and all that they set in motion, per metre of their elevation."""
-    row, wave = _largest_response(problem.solution, table)
+    row, wave = _largest_response(problem.tank.length, table)
     omega = float(table.omega[row])
-    model = problem.model(omega, omega, motions=0)
+    model = _model(problem, omega, omega, motions=0)
     solver = OpenSolver(model, problem.watch)
     count = len(table.waves)
     place = wave + (0 if table.waves_from == "left" else count)
@@ -161,15 +155,15 @@ def _responding(problem: _Problem, table: ResponseTable, number: int) -> Iterato
     )
 
 
-def _largest_response(solution: OpenSolution, table: ResponseTable) -> tuple[int, int]:
+def _largest_response(length: float, table: ResponseTable) -> tuple[int, int]:
     """Places of the frequency and of the wave that move a body most, turns at a distance of half the drawn length."""
-    arms = np.array([0.5 * solution.scene.tank.length if dof.is_rotation else 1.0 for dof in table.dofs])
+    arms = np.array([0.5 * length if dof.is_rotation else 1.0 for dof in table.dofs])
     sizes = (np.abs(table.amplitudes) * arms).max(axis=2)
     row, wave = np.unravel_index(int(np.argmax(sizes)), sizes.shape)
     return int(row), int(wave)
 
 
-def _resonant(problem: _Problem, table: ResonanceTable, number: int) -> Iterator[OpenField]:
+def _resonant(problem: OpenWaterProblem, table: ResonanceTable, number: int) -> Iterator[OpenField]:
     """The slowest resonances, each with its dominant motion of 1 m or 1 rad; none of one that is not found again, or
     dies out so fast that its waves grow outwards out of sight."""
     places = [place for place, omega in enumerate(table.omega) if -omega.imag <= MOST_DAMPING_ANYWHERE * omega.real]
@@ -182,7 +176,7 @@ def _resonant(problem: _Problem, table: ResonanceTable, number: int) -> Iterator
     # Of a wave k ~ ω²: its imaginary part is twice that of ω, relative to the real one.
     fastest = max(-2.0 * omega.imag / omega.real for omega in omegas)
     radians = min(_RADIANS, log(_GROWTH) / fastest)
-    model = problem.model(min(sizes), max(sizes), motions=motions, radians=radians, angle=ANGLE)
+    model = _model(problem, min(sizes), max(sizes), motions=motions, radians=radians, angle=ANGLE)
     search = ResonanceSearch(model.pencil, model.stiffness, model.mass)
     for place, omega in shown.items():
         label = table.labels[place]

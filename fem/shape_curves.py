@@ -10,10 +10,10 @@ from dolfinx import fem
 from numpy.typing import NDArray
 
 from hydroelastic.fem.liquid import LiquidSpace
+from hydroelastic.fem.pictures.mode import FloatSection, SurfaceCurve
 from hydroelastic.fem.sampling import SurfaceTrace, sample_surface
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.meshes.geometry import FREE_SURFACE, INTERFACE
-from hydroelastic.output.pictures.mode import FloatSection, SurfaceCurve
 from hydroelastic.physics.contours import Arc, Contour
 from hydroelastic.physics.floats import RigidFloat
 from hydroelastic.physics.tank import StillLevel, Tank

@@ -8,11 +8,11 @@ from typing import Any, assert_never
 import numpy as np
 from numpy.typing import NDArray
 
+from hydroelastic.fem.thread.analyses import ThreadAnalyses
 from hydroelastic.modal.thread.critical import critical_direction
 from hydroelastic.modal.thread.estimate import ValueEstimate
 from hydroelastic.modal.thread.layer_estimates import NEAR_CRITICAL
 from hydroelastic.physics.arrays import FloatArray
-from hydroelastic.scenes.thread.results import ThreadSolutionOfScene
 
 # Angles to the critical line below this multiple of their error are left out: their logarithm has no digits.
 _CERTAIN = 100.0
@@ -21,7 +21,7 @@ _BEYOND = 1.02
 
 
 @dataclass(frozen=True)
-class Measured:
+class ComparedValues:
     """Values of the field solution.
 
     Attributes:
@@ -33,12 +33,12 @@ class Measured:
     errors: FloatArray
 
 
-def measured(solution: ThreadSolutionOfScene, estimate: ValueEstimate) -> Measured:
+def compared_values(solution: ThreadAnalyses, estimate: ValueEstimate) -> ComparedValues:
     """Return the values of the field solution that an estimate is of, in its order.
 
     Args:
         solution: the field solution.
-        estimate: of the same scene.
+        estimate: of the same thread.
     """
     rest, analysis = solution.rest, estimate.analysis
     match estimate.quantity:
@@ -61,26 +61,26 @@ def measured(solution: ThreadSolutionOfScene, estimate: ValueEstimate) -> Measur
             return _nearest(estimate.values, speeds, errors)
         case "moment at A" | "moment at B":
             place = 0 if estimate.quantity == "moment at A" else 1
-            return Measured(rest.end_moments[[place]], np.array([rest.moment_error]))
+            return ComparedValues(rest.end_moments[[place]], np.array([rest.moment_error]))
         case "exponent of the approach":
             return _approach(solution)
         case _:
             assert_never(estimate.quantity)
 
 
-def _nearest(values: NDArray[Any], field: NDArray[Any], errors: FloatArray) -> Measured:
+def _nearest(values: NDArray[Any], field: NDArray[Any], errors: FloatArray) -> ComparedValues:
     """Of each value the nearest one of the field solution; none for values beyond its largest one."""
     found = np.full(len(values), np.nan, dtype=np.asarray(field).dtype)
     found_errors = np.full(len(values), np.nan)
     if len(field) == 0:
-        return Measured(found, found_errors)
+        return ComparedValues(found, found_errors)
     reached = np.flatnonzero(np.abs(values) <= _BEYOND * np.max(np.abs(field)))
     chosen = np.argmin(np.abs(values[reached, None] - field[None, :]), axis=1)
     found[reached], found_errors[reached] = field[chosen], errors[chosen]
-    return Measured(found, found_errors)
+    return ComparedValues(found, found_errors)
 
 
-def _approach(solution: ThreadSolutionOfScene) -> Measured:
+def _approach(solution: ThreadAnalyses) -> ComparedValues:
     """Slope of the logarithms of angle and tension at the two places nearest to the critical line that have digits."""
     rest = solution.rest
     direction, _ = critical_direction(solution.thread.distributed_load, np.zeros(3))
@@ -89,9 +89,9 @@ def _approach(solution: ThreadSolutionOfScene) -> Measured:
     error = rest.tension_error / rest.tensions
     certain = np.flatnonzero((angles > _CERTAIN * error) & (angles < NEAR_CRITICAL))
     if len(certain) < 2:
-        return Measured(np.array([np.nan]), np.array([np.nan]))
+        return ComparedValues(np.array([np.nan]), np.array([np.nan]))
     first, second = certain[:2]
     stretch = float(np.log(rest.tensions[first] / rest.tensions[second]))
     slope = float(np.log(angles[first] / angles[second])) / stretch
     wrong = (error[first] / angles[first] + error[second] / angles[second]) / abs(stretch)
-    return Measured(np.array([slope]), np.array([wrong]))
+    return ComparedValues(np.array([slope]), np.array([wrong]))

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from hydroelastic.output.pictures.mode import Array, FloatSection, ModePicture, SurfaceCurve
+from hydroelastic.fem.pictures.mode import Array, FloatSection, ModePicture, SurfaceCurve
 
 
 @dataclass(frozen=True, kw_only=True)

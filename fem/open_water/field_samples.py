@@ -1,23 +1,21 @@
-"""Fields of open water as plain arrays in SI units on one process: what is drawn, and what is written for ParaView."""
+"""Fields of open water as plain arrays in SI units on one process, to be drawn and written."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
 from hydroelastic.fem.cells import cell_corners, owned_cells
 from hydroelastic.fem.liquid import as_functions
 from hydroelastic.fem.open_water.field_model import OpenModel
+from hydroelastic.fem.open_water.fields import OpenField
+from hydroelastic.fem.pictures.mode import Beyond, ModePicture
+from hydroelastic.fem.pictures.wave import WavePicture
 from hydroelastic.fem.sampling import LiquidSample, SurfaceTrace, sample_liquid
+from hydroelastic.fem.shape_curves import body_shapes, sample_level, wave_curves, wave_levels
 from hydroelastic.meshes.geometry import BOTTOM, LID
-from hydroelastic.output.pictures.mode import Beyond, ModePicture
-from hydroelastic.output.pictures.wave import WavePicture
 from hydroelastic.physics.tank import StillLevel, Tank
-from hydroelastic.scenes.open_water.fields import OpenField
-from hydroelastic.scenes.tank.body_file import displacement_of, write_bodies
-from hydroelastic.scenes.tank.shape_curves import body_shapes, sample_level, wave_curves, wave_levels
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -80,41 +78,6 @@ def sample_field(field: OpenField) -> SampledField | None:
         ),
         omega=omega,
     )
-
-
-def write_fields(fields: tuple[SampledField, ...], folder: Path) -> None:
-    """Write each field into a new folder: real parts, imaginary parts, magnitudes; for ParaView.
-
-    ``<name>.vtu`` is of the liquids, ``<name>_bodies.vtu`` of surfaces, beams and floats.
-    """
-    if fields:
-        folder.mkdir()
-    for field in fields:
-        _write_field(field, folder)
-        _write_bodies(field, folder)
-
-
-def _write_field(field: SampledField, folder: Path) -> None:
-    import meshio
-
-    moved = np.column_stack([field.displacement, np.zeros(len(field.displacement))])
-    data = _parts("potential", field.potential) | _parts("pressure", field.pressure) | _parts("displacement", moved)
-    points = np.column_stack([field.points, np.zeros(len(field.points))])
-    mesh = meshio.Mesh(points, [("triangle", field.triangles)], point_data=data, cell_data={"liquid": [field.liquid]})
-    meshio.write(folder / f"{field.name}.vtu", mesh)
-
-
-def _write_bodies(field: SampledField, folder: Path) -> None:
-    real, imaginary = field.picture.real, field.picture.imaginary
-    moved = displacement_of(real.surfaces, real.floats) + 1j * displacement_of(imaginary.surfaces, imaginary.floats)
-    path = folder / f"{field.name}_bodies.vtu"
-    write_bodies(path, real.surfaces, real.floats, _parts("displacement", moved), start=real.start)
-
-
-def _parts(name: str, values: np.ndarray) -> dict[str, np.ndarray]:
-    """What ParaView, which has no complex numbers, is given of them."""
-    size = np.abs(values) if values.ndim == 1 else np.linalg.norm(values, axis=1)
-    return {f"{name}_real": values.real, f"{name}_imaginary": values.imag, f"{name}_magnitude": size}
 
 
 def _in_basin(model: OpenModel) -> np.ndarray:

@@ -1,0 +1,147 @@
+"""Solve open water: one analysis after the other, each to the tolerance of the problem."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+import numpy as np
+
+from hydroelastic.fem.kept_tolerance import kept_tolerance
+from hydroelastic.fem.memory import release_memory
+from hydroelastic.fem.open_water.decay import DecaySolution, solve_decay
+from hydroelastic.fem.open_water.problem import OpenWaterProblem
+from hydroelastic.fem.open_water.radiation import RadiationSolution, solve_radiation
+from hydroelastic.fem.open_water.requests import DecayRequest, RadiationRequest, Request, ResponseRequest
+from hydroelastic.fem.open_water.resonance import ResonanceSolution, solve_resonance
+from hydroelastic.fem.open_water.response import ResponseSolution, solve_response
+from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, ResonanceTable, ResponseTable
+from hydroelastic.fem.stopwatch import Report
+
+# The power of waves is of first order in the error of the field; measured, it is off by less than the tolerance.
+_POWER = 10.0
+
+_Solution: TypeAlias = RadiationSolution | ResponseSolution | ResonanceSolution | DecaySolution
+
+
+@dataclass(frozen=True, kw_only=True)
+class OpenWaterSolution:
+    """The tables of all analyses, in the order in which they were requested.
+
+    Attributes:
+        radiation: one for each radiation analysis.
+        response: one for each response analysis.
+        resonance: one for each resonance analysis.
+        decay: one for each decay analysis.
+        size: "cells", "dofs" (unknowns of ψ) and "degree" of the largest problem that was solved.
+        seconds: time by stage.
+        reasons: why the solution does not keep what was asked; empty if it does.
+    """
+
+    radiation: tuple[RadiationTable, ...] = ()
+    response: tuple[ResponseTable, ...] = ()
+    resonance: tuple[ResonanceTable, ...] = ()
+    decay: tuple[DecayTable, ...] = ()
+    size: dict[str, int]
+    seconds: dict[str, float]
+    reasons: tuple[str, ...] = ()
+
+    @property
+    def status(self) -> Literal["ok", "unconverged"]:
+        """Whether everything that was asked is kept."""
+        return "unconverged" if self.reasons else "ok"
+
+
+def solve_open_water(
+    problem: OpenWaterProblem, requests: Sequence[Request], report: Report = lambda _message: None
+) -> OpenWaterSolution:
+    """Solve all analyses of open water.
+
+    Args:
+        problem: open water, and how accurately to solve it.
+        requests: the analyses.
+        report: called with a word on what is being done.
+
+    Returns:
+        The tables, with `OpenWaterSolution.reasons` where they do not keep the asked tolerance (collective).
+
+    Raises:
+        MeshError: if no mesh can be made.
+        EigenSolverError: if resonances cannot be found.
+        UnstableFloatError: if a float that is released would capsize.
+        DriftingFloatError: if a float that is released would drift away.
+    """
+    tables: list[RadiationTable | ResponseTable | ResonanceTable | DecayTable] = []
+    size = {"cells": 0, "dofs": 0, "degree": 0}
+    reasons: list[str] = []
+    for number, request in enumerate(requests, 1):
+        report(f"analysis {number}: {request.kind}")
+        solution = _solved(problem, request)
+        # The tables alone: a model holds its mesh and matrices.
+        tables.append(solution.table)
+        if solution.model is not None and solution.model.pencil.size > size["dofs"]:
+            liquid = solution.model.pencil.liquid
+            size = {"cells": liquid.tank.cell_count, "dofs": solution.model.pencil.size, "degree": liquid.degree}
+        reasons += _reasons(problem.tolerance, number, request.kind, solution)
+        del solution
+        release_memory()
+    return OpenWaterSolution(
+        radiation=tuple(one for one in tables if isinstance(one, RadiationTable)),
+        response=tuple(one for one in tables if isinstance(one, ResponseTable)),
+        resonance=tuple(one for one in tables if isinstance(one, ResonanceTable)),
+        decay=tuple(one for one in tables if isinstance(one, DecayTable)),
+        size=size,
+        seconds=dict(problem.watch.seconds),
+        reasons=tuple(reasons),
+    )
+
+
+def _solved(problem: OpenWaterProblem, request: Request) -> _Solution:
+    match request:
+        case RadiationRequest():
+            return solve_radiation(problem, request)
+        case ResponseRequest():
+            return solve_response(problem, request)
+        case DecayRequest():
+            return solve_decay(problem, request)
+        case _:
+            return solve_resonance(problem, request)
+
+
+def _reasons(tolerance: float, number: int, kind: str, solution: _Solution) -> list[str]:
+    """Why a solution does not keep what was asked, in words."""
+    reasons = []
+    if solution.error > tolerance:
+        reasons.append(
+            f"analysis {number} ({kind}) has an estimated relative error of {solution.error:.1e}, above the "
+            f"tolerance {tolerance:g}; {kept_tolerance(solution.error)}"
+        )
+    if isinstance(solution, RadiationSolution | ResponseSolution):
+        residual = float(np.nanmax(np.abs(solution.table.energy_residual), initial=0.0))
+        if residual > _POWER * tolerance:
+            reasons.append(
+                f"analysis {number} ({kind}): the power of the waves that leave is off by {residual:.1e}, "
+                f"more than the tolerance {tolerance:g} allows: the estimated errors cannot be trusted"
+            )
+    if isinstance(solution, RadiationSolution):
+        residual = float(np.nanmax(solution.table.haskind_residual, initial=0.0))
+        if residual > _POWER * tolerance:
+            reasons.append(
+                f"analysis {number} ({kind}): excitation forces and the waves that are radiated disagree by "
+                f"{residual:.1e}, more than the tolerance {tolerance:g} allows"
+            )
+    if isinstance(solution, ResonanceSolution):
+        reasons += [f"analysis {number} ({kind}): {reason}" for reason in resonance_reasons(solution)]
+    return reasons
+
+
+def resonance_reasons(solution: ResonanceSolution) -> Iterator[str]:
+    """Yield why the resonances of a region are not known to be all, in words."""
+    counted = solution.table.counted
+    if counted is None:
+        yield "the independent count of the resonances is not certain: one may lie on the rim of its region"
+    elif counted != solution.known:
+        yield f"an independent count finds {counted} resonances in the region, and {solution.known} are known"
+    if solution.unstable:
+        yield "a float is unstable: its motion grows, and is none of the resonances"

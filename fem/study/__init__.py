@@ -1,0 +1,1 @@
+"""Error against cost of the frequencies of a closed tank, measured."""

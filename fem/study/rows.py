@@ -1,0 +1,96 @@
+"""Solutions of a study, each with its errors against the reference and what it cost."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from mpi4py import MPI
+
+from hydroelastic.fem.memory import peak_memory
+from hydroelastic.fem.spectral_error import LOWEST_DEGREE
+from hydroelastic.fem.stopwatch import Stopwatch
+from hydroelastic.fem.study.row import Family, StudyRow
+from hydroelastic.fem.study.studied_tank import StudiedTank
+from hydroelastic.fem.tank.error_estimates import frequency_errors
+from hydroelastic.fem.tank.field_solution import solve_field
+from hydroelastic.fem.tank.resolution import Resolution
+from hydroelastic.fem.tank.solve import solve_tank
+from hydroelastic.meshes.distribute import TankMesh
+
+
+def mesh_row(
+    studied: StudiedTank,
+    family: Family,
+    resolution: Resolution,
+    make_mesh: Callable[[], TankMesh],
+    *,
+    element_size: float,
+    grading: float | None = None,
+) -> StudyRow | None:
+    """Solve once on a given mesh (collective).
+
+    Args:
+        studied: the tank.
+        family: the series the row belongs to.
+        resolution: degree and number of dry modes.
+        make_mesh: makes the mesh; its time counts.
+        element_size: of the mesh, for the record.
+        grading: β of the mesh, for the record.
+
+    Returns:
+        The row; ``None`` if the mesh is too coarse to have the modes asked for.
+    """
+    watch = Stopwatch()
+    estimate = None
+    with peak_memory(MPI.COMM_WORLD) as memory:
+        with watch.stage("mesh"):
+            mesh = make_mesh()
+        field = solve_field(mesh, studied.tank, resolution, studied.modes, watch, half=studied.half)
+        # The estimate takes the singularity to lie in the rings.
+        if resolution.degree >= LOWEST_DEGREE and family == "geometric":
+            with watch.stage("errors"):
+                indices = list(range(len(field.modes.eigenvalues)))
+                modes = [field.modes.completed(index) for index in indices]
+                causes = frequency_errors(field, modes, field.parts_of(indices), resolution, studied.tank)
+                estimate = float(causes.total.max())
+    omega = np.sqrt(field.modes.eigenvalues) * studied.physical.units.frequency
+    if len(omega) < min(studied.modes, len(studied.reference.omega)):
+        return None
+    return StudyRow(
+        family=family,
+        degree=resolution.degree,
+        element_size=element_size,
+        grading=grading,
+        tolerance=None,
+        attempts=1,
+        unknowns=field.dofs,
+        errors=studied.errors(omega),
+        floor=studied.floor(resolution.degree),
+        estimate=estimate,
+        reasons=(),
+        seconds=watch.seconds,
+        memory=memory.peak,
+    )
+
+
+def tolerance_row(studied: StudiedTank, tolerance: float) -> StudyRow:
+    """Solve to an asked tolerance, with all that a run does: estimates, count, tones, refinement (collective)."""
+    with peak_memory(MPI.COMM_WORLD) as memory:
+        solution = solve_tank(studied.physical, tolerance=tolerance, modes=studied.modes)
+    omega = np.array([solution.omega(mode.eigenvalue) for mode in solution.asked])
+    return StudyRow(
+        family="tolerance",
+        degree=solution.resolution.degree,
+        element_size=max(solution.resolution.surface_sizes),
+        grading=None,
+        tolerance=tolerance,
+        attempts=solution.attempts,
+        unknowns=solution.field.dofs,
+        errors=studied.errors(omega),
+        floor=studied.floor(solution.resolution.degree),
+        estimate=float(solution.relative_errors[: len(omega)].max()),
+        reasons=solution.reasons,
+        seconds=solution.seconds,
+        memory=memory.peak,
+    )

@@ -1,0 +1,185 @@
+"""Thin boundary against exact boundary: how their difference falls as a float gets thinner.
+
+The same float is solved with its conditions on the contour itself and on its middle line, its half width halved again
+and again; by Archimedes its mass follows. Relative to each other the two models differ
+
+    in ω of heave and its modal mass           like the square of the thinness
+    in the added mass far above the waves      like the thinness
+    in ω of waves in a tank of length L        like half width/L: the thin float leaves its area to the liquid
+
+as theory says: the source of the next order on the middle line is that of the squared thinness, and added mass is
+itself a part of the mass that falls like the thinness. See docs, studies.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from hydroelastic.fem.study.rates import DIFFERENCE, fitted_slope
+from hydroelastic.fem.tank.solve import TankSolution, solve_tank
+from hydroelastic.physics.tank import Tank
+
+ASKED = 1e-8
+"""Relative error asked of both models: far below their difference."""
+
+_WAVES = 2
+# Differences within so many times what both models may be out say little of the boundary.
+_CLEAR = 10.0
+_POINTS = 3
+
+
+@dataclass(frozen=True, kw_only=True)
+class Comparison:
+    """One number by both models.
+
+    Attributes:
+        thin: with conditions on the middle line.
+        exact: with conditions on the contour.
+        uncertainty: sum of the estimated relative errors of both.
+    """
+
+    thin: float
+    exact: float
+    uncertainty: float
+
+    @property
+    def difference(self) -> float:
+        """thin/exact − 1."""
+        return self.thin / self.exact - 1.0
+
+    @property
+    def is_clear(self) -> bool:
+        """Whether the difference is that of the boundaries, and not of the solutions."""
+        return abs(self.difference) > _CLEAR * self.uncertainty
+
+
+@dataclass(frozen=True, kw_only=True)
+class ThinnessRow:
+    """Both models of one float.
+
+    Attributes:
+        half_width: of the float, m.
+        thinness: half width over half height.
+        breadth: half width over tank length.
+        compared: what both models say, by the name in `QUANTITIES`; a heave that neither model finds is not there.
+        shared: whether heave is shared with waves in one of the models, so that its modal mass says little.
+    """
+
+    half_width: float
+    thinness: float
+    breadth: float
+    compared: dict[str, Comparison]
+    shared: bool
+
+
+@dataclass(frozen=True, kw_only=True)
+class ThinnessRate:
+    """An observed rate, difference ~ (half width)^rate.
+
+    Attributes:
+        quantity: name in `QUANTITIES`.
+        observed: rate, fitted to the thinnest three floats whose difference is clear.
+        deviation: standard error of the fit.
+        expected: rate of theory.
+        shared: whether one of these floats shares its heave with waves: its numbers then follow those of the waves.
+    """
+
+    quantity: str
+    observed: float
+    deviation: float
+    expected: float
+    shared: bool
+
+    @property
+    def agrees(self) -> bool:
+        """Whether it differs by at most a tenth from theory."""
+        return abs(self.observed - self.expected) <= DIFFERENCE * self.expected
+
+
+QUANTITIES: dict[str, tuple[str, float]] = {
+    "heave": ("ω of heave, rad/s", 2.0),
+    "modal mass": ("modal mass of heave, kg/m", 2.0),
+    "added mass": ("added mass far above the waves, kg/m", 1.0),
+    **{f"wave {number}": (f"ω of wave {number}, rad/s", 1.0) for number in range(1, _WAVES + 1)},
+}
+"""What is compared, by name: in words, and the power of the thinness with which the difference falls."""
+
+OF_HEAVE = ("heave", "modal mass")
+"""Those of one mode, which may be shared with waves."""
+
+
+def thinness_rows(pairs: Iterable[tuple[Tank, Tank]], modes: int) -> Iterator[ThinnessRow]:
+    """Solve both models of a float, one width after the other (collective).
+
+    It ends early where a model does not keep what is asked.
+
+    Args:
+        pairs: tanks with one float that heaves alone, the same one with thin and with exact boundary; in SI units.
+        modes: how many modes are asked for.
+
+    Raises:
+        EigenSolverError: if the eigen-solver fails.
+        MeshError: if no mesh can be made.
+    """
+    for pair in pairs:
+        thin, exact = (solve_tank(tank, tolerance=ASKED, modes=modes) for tank in pair)
+        if thin.reasons or exact.reasons:
+            return
+        yield _row(thin, exact)
+
+
+def _row(thin: TankSolution, exact: TankSolution) -> ThinnessRow:
+    one, other = _values(thin), _values(exact)
+    (body,) = exact.physical.floats.values()
+    profile = body.hull.profile
+    assert profile is not None
+    return ThinnessRow(
+        half_width=profile.half_width,
+        thinness=profile.half_width / profile.half_height,
+        breadth=profile.half_width / exact.physical.length,
+        compared={
+            name: Comparison(thin=one[name][0], exact=other[name][0], uncertainty=one[name][1] + other[name][1])
+            for name in QUANTITIES
+            if name in one and name in other
+        },
+        shared=any(solution.float_modes[0].is_shared for solution in (thin, exact)),
+    )
+
+
+def _values(solution: TankSolution) -> dict[str, tuple[float, float]]:
+    """Values in SI units and their estimated relative errors, by the name in `QUANTITIES`; of those that there are."""
+    heave, unit = solution.float_modes[0], solution.units.density * solution.units.length**2
+    found: dict[str, tuple[float, float]] = {}
+    if heave.index is not None:
+        error = float(solution.relative_errors[heave.index])
+        found["heave"] = solution.omega(float(solution.modes.eigenvalues[heave.index])), error
+        found["modal mass"] = heave.modal_mass * unit, error
+    if solution.added_mass is not None:
+        (body,) = solution.tank.floats
+        added = float(solution.added_mass.block(solution.tank, body)[0, 0])
+        found["added mass"] = added * unit, solution.added_mass.error
+    waves = [index for index in range(len(solution.asked)) if index != heave.index]
+    for number, index in enumerate(waves[:_WAVES], 1):
+        omega = solution.omega(solution.asked[index].eigenvalue)
+        found[f"wave {number}"] = omega, float(solution.relative_errors[index])
+    return found
+
+
+def fitted_thinness(rows: Sequence[ThinnessRow]) -> tuple[ThinnessRate, ...]:
+    """Fit the rate of every quantity that three floats show clearly."""
+    rates = []
+    for quantity, (_, expected) in QUANTITIES.items():
+        used = [row for row in rows if quantity in row.compared and row.compared[quantity].is_clear][-_POINTS:]
+        if len(used) < _POINTS:
+            continue
+        slope, deviation = fitted_slope(
+            np.log([row.thinness for row in used]), np.log([abs(row.compared[quantity].difference) for row in used])
+        )
+        shared = quantity in OF_HEAVE and any(row.shared for row in used)
+        rates.append(
+            ThinnessRate(quantity=quantity, observed=slope, deviation=deviation, expected=expected, shared=shared)
+        )
+    return tuple(rates)

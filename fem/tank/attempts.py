@@ -1,0 +1,72 @@
+"""Solve at finer and finer resolutions: each refines what has the largest part in the errors of the one before."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Generic, TypeVar
+
+from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
+from hydroelastic.fem.tank.error_estimates import FrequencyErrors, refined
+from hydroelastic.fem.tank.resolution import Resolution, sharpest_exponent, workable_tolerance
+from hydroelastic.physics.tank import Tank
+
+Result = TypeVar("Result")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Attempt(Generic[Result]):
+    """A result with its estimated errors.
+
+    Attributes:
+        result: the result.
+        causes: its relative errors by cause.
+        resolution: with which it was found.
+        missing: how many of the quantities asked for it lacks.
+    """
+
+    result: Result
+    causes: FrequencyErrors
+    resolution: Resolution
+    missing: int = 0
+
+    @property
+    def error(self) -> float:
+        """The largest error."""
+        return self.causes.largest_total
+
+
+def best_attempt(
+    tank: Tank,
+    tolerance: float,
+    solve: Callable[[Resolution], Attempt[Result]],
+    first: Resolution,
+    *,
+    rounds: int,
+    infinite_frequency: bool = False,
+    remesh: bool = True,
+) -> Attempt[Result]:
+    """Return the first attempt whose error is below a tolerance, or the best of a few (collective).
+
+    Args:
+        tank: the scene.
+        tolerance: asked relative error; what double precision can keep of it is worked towards.
+        solve: solves at a resolution.
+        first: resolution of the first attempt.
+        rounds: largest number of attempts.
+        infinite_frequency: whether it is the infinite-frequency limit.
+        remesh: whether meshes may be made anew; that of the user may not.
+    """
+    tolerance = workable_tolerance(tolerance, tank.depth)
+    exponent = sharpest_exponent(tank, infinite_frequency=infinite_frequency)
+
+    def finer(resolution: Resolution, attempt: Attempt[Result]) -> Resolution | None:
+        # What is missing beside small errors no finer model brings.
+        if attempt.error <= tolerance:
+            return None
+        return refined(resolution, attempt.causes, tolerance, exponent=exponent, remesh=remesh)
+
+    def estimate(attempt: Attempt[Result]) -> ErrorEstimate:
+        return ErrorEstimate(discretization=attempt.error, missing=attempt.missing)
+
+    return adaptive_solve(first, solve, estimate, finer, tolerance, rounds=rounds).solution

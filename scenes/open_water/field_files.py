@@ -1,0 +1,45 @@
+"""Fields of open water as files for ParaView."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from hydroelastic.fem.open_water.field_samples import SampledField
+from hydroelastic.scenes.tank.body_file import displacement_of, write_bodies
+
+
+def write_fields(fields: tuple[SampledField, ...], folder: Path) -> None:
+    """Write each field into a new folder: real parts, imaginary parts, magnitudes; for ParaView.
+
+    ``<name>.vtu`` is of the liquids, ``<name>_bodies.vtu`` of surfaces, beams and floats.
+    """
+    if fields:
+        folder.mkdir()
+    for field in fields:
+        _write_field(field, folder)
+        _write_bodies(field, folder)
+
+
+def _write_field(field: SampledField, folder: Path) -> None:
+    import meshio
+
+    moved = np.column_stack([field.displacement, np.zeros(len(field.displacement))])
+    data = _parts("potential", field.potential) | _parts("pressure", field.pressure) | _parts("displacement", moved)
+    points = np.column_stack([field.points, np.zeros(len(field.points))])
+    mesh = meshio.Mesh(points, [("triangle", field.triangles)], point_data=data, cell_data={"liquid": [field.liquid]})
+    meshio.write(folder / f"{field.name}.vtu", mesh)
+
+
+def _write_bodies(field: SampledField, folder: Path) -> None:
+    real, imaginary = field.picture.real, field.picture.imaginary
+    moved = displacement_of(real.surfaces, real.floats) + 1j * displacement_of(imaginary.surfaces, imaginary.floats)
+    path = folder / f"{field.name}_bodies.vtu"
+    write_bodies(path, real.surfaces, real.floats, _parts("displacement", moved), start=real.start)
+
+
+def _parts(name: str, values: np.ndarray) -> dict[str, np.ndarray]:
+    """What ParaView, which has no complex numbers, is given of them."""
+    size = np.abs(values) if values.ndim == 1 else np.linalg.norm(values, axis=1)
+    return {f"{name}_real": values.real, f"{name}_imaginary": values.imag, f"{name}_magnitude": size}

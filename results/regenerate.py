@@ -18,6 +18,7 @@ from pathlib import Path
 
 from PIL import Image
 
+from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.output.folder import SUMMARY
 from hydroelastic.scenes.output.markdown import markdown_table, markdown_text
@@ -36,7 +37,8 @@ STUDIED = {
     "float_ellipse": StudyPlan(),
     "float_parabola": StudyPlan(families=FAMILIES),
 }
-SHOWN_WIDTH = 800
+# At the width that pages show.
+SHOWN = PictureOptions(width=800)
 TABLES = ("summary.json", "summary.md", "modes.csv")
 OTHER_TABLES = ("summary.json", "summary.md")
 
@@ -49,7 +51,7 @@ def regenerate(name: str) -> str:
     """
     scene = read_scene(name)
     with tempfile.TemporaryDirectory() as scratch:
-        outcome = run_scene(scene, out=Path(scratch) / name)
+        outcome = run_scene(scene, out=Path(scratch) / name, images=SHOWN)
         assert outcome.folder is not None
         kept = SHIPPED / name
         shutil.rmtree(kept, ignore_errors=True)
@@ -87,10 +89,9 @@ def shown_modes(summary: Summary) -> dict[int, str]:
 
 
 def _keep_picture(source: Path, target: Path) -> None:
-    """Store a picture at the width that pages show it, in all its colours."""
+    """Store a picture with all its colours in as few bytes as PNG needs."""
     with Image.open(source) as picture:
-        height = round(picture.height * SHOWN_WIDTH / picture.width)
-        picture.convert("RGB").resize((SHOWN_WIDTH, height), Image.Resampling.LANCZOS).save(target, optimize=True)
+        picture.convert("RGB").save(target, optimize=True)
 
 
 def index() -> str:

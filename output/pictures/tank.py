@@ -13,6 +13,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
 from matplotlib.patches import Polygon
 from matplotlib.patheffects import withStroke
+from matplotlib.tri import Triangulation
 from numpy.typing import ArrayLike
 
 from hydroelastic.fem.pictures.mode import Array, FloatSection, ModePicture, SurfaceCurve
@@ -180,7 +181,7 @@ def _draw_iso_lines(
     if len(steep):
         x, y, _ = mesh.points.T
         axes.tricontour(
-            x, y, picture.drawn_field, iso_levels(limit), triangles=steep,
+            Triangulation(x, y, steep), picture.drawn_field, iso_levels(limit),
             zorder=1.0, colors=_ISO_LINE, linewidths=1.1 * POINT * thin, linestyles="solid",
         )  # fmt: skip
 

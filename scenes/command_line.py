@@ -174,7 +174,7 @@ def main() -> None:
 @scale_option
 @width_option
 @animate_option
-@click.option("--report", "page", is_flag=True, help="Write report.html too: all of it in one page.")
+@click.option("--report", "page", is_flag=True, help="Write report.html too: all results in one page.")
 @click.option("--quiet", is_flag=True, help="Print nothing but errors.")
 @click.pass_context
 def run(
@@ -197,7 +197,7 @@ def run(
     """
     options = picture_options(**of_pictures)
     if no_images and options != DEFAULT_PICTURES:
-        raise click.UsageError("--no-images leaves nothing for the other options of images to do: drop it, or them.")
+        raise click.UsageError("--no-images excludes the other options of images: leave out one or the other.")
     checked = read_scene(scene, overrides)
     folder = _folder_of_results(scene, out)
     with progress(_title(checked), shown=not quiet and sys.stderr.isatty()) as report:

@@ -35,7 +35,7 @@ MOTION = {"kind": "motion", "times": [0.0, 1.0]}
 MOVED = {"end": "a", "file": "motion.csv"}
 # What is changed in a scene that is well, by keys; a value of nothing takes a key out.
 REFUSALS: list[tuple[dict[str, Any], dict[str, Any], str]] = [
-    (BUOY, {"stream.veer": {"speed": 1.0, "rate": 0.1}}, "it stands beside velocity"),
+    (BUOY, {"stream.veer": {"speed": 1.0, "rate": 0.1}}, "it is given beside velocity"),
     (BUOY, {"stream.velocity": None, "stream.shear": [0.1, 0.0]}, "there is no velocity that it adds to"),
     (
         BUOY,
@@ -53,7 +53,7 @@ REFUSALS: list[tuple[dict[str, Any], dict[str, Any], str]] = [
     (BUOY, {"ends.a": TAIL}, "neither end is fixed"),
     (HELD, {"thread.length": 7.0}, "the ends are"),
     (HELD, {"thread.length": 8.0}, "has no determined tension"),
-    (HELD, {"thread.tension": 1.0}, "the equilibrium tells the tension"),
+    (HELD, {"thread.tension": 1.0}, "the equilibrium determines the tension"),
     (
         HELD,
         {"thread.length": 8.0, "thread.tension": 1.0, "analysis": [MOTION]},
@@ -66,7 +66,7 @@ REFUSALS: list[tuple[dict[str, Any], dict[str, Any], str]] = [
     (
         BUOY,
         {"thread.reactive": "lighthill", "thread.added_mass": 1.0, "ends.b": TAIL},
-        "the tension falls below that which the moving liquid takes",
+        "the tension falls below that required by the moving liquid",
     ),
     (BUOY, {"stream.velocity": None, "analysis": [{"kind": "stability", "factors": [1, 2]}]}, "there is no stream"),
     (BUOY, {"thread.mass": 0.0, "analysis": [{"kind": "modes"}]}, "the analysis modes needs it"),
@@ -84,7 +84,7 @@ REFUSALS: list[tuple[dict[str, Any], dict[str, Any], str]] = [
     (
         HELD,
         {**REACTIVE, "analysis": [{**MOTION, "release": [{"end": "b"}]}]},
-        "an end is let go with the reactive model",
+        "an end is released with a reactive model",
     ),
     (
         BUOY,

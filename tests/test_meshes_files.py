@@ -326,7 +326,7 @@ def test_what_a_run_would_refuse_of_a_mesh_a_check_refuses_with_the_same_words(
     mesh = tmp_path / "tank.msh"
     assert said[0] == (
         f'{scene}: [mesh], key "file" = "{mesh}": mesh file {mesh} cannot be read: it is broken, or not a mesh of '
-        "gmsh, format 2.2 or 4.1, as gmsh writes it. Mend the mesh, or leave [mesh] out to use the built-in one."
+        "gmsh, format 2.2 or 4.1, as gmsh writes it. Correct the mesh, or leave [mesh] out to use the built-in one."
     )
     assert capfd.readouterr() == ("", "")
     users_mesh(mesh, end=7.5)

@@ -145,7 +145,7 @@ ONCE_WRONG: dict[str, tuple[Document, str]] = {
     ),
     "ratios that overflow": (
         STRING | STEP | {"output": {"times": {"start": 5e-324, "stop": 1e30, "number": 5, "spacing": "logarithmic"}}},
-        "equal ratios cannot begin so near to 0",
+        "equal ratios cannot start so close to 0",
     ),
 }
 

@@ -85,12 +85,12 @@ def test_groups_of_the_base_scene() -> None:
 
 def test_unknown_fields_follow_the_top() -> None:
     assert "η = ω² ψ/g" in printed(scene(beam()))
-    assert "lid holds the liquid" in printed(scene(beam(), top="rigid"))
+    assert "a lid: no gravity waves" in printed(scene(beam(), top="rigid"))
     assert "η: none" in printed(scene(beam(), top="pressure_release"))
     covered = printed(scene(beam(start=0, length=10), top="rigid"))
     assert "covers the whole liquid" in covered
     assert 'top = "rigid" has no effect' in covered
-    assert "heave is held" in covered
+    assert "heave is excluded" in covered
     assert "a of beam" not in printed(scene())
 
 
@@ -171,10 +171,10 @@ def test_levels_are_printed_from_the_top_down() -> None:
     ]
     assert places == sorted(places)
     for words in (
-        "∂ψ₁/∂y = ∂ψ₂/∂y = η, (ρ₂ − ρ₁) g η = ω² (ρ₂ ψ₂ − ρ₁ ψ₁)",
-        "∂ψ₁/∂y = η₁, g η₁ = ω² ψ₁",
-        "∂ψ₁/∂y = w, EI w⁗ + ρ₁ g w − ω² m w = ω² ρ₁ ψ₁",
-        "∂ψ₁/∂n = ∂ψ₂/∂n = n · s on its contour; s: heave, sway, roll",
+        "∂ψᵤ/∂y = ∂ψₗ/∂y = η, (ρₗ − ρᵤ) g η = ω² (ρₗ ψₗ − ρᵤ ψᵤ)",
+        "∂ψᵤ/∂y = ηᵤ, g ηᵤ = ω² ψᵤ",
+        "∂ψᵤ/∂y = w, EI w⁗ + ρᵤ g w − ω² m w = ω² ρᵤ ψᵤ",
+        "∂ψᵤ/∂n = ∂ψₗ/∂n = n · s on its contour; s: heave, sway, roll",
         "upper liquid, 0 < y < 3 m",
         "lower liquid, -5 m < y < 0",
         "rigid motions: heave, sway, roll about its centre of mass",
@@ -185,15 +185,15 @@ def test_levels_are_printed_from_the_top_down() -> None:
 @pytest.mark.slow
 def test_groups_of_two_liquids_and_a_float() -> None:
     text = printed(scene(floating(), beam(start=0.5, length=3.0), upper=800.0))
-    # ρ₁/ρ₂; h₁/h₂; h₂/L; b/h; B/L; m/(ρ₂ A) = 0.9; EI/((ρ₂ - ρ₁) g l⁴) = 5e3/(200·9.81·81).
+    # ρᵤ/ρₗ; hᵤ/hₗ; hₗ/L; b/h; B/L; m/(ρₗ A) = 0.9; EI/((ρₗ - ρᵤ) g l⁴) = 5e3/(200·9.81·81).
     for group, value in (
-        ("ρ₁/ρ₂", "0.8"),
-        ("h₁/h₂", "0.6"),
-        ("h₂/L", "0.5"),
+        ("ρᵤ/ρₗ", "0.8"),
+        ("hᵤ/hₗ", "0.6"),
+        ("hₗ/L", "0.5"),
         ("b/h", "1.25"),
         ("B/L", "0.2"),
-        ("m/(ρ₂ A)", "0.9"),
-        ("EI/((ρ₂ − ρ₁) g l⁴)", "0.03146"),
+        ("m/(ρₗ A)", "0.9"),
+        ("EI/((ρₗ − ρᵤ) g l⁴)", "0.03146"),
     ):
         row = next(line for line in text.splitlines() if f"│ {group} " in line)
         assert f" {value} " in row, row
@@ -224,7 +224,7 @@ def test_what_to_expect_of_floats_is_said() -> None:
     assert "it is air" in told(floating(), upper=0.0)
     assert "there are 2 modes, not 10" in told(floating(), floating(position=8.0), top="pressure_release")
     assert "there is 1 mode, not 10" in told(floating(), floating(position=8.0), top="rigid")
-    assert "(ρ₁ coth kh₁ + ρ₂ coth kh₂)" in told(upper=800.0, top="rigid")
-    assert "(ρ₁ tanh kh₁ + ρ₂ coth kh₂)" in told(upper=800.0, top="pressure_release")
-    assert "two exact answers" in told(upper=800.0)
+    assert "(ρᵤ coth khᵤ + ρₗ coth khₗ)" in told(upper=800.0, top="rigid")
+    assert "(ρᵤ tanh khᵤ + ρₗ coth khₗ)" in told(upper=800.0, top="pressure_release")
+    assert "two exact solutions" in told(upper=800.0)
     assert "sway of float 1, roll of float 1. That leaves 2 modes" in told(floating(*ALL, **CIRCLE))

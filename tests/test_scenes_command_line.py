@@ -82,7 +82,7 @@ BAD = {
     "misspelt choice": (GOOD.replace("length = 10.0", 'length = 10.0\ntop = "fee"'), ['Did you mean "free"?']),
     "open ends": (
         GOOD.replace("length = 10.0", 'length = 10.0\nends = "open"\ntop = "rigid"'),
-        ["no wave leaves", '"free"'],
+        ["there are no waves", '"free"'],
     ),
     "misspelt kind": (
         GOOD.replace("start = 3.0", 'kind = "flaot"\nstart = 3.0'),

@@ -195,8 +195,8 @@ def test_guided_beams_cover_either_level() -> None:
 
 
 def test_groups_of_an_interface_beam_count_the_difference_of_densities() -> None:
-    # 1e15 (ρ₂ - ρ₁) g l⁴ = 1e15·200·9.81·16
-    assert "EI/((ρ₂ − ρ₁) g l⁴)" in said(BEAM | {"flexural_rigidity": 4e19})
+    # 1e15 (ρₗ - ρᵤ) g l⁴ = 1e15·200·9.81·16
+    assert "EI/((ρₗ − ρᵤ) g l⁴)" in said(BEAM | {"flexural_rigidity": 4e19})
     assert "EI/(ρ g l⁴)" in said(BEAM | {"flexural_rigidity": 2e20}, liquids=(WATER,))
     assert scene(BEAM | {"flexural_rigidity": 4e19}, liquids=(WATER,))
 

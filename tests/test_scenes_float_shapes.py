@@ -60,7 +60,7 @@ def test_another_cut_is_a_matter_of_the_mass() -> None:
         ({"half_width": 3e-4, "half_height": 3e-4}, "too small beside the tank"),
         (
             {"half_width": 3e-4},
-            "too slender for one mesh to show both. Allowed: a width of 0.001 to 1000 heights. bound",
+            "too slender for one mesh to resolve both. Allowed: a width of 0.001 to 1000 heights. bound",
         ),
         ({"half_height": 3e-4}, "too flat"),
         ({"at": "surface", "half_height": 1.0}, "reaches down to y = 0 m"),

@@ -153,7 +153,7 @@ def test_several_bodies_waves_and_sides_have_their_labels(tmp_path: Path) -> Non
     bent = found["deflection_of_body_2"].sel(wave="internal", complex="re", wave_direction=np.pi)
     np.testing.assert_array_equal(bent.sel(omega=right.omega), right.plates[0].deflection[:, 0].real)
     np.testing.assert_array_equal(found["position_on_body_2"], np.linspace(1.0, 4.0, 101))
-    assert (float(found["rho_above"]), float(found["depth_above"])) == (800.0, 1.0)
+    assert (float(found["rho_upper"]), float(found["depth_upper"])) == (800.0, 1.0)
     np.testing.assert_array_equal(
         found["wavenumber"].sel(wave="internal", omega=radiation.omega), radiation.wavenumbers[:, 0]
     )

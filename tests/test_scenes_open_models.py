@@ -120,14 +120,14 @@ def test_an_upper_liquid_without_end_has_no_surface() -> None:
     assert level.name == "interface"
     assert [piece.body for piece in level.pieces] == [None, 0, None]
     assert (level.pieces[0].start, level.pieces[-1].end) == (-inf, inf)
-    assert "without end" in said(liquids=(WATER, HIGH_OIL), top="rigid")
+    assert "infinitely deep" in said(liquids=(WATER, HIGH_OIL), top="rigid")
     assert "no surface" in said(CIRCLE | {"at": "surface"}, liquids=(WATER, HIGH_OIL))
 
 
 def test_a_lid_over_two_liquids_leaves_the_waves_of_the_interface() -> None:
     assert open_scene(liquids=(WATER, OIL), top="rigid").top == "rigid"
-    assert "no wave leaves" in said(liquids=(WATER,), top="pressure_release")
-    assert "no wave leaves" in said(liquids=(WATER,), top="rigid")
+    assert "there are no waves" in said(liquids=(WATER,), top="pressure_release")
+    assert "there are no waves" in said(liquids=(WATER,), top="rigid")
 
 
 @pytest.mark.parametrize(
@@ -135,7 +135,7 @@ def test_a_lid_over_two_liquids_leaves_the_waves_of_the_interface() -> None:
     [
         ({"body": []}, "[[body]]: open water without a body"),
         ({"mesh": {"file": "sea.msh"}}, '[mesh], key "file"'),
-        ({"accuracy": {"modes": 3}}, 'how many resonances are looked for is "count"'),
+        ({"accuracy": {"modes": 3}}, 'the number of resonances is "count"'),
     ],
 )
 def test_what_open_water_cannot_take_is_said(changes: dict[str, Any], words: str) -> None:
@@ -158,7 +158,7 @@ def test_ends_that_are_guided_need_walls() -> None:
         (RADIATION | {"elastic_modes": -1}, "it is too small"),
         (RADIATION | {"omega": [1.0, 1e-200]}, "its waves are too long or too short"),
         (RESPONSE | {"omega": [1e6]}, "its waves are too long or too short"),
-        (DECAY | {"times": [1e20]}, "the waves that matter so late are too long"),
+        (DECAY | {"times": [1e20]}, "the waves at such late times are too long"),
         (RESPONSE | {"omega": [0.0]}, "it is too small"),
         (RESPONSE | {"omega": [inf]}, "it is not a finite number"),
         (RESPONSE | {"omega": {"start": 1.0, "stop": 1.0, "number": 3}}, 'in its table, key "stop" = 1.0'),
@@ -169,7 +169,7 @@ def test_ends_that_are_guided_need_walls() -> None:
         ({"kind": "resonance", "count": 0}, "it is too small"),
         ({"kind": "resonance", "below": -1.0}, "it is too small"),
         ({"kind": "resonance", "largest_damping": 2.5}, "it is too large"),
-        (DECAY | {"displacement": 0.0}, "let go where it rests"),
+        (DECAY | {"displacement": 0.0}, "released from its equilibrium"),
         (DECAY | {"displacement": {"roll": 0.1}}, 'Add "roll" to its motions'),
         (DECAY | {"displacement": "high"}, "it is not a number"),
         (DECAY | {"displacement": {"sway": 0.1}}, "it is not known here. Allowed: heave, roll"),
@@ -203,7 +203,7 @@ def test_a_tank_with_walls_takes_nothing_of_open_water() -> None:
         TankScene.model_validate(document)
     text = str(scene_error(caught.value, TankScene))
     assert "not infinitely deep" in text
-    assert "[[analysis]]: of a tank with walls" in text
+    assert "[[analysis]]: a tank with walls has modes" in text
     assert text.count('ends = "open"') == 2
 
 
@@ -228,11 +228,11 @@ def test_check_says_what_will_be_modelled() -> None:
         "1. radiation: added mass, radiation damping and excitation forces at 5 frequencies from 0 to inf rad/s",
         "in waves from the left at 3 frequencies from 1 to 3 rad/s",
         "resonance: the lowest 4, with −Im ω up to 0.5 Re ω",
-        "float 1 is let go at 0.1 m in heave; 41 times from 0 to 20 s",
-        "waves leave, none comes back",
-        "∇ψ₂ → 0 as y → −∞",
-        "∇ψ₁ → 0 as y → ∞",
-        "Lengths of the waves that leave at 1 rad/s: internal 6.849 m",
+        "float 1 is released at 0.1 m in heave; 41 times from 0 to 20 s",
+        "outgoing waves only",
+        "∇ψₗ → 0 as y → −∞",
+        "∇ψᵤ → 0 as y → ∞",
+        "Lengths of outgoing waves at 1 rad/s: internal 6.849 m",
     ):
         assert words in text
     assert "walls" not in text

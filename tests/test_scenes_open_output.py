@@ -119,7 +119,7 @@ def test_tables_show_certain_digits_and_say_where_the_rest_is() -> None:
     # Seven digits are certain to 1e-7.
     assert f"{solution.radiation[0].added_mass[0, 0, 0]:#.7g}" in heave
     assert "gives 4: as many as were found" in text
-    assert "In the end the motion that was let go dies out like 0.002/t²" in text
+    assert "The released motion decays asymptotically like 0.002/t²" in text
     assert "20000 unknowns" in text
 
 

@@ -62,8 +62,8 @@ def test_only_changes_in_vain_are_told() -> None:
         (("--dpi", "many"), ("--dpi", "many", "integer")),
         (("--image-scale", "5"), ("--image-scale", "5", "0.8<=x<=4.0")),
         (("--image-width", "100"), ("--image-width", "100", "400<=x<=8000")),
-        (("--no-images", "--dpi", "200"), ("--no-images", "drop it")),
-        (("--no-images", "--animate"), ("--no-images", "drop it")),
+        (("--no-images", "--dpi", "200"), ("--no-images", "leave out one or the other")),
+        (("--no-images", "--animate"), ("--no-images", "leave out one or the other")),
     ],
 )
 def test_the_command_refuses_before_it_solves(

@@ -30,7 +30,7 @@ from hydroelastic.scenes.run import run_scene
 
 PARTS = ["Answer", "Results", "Beside estimates and closed forms", "What was modelled, and why", "Scene", "Cost"]
 # What is the only thing of its kind is a sentence among the results, not a part of its own.
-ALONE = {"open": "No older theory stands beside this", "string": "This is the closed form"}
+ALONE = {"open": "There is no comparison with older theories", "string": "This is the closed form"}
 
 
 @pytest.fixture(scope="module")
@@ -132,9 +132,9 @@ def assert_self_contained(page: Page) -> None:
 KNOWN = {
     "tank": ("EI/(ρ g l⁴)", "0.001991", "grammel_1", "neglects", "tolerance = 0.0001"),
     "float": ("c33 heave, N/m²", "thin_float", "half_width"),
-    "open": ("waves leave, none comes back", "Lengths of the waves that leave at 3 rad/s", 'ends = "open"'),
+    "open": ("outgoing waves only", "Lengths of outgoing waves at 3 rad/s", 'ends = "open"'),
     "string": ("Series of Bessel functions", "hydroelastic compare", "gravity = 9.81  # default"),
-    "thread": ("Largest difference of a tension from older theories", "catenary", "What does not fit the scene"),
+    "thread": ("Largest difference of a tension from older theories", "catenary", "Estimates that do not apply"),
     "roll": ("all formulas as printed", "Closed form from wave to wave", "number = 1201"),
 }
 

@@ -260,5 +260,5 @@ def test_a_section_that_nothing_restores_is_refused_before_anything_is_solved(tm
     (tmp_path / "circle.toml").write_text(f'{CIRCLE_IN_OPEN_WATER}motions = ["roll"]\n', encoding="utf-8")
     ship = read_written(tmp_path, 'kind = "roll"\n[roll]\nsection = "circle.toml"\nangle = 0.1\n')
     for use in (run_scene, lambda scene: tuple(checker_of(scene)(scene))):
-        with pytest.raises(SceneError, match="nothing restores the roll of that section"):
+        with pytest.raises(SceneError, match="the roll of that section has no restoring moment"):
             use(ship)

@@ -60,7 +60,7 @@ def test_weight_follows_from_mass_and_diameter(tmp_path: Path) -> None:
         # How the liquid streams.
         (
             (THREAD, FLOW + "veer = {speed = 1.0, rate = 0.1}\n", FIXED),
-            ["veer", "stands beside velocity", "one of velocity (and shear), veer, profile or file"],
+            ["veer", "given beside velocity", "one of velocity (and shear), veer, profile or file"],
         ),
         ((THREAD, STREAM + "shear = [1.0, 0.0]\n", FIXED), ["shear", "no velocity that it adds to", "[0, 0]"]),
         ((THREAD, STREAM + "profile = [[0.0, 1.0, 0.0]]\n", FIXED), ["profile", "1 rows", "2 to 10000 rows"]),
@@ -105,7 +105,7 @@ def test_weight_follows_from_mass_and_diameter(tmp_path: Path) -> None:
         ),
         (
             (THREAD.replace("1.0", "0.0"), FIXED),
-            ["weight", "nothing loads the thread", "any shape would do", "Give weight, a stream that drags"],
+            ["weight", "nothing loads the thread", "its shape is undetermined", "Give weight, a stream that drags"],
         ),
         ((THREAD.replace("1.0", "0.0"), FREE), ["nothing pulls at this end", "Give a force or a weight"]),
         (

@@ -61,7 +61,7 @@ def attempts(monkeypatch: pytest.MonkeyPatch) -> list[float]:
 
 
 def falling(**motion: Any) -> ThreadScene:
-    """A straight thread in water that is let go at once: its tension is zero."""
+    """A straight thread in water that is released at once: its tension is zero."""
     thread = {"weight": 5.0, "mass": 1.0, "diameter": 0.02, "normal_drag": 1.23, "tangential_drag": 0.0205}
     return scene(
         {**thread, "added_mass": 1.0},

@@ -125,7 +125,7 @@ def test_it_is_written_as_it_was_read() -> None:
         ({"thickness": [(0.0, 0.1), (2.0, 0.2), (2.0, 0.3), (2.0, 0.1), (4.0, 0.1)]}, "at most two at one x"),
         ({"thickness": [(0.0, 0.1), (4.0, 0.2), (4.0, 0.1)]}, "a step lies at an end of the beam"),
         ({"start": 7.0}, "outside the tank"),
-        ({"youngs_modulus": 1e-20}, "beyond what double precision can tell apart"),
+        ({"youngs_modulus": 1e-20}, "beyond the resolution of double precision"),
     ],
 )
 def test_what_is_no_plate_is_refused_in_words(change: dict[str, Any], said: str) -> None:

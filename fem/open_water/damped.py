@@ -224,7 +224,7 @@ class DampedSolver:
             moved, squared = abs(root.squared - squared), root.squared
             if moved <= _STEP * abs(squared):
                 return self._pair(root)
-        raise EigenSolverError(f"Newton's method does not settle on a resonance near {eigenvalue:g}")
+        raise EigenSolverError(f"Newton's method does not converge to a resonance near {eigenvalue:g}")
 
     def _pair(self, root: Root) -> Eigenpair:
         pencil = self.model.pencil

@@ -21,8 +21,8 @@ from hydroelastic.fem.tank.resolution import Resolution, infinite_frequency_reso
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.physics.scales import Scales
 
-# Dry modes of each beam where frequencies are only to be known roughly.
-_SHAPES = 16
+# Elastic dry modes of each beam where frequencies are only to be known roughly.
+_SHAPES = 14
 # Nothing travels; in units of the basin this is a length like its own.
 _NO_WAVE = 1.0
 
@@ -69,10 +69,7 @@ class BodiesAtInfiniteFrequency:
 def bodies_at_infinite_frequency(problem: OpenWaterProblem) -> BodiesAtInfiniteFrequency:
     """The bodies in as many shapes as a first look at their frequencies needs (collective)."""
     basin = open_basin(problem.tank, 0.0)
-    shapes = tuple(
-        _SHAPES + len(basin.tank.beams[index].hinges) if index in basin.tank.beams else 0
-        for index in range(len(basin.tank.bodies))
-    )
+    shapes = tuple(len(body.rigid_motions) + _SHAPES if body.is_elastic else 0 for body in basin.tank.bodies)
     added, _ = infinite_frequency_added_mass(problem.rough(), shapes)
     bodies = whole_bodies(basin.tank, shapes)
     return BodiesAtInfiniteFrequency(
@@ -81,7 +78,7 @@ def bodies_at_infinite_frequency(problem: OpenWaterProblem) -> BodiesAtInfiniteF
         mass=block_diag(*(body.mass for body in bodies)),
         added_mass=added,
         motions=tuple((index, dof) for index, body in enumerate(bodies) for dof in body.dofs),
-        of_floats=np.concatenate([np.full(body.size, index in basin.tank.floats) for index, body in enumerate(bodies)]),
+        of_floats=np.concatenate([np.full(body.size, index in basin.tank.rigid) for index, body in enumerate(bodies)]),
     )
 
 

@@ -1,7 +1,7 @@
 """The part of the motion after a release that is not in its resonances: an integral along a ray, where nothing
 oscillates.
 
-E is S less that of the bodies with their added mass far above the waves, which adds nothing for t > 0 and makes the
+E is S less that of the bodies with their added mass at infinite frequency, which adds nothing for t > 0 and makes the
 integral converge at t = 0. H on the ray comes from the field solution, continued by the complex scaling; a reduced
 basis takes it from a few solutions to all points, and waves that are longer or shorter than those of the mesh are
 known by their series, `slow_waves` and `fast_waves`. An error δH of H moves the motion by

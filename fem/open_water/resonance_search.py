@@ -137,7 +137,7 @@ class ResonanceSearch:
             if abs(step) <= _STEP * abs(eigenvalue):
                 pair = self._pair(eigenvalue, bodies @ radiated, bodies)
                 return replace(pair, residual=abs(step / eigenvalue))
-        raise EigenSolverError(f"Newton's method does not settle on a resonance near {eigenvalue:g}")
+        raise EigenSolverError(f"Newton's method does not converge to a resonance near {eigenvalue:g}")
 
     def _pair(self, eigenvalue: complex, potential: np.ndarray, bodies: np.ndarray) -> Eigenpair:
         pencil = self._pencil

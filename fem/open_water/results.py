@@ -27,7 +27,7 @@ class RadiationTable:
     """Forces of radiated and incident waves. Shapes: n frequencies, m motions, w waves.
 
     Attributes:
-        omega: (n,) rad/s; inf is the limit far above the waves.
+        omega: (n,) rad/s; inf is the limit of infinite frequency.
         dofs: m degrees of freedom.
         waves: w names.
         wavenumbers: (n, w) k, 1/m.
@@ -112,7 +112,7 @@ class ResponseTable:
         amplitudes: (n, w, m) of the motions.
         reflection: (n, w in, w out) ratio of elevations.
         transmission: (n, w in, w out) ratio of elevations.
-        energy_residual: (n, w) relative difference of the power that comes and leaves.
+        energy_residual: (n, w) relative difference of incident and outgoing power.
         relative_error: (n,) estimated relative error of the amplitudes.
         plates: one for each beam.
         missed_peaks: peaks that curves over ω do not show, found on a reduced basis.

@@ -121,14 +121,14 @@ def _reasons(tolerance: float, number: int, kind: str, solution: _Solution) -> l
         residual = float(np.nanmax(np.abs(solution.table.energy_residual), initial=0.0))
         if residual > _POWER * tolerance:
             reasons.append(
-                f"analysis {number} ({kind}): the power of the waves that leave is off by {residual:.1e}, "
+                f"analysis {number} ({kind}): the power of outgoing waves is off by {residual:.1e}, "
                 f"more than the tolerance {tolerance:g} allows: the estimated errors cannot be trusted"
             )
     if isinstance(solution, RadiationSolution):
         residual = float(np.nanmax(solution.table.haskind_residual, initial=0.0))
         if residual > _POWER * tolerance:
             reasons.append(
-                f"analysis {number} ({kind}): excitation forces and the waves that are radiated disagree by "
+                f"analysis {number} ({kind}): excitation forces and radiated waves disagree by "
                 f"{residual:.1e}, more than the tolerance {tolerance:g} allows"
             )
     if isinstance(solution, ResonanceSolution):
@@ -140,7 +140,7 @@ def resonance_reasons(solution: ResonanceSolution) -> Iterator[str]:
     """Yield why the resonances of a region are not known to be all, in words."""
     counted = solution.table.counted
     if counted is None:
-        yield "the independent count of the resonances is not certain: one may lie on the rim of its region"
+        yield "the independent count of the resonances is not certain: one may lie on the boundary of its region"
     elif counted != solution.known:
         yield f"an independent count finds {counted} resonances in the region, and {solution.known} are known"
     if solution.unstable:

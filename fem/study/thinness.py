@@ -4,7 +4,7 @@ The same float is solved with its conditions on the contour itself and on its mi
 and again; by Archimedes its mass follows. Relative to each other the two models differ
 
     in ω of heave and its modal mass           like the square of the thinness
-    in the added mass far above the waves      like the thinness
+    in the added mass at infinite frequency    like the thinness
     in ω of waves in a tank of length L        like half width/L: the thin float leaves its area to the liquid
 
 as theory says: the source of the next order on the middle line is that of the squared thinness, and added mass is
@@ -102,7 +102,7 @@ class ThinnessRate:
 QUANTITIES: dict[str, tuple[str, float]] = {
     "heave": ("ω of heave, rad/s", 2.0),
     "modal mass": ("modal mass of heave, kg/m", 2.0),
-    "added mass": ("added mass far above the waves, kg/m", 1.0),
+    "added mass": ("added mass at infinite frequency, kg/m", 1.0),
     **{f"wave {number}": (f"ω of wave {number}, rad/s", 1.0) for number in range(1, _WAVES + 1)},
 }
 """What is compared, by name: in words, and the power of the thinness with which the difference falls."""

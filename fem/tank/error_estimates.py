@@ -127,7 +127,7 @@ def energies_missed(
     whole = mesh.comm.allreduce(cells.sum(axis=1), op=MPI.SUM)
     if not np.all(np.isfinite(whole)):
         # Comparisons with a tolerance would let it pass.
-        raise EigenSolverError("the error of a mode cannot be told: its energy is not a number")
+        raise EigenSolverError("the error of a mode cannot be estimated: its energy is not a number")
     return whole - at_tips, at_tips
 
 

@@ -98,21 +98,23 @@ def float_modes(
         tank: the scene.
         bodies: its bodies in the field model.
         modes: the modes computed.
-        added: the floats' added mass far above the waves.
+        added: the floats' added mass at infinite frequency.
         complete: whether they are all that there are.
     """
     found = []
     for motion in _restored(tank, bodies):
         moved = modes.elastic_amplitudes[:, motion.place] ** 2
         order = np.argsort(-moved)
-        more = added.principal(tank, motion.body)[motion.number] if added is not None else 0.0
+        more = (
+            added.principal(tank, motion.body, bodies[motion.body].motions)[motion.number] if added is not None else 0.0
+        )
         limit = motion.stiffness / (motion.mass + more)
         certain = complete or bool(modes.eigenvalues[-1] >= 0.8 * FAR_ENOUGH * limit)
         reason = ""
         if complete and motion.mass * moved.max(initial=0.0) < _HELD:
-            reason = "the volume of the liquid holds it"
+            reason = "conservation of volume excludes it"
         elif not certain or not np.any(moved):
-            reason = "it may lie above the modes looked at; ask for more modes"
+            reason = "it may lie above the modes computed; ask for more modes"
         found.append(
             FloatMode(
                 body=motion.body,

@@ -15,7 +15,6 @@ from mpi4py import MPI
 from scipy.linalg import block_diag
 
 from hydroelastic.fem.added_mass import body_responses
-from hydroelastic.fem.bodies.rigid_float import principal_motions
 from hydroelastic.fem.liquid import compile_form
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.fem.surfaces import Body
@@ -67,14 +66,13 @@ class InfiniteFrequencyAddedMass:
 
     def block(self, tank: Tank, body: int) -> np.ndarray:
         """The part of one float, of its own motions in its own movement, shape (motions, motions)."""
-        first = sum(len(tank.floats[index].motions) for index in tank.floats if index < body)
-        own = slice(first, first + len(tank.floats[body].motions))
+        first = sum(len(tank.bodies[index].rigid_motions) for index in tank.rigid if index < body)
+        own = slice(first, first + len(tank.bodies[body].rigid_motions))
         return self.matrix[own, own]
 
-    def principal(self, tank: Tank, body: int) -> np.ndarray:
-        """Added mass of each of a float's principal motions, shape (motions,)."""
-        turn = principal_motions(tank.floats[body], tank.floats[body].motions)[0]
-        added: np.ndarray = np.diag(turn.T @ self.block(tank, body) @ turn)
+    def principal(self, tank: Tank, body: int, motions: np.ndarray) -> np.ndarray:
+        """Added mass of each of a float's principal motions, shape (motions,), by `Body.motions`."""
+        added: np.ndarray = np.diag(motions.T @ self.block(tank, body) @ motions)
         return added
 
 
@@ -126,7 +124,7 @@ def infinite_frequency_limit(
     if has_tones:
         report("pressure-release tone")
     if has_added_mass:
-        report("added mass far above the waves")
+        report("added mass at infinite frequency")
     stage = "pressure release" if has_tones else "added mass"
 
     def solve(resolution: Resolution) -> Attempt[InfiniteFrequencyLimit]:
@@ -213,7 +211,7 @@ def _added_mass(
         diagonal = np.diag(added)[relevant]
         causes.append(added_mass_errors(pencil.liquid, own, diagonal, tank, resolution, half=parity is not None))
     errors = joined_errors(causes)
-    turns = block_diag(*(principal_motions(body, body.motions)[0] for body in tank.floats.values()))
+    turns = block_diag(*(bodies[index].motions for index in tank.rigid))
     physical = np.linalg.solve(turns.T, np.linalg.solve(turns.T, matrix).T)
     return InfiniteFrequencyAddedMass(matrix=0.5 * (physical + physical.T), error=errors.largest_total), errors
 
@@ -230,10 +228,11 @@ def _restriction(tank: Tank, bodies: tuple[Body, ...], parity: Parity | None) ->
 
 def _is_relevant(tank: Tank, restriction: np.ndarray, added: np.ndarray) -> np.ndarray:
     """Whether each motion of a part moves liquid: a circle that turns about its centre does not."""
-    scales = np.concatenate(
+    scales = np.array(
         [
-            [body.hull.smallest_extent ** (4 if motion == "roll" else 2) for motion in body.motions]
-            for body in tank.floats.values()
+            tank.hulls[index].smallest_extent ** (4 if motion.is_rotation else 2)
+            for index in tank.rigid
+            for motion in tank.bodies[index].rigid_motions
         ]
     )
     own = np.abs(np.sign(restriction)).T @ scales

@@ -171,5 +171,5 @@ def _check_length(tagged: TaggedMesh, name: str, length: float) -> None:
     if abs(missing) > _MESH_ROUNDING:
         raise MeshError(
             f"the edges of group {name} of the mesh are {abs(missing):g} tank lengths too "
-            f"{'short' if missing > 0 else 'long'} for the scene: some lack the group, or have it in error"
+            f"{'short' if missing > 0 else 'long'} for the scene: some are not in the group, or wrongly in it"
         )

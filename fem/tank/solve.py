@@ -87,7 +87,7 @@ class TankSolution:
         counted: whether the inertia of an independent factorization confirms that no mode is missing.
         tones: one for each beam.
         float_modes: one for each motion of a float that gravity restores.
-        added_mass: of the floats, far above the waves; ``None`` without floats, or where a lid leaves no such limit.
+        added_mass: of the floats, at infinite frequency; ``None`` without floats, or where a lid leaves no such limit.
         attempts: how many resolutions were tried.
         reasons: why the solution does not keep what was asked; empty if it does.
         seconds: time by stage.
@@ -316,7 +316,7 @@ def _reasons(solution: TankSolution) -> Iterator[str]:
     yield from excess(f"mode {number} has an estimated relative error", modes[number], rounding=rounding)
     yield from excess("a growth rate has an estimated relative error", max(solution.growing_errors, default=0.0))
     if len(solution.asked) < min(solution.count, _modes_there(solution)):
-        yield f"{len(solution.asked)} of {solution.count} modes can be told from the rounding of the lowest"
+        yield f"{len(solution.asked)} of {solution.count} modes exceed the rounding of the lowest"
     if not solution.counted:
         yield "an independent count of the modes by inertia disagrees: a mode may be missing"
     for tone in solution.tones:
@@ -330,7 +330,7 @@ def _reasons(solution: TankSolution) -> Iterator[str]:
         if mode.index is not None:
             yield from excess(f"the {mode.motion} mode of float {mode.body + 1} {estimated}", errors[mode.index])
     if solution.added_mass is not None:
-        yield from excess(f"the added mass far above the waves {estimated}", solution.added_mass.error)
+        yield from excess(f"the added mass at infinite frequency {estimated}", solution.added_mass.error)
 
 
 def _modes_there(solution: TankSolution) -> float:

@@ -105,9 +105,7 @@ class MotionPlan:
         if self.shedding is not None and (model.dimension == 2 or model.normal_drag == 0.0):
             raise ValueError("shedding: its force is across the plane of the thread, and needs dimension 3 and drag")
         if model.reactive != "none" and any(prescribed.release is not None for prescribed in self.ends):
-            raise ValueError(
-                f'release: not with reactive "{model.reactive}", whose terms at an end that is let go are new'
-            )
+            raise ValueError(f'release: not with reactive "{model.reactive}", which has no terms for a released end')
         for name, prescribed in zip("AB", self.ends, strict=True):
             if prescribed.release is not None and len(prescribed.release) != model.dimension:
                 raise ValueError(

@@ -195,7 +195,7 @@ class NewtonSolver:
             place = "along a step of Newton's method" if self._length > 0.0 else "at the start"
             return f"the equations have no finite value {place}"
         return (
-            f"Newton's method did not come to an end in {count} steps: the last one moved the thread by "
+            f"Newton's method did not converge in {count} steps: the last one moved the thread by "
             f"{self._length:.1e} of its length, with a residual of {self._size:.1e} of the characteristic tension"
         )
 

@@ -214,7 +214,7 @@ def _time_unit(equilibrium: Equilibrium) -> float:
     tension = space.mesh.comm.allreduce(float(forces.max(initial=0.0)), op=MPI.MAX)
     stiffness = tension / model.length + model.flexural_rigidity / model.length**3
     if stiffness == 0.0:
-        raise ValueError("the thread has neither tension nor flexural_rigidity: nothing brings it back")
+        raise ValueError("the thread has neither tension nor flexural_rigidity: it has no restoring force")
     return float(np.sqrt(mass / stiffness))
 
 

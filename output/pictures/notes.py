@@ -24,7 +24,7 @@ def stretch_note(view: View) -> str:
 
 def scale_notes(view: View, picture: ModePicture) -> str:
     """What the reader must know to measure in the picture."""
-    notes = ["the water goes on beyond what is shown"] if picture.goes_on else []
+    notes = ["the water extends beyond the picture"] if picture.goes_on else []
     if stretch := stretch_note(view):
         notes.append(f"{stretch}, also of the vectors")
     if view.whole_upper_depth and (view.cut or view.upper_cut):

@@ -252,14 +252,14 @@ class Float(SceneModel):
         description="radius of gyration about the centre of mass, m; by default that of the homogeneous section",
     )
     motions: tuple[Motion, ...] = Field(
-        default=("heave",), min_length=1, max_length=3, description="how it may move, each motion once"
+        default=("heave",), min_length=1, max_length=3, description="its free motions, each once"
     )
     boundary: Literal["exact", "thin"] = Field(
         default="exact", description="conditions on the contour itself, or those of a thin float on its middle line"
     )
     unstable: Literal["refuse", "solve"] = Field(
         default="refuse",
-        description="what becomes of a float that would capsize: refused, or its roll solved all the same",
+        description="treatment of an unstable float: refused, or its roll solved",
     )
 
     @property

@@ -124,7 +124,7 @@ def _sizes_fit(scene: TankParts, index: int, body: Float, contour: Contour) -> I
             ("body", index, body.shape_key),
             body.half_width,
             f"the section is {width:g} m wide and {height:g} m high, too "
-            f"{'slender' if width < height else 'flat'} for one mesh to show both",
+            f"{'slender' if width < height else 'flat'} for one mesh to resolve both",
             allowed=f"a width of {least:g} to {most:g} heights",
             remedy=_other_models(body) if width < height else "A beam is flat",
         )
@@ -136,7 +136,7 @@ def _sizes_fit(scene: TankParts, index: int, body: Float, contour: Contour) -> I
         yield problem_at(
             ("body", index, body.shape_key),
             body.half_width,
-            f"the float is too small beside {beside} for one mesh to show both",
+            f"the float is too small beside {beside} for one mesh to resolve both",
             allowed=f"a width or height of at least {smallest:g} m ({SMALLEST_FLOAT:g} of {of_what})",
         )
 

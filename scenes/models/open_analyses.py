@@ -25,7 +25,7 @@ class Radiation(SceneModel):
 
     kind: Literal["radiation"] = Field(default="radiation", description="kind of the analysis")
     omega: Annotated[tuple[ZeroOrMoreOrInfinite, ...], *DISTINCT] = Field(
-        description=f"frequencies, rad/s, {OR_SWEEP}; 0 for very long waves, inf for the limit far above the waves"
+        description=f"frequencies, rad/s, {OR_SWEEP}; 0 for very long waves, inf for the limit of infinite frequency"
     )
     elastic_modes: Annotated[int, Strict(), Field(ge=0, le=200)] = Field(
         default=4, description="how many elastic shapes of each beam are reported"
@@ -64,7 +64,7 @@ class Resonance(SceneModel):
         default=None, description="frequency, rad/s; all whose Re ω is below it are asked for"
     )
     largest_damping: Annotated[float, Strict(), Field(ge=1e-6, le=2)] = Field(
-        default=0.5, description="largest −Im ω/Re ω that is looked for; above 0.7 all liquids must be endless"
+        default=0.5, description="largest −Im ω/Re ω of the search; above 0.7 all depths must be infinite"
     )
 
     @property
@@ -82,7 +82,7 @@ class Release(SceneModel):
     @model_validator(mode="after")
     def _is_somewhere(self) -> Release:
         if self.heave == self.roll == 0.0:
-            raise problem("the float is let go where it rests", allowed="a heave or a roll other than 0")
+            raise problem("the float is released from its equilibrium", allowed="a heave or a roll other than 0")
         return self
 
 
@@ -96,7 +96,7 @@ class Decay(SceneModel):
 
     kind: Literal["decay"] = Field(default="decay", description="kind of the analysis")
     displacement: Annotated[Release, BeforeValidator(_as_heave)] = Field(
-        description="where the float is let go: heave in m, or a table {heave, roll} in m and rad"
+        description="displacement from which the float is released: heave in m, or a table {heave, roll} in m and rad"
     )
     body: Annotated[int, Strict(), Field(ge=1, le=1000)] = Field(
         default=1, description="number of the float among the bodies, from 1"

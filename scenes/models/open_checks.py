@@ -28,13 +28,13 @@ def closed_tanks_have_no_open_water_keys(scene: TankParts) -> Iterator[InitError
                 liquid.depth,
                 "a tank with walls is not infinitely deep",
                 allowed="a finite depth",
-                remedy='Waves that leave need ends = "open" in [tank]',
+                remedy='Outgoing waves need ends = "open" in [tank]',
             )
     if scene.analysis:
         yield problem_at(
             ("analysis",),
             None,
-            "of a tank with walls the modes are found, and no other analysis is known",
+            "a tank with walls has modes, and no other analysis",
             remedy='Leave it out, or set ends = "open" in [tank]',
         )
 
@@ -51,14 +51,14 @@ def open_water_is_complete(scene: TankParts) -> Iterator[InitErrorDetails]:
         yield problem_at(
             ("mesh", "file"),
             str(scene.mesh.file),
-            "a mesh of your own ends somewhere, and open water does not",
+            "a user mesh has no absorbing layer for open water",
             remedy="Leave [mesh] out",
         )
     if len(scene.layers) == 1 and scene.top != "free":
         yield problem_at(
             ("tank", "top"),
             scene.top,
-            "without a free surface or an interface no wave leaves",
+            "without a free surface or an interface there are no waves",
             allowed='"free"',
             remedy='Set ends = "walls", or add a second [[liquid]]',
         )
@@ -68,7 +68,7 @@ def open_water_is_complete(scene: TankParts) -> Iterator[InitErrorDetails]:
             ("accuracy", "modes"),
             scene.accuracy.modes,
             "open water has no modes, so this has no effect",
-            remedy='Leave it out; how many resonances are looked for is "count" of an [[analysis]]',
+            remedy='Leave it out; the number of resonances is "count" of an [[analysis]]',
         )
     yield from _nothing_lies_above_an_infinite_liquid(scene)
 
@@ -87,7 +87,7 @@ def frequencies_and_times_can_be_resolved(scene: TankParts) -> Iterator[InitErro
                 yield problem_at(
                     ("analysis", index, key),
                     wrong[0],
-                    "its waves are too long or too short beside the length that is drawn for one mesh to show both",
+                    "its waves are too long or too short relative to the drawn length for one mesh to resolve both",
                     allowed=f"{slowest:.3g} to {fastest:.3g} rad/s",
                 )
         late = [time for time in getattr(analysis, "times", ()) if time * slowest > 1.0]
@@ -95,7 +95,7 @@ def frequencies_and_times_can_be_resolved(scene: TankParts) -> Iterator[InitErro
             yield problem_at(
                 ("analysis", index, "times"),
                 late[0],
-                "the waves that matter so late are too long beside the length that is drawn",
+                "the waves at such late times are too long relative to the drawn length",
                 allowed=f"0 to {1.0 / slowest:.3g} s",
             )
 
@@ -108,7 +108,7 @@ def resonance_regions_are_covered_by_theory(scene: TankParts) -> Iterator[InitEr
             yield problem_at(
                 ("analysis", index, "largest_damping"),
                 analysis.largest_damping,
-                "resonances that die out so fast are found in endless liquids alone, and one here has a finite depth",
+                "such strongly damped resonances are computed in infinite depths only, and one here is finite",
                 allowed=f"at most {MOST_DAMPING_ANYWHERE:g}",
                 remedy=f"Ask for at most {MOST_DAMPING_ANYWHERE:g}, or make each depth inf",
             )
@@ -121,7 +121,7 @@ def _nothing_lies_above_an_infinite_liquid(scene: TankParts) -> Iterator[InitErr
         yield problem_at(
             ("tank", "top"),
             scene.tank.top,
-            "the upper liquid goes on upwards without end, so this has no effect",
+            "the upper liquid is infinitely deep, so this has no effect",
             remedy="Leave it out, or give the upper liquid a finite depth",
         )
     for index, body in enumerate(scene.body):
@@ -129,7 +129,7 @@ def _nothing_lies_above_an_infinite_liquid(scene: TankParts) -> Iterator[InitErr
             yield problem_at(
                 ("body", index, "at"),
                 body.at,
-                "the upper liquid goes on upwards without end, so it has no surface",
+                "the upper liquid is infinitely deep, so it has no surface",
                 allowed='"interface"',
             )
 
@@ -154,7 +154,7 @@ def decaying_bodies_are_floats(scene: TankParts) -> Iterator[InitErrorDetails]:
         numbers = [str(number + 1) for number, _ in scene.floats]
         body = scene.body[analysis.body - 1] if analysis.body <= len(scene.body) else None
         if not isinstance(body, Float):
-            what = "there is no body of that number" if body is None else "it is a beam, and a float is let go"
+            what = "there is no body of that number" if body is None else "it is a beam, and only floats are released"
             yield problem_at(
                 ("analysis", index, "body"),
                 analysis.body,
@@ -169,7 +169,7 @@ def decaying_bodies_are_floats(scene: TankParts) -> Iterator[InitErrorDetails]:
                     ("analysis", index, "displacement", motion),
                     value,
                     f"[[body]] number {analysis.body} does not move so: its motions are {', '.join(body.motions)}",
-                    remedy=f'Add "{motion}" to its motions, or let it go from another displacement',
+                    remedy=f'Add "{motion}" to its motions, or release it from another displacement',
                 )
 
 

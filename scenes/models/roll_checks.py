@@ -42,7 +42,7 @@ def frequency_is_given_once(scene: RollParts) -> Iterator[InitErrorDetails]:
     given = [name for name in ("natural_period", "natural_frequency", "section") if getattr(roll, name) is not None]
     if len(given) != 1:
         key = given[1] if given else "natural_period"
-        wrong = f"it stands beside {given[0]}" if given else "it is missing"
+        wrong = f"it is given beside {given[0]}" if given else "it is missing"
         value = getattr(roll, key)
         yield problem_at(
             ("roll", key),
@@ -52,7 +52,10 @@ def frequency_is_given_once(scene: RollParts) -> Iterator[InitErrorDetails]:
         )
     if roll.damping is not None and roll.damping_ratio is not None:
         yield problem_at(
-            ("roll", "damping_ratio"), roll.damping_ratio, "it stands beside damping", allowed="one of the two, or none"
+            ("roll", "damping_ratio"),
+            roll.damping_ratio,
+            "it is given beside damping",
+            allowed="one of the two, or none",
         )
 
 
@@ -62,7 +65,7 @@ def waves_can_be_read(scene: RollParts) -> Iterator[InitErrorDetails]:
         return
     key, value = ("train", "file"), str(scene.train.file)
     if scene.wave:
-        yield problem_at(key, value, "it stands beside [[wave]]", allowed="one of the two")
+        yield problem_at(key, value, "it is given beside [[wave]]", allowed="one of the two")
         return
     try:
         waves = scene.waves
@@ -83,7 +86,7 @@ def ship_is_excited(scene: RollParts) -> Iterator[InitErrorDetails]:
     """There are waves, or the ship is released from an angle."""
     if not scene.waves and scene.roll.angle == scene.roll.rate == 0.0:
         yield problem_at(
-            ("wave",), None, "there is none, and the ship rests", allowed="waves, or an angle or a rate at t = 0"
+            ("wave",), None, "there is none, and the ship is at rest", allowed="waves, or an angle or a rate at t = 0"
         )
     if len(scene.waves) > MOST_WAVES:
         place = ("wave",) if scene.train is None else ("train", "file")
@@ -131,7 +134,7 @@ def motion_can_be_followed(scene: RollParts) -> Iterator[InitErrorDetails]:
     """The motion ends after t = 0, within the limits of oscillations and of steps of the integrator."""
     frequency = scene.natural_frequency
     if scene.output.times is not None and scene.output.times[-1] == 0.0:
-        yield problem_at(("output", "times"), 0.0, "the motion is not followed at all", allowed="a last time above 0")
+        yield problem_at(("output", "times"), 0.0, "the motion has no duration", allowed="a last time above 0")
         return
     if scene.roll.quadratic_damping > 0.0 and scene.accuracy.tolerance < LEAST_QUADRATIC_TOLERANCE:
         yield problem_at(

@@ -86,9 +86,7 @@ class RollParts(SceneInFolder):
     kind: Literal["roll"] = Field(default="roll", description="kind of the scene")
     title: Title = Field(default="", description="title of tables and images")
     roll: ShipRoll = Field(description="the ship, and how its roll begins")
-    wave: tuple[SwellWave, ...] = Field(
-        default=(), description="the waves, in the order of their coming; without any the roll is free"
-    )
+    wave: tuple[SwellWave, ...] = Field(default=(), description="the waves, in order; without any the roll is free")
     train: SwellTable | None = Field(default=None, description="the waves from a table, in place of [[wave]]")
     output: RollOutput = Field(default=RollOutput(), description="when the motion is reported")
     accuracy: RollAccuracy = Field(default=RollAccuracy(), description="what is asked of the answer")

@@ -63,7 +63,7 @@ def table_can_be_followed(scene: StringParts) -> Iterator[InitErrorDetails]:
         return
     written = motion.times is not None or motion.values is not None
     if (motion.file is not None) == written:
-        wrong = "it stands beside times and values" if written else "it is missing"
+        wrong = "it is given beside times and values" if written else "it is missing"
         value = str(motion.file) if written else None
         yield problem_at(("motion", "file"), value, wrong, allowed="either file, or times and values")
         return

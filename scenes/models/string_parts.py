@@ -172,7 +172,7 @@ class StringAccuracy(SceneModel):
     )
     method: Literal["auto", "series", "field"] = Field(
         default="auto",
-        description="series of the closed form, field solution, or the series wherever there is one",
+        description="series of the closed form, field solution, or the series where it exists",
     )
 
 

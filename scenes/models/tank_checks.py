@@ -28,10 +28,10 @@ DEPTH_TO_LENGTH = (1e-4, 1e3)
 its end (it decays as e^{-πy/L}), and the depth only adds cells and rounding."""
 
 LIGHTEST = 1e-6
-"""ρ₁/ρ₂ of two liquids: below it the upper one is lost in the rounding of the lower one."""
+"""ρᵤ/ρₗ of two liquids: below it the upper one is lost in the rounding of the lower one."""
 
 SMALLEST_DIFFERENCE = 1e-9
-"""(ρ₂ − ρ₁)/ρ₂ of two liquids: decimal densities do not tell less apart."""
+"""(ρₗ − ρᵤ)/ρₗ of two liquids: decimal densities do not tell less apart."""
 
 SHORTEST_BEAM = 1e-4
 """Part of the tank's length: with a shorter beam the lengths of one mesh lie too far apart."""
@@ -70,14 +70,14 @@ def _densities_are_in_order(scene: TankParts) -> Iterator[InitErrorDetails]:
             yield problem_at(
                 ("liquid", 1, "density"),
                 upper,
-                f"ρ₁/ρ₂ = {upper / lower:g}: the upper liquid is lost in the rounding of the lower one",
+                f"ρᵤ/ρₗ = {upper / lower:g}: the upper liquid is lost in the rounding of the lower one",
                 allowed=f"0, for air, or at least {LIGHTEST * lower:g} kg/m³ over this lower liquid",
             )
         elif (lower - upper) / lower < SMALLEST_DIFFERENCE:
             yield problem_at(
                 ("liquid", 1, "density"),
                 upper,
-                f"(ρ₂ − ρ₁)/ρ₂ = {(lower - upper) / lower:.3g}: what carries the waves is lost in rounding",
+                f"(ρₗ − ρᵤ)/ρₗ = {(lower - upper) / lower:.3g}: their difference is lost in rounding",
                 allowed=f"{SMALLEST_DIFFERENCE * lower:g} kg/m³ less than the lower liquid, at least",
             )
 
@@ -108,7 +108,7 @@ def _meshes_are_those_of_beams(scene: TankParts) -> Iterator[InitErrorDetails]:
     yield problem_at(
         ("mesh", "file"),
         str(scene.mesh.file),
-        f"a mesh of your own is for one liquid with or without beams; this scene has {because}",
+        f"a user mesh is for one liquid with or without beams; this scene has {because}",
         remedy="Leave [mesh] out: the built-in mesh follows the interface and the floats",
     )
 
@@ -181,7 +181,7 @@ def _beams_are_not_too_short(scene: TankParts) -> Iterator[InitErrorDetails]:
             yield problem_at(
                 ("body", index, "length"),
                 beam.length,
-                f"the beam is too short beside {others} for one mesh to show both",
+                f"the beam is too short beside {others} for one mesh to resolve both",
                 allowed=f"at least {shortest:g} m ({SHORTEST_BEAM:g} of {_span_name(scene)})",
             )
 
@@ -199,7 +199,7 @@ def _groups_are_in_range(scene: TankParts) -> Iterator[InitErrorDetails]:
                     yield problem_at(
                         ("body", index, *beam.location_of(number, key)),
                         value,
-                        f"{formula} = {value / scale:g} is beyond what double precision can tell apart",
+                        f"{formula} = {value / scale:g} is beyond the resolution of double precision",
                         allowed=f"{least * scale:.3g} to {most * scale:.3g} for this beam and liquid",
                     )
         yield from _joints_are_in_range(scene, index, beam)
@@ -213,7 +213,7 @@ def _joints_are_in_range(scene: TankParts, index: int, beam: AnyBeam) -> Iterato
             yield problem_at(
                 ("body", index, "joints", number, "rotational_stiffness"),
                 joint.rotational_stiffness,
-                "it is too small for double precision to tell it from none",
+                "it is too small to differ from zero in double precision",
                 allowed=f"0 for a hinge, or at least {least:.3g} for this beam and liquid",
             )
 
@@ -240,7 +240,7 @@ def _joints_lie_in_their_beams(scene: TankParts) -> Iterator[InitErrorDetails]:
                 yield problem_at(
                     where,
                     joint.at,
-                    "it is too close to an end, to a step of the beam or to another joint for one mesh to show both",
+                    "it is too close to an end, to a step of the beam or to another joint for one mesh to resolve both",
                     allowed=f"at least {nearest:g} m between them ({SHORTEST_BEAM:g} of {_span_name(scene)})",
                 )
 
@@ -253,14 +253,14 @@ def _sections_are_not_too_short(scene: TankParts) -> Iterator[InitErrorDetails]:
                 yield problem_at(
                     ("body", index, "sections", number, "length"),
                     part.length,
-                    "the section is too short for one mesh to show it and all the rest",
+                    "the section is too short for one mesh to resolve it together with the rest",
                     allowed=f"at least {shortest:g} m ({SHORTEST_BEAM:g} of {_span_name(scene)})",
                 )
 
 
 def _groups(scene: TankParts, beam: AnyBeam) -> tuple[tuple[str, str, float, tuple[float, float]], ...]:
     below, above = scene.densities_at(scene.level_of(beam))
-    jump = "(ρ₂ − ρ₁)" if above else "ρ"
+    jump = "(ρₗ − ρᵤ)" if above else "ρ"
     weight = (below - above) * scene.tank.gravity
     return (
         ("flexural_rigidity", f"EI/({jump} g l⁴)", weight * beam.length**4, STIFFNESS_GROUP),

@@ -32,7 +32,7 @@ class ThreadStability(SceneModel):
 
     kind: Literal["stability"] = Field(default="stability", description="kind of the analysis")
     factors: Annotated[tuple[PositiveNumber, ...], *ascending_values(1000)] = Field(
-        description=f"factors of the stream that are gone through, {OR_SWEEP}"
+        description=f"factors of the stream in the sweep, {OR_SWEEP}"
     )
 
 
@@ -79,11 +79,11 @@ class ThreadMotion(SceneModel):
     )
     direction: Vector = Field(default=(0.0, 0.0, -1.0), description="of a straight start, from end A to end B")
     move: tuple[EndMotion, ...] = Field(default=(), description="how ends are moved")
-    release: tuple[EndRelease, ...] = Field(default=(), description="which ends are let go, and when")
+    release: tuple[EndRelease, ...] = Field(default=(), description="ends that are released, and when")
     vortices: VortexForce | None = Field(default=None, description="force of vortices; by default none")
     integrator: Literal["midpoint", "generalized_alpha"] = Field(
         default="midpoint",
-        description="midpoint rule, which keeps energy, or generalised-α, which damps what is too fast to be followed",
+        description="midpoint rule, which keeps energy, or generalised-α, which damps what the steps do not resolve",
     )
     spectral_radius: Annotated[float, Strict(), Field(ge=0, le=0.95)] = Field(
         default=0.6, description="of generalised-α at infinite frequency; 0.5 to 0.7"

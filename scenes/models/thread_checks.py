@@ -32,7 +32,7 @@ def stream_is_given_once(scene: ThreadParts) -> Iterator[InitErrorDetails]:
         return
     ways = [name for name in ("velocity", "veer", "profile", "file") if getattr(stream, name) is not None]
     if len(ways) > 1:
-        yield problem_at(("stream", ways[1]), None, f"it stands beside {ways[0]}", allowed=f"one of {_WAYS}")
+        yield problem_at(("stream", ways[1]), None, f"it is given beside {ways[0]}", allowed=f"one of {_WAYS}")
         return
     if stream.shear is not None and stream.velocity is None:
         yield problem_at(
@@ -197,7 +197,7 @@ def given_tension_is_needed(scene: ThreadParts) -> Iterator[InitErrorDetails]:
         yield problem_at(
             ("thread", "tension"),
             given,
-            "the equilibrium tells the tension",
+            "the equilibrium determines the tension",
             allowed="a thread between fixed ends, as far apart as it is long, without axial_rigidity",
         )
     elif scene.motions:
@@ -223,7 +223,7 @@ def slack_thread_is_loaded(scene: ThreadParts) -> Iterator[InitErrorDetails]:
             yield problem_at(
                 ("thread", "weight"),
                 scene.weight,
-                "nothing loads the thread, and between its ends it is slack: any shape would do",
+                "nothing loads the thread, and between its ends it is slack: its shape is undetermined",
                 remedy="Give weight, a stream that drags, a shorter length or flexural_rigidity",
             )
         return
@@ -232,7 +232,7 @@ def slack_thread_is_loaded(scene: ThreadParts) -> Iterator[InitErrorDetails]:
             yield problem_at(
                 ("ends", name),
                 None,
-                "nothing pulls at this end or along the thread: any shape would do",
+                "nothing pulls at this end or along the thread: its shape is undetermined",
                 remedy="Give a force or a weight",
             )
 
@@ -279,7 +279,7 @@ def reactive_tail_is_stiff(scene: ThreadParts) -> Iterator[InitErrorDetails]:
             yield problem_at(
                 ("thread", "reactive"),
                 scene.thread.reactive,
-                f"near the free end {name.upper()} the tension falls below that which the moving liquid takes: without "
+                f"near the free end {name.upper()} the tension falls below that required by the moving liquid: without "
                 "flexural rigidity the problem is ill-posed",
                 allowed='"none", or flexural_rigidity > 0, or a force on the end',
             )

@@ -51,7 +51,7 @@ def _releases(scene: ThreadParts, motion: ThreadMotion, where: tuple[str | int, 
             )
         if scene.thread.reactive != "none":
             yield problem_at(
-                (*key, "end"), release.end, "an end is let go with the reactive model", allowed='reactive = "none"'
+                (*key, "end"), release.end, "an end is released with a reactive model", allowed='reactive = "none"'
             )
 
 
@@ -64,7 +64,7 @@ def _integrator(scene: ThreadParts, motion: ThreadMotion, where: tuple[str | int
         yield problem_at(
             key,
             motion.integrator,
-            "the thread does not stretch, and what is too fast to be followed is not there",
+            "the thread does not stretch, and has no fast stretching to damp",
             allowed='"midpoint", or axial_rigidity',
         )
     elif scene.thread.reactive == "lighthill":

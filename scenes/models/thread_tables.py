@@ -126,7 +126,7 @@ class FreeEnd(CarriedBody):
     kind: Literal["free"] = Field(default="free", description="kind of the end")
     force: Vector = Field(default=(0.0, 0.0, 0.0), description="dead force on the end, N")
     taper: NumberFromZero = Field(
-        default=0.0, le=1.0, description="shape of the end in a reactive liquid: 0 blunt, 1 tapered to nothing"
+        default=0.0, le=1.0, description="shape of the end in a reactive liquid: 0 blunt, 1 tapered to a point"
     )
 
 

@@ -39,7 +39,7 @@ class Sweep(SceneModel):
         elif self.start < SMALLEST and self.spacing == "logarithmic":
             allowed = f'from {SMALLEST:g}, or spacing = "linear"'
             problems.append(
-                problem_at(("start",), self.start, "equal ratios cannot begin so near to 0", allowed=allowed)
+                problem_at(("start",), self.start, "equal ratios cannot start so close to 0", allowed=allowed)
             )
         if problems:
             raise ValidationError.from_exception_data(type(self).__name__, problems)

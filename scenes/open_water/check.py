@@ -22,7 +22,7 @@ def check_open(scene: TankScene) -> Iterator[Section]:
     Args:
         scene: a validated scene.
     """
-    waves = Section(title="Waves that leave", lines=tuple(open_waves(scene)))
+    waves = Section(title="Outgoing waves", lines=tuple(open_waves(scene)))
     return modelled_tank(scene, requests=open_requests(scene), scale=waves)
 
 
@@ -70,7 +70,7 @@ def _request(scene: TankScene, analysis: Analysis) -> str:
             for name, value, unit in (("heave", let_go.heave, "m"), ("roll", let_go.roll, "rad"))
             if value
         ]
-        return f"decay: float {analysis.body} is let go at {' and '.join(motions)}; {_span(analysis.times, 'time')} s"
+        return f"decay: float {analysis.body} is released at {' and '.join(motions)}; {_span(analysis.times, 'time')} s"
     return _resonances(analysis)
 
 
@@ -99,5 +99,5 @@ def open_waves(scene: TankScene) -> Iterator[str]:
     layers = two_layers(physical_tank(scene))
     for omega in sorted({min(asked), max(asked)}) if asked else ():
         lengths = [f"{wave.branch} {2.0 * pi / wave.wavenumber:.4g} m" for wave in travelling_waves(layers, omega)]
-        yield f"Lengths of the waves that leave at {omega:g} rad/s: {', '.join(lengths)}."
-    yield "The length of the tank is that of the stretch that is drawn: answers do not depend on it."
+        yield f"Lengths of outgoing waves at {omega:g} rad/s: {', '.join(lengths)}."
+    yield "The length of the tank is that of the drawn region: results do not depend on it."

@@ -31,14 +31,14 @@ _SAID = {
     "period": ("s", "period"),
     "wave_direction": ("rad", "direction in which incident waves travel"),
     "wave": (None, "branch of the dispersion relation"),
-    "outgoing_wave": (None, "branch of the wave that leaves"),
+    "outgoing_wave": (None, "branch of the outgoing wave"),
     "time": ("s", "time after release"),
     "radiation_relative_error": ("1", "estimated relative error of added mass and damping"),
-    "radiation_energy_residual": ("1", "relative difference of damping and the power that leaves"),
-    "haskind_residual": ("1", "relative difference of excitation and what radiated waves say of it"),
+    "radiation_energy_residual": ("1", "relative difference of damping and the radiated power"),
+    "haskind_residual": ("1", "relative difference of the excitation and its value by Haskind's relation"),
     "reflection_coefficient": ("1", "elevation of the reflected wave over that of the incident one"),
     "transmission_coefficient": ("1", "elevation of the transmitted wave over that of the incident one"),
-    "response_energy_residual": ("1", "relative difference of the power that comes and leaves"),
+    "response_energy_residual": ("1", "relative difference of incident and outgoing power"),
     "response_relative_error": ("1", "estimated relative error of the motions"),
     "shape_amplitude": ("1", "amplitude of a further shape per unit elevation"),
     "resonance_omega": ("rad/s", "complex frequency of a resonance"),
@@ -50,14 +50,14 @@ _SAID = {
     "g": ("m/s^2", "gravity"),
     "rho": ("kg/m^3", "density of the lower liquid"),
     "water_depth": ("m", "depth of the lower liquid"),
-    "rho_above": ("kg/m^3", "density of the upper liquid"),
-    "depth_above": ("m", "depth of the upper liquid"),
+    "rho_upper": ("kg/m^3", "density of the upper liquid"),
+    "depth_upper": ("m", "depth of the upper liquid"),
     "body_name": (None, "bodies"),
 }
 # Quantities of motions: unit, that with a roll among them, and long name.
 _SAID_OF_MOTIONS = {
     "added_mass": (*INERTIA_UNITS, "added mass"),
-    "infinite_frequency_added_mass": (*INERTIA_UNITS, "added mass far above the waves"),
+    "infinite_frequency_added_mass": (*INERTIA_UNITS, "added mass at infinite frequency"),
     "inertia_matrix": (*INERTIA_UNITS, "inertia of the bodies"),
     "radiation_damping": ("kg/(m s)", "kg/(m s), with a roll kg/s, of rolls kg m/s", "radiation damping"),
     "hydrostatic_stiffness": (*STIFFNESS_UNITS, "stiffness of bodies and hydrostatics"),
@@ -68,7 +68,7 @@ _SAID_OF_MOTIONS = {
     "decay_displacement": (*MOTION_UNITS, "motion after release"),
     "decay_initial": (*MOTION_UNITS, "motion at release"),
     "decay_absolute_error": (*MOTION_UNITS, "estimated error of the motion after release"),
-    "decay_tail": ("m s^2", "m s^2, of roll rad s^2", "coefficient of 1/t^2 in the end"),
+    "decay_tail": ("m s^2", "m s^2, of roll rad s^2", "asymptotic coefficient of 1/t^2"),
 }
 # What has the phase of an incident wave.
 _PHASED = (
@@ -291,5 +291,5 @@ def _of_the_scene(scene: TankScene) -> dict[str, Any]:
         "body_name": "+".join(body_name(number) for number in range(1, len(scene.body) + 1)),
     }
     if upper:
-        found |= {"rho_above": upper[0].density, "depth_above": upper[0].depth}
+        found |= {"rho_upper": upper[0].density, "depth_upper": upper[0].depth}
     return found

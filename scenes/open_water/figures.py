@@ -106,7 +106,7 @@ def _draw_response(table: ResponseTable, sheets: Sheets, name: str) -> None:
     largest = largest[: max(_MOST_CURVES // len(table.waves), 1)]
     groups = [(turns, [place for place in places if place in largest]) for turns, places in _by_unit(table.dofs)]
     groups = [(turns, places) for turns, places in groups if places]
-    heading = f"answer per metre of waves from the {table.waves_from}"
+    heading = f"response per metre of waves from the {table.waves_from}"
     with sheets.sheet(name, heading, width=5.5 * (1 + len(groups)), height=6.0) as figure:
         first, *others = figure.subplots(1, 1 + len(groups))
         _plot_waves(first, table, order)

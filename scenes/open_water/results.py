@@ -23,5 +23,5 @@ class OpenSolution(OpenWaterSolution):
 def region_words(region: Region | None) -> str:
     """Return in which region of ω resonances were sought, in words."""
     if region is None:
-        return "any ω: nothing restores the bodies"
+        return "any ω: the bodies have no restoring force"
     return f"{region.lowest:.4g} < Re ω < {region.highest:.4g} rad/s, −Im ω < {region.damping:g} Re ω"

@@ -34,8 +34,8 @@ def solve_open(scene: TankScene, comm: MPI.Comm, report: Report) -> OpenSolution
         wrong, remedy = "a float is unstable and would capsize", "Lower its centre of mass"
     except DriftingFloatError as error:
         motions = " and ".join(error.motions)
-        wrong = f"the float would drift away: nothing restores {motions}, which it sets going"
-        remedy = f"Leave {motions} out of motions, or let go of another motion"
+        wrong = f"the float would drift away: the release excites {motions}, without restoring force"
+        remedy = f"Leave {motions} out of motions, or release it in another motion"
     else:
         return OpenSolution(scene=scene, **vars(solved))
     raise SceneError(Problem(key='[[analysis]] key "displacement"', wrong=wrong, remedy=remedy))

@@ -223,7 +223,7 @@ def _resonance(table: ResonanceTable) -> Section:
 
 def _counted(table: ResonanceTable) -> str:
     if table.counted is None:
-        return f"Looked for in {region_words(table.region)}; not counted independently."
+        return f"Searched in {region_words(table.region)}; not counted independently."
     verdict = "as many as were found" if table.counted == len(table.omega) else f"{len(table.omega)} are listed"
     return f"An independent count of {region_words(table.region)} gives {table.counted}: {verdict}."
 
@@ -249,7 +249,7 @@ def _decay(table: DecayTable) -> Section:
     tail = (
         ()
         if table.tail is None
-        else (f"In the end the motion that was let go dies out like {table.tail:.6g}/t², t in seconds.",)
+        else (f"The released motion decays asymptotically like {table.tail:.6g}/t², t in seconds.",)
     )
     return Section(
         title="Motion after release",

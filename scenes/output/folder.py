@@ -147,7 +147,7 @@ def _refuse_occupied(target: Path) -> None:
         if any(target.iterdir()) and read_manifest(target) is None:
             raise _refused(
                 target,
-                f"it is not empty and not a result folder: it lacks {MANIFEST}, the list of what a run wrote",
+                f"it is not empty and not a result folder: it lacks {MANIFEST}, the list of files of a run",
                 "Name another folder or empty this one",
             )
     elif os.path.lexists(target):

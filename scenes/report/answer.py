@@ -90,7 +90,7 @@ def _open_water(summary: Summary) -> Iterator[Row]:
         sign = -1.0 if table["initial"][released] > 0.0 else 1.0
         back = max(range(len(table["times"])), key=lambda place: sign * table["displacement"][place][released])
         motion = Dof(table["dofs"][released])
-        name = f"{motion.words} furthest to the other side after release, at t = {table['times'][back]:.4g} s"
+        name = f"{motion.words} largest swing to the other side after release, at t = {table['times'][back]:.4g} s"
         name += ", rad" if motion.is_rotation else ", m"
         yield _of_absolute(name, table["displacement"][back][released], table["absolute_error"][back])
 

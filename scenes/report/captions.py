@@ -37,7 +37,7 @@ _CAPTIONS: tuple[tuple[str, _Caption], ...] = (
     ("resonance", "Resonances in the complex plane"),
     ("decay", "Motion after release"),
     ("waves_radiation", "The waves that a motion makes"),
-    ("waves_response", "The waves that come, pass and are sent back"),
+    ("waves_response", "Incident, transmitted and reflected waves"),
     ("waves_resonance", "The field of a resonance"),
     ("space_time", "Displacement over height and time"),
     ("shapes", "Shapes at a few times"),

@@ -40,12 +40,12 @@ def _tank(scene: TankScene, outcome: Outcome) -> tuple[Section, ...] | str:
     if found:
         return found
     if scene.is_open:
-        return "No older theory stands beside this: that of thin floats does not fit these bodies and analyses."
+        return "There is no comparison with older theories: that of thin floats does not fit these bodies and analyses."
     if outcome.summary["exact"]:
         return "The modes have an exact solution; how far they are from it is said below their table."
     return (
-        "No older theory stands beside this: those at hand know a beam with free ends beside free water, and the heave "
-        "of floats."
+        "There is no comparison with older theories: they apply to a beam with free ends beside a free surface, and to "
+        "the heave of floats."
     )
 
 

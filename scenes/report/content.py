@@ -64,7 +64,7 @@ def _parts(scene: Scene, outcome: Outcome, images: Path) -> Iterator[Part]:
     yield Part(
         anchor="scene",
         title="Scene",
-        lines=("In SI units. What was not given holds by default, and is marked so.",),
+        lines=("In SI units. Default values are marked.",),
         text=scene_text(scene),
     )
     yield Part(anchor="cost", title="Cost", sections=tuple(cost_sections(summary)))
@@ -74,5 +74,5 @@ def _pictures(shown: tuple[Picture, ...], left_out: tuple[str, ...]) -> Part:
     lines: tuple[str, ...] = ()
     if left_out:
         names = ", ".join(left_out)
-        lines = (f"In the result folder, but not here, for want of room or in a format that no page shows: {names}.",)
+        lines = (f"In the result folder only, because of their size or format: {names}.",)
     return Part(anchor="pictures", title="Pictures", lines=lines, pictures=shown)

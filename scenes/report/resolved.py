@@ -25,7 +25,9 @@ def _tank(summary: Summary) -> Iterator[str]:
     solver, size = summary["solver"], summary["size"]
     attempts = solver["attempts"]
     if attempts == 1:
-        yield "One attempt: its estimated errors left nothing to refine." if not summary["reasons"] else "One attempt."
+        yield (
+            "One attempt: its estimated errors are within the tolerance." if not summary["reasons"] else "One attempt."
+        )
     else:
         yield f"{attempts} attempts: after each one, what had the largest part in the estimated error was refined."
     half = " in half the tank, for the scene is its own mirror image" if size["halves"] else ""
@@ -60,7 +62,7 @@ def _thread(summary: Summary) -> Iterator[str]:
     if rest["newton_steps"]:
         meshes = len(rest["newton_steps"])
         yield (
-            f"{meshes} {'mesh' if meshes == 1 else 'meshes'}, each finer than the one before: what differs between the "
+            f"{meshes} {'mesh' if meshes == 1 else 'meshes'}, each finer than the one before: the difference of the "
             "last two estimates the error."
         )
     yield f"{size['cells']} cells of degree {size['degree']}, {size['dofs']} unknowns."
@@ -68,6 +70,6 @@ def _thread(summary: Summary) -> Iterator[str]:
 
 def _roll(summary: Summary) -> Iterator[str]:
     if summary["ship"]["quadratic_damping"]:
-        yield "Integrated at two tolerances: what differs between them estimates the error."
+        yield "Integrated at two tolerances: their difference estimates the error."
     else:
         yield "The closed form is exact: its error is that of rounding, and of the field solution of a section if any."

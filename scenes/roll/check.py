@@ -29,9 +29,9 @@ def check_roll(scene: RollScene) -> Iterator[Section]:
 
 
 def _unknowns(scene: RollScene) -> Iterator[Row]:
-    yield "φ", "ship", "angle of roll, small, so that what restores it is linear"
+    yield "φ", "ship", "angle of roll, small, so that the restoring moment is linear"
     if scene.natural_frequency is None:
-        yield "ψ", "liquid around the section", "gives k, and in open water n by the waves that leave; solved for first"
+        yield "ψ", "liquid around the section", "gives k, and in open water n by outgoing waves; solved first"
     else:
         yield "liquid: none", "around the ship", "it acts by k and n, which are given, and by the slope of its waves"
 
@@ -42,9 +42,7 @@ def _ship(scene: RollScene) -> Iterator[str]:
     frequency = scene.natural_frequency
     if frequency is None:
         section = section_scene(scene)
-        where = (
-            "open water, n by the waves that it makes" if section.is_open else "a closed tank, which takes no energy"
-        )
+        where = "open water, n by radiated waves" if section.is_open else "a closed tank, which absorbs no energy"
         yield f"k from the field solution of the section “{section.title or scene.section_file}” in {where}."
         given = scene.roll.damping or scene.roll.damping_ratio
         if given:
@@ -81,6 +79,6 @@ def _waves(scene: RollScene) -> Iterator[str]:
 
 def _method(scene: RollScene) -> Iterator[str]:
     if scene.roll.quadratic_damping:
-        yield "Integrated in time (DOP853), anew at each wave and each turn of the rate, until two tolerances agree."
+        yield "Integrated in time (DOP853), restarted at each wave and sign change of φ', until two tolerances agree."
     else:
         yield "Closed form from wave to wave, in every regime of damping and in resonance."

@@ -47,7 +47,7 @@ def section_scene(scene: RollScene) -> TankScene:
     if stiffness <= 0.0:
         raise _unusable(
             scene,
-            f"nothing restores the roll of that section: its stiffness is {stiffness:g} N",
+            f"the roll of that section has no restoring moment: its stiffness is {stiffness:g} N",
             "a section that floats upright: a lower centre_of_mass, or a wider waterplane",
         )
     return section

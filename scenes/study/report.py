@@ -42,7 +42,7 @@ TITLES: dict[Family, str] = {
     "uniform": "Uniform meshes, every element halved from one to the next",
     "algebraic": "The same meshes drawn towards tips and corners, rᵢ = R (i/n)^β at the sharpest",
     "geometric": "One mesh, with geometric rings around tips and corners, degree by degree",
-    "tolerance": "What the solver makes of an asked tolerance",
+    "tolerance": "The solver with a requested tolerance",
     "thinness": "Thin against exact boundary, the float's width halved from one to the next",
 }
 

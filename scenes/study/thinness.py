@@ -29,7 +29,7 @@ def check_thinness(scene: TankScene) -> None:
         Problem(
             key="families",
             value="thinness",
-            wrong="it compares both boundaries of one float, and the scene has none that both know",
+            wrong="it compares both boundary conditions of one float, and the scene has none that allows both",
             allowed=f"scenes with one float, of shape {', '.join(THIN_SHAPES)}, that heaves alone",
             remedy="Leave it out, or see float_parabola",
         )

@@ -23,8 +23,8 @@ def print_thinness(console: Console, rows: Sequence[ThinnessRow]) -> None:
         return
     for line in (
         f"Differences thin/exact − 1 of floats of half width l and half height h; both models to {ASKED:g}.",
-        "heave: ω; modal mass: of heave, * shared with waves; added mass: far above the waves; waves: ω of the lowest",
-        "two modes but that of heave.",
+        "heave: ω; modal mass: of heave, * shared with waves; added mass: at infinite frequency; waves: ω of the two",
+        "lowest modes other than heave.",
     ):
         console.print(line, markup=False)
     names = [name for name in QUANTITIES if any(name in row.compared for row in rows)]

@@ -26,7 +26,7 @@ class BeamWords(BodyWords):
         jump = jump_of(scene, level)
         restoring = f" + {jump} g w" if beam.hydrostatic else ""
         if level == "interface":
-            slopes, pressure = "∂ψ₁/∂y = ∂ψ₂/∂y", "(ρ₂ ψ₂ − ρ₁ ψ₁)"
+            slopes, pressure = "∂ψᵤ/∂y = ∂ψₗ/∂y", "(ρₗ ψₗ − ρᵤ ψᵤ)"
         else:
             potential = potential_of(scene, len(scene.layers) - 1)
             slopes, pressure = f"∂{potential}/∂y", f"{jump} {potential}"
@@ -38,10 +38,10 @@ class BeamWords(BodyWords):
         """Return the shapes in which it moves."""
         beam = self.beam
         if beam.ends == "guided":
-            return "w = Σ aᵢ φᵢ: elastic shapes cos(nπx/L), n ≥ 1; heave is held by the liquid's volume"
+            return "w = Σ aᵢ φᵢ: elastic shapes cos(nπx/L), n ≥ 1; heave is excluded by the volume"
         hinges = ", a turn about each hinge" if beam.hinges else ""
         if is_held:
-            return f"w = Σ aᵢ φᵢ: pitch{hinges} and elastic shapes free in vacuum; heave is held by the liquid's volume"
+            return f"w = Σ aᵢ φᵢ: pitch{hinges} and elastic shapes free in vacuum; heave is excluded by the volume"
         return f"w = Σ aᵢ φᵢ: heave, pitch{hinges} and elastic shapes free in vacuum"
 
     def groups(self) -> Iterator[Group]:
@@ -50,7 +50,7 @@ class BeamWords(BodyWords):
         below, above = scene.densities_at(level)
         weight = (below - above) * scene.tank.gravity
         of_beam = f"beam {self.index + 1}: "
-        density = "ρ₁" if len(scene.layers) == 2 and level == "surface" else "ρ" if len(scene.layers) == 1 else "ρ₂"
+        density = "ρᵤ" if len(scene.layers) == 2 and level == "surface" else "ρ" if len(scene.layers) == 1 else "ρₗ"
         for number, part in enumerate(beam.parts, 1):
             of_part = f"{of_beam}section {number}, " if beam.sections else of_beam
             stiffness = part.flexural_rigidity / (weight * beam.length**4)

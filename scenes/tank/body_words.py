@@ -39,7 +39,7 @@ class BodyWords(ABC):
 
     @abstractmethod
     def basis(self, *, is_held: bool) -> str:
-        """Return in what it moves; ``is_held`` says that the volume of the liquid holds its heave."""
+        """Return in what it moves; ``is_held`` says that conservation of volume excludes its heave."""
 
     @abstractmethod
     def groups(self) -> Iterator[Group]:

@@ -65,19 +65,21 @@ def _sizes(scene: TankScene) -> Iterator[str]:
     yield f"First attempt: {_size(tank, resolution, user_mesh, half=half)}."
     if resolution.modes > scene.accuracy.modes:
         what = (
-            "where the energy of the first elastic tone gathers" if tank.elastic else "in which mode a float moves most"
+            "the modes that share the first elastic tone"
+            if tank.elastic
+            else "the mode with the largest motion of a float"
         )
-        yield f"  {resolution.modes} modes are looked at, to see {what}."
-    dry_modes = "dry modes reach past that wave until their energy has died out, " if tank.elastic else ""
+        yield f"  {resolution.modes} modes are computed, to find {what}."
+    dry_modes = "dry modes extend beyond that wave until their energy is negligible, " if tank.elastic else ""
     where = "tips" if not tank.hulls else "tips, corners and contact points"
     yield (
         f"  Enough for {tolerance:g}: elements follow the shortest wave of the modes reported and the degree, "
-        f"{dry_modes}and the rings end where the singularity at the {where} no longer counts. "
-        "The solution judges itself, and what falls short is refined."
+        f"{dry_modes}and the rings end where the singularity at the {where} is negligible. "
+        "The solution estimates its errors and is refined accordingly."
     )
     workable = workable_tolerance(tolerance, tank.depth)
     if workable > tolerance:
-        yield f"  Double precision will not keep {tolerance:g} here: {workable:.0e} is worked towards instead."
+        yield f"  Double precision cannot reach {tolerance:g} here: the tolerance is {workable:.0e} instead."
     limits = [
         *(["the first elastic tone"] if tank.elastic and tank.has_waves else []),
         *(["the added mass of the floats"] if tank.rigid and tank.has_infinite_frequency_limit else []),
@@ -85,15 +87,16 @@ def _sizes(scene: TankScene) -> Iterator[str]:
     if limits:
         limit = infinite_frequency_resolution(tank, tolerance, tones) if scene.mesh is None else resolution
         size = _size(tank, limit, user_mesh, half=half, infinite_frequency=scene.mesh is None)
-        where = "with ψ = 0 on the water" if len(tank.layers) == 1 else "far above the waves, the liquids moving as one"
-        yield f"Beside it {' and '.join(limits)} {where}: {size}."
-        yield "  It has no waves to resolve, but a stronger singularity at the tips."
+        two = "in the limit of infinite frequency, with ρψ continuous"
+        where = "with ψ = 0 on the water" if len(tank.layers) == 1 else two
+        yield f"In addition, {' and '.join(limits)} {where}: {size}."
+        yield "  There are no waves to resolve, but a stronger singularity at the tips."
 
 
 def _user_mesh(scene: TankScene) -> TaggedMesh | None:
     if scene.mesh is None:
         return None
-    # Only who brings a mesh needs what reads it.
+    # Only scenes with a user mesh need what reads it.
     from hydroelastic.scenes.tank.own_mesh import read_own_mesh
 
     return read_own_mesh(scene)

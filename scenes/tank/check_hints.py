@@ -48,7 +48,7 @@ def _zero_modes(scene: TankScene) -> Iterator[str]:
     loose = zero_stiffness_motions(tank)
     names = ", ".join(f"{motion.name} of {scene.body[motion.body].kind} {motion.body + 1}" for motion in loose)
     held = len(loose) - count
-    but = f"; the volume of the liquid forbids {held} of these or of their combinations" if held else ""
+    but = f"; conservation of volume excludes {held} of these or of their combinations" if held else ""
     modes = "one mode of frequency zero, which is" if count == 1 else f"{count} modes of frequency zero, which are"
     yield f"Without stiffness: {names}{but}. That leaves {modes} not reported."
 
@@ -57,7 +57,7 @@ def _few_modes(scene: TankScene) -> Iterator[str]:
     count = mode_count(physical_tank(scene))
     if count is not None and count < scene.accuracy.modes:
         yield (
-            f"Nothing but rigid bodies oscillates here: there {'is' if count == 1 else 'are'} {count} "
+            f"Only rigid bodies oscillate here: there {'is' if count == 1 else 'are'} {count} "
             f"{'mode' if count == 1 else 'modes'}, not {scene.accuracy.modes}."
         )
 
@@ -66,20 +66,20 @@ def _sloshing(scene: TankScene) -> Iterator[str]:
     if scene.body:
         return
     if len(scene.layers) == 1:
-        yield "Pure sloshing has the exact answer ω² = g k tanh kH with k = nπ/L, to compare with."
+        yield "Pure sloshing has the exact solution ω² = g k tanh kH with k = nπ/L, to compare with."
     elif scene.top == "rigid":
         yield (
-            "Waves of the interface alone have the exact answer ω² = (ρ₂ − ρ₁) g k/(ρ₁ coth kh₁ + ρ₂ coth kh₂) with "
+            "Waves of the interface alone have the exact solution ω² = (ρₗ − ρᵤ) g k/(ρᵤ coth khᵤ + ρₗ coth khₗ) with "
             "k = nπ/L, to compare with."
         )
     elif scene.top == "pressure_release":
         yield (
-            "Waves of the interface alone have the exact answer ω² = (ρ₂ − ρ₁) g k/(ρ₁ tanh kh₁ + ρ₂ coth kh₂) with "
+            "Waves of the interface alone have the exact solution ω² = (ρₗ − ρᵤ) g k/(ρᵤ tanh khᵤ + ρₗ coth khₗ) with "
             "k = nπ/L, to compare with."
         )
     else:
         yield (
-            "For each k = nπ/L there are two exact answers, a wave of the surface and a slower one of the interface: "
+            "For each k = nπ/L there are two exact solutions, a wave of the surface and a slower one of the interface: "
             "the roots of a quadratic equation for ω²."
         )
 
@@ -106,7 +106,7 @@ def _shared_tone(scene: TankScene) -> Iterator[str]:
         if ratio > 1 and beam.mass_per_length < tank.layers[0].density * beam.length:
             yield (
                 f"Beam {index + 1}: ω² l/g of its first elastic tone is about {ratio:.2g}. Above one, the tone "
-                "is shared between hybrid modes with sloshing; a run says how far (participation, runner-up)."
+                "is shared between hybrid modes with sloshing; a run reports the extent (participation, runner-up)."
             )
 
 
@@ -114,7 +114,7 @@ def _hydrostatics(scene: TankScene) -> Iterator[str]:
     for index, beam in physical_tank(scene).beams.items():
         below, above = scene.densities_at(beam.level)
         ratio = (below - above) * scene.tank.gravity / first_bending(beam)
-        jump = "(ρ₂ − ρ₁) g" if above else "ρ g"
+        jump = "(ρₗ − ρᵤ) g" if above else "ρ g"
         if beam.hydrostatic and ratio > 10:
             yield (
                 f"Beam {index + 1} is soft: {jump} is {ratio:.3g} times the bending stiffness EI κ₁⁴ of its first "
@@ -137,7 +137,7 @@ def draughts_left_out(scene: TankScene) -> Iterator[str]:
             yield (
                 f"Beam {index + 1} would float with a draught m/ρ of {draught:.3g} m, "
                 f"{draught / min(beam.length, depth):.2g} of {compared}. It is modelled as a plate at the level, "
-                "without draught: errors of that order come with the model, whatever the tolerance."
+                "without draught: the model has errors of that order, independent of the tolerance."
             )
 
 

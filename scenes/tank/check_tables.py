@@ -53,7 +53,7 @@ def _walls(scene: TankScene) -> Iterator[tuple[str, str, str, str]]:
 
 
 def _open_ends(scene: TankScene) -> Iterator[tuple[str, str, str, str]]:
-    yield "open ends", "-inf", "inf", "waves leave, none comes back"
+    yield "open ends", "-inf", "inf", "outgoing waves only"
     potential = potential_of(scene, 0)
     if isinf(scene.liquid[0].depth):
         yield "deep below", "-inf", "inf", f"∇{potential} → 0 as y → −∞"
@@ -72,7 +72,7 @@ def _surface_name(scene: TankScene, level: StillLevel, piece: Piece) -> str:
 
 def _open_condition(scene: TankScene, level: StillLevel) -> str:
     if level.kind == "interface":
-        return "∂ψ₁/∂y = ∂ψ₂/∂y = η, (ρ₂ − ρ₁) g η = ω² (ρ₂ ψ₂ − ρ₁ ψ₁)"
+        return "∂ψᵤ/∂y = ∂ψₗ/∂y = η, (ρₗ − ρᵤ) g η = ω² (ρₗ ψₗ − ρᵤ ψᵤ)"
     potential, elevation = potential_of(scene, len(scene.layers) - 1), _surface_elevation(scene)
     return {
         "free": f"∂{potential}/∂y = {elevation}, g {elevation} = ω² {potential}",
@@ -82,7 +82,7 @@ def _open_condition(scene: TankScene, level: StillLevel) -> str:
 
 
 def _surface_elevation(scene: TankScene) -> str:
-    return "η" if len(scene.layers) == 1 else "η₁"
+    return "η" if len(scene.layers) == 1 else "ηᵤ"
 
 
 def unknown_table(scene: TankScene) -> Section:
@@ -95,8 +95,8 @@ def _unknowns(scene: TankScene) -> Iterator[Row]:
     if len(scene.layers) == 1:
         yield "ψ", "liquid", why
     else:
-        yield "ψ₁", f"upper liquid, 0 < y < {scene.layers[1].depth:g} m", why
-        yield "ψ₂", f"lower liquid, {-scene.layers[0].depth:g} m < y < 0", "the same"
+        yield "ψᵤ", f"upper liquid, 0 < y < {scene.layers[1].depth:g} m", why
+        yield "ψₗ", f"lower liquid, {-scene.layers[0].depth:g} m < y < 0", "the same"
     tank = physical_tank(scene)
     for level in tank.levels_from_top:
         yield _elevation_row(scene, level)
@@ -119,11 +119,11 @@ def _elevation_row(scene: TankScene, level: StillLevel) -> tuple[str, str, str]:
             "free surface",
             f"gravity waves, {name} = ω² {potential}/g{spans}",
         ),
-        "rigid": (f"{name}: none", "rigid lid", "the lid holds the liquid, so no gravity waves"),
+        "rigid": (f"{name}: none", "rigid lid", "a lid: no gravity waves"),
         "pressure_release": (
             f"{name}: none",
             "pressure release",
-            "the liquid moves freely without weight: no gravity waves",
+            "ψ = 0: no gravity waves",
         ),
     }
     return reasons[scene.top]
@@ -142,12 +142,12 @@ def _groups(scene: TankScene) -> Iterator[Group]:
     length = scene.tank.length
     if len(scene.layers) == 2:
         lower, upper = scene.layers
-        yield "ρ₁/ρ₂", upper.density / lower.density, "density of the upper liquid over that of the lower"
+        yield "ρᵤ/ρₗ", upper.density / lower.density, "density of the upper liquid over that of the lower"
         if not isinf(lower.depth) and not isinf(upper.depth):
-            yield "h₁/h₂", upper.depth / lower.depth, "depth of the upper liquid over that of the lower"
+            yield "hᵤ/hₗ", upper.depth / lower.depth, "depth of the upper liquid over that of the lower"
     # Nothing in open water depends on the length that is drawn.
     if not scene.is_open:
-        name = "H/L" if len(scene.layers) == 1 else "h₂/L"
+        name = "H/L" if len(scene.layers) == 1 else "hₗ/L"
         what = "depth" if len(scene.layers) == 1 else "depth of the lower liquid"
         yield name, scene.layers[0].depth / length, f"{what} over length of the tank"
     for index in range(len(scene.body)):

@@ -134,7 +134,7 @@ def _dofs(solution: TankSolution) -> tuple[Dof, ...]:
 
 
 def _matrices(solution: TankSolution) -> xarray.Dataset:
-    """Inertia and hydrostatics of the floats, and their added mass far above the waves, in Capytaine's names."""
+    """Inertia and hydrostatics of the floats, and their added mass at infinite frequency, in Capytaine's names."""
     import xarray
 
     floats, units = solution.tank.floats.values(), solution.units
@@ -153,6 +153,6 @@ def _matrices(solution: TankSolution) -> xarray.Dataset:
         "hydrostatic_stiffness": (rows, stiffness * masses * units.frequency**2, STIFFNESS_UNITS[turning], said),
     }
     if solution.added_mass is not None:
-        added, said = solution.added_mass.matrix * masses, "added mass far above the waves"
+        added, said = solution.added_mass.matrix * masses, "added mass at infinite frequency"
         matrices["infinite_frequency_added_mass"] = (rows, added, INERTIA_UNITS[turning], said)
     return labelled(matrices, {}, dict.fromkeys(rows, dofs))

@@ -1,4 +1,4 @@
-"""What a summary says of rigid floats: hydrostatics, added mass far above the waves, modes, and motions that grow."""
+"""What a summary says of rigid floats: hydrostatics, added mass at infinite frequency, modes, and motions that grow."""
 
 from __future__ import annotations
 
@@ -104,7 +104,7 @@ def _mode(solution: TankSolution, mode: FloatMode) -> dict[str, Any]:
         shared=mode.is_shared,
         added_mass=added * unit,
         added_mass_relative_error=added_error,
-        note="shared with waves or other bodies: no mode is this motion's alone" if mode.is_shared else "",
+        note="shared with waves or other bodies: no single mode represents this motion" if mode.is_shared else "",
     )
     return row
 

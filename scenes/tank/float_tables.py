@@ -18,7 +18,7 @@ def float_lines(summary: Summary) -> list[str]:
         rate = with_certain_digits(growing["growth_rate"], growing["relative_error"])
         lines.append(
             f"UNSTABLE: a motion ({growing['kind']}) grows like e^(σt), σ = {rate} 1/s "
-            f"(estimated relative error {growing['relative_error']:.1e}). It is none of the modes listed."
+            f"(estimated relative error {growing['relative_error']:.1e}). It is not among the modes listed."
         )
     return lines
 
@@ -37,7 +37,7 @@ def _lines(row: dict[str, Any]) -> list[str]:
             f"{motion} {with_certain_digits(matrix[place][place], max(error, 1e-9))} {_UNITS[motion]}"
             for place, motion in enumerate(row["motions"])
         )
-        lines.append(f"  Added mass far above the waves: {own}.")
+        lines.append(f"  Added mass at infinite frequency: {own}.")
     return lines
 
 

@@ -30,7 +30,7 @@ class FloatWords(BodyWords):
             what = (
                 "∓ω′(y) s on the right and left"
                 if body.motions == ("heave",)
-                else "what the contour displaces, on both sides"
+                else "the displacement of the contour, on both sides"
             )
             return f"{across} = {what} of x = {body.position:g} m; s: {', '.join(body.motions)}"
         part = "" if level == "interface" else " below the level"
@@ -40,7 +40,7 @@ class FloatWords(BodyWords):
         """Return the motions in which it moves."""
         body = self.body
         motions = ", ".join("roll about its centre of mass" if motion == "roll" else motion for motion in body.motions)
-        held = "; heave is held by the liquid's volume" if "heave" in body.motions and is_held else ""
+        held = "; heave is excluded by the volume" if "heave" in body.motions and is_held else ""
         return f"rigid motions: {motions}{held}"
 
     def groups(self) -> Iterator[Group]:
@@ -60,7 +60,7 @@ class FloatWords(BodyWords):
         else:
             yield "B/L", breadth / scene.tank.length, of_float + "part of the tank that its waterplane covers"
         area = sum(placed.hydrostatics.areas)
-        density = jump_of(scene, "surface") if self.level == "surface" else "ρ₂"
+        density = jump_of(scene, "surface") if self.level == "surface" else "ρₗ"
         yield (
             f"m/({density} A)",
             placed.hydrostatics.mass / (below * area),

@@ -59,6 +59,6 @@ def mesh_refused(scene: TankScene, wrong: str) -> SceneError:
         key='[mesh], key "file"',
         value=f'"{scene.mesh.file}"',
         wrong=wrong,
-        remedy="Mend the mesh, or leave [mesh] out to use the built-in one",
+        remedy="Correct the mesh, or leave [mesh] out to use the built-in one",
     )
     return SceneError(problem, file=scene.source)

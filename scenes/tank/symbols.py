@@ -14,18 +14,18 @@ Group = tuple[str, float, str]
 
 def potential_of(scene: TankScene, layer: int) -> str:
     """Return the name of the potential in a layer: as the liquids, 1 is above and 2 below."""
-    return "ψ" if len(scene.layers) == 1 else ("ψ₂", "ψ₁")[layer]
+    return "ψ" if len(scene.layers) == 1 else ("ψₗ", "ψᵤ")[layer]
 
 
 def jump_of(scene: TankScene, level: Level) -> str:
     """Return the name of the difference of density that restores a level."""
     if len(scene.layers) == 1:
         return "ρ"
-    return "(ρ₂ − ρ₁)" if level == "interface" else "ρ₁"
+    return "(ρₗ − ρᵤ)" if level == "interface" else "ρᵤ"
 
 
 def depth_group(scene: TankScene, name: str, length: float, meaning: str) -> Iterator[Group]:
     """Yield the depth of the lowest liquid over a length of a body, where it is finite."""
     depth = scene.layers[0].depth
     if not isinf(depth):
-        yield ("H/" if len(scene.layers) == 1 else "h₂/") + name, depth / length, meaning
+        yield ("H/" if len(scene.layers) == 1 else "hₗ/") + name, depth / length, meaning

@@ -71,7 +71,7 @@ def tone_lines(summary: Summary) -> list[str]:
         if tone["pressure_release_omega"] is not None:
             release = with_certain_digits(tone["pressure_release_omega"], tone["pressure_release_relative_error"])
             one = len(summary["scene"]["liquid"]) == 1
-            limit = "ψ = 0 on the water, the limit far above the waves" if one else "the limit far above the waves"
+            limit = "ψ = 0 on the water, the limit of infinite frequency" if one else "the limit of infinite frequency"
             limits += f"; pressure-release tone ({limit}): {release} rad/s"
         lines.append(f"  {limits}.")
     return lines

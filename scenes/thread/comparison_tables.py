@@ -35,7 +35,7 @@ def _inapplicable(comparison: Summary) -> Section:
     for entry in comparison["inapplicable"]:
         names.setdefault(entry["reason"], []).append(entry["name"])
     notes = tuple(f"{'; '.join(those)}: {reason}." for reason, those in names.items())
-    return Section(title="What does not fit the scene, and why", notes=notes)
+    return Section(title="Estimates that do not apply, and why", notes=notes)
 
 
 def _shapes(comparison: Summary, quantity: str) -> Section:

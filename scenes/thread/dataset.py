@@ -74,7 +74,7 @@ def _rest_variables(solution: ThreadSolutionOfScene) -> xarray.Dataset:
             "curvature": ("s", rest.curvatures, "1/m", "curvature at rest"),
             "reaction": (
                 ("end", "axis"),
-                *(rest.reactions, "N", "force on the thread by what holds it", rest.reaction_error),
+                *(rest.reactions, "N", "support force on the thread", rest.reaction_error),
             ),
             "end_moment": ("end", rest.end_moments, "N m", "bending moment", rest.moment_error),
         },

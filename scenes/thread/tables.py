@@ -159,7 +159,7 @@ def _slack(times: list[Summary]) -> Iterator[str]:
     yield (
         f"SLACK: {len(times)} times the thread would be in compression, first at {number(times[0]['from'])} s; worst "
         f"{number(worst['tension'])} N at {number(worst['at'])} m. A thread without bending stiffness folds there: "
-        "what follows is not to be trusted. Give it flexural_rigidity."
+        "later results are unreliable. Give it flexural_rigidity."
     )
 
 

@@ -203,7 +203,7 @@ class _Page:
         words = write_title(self._figure, picture.title), write_caption(self._figure, scale_notes(view, picture))
         page = pixels(self._figure).copy()
         field = self._figure.artists[1]
-        for artist in (*words, field, *self._tank.collections, *self._tank.lines, *self._tank.patches):
+        for artist in (*words, field, *self._tank.collections, *self._tank.lines):
             artist.remove()
         return page
 

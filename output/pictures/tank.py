@@ -9,9 +9,8 @@ import numpy as np
 import pyvista
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection
+from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.lines import Line2D
-from matplotlib.patches import Polygon
 from matplotlib.patheffects import withStroke
 from matplotlib.tri import Triangulation
 from numpy.typing import ArrayLike
@@ -101,11 +100,7 @@ def draw_tank(
     for section in picture.floats:
         opacity = 1.0 if section.slit is None else 0.45
         moved = view.displaced(section)
-        axes.add_patch(
-            Polygon(
-                moved, facecolor=(BODY, opacity), edgecolor=BODY_EDGE, lw=3.5 * POINT * thin, clip_on=False, zorder=2.0
-            )
-        )
+        _fill(axes, moved, 2.0, facecolor=(BODY, opacity), edgecolor=BODY_EDGE, linewidth=3.5 * POINT * thin)
         resting = np.column_stack([section.contour[:, 0], view.drawn(section.contour[:, 1])])
         _stroke(axes, [[*resting, resting[0]]], 1.6 * thin, INK, dashes=_DASHES)
 
@@ -219,14 +214,7 @@ def _draw_wash(axes: Axes, picture: ModePicture, surfaces: tuple[SurfaceCurve, .
                 colour, opacity = (risen, 0.55) if sign > 0 else (UPPER_WASH, 0.55) if inner else ("white", 0.5)
                 level, surface = (view.heights(curve, y) for y in (0.0 * height, height))
                 corners = np.column_stack([np.append(curve.x, curve.x[::-1]), np.append(surface, level[::-1])])
-                style: dict[str, Any] = {
-                    "facecolor": colour,
-                    "alpha": opacity,
-                    "linewidth": 0.0,
-                    "clip_on": False,
-                    "zorder": 1.5,
-                }
-                axes.add_patch(Polygon(corners, **style))
+                _fill(axes, corners, 1.5, facecolor=colour, alpha=opacity, linewidth=0.0)
 
 
 def _draw_resting(axes: Axes, section: FloatSection, view: View, thin: float) -> None:
@@ -234,7 +222,7 @@ def _draw_resting(axes: Axes, section: FloatSection, view: View, thin: float) ->
     x, y = (section.contour if section.slit is None else section.slit).T
     points = np.column_stack([x, view.drawn(y)])
     if section.slit is None:
-        axes.add_patch(Polygon(points, facecolor=_RESTING, zorder=1.6))
+        _fill(axes, points, 1.6, facecolor=_RESTING)
     else:
         _stroke(axes, [points], 5.0 * thin, BODY_EDGE)
 
@@ -262,6 +250,11 @@ def _draw_walls(axes: Axes, picture: ModePicture, view: View, pixel: float, thin
             walls.append([(first, ceiling + edge), (last, ceiling + edge)])
     _stroke(axes, walls, WALL * thin, _WALL)
     _stroke(axes, goes_on, 1.5 * thin, GREY, dashes=_DOTS)
+
+
+def _fill(axes: Axes, corners: Array, zorder: float, **style: Any) -> None:
+    """A polygon: a patch would take long to find limits of the axes that it does not change."""
+    axes.add_collection(PolyCollection([corners], clip_on=False, zorder=zorder, **style), autolim=False)
 
 
 def _stroke(

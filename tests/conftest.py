@@ -50,9 +50,9 @@ def tanks() -> Any:
 @pytest.fixture(scope="session")
 def renderer() -> None:
     """Where nothing can render fields, a test that asks for it is skipped."""
-    from hydroelastic.output.pictures.rendering import NoRendererError, open_plotter
+    from hydroelastic.output.pictures.rendering import NoRendererError, open_window
 
     try:
-        open_plotter()
+        open_window()
     except NoRendererError as error:
         pytest.skip(str(error))

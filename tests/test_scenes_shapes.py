@@ -13,7 +13,7 @@ from hydroelastic.fem.pictures.mode import SurfaceCurve
 from hydroelastic.fem.shape_curves import largest_of
 from hydroelastic.fem.tank.mode_shapes import ModeShapes, sample_shapes
 from hydroelastic.output.pictures.options import PictureOptions
-from hydroelastic.output.pictures.rendering import NoRendererError, open_plotter
+from hydroelastic.output.pictures.rendering import NoRendererError, open_window
 from hydroelastic.scenes.models.bodies import Beam, Float
 from hydroelastic.scenes.models.body_kinds import Body
 from hydroelastic.scenes.models.tank import TankScene
@@ -185,7 +185,7 @@ def unstable(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A slender box that capsizes, run to its folder."""
     folder = tmp_path_factory.mktemp("shapes") / "result"
     try:
-        open_plotter()
+        open_window()
         images = PictureOptions()
     except NoRendererError:
         images = None

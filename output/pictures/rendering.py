@@ -1,10 +1,8 @@
-"""The colours of a field on triangles, rendered by pyvista without a screen."""
+"""The colours of a field on triangles, rendered by VTK without a screen."""
 
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Iterator
-from contextlib import contextmanager
 from functools import cache
 from typing import TYPE_CHECKING
 
@@ -38,71 +36,83 @@ def render_field(
         size: width and height in pixels.
 
     Returns:
-        Red, green, blue in 0…255, shape (height, width, 3), the uppermost row first; white beside the triangles.
+        Red, green, blue in 0…255, and opacity, shape (height, width, 4), the uppermost row first; white beside the
+        triangles.
 
     Raises:
         NoRendererError: no library of this computer can render.
     """
-    plotter = open_plotter()
-    left, right, bottom, top = corners
-    pixel = (right - left) / size[0]
-    plotter.actors["behind"].position = (pixel * _BEHIND[0], pixel * _BEHIND[1], -pixel)
-    mapper = plotter.actors["field"].mapper
-    mapper.dataset = mesh
-    mapper.scalar_range = (-limit, limit)
-    camera = plotter.camera
-    camera.up = (0.0, 1.0, 0.0)
-    camera.focal_point = (0.5 * (left + right), 0.5 * (bottom + top), 0.0)
-    camera.position = (0.5 * (left + right), 0.5 * (bottom + top), 2.0 * (top - bottom))
-    camera.parallel_scale = 0.5 * (top - bottom)
-    camera.clipping_range = (top - bottom, 3.0 * (top - bottom))
-    # pyvista's own setter would render at once.
-    plotter.render_window.SetSize(*size)
-    with _quiet():
-        plotter.render()
-        return np.asarray(plotter.image)
+    return open_window().rendered(mesh, limit, corners, size)
 
 
-@cache
-def open_plotter() -> pyvista.Plotter:
-    """The one window of a process: opening it and building its shaders takes longer than drawing.
+class _Window:
+    """Two layers of triangles in front of a camera, in plain colours.
 
-    Raises:
-        NoRendererError: no library of this computer can render.
+    VTK itself imports in a quarter of the time that the plotter of pyvista needs.
     """
-    import pyvista
 
-    with _quiet():
-        plotter = pyvista.Plotter(off_screen=True, lighting="none")
-        _require_renderer(plotter.render_window.GetClassName())
-        plotter.enable_parallel_projection()
+    def __init__(self) -> None:
+        """Open a window without a screen."""
+        from vtkmodules import vtkRenderingOpenGL2  # noqa: F401: provides the classes that render.
+        from vtkmodules.util.numpy_support import numpy_to_vtk
+        from vtkmodules.vtkCommonCore import vtkLogger, vtkLookupTable
+        from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow
+
+        # VTK tries X, EGL and OSMesa in turn and reports each that is absent.
+        verbosity = vtkLogger.GetCurrentVerbosityCutoff()
+        vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)
+        try:
+            self._window = vtkRenderWindow()
+            _require_renderer(self._window.GetClassName())
+            self._window.SetOffScreenRendering(True)
+            self._window.Initialize()
+        finally:
+            vtkLogger.SetStderrVerbosity(verbosity)
         # Plain colours, whose edges walls and surfaces cover: smoothing would take four times as long.
-        plotter.render_window.SetMultiSamples(0)
-        plotter.renderer.SetUseOIT(False)
-        colours = pyvista.LookupTable(mode_colours())
-        mapper = pyvista.DataSetMapper(pyvista.Triangle())
-        mapper.lookup_table = colours
-        mapper.interpolate_before_map = True
-        for name in ("behind", "field"):
-            plotter.add_actor(pyvista.Actor(mapper=mapper), name=name, reset_camera=False)
-            plotter.actors[name].prop.lighting = False
-        plotter.set_background("white")
-        # Until it has been shown, it renders nothing and has no image.
-        plotter.show(auto_close=False)
-    return plotter
+        self._window.SetMultiSamples(0)
+        colours = vtkLookupTable()
+        colours.SetTable(numpy_to_vtk(mode_colours()(np.arange(256), bytes=True), deep=True))
+        self._mapper = vtkPolyDataMapper()
+        self._mapper.SetLookupTable(colours)
+        self._mapper.InterpolateScalarsBeforeMappingOn()
+        renderer = vtkRenderer()
+        renderer.SetBackground(1.0, 1.0, 1.0)
+        renderer.SetBackgroundAlpha(1.0)
+        self._window.AddRenderer(renderer)
+        for self._behind in (vtkActor(), vtkActor()):
+            self._behind.SetMapper(self._mapper)
+            self._behind.GetProperty().LightingOff()
+            renderer.AddActor(self._behind)
+        self._camera = renderer.GetActiveCamera()
+        self._camera.ParallelProjectionOn()
+
+    def rendered(
+        self, mesh: pyvista.PolyData, limit: float, corners: tuple[float, float, float, float], size: tuple[int, int]
+    ) -> NDArray[np.uint8]:
+        """Render as :func:`render_field`."""
+        from vtkmodules.util.numpy_support import vtk_to_numpy
+        from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
+
+        left, right, bottom, top = corners
+        across, up, height = 0.5 * (left + right), 0.5 * (bottom + top), top - bottom
+        pixel = (right - left) / size[0]
+        self._behind.SetPosition(pixel * _BEHIND[0], pixel * _BEHIND[1], -pixel)
+        self._mapper.SetInputData(mesh)
+        self._mapper.SetScalarRange(-limit, limit)
+        self._camera.SetFocalPoint(across, up, 0.0)
+        self._camera.SetPosition(across, up, 2.0 * height)
+        self._camera.SetParallelScale(0.5 * height)
+        self._camera.SetClippingRange(height, 3.0 * height)
+        self._window.SetSize(*size)
+        self._window.Render()
+        page = vtkUnsignedCharArray()
+        self._window.GetRGBACharPixelData(0, 0, size[0] - 1, size[1] - 1, 0, page)
+        image: NDArray[np.uint8] = vtk_to_numpy(page).reshape(size[1], size[0], 4)
+        return image[::-1]
 
 
-@contextmanager
-def _quiet() -> Iterator[None]:
-    """Hold back warnings: VTK tries X, EGL and OSMesa in turn and reports each that is absent."""
-    from vtkmodules.vtkCommonCore import vtkLogger
-
-    verbosity = vtkLogger.GetCurrentVerbosityCutoff()
-    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)
-    try:
-        yield
-    finally:
-        vtkLogger.SetStderrVerbosity(verbosity)
+open_window = cache(_Window)
+"""The one window of a process: opening it and building its shaders takes longer than drawing."""
 
 
 def _require_renderer(window: str) -> None:

@@ -35,7 +35,7 @@ from hydroelastic.output.pictures.page import (
     write_keys,
     write_title,
 )
-from hydroelastic.output.pictures.tank import WALL, draw_tank, key_names, keys
+from hydroelastic.output.pictures.tank import WALL, draw_tank, erase_tank, key_names, keys
 from hydroelastic.output.pictures.view import View, colour_limit, view_of
 
 # Of ψ and ρψ.
@@ -143,22 +143,29 @@ def draw_overview(
     row = aspect * panel + _SHEET_HEADING
     height = _SHEET_FOOTER + rows * row + 20.0
     figure = new_page(height, min(width, int(_HIGHEST_SHEET * WIDTH / height)))
-    titles = []
-    for index, (picture, view) in enumerate(zip(pictures, views, strict=True)):
-        left = _MARGIN + (index % columns) * (panel + _MARGIN)
-        top = height - 15.0 - (index // columns) * row
-        drawn = view.aspect * panel
-        axes = figure.add_axes(place(figure, left, top - _SHEET_HEADING - drawn + 8.0, panel, drawn))
-        draw_tank(axes, picture, view, vectors=False, thin=_THIN)
-        titles.append(axes.set_title(picture.title, fontsize=19.0 * POINT, parse_math=False, pad=12.0 * POINT))
+    tops = [height - 15.0 - (index // columns) * row for index in range(len(pictures))]
+    lefts = [_MARGIN + (index % columns) * (panel + _MARGIN) for index in range(len(pictures))]
+    titles = [
+        figure.text((left + 0.5 * panel) / WIDTH, (top - 42.0) / height, picture.title, size=19.0 * POINT, ha="center")
+        for picture, left, top in zip(pictures, lefts, tops, strict=True)
+    ]
     for title in titles:
+        title.set_parse_math(False)
         shrink(title, panel / WIDTH * figure.bbox.width)
     smallest = min(title.get_fontsize() for title in titles)
     for title in titles:
         title.set_fontsize(smallest)
     write_keys(figure, keys(key_names(pictures, field_name(pictures[0]), vectors=False)), 66.0)
     write_caption(figure, overview_note(pictures, views))
-    save(pixels(figure), path)
+    page = pixels(figure)
+    axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
+    for picture, view, left, top in zip(pictures, views, lefts, tops, strict=True):
+        drawn = view.aspect * panel
+        axes.set_position(place(figure, left, top - _SHEET_HEADING - drawn + 8.0, panel, drawn))
+        draw_tank(axes, picture, view, vectors=False, thin=_THIN)
+        figure.draw_artist(axes)
+        erase_tank(axes)
+    save(page, path)
 
 
 def _mode_pixels(picture: ModePicture, width: int, largest: ModePicture | None = None) -> NDArray[np.uint8]:
@@ -202,9 +209,9 @@ class _Page:
         draw_tank(self._tank, picture, view, largest=largest)
         words = write_title(self._figure, picture.title), write_caption(self._figure, scale_notes(view, picture))
         page = pixels(self._figure).copy()
-        field = self._figure.artists[1]
-        for artist in (*words, field, *self._tank.collections, *self._tank.lines):
-            artist.remove()
+        for text in words:
+            text.remove()
+        erase_tank(self._tank)
         return page
 
 

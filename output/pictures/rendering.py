@@ -53,7 +53,8 @@ class _Window:
 
     def __init__(self) -> None:
         """Open a window without a screen."""
-        from vtkmodules import vtkRenderingOpenGL2  # noqa: F401: provides the classes that render.
+        # The first one provides the classes that render.
+        import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
         from vtkmodules.util.numpy_support import numpy_to_vtk
         from vtkmodules.vtkCommonCore import vtkLogger, vtkLookupTable
         from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow
@@ -106,7 +107,7 @@ class _Window:
         self._window.SetSize(*size)
         self._window.Render()
         page = vtkUnsignedCharArray()
-        self._window.GetRGBACharPixelData(0, 0, size[0] - 1, size[1] - 1, 0, page)
+        self._window.GetRGBACharPixelData(0, 0, size[0] - 1, size[1] - 1, 0, page, 0)
         image: NDArray[np.uint8] = vtk_to_numpy(page).reshape(size[1], size[0], 4)
         return image[::-1]
 

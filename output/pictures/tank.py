@@ -75,7 +75,7 @@ def draw_tank(
     # Whole pixels, up to walls and surfaces.
     (left, base), (right, ceiling) = np.floor(axes.bbox.min).astype(int), np.ceil(axes.bbox.max).astype(int)
     image = render_field(mesh, limit, corners, (int(right - left), int(ceiling - base)))
-    axes.figure.add_artist(FieldImage(image, int(left), int(base)))
+    axes.add_artist(FieldImage(image, int(left), int(base)))
     axes.patch.set_visible(False)
     _draw_iso_lines(axes, picture, mesh, limit, view, thin)
     if vectors:
@@ -103,6 +103,12 @@ def draw_tank(
         _fill(axes, moved, 2.0, facecolor=(BODY, opacity), edgecolor=BODY_EDGE, linewidth=3.5 * POINT * thin)
         resting = np.column_stack([section.contour[:, 0], view.drawn(section.contour[:, 1])])
         _stroke(axes, [[*resting, resting[0]]], 1.6 * thin, INK, dashes=_DASHES)
+
+
+def erase_tank(axes: Axes) -> None:
+    """Make room for the next mode: other axes would take longer than what is drawn into them."""
+    for artist in (*axes.collections, *axes.lines, *axes.artists):
+        artist.remove()
 
 
 def key_names(pictures: Sequence[ModePicture], field: str, *, vectors: bool) -> tuple[str, ...]:

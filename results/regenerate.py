@@ -16,9 +16,11 @@ import sys
 import tempfile
 from pathlib import Path
 
+import numpy as np
 from PIL import Image
 
 from hydroelastic.output.pictures.options import PictureOptions
+from hydroelastic.output.pictures.page import save
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.output.folder import SUMMARY
 from hydroelastic.scenes.output.markdown import markdown_table, markdown_text
@@ -38,7 +40,7 @@ STUDIED = {
     "float_parabola": StudyPlan(families=FAMILIES),
 }
 # At the width that pages show.
-SHOWN = PictureOptions(width=800)
+SHOWN = PictureOptions(width=800, dpi=100)
 TABLES = ("summary.json", "summary.md", "modes.csv")
 OTHER_TABLES = ("summary.json", "summary.md")
 
@@ -74,7 +76,7 @@ def regenerate(name: str) -> str:
             write_study(study_scene(scene, STUDIED[name]), Path(scratch) / name)
             for file in (Path(scratch) / name).iterdir():
                 if file.name != SUMMARY:
-                    shutil.copy(file, kept)
+                    (_keep_picture if file.suffix == ".png" else shutil.copy)(file, kept / file.name)
     return outcome.status
 
 
@@ -89,9 +91,9 @@ def shown_modes(summary: Summary) -> dict[int, str]:
 
 
 def _keep_picture(source: Path, target: Path) -> None:
-    """Store a picture with all its colours in as few bytes as PNG needs."""
+    """Store a picture with all its colours in few bytes."""
     with Image.open(source) as picture:
-        picture.convert("RGB").save(target, optimize=True)
+        save(np.asarray(picture.convert("RGBA")), target, compression=9)
 
 
 def index() -> str:

@@ -22,10 +22,10 @@ def cell_positions(mesh: Mesh, cells: np.ndarray, reference: np.ndarray) -> np.n
     Args:
         mesh: the mesh.
         cells: local cells, shape (cells,).
-        reference: shape (points, dim).
+        reference: points of the reference cell, shape (points, dim).
 
     Returns:
-        Shape (cells, points, gdim).
+        Coordinates in the unit of the mesh, shape (cells, points, gdim).
     """
     basis = _coordinate_basis(mesh, reference, 0)[0]
     nodes = cell_nodes(mesh, cells)
@@ -41,7 +41,7 @@ def cell_jacobians(mesh: Mesh, cells: np.ndarray, reference: np.ndarray) -> np.n
     Args:
         mesh: the mesh.
         cells: local cells, shape (cells,).
-        reference: shape (points, dim).
+        reference: points of the reference cell, shape (points, dim).
 
     Returns:
         Shape (cells, points, gdim, dim); (cells, 1, gdim, dim) where all cells are straight.

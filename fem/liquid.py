@@ -3,12 +3,12 @@
     ∫∇ψ·∇q = ∫ζ q        walls are natural boundaries
 
 Each layer of liquid has its own ψ: on the interface of two layers their meshes touch, and share no node. A layer on
-whose boundary ψ = 0 nowhere fixes ψ up to a constant and keeps its volume. One unknown of it is then grounded, which is
-exact for loads of zero total flux; loads and solutions are projected so that the solution operator
+whose boundary ψ = 0 nowhere fixes ψ up to a constant and keeps its volume. One unknown of it is then set to zero, which
+is exact for loads of zero total flux; loads and solutions are projected so that the solution operator
 
     A⁺ = Πᵀ A⁻¹ Π       is symmetric, with ∫ψ = 0 over the surfaces of each closed layer
 
-whatever is grounded.
+whichever unknown that is.
 """
 
 from __future__ import annotations
@@ -56,7 +56,8 @@ class LiquidSpace:
         tank: the mesh.
         space: the function space of ψ.
         degree: polynomial degree.
-        grounded: names of the surfaces on which ψ = 0: pressure release, or the mirror plane of antisymmetric modes.
+        zero_potential: names of the surfaces on which ψ = 0: pressure release, or the mirror plane of antisymmetric
+            modes.
         layers: the liquids, from the bottom up.
         layer_of: layer of each unknown of this process, owned ones first.
         continuous_pressure: the liquids, where the pressure ρψ is continuous across their interface, as it is at
@@ -67,7 +68,7 @@ class LiquidSpace:
     tank: TankMesh
     space: fem.FunctionSpace
     degree: int
-    grounded: tuple[str, ...]
+    zero_potential: tuple[str, ...]
     layers: tuple[Layer, ...]
     layer_of: np.ndarray
     continuous_pressure: tuple[Layer, ...] = ()
@@ -110,7 +111,7 @@ class LiquidSpace:
 def liquid_space(
     tank: TankMesh,
     degree: int,
-    grounded: tuple[str, ...] = (),
+    zero_potential: tuple[str, ...] = (),
     layers: tuple[Layer, ...] = ONE_LIQUID,
     *,
     continuous_pressure: bool = False,
@@ -120,7 +121,7 @@ def liquid_space(
     Args:
         tank: the mesh.
         degree: polynomial degree.
-        grounded: names of the surfaces on which ψ = 0.
+        zero_potential: names of the surfaces on which ψ = 0.
         layers: the liquids, from the bottom up.
         continuous_pressure: whether the pressure is continuous across their interface; the mesh is then not cut there.
     """
@@ -133,7 +134,7 @@ def liquid_space(
         tank=tank,
         space=space,
         degree=degree,
-        grounded=grounded,
+        zero_potential=zero_potential,
         layers=ONE_LIQUID if continuous_pressure else layers,
         layer_of=layer_of,
         continuous_pressure=layers if continuous_pressure else (),
@@ -143,17 +144,17 @@ def liquid_space(
 def closed_layers(liquid: LiquidSpace) -> tuple[int, ...]:
     """The layers on whose boundary ψ = 0 nowhere, so that ∫ζ = 0 over their surfaces (collective)."""
     layers = range(len(liquid.layers))
-    if not liquid.grounded:
+    if not liquid.zero_potential:
         return tuple(layers)
-    grounded = liquid.owned_layer_of[liquid.surface_dofs(liquid.grounded)]
-    counts = np.array([np.count_nonzero(grounded == layer) for layer in layers])
+    layers_of_zeros = liquid.owned_layer_of[liquid.surface_dofs(liquid.zero_potential)]
+    counts = np.array([np.count_nonzero(layers_of_zeros == layer) for layer in layers])
     liquid.tank.mesh.comm.Allreduce(MPI.IN_PLACE, counts)
     return tuple(layer for layer in layers if counts[layer] == 0)
 
 
 @dataclass(frozen=True, kw_only=True)
 class LiquidMatrices:
-    """Matrices on all unknowns of one space, the same whichever surface is grounded.
+    """Matrices on all unknowns of one space, the same on whichever surface ψ = 0.
 
     Attributes:
         laplace: A = ∫∇ψ·∇q.
@@ -265,9 +266,10 @@ def assembled(form: fem.Form) -> PETSc.Mat:
     return matrix
 
 
-def grounded_dofs(liquid: LiquidSpace) -> np.ndarray:
-    """Owned unknowns whose value is zero: those of the grounded surfaces, and one of each closed layer (collective)."""
-    surfaces = liquid.surface_dofs(liquid.grounded) if liquid.grounded else np.empty(0, dtype=np.int32)
+def constrained_dofs(liquid: LiquidSpace) -> np.ndarray:
+    """Owned unknowns whose value is zero: those of the surfaces with ψ = 0, and one of each closed layer
+    (collective)."""
+    surfaces = liquid.surface_dofs(liquid.zero_potential) if liquid.zero_potential else np.empty(0, dtype=np.int32)
     return np.union1d(surfaces, [dof for layer in closed_layers(liquid) for dof in first_dof(liquid, layer)]).astype(
         np.int32
     )
@@ -287,9 +289,9 @@ class ClosedLayer:
     """Data of the volume constraint of a closed layer.
 
     Attributes:
-        dofs: its owned unknowns; a slice where they are all.
-        load: ∫q over its moving surfaces at those unknowns.
-        measure: of those surfaces.
+        dofs: local indices of its owned unknowns, shape (unknowns,); a slice where all unknowns are its.
+        load: ∫q over its moving surfaces at those unknowns, shape (unknowns,).
+        measure: measure of those surfaces, in the unit of the mesh.
     """
 
     dofs: np.ndarray | slice
@@ -310,14 +312,14 @@ class LiquidSolver:
 
     Args:
         matrix: A on all unknowns.
-        grounded: owned local unknowns that are zero.
+        constrained: owned local unknowns that are zero, shape (constrained unknowns,).
         closed: the layers of constant volume.
     """
 
-    def __init__(self, matrix: PETSc.Mat, grounded: np.ndarray, closed: tuple[ClosedLayer, ...]) -> None:
+    def __init__(self, matrix: PETSc.Mat, constrained: np.ndarray, closed: tuple[ClosedLayer, ...]) -> None:
         """Factorize (collective)."""
         first, last = matrix.getOwnershipRange()
-        free = np.setdiff1d(np.arange(last - first, dtype=np.int32), grounded)
+        free = np.setdiff1d(np.arange(last - first, dtype=np.int32), constrained)
         self._local_free = free
         rows = PETSc.IS().createGeneral((free + first).astype(PETSc.IntType), comm=matrix.comm)
         block = matrix.createSubMatrix(rows, rows)

@@ -317,10 +317,10 @@ def count_below(pencil: CoupledPencil, eigenvalue: float) -> int:
 
 
 def _unconstrained(pencil: CoupledPencil) -> PETSc.IS:
-    """Unknowns of ψ that no grounded surface fixes, without one of each layer whose constant is arbitrary."""
+    """Unknowns of ψ off surfaces with ψ = 0, without one of each layer whose constant is arbitrary."""
     first, last = pencil.laplace.getOwnershipRange()
     liquid = pencil.liquid
-    fixed = liquid.surface_dofs(liquid.grounded) if liquid.grounded else np.empty(0, dtype=np.int32)
+    fixed = liquid.surface_dofs(liquid.zero_potential) if liquid.zero_potential else np.empty(0, dtype=np.int32)
     free = np.setdiff1d(np.arange(last - first, dtype=np.int32), np.union1d(fixed, pencil.free_constants))
     return PETSc.IS().createGeneral((free + first).astype(PETSc.IntType), comm=pencil.laplace.comm)
 

@@ -22,8 +22,8 @@ from hydroelastic.fem.liquid import (
     LiquidSpace,
     closed_layer,
     closed_layers,
+    constrained_dofs,
     first_dof,
-    grounded_dofs,
 )
 from hydroelastic.fem.shape_loads import shape_loads, surface_load
 from hydroelastic.fem.surfaces import Body, LiquidSurface
@@ -188,7 +188,7 @@ def build_pencil(
         momentum=_weighed(liquid, coupling),
         laplace=laplace,
         # A layer without moving surfaces has no flux to balance.
-        solver=LiquidSolver(laplace, grounded_dofs(liquid), tuple(layer for layer in closed if layer.measure > 0.0)),
+        solver=LiquidSolver(laplace, constrained_dofs(liquid), tuple(layer for layer in closed if layer.measure > 0.0)),
         constraints=constraints,
         free_constants=free_constants,
         surface_sizes=tuple(sizes),

@@ -40,8 +40,8 @@ class SurfaceTrace:
     At a slit that crosses the surface ψ has two values, each of which belongs to the facet on its side.
 
     Attributes:
-        x: abscissae, increasing in each facet, shape (facets, points).
-        potential: shape (modes, facets, points).
+        x: abscissae in the unit of the mesh, increasing in each facet, shape (facets, points).
+        potential: ψ in its unit in the solution, shape (modes, facets, points).
     """
 
     x: NDArray[np.float64]

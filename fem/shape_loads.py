@@ -93,9 +93,9 @@ class FacetQuadrature:
 
     Attributes:
         reference: points on the reference cell, shape (points, dim).
-        points: the same on each facet, shape (gdim, facets × points).
+        points: the same on each facet, in the unit of the mesh, shape (gdim, facets × points).
         normals: outward unit normals of the liquid there, of the same shape.
-        weights: with the measure of the facets, shape (facets, points).
+        weights: quadrature weights times the measure of the facets, in the unit of the mesh, shape (facets, points).
     """
 
     reference: np.ndarray

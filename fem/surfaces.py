@@ -18,20 +18,20 @@ the function → normal displacement (n,). A surface between two liquids has a s
 
 @dataclass(frozen=True, kw_only=True)
 class Body:
-    """A body that moves in a few shapes of its own: w = Σ aᵢ φᵢ, normal displacement on its wetted surface.
+    """A body with a few shapes, dimensionless: w = Σ aᵢ φᵢ, normal displacement on its wetted surface.
 
     The shapes are orthogonal in the strain energy and in the whole stiffness, but need not be in the mass.
 
     Attributes:
-        surface: physical name of its wetted surface, in whatever liquid.
+        surface: physical name of its wetted surface, in one or both liquids.
         shapes: the functions φᵢ.
         wavenumber: the largest wavenumber among them; it chooses the quadrature.
-        dofs: what each function is.
+        dofs: degree of freedom of each function.
         parities: symmetry of each function about the middle of the body.
         stiffness: generalized stiffness of each function, hydrostatic restoring included, shape (functions,).
         bending_stiffness: the part of it that is strain energy, shape (functions,).
         mass: generalized mass, symmetric, shape (functions, functions).
-        motions: the functions as columns in the motions that ``dofs`` names, shape (functions, functions); the identity
+        motions: the functions as columns in the degrees of freedom ``dofs``, shape (functions, functions); the identity
             but for the principal motions of floats.
         singular_points: where the shapes have unbounded slopes, like the square root of the distance; shape (points,
             gdim).

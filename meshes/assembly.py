@@ -87,10 +87,10 @@ def _joined(layout: Layout, filling: Filling) -> _Joined:
 
     cells = list(filling.cells)
     regions = [np.full(len(some), region) for region, some in enumerate(cells)]
-    for corner in layout.outline.corners:
+    for graded in layout.outline.graded_points:
         for (region, _), wedge in layout.wedges.items():
-            if wedge.corner == corner.point:
-                index = nodes_at(np.vstack([[corner.point], wedge.nodes.reshape(-1, 2)]))
+            if wedge.graded == graded.point:
+                index = nodes_at(np.vstack([[graded.point], wedge.nodes.reshape(-1, 2)]))
                 cells.append(index[ring_triangles(*wedge.nodes.shape[:2])])
                 regions.append(np.full(len(cells[-1]), region))
     chains = []

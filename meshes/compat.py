@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+import numpy.typing as npt
 from dolfinx.mesh import GhostMode, create_cell_partitioner
 
 try:  # dolfinx >= 0.10
@@ -11,7 +13,7 @@ try:  # dolfinx >= 0.10
 except ImportError:
     from dolfinx.io.utils import distribute_entity_data
 
-__all__ = ["cell_partitioner", "coordinate_degree", "distribute_entity_data", "geometry_dofmap"]
+__all__ = ["cell_partitioner", "collapsed", "coordinate_degree", "distribute_entity_data", "geometry_dofmap"]
 
 
 def geometry_dofmap(mesh: Any) -> Any:
@@ -33,3 +35,12 @@ def cell_partitioner(mode: GhostMode) -> Any:
         return create_cell_partitioner(mode)
     except TypeError:
         return create_cell_partitioner(mode, 2)
+
+
+def collapsed(space: Any, part: int) -> tuple[Any, npt.NDArray[np.int32]]:
+    """A part of a mixed space as a space of its own, and the places of its unknowns in the mixed one.
+
+    From 0.11 on dolfinx gives the places for each kind of cells; our meshes have one kind.
+    """
+    own, places = space.sub(part).collapse()
+    return own, np.ravel(np.asarray(places, dtype=np.int32))

@@ -10,8 +10,8 @@ def crossing_pair(starts: NDArray[np.float64], ends: NDArray[np.float64]) -> tup
     """Two segments that meet elsewhere than at common ends.
 
     Args:
-        starts: shape (n, 2).
-        ends: shape (n, 2).
+        starts: first points of the segments in any unit, shape (n, 2).
+        ends: last points of the segments, shape (n, 2).
 
     Returns:
         Their indices, ``None`` if there are none.

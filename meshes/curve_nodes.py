@@ -7,7 +7,7 @@ from math import ceil, inf
 import numpy as np
 from numpy.typing import NDArray
 
-from hydroelastic.meshes.outline import Corner, Curve, Outline
+from hydroelastic.meshes.outline import Curve, GradedPoint, Outline
 from hydroelastic.meshes.rings import RingEnds
 from hydroelastic.meshes.size_field import Discs, SizeField
 
@@ -26,31 +26,31 @@ _SHORTEST = 1e-6
 _BISECTIONS = 100
 
 
-def outermost_ring(outline: Outline, corner: Corner, largest_turn: float) -> float:
+def outermost_ring(outline: Outline, graded: GradedPoint, largest_turn: float) -> float:
     """Radius of the outermost ring that fits at a corner.
 
     It is `Corner.outer`, or less: the size of the curves that meet there, almost half the distance to the nearest curve
     or corner, and so small that the curves there turn within the ring by less than half of ``largest_turn`` (radians).
     """
-    place = np.array(corner.point)
-    rooms, limits = [], [corner.outer]
-    for number in outline.curves_at(corner.point):
+    place = np.array(graded.point)
+    rooms, limits = [], [graded.outer]
+    for number in outline.curves_at(graded.point):
         curve = outline.curves[number]
-        other = curve.end if corner.point == curve.start else curve.start
+        other = curve.end if graded.point == curve.start else curve.start
         rooms.append(float(np.hypot(*(np.array(other) - place))))
         limits.append(curve.size)
         if curve.path is not None:
-            limits.append(_bent_radius(curve, corner, _TURN_OF_RINGS * largest_turn))
+            limits.append(_bent_radius(curve, graded, _TURN_OF_RINGS * largest_turn))
     chords = outline.chords
     away = distances(place[None, :], chords.starts, chords.ends)[0]
-    rooms.append(float(away[~np.isin(chords.curves, outline.curves_at(corner.point))].min(initial=inf)))
+    rooms.append(float(away[~np.isin(chords.curves, outline.curves_at(graded.point))].min(initial=inf)))
     return min(_ROOM * min(rooms), *limits)
 
 
 def distances(
     points: NDArray[np.float64], starts: NDArray[np.float64], ends: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Distance of each point from each segment, shape (points, segments)."""
+    """Return the distance of each point (points, 2) from each segment (segments, 2), shape (points, segments)."""
     edges = ends - starts
     away = points[:, None, :] - starts
     part = np.clip((away * edges).sum(axis=2) / (edges**2).sum(axis=1), 0.0, 1.0)
@@ -59,15 +59,15 @@ def distances(
     return result
 
 
-def _bent_radius(curve: Curve, corner: Corner, largest_turn: float) -> float:
+def _bent_radius(curve: Curve, graded: GradedPoint, largest_turn: float) -> float:
     """Distance from the corner up to which a curve turns by less than ``largest_turn`` and moves away from the
     corner."""
     parameters = curve_samples(curve, 0.0, 1.0, largest_turn)
-    if corner.point == curve.end:
+    if graded.point == curve.end:
         parameters = parameters[::-1]
     points = curve.at(parameters)
     turned = np.append(0.0, np.cumsum(_turns(points)))
-    away = np.hypot(*(points[:-1] - corner.point).T)
+    away = np.hypot(*(points[:-1] - graded.point).T)
     beyond = away[turned > largest_turn]
     return float(beyond.min()) if len(beyond) else inf
 
@@ -82,7 +82,8 @@ def _turns(points: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def curve_samples(curve: Curve, first: float, last: float, largest_turn: float) -> NDArray[np.float64]:
-    """Parameters from first to last, dense enough that a curve turns little between samples."""
+    """Return parameters from ``first`` to ``last``, 0 … 1, between which a curve turns by at most ``largest_turn``,
+    rad."""
     parameters = np.linspace(first, last, _FIRST_SAMPLES, dtype=np.float64)
     shortest = _SHORTEST * float(np.ptp(curve.polyline(), axis=0).max())
     while True:

@@ -41,7 +41,7 @@ class Filling:
     """The mesh of gmsh.
 
     Attributes:
-        points: nodes, shape (nodes, 2).
+        points: coordinates of nodes in the unit of the outline, shape (nodes, 2).
         cells: triangles of each region, shape (triangles, 3), clockwise.
         chains: nodes of each line by its key, in the order of its points.
         ends: nodes at the points of the lines.

@@ -72,6 +72,7 @@ class TankGeometry:
 def tank_geometry(
     *, length: float, depth: float, pieces: tuple[tuple[float, float, str], ...], mirrored: bool = False
 ) -> TankGeometry:
-    """Geometry of a tank from ``(start, end, name)`` of the pieces of its top, from left to right."""
+    """Return the geometry of a tank from ``(start, end, name)`` of the pieces of its top, from left to right; all
+    lengths in one unit, m or dimensionless."""
     segments = tuple(SurfaceSegment(name=name, start=start, end=end) for start, end, name in pieces)
     return TankGeometry(length=length, depth=depth, segments=segments, mirrored=mirrored)

@@ -44,9 +44,10 @@ class TipRings:
     """Rings of triangles around one tip.
 
     Attributes:
-        centre: abscissa of the tip.
-        radii: from the innermost to the outermost ring.
-        angles: directions of the nodes of a ring, from the +x side (0) clockwise through the liquid to -x (π).
+        centre: abscissa of the tip, in the unit of the mesh.
+        radii: radii from the innermost to the outermost ring, in the unit of the mesh, shape (rings,).
+        angles: directions of the nodes of a ring, rad, shape (nodes,), from the +x side (0) clockwise through the
+            liquid to -x (π).
     """
 
     centre: float

@@ -35,7 +35,7 @@ class Wedge:
         nodes: shape (rings, rays, 2), see `rings.wedge_nodes`.
     """
 
-    corner: Point
+    graded: Point
     nodes: NDArray[np.float64]
 
 
@@ -106,8 +106,8 @@ class Layout:
         """All points outside the rings, curve by curve from start to end, a corner's outermost rings in its place."""
         for number, curve in enumerate(self.outline.curves):
             middle = self.middle(number)
-            for corner, rest in ((curve.start, middle[:1]), (curve.end, middle[1:])):
-                yield from (wedge.nodes[-1] for wedge in self.wedges.values() if wedge.corner == corner)
+            for graded, rest in ((curve.start, middle[:1]), (curve.end, middle[1:])):
+                yield from (wedge.nodes[-1] for wedge in self.wedges.values() if wedge.graded == graded)
                 yield rest
 
     def loops(self) -> Iterator[list[Line]]:
@@ -128,6 +128,13 @@ def lay_out(
 ) -> tuple[Layout, SizeField]:
     """Create rings and the elements of curved pieces.
 
+    Args:
+        outline: the domain.
+        bulk_size: largest element, in the unit of the outline.
+        growth: growth of elements per distance from a curve, dimensionless.
+        ring_ratio: ratio of the radii of successive rings.
+        largest_turn: largest change of direction of a curve along an element, rad.
+
     Returns:
         The layout, and the size field for the rest.
 
@@ -135,8 +142,8 @@ def lay_out(
         MeshError: if the angle of a region at a corner is too small.
     """
     radii = {
-        corner.point: ring_radii(corner.inner, outermost_ring(outline, corner, largest_turn), ring_ratio)
-        for corner in outline.corners
+        graded.point: ring_radii(graded.inner, outermost_ring(outline, graded, largest_turn), ring_ratio)
+        for graded in outline.graded_points
     }
     rings = {}
     for number, curve in enumerate(outline.curves):
@@ -175,5 +182,5 @@ def _wedges(
             point = outline.curves[leaving].start if forward else outline.curves[leaving].end
             if point in radii:
                 nodes = wedge_nodes(np.array(point), radii[point], rings[coming, not onwards], rings[leaving, forward])
-                wedges[index, place] = Wedge(corner=point, nodes=nodes)
+                wedges[index, place] = Wedge(graded=point, nodes=nodes)
     return wedges

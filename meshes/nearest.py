@@ -43,7 +43,7 @@ class Sources:
     growth: float
 
     def least(self, x: float, y: float, most: float) -> float:
-        """Return the least value at a point, or ``most`` where all values are greater."""
+        """Return the least size at a point (x, y), in the unit of the mesh, or ``most`` where all sizes are greater."""
         found = most
         waiting = [(self._floor(x, y), self)] if self.sources else []
         while waiting:

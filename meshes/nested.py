@@ -23,7 +23,7 @@ from hydroelastic.meshes.build import build_mesh
 from hydroelastic.meshes.edges import edges_of
 from hydroelastic.meshes.geometry import TankGeometry
 from hydroelastic.meshes.grading import Grading, tip_rings
-from hydroelastic.meshes.outline import Corner, Outline, Point
+from hydroelastic.meshes.outline import GradedPoint, Outline, Point
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 from hydroelastic.meshes.tank import build_tank_mesh
 
@@ -41,7 +41,7 @@ class NestedMeshes:
     """
 
     make: Callable[[], TaggedMesh]
-    corners: tuple[Corner, ...]
+    graded_points: tuple[GradedPoint, ...]
 
     def mesh(self, halvings: int, exponents: tuple[float, ...] | None = None) -> TaggedMesh:
         """One mesh of the series, on the calling process only.
@@ -57,17 +57,17 @@ class NestedMeshes:
         mesh = first
         for _ in range(halvings):
             mesh = halved(mesh)
-        for corner, exponent in zip(self.corners, exponents or (), strict=exponents is not None):
-            mesh = replace(mesh, points=_drawn(mesh, first, corner.point, exponent))
+        for graded, exponent in zip(self.graded_points, exponents or (), strict=exponents is not None):
+            mesh = replace(mesh, points=_drawn(mesh, first, graded.point, exponent))
         return mesh
 
     def innermost_ring(self, halvings: int, exponents: tuple[float, ...] | None = None) -> float:
         """Radius of the smallest ring of a mesh, or a little more; infinite without corners."""
-        powers = exponents or (1.0,) * len(self.corners)
+        powers = exponents or (1.0,) * len(self.graded_points)
         return min(
             (
-                corner.outer * 2.0 ** (-halvings * exponent)
-                for corner, exponent in zip(self.corners, powers, strict=True)
+                graded.outer * 2.0 ** (-halvings * exponent)
+                for graded, exponent in zip(self.graded_points, powers, strict=True)
             ),
             default=inf,
         )
@@ -83,11 +83,11 @@ def rectangle_meshes(geometry: TankGeometry, *, size: float, bulk_size: float) -
     """
     # A single ring.
     grading = Grading(surface_sizes=(size,) * len(geometry.segments), bulk_size=bulk_size, tip_size=inf)
-    corners = tuple(
-        Corner(point=(ring.centre, 0.0), inner=inf, outer=float(ring.radii[-1]))
+    graded_points = tuple(
+        GradedPoint(point=(ring.centre, 0.0), inner=inf, outer=float(ring.radii[-1]))
         for ring in tip_rings(geometry, grading)
     )
-    return NestedMeshes(make=partial(build_tank_mesh, geometry, grading), corners=corners)
+    return NestedMeshes(make=partial(build_tank_mesh, geometry, grading), graded_points=graded_points)
 
 
 def outline_meshes(outline: Outline, *, bulk_size: float) -> NestedMeshes:
@@ -97,7 +97,7 @@ def outline_meshes(outline: Outline, *, bulk_size: float) -> NestedMeshes:
         outline: the domain; its corners have one ring each.
         bulk_size: largest element anywhere in the first mesh.
     """
-    return NestedMeshes(make=partial(build_mesh, outline, bulk_size=bulk_size), corners=outline.corners)
+    return NestedMeshes(make=partial(build_mesh, outline, bulk_size=bulk_size), graded_points=outline.graded_points)
 
 
 def halved(mesh: TaggedMesh) -> TaggedMesh:
@@ -128,17 +128,17 @@ def halved(mesh: TaggedMesh) -> TaggedMesh:
     )
 
 
-def _drawn(mesh: TaggedMesh, first: TaggedMesh, corner: Point, exponent: float) -> NDArray[np.float64]:
+def _drawn(mesh: TaggedMesh, first: TaggedMesh, graded: Point, exponent: float) -> NDArray[np.float64]:
     """Draw the nodes of a corner's fan towards the corner; all others stay.
 
     t is the sum of a node's barycentric coordinates at the outer edge of the fan's triangle of the first mesh in which
     it lies.
     """
-    place = np.array(corner)
+    place = np.array(graded)
     at_corner = np.all(first.points[first.cells] == place, axis=2)
     fan = np.flatnonzero(at_corner.any(axis=1))
     if not len(fan):
-        raise MeshError(f"no triangle of the first mesh is at the corner ({corner[0]:g}, {corner[1]:g})")
+        raise MeshError(f"no triangle of the first mesh is at the corner ({graded[0]:g}, {graded[1]:g})")
     tip = np.argmax(at_corner[fan], axis=1)
     others = (tip[:, None] + [1, 2]) % 3
     outer = first.points[np.take_along_axis(first.cells[fan], others, axis=1)] - place

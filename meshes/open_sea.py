@@ -1,7 +1,8 @@
-"""Mesh of open water: the mesh of a basin, surrounded by frames of elongated cells whose width grows outwards.
+"""Mesh of open water: the mesh of a basin, surrounded by layers of elongated cells whose width grows outwards.
 
-Every node on the sides that are extended leaves on a straight ray: sideways, downwards, upwards, and from each corner
-between two such sides also diagonally, so that the number of cells in a frame does not grow with its size.
+From every node on the sides that are extended a straight ray leads outwards: sideways, downwards, upwards, and from
+each corner between two such sides also diagonally, so that the number of cells in a layer does not grow with its
+distance.
 """
 
 from __future__ import annotations
@@ -18,20 +19,20 @@ from hydroelastic.meshes.tagged_mesh import TaggedMesh
 
 Direction = tuple[int, int]
 Ray = tuple[int, Direction]
-"""A node of the basin and the way in which its ray leaves it."""
+"""A node of the basin and the direction of its ray."""
 
 _OUTWARDS: dict[str, Direction] = {LEFT_WALL: (-1, 0), RIGHT_WALL: (1, 0), BOTTOM: (0, -1), LID: (0, 1)}
 _SIDEWAYS = (LEFT_WALL, RIGHT_WALL)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Frames:
-    """Distances of successive frames from the basin, ascending.
+class CellLayers:
+    """Distances of the outer sides of successive layers of cells from the basin, ascending, in the unit of the mesh.
 
     Attributes:
-        sideways: beyond the left and the right wall, shape (frames,).
-        below: beyond the bottom, where it is extended, shape (frames,).
-        above: beyond the lid, likewise.
+        sideways: distances from the left and the right wall, shape (layers,).
+        below: distances from the bottom, if it is extended, shape (layers,).
+        above: distances from the lid, if it is extended, shape (layers,).
     """
 
     sideways: NDArray[np.float64]
@@ -39,19 +40,19 @@ class Frames:
     above: NDArray[np.float64]
 
 
-def extended(mesh: TaggedMesh, sides: tuple[str, ...], frames: Frames) -> TaggedMesh:
-    """Surround a basin with frames; it becomes a larger basin, with the same names.
+def extended(mesh: TaggedMesh, sides: tuple[str, ...], layers: CellLayers) -> TaggedMesh:
+    """Surround a basin with layers of cells; the result is a larger basin with the same names of sides.
 
     Args:
-        mesh: of a rectangle whose sides carry the names of `geometry`.
-        sides: both walls, and of bottom and lid those that are extended.
-        frames: where the frames end.
+        mesh: mesh of a rectangle whose sides have the names of `geometry`.
+        sides: names of both walls, and of bottom and lid if they are extended.
+        layers: distances of the layers of cells.
 
     Returns:
         The mesh, whose first cells and nodes are those of the basin.
     """
     rim = _Rim(mesh, sides)
-    numbers, positions = rim.nodes(frames)
+    numbers, positions = rim.nodes(layers)
     cells, tags = rim.cells(numbers, positions)
     facets, facet_tags = rim.facets(numbers)
     kept = ~np.isin(mesh.facet_tags, [mesh.facet_names[side] for side in sides])
@@ -66,7 +67,7 @@ def extended(mesh: TaggedMesh, sides: tuple[str, ...], frames: Frames) -> Tagged
 
 
 def with_far_ends(mesh: TaggedMesh, sides: tuple[str, ...]) -> TaggedMesh:
-    """Give the sides of a basin, beyond which nothing is modelled, one common name."""
+    """Give the outer sides at which the mesh is truncated one common name, `FAR_END`."""
     tag = max(mesh.facet_names.values()) + 1
     far = np.isin(mesh.facet_tags, [mesh.facet_names[side] for side in sides])
     names = {name: number for name, number in mesh.facet_names.items() if name not in sides}
@@ -114,14 +115,14 @@ class _Rim:
             if tag not in extended_tags:
                 yield from ((ray, int(tag)) for ray in self.rays if ray[0] in (first, second))
 
-    def nodes(self, frames: Frames) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    def nodes(self, layers: CellLayers) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
         """Number of the node of each ray at each level, shape (rays, levels), and the positions of all nodes."""
         base = self._mesh.points[[node for node, _ in self.rays]]
         ways = np.array([way for _, way in self.rays], dtype=np.float64)
-        vertical = np.where(ways[:, 1:] < 0.0, frames.below, frames.above)
-        distances = np.stack([np.broadcast_to(frames.sideways, vertical.shape), vertical], axis=2)
+        vertical = np.where(ways[:, 1:] < 0.0, layers.below, layers.above)
+        distances = np.stack([np.broadcast_to(layers.sideways, vertical.shape), vertical], axis=2)
         outer = base[:, None] + ways[:, None] * distances
-        numbers = np.empty((len(self.rays), 1 + len(frames.sideways)), dtype=np.int64)
+        numbers = np.empty((len(self.rays), 1 + len(layers.sideways)), dtype=np.int64)
         numbers[:, 0] = [node for node, _ in self.rays]
         numbers[:, 1:] = len(self._mesh.points) + np.arange(outer.shape[0] * outer.shape[1]).reshape(outer.shape[:2])
         return numbers, np.vstack([self._mesh.points, outer.reshape(-1, 2)])

@@ -1,4 +1,4 @@
-"""A planar domain as plain geometry: named curves, regions bounded by them, corners towards which meshes are graded."""
+"""A planar domain as plain geometry: named curves, regions bounded by them, points towards which it is graded."""
 
 from __future__ import annotations
 
@@ -71,8 +71,8 @@ class Region:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Corner:
-    """A point to which rings of triangles shrink.
+class GradedPoint:
+    """A point towards which the mesh is graded by rings of triangles.
 
     Attributes:
         point: an end of curves.
@@ -90,8 +90,8 @@ class Chords:
     """Straight pieces of curves, for measures that need no accuracy.
 
     Attributes:
-        starts: shape (n, 2).
-        ends: shape (n, 2).
+        starts: first points (x, y) in the unit of the outline, shape (n, 2).
+        ends: last points in the unit of the outline, shape (n, 2).
         curves: index of the curve that each is a piece of, shape (n,).
     """
 
@@ -102,7 +102,7 @@ class Chords:
 
 @dataclass(frozen=True, kw_only=True)
 class Outline:
-    """Curves, the regions between them and the corners.
+    """Curves, the regions between them and the graded points.
 
     Raises:
         ValueError: if a loop is not closed, turns clockwise or passes a curve twice; if a curve bounds no region or
@@ -112,7 +112,7 @@ class Outline:
 
     curves: tuple[Curve, ...]
     regions: tuple[Region, ...]
-    corners: tuple[Corner, ...] = ()
+    graded_points: tuple[GradedPoint, ...] = ()
 
     def __post_init__(self) -> None:
         """Check that it is a planar domain divided into regions."""
@@ -130,12 +130,12 @@ class Outline:
             if not curve.name and (curve.cut or sum(sides) == 1):
                 raise ValueError(f"curve {number} has no name but lies on the boundary or is cut open")
         ends = {end for curve in self.curves for end in (curve.start, curve.end)}
-        for corner in self.corners:
-            if corner.point not in ends:
-                raise ValueError(f"the corner at {corner.point} is not an end of a curve")
-            if not (corner.inner > 0.0 and corner.outer > 0.0):
-                raise ValueError(f"the corner at {corner.point} needs rings of positive radii")
-        if len({corner.point for corner in self.corners}) < len(self.corners):
+        for graded in self.graded_points:
+            if graded.point not in ends:
+                raise ValueError(f"the corner at {graded.point} is not an end of a curve")
+            if not (graded.inner > 0.0 and graded.outer > 0.0):
+                raise ValueError(f"the corner at {graded.point} needs rings of positive radii")
+        if len({graded.point for graded in self.graded_points}) < len(self.graded_points):
             raise ValueError("two corners are at the same point")
 
     def curves_at(self, point: Point) -> tuple[int, ...]:

@@ -21,9 +21,9 @@ class Discs:
     """Round sources: within a disc elements have its size.
 
     Attributes:
-        centres: shape (n, 2).
-        radii: shape (n,).
-        sizes: shape (n,).
+        centres: centres (x, y) in the unit of the outline, shape (n, 2).
+        radii: radii in the unit of the outline, shape (n,).
+        sizes: sizes of elements in the unit of the outline, shape (n,).
     """
 
     centres: NDArray[np.float64]

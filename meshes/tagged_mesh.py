@@ -47,7 +47,7 @@ class TaggedMesh:
     """Triangles and boundary edges, each with the tag of a physical group.
 
     Attributes:
-        points: node coordinates, shape (nodes, 2).
+        points: node coordinates, m or dimensionless, shape (nodes, 2).
         cells: node indices, shape (cells, 3).
         cell_tags: physical group of each cell, shape (cells,).
         facets: node indices of the tagged edges, shape (facets, 2).
@@ -55,7 +55,7 @@ class TaggedMesh:
         cell_names: physical name → tag, for cells.
         facet_names: physical name → tag, for edges.
         curved: the cells that are curved, ``None`` if all are straight.
-        deviation: of the edges from the curves meshed; zero where that is not known.
+        deviation: deviation of the edges from the meshed curves; zero where that is not known.
     """
 
     points: NDArray[np.float64]

@@ -7,7 +7,7 @@ from math import inf
 from hydroelastic.meshes.build import build_mesh
 from hydroelastic.meshes.geometry import BOTTOM, LEFT_WALL, LIQUID, TankGeometry
 from hydroelastic.meshes.grading import Grading, tip_rings
-from hydroelastic.meshes.outline import Corner, Curve, Outline, Region
+from hydroelastic.meshes.outline import Curve, GradedPoint, Outline, Region
 from hydroelastic.meshes.tagged_mesh import TaggedMesh
 
 
@@ -50,8 +50,8 @@ def tank_outline(geometry: TankGeometry, grading: Grading) -> Outline:
     curves = (*top, *walls)
     left, bottom, right = range(len(top), len(curves))
     loop = tuple((number, False) for number in (left, bottom, right, *reversed(range(len(top)))))
-    corners = (
-        Corner(point=(ring.centre, 0.0), inner=grading.tip_size or inf, outer=float(ring.radii[-1]))
+    graded_points = (
+        GradedPoint(point=(ring.centre, 0.0), inner=grading.tip_size or inf, outer=float(ring.radii[-1]))
         for ring in tip_rings(geometry, grading)
     )
-    return Outline(curves=curves, regions=(Region(name=LIQUID, loop=loop),), corners=tuple(corners))
+    return Outline(curves=curves, regions=(Region(name=LIQUID, loop=loop),), graded_points=tuple(graded_points))

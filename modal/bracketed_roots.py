@@ -43,11 +43,11 @@ def bracketed_roots(
     SciPy finds roots of many brackets at once from its version 1.15 only.
 
     Args:
-        function: f, of places of any number.
+        function: f of places of shape (places,), dimensionless or in any unit.
         left: lower ends of the brackets, shape (brackets,).
-        right: upper ends.
-        low: f at the lower ends, not 0.
-        high: f at the upper ends, of opposite sign.
+        right: upper ends, shape (brackets,).
+        low: f at the lower ends, not 0, shape (brackets,).
+        high: f at the upper ends, of opposite sign, shape (brackets,).
 
     Returns:
         The roots, to 1e-14 of the bracket or a few roundings of the place, shape (brackets,).

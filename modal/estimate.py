@@ -100,5 +100,5 @@ def _check_omega(omega: float) -> None:
 
 
 def difference(value: float | None, reference: float | None) -> float | None:
-    """Relative difference of a value to a reference, where there are both."""
+    """Return the relative difference of a value to a reference in the same unit, where there are both."""
     return None if value is None or not reference else value / reference - 1.0

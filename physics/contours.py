@@ -60,10 +60,10 @@ class Arc:
         """Return the piece first ≤ t ≤ last as an arc of its own.
 
         Args:
-            first: t where it begins.
-            last: t where it ends.
-            start: its exact first point; else that at ``first``.
-            end: its exact last point; else that at ``last``.
+            first: parameter t, 0 … 1, of its first point.
+            last: parameter t of its last point.
+            start: exact first point (x, y), m; by default that at ``first``.
+            end: exact last point (x, y), m; by default that at ``last``.
         """
         one, other = ((float(x), float(y)) for x, y in self.point(np.array([first, last])))
         start, end = one if start is None else start, other if end is None else end
@@ -115,7 +115,8 @@ class Arc:
         return tuple(sorted(map(float, [*between, *at_samples])))
 
     def crossing(self, level: float, first: float, last: float, *, axis: Literal[0, 1] = 1) -> float:
-        """Return the t where y = level (x = level on axis 0), between two that lie on different sides of it."""
+        """Return the parameter t, 0 … 1, where y = level in m (x = level on axis 0), between two t on different
+        sides."""
         return root(lambda t: self.curve(np.array([t]))[0, axis] - level, first, last)
 
 

@@ -53,8 +53,8 @@ def outline_contour(points: Array, corner_angle: float) -> Contour:
     the distance from point to point, which run into straight sides without a corner.
 
     Args:
-        points: in either sense, shape (n, 2), no point twice.
-        corner_angle: degrees.
+        points: points (x, y), m, in either sense, shape (n, 2), no point twice.
+        corner_angle: least change of direction at a corner, degrees.
 
     Raises:
         ValueError: if the points lie too far apart or too unevenly for a spline.

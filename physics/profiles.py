@@ -24,7 +24,7 @@ class ProfileArc:
 
     Attributes:
         point: maps t in [0, 1], shape (n,), to points (x, y) in m, shape (n, 2); smooth up to both ends.
-        velocity: its derivative by t, of the same shapes, also smooth up to both ends.
+        velocity: its derivative with respect to t, m, of the same shapes, also smooth up to both ends.
         straight: whether it is a straight segment.
     """
 

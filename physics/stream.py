@@ -33,7 +33,7 @@ class Stream(Protocol):
         """Return ∂uᵢ/∂xⱼ, 1/s, at points, m, shape (n, 3); shape (n, 3, 3)."""
 
     def times(self, factor: float) -> Stream:
-        """Return the field with all velocities multiplied by a factor."""
+        """Return the field with all velocities multiplied by a dimensionless factor."""
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,7 @@ class ScaledStream:
         return self.stream.gradient_at(points * self.length) * self.time
 
     def times(self, factor: float) -> ScaledStream:
-        """Return the field with all velocities multiplied by a factor."""
+        """Return the field with all velocities multiplied by a dimensionless factor."""
         return replace(self, stream=self.stream.times(factor))
 
 
@@ -125,7 +125,7 @@ class UniformStream(_OfHeight):
         object.__setattr__(self, "velocity", _vector(self.velocity, "velocity"))
 
     def times(self, factor: float) -> UniformStream:
-        """Return the stream with all velocities multiplied by a factor."""
+        """Return the stream with all velocities multiplied by a dimensionless factor."""
         return replace(self, velocity=_times(factor, self.velocity))
 
     def profile(self, levels: ArrayLike) -> FloatArray:
@@ -158,7 +158,7 @@ class ShearedStream(_OfHeight):
         _finite(self.level, "level")
 
     def times(self, factor: float) -> ShearedStream:
-        """Return the stream with all velocities multiplied by a factor."""
+        """Return the stream with all velocities multiplied by a dimensionless factor."""
         return replace(self, velocity=_times(factor, self.velocity), gradient=_times(factor, self.gradient))
 
     def profile(self, levels: ArrayLike) -> FloatArray:
@@ -189,7 +189,7 @@ class VeeringStream(_OfHeight):
         _finite(self.rate, "rate")
 
     def times(self, factor: float) -> VeeringStream:
-        """Return the stream with all velocities multiplied by a factor."""
+        """Return the stream with all velocities multiplied by a dimensionless factor."""
         return replace(self, speed=factor * self.speed)
 
     def profile(self, levels: ArrayLike) -> FloatArray:
@@ -250,7 +250,7 @@ class TabulatedStream(_OfHeight):
         return np.clip(np.asarray(levels, dtype=float), self.levels[0], self.levels[-1])
 
     def times(self, factor: float) -> TabulatedStream:
-        """Return the stream with all velocities multiplied by a factor."""
+        """Return the stream with all velocities multiplied by a dimensionless factor."""
         return replace(self, velocities=tuple(_times(factor, row) for row in self.velocities))
 
     def profile(self, levels: ArrayLike) -> FloatArray:

@@ -52,7 +52,7 @@ class _Values:
         return self.forcing.starts
 
 
-class _Endless(_Values):
+class _Unbounded(_Values):
     def __post_init__(self) -> None:
         """Check that the parameters are finite."""
         for parameter in fields(self):  # type: ignore[arg-type]
@@ -67,7 +67,7 @@ class _Endless(_Values):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Ramp(_Endless):
+class Ramp(_Unbounded):
     """f = V t.
 
     Attributes:
@@ -84,7 +84,7 @@ class Ramp(_Endless):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Step(_Endless):
+class Step(_Unbounded):
     """f = Δ from t = 0.
 
     Attributes:
@@ -101,7 +101,7 @@ class Step(_Endless):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Sine(_Endless):
+class Sine(_Unbounded):
     """f = Δ sin ωt.
 
     Attributes:
@@ -125,7 +125,7 @@ class Sine(_Endless):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Smooth(_Endless):
+class Smooth(_Unbounded):
     """f = Δ(1 − e^{−βt})².
 
     Attributes:

@@ -75,7 +75,7 @@ class StillLevel:
     """The upper side of a layer at rest.
 
     Attributes:
-        height: its ordinate.
+        height: ordinate y, m or dimensionless as the tank.
         below: index of the layer below.
         above: index of the layer above, ``None`` at the top.
         kind: "interface", or the boundary condition of the top.
@@ -222,7 +222,7 @@ class Tank:
         return len(self.layers) > 1 or (self.top != "rigid" and self.levels[-1].is_open)
 
     @property
-    def moves_as_one(self) -> bool:
+    def has_continuous_pressure(self) -> bool:
         """Whether there is open interface beside the bodies, across which ρψ is continuous at infinite frequency."""
         return len(self.layers) > 1 and self.levels[0].is_open
 

@@ -74,8 +74,9 @@ class ThreadEnd:
         load: body at the end and force on it; reactions act along the held components.
         held: which components of the position are prescribed, shape (dimension,).
         position: position of the end, m, of which the held components are used, shape (dimension,).
-        clamp: unit tangent r_s of a clamped end; without it the end is hinged or free. Needs flexural rigidity.
-        taper: of a free end in a reactive liquid: 0 blunt, 1 tapered to a point.
+        clamp: unit tangent r_s of a clamped end, dimensionless, shape (dimension,); without it the end is hinged or
+            free. Needs flexural rigidity.
+        taper: dimensionless shape of a free end in a reactive liquid: 0 blunt, 1 tapered to a point.
     """
 
     load: PointLoad

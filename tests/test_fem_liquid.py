@@ -60,7 +60,7 @@ def beam(tanks: Any) -> CoupledPencil:
     return tanks.pencil(tanks.scene(tanks.beam()), degree=5, shapes=62, size=0.25, tip_size=None)
 
 
-# The operator's condition times a double's 2e-16: measured 6e-13 between two grounded unknowns at degree 8.
+# The operator's condition times a double's 2e-16: measured 6e-13 between two constrained unknowns at degree 8.
 ROUND_OFF = 1e-11
 
 
@@ -80,14 +80,14 @@ def test_the_solution_operator_is_positive(water: CoupledPencil) -> None:
         assert load.dot(solved(water, load)) > 0.0
 
 
-def test_which_unknown_is_grounded_makes_no_difference(water: CoupledPencil) -> None:
+def test_which_unknown_is_constrained_makes_no_difference(water: CoupledPencil) -> None:
     load = random_load(water, 1)
     expected = solved(water, load)
     size = water.laplace.getLocalSize()[0]
     for place in (size - 1, size // 2):
         last_rank = water.laplace.comm.rank == water.laplace.comm.size - 1
-        grounded = np.array([place] if last_rank else [], dtype=np.int32)
-        other = LiquidSolver(water.laplace, grounded, (closed_layer(water.liquid, 0, surface_load(water).array),))
+        constrained = np.array([place] if last_rank else [], dtype=np.int32)
+        other = LiquidSolver(water.laplace, constrained, (closed_layer(water.liquid, 0, surface_load(water).array),))
         difference = solved(water, load, other)
         difference.axpy(-1.0, expected)
         assert difference.norm() <= ROUND_OFF * expected.norm()

@@ -19,10 +19,10 @@ from hydroelastic.fem.open_water.solve import resonance_reasons
 from hydroelastic.fem.open_water.solver import OpenSolver
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.modal.floats.complex_moments import complex_wave_moment
-from hydroelastic.modal.floats.endless_float import endless_float
+from hydroelastic.modal.floats.infinite_draught import infinite_draught_float
 from hydroelastic.modal.floats.thin_float import thin_constants
 from hydroelastic.modal.floats.thin_float_radiation import natural_rate
-from hydroelastic.modal.liquid.endless_wave import EndlessWave
+from hydroelastic.modal.liquid.deep_water_wave import DeepWaterWave
 from hydroelastic.modal.liquid.travelling_waves import travelling_waves
 from hydroelastic.modal.liquid.two_layer import TwoLayers
 from hydroelastic.physics.profiles import Profile
@@ -78,11 +78,11 @@ def test_second_pole_of_the_exponential() -> None:
     tail = 1e-3
     found = damped(exponential(tail, 1e-3), count=6)
     profile = Profile(shape="exponential", half_width=RADIUS, half_height=RADIUS, tail=tail)
-    endless = endless_float(profile, DEEP)
-    heave, second = endless.resonances
-    # The end moves both a little, and adds four that the endless float has not.
-    assert found.table.omega[0] == pytest.approx(second, rel=endless.cut)
-    assert found.table.omega[1] == pytest.approx(heave, rel=endless.cut)
+    infinite = infinite_draught_float(profile, DEEP)
+    heave, second = infinite.resonances
+    # The end moves both a little, and adds four that the float of infinite draught has not.
+    assert found.table.omega[0] == pytest.approx(second, rel=infinite.cut)
+    assert found.table.omega[1] == pytest.approx(heave, rel=infinite.cut)
     assert -found.table.omega[0].imag / found.table.omega[0].real == pytest.approx(1.31, abs=0.01)
     assert found.table.counted == len(found.table.omega) == 6
     assert not list(resonance_reasons(found))
@@ -104,9 +104,9 @@ def test_search_and_count_agree_on_a_circle() -> None:
 def test_second_pole_by_tails_and_tolerances(tail: float, tolerance: float) -> None:
     found = damped(exponential(tail, tolerance), count=2)
     profile = Profile(shape="exponential", half_width=RADIUS, half_height=RADIUS, tail=tail)
-    endless = endless_float(profile, DEEP)
+    infinite = infinite_draught_float(profile, DEEP)
     assert not list(resonance_reasons(found))
-    assert found.table.omega[0] == pytest.approx(endless.resonances[1], rel=endless.cut)
+    assert found.table.omega[0] == pytest.approx(infinite.resonances[1], rel=infinite.cut)
     assert_honest(found, profile)
 
 
@@ -147,17 +147,17 @@ def test_two_processes_continue_the_same() -> None:
 
 
 @pytest.mark.parametrize("density_above", [0.0, 800.0])
-def test_endless_waves_are_those_that_travel(density_above: float) -> None:
+def test_deep_water_waves_are_the_travelling_waves(density_above: float) -> None:
     layers = TwoLayers(density_below=1000.0, density_above=density_above, depth_below=inf, gravity=GRAVITY)
     (wave,) = travelling_waves(layers, 2.0)
-    endless = EndlessWave(layers=layers, squared=4.0 + 0.0j)
-    assert endless.wavenumber == pytest.approx(wave.wavenumber, rel=1e-13)
-    assert endless.energy == pytest.approx(wave.energy, rel=1e-13)
+    infinite = DeepWaterWave(layers=layers, squared=4.0 + 0.0j)
+    assert infinite.wavenumber == pytest.approx(wave.wavenumber, rel=1e-13)
+    assert infinite.energy == pytest.approx(wave.energy, rel=1e-13)
     places = np.random.default_rng(2).uniform(-1.0, 1.0, (5, 2))
     above = (places[:, 1] > 0.0).astype(int) * (density_above > 0.0)
     right, left = (Plane(wave=wave, direction=way).field(places - [0.5, 0.0], above) for way in (1, -1))
     for odd, sign in ((False, 1.0), (True, -1.0)):
-        standing = Standing(wave=endless, odd=odd).field(places, above)
+        standing = Standing(wave=infinite, odd=odd).field(places, above)
         for own, one, other in zip(standing, right, left, strict=True):
             inside = above == (places[:, 1] > 0.0)
             np.testing.assert_allclose(own[inside], ((one + sign * other) / np.sqrt(2.0))[inside], rtol=1e-12)
@@ -165,6 +165,6 @@ def test_endless_waves_are_those_that_travel(density_above: float) -> None:
 
 def test_damping_beyond_that_of_a_bed_is_refused() -> None:
     scene = {"analyses": [{"kind": "resonance", "largest_damping": 1.5}]}
-    with pytest.raises(ValueError, match="found in endless liquids alone"):
+    with pytest.raises(ValueError, match="computed in infinite depths only"):
         open_scene(liquids=({"density": 1000.0, "depth": 2.0},), **scene)
     assert open_scene(**scene).analyses[0].largest_damping == 1.5

@@ -334,7 +334,7 @@ def test_ends_farther_away_change_nothing(name: str, monkeypatch: pytest.MonkeyP
     far = radiation(scene, omega)
     assert near.model is not None
     assert far.model is not None
-    assert far.model.reach.farthest > 1.2 * near.model.reach.farthest
+    assert far.model.absorbing_layer.farthest > 1.2 * near.model.absorbing_layer.farthest
     matrix = hydrodynamic(far)
     # Measured: 1e-9; the frames between are others, too.
     assert np.abs(hydrodynamic(near) - matrix).max() <= 1e-7 * np.abs(matrix).max()

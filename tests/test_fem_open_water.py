@@ -98,7 +98,7 @@ def test_derivatives_by_the_angle(name: str, request: pytest.FixtureRequest) -> 
     # The mesh depends on the angle only by its reach: the same frames for both sides of the difference.
     numbers = np.random.default_rng(6)
     vector = numbers.normal(size=model.pencil.size)
-    step, angle = 1e-4, model.reach.angle
+    step, angle = 1e-4, model.absorbing_layer.angle
     turning = model.pencil.turning()
     around = []
     for shifted in (angle - step, angle + step):

@@ -51,7 +51,7 @@ def series(circle: Circle, degree: int) -> list[TaggedMesh]:
     """Meshes without rings: the elements of an arc are alike, and errors have one order."""
     outline = circle_tank(circle)
     curves = tuple(replace(curve, size=0.2) if curve.path is None else curve for curve in outline.curves)
-    outline = replace(outline, curves=curves, corners=())
+    outline = replace(outline, curves=curves, graded_points=())
     return [build_mesh(outline, bulk_size=0.2, geometry_degree=degree, largest_turn=turn) for turn in TURNS]
 
 

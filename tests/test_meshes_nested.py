@@ -9,7 +9,7 @@ import pytest
 
 from hydroelastic.meshes.geometry import tank_geometry
 from hydroelastic.meshes.nested import NestedMeshes, halved, outline_meshes, rectangle_meshes
-from hydroelastic.meshes.outline import Corner, Curve, Outline, Region
+from hydroelastic.meshes.outline import Curve, GradedPoint, Outline, Region
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 
 WATER = "free_surface"
@@ -28,7 +28,7 @@ def series_of(name: str, depth: float = 0.5) -> NestedMeshes:
 
 
 def betas(series: NestedMeshes, exponent: float) -> tuple[float, ...]:
-    return (exponent,) * len(series.corners)
+    return (exponent,) * len(series.graded_points)
 
 
 def areas(mesh: TaggedMesh) -> np.ndarray:
@@ -66,16 +66,16 @@ def test_rings_have_algebraic_radii(name: str, exponent: float) -> None:
     series = series_of(name)
     mesh = series.mesh(3, betas(series, exponent))
     top = np.unique(mesh.points[mesh.points[:, 1] == 0.0, 0])
-    for corner in series.corners:
-        radius = corner.outer
+    for graded in series.graded_points:
+        radius = graded.outer
         expected = radius * (np.arange(1, 9) / 8.0) ** exponent
         for side in (1.0, -1.0):
-            distance = side * (top - corner.point[0])
+            distance = side * (top - graded.point[0])
             rings = np.sort(distance[(distance > 0.0) & (distance < radius * (1.0 + 1e-9))])
             if len(rings):  # else the wall
                 # A distance from an abscissa of order one keeps its last 1e-16.
                 assert rings == pytest.approx(expected, rel=1e-9, abs=2e-16)
-    innermost = min(corner.outer for corner in series.corners) / 8.0**exponent
+    innermost = min(graded.outer for graded in series.graded_points) / 8.0**exponent
     assert series.innermost_ring(3, betas(series, exponent)) == pytest.approx(innermost, rel=1e-12)
 
 
@@ -89,14 +89,14 @@ def test_drawing_turns_no_triangle_and_moves_nothing_else(name: str, exponent: f
     assert np.all(areas(drawn) * areas(uniform) > 0.0)
     assert np.abs(areas(drawn)).sum() == pytest.approx(0.5, rel=1e-12)
     moved = np.any(uniform.points != drawn.points, axis=1)
-    near = [np.hypot(*(uniform.points[moved] - corner.point).T) < corner.outer for corner in series.corners]
+    near = [np.hypot(*(uniform.points[moved] - graded.point).T) < graded.outer for graded in series.graded_points]
     assert np.any(near, axis=0).all()
 
-    def sectors(corner: Corner) -> int:
-        return 2 if corner.point[0] in (0.0, 1.0) else 3
+    def sectors(graded: GradedPoint) -> int:
+        return 2 if graded.point[0] in (0.0, 1.0) else 3
 
     # The tip and the fan's outer edge stay: a fan of three sectors has 1 + Σ 3i + 1 nodes, those of i = 8 stay.
-    assert moved.sum() == sum(sum(sectors(corner) * i + 1 for i in range(1, 8)) for corner in series.corners)
+    assert moved.sum() == sum(sum(sectors(graded) * i + 1 for i in range(1, 8)) for graded in series.graded_points)
 
 
 def test_a_tank_without_tips_has_nothing_to_draw() -> None:
@@ -130,7 +130,7 @@ def slit_in_two_liquids() -> Outline:
             Region(name="upper", loop=((8, True), (12, True), (13, True), (5, True), (6, True))),
             Region(name="upper", loop=((9, True), (3, True), (4, True), (13, False), (12, False))),
         ),
-        corners=tuple(Corner(point=point, inner=np.inf, outer=0.09) for point in (low, middle, high)),
+        graded_points=tuple(GradedPoint(point=point, inner=np.inf, outer=0.09) for point in (low, middle, high)),
     )
 
 
@@ -159,17 +159,17 @@ def test_every_corner_has_its_own_exponent_on_all_its_sides() -> None:
     series = outline_meshes(slit_in_two_liquids(), bulk_size=0.125)
     exponents = (5.0, 2.0, 3.0)
     mesh = series.mesh(2, exponents)
-    for corner, exponent in zip(series.corners, exponents, strict=True):
+    for graded, exponent in zip(series.graded_points, exponents, strict=True):
         for name in ("body_1", "interface"):
-            nodes = mesh.facet_nodes(name) - corner.point
+            nodes = mesh.facet_nodes(name) - graded.point
             distance = np.hypot(*nodes[np.any(nodes == 0.0, axis=1)].T)
-            rings = np.unique(np.round(distance[(distance > 0.0) & (distance < corner.outer * (1.0 + 1e-9))], 12))
-            if name == "body_1" or corner.point[1] == 0.0:
-                assert rings == pytest.approx(corner.outer * (np.arange(1, 5) / 4.0) ** exponent, rel=1e-8)
+            rings = np.unique(np.round(distance[(distance > 0.0) & (distance < graded.outer * (1.0 + 1e-9))], 12))
+            if name == "body_1" or graded.point[1] == 0.0:
+                assert rings == pytest.approx(graded.outer * (np.arange(1, 5) / 4.0) ** exponent, rel=1e-8)
 
 
 def test_a_corner_that_is_no_node_is_refused() -> None:
     series = outline_meshes(slit_in_two_liquids(), bulk_size=0.125)
-    elsewhere = Corner(point=(0.2, 0.2), inner=np.inf, outer=0.1)
+    elsewhere = GradedPoint(point=(0.2, 0.2), inner=np.inf, outer=0.1)
     with pytest.raises(MeshError, match=r"no triangle .* \(0.2, 0.2\)"):
-        replace(series, corners=(elsewhere,)).mesh(1, (2.0,))
+        replace(series, graded_points=(elsewhere,)).mesh(1, (2.0,))

@@ -11,7 +11,7 @@ import pytest
 from open_cases import problem_of, section, slender, stored, two_liquids
 from open_tables import open_scene
 
-from hydroelastic.fem.open_water.basin import OpenBasin, open_basin, reach
+from hydroelastic.fem.open_water.basin import OpenBasin, open_basin, sized_absorbing_layer
 from hydroelastic.fem.open_water.field_model import Band, first_resolution, open_mesh
 from hydroelastic.meshes.geometry import (
     BOTTOM,
@@ -25,7 +25,7 @@ from hydroelastic.meshes.geometry import (
     RIGHT_WALL,
     UPPER_LIQUID,
 )
-from hydroelastic.meshes.open_sea import Frames, extended, with_far_ends
+from hydroelastic.meshes.open_sea import CellLayers, extended, with_far_ends
 from hydroelastic.meshes.tagged_mesh import TaggedMesh
 from hydroelastic.scenes.models.tank import TankScene
 
@@ -81,14 +81,14 @@ def square() -> TaggedMesh:
     )
 
 
-def frames(sideways: Any, below: Any = 0.0, above: Any = 0.0) -> Frames:
+def layers(sideways: Any, below: Any = 0.0, above: Any = 0.0) -> CellLayers:
     sideways = np.array(sideways, dtype=float)
     below, above = (np.broadcast_to(np.array(part, dtype=float), sideways.shape) for part in (below, above))
-    return Frames(sideways=sideways, below=below, above=above)
+    return CellLayers(sideways=sideways, below=below, above=above)
 
 
 def test_square_sideways() -> None:
-    mesh = extended(square(), (LEFT_WALL, RIGHT_WALL), frames([1.0, 3.0]))
+    mesh = extended(square(), (LEFT_WALL, RIGHT_WALL), layers([1.0, 3.0]))
     check(mesh)
     assert area(mesh, LIQUID) == pytest.approx(7.0, rel=1e-14)
     assert length(mesh, BOTTOM) == length(mesh, FREE_SURFACE) == pytest.approx(7.0, rel=1e-14)
@@ -101,7 +101,7 @@ def test_square_sideways() -> None:
 
 
 def test_square_in_all_directions() -> None:
-    mesh = extended(square(), (LEFT_WALL, RIGHT_WALL, BOTTOM), frames([1.0, 3.0], below=[0.5, 5.0]))
+    mesh = extended(square(), (LEFT_WALL, RIGHT_WALL, BOTTOM), layers([1.0, 3.0], below=[0.5, 5.0]))
     check(mesh)
     assert area(mesh, LIQUID) == pytest.approx(7.0 * 6.0, rel=1e-14)
     assert length(mesh, BOTTOM) == pytest.approx(7.0, rel=1e-14)
@@ -123,7 +123,7 @@ def sea(scene: TankScene, omega: float) -> tuple[TaggedMesh, OpenBasin, float]:
     shortest = band.wavenumbers(water)[1]
     basin = open_basin(water, shortest)
     k = shortest * basin.units.length
-    around = reach(basin, (k, k), first=2.0, growth=2.0, angle=0.8, tolerance=1e-4)
+    around = sized_absorbing_layer(basin, (k, k), first=2.0, growth=2.0, angle=0.8, tolerance=1e-4)
     return open_mesh(basin, first_resolution(water, scene.accuracy.tolerance, band), around), basin, around.farthest
 
 
@@ -132,7 +132,7 @@ def test_float_over_a_bed() -> None:
     mesh, basin, far = sea(section(row, 1e-2), row["omega"])
     check(mesh)
     assert basin.sides == (LEFT_WALL, RIGHT_WALL, BOTTOM)
-    assert basin.endless == (LEFT_WALL, RIGHT_WALL)
+    assert basin.far_sides == (LEFT_WALL, RIGHT_WALL)
     unit = basin.units.length
     assert far > 1.0
     # 3 m of water and a float of 1 m × 0.5 m in it.
@@ -157,7 +157,7 @@ def test_bed_and_lid_at_different_distances() -> None:
     check_interface(mesh, 1.0 + 2.0 * far)
 
 
-def test_bed_below_an_endless_liquid() -> None:
+def test_bed_below_an_infinitely_deep_liquid() -> None:
     body = {"kind": "float", "shape": "wedge", "half_width": 0.2, "half_height": 0.5, "position": 5.0}
     liquids = ({"density": 1000.0, "depth": 3.0}, {"density": 800.0, "depth": math.inf})
     mesh, basin, far = sea(open_scene(body, liquids=liquids, analyses=[], accuracy={"tolerance": 1e-2}), 2.0)

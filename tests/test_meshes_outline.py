@@ -192,12 +192,12 @@ def test_triangles_are_well_shaped(meshed: tuple[Case, TaggedMesh]) -> None:
 
 def test_rings_shrink_by_one_ratio_to_the_size_asked_on_every_curve(meshed: tuple[Case, TaggedMesh]) -> None:
     case, mesh = meshed
-    for corner in case.outline.corners:
+    for graded in case.outline.graded_points:
         for curve in case.outline.curves:
-            if corner.point in (curve.start, curve.end):
-                other = np.array(curve.end if corner.point == curve.start else curve.start)
-                away = np.unique(mesh.points, axis=0) - corner.point
-                direction = (other - corner.point) / np.linalg.norm(other - corner.point)
+            if graded.point in (curve.start, curve.end):
+                other = np.array(curve.end if graded.point == curve.start else curve.start)
+                away = np.unique(mesh.points, axis=0) - graded.point
+                direction = (other - graded.point) / np.linalg.norm(other - graded.point)
                 across = np.abs(away @ [-direction[1], direction[0]])
                 along = away @ direction
                 # Next to abscissae of order one distances of 1e-6 keep ten digits.
@@ -316,7 +316,7 @@ def test_corners_beside_one_another_have_rings_that_fit() -> None:
     """Rings asked for are far too large for the corners' distance of 0.01, and for the depth."""
     ends = ((0.495, 0.0), (0.505, 0.0))
     outline = two_liquids(left=[(0.495, INTERFACE), (0.505, BEAM), (1.0, INTERFACE)], rings=ends, depths=(0.4, 0.02))
-    outline = replace(outline, corners=tuple(replace(corner, outer=inf) for corner in outline.corners))
+    outline = replace(outline, graded_points=tuple(replace(graded, outer=inf) for graded in outline.graded_points))
     mesh = build_mesh(outline, bulk_size=0.2)
     assert signed_areas(mesh).sum() == pytest.approx(0.42, rel=1e-13)
     edges = mesh.points[mesh.facets[mesh.facet_tags == mesh.facet_names[BEAM]]]

@@ -17,7 +17,7 @@ from outlines import (
 
 from hydroelastic.meshes.build import build_mesh
 from hydroelastic.meshes.filling import Line, fill
-from hydroelastic.meshes.outline import Corner, Curve, Outline, Region
+from hydroelastic.meshes.outline import Curve, GradedPoint, Outline, Region
 from hydroelastic.meshes.size_field import Discs, SizeField
 from hydroelastic.meshes.tagged_mesh import MeshError
 
@@ -57,9 +57,12 @@ LOOP = ((0, True), (1, True), (2, True), (3, True))
         (square(first={"end": (0.0, 0.0)}), "ends where it starts"),
         (square(first={"size": 0.0}), "positive size"),
         (square(first={"path": arc((0.5, 0.0), 0.4, pi, 2 * pi)}), "does not lead from its start to its end"),
-        (square(corners=(Corner(point=(0.5, 0.0), inner=1e-3, outer=0.1),)), "not an end of a curve"),
-        (square(corners=(Corner(point=(0.0, 0.0), inner=0.0, outer=0.1),)), "rings of positive radii"),
-        (square(corners=(Corner(point=(0.0, 0.0), inner=1e-3, outer=0.1),) * 2), "two corners are at the same point"),
+        (square(graded_points=(GradedPoint(point=(0.5, 0.0), inner=1e-3, outer=0.1),)), "not an end of a curve"),
+        (square(graded_points=(GradedPoint(point=(0.0, 0.0), inner=0.0, outer=0.1),)), "rings of positive radii"),
+        (
+            square(graded_points=(GradedPoint(point=(0.0, 0.0), inner=1e-3, outer=0.1),) * 2),
+            "two corners are at the same point",
+        ),
     ],
 )
 def test_outlines_that_are_no_domain_are_refused(outline: Callable[[], Outline], message: str) -> None:

@@ -137,8 +137,8 @@ def test_wave_integral_is_analytic(shape: FloatShape) -> None:
 def test_wave_integral_of_the_exponential_by_both_ways() -> None:
     """The trapezoidal rule of other shapes, for the exponential with a very distant end, beside the closed form."""
     z = np.array([1 + 1j, 0.3 + 1e-3j, 1j, 1e-6j, 1e3j, -0.4 + 1j, -0.1 + 1j, 1.001, 0.9, 0.87])
-    endless = wave_integral(thin("exponential", 0.1), z)
-    np.testing.assert_allclose(wave_integral(thin("exponential", 0.1, tail=1e-300), z), endless, rtol=1e-14)
+    infinite = wave_integral(thin("exponential", 0.1), z)
+    np.testing.assert_allclose(wave_integral(thin("exponential", 0.1, tail=1e-300), z), infinite, rtol=1e-14)
     # z = 1 is no singularity, z = −1 a double pole at which F is finite: −1.
     assert complex(wave_integral(thin("exponential", 0.1), 1.0)) == pytest.approx(0.5, rel=EPS, abs=0)
     constants = thin_constants(thin("exponential", 0.1))

@@ -125,7 +125,7 @@ def test_no_waves_at_rest() -> None:
 
 
 def parts(wave: TravellingWave) -> list[tuple[float, float, bool]]:
-    """Stretches of y; an endless liquid to where e^{−2ky} is rounding."""
+    """Stretches of y; an infinitely deep liquid to where e^{−2ky} is rounding."""
     layers = wave.layers
     far = 20.0 / wave.wavenumber
     found = [(-min(layers.depth_below, far) if math.isinf(layers.depth_below) else -layers.depth_below, 0.0, False)]

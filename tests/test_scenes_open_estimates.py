@@ -14,7 +14,7 @@ from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.tank_parts import Accuracy, Liquid, Tank
 from hydroelastic.scenes.open_water.check import open_requests
-from hydroelastic.scenes.open_water.estimates import endless_comparison, endless_words
+from hydroelastic.scenes.open_water.estimates import infinite_draught_comparison, infinite_draught_message
 from hydroelastic.scenes.open_water.results import OpenSolution
 from hydroelastic.scenes.open_water.solve import solve_open
 from hydroelastic.scenes.open_water.summary import summarize_open
@@ -66,18 +66,18 @@ def test_other_scenes_have_no_such_theory() -> None:
         assert _compared(OpenSolution(scene=scene, size={}, seconds={})) == ((), "")
 
 
-def test_check_and_summary_tell_of_the_endless_float() -> None:
+def test_check_and_summary_compare_with_the_float_of_infinite_draught() -> None:
     scene = _scene(shape="exponential", half_width=0.5, tail=1e-3)
-    told = endless_comparison(scene)
+    told = infinite_draught_comparison(scene)
     assert told is not None
-    # Against both closed forms, `test_modal_endless_float`: 0.0103.
+    # Against both closed forms, `test_modal_infinite_draught`: 0.0103.
     assert told.cut == pytest.approx(0.0116, rel=1e-2)
-    assert endless_words(told) in list(open_requests(scene))
+    assert infinite_draught_message(told) in list(open_requests(scene))
     summary = summarize_open(OpenSolution(scene=scene, size={}, seconds={}), MPI.COMM_SELF, import_seconds=0.0)
     stored = summary["estimates"]["endless_float"]
     assert stored["cut"] == told.cut
     assert stored["residues"][1] == [told.residues[1].real, told.residues[1].imag]
-    assert endless_comparison(_scene()) is None
+    assert infinite_draught_comparison(_scene()) is None
 
 
 def test_blunt_sections_say_why() -> None:

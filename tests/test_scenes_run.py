@@ -287,7 +287,9 @@ def test_without_a_body_the_largest_elevation_is_upwards(tanks: Any) -> None:
     sampled = sample_shapes(tanks.solve(tanks.scene()))
     assert sampled is not None
     for (water,) in sampled.curves:
-        assert water.displacement[np.argmax(np.abs(water.displacement))] > 0.0
+        # Crests and troughs of an antisymmetric mode differ by rounding alone: the first of them counts.
+        sizes = np.abs(water.displacement)
+        assert water.displacement[np.argmax(sizes >= (1.0 - 1e-9) * sizes.max())] > 0.0
 
 
 def test_shapes_have_a_generalized_mass_of_one_kilogram(folder: Path, shapes: ModeShapes) -> None:

@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hydroelastic.fem.study.corners import sharpest_of
 from hydroelastic.fem.study.meshes import full_order
 from hydroelastic.fem.study.rates import Rate
 from hydroelastic.fem.study.row import Family
+from hydroelastic.fem.study.singular_points import sharpest_of
 from hydroelastic.fem.study.theory import expected_order
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.models import Accuracy, Beam, Liquid, MeshFile, Tank, TankScene

@@ -6,10 +6,10 @@ from typing import Any
 
 import pytest
 
-from hydroelastic.fem.study.corners import corner_exponents, sharpest_of, symmetries_apart
 from hydroelastic.fem.study.meshes import full_order
 from hydroelastic.fem.study.rates import Rate
 from hydroelastic.fem.study.row import Family
+from hydroelastic.fem.study.singular_points import sharpest_of, singular_exponents, symmetries_apart
 from hydroelastic.fem.study.theory import expected_order
 from hydroelastic.physics.symmetry import Parity
 from hydroelastic.scenes.models.physical import physical_tank
@@ -115,7 +115,7 @@ def test_beside_the_middle_all_modes_meet_the_end_of_a_slit() -> None:
     assert symmetries_apart(tank) == ()
     assert sharpest_of(tank) == 0.5
     # Its two ends, and right angles where it passes the interface.
-    assert sorted(corner_exponents(tank).values()) == pytest.approx([0.5, 0.5, 2.0])
+    assert sorted(singular_exponents(tank).values()) == pytest.approx([0.5, 0.5, 2.0])
 
 
 def test_orders_are_those_of_each_symmetry() -> None:

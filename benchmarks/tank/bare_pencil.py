@@ -11,7 +11,7 @@ import scipy.sparse.linalg
 from petsc4py import PETSc
 
 from hydroelastic.benchmarks.tank.surface_modes import SurfaceModes, SurfaceProblem, lowest_eigenvalues
-from hydroelastic.fem.liquid import grounded_dofs
+from hydroelastic.fem.liquid import constrained_dofs
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.physics.arrays import FloatArray
 
@@ -21,7 +21,7 @@ Solve = Callable[[FloatArray], FloatArray]
 
 @dataclass(frozen=True, kw_only=True)
 class BarePencil:
-    """K, M, C and A of a `CoupledPencil` on one process, with what is grounded left out of C and A.
+    """K, M, C and A of a `CoupledPencil` on one process, without the constrained unknowns of C and A.
 
     Attributes:
         stiffness: K.
@@ -48,7 +48,7 @@ class BarePencil:
     def of(pencil: CoupledPencil) -> BarePencil:
         """Copy the matrices of a pencil."""
         laplace, coupling = _csr(pencil.laplace), _csr(pencil.coupling)
-        free = np.setdiff1d(np.arange(laplace.shape[0]), grounded_dofs(pencil.liquid))
+        free = np.setdiff1d(np.arange(laplace.shape[0]), constrained_dofs(pencil.liquid))
         return BarePencil(
             stiffness=_csr(pencil.stiffness),
             mass=_csr(pencil.mass),

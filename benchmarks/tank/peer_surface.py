@@ -54,7 +54,7 @@ def class_frequencies(
         tank: the tank.
         surface: its top, cut down to the shapes of the class.
         modes: the class.
-        answer: load on the top → ψ on the top, with ψ grounded somewhere if the liquid keeps its volume.
+        answer: load on the top → ψ on the top, with ψ = 0 at one unknown if the liquid keeps its volume.
     """
     beam = tank.beam
     shapes = len(modes.shapes)

@@ -23,9 +23,9 @@ _DEEP_COUPLING = 0.114
 _TAIL = 0.45
 # Half waves of the first bending shape of a section.
 _FIRST_BENDING = 1.5
-# A section stiffer than the softest one by this over the tolerance bends less than can be told.
+# A section stiffer than the softest one by this factor over the tolerance is rigid within the tolerance.
 _RIGID = 100.0
-# Sections whose flexural rigidities differ by less than this factor bend together.
+# Sections whose flexural rigidities differ by less than this factor have common dry modes.
 _ALIKE = 10.0
 
 
@@ -42,10 +42,11 @@ class BeamModel(BodyModel):
         return _in_dry_modes(self.tank, self.index, count, parity)
 
     def dry_mode_count(self, wavenumber: float, tolerance: float) -> int:
-        """Those up to the shortest wave, and a tail whose error falls like N⁻⁷.
+        """Return the number of dry modes up to the shortest wave, and of a tail whose error falls like N⁻⁷.
 
-        Dry modes have wavenumbers κ ~ EI^{-1/4} in the sections, and the shortest wave is in the softest one. What
-        stiffer ones bend counts less, like 1/EI, but is not seen before their first bending shape, of 3/2 half waves.
+        Dry modes have wavenumbers κ ~ EI^{-1/4} in the sections, and the shortest wave is in the softest one. The
+        bending of stiffer ones matters less, like 1/EI, but is not represented below their first bending shape, of 3/2
+        half waves.
         """
         sections = self.beam.sections
         softest = min(part.flexural_rigidity for part in sections)
@@ -65,7 +66,7 @@ class BeamModel(BodyModel):
         return ceil(needed) + 4 + len(self.beam.hinges)
 
     def expected_tones(self) -> tuple[float, ...]:
-        """Dry mode 1 with the recoil in heave, on deep open liquids that move freely beside the beam."""
+        """Estimate λ of dry mode 1 coupled with heave, on deep open liquids with ψ = 0 beside the beam."""
         beam, level = self.beam, self.tank.level_of(self.index)
         liquid = beam.length * self.tank.density_at(level)
         elastic = beam.mass_per_length + _DEEP_ELASTIC * liquid
@@ -78,7 +79,7 @@ def _in_dry_modes(tank: Tank, index: int, count: int, parity: Parity | None) -> 
     beam, piece, jump = tank.beams[index], tank.piece_of(index), tank.level_of(index).jump
     part = 1.0 if parity is None else 0.5
     shapes = beam_shapes(beam, count)
-    # Twins that are not symmetric themselves have shapes that mirror each other's: all count as even.
+    # Two asymmetric beams that are mirror images have mirrored shapes: all count as even.
     parities: tuple[Parity, ...] = tuple("symmetric" if sign > 0 else "antisymmetric" for sign in shapes.parities)
     numbers = [number for number, own in enumerate(parities) if parity in (None, own)]
     bending = part * shapes.bending[numbers]

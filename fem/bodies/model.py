@@ -1,4 +1,4 @@
-"""What the field model asks of a body, whatever it is."""
+"""Interface of a body in the field model."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from hydroelastic.physics.symmetry import Parity
 from hydroelastic.physics.tank import Tank
 
 FAR_ENOUGH = 1.5
-"""Modes up to this many times the λ that a float's motion has at infinite frequency hold its mode."""
+"""Limit of λ to which the mode of a float's motion is sought, as a multiple of its λ at infinite frequency."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -18,8 +18,8 @@ class BodyModel(ABC):
     """A body of a scaled tank.
 
     Attributes:
-        tank: the tank.
-        index: of the body.
+        tank: the dimensionless tank.
+        index: index of the body.
     """
 
     tank: Tank
@@ -27,26 +27,26 @@ class BodyModel(ABC):
 
     @abstractmethod
     def moving(self, count: int, parity: Parity | None) -> Body:
-        """The body as unknowns of the field model.
+        """Return the body as unknowns of the field model.
 
         Args:
-            count: number of dry modes, rigid ones included, of a body that bends; without any it is held still.
-            parity: of the shapes that are meant, with the energies of half the body; ``None`` takes all, and the whole.
+            count: number of dry modes, rigid ones included, of an elastic body; with none it is fixed.
+            parity: parity of the shapes, with the energies of half the body; ``None`` for all shapes of the whole body.
         """
 
     def dry_mode_count(self, wavenumber: float, tolerance: float) -> int:
-        """How many dry modes a tolerance asks for, rigid ones included; 0 of a body that does not bend.
+        """Return the number of dry modes that a tolerance needs, rigid ones included; 0 for a rigid body.
 
         Args:
-            wavenumber: of the shortest wave on the body.
-            tolerance: asked relative error.
+            wavenumber: wavenumber of the shortest wave on the body, in units of the tank.
+            tolerance: largest relative error that is accepted.
         """
         return 0
 
     def expected_tones(self) -> tuple[float, ...]:
-        """About the λ of its first elastic tone: enough to choose a mesh."""
+        """Estimate the dimensionless λ of its first elastic tone, for the choice of a mesh; empty for a rigid body."""
         return ()
 
     def ends_of_motions(self) -> tuple[float, ...]:
-        """Up to which λ modes are looked at for each of its rigid motions that is reported."""
+        """Return the dimensionless λ up to which the mode of each of its restored rigid motions is sought."""
         return ()

@@ -1,4 +1,4 @@
-"""Which model each body has, and what all of them expect."""
+"""The model of each body of a tank, and estimates of their frequencies."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from hydroelastic.physics.tank import Tank
 
 
 def body_model(tank: Tank, index: int) -> BodyModel:
-    """The model of a body of a scaled tank."""
+    """Return the model of a body of a scaled tank."""
     if tank.bodies[index].is_elastic:
         from hydroelastic.fem.bodies.beam import BeamModel
 
@@ -19,10 +19,10 @@ def body_model(tank: Tank, index: int) -> BodyModel:
 
 
 def expected_tones(tank: Tank) -> tuple[float, ...]:
-    """About the (dimensionless) λ of the first elastic tone of each body that bends."""
+    """Estimate the dimensionless λ of the first elastic tone of each elastic body."""
     return tuple(tone for index in range(len(tank.bodies)) for tone in body_model(tank, index).expected_tones())
 
 
 def ends_of_motions(tank: Tank) -> tuple[float, ...]:
-    """Up to which (dimensionless) λ modes are looked at for the motions of all bodies."""
+    """Return the dimensionless λ up to which the modes of the motions of all bodies are sought."""
     return tuple(end for index in range(len(tank.bodies)) for end in body_model(tank, index).ends_of_motions())

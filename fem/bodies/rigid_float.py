@@ -30,7 +30,7 @@ class FloatModel(BodyModel):
         return in_principal_motions(self.tank.floats[self.index], self.index, parity)
 
     def ends_of_motions(self) -> tuple[float, ...]:
-        """Those of the motions that gravity restores, beyond their λ at infinite frequency."""
+        """See `BodyModel.ends_of_motions`: multiples of the λ at infinite frequency of the restored motions."""
         body, level = self.tank.floats[self.index], self.tank.level_of(self.index)
         width = body.stiffness[0, 0] / level.jump
         ends = []
@@ -51,9 +51,8 @@ def in_principal_motions(body: RigidFloat, index: int, parity: Parity | None) ->
 
     Args:
         body: the float.
-        index: of it among the bodies.
-        parity: of the motions to include, with the energies of half the float; ``None`` takes all motions of the whole
-            float.
+        index: index of the float among the bodies.
+        parity: parity of the motions, with the energies of half the float; ``None`` for all motions of the whole float.
     """
     motions = tuple(motion for motion in body.motions if parity in (None, motion_parity(motion)))
     part = 1.0 if parity is None else 0.5
@@ -75,10 +74,14 @@ def in_principal_motions(body: RigidFloat, index: int, parity: Parity | None) ->
 def principal_motions(
     body: RigidFloat, motions: tuple[Motion, ...]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Motions without coupling by stiffness or inertia.
+    """Return n motions without coupling by stiffness or inertia, dimensionless.
+
+    Args:
+        body: the float.
+        motions: n of its motions.
 
     Returns:
-        Their parts in the given motions as columns, their stiffness and their inertia.
+        Their parts in the given motions as columns, shape (n, n), their stiffness and their inertia, shape (n,).
     """
     places = [MOTIONS.index(motion) for motion in motions]
     stiffness, inertia = body.stiffness[np.ix_(places, places)], body.inertia[places]
@@ -99,7 +102,7 @@ def principal_motions(
 
 
 def _singular_points(body: RigidFloat) -> NDArray[np.float64] | None:
-    """Where the slope of a thin float's profile has no bound: the ends of a thin ellipse."""
+    """Points where the slope of a thin float's profile is unbounded: the ends of a thin ellipse, shape (points, 2)."""
     hull = body.hull
     if not hull.is_thin or hull.profile is None or hull.profile.shape != "ellipse":
         return None
@@ -130,7 +133,7 @@ def _thin_shape(
     normals: NDArray[np.float64],
     number: int,
 ) -> NDArray[np.float64]:
-    """The flux through the contour x = x₀ ± ω(y) put on x = x₀: n ds = (∓1, ω') dy out of the liquid."""
+    """The flux through the contour x = x₀ ± ω(y), applied on x = x₀: n ds = (∓1, ω') dy out of the liquid."""
     profile = body.hull.profile
     assert profile is not None
     y = points[1] - body.hull.reference_level

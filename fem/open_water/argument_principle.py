@@ -1,9 +1,9 @@
 """Number of resonances in a region by the argument principle, without searching for them.
 
-The small matrix D(λ) = K − λ(M_b + H(λ)) of the bodies is singular at resonances, and has poles where the water
-could oscillate by itself if the bodies were held. Around a region the phase of det D turns once for every resonance
-within and back for every pole; poles of H in `damped` are zeros of another determinant, which makes up for them. H
-comes from solutions on the rim, on a reduced basis, and not from any eigenvector.
+The dynamic stiffness D(λ) = K − λ(M_b + H(λ)) of the bodies is singular at resonances, and has poles at the resonances
+of the water around fixed bodies. Along the boundary of a region the argument of det D increases by 2π for every zero
+within and decreases by 2π for every pole; the poles of H in `damped` are zeros of another determinant, which is
+included as a factor. H comes from solutions on the boundary, on a reduced basis, and not from any eigenvector.
 """
 
 from __future__ import annotations
@@ -18,41 +18,44 @@ from hydroelastic.fem.open_water.solver import OpenSolver
 
 Solver: TypeAlias = OpenSolver | DampedSolver
 
-# Points on the rim where the basis is judged, and where the phase is first followed; a multiple of four.
+# Points on the boundary at which the residual of the basis is computed, and initial points of the phase; multiples of
+# four.
 _JUDGED, _FIRST = 16, 64
-# So often the distance between points is halved where the phase turns by more than this, radians.
+# Number of times that the distance between points may be halved, and the change of phase above which it is, radians.
 _HALVINGS = 8
 _TURN = 1.0
-_UNSEEN = 2.0
+# Change of 2k times the length of the basin between neighbouring points above which more points are needed, radians.
+_UNRESOLVED = 2.0
 # The winding number needs few digits of H; its error goes like the square of the residual.
 _RESIDUAL = 1e-2
 
 
-def zeros_in(solver: Solver, rim: Callable[[np.ndarray], np.ndarray]) -> int | None:
-    """Count resonances less the water's own in a region (collective).
+def zeros_in(solver: Solver, boundary: Callable[[np.ndarray], np.ndarray]) -> int | None:
+    """Count the resonances in a region, less those of the water around fixed bodies (collective).
 
     Args:
-        solver: of the model.
-        rim: gives ω in rad/s at places from 0 to 4 around the region, counterclockwise.
+        solver: solver of the field model.
+        boundary: maps places from 0 to 4, shape (points,), to ω in rad/s on the boundary of the region, shape
+            (points,), counterclockwise.
 
     Returns:
-        The winding number of det D; ``None`` where its phase cannot be followed.
+        The winding number of det D; ``None`` where its phase is not resolved.
     """
-    _prepare(solver, rim)
+    _prepare(solver, boundary)
     places = 4.0 * np.arange(_FIRST) / _FIRST
-    phases = _phases(solver, rim(places))
+    phases = _phases(solver, boundary(places))
     for _ in range(_HALVINGS):
         turns = np.angle(np.roll(phases, -1) / phases)
-        far = np.flatnonzero((np.abs(turns) > _TURN) | _unseen(solver, rim(places)))
+        far = np.flatnonzero((np.abs(turns) > _TURN) | _unresolved(solver, boundary(places)))
         if not len(far):
             return round(float(turns.sum() / (2.0 * np.pi)))
         added = 0.5 * (places + np.append(places[1:], 4.0))[far]
-        phases = np.insert(phases, far + 1, _phases(solver, rim(added)))
+        phases = np.insert(phases, far + 1, _phases(solver, boundary(added)))
         places = np.insert(places, far + 1, added)
     return None
 
 
-def _unseen(solver: Solver, omegas: np.ndarray) -> np.ndarray:
+def _unresolved(solver: Solver, omegas: np.ndarray) -> np.ndarray:
     """Whether the phase may turn by more than is seen from each point to the next, as waves do that grow along bodies.
 
     H of `damped` has their squares, and no body is longer than the basin.
@@ -60,13 +63,13 @@ def _unseen(solver: Solver, omegas: np.ndarray) -> np.ndarray:
     if isinstance(solver, OpenSolver):
         return np.zeros(len(omegas), dtype=bool)
     wavenumbers = np.array([solver.wavenumber(omega) for omega in omegas])
-    unseen: np.ndarray = 2.0 * np.abs(np.roll(wavenumbers, -1) - wavenumbers) > _UNSEEN
-    return unseen
+    unresolved: np.ndarray = 2.0 * np.abs(np.roll(wavenumbers, -1) - wavenumbers) > _UNRESOLVED
+    return unresolved
 
 
-def _prepare(solver: Solver, rim: Callable[[np.ndarray], np.ndarray]) -> None:
-    """Solve on a rim wherever the basis is not good enough yet."""
-    points = rim(4.0 * np.arange(_JUDGED) / _JUDGED)
+def _prepare(solver: Solver, boundary: Callable[[np.ndarray], np.ndarray]) -> None:
+    """Extend the basis by solutions on the boundary until its residual is small enough there."""
+    points = boundary(4.0 * np.arange(_JUDGED) / _JUDGED)
     squares = [solver.model.squared_frequency(omega) for omega in points]
     if not solver.basis_size:
         solver.radiation(squares[0])

@@ -1,4 +1,4 @@
-"""Solve open water at finer and finer resolutions, until the tolerance of the problem is kept."""
+"""Solve open water at successively finer resolutions, until the tolerance of the problem is kept."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def best_in_basin(
         tolerance: largest relative error that is accepted.
         solve: solves at a resolution.
         first: resolution of the first attempt.
-        infinite_frequency: whether it is the infinite-frequency limit.
+        infinite_frequency: whether the infinite-frequency limit is solved.
     """
 
     def solved(resolution: Resolution) -> Attempt[Result]:

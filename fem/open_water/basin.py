@@ -1,9 +1,10 @@
-"""Truncation of open water: a basin around the bodies, the frames of cells around it, and how far they reach.
+"""Truncation of open water: a basin around the bodies, and an absorbing layer around the basin.
 
-The basin is a closed tank with all bodies; its walls, and its bottom or lid where a liquid goes on, are then
-surrounded by frames of cells in which coordinates are turned into the complex plane, see `fem.complex_scaling`. Frames
-begin with what an element resolves of the shortest wave, and grow by a constant factor: where they are too long for a
-wave it has decayed. They end where the longest wave has decayed, and where deep water's ψ ~ 1/r is below the tolerance.
+The basin is a closed tank with all bodies; its walls, and its bottom or lid where a liquid continues beyond them, are
+surrounded by an absorbing layer in which coordinates are rotated into the complex plane, see `complex_scaling`. The
+absorbing layer consists of layers of cells. The first is as wide as the part of the shortest wave that an element
+resolves, and widths grow by a constant factor: where cells are too long for a wave, it has decayed. The last layer ends
+where the longest wave has decayed, and where ψ ~ 1/r of deep water is below the tolerance.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from math import cos, inf, isinf, log, pi, sin
 import numpy as np
 
 from hydroelastic.meshes.geometry import BOTTOM, LEFT_WALL, LID, RIGHT_WALL
-from hydroelastic.meshes.open_sea import Frames
+from hydroelastic.meshes.open_sea import CellLayers
 from hydroelastic.modal.liquid.travelling_waves import TravellingWave, travelling_waves
 from hydroelastic.modal.liquid.two_layer import TwoLayers
 from hydroelastic.modal.tank_estimates import two_layers
@@ -25,16 +26,16 @@ from hydroelastic.physics.tank import tank as closed_tank
 # Distance of the basin's sides from the bodies, in parts of their extent.
 _MARGIN = 0.5
 _LEAST_MARGIN = 0.1
-# The same in radians of the shortest wave: in short waves a wide basin would be full of them.
+# Upper limit of that distance in radians of the shortest wave: a basin of many wavelengths would need many elements.
 _MARGIN_IN_RADIANS = 6.0
-# What is drawn is so deep, in parts of its length.
+# Depth of the basin of a picture, in parts of its length.
 _DRAWN_DEPTH = 0.35
-# A layer that is deeper than the basin by more than this part of the basin's length goes on in frames.
+# A liquid that is deeper than the basin by more than this part of the basin's length continues in the absorbing layer.
 _DEEPER = 1.0
-# A bed or a lid that is a little further than a frame ends with it.
+# Layers of cells are stretched to end at a bed or a lid that is up to so many times as far as the last one.
 _NEARLY = 1.5
 CUT = 0.03
-"""Part of the tolerance below which is kept what is cut off far away, each of two ends."""
+"""Part of the tolerance that the truncation of the absorbing layer may take at each of both ends."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,10 +44,10 @@ class OpenBasin:
 
     Attributes:
         tank: the basin as a closed tank, in units of its length.
-        units: those units.
+        units: units of `tank`.
         origin: abscissa of the basin's left side in the open water, m.
-        layers: the liquids of the open water, m and kg/m³.
-        depths: of the liquids of the open water, from the bottom up, in basin lengths; may be infinite.
+        layers: the liquids of the open water, in SI units.
+        depths: depths of the liquids of the open water, from the bottom up, in basin lengths; may be infinite.
     """
 
     tank: Tank
@@ -57,13 +58,13 @@ class OpenBasin:
 
     @property
     def sides(self) -> tuple[str, ...]:
-        """The sides that are extended in both directions at once."""
+        """Names of the sides of the basin that the absorbing layer extends."""
         deeper = [depth > layer.depth for depth, layer in zip(self.depths, self.tank.layers, strict=True)]
         return (LEFT_WALL, RIGHT_WALL) + (BOTTOM,) * deeper[0] + (LID,) * (len(deeper) > 1 and deeper[-1])
 
     @property
     def scaled_layers(self) -> TwoLayers:
-        """The liquids in units of the basin."""
+        """The liquids of the open water, dimensionless in units of the basin."""
         two = self.layers
         return TwoLayers(
             density_below=1.0,
@@ -76,11 +77,12 @@ class OpenBasin:
 
     @property
     def bounds(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Lower and upper bounds in x and y of where coordinates are real; infinite where a bed or a top ends them."""
+        """Lower and upper bounds (x, y), in basin lengths, within which coordinates are real; infinite at a bed or a
+        top."""
         tank = self.tank
         floor = tank.layers[0].floor if BOTTOM in self.sides else -inf
         ceiling = tank.layers[-1].ceiling if LID in self.sides else inf
-        # A liquid of finite depth goes on downwards as it is: only sideways it is turned.
+        # In a liquid of finite depth only x is rotated.
         if not isinf(self.depths[0]):
             floor = -inf
         if not isinf(self.depths[-1]):
@@ -88,13 +90,13 @@ class OpenBasin:
         return (0.0, floor), (1.0, ceiling)
 
     @property
-    def endless(self) -> tuple[str, ...]:
-        """The sides beyond which nothing is modelled."""
+    def far_sides(self) -> tuple[str, ...]:
+        """Names of the outer sides of the absorbing layer that lie in a liquid, on which ψ = 0."""
         deep = (BOTTOM,) * isinf(self.depths[0]) + (LID,) * (len(self.depths) > 1 and isinf(self.depths[-1]))
         return (LEFT_WALL, RIGHT_WALL, *deep)
 
     def waves(self, omega: float) -> tuple[TravellingWave, ...]:
-        """The travelling waves at a dimensionless frequency, in units of the basin."""
+        """The travelling waves at a dimensionless frequency ω, in units of the basin."""
         return travelling_waves(self.scaled_layers, omega)
 
 
@@ -103,9 +105,9 @@ def open_basin(water: Tank, shortest: float, *, drawn: float | None = None) -> O
 
     Args:
         water: open water in SI units, with at least one body.
-        shortest: the largest wavenumber of the waves that leave, 1/m; 0 where none does.
-        drawn: if it is to hold the whole stretch of interest, and not only what forces and motions need: for so many
-            radians of that wave to each side at most.
+        shortest: the largest wavenumber of the outgoing waves, 1/m; 0 if there are none.
+        drawn: for a basin that contains the length of the scene, as a picture needs it: largest distance from the
+            bodies to each side, in radians of the shortest wave. ``None`` for forces and motions alone.
     """
     left, right, low, high = _extent(water)
     extent = max(0.5 * (right - left), -low, high)
@@ -119,13 +121,13 @@ def open_basin(water: Tank, shortest: float, *, drawn: float | None = None) -> O
         margins = (min(max(left, least), most), min(max(water.length - right, least), most))
     length = right - left + sum(margins)
     margin = max(margin, _DRAWN_DEPTH * length) if drawn is not None else margin
-    reaches = (margin - low, margin + high)
+    distances = (margin - low, margin + high)
     depths = [layer.depth for layer in water.layers]
-    # A top that moves, or holds the pressure, is part of the basin.
+    # A free or pressure-release top is part of the basin.
     goes_on = (True, isinf(depths[-1]) or water.top == "rigid")
     kept = [
-        reach if open_end and depth > reach + _DEEPER * length else depth
-        for depth, reach, open_end in zip(depths, reaches, goes_on, strict=False)
+        distance if open_end and depth > distance + _DEEPER * length else depth
+        for depth, distance, open_end in zip(depths, distances, goes_on, strict=False)
     ]
     origin = left - margins[0]
     basin = closed_tank(
@@ -160,14 +162,14 @@ def _extent(water: Tank) -> tuple[float, float, float, float]:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Reach:
-    """How frames are laid.
+class AbsorbingLayer:
+    """Dimensions of the absorbing layer around a basin.
 
     Attributes:
-        angle: α by which coordinates are turned.
-        first: width of the first frame, in basin lengths.
-        growth: ratio of the distances of successive frames.
-        farthest: distance of the last one.
+        angle: angle α of the complex scaling, rad.
+        first: width of the first layer of cells, in basin lengths.
+        growth: ratio of the distances of successive layers of cells from the basin.
+        farthest: width of the whole absorbing layer, in basin lengths.
     """
 
     angle: float
@@ -175,11 +177,11 @@ class Reach:
     growth: float
     farthest: float
 
-    def stages(self, basin: OpenBasin) -> list[tuple[tuple[str, ...], Frames]]:
-        """Frames one after another, and the sides of the basin, widened by those before, that they extend.
+    def stages(self, basin: OpenBasin) -> list[tuple[tuple[str, ...], CellLayers]]:
+        """Return layers of cells in stages, each with the names of the sides that it extends.
 
-        A bed or a lid is not followed beyond its distance: frames that go on sideways alone would else be thin and long
-        there.
+        A stage surrounds the basin with all earlier stages. Where a bed or a lid is reached, the next stages extend the
+        other sides only; otherwise cells along the bed would be thin and long.
         """
         count = max(int(np.ceil(log(self.farthest / self.first) / log(self.growth))), 1)
         distances = self.first * (self.farthest / self.first) ** (np.arange(count + 1) / count)
@@ -191,37 +193,37 @@ class Reach:
         stages, start = [], 0.0
         while len(distances):
             sides = (LEFT_WALL, RIGHT_WALL, *open_sides)
-            frames = int(np.searchsorted(distances, min(open_sides.values(), default=inf))) + 1
-            sideways, distances = distances[:frames] - start, distances[frames:]
+            count = int(np.searchsorted(distances, min(open_sides.values(), default=inf))) + 1
+            sideways, distances = distances[:count] - start, distances[count:]
             ended = {side: end for side, end in open_sides.items() if end <= _NEARLY * (start + sideways[-1])}
             below, above = (
                 sideways * (ended[side] - start) / sideways[-1] if side in ended else sideways for side in (BOTTOM, LID)
             )
-            stages.append((sides, Frames(sideways=sideways, below=below, above=above)))
+            stages.append((sides, CellLayers(sideways=sideways, below=below, above=above)))
             open_sides = {side: end for side, end in open_sides.items() if side not in ended}
             start += float(sideways[-1])
         return stages
 
 
-def reach(
+def sized_absorbing_layer(
     basin: OpenBasin, wavenumbers: tuple[float, float], *, first: float, growth: float, angle: float, tolerance: float
-) -> Reach:
-    """How far frames must reach.
+) -> AbsorbingLayer:
+    """Return the absorbing layer that a tolerance needs.
 
     Args:
         basin: the basin.
-        wavenumbers: smallest and largest of the waves that leave, in units of the basin.
-        first: radians of the shortest wave that the first frame holds.
-        growth: ratio of the distances of successive frames.
-        angle: α.
+        wavenumbers: smallest and largest wavenumber of the outgoing waves, in units of the basin.
+        first: width of the first layer of cells in radians of the shortest wave.
+        growth: ratio of the distances of successive layers of cells.
+        angle: angle α of the complex scaling, rad.
         tolerance: largest relative error that is accepted.
     """
     longest, shortest = wavenumbers
     decades = log(1.0 / (CUT * tolerance))
-    # A wave goes out and comes back. So does what decays by itself, like e^{−κx} with κ > π/(2H), H all the depth
-    # between the bed and a free top: that bound is reached far above the waves.
+    # A wave passes the layer twice, outgoing and reflected. So do evanescent modes e^{−κx} with κ > π/(2H), H the whole
+    # depth between the bed and a free top: that bound is reached at infinite frequency.
     farthest = [decades / (2.0 * longest * sin(angle))]
     farthest.append(decades * sum(depth for depth in basin.depths if not isinf(depth)) / (pi * cos(angle)))
     if any(isinf(depth) for depth in basin.depths):
         farthest.append((1.0 + 1.0 / longest) * (CUT * tolerance) ** -0.5)
-    return Reach(angle=angle, first=min(first / shortest, 0.5), growth=growth, farthest=max(farthest))
+    return AbsorbingLayer(angle=angle, first=min(first / shortest, 0.5), growth=growth, farthest=max(farthest))

@@ -3,7 +3,7 @@
     (P + iQ)(u + iv) = f + ig    as    [ P  −Q ] [u]   [ f ]
                                        [−Q  −P ] [v] = [−g ]
 
-is symmetric, so that one LDLᵀ serves.
+is symmetric, so that one LDLᵀ factorization solves it.
 """
 
 from __future__ import annotations
@@ -28,7 +28,8 @@ class DefiniteSolver:
         self._factorization.compute()
 
     def solve(self, load: np.ndarray) -> np.ndarray:
-        """Solve for a load, own entries of this process (collective)."""
+        """Return the solution for a load, both complex and own entries of this process, shape (own unknowns,)
+        (collective)."""
         return self._factorization.solve(load)
 
 
@@ -36,12 +37,12 @@ class ShiftedSolver:
     """(A − λM)⁻¹ for one λ after another, real or complex; the structure is analysed once.
 
     Args:
-        stiffness: A.
-        mass: M, of the same size.
+        stiffness: complex symmetric matrix A.
+        mass: complex symmetric matrix M, of the same size.
     """
 
     def __init__(self, stiffness: ComplexMatrix, mass: ComplexMatrix) -> None:
-        """Lay out the real form (collective)."""
+        """Create the real form with the sparsity of all parts (collective)."""
         self._constant = _real_form(stiffness.real, stiffness.imaginary)
         self._masses = (
             _real_form(mass.real, mass.imaginary),
@@ -66,7 +67,8 @@ class ShiftedSolver:
         self.factorizations += 1
 
     def solve(self, load: np.ndarray) -> np.ndarray:
-        """Solve for a load, own entries of this process (collective)."""
+        """Return the solution for a load, both complex and own entries of this process, shape (own unknowns,)
+        (collective)."""
         return self._factorization.solve(load)
 
 
@@ -82,7 +84,7 @@ class _Factorization:
             configure_quasidefinite(self._solver)
         else:
             factor = configure_indefinite(self._solver)
-            # Pivots of an indefinite matrix may need more room than its structure says.
+            # Pivoting in an indefinite matrix may need more memory than the symbolic analysis predicts.
             factor.setMumpsIcntl(14, 80)
         self._load, self._answer = matrix.createVecs()
         self._size = matrix.getLocalSize()[0] // 2

@@ -1,8 +1,8 @@
 """Exterior complex scaling: outgoing waves as decaying ones, so that a mesh of finite size holds open water.
 
-Beyond the sides of a basin the coordinate that leads away is turned into the complex plane, x̃ = x₀ + s (x − x₀) with
-s = e^{iα}. What travels outwards, e^{ikx}, becomes e^{ikx₀} e^{iks(x − x₀)} and decays like e^{−k (x − x₀) sin α};
-within the basin nothing changes. With s_i the factor of the axis i in a cell, one there unless it leads away,
+Beyond the sides of a basin the coordinate normal to the side is rotated into the complex plane, x̃ = x₀ + s (x − x₀)
+with s = e^{iα}. An outgoing wave e^{ikx} becomes e^{ikx₀} e^{iks(x − x₀)} and decays like e^{−k (x − x₀) sin α}; within
+the basin nothing changes. With s_i the factor of the axis i in a cell (s where that axis is rotated, else 1),
 
     A = ∫ρ Σᵢ (det/sᵢ²) ∂ᵢψ ∂ᵢq,    S = ∫(det/s_n) ψ q over surfaces of normal n,    det = Πsᵢ
 
@@ -27,12 +27,12 @@ from hydroelastic.fem.liquid import NO_ENTITIES, LiquidSpace, assembled, chosen_
 
 @dataclass(frozen=True, kw_only=True)
 class ComplexScaling:
-    """Where and how far coordinates are turned.
+    """Region and angle of the complex scaling.
 
     Attributes:
-        angle: α, by which they are turned.
-        low: lower bounds of the basin, one for each axis.
-        high: upper bounds.
+        angle: angle α of the rotation, rad.
+        low: lower bounds of the basin, shape (gdim,).
+        high: upper bounds, shape (gdim,).
     """
 
     angle: float
@@ -40,21 +40,21 @@ class ComplexScaling:
     high: tuple[float, ...]
 
     def turned(self, mesh: Mesh) -> np.ndarray:
-        """Whether each axis is turned in each cell of this process, shape (cells, gdim)."""
+        """Whether each axis is rotated in each cell of this process, shape (cells, gdim)."""
         cells = mesh.topology.index_map(mesh.topology.dim)
         middles = cell_corners(mesh, np.arange(cells.size_local + cells.num_ghosts, dtype=np.int32)).mean(axis=1)
         outside: np.ndarray = (middles < np.array(self.low)) | (middles > np.array(self.high))
         return outside
 
     def power(self, exponents: np.ndarray, *, derivative: bool) -> np.ndarray:
-        """sⁿ, or its derivative with respect to α, inⁿsⁿ with s = e^{iα}."""
+        """Return sⁿ with s = e^{iα}, or its derivative in sⁿ with respect to α; shape of the exponents n."""
         powers: np.ndarray = np.exp(1j * self.angle * exponents)
         return 1j * exponents * powers if derivative else powers
 
 
 @dataclass(frozen=True, kw_only=True)
 class ComplexMatrix:
-    """A matrix in its real and its imaginary part, of the same layout."""
+    """Real and imaginary part of a complex matrix, with the same parallel layout."""
 
     real: PETSc.Mat
     imaginary: PETSc.Mat
@@ -117,7 +117,7 @@ def _weighted_form(
 
 
 def complex_product(matrix: ComplexMatrix, vector: np.ndarray) -> np.ndarray:
-    """The product of a complex matrix, own entries (collective)."""
+    """Return the product of a complex matrix and a complex vector of own entries, shape (own rows,) (collective)."""
     real, imaginary = (_real_product(part, vector) for part in (matrix.real, matrix.imaginary))
     product: np.ndarray = real + 1j * imaginary
     return product

@@ -1,4 +1,4 @@
-"""Estimated cost of the motion after a release before it is solved: the first mesh is made, the rest was measured."""
+"""Estimated cost of the motion after a release: from the first mesh, by measured times and memory per unknown."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ WITHIN = 3.0
 """Factor within which seconds and memory are estimated. A second attempt, where the first falls short, may double them;
 a busy or a slow machine takes longer."""
 
-# Measured on one core, on floats in and between endless liquids, at tolerances from 1e-3 to 1e-6: 4 000 to 64 000
-# unknowns, 3 to 65 s, 260 to 1 060 MiB.
+# Measured on one core, on floats in and between infinitely deep liquids, at tolerances from 1e-3 to 1e-6: 4 000 to 64
+# 000 unknowns, 3 to 65 s, 260 to 1 060 MiB.
 _SECONDS, _OF_UNKNOWNS, _GROWTH = 1.1, 37_000, 1.2
 _LIBRARIES, _PER_UNKNOWN = 200 * 2**20, 18 * 2**10
-# Solutions on the ray, and what else is solved, as so many of these.
+# Numbers of solutions on the ray, the least and per decimal digit, and of the other solutions.
 _LEAST, _PER_DIGIT, _BESIDE = 6.0, 2.5, 8
 
 
@@ -28,10 +28,10 @@ class DecayCost:
     """The cost of the motion after a release.
 
     Attributes:
-        unknowns: of ψ.
-        factorizations: how many.
-        seconds: of processor time.
-        memory: bytes.
+        unknowns: number of unknowns of ψ.
+        factorizations: number of factorizations.
+        seconds: processor time, s.
+        memory: largest memory, bytes.
     """
 
     unknowns: int
@@ -41,7 +41,7 @@ class DecayCost:
 
 
 def decay_cost(water: Tank, tolerance: float, request: DecayRequest) -> DecayCost:
-    """Estimate the cost; gmsh makes the first mesh.
+    """Estimate the cost from the first mesh, which gmsh makes.
 
     Args:
         water: open water in SI units.
@@ -52,7 +52,7 @@ def decay_cost(water: Tank, tolerance: float, request: DecayRequest) -> DecayCos
         MeshError: if no mesh can be made.
     """
     at_rest = [body.hydrostatics for body in water.floats.values()]
-    # Far above the waves liquids add about the mass of the float, and only the logarithm of the frequency matters.
+    # At infinite frequency the added mass is about the mass of the float; only the logarithm of the frequency matters.
     expected = sorted(sqrt(own.heave_stiffness / (2.0 * own.mass)) for own in at_rest)
     band = ray_band(water, tolerance, request, expected)
     resolution = first_resolution(water, tolerance, band)

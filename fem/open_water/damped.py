@@ -1,22 +1,23 @@
-"""Strongly damped resonances, whose outgoing waves grow faster with the distance than complex scaling can follow.
+"""Strongly damped resonances, whose outgoing waves grow faster with the distance than complex scaling can turn to
+decay.
 
-Their conjugate grows as e^{−iω̄t}, and waves only come in. At λ̄, above the axis, the outgoing waves of T = A − λ̄M
-decay with the distance, the faster the further from the axis, and coordinates are turned by a small angle only. With
-amplitudes b of an even and an odd wave φ, each of which comes from both sides and leaves to both,
+Their complex conjugate e^{−iω̄t} grows in time, and has incoming waves only. At λ̄, above the axis, the outgoing waves
+of T = A − λ̄M decay with the distance, the faster the further from the axis, and coordinates are rotated by a small
+angle only. With amplitudes b of an even and an odd standing wave φ, each incident from both sides and outgoing to both,
 
     ψ = T⁻¹(Fa − gb) + Σ bφ
 
-sends no wave away if Xa + Wb = 0, with
+has no outgoing wave if Xa + Wb = 0, with
 
     X = ∫ρφφᵢ + Fᵀφ_D,    W = gᵀT⁻¹g − ∫ρφ ∂φ'/∂n ∓ 2ikN,    φ_D = −T⁻¹g,
 
-−2ikN for the even one: W is the scattering of bodies that are held, in the fluxes I(φ) of `incident_waves`. Then the
+−2ikN for the even one: W is the scattering matrix of fixed bodies, by the fluxes I(φ) of `incident_waves`. Then the
 conjugate of
 
     FᵀT⁻¹F − Xᵀ W⁻¹ X
 
-is H(λ) of outgoing waves, continued from the axis. The error that elements make in it is the energy that T⁻¹(Fa − gb)
-lacks, for it is stationary. On a thin float XᵀW⁻¹X is the term −2πi R(−z²)² of `docs/theory_open_water.md`.
+is H(λ) of outgoing waves, continued from the axis. It is stationary, so that its discretization error is the energy
+error of T⁻¹(Fa − gb). On a thin float XᵀW⁻¹X is the term −2πi R(−z²)² of `docs/theory_open_water.md`.
 """
 
 from __future__ import annotations
@@ -36,24 +37,25 @@ from hydroelastic.fem.open_water.reduced_pencil import ReducedPencil
 from hydroelastic.fem.open_water.region import Region
 from hydroelastic.fem.open_water.resonance_search import Eigenpair
 from hydroelastic.fem.stopwatch import Stopwatch
-from hydroelastic.modal.liquid.endless_wave import EndlessWave
+from hydroelastic.modal.liquid.deep_water_wave import DeepWaterWave
 
-# Newton's method: its last step and the number of steps on one basis, and how often a solution is added to that.
+# Newton's method: relative last step, most steps on one basis, most solutions that are added to the basis.
 _STEP = 1e-11
 _MOST_STEPS = 20
 _MOST_SOLUTIONS = 8
-# Of ω: the difference quotient of an analytic matrix errs by its square.
+# Relative step of the difference quotient in λ, whose error is of second order.
 _DIFFERENCE = 1e-4
-# Of |λ|, from where Newton's method begins.
+# Largest change of λ from the start of Newton's method, relative.
 _FARTHEST = 0.25
-# The same resonance from two starts.
+# Relative difference of ω below which two starts have found the same resonance.
 _SAME = 1e-6
-# Of the largest excitation; a mesh that is not symmetric excites this little.
-_UNFELT = 1e-3
+# Excitation below this part of the largest is that of asymmetric meshes.
+_NOT_EXCITED = 1e-3
 
 
 def mirror_angle(damping: float) -> float:
-    """α of the complex scaling with which waves decay equally fast on the axis and where −Im ω/Re ω is ``damping``."""
+    """α of the complex scaling, rad, for equally fast decay of waves on the real axis and at −Im ω/Re ω =
+    ``damping``."""
     return 0.5 * pi - atan(damping)
 
 
@@ -63,9 +65,9 @@ class Root:
 
     Attributes:
         squared: λ.
-        bodies: a.
+        bodies: body unknowns a, shape (body unknowns,).
         norm: aᵀ D'(λ) a.
-        step: the last one of Newton's method, relative.
+        step: relative last step of Newton's method.
     """
 
     squared: complex
@@ -76,14 +78,14 @@ class Root:
 
 @dataclass(frozen=True, kw_only=True)
 class _Waves:
-    """The waves φ at λ̄: loads L = (F, −g), ∫ρφφᵢ, and W without what the elements add to it."""
+    """The waves φ at λ̄: loads L = (F, −g), ∫ρφφᵢ, and the part of W without gᵀT⁻¹g."""
 
     loads: np.ndarray
     pressures: np.ndarray
     scattering: np.ndarray
 
-    def without_leaving(self, responses: np.ndarray) -> _Motions:
-        """Motions beside which no wave leaves.
+    def without_radiation(self, responses: np.ndarray) -> _Motions:
+        """Motions without outgoing waves.
 
         Args:
             responses: LᵀT⁻¹L.
@@ -102,7 +104,7 @@ class _Waves:
 
 @dataclass(frozen=True, kw_only=True)
 class _Motions:
-    """Motions at λ̄ beside which no wave leaves: H, (a, b) of a unit of each, shape (body unknowns, …), X, and W."""
+    """Motions at λ̄ without outgoing waves: H, (a, b) of a unit of each, shape (body unknowns, …), X, and W."""
 
     hydrodynamic: np.ndarray
     unknowns: np.ndarray
@@ -112,10 +114,10 @@ class _Motions:
 
 @dataclass(frozen=True, kw_only=True)
 class _Reduced:
-    """The same on the basis.
+    """Motions without outgoing waves on the reduced basis.
 
     Attributes:
-        motions: them.
+        motions: H, unknowns, X and W.
         loads: Fa − gb of a unit of each, shape (body unknowns, own free unknowns).
         coordinates: of T⁻¹(Fa − gb), shape (body unknowns, basis).
     """
@@ -126,10 +128,10 @@ class _Reduced:
 
 
 class DampedSolver:
-    """H of one model in endless liquids, on a reduced basis.
+    """H of one model in infinitely deep liquids, on a reduced basis.
 
     Args:
-        model: the problem, with coordinates turned by `mirror_angle`.
+        model: the problem, with coordinates rotated by `mirror_angle`.
         watch: records the time by stage.
     """
 
@@ -140,29 +142,29 @@ class DampedSolver:
         with watch.stage("solve"):
             self._direct: ShiftedSolver = model.pencil.solver()
         self._reduced = ReducedPencil(model.pencil)
-        # Whether the motions of bodies excite even and odd waves, at the frequencies that were judged.
-        self._felt = np.zeros(2, dtype=bool)
+        # Whether motions of bodies excite the even and the odd wave at any frequency solved so far.
+        self._excited = np.zeros(2, dtype=bool)
 
     @property
     def basis_size(self) -> int:
-        """Vectors of the reduced basis."""
+        """Number of vectors of the reduced basis."""
         return self._reduced.size
 
     def wavenumber(self, omega: complex) -> complex:
         """k of the waves at ω in rad/s, in units of the basin."""
-        return EndlessWave(
+        return DeepWaterWave(
             layers=self.model.basin.scaled_layers, squared=self.model.squared_frequency(omega)
         ).wavenumber
 
     def radiation(self, squared: complex) -> None:
-        """Take the solutions at λ into the basis (collective)."""
+        """Add the solutions at λ to the basis (collective)."""
         mirrored = squared.conjugate()
         waves = self._waves(mirrored)
         with self._watch.stage("solve"):
             self._direct.shift(mirrored)
             solutions = np.array([self._direct.solve(load) for load in waves.loads])
         with self._watch.stage("reduce"):
-            unknowns = waves.without_leaving(self.model.pencil.products(waves.loads, solutions)).unknowns
+            unknowns = waves.without_radiation(self.model.pencil.products(waves.loads, solutions)).unknowns
             self._reduced.add(mirrored, unknowns @ solutions, unknowns @ waves.loads)
 
     def hydrodynamics(self, squares: np.ndarray) -> np.ndarray:
@@ -170,27 +172,28 @@ class DampedSolver:
         return np.array([self._mirrored(square.conjugate()).motions.hydrodynamic.conj() for square in squares])
 
     def continued(self, squares: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The same, and det W over its magnitude, which vanishes where H has poles (collective).
+        """Return H, shape (λ, body unknowns, body unknowns), and det W/|det W|, shape (λ,), zero at poles of H
+        (collective).
 
-        Waves that no motion feels, as a body with a symmetry has them, are left out.
+        Waves that no motion excites, as beside symmetric bodies, are left out.
         """
         found = [self._mirrored(square.conjugate()).motions for square in squares]
-        water = [np.linalg.slogdet(one.scattering[np.ix_(self._felt, self._felt)])[0] for one in found]
+        water = [np.linalg.slogdet(one.scattering[np.ix_(self._excited, self._excited)])[0] for one in found]
         return np.array([one.hydrodynamic.conj() for one in found]), np.array(water).conj()
 
     def hydrodynamic(self, squared: complex) -> tuple[np.ndarray, float]:
         """H at λ on the basis, and the largest relative residual of its motions (collective)."""
         found = self._mirrored(squared.conjugate())
         sizes = np.abs(found.motions.excitation).max(axis=1)
-        self._felt |= sizes > _UNFELT * sizes.max()
+        self._excited |= sizes > _NOT_EXCITED * sizes.max()
         with self._watch.stage("reduce"):
             misfits = self._reduced.misfits(squared.conjugate(), found.loads, found.coordinates)
-        # Far from the axis hardly anything of H is left to the elements.
+        # Far from the axis H is nearly all XᵀW⁻¹X: the residual is relative to the whole inertia.
         whole = np.abs(np.diag(self.model.mass + found.motions.hydrodynamic))
         return found.motions.hydrodynamic.conj(), float((misfits / np.sqrt(whole)).max())
 
     def root(self, start: complex) -> Root | None:
-        """The resonance next to a λ by Newton's method on the basis; ``None`` if that leads away (collective)."""
+        """The resonance next to a λ by Newton's method on the basis; ``None`` without convergence (collective)."""
         squared = start
         for _ in range(_MOST_STEPS):
             own, *around = self.hydrodynamics(squared * np.array([1.0, 1.0 - _DIFFERENCE, 1.0 + _DIFFERENCE]))
@@ -198,7 +201,7 @@ class DampedSolver:
             slope = inertia + (around[1] - around[0]) / (2.0 * _DIFFERENCE)
             steps, vectors = eig(self.model.stiffness - squared * inertia, slope)
             nearest = int(np.argmin(np.where(np.isfinite(steps), np.abs(steps), np.inf)))
-            # Rounding of one process must not lead it elsewhere than the others.
+            # All processes must take the same branch in spite of rounding.
             step, bodies = self.model.pencil.comm.bcast((complex(steps[nearest]), vectors[:, nearest]))
             squared += step
             if abs(squared - start) > _FARTHEST * abs(start):
@@ -210,7 +213,7 @@ class DampedSolver:
         return None
 
     def refined(self, eigenvalue: complex) -> Eigenpair:
-        """The resonance next to a λ; its potential is what the elements hold of it, without the waves φ (collective).
+        """The resonance next to a λ; its potential is that of the elements, without the waves φ (collective).
 
         Raises:
             EigenSolverError: if Newton's method does not converge.
@@ -244,7 +247,7 @@ class DampedSolver:
 
     def _waves(self, mirrored: complex) -> _Waves:
         with self._watch.stage("waves"):
-            wave = EndlessWave(layers=self.model.basin.scaled_layers, squared=mirrored)
+            wave = DeepWaterWave(layers=self.model.basin.scaled_layers, squared=mirrored)
             standing = [Standing(wave=wave, odd=odd) for odd in (False, True)]
             fluxes, pressures, own = surface_integrals(self.model, standing)
         power = wave.wavenumber * wave.energy
@@ -259,7 +262,7 @@ class DampedSolver:
         with self._watch.stage("reduce"):
             projected = self._reduced.project(waves.loads)
             coordinates = self._reduced.solve(mirrored, projected)
-        motions = waves.without_leaving(projected @ coordinates.T)
+        motions = waves.without_radiation(projected @ coordinates.T)
         return _Reduced(
             motions=motions, loads=motions.unknowns @ waves.loads, coordinates=motions.unknowns @ coordinates
         )
@@ -271,10 +274,10 @@ def damped_resonances(
     """Resonances of a region on the basis, rad/s, by ascending |ω| (collective).
 
     Args:
-        solver: with a basis that is good enough there.
-        region: where.
-        shallowest: −Im ω/Re ω above which all of it is searched.
-        known: ω in rad/s of those that are known roughly.
+        solver: solver with a basis that resolves the region.
+        region: region of ω.
+        shallowest: −Im ω/Re ω above which starts of Newton's method cover the region.
+        known: approximate ω of known resonances, rad/s.
         spacing: distance in ln ω of the points at which Newton's method begins.
     """
     unit = solver.model.basin.units.frequency

@@ -4,9 +4,9 @@ With p for d/dt and λ = −p², from a displacement a₀
 
     [p²(M + H) + K] S(p) = p (M + H) a₀,    a(t) = 2 Re Σ rⱼ e^{pⱼt} + (1/π) Im ∫₀^∞ E(re^{iφ}) e^{iφ} e^{re^{iφ}t} dr :
 
-the resonances between the imaginary axis and the ray arg p = φ, and an integral along that ray, `ray`. Each is solved
-as finely as it needs: the phase of a resonance gathers its error over many swings, but its waves are of one length;
-on the ray waves are of all lengths, and little depends on each.
+the resonances between the imaginary axis and the ray arg p = φ, and an integral along that ray, see `ray`. Each part
+has a mesh of its own: the phase error of a resonance grows over many periods, but its waves have one length; the
+integral involves waves of all lengths, and each contributes little.
 
 Source: form (C) of the thin float, `modal.thin_float_decay`, with H of the exact body.
 """
@@ -20,13 +20,14 @@ import numpy as np
 
 from hydroelastic.fem.open_water.attempts import best_over_band
 from hydroelastic.fem.open_water.basin import open_basin
-from hydroelastic.fem.open_water.fast_waves import fastest_meshed
 from hydroelastic.fem.open_water.field_model import Band, OpenModel, open_model
+from hydroelastic.fem.open_water.high_frequency import highest_meshed_frequency
 from hydroelastic.fem.open_water.infinite_frequency import (
     BodiesAtInfiniteFrequency,
     bodies_at_infinite_frequency,
     infinite_frequency_added_mass,
 )
+from hydroelastic.fem.open_water.low_frequency import is_infinitely_deep, lowest_meshed_frequency
 from hydroelastic.fem.open_water.motion_scale import motion_scale
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.ray import RayIntegral, RayMotion, ray_between
@@ -35,21 +36,20 @@ from hydroelastic.fem.open_water.requests import DecayRequest
 from hydroelastic.fem.open_water.resonance import ANGLE, resonance_errors, rough_resonances
 from hydroelastic.fem.open_water.resonance_search import Eigenpair, ResonanceSearch
 from hydroelastic.fem.open_water.results import DecayTable
-from hydroelastic.fem.open_water.slow_waves import is_endless, slowest_meshed
 from hydroelastic.fem.tank.attempts import Attempt
 from hydroelastic.fem.tank.field_model import whole_bodies
 from hydroelastic.fem.tank.resolution import Resolution
 from hydroelastic.physics.tank import Tank
 
-# Resonances are looked for up to this angle from the real axis.
+# Largest angle from the real axis at which resonances are sought, rad.
 _SEARCHED = 0.54
-# The mesh of the resonances goes so far below the lowest one.
+# Lowest frequency of the mesh of the resonances over the lowest |ω|.
 _BELOW = 0.7
-# The resonances have this part of the tolerance.
+# Part of the tolerance that the resonances take.
 _SHARE = 0.5
-# A part of the momentum below which it is rounding.
+# Part of the largest momentum below which one is rounding.
 _PUSHED = 1e-6
-# Resonances faster than a float alone by more than this are those of beams.
+# Natural frequencies above this multiple of that of the float alone are those of beams.
 _FAST = 3.0
 
 
@@ -58,14 +58,14 @@ class UnstableFloatError(ValueError):
 
 
 class DriftingFloatError(ValueError):
-    """A release would set a motion going that nothing restores.
+    """A release would start a motion without restoring force.
 
     Attributes:
         motions: names of such motions, sorted.
     """
 
     def __init__(self, motions: list[str]) -> None:
-        """Keep the motions."""
+        """Store the motions."""
         super().__init__(f"nothing restores {' and '.join(motions)}")
         self.motions = motions
 
@@ -77,8 +77,8 @@ class DecaySolution:
     Attributes:
         table: the results in SI units.
         model: the last field model.
-        error: the largest error relative to the initial displacement.
-        solved: number of frequencies of the ray that were solved in full at the last resolution.
+        error: largest error relative to the initial displacement.
+        solved: number of frequencies of the ray with a factorization at the last resolution.
     """
 
     table: DecayTable
@@ -93,7 +93,7 @@ class _ResonantMotion:
 
     Attributes:
         motion: Σ 2 Re(rⱼ e^{pⱼt}), shape (n, m).
-        errors: of it, shape (n,).
+        errors: estimated error of the motion, shape (n,).
         fastest: the largest |ω|.
     """
 
@@ -104,7 +104,7 @@ class _ResonantMotion:
 
 @dataclass(frozen=True, kw_only=True)
 class _Waves:
-    """The integral along the ray at one resolution, and the model that it is of."""
+    """The integral along the ray at one resolution, and its model."""
 
     model: OpenModel
     found: RayMotion
@@ -124,7 +124,7 @@ def solve_decay(problem: OpenWaterProblem, request: DecayRequest) -> DecaySoluti
     """
     limit = bodies_at_infinite_frequency(problem)
     _check_release(limit, request)
-    # Beams have shapes that vibrate much faster, and bend as if at rest in the motion of the float.
+    # Dry modes of beams of much higher frequency deform quasi-statically in the motion of the float.
     fastest = max(limit.frequencies(floats=True))
     expected = [omega for omega in limit.frequencies() if omega <= _FAST * fastest]
     region = Region(lowest=0.2 * expected[0], highest=1.3 * expected[-1], damping=tan(_SEARCHED))
@@ -137,7 +137,7 @@ def solve_decay(problem: OpenWaterProblem, request: DecayRequest) -> DecaySoluti
     resonant = _resonant_motion(problem, request, within, band.highest)
 
     def solve(resolution: Resolution) -> Attempt[_Waves]:
-        # Dry modes are judged at the resonances, and both parts move in the same ones.
+        # The number of dry modes follows from the resonances; both parts use the same ones.
         resolution = replace(resolution, shapes=resonant.resolution.shapes)
         added = _infinite_frequency_added_mass(problem, resolution)
         model = open_model(problem, band, resolution, angle=ray.scaling)
@@ -152,7 +152,7 @@ def solve_decay(problem: OpenWaterProblem, request: DecayRequest) -> DecaySoluti
             slow=0.5 * expected[0] / unit,
             watch=problem.watch,
         )
-        found = integral.followed(times * unit, endless=is_endless(problem.tank))
+        found = integral.followed(times * unit, infinitely_deep=is_infinitely_deep(problem.tank))
         size = np.abs(initial).max()
         missed = np.abs(resonant.result.motion[-1] + found.motion[-1] - initial).max()
         causes = replace(found.errors, liquid=found.errors.liquid + resonant.result.errors + missed).scaled(1.0 / size)
@@ -163,27 +163,27 @@ def solve_decay(problem: OpenWaterProblem, request: DecayRequest) -> DecaySoluti
 
 
 def ray_band(water: Tank, tolerance: float, request: DecayRequest, expected: list[float]) -> Band:
-    """The frequencies of the ray's mesh.
+    """Return the range of frequencies that the mesh of the ray resolves.
 
     Args:
         water: open water in SI units.
         tolerance: largest error of the motion that is accepted, relative to the initial displacement.
         request: the release.
-        expected: about those at which the bodies oscillate, rad/s, ascending.
+        expected: approximate natural frequencies of the bodies, rad/s, ascending.
     """
     latest = max(*request.times, 1.0 / expected[-1])
     return Band(
-        lowest=min(slowest_meshed(water, latest), expected[0]),
-        highest=fastest_meshed(expected[-1], tolerance),
+        lowest=min(lowest_meshed_frequency(water, latest), expected[0]),
+        highest=highest_meshed_frequency(expected[-1], tolerance),
     )
 
 
 def _solution(request: DecayRequest, resonant: _ResonantMotion, waves: _Waves) -> DecaySolution:
-    """The motion in the resonances and that along the ray together."""
+    """Return the sum of the motions in the resonances and along the ray."""
     model, found = waves.model, waves.found
     initial = _initial(model, request)
     motion = resonant.motion + found.motion
-    # The difference from the initial displacement at t = 0 is of high frequency, and decays but in vibrating beams.
+    # The difference from the initial displacement at t = 0 is of high frequency, and decays unless beams vibrate.
     missed = np.abs(motion[-1] - initial).max()
     fades = not model.basin.tank.elastic
     times = np.array(request.times) * model.basin.units.frequency
@@ -197,11 +197,11 @@ def _solution(request: DecayRequest, resonant: _ResonantMotion, waves: _Waves) -
 
 
 def _check_release(limit: BodiesAtInfiniteFrequency, request: DecayRequest) -> None:
-    """Refuse a release after which a body does not come back to rest where it was.
+    """Raise an error for a release after which a body does not return to its position of rest.
 
     Raises:
         UnstableFloatError: if a float would capsize.
-        DriftingFloatError: if the release sets a motion going that nothing restores.
+        DriftingFloatError: if the release starts a motion without restoring force.
     """
     restoring = np.diag(limit.stiffness)
     if np.any(restoring[limit.of_floats] < 0.0):
@@ -222,8 +222,8 @@ def _resonant_motion(
     Args:
         problem: the open water.
         request: the release.
-        resonances: those to the right of the ray, rad/s, roughly.
-        highest: frequency of the ray's mesh, rad/s: both have the same basin, and the same units.
+        resonances: approximate ω of those to the right of the ray, rad/s.
+        highest: highest frequency of the mesh of the ray, rad/s: both parts have the same basin, and the same units.
     """
     lowest = min((_BELOW * abs(omega) for omega in resonances), default=highest)
     band = Band(lowest=lowest, highest=highest)
@@ -244,7 +244,7 @@ def _resonant_motion(
         phases = np.zeros((len(poles), len(times)))
         for row, (omega, residue) in enumerate(zip(omegas, residues, strict=True)):
             motion += 2.0 * np.real(np.exp(-1j * omega * scaled)[:, None] * residue)
-            # Of the phase and decay of each.
+            # Factor of the relative error of ω in that of the motion: phase and decay.
             swing = 2.0 * np.abs(residue).max() * np.exp(omega.imag * scaled)
             phases[row] = swing * (1.0 + abs(omega) * scaled)
         found = _ResonantMotion(motion=motion, errors=causes.total @ phases, fastest=max(map(abs, omegas), default=1.0))
@@ -298,7 +298,8 @@ def _table(
 
 
 def _tail(request: DecayRequest, model: OpenModel, slow: np.ndarray | None) -> float | None:
-    """T of the tail a ~ T/t² of the released motion; ``None`` over a bed, or if two motions were released."""
+    """T of the asymptotic tail a ~ T/t² of the released motion, m s² or rad s²; ``None`` over a bed, or if two motions
+    were released."""
     mixed = request.heave != 0.0 and request.roll != 0.0
     if mixed or slow is None:
         return None

@@ -1,13 +1,13 @@
-"""The amplitudes of outgoing waves, from ψ in a band between the bodies and the sides of the basin.
+"""Far-field fluxes, from ψ in a band of cells between the bodies and the sides of the basin.
 
-For a solution φ of Laplace's equation that keeps every condition of the undisturbed liquids, like an incident wave, the
-integral
+For a solution φ of Laplace's equation that satisfies all boundary conditions of the liquids without bodies, as an
+incident wave does, the integral
 
     I(φ) = ∫ρ (φ ∂ψ/∂n − ψ ∂φ/∂n)
 
 is the same over all surfaces around the bodies. With a function χ that is 1 at the bodies and 0 at the basin's sides it
-becomes an integral over the band in which χ falls, I(φ) = ∫ρ ∇χ·(φ∇ψ − ψ∇φ), to which only the field there
-contributes. χ is linear in the cells, and the integral converges as fast as energies do.
+becomes an integral over the band in which χ varies, I(φ) = ∫ρ ∇χ·(φ∇ψ − ψ∇φ). χ is linear in the cells, and the
+integral converges as fast as energies do.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from hydroelastic.fem.liquid import as_functions
 from hydroelastic.fem.open_water.pencil import OpenPencil
 
 Field = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
-"""From points (..., gdim) and the layer of each (...) to a complex φ (...) and its gradient (..., gdim)."""
+"""Function of points (..., gdim) and the layer of each (...): complex φ (...) and its gradient (..., gdim)."""
 
 
 class FarField:
@@ -31,8 +31,8 @@ class FarField:
 
     Args:
         pencil: the problem.
-        low: lower bounds of the basin, one for each axis; −∞ where it ends at a bed.
-        high: upper bounds; ∞ where it ends at a top.
+        low: lower bounds of the basin, shape (gdim,); −∞ where it ends at a bed.
+        high: upper bounds, shape (gdim,); ∞ where it ends at a top.
     """
 
     def __init__(self, pencil: OpenPencil, low: tuple[float, ...], high: tuple[float, ...]) -> None:
@@ -64,14 +64,14 @@ class FarField:
         self._densities = np.array([layer.density for layer in liquid.layers])[self._layers]
 
     def fluxes(self, potentials: np.ndarray, fields: list[Field]) -> np.ndarray:
-        """I(φ) of every ψ.
+        """Return I(φ) of every ψ (collective).
 
         Args:
-            potentials: ψ on the own free unknowns, shape (potentials, unknowns).
+            potentials: complex ψ on the own free unknowns, shape (potentials, free unknowns).
             fields: the functions φ.
 
         Returns:
-            Shape (fields, potentials) (collective).
+            Fluxes, complex, shape (fields, potentials).
         """
         total = np.zeros((len(fields), len(potentials)), dtype=complex)
         values = [self._values(potential) for potential in potentials]

@@ -1,4 +1,4 @@
-"""The field model of open water for a range of frequencies: basin, frames, mesh, pencil, and its errors."""
+"""The field model of open water for a range of frequencies: basin, absorbing layer, mesh, pencil, errors."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from scipy.linalg import block_diag
 
 from hydroelastic.fem.cells import cell_corners, cells_at, owned_cells
 from hydroelastic.fem.liquid import Layer, LiquidSpace, liquid_space
-from hydroelastic.fem.open_water.basin import CUT, OpenBasin, Reach, open_basin, reach
+from hydroelastic.fem.open_water.basin import CUT, AbsorbingLayer, OpenBasin, open_basin, sized_absorbing_layer
 from hydroelastic.fem.open_water.complex_scaling import ComplexScaling, compile_scaled_form
 from hydroelastic.fem.open_water.far_field import FarField
 from hydroelastic.fem.open_water.motion_scale import MotionScale, motion_scale
@@ -23,7 +23,7 @@ from hydroelastic.fem.spectral_error import cell_errors
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors, boundary_error
 from hydroelastic.fem.tank.field_model import distributed_mesh, moving_surfaces, whole_bodies
 from hydroelastic.fem.tank.mesh import graded_outline, tip_points
-from hydroelastic.fem.tank.outline import grounded_names, layer_names
+from hydroelastic.fem.tank.outline import layer_names, zero_potential_surfaces
 from hydroelastic.fem.tank.resolution import (
     Resolution,
     radians,
@@ -46,22 +46,24 @@ ANGLE = pi / 3.0
 better."""
 
 ANGLE_OVER_A_BED = pi / 4.0
-"""α where a liquid has a finite depth: at 60 degrees e^{−κx} turns faster than it decays, and needs more cells."""
+"""α where a liquid has a finite depth: at 60 degrees e^{−κx} oscillates faster than it decays, and needs more
+cells."""
 
 GROWTH = 3.0
-"""Ratio of the distances of successive frames; 2 costs half as much again, 4 needs a higher degree."""
+"""Ratio of the distances of successive layers of cells; 2 costs half as much again, 4 needs a higher degree."""
 
-# Where only one coordinate is turned the series of ψ in a frame converges more slowly.
+# Where only one coordinate is rotated, polynomials in a layer of cells converge more slowly.
 _GROWTH_OVER_A_BED = 2.0
 
 NO_WATER = 1e-6
-"""Added mass below this part of a body's own is not resolved."""
+"""Added mass below this part of the mass of a body is not resolved."""
 
-# In the frames ψ oscillates about as fast as it decays, and errors of opposite phase cancel. Measured on circles at Ka
-# from 0.05 to 10 at three tolerances: the energy missed is 9 to 140 times the error.
-FRAMES = 0.2
-# Beyond so many radians of an interface wave the upper surface does not feel it.
-_UNFELT = 20.0
+# Weight of the energy error of cells in the absorbing layer. ψ oscillates there about as fast as it decays, and errors
+# of opposite phase cancel. Measured on circles at Ka from 0.05 to 10 at three tolerances: the energy error is 9 to 140
+# times the error of H.
+LAYER_WEIGHT = 0.2
+# An upper liquid deeper than this, in radians of an interface wave, decouples its surface from that wave.
+_DECOUPLED = 20.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -77,7 +79,7 @@ class Band:
     highest: float
 
     def wavenumbers(self, water: Tank) -> tuple[float, float]:
-        """Smallest and largest wavenumber of the waves that leave, 1/m."""
+        """Smallest and largest wavenumber of the outgoing waves, 1/m."""
         layers = two_layers(water)
         found = [wave.wavenumber for omega in (self.lowest, self.highest) for wave in travelling_waves(layers, omega)]
         return min(found), max(found)
@@ -89,22 +91,22 @@ class OpenModel:
 
     Attributes:
         basin: the water around the bodies.
-        resolution: of the basin.
-        reach: of the frames.
-        shortest: largest wavenumber of the waves that leave.
+        resolution: resolution of the basin.
+        absorbing_layer: dimensions of the absorbing layer.
+        shortest: largest wavenumber of the outgoing waves, in units of the basin.
         tolerance: largest relative error that is accepted.
         pencil: the dimensionless problem, in units of the basin.
     """
 
     basin: OpenBasin
     resolution: Resolution
-    reach: Reach
+    absorbing_layer: AbsorbingLayer
     shortest: float
     tolerance: float
     pencil: OpenPencil
 
     def squared_frequency(self, omega: complex) -> complex:
-        """λ of an ω in rad/s."""
+        """Dimensionless λ = ω² of an ω in rad/s."""
         return complex(omega / self.basin.units.frequency) ** 2
 
     @cached_property
@@ -114,12 +116,12 @@ class OpenModel:
 
     @cached_property
     def scale(self) -> MotionScale:
-        """From body unknowns to motions in SI units."""
+        """Conversion of body unknowns to motions in SI units."""
         return motion_scale(self.basin, self.pencil.bodies)
 
     @cached_property
     def far_field(self) -> FarField:
-        """Amplitudes of outgoing waves (collective)."""
+        """Far-field fluxes, from which the amplitudes of outgoing waves follow (collective)."""
         return FarField(self.pencil, *self.basin.bounds)
 
     @cached_property
@@ -129,23 +131,26 @@ class OpenModel:
 
     @cached_property
     def mass(self) -> np.ndarray:
-        """M of the bodies."""
+        """M_b of the bodies, shape (body unknowns, body unknowns)."""
         matrix: np.ndarray = block_diag(*(body.mass for body in self.pencil.bodies))
         return matrix
 
     def energies_missed(
-        self, potentials: np.ndarray, frames: np.ndarray | float = FRAMES
+        self, potentials: np.ndarray, layer_weight: np.ndarray | float = LAYER_WEIGHT
     ) -> tuple[np.ndarray, np.ndarray]:
-        """Estimate ∫ρ|∇(ψ − ψ_h)|² of some ψ away from tips and at them, each of shape (potentials,).
+        """Estimate the energy error ∫ρ|∇(ψ − ψ_h)|² of potentials ψ in cells away from tips and at tips (collective).
 
         Args:
-            potentials: ψ on own free unknowns, shape (potentials, unknowns).
-            frames: part of it that counts in the frames, of each ψ or of all (collective).
+            potentials: complex ψ on own free unknowns, shape (potentials, free unknowns).
+            layer_weight: weight of cells in the absorbing layer, for all ψ or of shape (potentials,).
+
+        Returns:
+            Both energies, dimensionless, each of shape (potentials,).
         """
         pencil, mesh = self.pencil, self.pencil.liquid.tank.mesh
         vectors = [pencil.vector(part) for psi in potentials for part in (psi.real, psi.imag)]
         cells = cell_errors(pencil.liquid, vectors).reshape(len(potentials), 2, -1).sum(axis=1)
-        cells = cells * np.where(self._in_frames, np.reshape(frames, (-1, 1)), 1.0)
+        cells = cells * np.where(self._in_absorbing_layer, np.reshape(layer_weight, (-1, 1)), 1.0)
         corners = tip_points(self.basin.tank, half=False)
         tips = cells_at(mesh, corners) if len(corners) else np.zeros(cells.shape[1], dtype=bool)
         at_tips = mesh.comm.allreduce(cells[:, tips].sum(axis=1), op=MPI.SUM)
@@ -153,7 +158,7 @@ class OpenModel:
         return whole - at_tips, at_tips
 
     @cached_property
-    def _in_frames(self) -> np.ndarray:
+    def _in_absorbing_layer(self) -> np.ndarray:
         mesh = self.pencil.liquid.tank.mesh
         low, high = self.basin.bounds
         middles = cell_corners(mesh, owned_cells(mesh)).mean(axis=1)
@@ -162,12 +167,12 @@ class OpenModel:
 
     @property
     def cut(self) -> float:
-        """Relative error by what is cut off far away, at both ends."""
+        """Relative error of truncating the absorbing layer at both ends."""
         return 2.0 * CUT * self.tolerance
 
     def compared(self, added: np.ndarray) -> np.ndarray:
-        """What errors of H of each body unknown are compared with: |H|, or a small part of the inertia where there is
-        hardly any water moved, as by a circle that turns about its centre."""
+        """Return the scale of errors of H of each body unknown, shape (body unknowns,): |H|, or a small part of the
+        inertia where hardly any water moves, as beside a circle that rotates about its centre."""
         own: np.ndarray = np.maximum(added, NO_WATER * np.diag(self.mass))
         return own
 
@@ -175,8 +180,8 @@ class OpenModel:
         """Relative errors of H of each body unknown, by cause (collective).
 
         Args:
-            potentials: ψ of a unit of each, shape (body unknowns, free unknowns).
-            responses: |H| of each, shape (body unknowns,).
+            potentials: ψ radiated by a unit of each body unknown, shape (body unknowns, free unknowns).
+            responses: diagonal of |H|, shape (body unknowns,).
         """
         away, at_tips = self.energies_missed(potentials)
         scale = self.compared(np.abs(responses))
@@ -191,13 +196,13 @@ class OpenModel:
 
 
 def first_resolution(water: Tank, tolerance: float, band: Band, *, drawn: float | None = None) -> Resolution:
-    """The resolution from which the solution of open water, or of the stretch that is drawn, starts.
+    """Return the initial resolution of open water, or of the length of a picture.
 
     Args:
         water: open water in SI units.
         tolerance: largest relative error that is accepted.
         band: the frequencies.
-        drawn: as for `open_basin`.
+        drawn: see `open_basin`.
     """
     basin = open_basin(water, band.wavenumbers(water)[1], drawn=drawn)
     tank = basin.tank
@@ -207,16 +212,16 @@ def first_resolution(water: Tank, tolerance: float, band: Band, *, drawn: float 
     meshed, flexural = [], []
     for level in tank.levels:
         own = max(shortest.values())
-        if level.below == 1 and own * tank.layers[1].depth > _UNFELT:
+        if level.below == 1 and own * tank.layers[1].depth > _DECOUPLED:
             own = shortest.get("surface", 0.0)
         for piece in level.pieces:
             bent = max((moving.wavenumber(squared) for moving in moving_parts(tank, level, piece)), default=0.0)
             flexural.append(bent if piece.body is not None else 0.0)
-            # What waves scatter under a beam is as short as they are.
+            # Waves scattered under a beam are as short as the incident ones.
             meshed.append(0.0 if piece.body in tank.hulls else max(own, flexural[-1]))
     tolerance = workable_tolerance(tolerance, tank.depth)
     exponent = sharpest_exponent(tank, infinite_frequency=False)
-    # A beam moves in its own waves, whatever those of the water.
+    # The dry modes of a beam follow from its flexural waves alone.
     shapes = resolution_for(tank, tolerance, tuple(flexural), exponent=exponent).shapes
     return replace(resolution_for(tank, tolerance, tuple(meshed), exponent=exponent), shapes=shapes)
 
@@ -234,14 +239,14 @@ def open_model(
     Args:
         problem: the open water.
         band: the frequencies.
-        resolution: of the basin.
-        angle: α of the complex scaling; by default that of the depth.
-        drawn: if the basin holds what is drawn, for so many radians of the shortest wave to each side at most.
+        resolution: resolution of the basin.
+        angle: angle α of the complex scaling, rad; by default that of the depth.
+        drawn: see `open_basin`.
     """
-    basin, frames = _laid(problem.tank, problem.tolerance, band, resolution, angle=angle, drawn=drawn)
+    basin, absorbing_layer = _laid(problem.tank, problem.tolerance, band, resolution, angle=angle, drawn=drawn)
     tank, watch = basin.tank, problem.watch
     with watch.stage("mesh"):
-        mesh = distributed_mesh(problem.comm, lambda: open_mesh(basin, resolution, frames))
+        mesh = distributed_mesh(problem.comm, lambda: open_mesh(basin, resolution, absorbing_layer))
     liquid = _liquid(basin, resolution, mesh)
     with watch.stage("forms"):
         compile_scaled_form(liquid)
@@ -249,14 +254,14 @@ def open_model(
     with watch.stage("assemble"):
         pencil = build_open_pencil(
             liquid,
-            ComplexScaling(angle=frames.angle, low=low, high=high),
+            ComplexScaling(angle=absorbing_layer.angle, low=low, high=high),
             bodies=whole_bodies(tank, resolution.shapes),
             surfaces=moving_surfaces(mesh, tank),
         )
     return OpenModel(
         basin=basin,
         resolution=resolution,
-        reach=frames,
+        absorbing_layer=absorbing_layer,
         shortest=band.wavenumbers(problem.tank)[1] * basin.units.length,
         tolerance=problem.tolerance,
         pencil=pencil,
@@ -264,23 +269,23 @@ def open_model(
 
 
 def first_mesh(water: Tank, tolerance: float, band: Band, resolution: Resolution, *, angle: float) -> TaggedMesh:
-    """The mesh that `open_model` would take, on the calling process.
+    """Return the mesh of `open_model`, on the calling process.
 
     Args:
         water: open water in SI units.
         tolerance: largest relative error that is accepted.
         band: the frequencies.
-        resolution: of the basin.
-        angle: α of the complex scaling.
+        resolution: resolution of the basin.
+        angle: angle α of the complex scaling, rad.
     """
-    basin, frames = _laid(water, tolerance, band, resolution, angle=angle, drawn=None)
-    return open_mesh(basin, resolution, frames)
+    basin, absorbing_layer = _laid(water, tolerance, band, resolution, angle=angle, drawn=None)
+    return open_mesh(basin, resolution, absorbing_layer)
 
 
 def _laid(
     water: Tank, tolerance: float, band: Band, resolution: Resolution, *, angle: float | None, drawn: float | None
-) -> tuple[OpenBasin, Reach]:
-    """The basin and its frames."""
+) -> tuple[OpenBasin, AbsorbingLayer]:
+    """Return the basin and its absorbing layer."""
     wavenumbers = band.wavenumbers(water)
     basin = open_basin(water, wavenumbers[1], drawn=drawn)
     length = basin.units.length
@@ -288,7 +293,7 @@ def _laid(
     has_bed = any(isfinite(depth) for depth in basin.depths)
     if angle is None:
         angle = ANGLE_OVER_A_BED if has_bed else ANGLE
-    frames = reach(
+    absorbing_layer = sized_absorbing_layer(
         basin,
         (wavenumbers[0] * length, wavenumbers[1] * length),
         first=radians(resolution.degree, tolerance),
@@ -296,7 +301,7 @@ def _laid(
         angle=angle,
         tolerance=tolerance,
     )
-    return basin, frames
+    return basin, absorbing_layer
 
 
 def _liquid(basin: OpenBasin, resolution: Resolution, mesh: TankMesh) -> LiquidSpace:
@@ -304,20 +309,20 @@ def _liquid(basin: OpenBasin, resolution: Resolution, mesh: TankMesh) -> LiquidS
         Layer(name=name, density=layer.density)
         for name, layer in zip(layer_names(basin.tank), basin.tank.layers, strict=True)
     )
-    grounded = (FAR_END, *grounded_names(basin.tank, infinite_frequency=False))
-    return liquid_space(mesh, resolution.degree, grounded, layers)
+    zero_potential = (FAR_END, *zero_potential_surfaces(basin.tank, infinite_frequency=False))
+    return liquid_space(mesh, resolution.degree, zero_potential, layers)
 
 
 def open_mesh(
-    basin: OpenBasin, resolution: Resolution, frames: Reach, *, infinite_frequency: bool = False
+    basin: OpenBasin, resolution: Resolution, absorbing_layer: AbsorbingLayer, *, infinite_frequency: bool = False
 ) -> TaggedMesh:
-    """The basin's mesh by gmsh with its frames, on the calling process.
+    """Return the mesh of the basin by gmsh with its absorbing layer, on the calling process.
 
     Args:
         basin: the basin.
-        resolution: of it.
-        frames: around it.
-        infinite_frequency: whether it is for the infinite-frequency limit, in which liquids move as one.
+        resolution: resolution of the basin.
+        absorbing_layer: dimensions of the absorbing layer.
+        infinite_frequency: whether it is for the infinite-frequency limit, see `Tank.has_continuous_pressure`.
     """
     from hydroelastic.meshes.build import build_mesh
 
@@ -328,6 +333,6 @@ def open_mesh(
         ring_ratio=resolution.ring_ratio,
         geometry_degree=resolution.degree if curved else 1,
     )
-    for sides, stage in frames.stages(basin):
+    for sides, stage in absorbing_layer.stages(basin):
         mesh = extended(mesh, sides, stage)
-    return with_far_ends(mesh, basin.endless)
+    return with_far_ends(mesh, basin.far_sides)

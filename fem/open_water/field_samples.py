@@ -31,7 +31,7 @@ class SampledField:
         displacement: ∇ψ, m, complex, shape (points, 2).
         pressure: ρω²ψ, Pa, complex, shape (points,).
         picture: what is drawn; its x begins at the left end of what is drawn.
-        omega: ω, rad/s; with a negative imaginary part where the motion dies out.
+        omega: ω, rad/s; with a negative imaginary part of a decaying motion.
     """
 
     name: str
@@ -81,7 +81,7 @@ def sample_field(field: OpenField) -> SampledField | None:
 
 
 def _in_basin(model: OpenModel) -> np.ndarray:
-    """Cells of this process where no coordinate is turned."""
+    """Cells of this process where coordinates are real."""
     mesh = model.pencil.liquid.tank.mesh
     cells = owned_cells(mesh)
     middles = cell_corners(mesh, cells).mean(axis=1)

@@ -1,12 +1,12 @@
-"""The waves of open water: for each analysis, the field of the motion that its reader wants to see.
+"""Fields of open water that are written and drawn, a few for each analysis.
 
-Forces and motions need a basin close around the bodies; what is drawn needs all of the stretch that the scene names.
-So each field is solved for once more, in a basin of that length, to the accuracy of a picture. The frequencies are
-those of the tables:
+Forces and motions need a basin close around the bodies; a picture shows the whole length of the scene. Each field is
+therefore solved for once more, in a basin of that length, to the accuracy of a picture. The frequencies are those of
+the tables:
 
     radiation    for each motion of a body, where its damping is largest
-    response     where a body moves most, for the wave that moves it most
-    resonance    each of the slowest resonances
+    response     where the motion of a body is largest, for the incident wave that causes it
+    resonance    each of the resonances of lowest |ω|
 """
 
 from __future__ import annotations
@@ -31,11 +31,11 @@ from hydroelastic.fem.stopwatch import Stopwatch
 
 # Motions and resonances of one analysis that are shown.
 _MOST_FIELDS = 4
-# What is drawn goes on to each side for so many radians of the shortest wave at most: more would show nothing.
+# Largest extent of a picture to each side of the bodies, in radians of the shortest wave.
 _RADIANS = 75.0
-# Waves of a resonance grow outwards by this factor at most.
+# Largest factor by which waves of a resonance grow outwards in a picture.
 _GROWTH = 12.0
-# Of λ: a field belongs to a resonance of the table that it differs from by less.
+# Largest relative difference of λ from that of the table.
 _SAME = 1e-2
 
 
@@ -44,15 +44,15 @@ class OpenField:
     """A motion e^{−iωt} of open water, distributed over the processes, in units of the basin.
 
     Attributes:
-        name: of its files.
+        name: name of its files.
         title: one line of text.
-        amplitude: what the scale of the motion is.
+        amplitude: scale of the motion, as text.
         model: the problem.
         squared: λ.
-        potential: ψ of all that the bodies send away, own free unknowns.
-        bodies: body unknowns.
-        metres: metres of displacement of a displacement by a length of the basin.
-        incident: the wave that comes and its c, which belongs to the field as well.
+        potential: ψ of the radiated and scattered waves, complex, own free unknowns, shape (free unknowns,).
+        bodies: body unknowns, complex, shape (body unknowns,).
+        metres: displacement in m per dimensionless displacement.
+        incident: the incident wave and its amplitude c, which are part of the field.
     """
 
     name: str
@@ -70,8 +70,8 @@ def open_fields(problem: OpenWaterProblem, solution: OpenWaterSolution) -> Itera
     """Yield each analysis by its name with its fields, which are solved for one after the other (collective).
 
     Args:
-        problem: open water; as much of it is drawn as its length says.
-        solution: what the tables say.
+        problem: open water; its length is that of the pictures.
+        solution: solution with the tables.
 
     Raises:
         MeshError: by the fields, if no mesh can be made.
@@ -93,7 +93,7 @@ def _model(
     radians: float = _RADIANS,
     angle: float | None = None,
 ) -> OpenModel:
-    """Water as wide as it is drawn, for a range of |ω|; beams move in so many ways at least (collective)."""
+    """Model of the length of a picture, for a range of |ω|; beams have at least ``motions`` dry modes (collective)."""
     rough, band = problem.rough(), Band(lowest=lowest, highest=highest)
     resolution = first_resolution(rough.tank, rough.tolerance, band, drawn=radians)
     shapes = tuple(max(count, motions) if count else 0 for count in resolution.shapes)
@@ -129,7 +129,7 @@ def _radiated(problem: OpenWaterProblem, table: RadiationTable, number: int) -> 
 
 
 def _responding(problem: OpenWaterProblem, table: ResponseTable, number: int) -> Iterator[OpenField]:
-    """The waves that come and all that they set in motion, per metre of their elevation."""
+    """Incident waves with the motions and scattered waves that they cause, per metre of incident elevation."""
     row, wave = _largest_response(problem.tank.length, table)
     omega = float(table.omega[row])
     model = _model(problem, omega, omega, motions=0)
@@ -138,7 +138,7 @@ def _responding(problem: OpenWaterProblem, table: ResponseTable, number: int) ->
     place = wave + (0 if table.waves_from == "left" else count)
     found = solver.response(omega, [place])
     incidence = found.incidence
-    # The crest of the wave that comes passes x = 0 of the scene at t = 0.
+    # The crest of the incident wave passes x = 0 of the scene at t = 0.
     unit = 1.0 / (incidence.elevations[place] * np.exp(1j * incidence.phases_at_origin(model.basin)[place]))
     kind = f"{table.waves[wave]} waves" if count > 1 else "waves"
     why = _why("motion is largest", table)
@@ -156,7 +156,8 @@ def _responding(problem: OpenWaterProblem, table: ResponseTable, number: int) ->
 
 
 def _largest_response(length: float, table: ResponseTable) -> tuple[int, int]:
-    """Places of the frequency and of the wave that move a body most, turns at a distance of half the drawn length."""
+    """Indices of the frequency and the wave of the largest motion of a body; rotations count with an arm of half the
+    length."""
     arms = np.array([0.5 * length if dof.is_rotation else 1.0 for dof in table.dofs])
     sizes = (np.abs(table.amplitudes) * arms).max(axis=2)
     row, wave = np.unravel_index(int(np.argmax(sizes)), sizes.shape)
@@ -164,8 +165,8 @@ def _largest_response(length: float, table: ResponseTable) -> tuple[int, int]:
 
 
 def _resonant(problem: OpenWaterProblem, table: ResonanceTable, number: int) -> Iterator[OpenField]:
-    """The slowest resonances, each with its dominant motion of 1 m or 1 rad; none of one that is not found again, or
-    dies out so fast that its waves grow outwards out of sight."""
+    """The resonances of lowest |ω|, each with its dominant motion of 1 m or 1 rad; without those that are not found
+    again, or are so strongly damped that their waves grow too much outwards."""
     places = [place for place, omega in enumerate(table.omega) if -omega.imag <= MOST_DAMPING_ANYWHERE * omega.real]
     shown = {place: complex(table.omega[place]) for place in places[:_MOST_FIELDS]}
     if not shown:
@@ -173,7 +174,7 @@ def _resonant(problem: OpenWaterProblem, table: ResonanceTable, number: int) -> 
     omegas = list(shown.values())
     sizes = [abs(omega) for omega in omegas]
     motions = 1 + max(table.dofs.index(table.labels[place]) for place in shown)
-    # Of a wave k ~ ω²: its imaginary part is twice that of ω, relative to the real one.
+    # k ~ ω²: Im k/Re k is twice Im ω/Re ω.
     fastest = max(-2.0 * omega.imag / omega.real for omega in omegas)
     radians = min(_RADIANS, log(_GROWTH) / fastest)
     model = _model(problem, min(sizes), max(sizes), motions=motions, radians=radians, angle=ANGLE)
@@ -208,12 +209,12 @@ def _found_again(search: ResonanceSearch, squared: complex, watch: Stopwatch) ->
 
 
 def _why(reason: str, table: RadiationTable | ResponseTable) -> str:
-    """Why a frequency is shown, if there are others."""
+    """Reason for the choice of a frequency, if there are others."""
     return f", where {reason}" if len(table.omega) > 1 else ""
 
 
 def _metres(model: OpenModel, motion: int) -> float:
-    """Displacements by a motion of 1 m or 1 rad, that in units of the basin is 1."""
+    """Metres per dimensionless displacement, for a motion of 1 m or 1 rad."""
     return float(model.basin.units.length / model.scale.lengths[motion])
 
 

@@ -5,11 +5,11 @@ With the operator T = A − λM of the liquid, radiation ψⱼ = T⁻¹Fⱼ and 
     H = FᵀT⁻¹F = a + i b/ω                    hydrodynamic matrix
     X = λ (∫ρφ φᵢ + Fᵀφ_D)                    excitation, for an incident wave of unit φ
 
-and bodies that move freely, with all that is scattered, ψ = φ_D + Σaⱼψⱼ:
+and the response of free bodies, with the scattered waves ψ = φ_D + Σaⱼψⱼ:
 
     (K − λ(M_b + H)) a = X.
 
-Amplitudes of what leaves are those of `incident_waves`.
+Amplitudes of outgoing waves are those of `incident_waves`.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ import numpy as np
 from hydroelastic.fem.open_water.field_model import OpenModel
 from hydroelastic.fem.open_water.incident_waves import Incidence
 
-# Part of the largest force, in units of the basin, below which one is compared with that.
+# Forces below this part of the largest, in units of the basin, are compared with that part.
 _NO_FORCE = 1e-4
 
 
@@ -56,32 +56,32 @@ class OpenFrequency:
         return self.squared * self.incidence.pressures
 
     def radiated_amplitudes(self) -> np.ndarray:
-        """c of the waves that leave with a unit of each body unknown, shape (waves, body unknowns) (collective).
+        """c of the waves radiated by a unit of each body unknown, shape (waves, body unknowns) (collective).
 
-        From the bodies' surfaces, so that c− and the excitation by φ+ agree by themselves.
+        By integrals over the bodies' surfaces, with which Haskind's relation holds identically.
         """
         fluxes = self.incidence.pressures - self.model.pencil.products(self.incidence.fluxes, self.radiated)
         return self.incidence.amplitudes(fluxes)
 
     def observed_amplitudes(self) -> np.ndarray:
-        """The same from the field at some distance from the bodies, by `fem.far_field` (collective)."""
+        """The same from the field at some distance from the bodies, by `far_field` (collective)."""
         fluxes = self.model.far_field.fluxes(self.radiated, [plane.field for plane in self.incidence.planes])
         return self.incidence.amplitudes(fluxes)
 
     def energy_residual(self) -> float:
-        """Largest difference between damping and the power of the waves that leave, as a part of |H| (collective)."""
+        """Largest difference between damping and the power of the radiated waves, relative to |H| (collective)."""
         radiated = self.incidence.powers @ np.abs(self.observed_amplitudes()) ** 2
         diagonal = np.diag(self.hydrodynamic)
         return float(np.max(np.abs(diagonal.imag - radiated) / self.model.compared(np.abs(diagonal)), initial=0.0))
 
     def haskind_residual(self) -> float:
-        """Largest difference between the excitation and X = λ I(φ), with I(φ) of the wave that leaves against the
-        incident one in the far field of the radiated waves, as a part of the largest force (collective)."""
+        """Largest difference between the excitation and X = λ I(φ), with I(φ) of the far field of the
+        radiated waves, relative to the largest force (collective)."""
         direct = self.froude_krylov_force + self.diffraction_force
         by_far_field = self.squared * self.incidence.fluxes_of(self.observed_amplitudes())
         scale = np.abs(direct).max(axis=0)
         differences = np.abs(direct - by_far_field).max(axis=0)
-        # Waves hardly turn a circle about its centre: what is left of such a force is rounding.
+        # Waves exert no moment on a circle about its centre; such a computed force is rounding.
         floor = max(_NO_FORCE * scale.max(initial=0.0), np.finfo(float).tiny)
         return float(np.max(differences / np.maximum(scale, floor), initial=0.0))
 
@@ -94,8 +94,8 @@ class OpenResponse:
         model: the problem.
         squared: λ.
         incidence: the travelling waves, first those to the right, then those to the left.
-        incident: places of the waves that come.
-        scattered: ψ of all that each of them sends away, shape (incident, free unknowns).
+        incident: indices of the incident waves.
+        scattered: ψ of radiated and diffracted waves for each, shape (incident, free unknowns).
         motions: body unknowns, shape (incident, body unknowns).
     """
 
@@ -107,7 +107,7 @@ class OpenResponse:
     motions: np.ndarray
 
     def outgoing(self) -> np.ndarray:
-        """c of all waves that leave, the incident one included, shape (waves that leave, incident) (collective)."""
+        """c of all outgoing waves, the incident one included, shape (outgoing waves, incident) (collective)."""
         incidence = self.incidence
         fluxes = (
             incidence.pressures @ self.motions.T
@@ -117,7 +117,7 @@ class OpenResponse:
         return incidence.amplitudes(fluxes) + np.eye(len(incidence.planes))[:, self.incident]
 
     def energy_residual(self) -> np.ndarray:
-        """Power that leaves over power that comes, less one, shape (incident,) (collective)."""
+        """Outgoing power over incident power, less one, shape (incident,) (collective)."""
         powers = self.incidence.powers
         residual: np.ndarray = powers @ np.abs(self.outgoing()) ** 2 / powers[self.incident] - 1.0
         return residual

@@ -1,6 +1,6 @@
 """Incident waves: their pressures on the bodies, and amplitudes of radiated and scattered waves far away.
 
-A wave φ± = e^{±ikx} Z(y) travels to the right or to the left. With the fluxes I(φ) of `fem.far_field` an outgoing
+A wave φ± = e^{±ikx} Z(y) travels to the right or to the left. With the fluxes I(φ) of `far_field` an outgoing
 ψ ~ c± e^{±ikx} Z has
 
     c± = i I(φ∓)/(2kN),    N = ∫ρZ² dy,
@@ -20,24 +20,25 @@ import numpy as np
 
 from hydroelastic.fem.open_water.basin import OpenBasin
 from hydroelastic.fem.open_water.field_model import OpenModel
-from hydroelastic.modal.liquid.endless_wave import EndlessWave
+from hydroelastic.modal.liquid.deep_water_wave import DeepWaterWave
 from hydroelastic.modal.liquid.travelling_waves import TravellingWave
 
 RIGHTWARD, LEFTWARD = 1, -1
 
-# Of the basin's length, and of the gradient of a wave.
+# Part of the basin's length, and of the gradient of a wave, that is rounding.
 _ROUNDING = 1e-13
 
 
 @dataclass(frozen=True, kw_only=True)
 class Plane:
-    """A wave that travels to one side, in units of the basin."""
+    """A wave that travels to the right (direction 1) or to the left (−1), in units of the basin."""
 
     wave: TravellingWave
     direction: int
 
     def field(self, points: np.ndarray, layers: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """φ and ∇φ at points (..., 2) of the layers (...), 0 for the lower one."""
+        """Return φ, shape (...), and ∇φ, shape (..., 2), complex, at points (..., 2) of layers (...), 0 for the lower
+        one."""
         x, y = points[..., 0], points[..., 1]
         value, slope = self.wave.profile(y, above=layers > 0)
         phase = np.exp(1j * self.direction * self.wave.wavenumber * x)
@@ -46,22 +47,22 @@ class Plane:
 
     @property
     def elevation(self) -> float:
-        """Elevation at the surface on which the wave travels, over the ψ to which Z is scaled."""
+        """Elevation of the surface on which the wave travels, for c = 1."""
         return self.wave.top_elevation if self.wave.on_top else self.wave.elevation
 
 
 @dataclass(frozen=True, kw_only=True)
 class Standing:
-    """A wave that comes from both sides and leaves to both, even or odd about the middle of the basin, in its units.
+    """A standing wave, even or odd about the middle of the basin, in its units.
 
-    (φ₊ ± φ₋)/√2 of planes whose phase is 0 there: what they have in common cannot cancel where they are large.
+    (φ₊ ± φ₋)/√2 of plane waves with phase 0 there, evaluated without cancellation where both are large.
     """
 
-    wave: EndlessWave
+    wave: DeepWaterWave
     odd: bool
 
     def field(self, points: np.ndarray, layers: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """As of `Plane`."""
+        """See `Plane.field`."""
         value, slope = self.wave.profile(points[..., 1], above=layers > 0)
         wavenumber = self.wave.wavenumber
         away = points[..., 0] - 0.5
@@ -72,17 +73,17 @@ class Standing:
 
 
 def planes(waves: tuple[TravellingWave, ...]) -> list[Plane]:
-    """Each wave to the right, then each to the left."""
+    """Return each wave to the right, then each to the left."""
     return [Plane(wave=wave, direction=direction) for direction in (RIGHTWARD, LEFTWARD) for wave in waves]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Incidence:
-    """What some waves do to the bodies.
+    """Integrals of incident waves over the surfaces of the bodies.
 
     Attributes:
-        planes: the waves.
-        fluxes: g = ∫ρ (∂φ/∂n) q, shape (waves, free unknowns), complex.
+        planes: the waves, in units of the basin as all integrals.
+        fluxes: g = ∫ρ (∂φ/∂n) q, dimensionless, shape (waves, free unknowns), complex.
         pressures: ∫ρ φ φᵢ over the bodies' surfaces, shape (waves, body unknowns).
         own: ∫ρ φ ∂φ'/∂n over the bodies' surfaces, shape (waves φ, waves φ').
     """
@@ -94,22 +95,23 @@ class Incidence:
 
     @property
     def reversed(self) -> np.ndarray:
-        """Places of the waves that run the other way."""
+        """Index of the wave of opposite direction for each wave, shape (waves,)."""
         count = len(self.planes)
         return np.roll(np.arange(count), count // 2)
 
     @property
     def powers(self) -> np.ndarray:
-        """kN of each wave: its power over ½ω³|c|²."""
+        """kN of each wave, its power over ½ω³|c|², shape (waves,)."""
         return np.array([plane.wave.wavenumber * plane.wave.energy for plane in self.planes])
 
     @property
     def elevations(self) -> np.ndarray:
-        """Elevation of each wave over its c."""
+        """Elevation of each wave over its c, shape (waves,)."""
         return np.array([plane.elevation for plane in self.planes])
 
     def phases_at_origin(self, basin: OpenBasin) -> np.ndarray:
-        """Phase of each wave at the basin's left side if it is zero at x = 0 of the open water, with the other sign.
+        """Return the negative phase, rad, that each wave of zero phase at x = 0 of the open water has at the left side
+        of the basin, shape (waves,).
 
         A wave e^{±ikx} of the open water is e^{±ikx₀} times that of the basin, whose x begins at x₀.
         """
@@ -117,18 +119,18 @@ class Incidence:
         return np.array([-plane.direction * plane.wave.wavenumber * origin for plane in self.planes])
 
     def amplitudes(self, fluxes: np.ndarray) -> np.ndarray:
-        """c of the waves that leave, from I(φ) of each wave φ, shape (waves, …)."""
+        """c of the outgoing waves, from I(φ) of each wave φ, both of shape (waves, …)."""
         amplitudes: np.ndarray = 0.5j / self.powers[:, None] * fluxes[self.reversed]
         return amplitudes
 
     def fluxes_of(self, amplitudes: np.ndarray) -> np.ndarray:
-        """I(φ) of each wave φ, from c of the waves that leave."""
+        """I(φ) of each wave φ, from c of the outgoing waves, both of shape (waves, …)."""
         fluxes: np.ndarray = (-2j * self.powers[:, None] * amplitudes)[self.reversed]
         return fluxes
 
 
 def incidence(model: OpenModel, waves: list[Plane]) -> Incidence:
-    """What planes do to the bodies (collective)."""
+    """Integrate plane waves over the surfaces of the bodies (collective)."""
     fluxes, pressures, own = surface_integrals(model, waves)
     return Incidence(planes=waves, fluxes=fluxes, pressures=pressures, own=own)
 
@@ -144,7 +146,7 @@ def surface_integrals(model: OpenModel, waves: Sequence[Plane | Standing]) -> tu
         values = np.array([value for value, _ in fields])
         gradients = np.array([gradient for _, gradient in fields])
         flux = (gradients * surface.normals).sum(axis=2)
-        # An even wave has no flux through a slit in the middle; what rounding leaves of it would grow with the wave.
+        # An even wave has no flux through a slit in the middle; its rounding would grow with the wave.
         flux[np.abs(flux) < _ROUNDING * np.linalg.norm(gradients, axis=2)] = 0.0
         fluxes += surface.loads(flux)[:, pencil.free]
         own += surface.integrals(values, flux)

@@ -1,4 +1,4 @@
-"""The infinite-frequency limit of open water, see `fem/tank/infinite_frequency.py`: nothing is radiated."""
+"""The infinite-frequency limit of open water, see `fem/tank/infinite_frequency.py`: no waves are radiated."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from scipy.linalg import block_diag
 from hydroelastic.fem.added_mass import body_responses
 from hydroelastic.fem.liquid import compile_form
 from hydroelastic.fem.open_water.attempts import best_in_basin
-from hydroelastic.fem.open_water.basin import open_basin, reach
+from hydroelastic.fem.open_water.basin import open_basin, sized_absorbing_layer
 from hydroelastic.fem.open_water.field_model import ANGLE, GROWTH, NO_WATER, open_mesh
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.tank.attempts import Attempt
@@ -21,9 +21,9 @@ from hydroelastic.fem.tank.resolution import Resolution, infinite_frequency_reso
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.physics.scales import Scales
 
-# Elastic dry modes of each beam where frequencies are only to be known roughly.
+# Elastic dry modes of each beam for approximate frequencies.
 _SHAPES = 14
-# Nothing travels; in units of the basin this is a length like its own.
+# Wavenumber that stands for the size of the basin, as there are no waves.
 _NO_WAVE = 1.0
 
 
@@ -32,12 +32,12 @@ class BodiesAtInfiniteFrequency:
     """The bodies with their added mass at infinite frequency, dimensionless.
 
     Attributes:
-        units: of length and frequency.
+        units: units of length and frequency.
         stiffness: K, shape (body unknowns, body unknowns).
-        mass: M_b.
-        added_mass: a(∞).
-        of_floats: whether each unknown is a float's.
-        motions: index of the body, and what each unknown is.
+        mass: M_b, shape (body unknowns, body unknowns).
+        added_mass: a(∞), shape (body unknowns, body unknowns).
+        of_floats: whether each unknown belongs to a float, shape (body unknowns,).
+        motions: index of the body and degree of freedom of each unknown.
     """
 
     units: Scales
@@ -48,7 +48,7 @@ class BodiesAtInfiniteFrequency:
     motions: tuple[tuple[int, Dof], ...]
 
     def frequencies(self, *, floats: bool = False) -> list[float]:
-        """Natural frequencies with this added mass, rad/s, ascending, of the motions that something restores.
+        """Natural frequencies with this added mass, rad/s, ascending, of the motions with restoring force.
 
         Args:
             floats: whether only the floats move.
@@ -58,7 +58,8 @@ class BodiesAtInfiniteFrequency:
         restored, loose = np.flatnonzero(chosen & (restoring > 0.0)), np.flatnonzero(chosen & (restoring <= 0.0))
         if not len(restored):
             return []
-        # What nothing restores follows at once. Slow motions beside stiff ones keep their digits as the largest 1/λ.
+        # Unknowns without stiffness are eliminated. As the largest 1/λ, low frequencies beside high ones keep their
+        # digits.
         coupling = whole[np.ix_(loose, restored)]
         moving = whole[np.ix_(restored, restored)] - coupling.T @ np.linalg.solve(whole[np.ix_(loose, loose)], coupling)
         roots = np.sqrt(restoring[restored])
@@ -67,7 +68,7 @@ class BodiesAtInfiniteFrequency:
 
 
 def bodies_at_infinite_frequency(problem: OpenWaterProblem) -> BodiesAtInfiniteFrequency:
-    """The bodies in as many shapes as a first look at their frequencies needs (collective)."""
+    """Return the bodies with as many dry modes as approximate natural frequencies need (collective)."""
     basin = open_basin(problem.tank, 0.0)
     shapes = tuple(len(body.rigid_motions) + _SHAPES if body.is_elastic else 0 for body in basin.tank.bodies)
     added, _ = infinite_frequency_added_mass(problem.rough(), shapes)
@@ -83,15 +84,14 @@ def bodies_at_infinite_frequency(problem: OpenWaterProblem) -> BodiesAtInfiniteF
 
 
 def infinite_frequency_added_mass(problem: OpenWaterProblem, shapes: tuple[int, ...]) -> tuple[np.ndarray, float]:
-    """Solve to the tolerance of the problem.
+    """Return the added mass at infinite frequency to the tolerance of the problem (collective).
 
     Args:
         problem: the open water.
         shapes: number of dry modes of each beam, 0 for floats.
 
     Returns:
-        a(∞) in the bodies' unknowns and in units of a basin as long as that of long waves, and its relative error
-        (collective).
+        a(∞), shape (body unknowns, body unknowns), in the units of `open_basin(tank, 0.0)`, and its relative error.
     """
     basin = open_basin(problem.tank, 0.0)
     tank, watch = basin.tank, problem.watch
@@ -99,11 +99,15 @@ def infinite_frequency_added_mass(problem: OpenWaterProblem, shapes: tuple[int, 
     first = infinite_frequency_resolution(tank, tolerance, (0.0,) * len(tank.elastic))
 
     def solve(resolution: Resolution) -> Attempt[np.ndarray]:
-        frames = reach(basin, (_NO_WAVE, _NO_WAVE), first=0.5, growth=GROWTH, angle=ANGLE, tolerance=tolerance)
+        absorbing_layer = sized_absorbing_layer(
+            basin, (_NO_WAVE, _NO_WAVE), first=0.5, growth=GROWTH, angle=ANGLE, tolerance=tolerance
+        )
         with watch.stage("mesh"):
-            mesh = distributed_mesh(problem.comm, lambda: open_mesh(basin, resolution, frames, infinite_frequency=True))
+            mesh = distributed_mesh(
+                problem.comm, lambda: open_mesh(basin, resolution, absorbing_layer, infinite_frequency=True)
+            )
         with watch.stage("forms"):
-            compile_form(mesh, resolution.degree, continuous_pressure=tank.moves_as_one)
+            compile_form(mesh, resolution.degree, continuous_pressure=tank.has_continuous_pressure)
         with watch.stage("added mass"):
             pencil = build_field_model(mesh, tank, degree=resolution.degree, shapes=shapes, infinite_frequency=True)
             matrix, potentials = body_responses(pencil)

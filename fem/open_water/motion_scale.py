@@ -1,4 +1,4 @@
-"""From the dimensionless unknowns of bodies to motions, masses and forces in SI units."""
+"""Conversion of the dimensionless unknowns of bodies to motions, masses and forces in SI units."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ class MotionScale:
     """Units of the motions of all bodies.
 
     Attributes:
-        units: of the dimensionless problem.
-        dofs: names of the motions.
-        turn: body unknowns in these motions, as columns: the principal motions of a float are combinations of
-            heave and roll where gravity couples these.
-        lengths: unit of each motion: that of length, or 1 for roll in rad.
+        units: units of the dimensionless problem.
+        dofs: degrees of freedom, m motions.
+        turn: motions of each body unknown as columns, shape (m, m): the principal motions of a float are combinations
+            of heave and roll where gravity couples these.
+        lengths: unit of each motion, shape (m,): the unit of length in m, or 1 for roll in rad.
     """
 
     units: Scales
@@ -31,27 +31,28 @@ class MotionScale:
     lengths: np.ndarray
 
     def masses(self, matrix: np.ndarray) -> np.ndarray:
-        """A matrix of (added) masses: kg/m, kg for roll with heave, kg m for roll."""
+        """Convert a matrix of (added) masses, shape (m, m), to kg/m, to kg for roll with heave, to kg m for roll."""
         return self.units.density * self.units.length**4 * self._in_motions(matrix)
 
     def unknown_masses(self, masses: np.ndarray) -> np.ndarray:
-        """The other way: masses in SI units for the dimensionless body unknowns."""
+        """Convert masses in SI units, shape (m, m), to those of the dimensionless body unknowns."""
         forth = self.turn * self.lengths[:, None]
         unknowns: np.ndarray = forth.T @ masses @ forth / (self.units.density * self.units.length**4)
         return unknowns
 
     def stiffnesses(self, matrix: np.ndarray) -> np.ndarray:
-        """A matrix of stiffnesses: N/m², N/m for roll with heave, N for roll."""
+        """Convert a matrix of stiffnesses, shape (m, m), to N/m², to N/m for roll with heave, to N for roll."""
         return self.units.density * self.units.gravity * self.units.length**3 * self._in_motions(matrix)
 
     def forces(self, forces: np.ndarray) -> np.ndarray:
-        """Forces (…, body unknowns) by a wave whose elevation is a unit of length, for one of a metre: N/m², N/m."""
+        """Convert forces per dimensionless elevation, shape (…, body unknowns), to N/m², of moments to N/m, per
+        metre."""
         unit = self.units.density * self.units.gravity * self.units.length**2
         scaled: np.ndarray = unit * (forces @ np.linalg.inv(self.turn)) / self.lengths
         return scaled
 
     def amplitudes(self, unknowns: np.ndarray) -> np.ndarray:
-        """Motions (…, body unknowns) by an elevation of a unit of length, for one of a metre: m/m, rad/m."""
+        """Convert motions per dimensionless elevation, shape (…, body unknowns), to m/m, of rotations to rad/m."""
         scaled: np.ndarray = unknowns @ self.turn.T * self.lengths / self.units.length
         return scaled
 
@@ -62,7 +63,7 @@ class MotionScale:
 
 
 def motion_scale(basin: OpenBasin, bodies: tuple[Body, ...]) -> MotionScale:
-    """Units of the bodies of a basin.
+    """Return the units of the motions of the bodies of a basin.
 
     Args:
         basin: the basin.

@@ -1,4 +1,4 @@
-"""Open water as a plain value: the complex symmetric pencil A − λM of the liquid and the loads of the bodies.
+"""Matrices of open water: the complex symmetric pencil A − λM of the liquid and the loads of the bodies.
 
     (A − λM) ψ = F a,    H(λ) = Fᵀ(A − λM)⁻¹F = a + i b/ω,    λ = ω²
 
@@ -7,7 +7,7 @@ with the waves on every surface of the liquids eliminated: η = λψ/g on a free
 
     M = ρ/g ∫ψq over the free surface + ∫[ρψ][ρq]/((ρ₂ − ρ₁) g) over the interface.
 
-A and M are those of `complex_scaling`; the loads lie within the basin, and are real.
+A and M are those of `complex_scaling`; the loads of bodies lie within the basin, and are real.
 """
 
 from __future__ import annotations
@@ -35,16 +35,16 @@ from hydroelastic.fem.surfaces import Body, LiquidSurface
 
 @dataclass(frozen=True, kw_only=True)
 class OpenPencil:
-    """The liquid of open water and what moves in it.
+    """Matrices of the liquid of open water, and the bodies.
 
     Attributes:
         liquid: the space of ψ.
         bodies: the bodies, in the order of their unknowns.
-        free: owned unknowns of ψ that are not grounded.
+        free: local indices of the owned unknowns of ψ where ψ = 0 is not prescribed, shape (own free unknowns,).
         laplace: A on the free unknowns.
         mass: M on the free unknowns.
         loads: F, own entries of the free unknowns, shape (body unknowns, own free unknowns).
-        turning: derivatives of A and M with respect to the angle of the complex scaling.
+        turning: returns the derivatives of A and M with respect to the angle α of the complex scaling.
     """
 
     liquid: LiquidSpace
@@ -66,17 +66,19 @@ class OpenPencil:
         return int(self.laplace.real.getSize()[0])
 
     def solver(self) -> ShiftedSolver:
-        """(A − λM)⁻¹ (collective)."""
+        """Return the solver (A − λM)⁻¹ (collective)."""
         return ShiftedSolver(self.laplace, self.mass)
 
     def products(self, rows: np.ndarray, columns: np.ndarray) -> np.ndarray:
-        """Sums over all unknowns, without conjugation: shape (rows, columns) (collective)."""
+        """Sum products over the free unknowns of all processes, without conjugation: shape (rows, columns)
+        (collective)."""
         total = rows @ columns.T
         self.comm.Allreduce(MPI.IN_PLACE, total)
         return np.asarray(total)
 
     def vector(self, values: np.ndarray) -> PETSc.Vec:
-        """A real ψ on all unknowns, zero where it is grounded (collective)."""
+        """Return a real ψ on all unknowns, from its values on the own free unknowns, shape (free unknowns,)
+        (collective)."""
         count = self.liquid.space.dofmap.index_map.size_local
         vector = PETSc.Vec().createMPI((count, PETSc.DETERMINE), comm=self.laplace.real.comm)
         vector.array[self.free] = values
@@ -89,13 +91,13 @@ def build_open_pencil(
     """Assemble the problem (collective).
 
     Args:
-        liquid: the space of ψ, grounded at the far ends.
-        scaling: where coordinates are turned.
-        bodies: what moves.
-        surfaces: those of the liquids under gravity.
+        liquid: the space of ψ, with ψ = 0 at the outer sides of the absorbing layer.
+        scaling: region and angle of the complex scaling.
+        bodies: all bodies.
+        surfaces: free surface and interface, as far as waves travel on them.
     """
-    grounded = liquid.surface_dofs(liquid.grounded)
-    free = np.setdiff1d(np.arange(liquid.space.dofmap.index_map.size_local, dtype=np.int32), grounded)
+    zero_potential = liquid.surface_dofs(liquid.zero_potential)
+    free = np.setdiff1d(np.arange(liquid.space.dofmap.index_map.size_local, dtype=np.int32), zero_potential)
     matrices = partial(_matrices, liquid, scaling, surfaces, free)
     laplace, mass = matrices(derivative=False)
     loads = [_weighed_loads(liquid, body)[:, free] for body in bodies if body.size]

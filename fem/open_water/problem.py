@@ -1,4 +1,4 @@
-"""A problem of open water, as all solvers of this package take it: what there is, and how accurately to solve it."""
+"""A problem of open water, as all solvers of this package take it: liquids, bodies and tolerance."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     # A scene is checked without starting MPI.
     from mpi4py import MPI
 
-# Tolerance of solutions that only tell where to look.
+# Tolerance of solutions that give initial values only.
 _ROUGH = 1e-3
 
 
@@ -33,5 +33,5 @@ class OpenWaterProblem:
     watch: Stopwatch
 
     def rough(self) -> OpenWaterProblem:
-        """The same problem with little accuracy, for what only has to be found."""
+        """Return the same problem with a coarse tolerance, for initial values."""
         return replace(self, tolerance=_ROUGH)

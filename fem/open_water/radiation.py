@@ -26,12 +26,12 @@ from hydroelastic.fem.tank.resolution import Resolution
 from hydroelastic.modal.tank_estimates import two_layers
 from hydroelastic.physics.tank import Tank
 
-# Parts of √(g/length) that stand for ω = 0, where added mass differs from its limit like their squares; slower waves
-# leave too few digits. Between the two −ln ω grows by more than this.
+# Frequencies over √(g/length) that stand for ω = 0: added mass differs from its limit like their squares, and at lower
+# ones rounding is too large. A relative growth above this between the two is that of −ln ω.
 _SLOW = (1e-3, 3e-3)
 _GROWS = 1e-3
-# The error of a sweep is looked at so often; between two of these frequencies the larger one is taken.
-_JUDGED = 5
+# Number of frequencies of a sweep with an error estimate; between two of them the larger one is taken.
+_ESTIMATED = 5
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,7 +89,7 @@ def _swept(problem: OpenWaterProblem, omegas: np.ndarray, shapes: tuple[int, ...
         )
         swept = sweep(frequencies, omegas, problem.tolerance)
         with problem.watch.stage("errors"):
-            places = judged_places(omegas)
+            places = estimated_places(omegas)
             causes = [_causes(swept.solutions[place]) for place in places]
         errors = between(omegas, places, np.array([cause.total.max() for cause in causes])) + swept.errors
         return Attempt(
@@ -102,7 +102,7 @@ def _swept(problem: OpenWaterProblem, omegas: np.ndarray, shapes: tuple[int, ...
 
 
 def _difference(one: OpenFrequency, other: OpenFrequency) -> float:
-    """Of hydrodynamic matrices and forces, relative to the largest of each."""
+    """Return the largest difference of hydrodynamic matrices and forces, each relative to the largest entry."""
     return max(
         relative_difference(one.hydrodynamic, other.hydrodynamic),
         relative_difference(one.diffraction_force, other.diffraction_force),
@@ -110,7 +110,7 @@ def _difference(one: OpenFrequency, other: OpenFrequency) -> float:
 
 
 def relative_difference(one: np.ndarray, other: np.ndarray) -> float:
-    """Largest difference of two arrays over the largest entry."""
+    """Return the largest difference of two arrays of the same shape over the largest entry of the second."""
     scale = np.abs(other).max(initial=0.0)
     return float(np.abs(one - other).max() / scale) if scale else 0.0
 
@@ -119,15 +119,15 @@ def _causes(solution: OpenFrequency) -> FrequencyErrors:
     return solution.model.errors(solution.radiated, np.abs(np.diag(solution.hydrodynamic)))
 
 
-def judged_places(omegas: np.ndarray) -> list[int]:
-    """Places of a few frequencies spread over all of them."""
+def estimated_places(omegas: np.ndarray) -> list[int]:
+    """Return indices of a few frequencies ω, shape (n,), spread over all of them."""
     order = np.argsort(omegas)
-    chosen = np.unique(np.linspace(0, len(order) - 1, min(_JUDGED, len(order))).round().astype(int))
+    chosen = np.unique(np.linspace(0, len(order) - 1, min(_ESTIMATED, len(order))).round().astype(int))
     return [int(order[place]) for place in chosen]
 
 
 def between(omegas: np.ndarray, places: list[int], values: np.ndarray) -> np.ndarray:
-    """Values at all frequencies from those at a few of them: the larger one of both sides."""
+    """Return values at all ω, shape (n,), from those at some indices, shape (places,): the larger one of both sides."""
     known = omegas[places]
     below = np.clip(np.searchsorted(known, omegas, side="right") - 1, 0, len(known) - 1)
     above = np.clip(np.searchsorted(known, omegas, side="left"), 0, len(known) - 1)
@@ -219,14 +219,14 @@ def _row(omega: float, found: OpenFrequency, error: float, in_full: bool) -> _Ro
         froude_krylov_force=forces(found.froude_krylov_force),
         diffraction_force=forces(found.diffraction_force),
         relative_error=float(error),
-        # On a reduced basis the field is less accurate than the forces, and says nothing of them.
+        # On a reduced basis the field is less accurate than the forces: its residuals are no check of them.
         energy_residual=found.energy_residual() if in_full else nan,
         haskind_residual=found.haskind_residual() if in_full else nan,
     )
 
 
 def _limit_row(omega: float, added_mass: np.ndarray, waves: int, error: float) -> _Row:
-    """Where no wave travels, or none moves a body."""
+    """Return the row of a limit in which waves exert no force."""
     nothing = np.zeros((waves, len(DIRECTIONS), len(added_mass)), dtype=complex)
     return _Row(
         omega=omega,
@@ -242,7 +242,7 @@ def _limit_row(omega: float, added_mass: np.ndarray, waves: int, error: float) -
 
 
 def _slow_row(problem: OpenWaterProblem, shapes: tuple[int, ...], waves: int) -> _Row:
-    """The limit of long waves: added mass that still grows there, like −ln ω in deep water, is infinite."""
+    """Return the row of ω = 0; entries of the added mass that grow like −ln ω, as in deep water, are infinite."""
     unit = open_basin(problem.tank, 0.0).units.frequency
     omegas = np.array([factor * unit for factor in _SLOW])
     attempt = _swept(problem, omegas, shapes)

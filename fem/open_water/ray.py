@@ -1,10 +1,9 @@
-"""The part of the motion after a release that is not in its resonances: an integral along a ray, where nothing
-oscillates.
+"""The non-resonant part of the motion after a release: an integral along a ray, on which the integrand decays.
 
-E is S less that of the bodies with their added mass at infinite frequency, which adds nothing for t > 0 and makes the
-integral converge at t = 0. H on the ray comes from the field solution, continued by the complex scaling; a reduced
-basis takes it from a few solutions to all points, and waves that are longer or shorter than those of the mesh are
-known by their series, `slow_waves` and `fast_waves`. An error δH of H moves the motion by
+E is S less the S of the bodies with their added mass at infinite frequency, whose integral is zero for t > 0; without
+it the integral would not converge at t = 0. H on the ray comes from the field solution, continued by the complex
+scaling, on a reduced basis of a few solutions; for waves that are longer or shorter than those of the mesh H is taken
+from the series `low_frequency` and `high_frequency`. An error δH of H changes the motion by
 
     (1/π) Im ∫ D⁻¹ p δH D⁻¹ K a₀ e^{pt} dp,    D = p²(M + H) + K.
 
@@ -20,41 +19,42 @@ from math import pi, sqrt
 
 import numpy as np
 
-from hydroelastic.fem.open_water.fast_waves import FastWaves, arc, fast_waves
 from hydroelastic.fem.open_water.field_model import ANGLE as DEEP_ANGLE
 from hydroelastic.fem.open_water.field_model import OpenModel
+from hydroelastic.fem.open_water.high_frequency import HighFrequencySeries, arc, high_frequency_series
+from hydroelastic.fem.open_water.low_frequency import SPREAD, LowFrequencySeries, low_frequency_series
 from hydroelastic.fem.open_water.radiation import relative_difference
 from hydroelastic.fem.open_water.resonance import ANGLE
-from hydroelastic.fem.open_water.slow_waves import SPREAD, LongWaves, long_waves
 from hydroelastic.fem.open_water.solver import OpenSolver
 from hydroelastic.fem.open_water.sweep import Problem, Swept, sweep
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors
 
-# Angles between a ray and the resonances beside it, radians: at least, if there is room, and at most.
+# Least (if possible) and largest angle between the ray and the resonances beside it, rad.
 _NARROW, _WIDE = 0.05, 0.12
-# The integral goes so far below 1/t, and so far above the frequencies of the mesh: little depends on what is further.
+# Ends of the integral, as multiples of 1/t and of the highest frequency of the mesh: the rest is negligible.
 _LOWER, _HIGHER = 2e-4, 200.0
-# Far below the resonances the motion is less sensitive to H, like the square of the frequency; but the tail shall keep
-# its digits too.
+# Far below the resonances the sensitivity of the motion to H falls like the square of the frequency; this least weight
+# keeps the accuracy of the tail.
 _LEAST_WEIGHT = 0.1
-# Above them it is as insensitive, but what the basis misses there shows in the sum at t = 0.
+# Above them it is as insensitive, but errors of the basis there appear in the sum at t = 0.
 _LEAST_ABOVE = 0.01
-# The trapezoidal rule in ln r misses e^{−2πd/h} of what is analytic within the angle d: with this part of it 1e-18.
+# Step h of the trapezoidal rule in ln r over the angle d within which the integrand is analytic: error e^{−2πd/h} =
+# 1e-18.
 _STEP = 0.13
-# Points of the ray and of the arc beyond it at which the reduced basis is judged.
-_JUDGED, _ON_ARC = 60, 12
-# Errors of H at different frequencies have different phases, and cancel in the integral; in each H energies missed of
-# different phases did before. Measured on a circle and on six thin floats, alone, over a bed and between two liquids,
+# Points of the ray and of the arc beyond it at which the residual of the reduced basis is computed.
+_ON_RAY, _ON_ARC = 60, 12
+# Errors of H at different frequencies have different phases, and cancel in the integral, as energy errors of
+# different phases do in each H. Measured on a circle and on six thin floats, alone, over a bed and between two liquids,
 # at tolerances from 1e-3 to 1e-6: the sum of their magnitudes is 24 to 620 times the largest error of the motion.
 _PHASES = 0.05
-# Times at once.
+# Number of times that are evaluated together.
 _CHUNK = 256
 
 
 @dataclass(frozen=True, kw_only=True)
 class Ray:
-    """A ray ω = re^{−iδ}: δ, and the angle to the nearest resonance or to the waves' own spectrum."""
+    """A ray ω = re^{−iδ}: δ, and the angle to the nearest resonance or to the continuous spectrum, rad."""
 
     angle: float
     gap: float
@@ -66,9 +66,9 @@ class Ray:
 
     @property
     def scaling(self) -> float:
-        """α of the complex scaling: that of deep water, unless the ray comes near to the waves' own spectrum.
+        """α of the complex scaling, rad: that of deep water, unless the ray is near the continuous spectrum.
 
-        Beside a tall body, where only x is turned, 1/(x ± iy) varies over (π/2 − α)|y|: with the α of resonances the
+        Beside a tall body, where only x is rotated, 1/(x ± iy) varies over (π/2 − α)|y|: with the α of resonances the
         error of H is ten times larger.
         """
         return DEEP_ANGLE if self.angle < 0.25 * DEEP_ANGLE else ANGLE
@@ -79,10 +79,10 @@ class RayMotion:
     """The integral at one resolution, dimensionless. Shapes: n times, m body unknowns.
 
     Attributes:
-        motion: shape (n, m).
-        errors: of all unknowns together, by cause, each of shape (n,).
-        slow: lim b/ω, shape (m, m); ``None`` over a bed.
-        solved: how many frequencies were solved in full.
+        motion: body unknowns, shape (n, m).
+        errors: error of the largest motion, by cause, each of shape (n,).
+        slow: lim b/ω for ω → 0, shape (m, m); ``None`` over a bed.
+        solved: number of frequencies that were solved by a factorization.
     """
 
     motion: np.ndarray
@@ -92,7 +92,7 @@ class RayMotion:
 
 
 def ray_between(resonances: list[complex]) -> Ray:
-    """The ray nearest to the imaginary axis that keeps off the resonances: further away there may be unknown ones."""
+    """Return a ray between resonances ω, the nearest to the real axis of ω with room: deeper ones may not be known."""
     angles = sorted(float(-np.angle(omega)) for omega in resonances)
     stops = [0.0, *(angle for angle in angles if angle < 0.5 * ANGLE), 0.5 * ANGLE]
     gaps = [(low, min(0.5 * (high - low), _WIDE)) for low, high in pairwise(stops)]
@@ -107,9 +107,9 @@ class RayIntegral:
         model: the problem.
         limit: a(∞) in units of the model, shape (m, m).
         initial: a₀ in body unknowns, shape (m,).
-        ray: where it goes.
+        ray: path of integration.
         band: lowest and highest frequency of the mesh, dimensionless.
-        slow: frequency below which the tail is made.
+        slow: dimensionless frequency below which H determines the tail.
         watch: records the time by stage.
     """
 
@@ -127,29 +127,29 @@ class RayIntegral:
         self._model, self._limit, self._initial, self._ray, self._band = model, limit, initial, ray, band
         self._slow, self._watch = slow, watch
         self._solver = OpenSolver(model, watch)
-        # Of the solutions in full: ω, and the relative errors of H.
+        # ω and the relative errors of H of the solutions by a factorization.
         self._omegas: list[complex] = []
         self._causes: list[FrequencyErrors] = []
 
-    def followed(self, times: np.ndarray, *, endless: bool) -> RayMotion:
-        """The motion at some times (collective).
+    def followed(self, times: np.ndarray, *, infinitely_deep: bool) -> RayMotion:
+        """Return the motion at some times (collective).
 
         Args:
-            times: dimensionless, not negative.
-            endless: whether H has the form of `slow_waves` below the mesh.
+            times: dimensionless times, not negative, shape (n,).
+            infinitely_deep: whether all liquids are, so that H has the series of `low_frequency` below the mesh.
         """
         low, high = self._band
-        meshed = np.geomspace(low, high, _JUDGED) * self._ray.turned
+        meshed = np.geomspace(low, high, _ON_RAY) * self._ray.turned
         # The end of the ray is on the arc already.
         chosen = np.concatenate([meshed, arc(high * self._ray.turned, _ON_ARC)[:-1]])
         swept = sweep(self._problem(), chosen, self._model.tolerance)
         with self._watch.stage("motion"):
             least = min(_LOWER / max(float(times.max()), 1.0 / high), 1e-2 * low)
             radii = np.exp(np.arange(np.log(least), np.log(_HIGHER * high), _STEP * self._ray.gap))
-            fast = fast_waves(
+            fast = high_frequency_series(
                 lambda omegas: self._solver.hydrodynamics(omegas**2), high * self._ray.turned, self._limit
             )
-            added, slow = self._added(radii, fast, endless=endless)
+            added, slow = self._added(radii, fast, infinitely_deep=infinitely_deep)
             weights = self._ray_weights(radii)
             motion = _summed(times, radii, self._ray, self._integrand(radii, added) * weights[:, None])
         with self._watch.stage("errors"):
@@ -162,7 +162,7 @@ class RayIntegral:
         )
 
     def _problem(self) -> Problem[tuple[np.ndarray, float]]:
-        """H along the ray, weighed by how the motion depends on it."""
+        """Return the sweep of H along the ray, with errors weighted by the sensitivity of the motion."""
         model = self._model
 
         def full(omega: complex) -> tuple[np.ndarray, float]:
@@ -183,16 +183,16 @@ class RayIntegral:
         return Problem(full=full, reduced=reduced, difference=difference)
 
     def _weight(self, omega: complex, added: np.ndarray) -> float:
-        """How far the motion goes for a relative error of H, from one e-fold of the ray."""
+        """Return the relative change of the motion per relative error of H, from a factor e of frequencies."""
         moved = self._sensitivities(np.array([omega]), added[None], np.abs(added)[None])[0]
         least = _LEAST_WEIGHT if abs(omega) < self._slow else _LEAST_ABOVE
         return max(float(np.abs(omega) * moved.max() / np.abs(self._initial).max() / pi), least)
 
     def _sensitivities(self, omegas: np.ndarray, added: np.ndarray, errors: np.ndarray) -> np.ndarray:
-        """|D⁻¹| |p| |δH| |D⁻¹ K a₀|, shape (points, restored unknowns), of some |δH|, shape (points, m, m).
+        """Return |D⁻¹| |p| |δH| |D⁻¹ K a₀|, shape (points, restored unknowns), for |δH|, shape (points, m, m).
 
-        Motions that nothing restores are not set going, or the release would have been refused: their D⁻¹, without
-        bound as p → 0, would make an error of what is zero by symmetry.
+        Motions without restoring force are left out. A release that starts one is refused, and D⁻¹, unbounded as
+        p → 0, would multiply the rounding of what is zero by symmetry.
         """
         restored = np.flatnonzero(np.diag(self._model.stiffness) > 0.0)
 
@@ -205,11 +205,17 @@ class RayIntegral:
         moved: np.ndarray = np.einsum("nij,njk,nk->ni", np.abs(inverse), own(errors), pushed) * np.abs(omegas)[:, None]
         return moved
 
-    def _added(self, radii: np.ndarray, fast: FastWaves, *, endless: bool) -> tuple[np.ndarray, LongWaves | None]:
-        """H at all points, and the series that it has below the mesh."""
+    def _added(
+        self, radii: np.ndarray, fast: HighFrequencySeries, *, infinitely_deep: bool
+    ) -> tuple[np.ndarray, LowFrequencySeries | None]:
+        """Return H at all points, and its low-frequency series."""
         low, high = self._band
         omegas = radii * self._ray.turned
-        slow = long_waves(lambda few: self._solver.hydrodynamics(few**2), low * self._ray.turned) if endless else None
+        slow = (
+            low_frequency_series(lambda few: self._solver.hydrodynamics(few**2), low * self._ray.turned)
+            if infinitely_deep
+            else None
+        )
         first = np.searchsorted(radii, low) if slow else 0
         last = np.searchsorted(radii, high, side="right")
         parts = [self._solver.hydrodynamics(omegas[first:last] ** 2), fast.hydrodynamic(omegas[last:])]
@@ -227,7 +233,7 @@ class RayIntegral:
         return values
 
     def _ray_weights(self, radii: np.ndarray) -> np.ndarray:
-        """Of the trapezoidal rule in ln r, with the direction of the ray."""
+        """Weights of the trapezoidal rule in ln r, with the direction of the ray, shape (points,)."""
         step = np.log(radii[1] / radii[0])
         weights: np.ndarray = radii * step * np.conj(-1j * self._ray.turned) / pi
         return weights
@@ -239,20 +245,20 @@ class RayIntegral:
         added: np.ndarray,
         chosen: np.ndarray,
         swept: Swept[tuple[np.ndarray, float]],
-        series: tuple[LongWaves | None, FastWaves],
+        series: tuple[LowFrequencySeries | None, HighFrequencySeries],
     ) -> FrequencyErrors:
-        """Errors of the motion by cause: of the elements, of the reduced basis, of the series."""
+        """Estimate the errors of the motion by cause: elements, reduced basis, series."""
         slow, fast = series
         omegas = radii * self._ray.turned
         on_ray = np.isclose(np.angle(self._omegas), -self._ray.angle)
         order = [int(place) for place in np.argsort(np.abs(self._omegas)) if on_ray[place]]
         known = np.log(np.abs(np.array(self._omegas)[order]))
         diagonal = np.abs(np.einsum("nii->ni", added))
-        # What the coefficient of the logarithm errs grows with the distance from where it was taken.
+        # The error of the coefficient of the logarithm grows with the distance from the frequencies of the fit.
         farther = 1.0 + np.maximum(np.log(SPREAD * self._band[0] / radii), 0.0) / np.log(SPREAD)
 
         def moved(errors: np.ndarray) -> np.ndarray:
-            """By errors |δH| at all points, shape (points, m, m)."""
+            """Error of the motion by |δH|, shape (points, m, m), at all times, shape (n,)."""
             sizes = self._sensitivities(omegas, added, errors).max(axis=1)
             return _decaying(times, radii, self._ray, sizes * np.abs(self._ray_weights(radii)))
 
@@ -268,9 +274,9 @@ class RayIntegral:
             return _PHASES * moved(of_parts(relative))
 
         basis = np.array([error / found[1] for error, found in zip(swept.errors, swept.solutions, strict=True)])
-        others = np.interp(np.log(radii), np.log(np.abs(chosen[:_JUDGED])), basis[:_JUDGED])
-        # The series of fast waves errs as much as what it is taken from.
-        others = np.where(radii > self._band[1], basis[_JUDGED - 1 :].max(), others)
+        others = np.interp(np.log(radii), np.log(np.abs(chosen[:_ON_RAY])), basis[:_ON_RAY])
+        # The high-frequency series has the error of the values from which it was fitted.
+        others = np.where(radii > self._band[1], basis[_ON_RAY - 1 :].max(), others)
         if slow is not None:
             others = others + np.where(radii < self._band[0], slow.misfit, 0.0)
         shorter = np.where((radii > self._band[1])[:, None, None], fast.errors(omegas), 0.0)

@@ -1,8 +1,8 @@
-"""The pencil of open water on a few of its own solutions: Galerkin's method between frequencies.
+"""Reduced basis of open water: Galerkin's method on solutions at a few frequencies.
 
 With a basis V of solutions at some frequencies, (VᵀAV − λVᵀMV) y = Vᵀf gives ψ ≈ Vy at any other. The matrices are
-complex symmetric, so that H = Fᵀψ of loads whose solutions are in V is met there with its derivative, and its error
-elsewhere is of second order in that of ψ.
+complex symmetric, so that H = Fᵀψ is exact with its first derivative where solutions are in V, and
+elsewhere its error is of second order in that of ψ.
 
 Source: A. Bultheel and M. Van Barel, J. Comput. Appl. Math. 14 (1986) 401 (rational
 interpolation by projection); Y. Maday et al. on reduced bases.
@@ -16,27 +16,27 @@ from mpi4py import MPI
 from hydroelastic.fem.open_water.complex_scaling import complex_product
 from hydroelastic.fem.open_water.pencil import OpenPencil
 
-# What is left of a vector after the basis is taken out, below which it says nothing new.
+# A vector whose part orthogonal to the basis is smaller, relative to its norm, is not added.
 _DEPENDENT = 1e-11
 # Part of the largest response below which one is rounding.
 _NO_RESPONSE = 1e-8
 
 
 class ReducedPencil:
-    """A growing basis and the pencil on it.
+    """A basis that grows by solutions, and the pencil projected on it.
 
     Args:
         pencil: the problem.
     """
 
     def __init__(self, pencil: OpenPencil) -> None:
-        """Start with nothing."""
+        """Start with an empty basis."""
         own = len(pencil.free)
         self._pencil = pencil
         self._basis: np.ndarray = np.zeros((0, own), dtype=complex)
         diagonal = pencil.laplace.real.getDiagonal().array_r + 1j * pencil.laplace.imaginary.getDiagonal().array_r
         self._weights = 1.0 / np.sqrt(np.abs(diagonal))
-        # Of A and M: their products with the basis, and those with the basis on both sides.
+        # Products AV and MV, and the projections VᵀAV and VᵀMV.
         self._images: list[np.ndarray] = [self._basis, self._basis]
         self._projected: list[np.ndarray] = [np.zeros((0, 0), dtype=complex)] * 2
 
@@ -46,15 +46,15 @@ class ReducedPencil:
         return len(self._basis)
 
     def add(self, eigenvalue: complex, potentials: np.ndarray, loads: np.ndarray) -> None:
-        """Take solutions of (A − λM)ψ = f into the basis (collective).
+        """Add solutions of (A − λM)ψ = f to the basis (collective).
 
-        Aψ is taken from λMψ + f: in elongated cells A is large, and Aψ of a ψ that hardly changes there would be lost
+        Aψ is computed as λMψ + f: in elongated cells A is large, and the product with a nearly constant ψ would be lost
         in rounding.
 
         Args:
             eigenvalue: λ.
-            potentials: ψ, shape (solutions, own free unknowns).
-            loads: f, of the same shape.
+            potentials: ψ, complex, shape (solutions, own free unknowns).
+            loads: f, complex, of the same shape.
         """
         masses = np.array([complex_product(self._pencil.mass, potential) for potential in potentials])
         for columns in zip(potentials, eigenvalue * masses + loads, masses, strict=True):
@@ -62,9 +62,9 @@ class ReducedPencil:
         self._projected = [self._pencil.products(self._basis, image) for image in self._images]
 
     def _append(self, columns: np.ndarray) -> None:
-        """Take in a solution with its images, shape (3, own free unknowns), less what the basis has of it."""
+        """Add a solution ψ with Aψ and Mψ, shape (3, own free unknowns), after orthogonalization."""
         columns = columns / self._norm(columns[0])
-        # Twice is enough.
+        # Gram-Schmidt twice keeps orthogonality to rounding.
         for _ in range(2):
             known = self._pencil.products(self._basis.conj(), columns[:1])[:, 0]
             columns = columns - np.array([known @ part for part in (self._basis, *self._images)])
@@ -75,36 +75,36 @@ class ReducedPencil:
             self._images = [np.vstack([self._images[0], laplace]), np.vstack([self._images[1], mass])]
 
     def project(self, loads: np.ndarray) -> np.ndarray:
-        """Vᵀf of some loads, shape (loads, basis) (collective)."""
+        """Return Vᵀf of loads of shape (loads, own free unknowns): shape (loads, basis) (collective)."""
         return self._pencil.products(loads.astype(complex), self._basis)
 
     def operator(self, eigenvalue: complex) -> np.ndarray:
-        """VᵀAV − λVᵀMV."""
+        """Return VᵀAV − λVᵀMV, shape (basis, basis)."""
         laplace, mass = self._projected
         return laplace - eigenvalue * mass
 
     def solve(self, eigenvalue: complex, projected: np.ndarray) -> np.ndarray:
-        """Coordinates of the solutions for projected loads, shape (loads, basis)."""
+        """Return coordinates y of the solutions for projected loads, both of shape (loads, basis)."""
         coordinates: np.ndarray = np.linalg.solve(self.operator(eigenvalue), projected.T).T
         return coordinates
 
     def potentials(self, coordinates: np.ndarray) -> np.ndarray:
-        """ψ of some coordinates, shape (solutions, own free unknowns)."""
+        """Return ψ of coordinates of shape (solutions, basis): shape (solutions, own free unknowns)."""
         potentials: np.ndarray = coordinates @ self._basis
         return potentials
 
     def residuals(self, eigenvalue: complex, loads: np.ndarray, coordinates: np.ndarray) -> np.ndarray:
-        """How wrong solutions of loads f are, |rᵀ D⁻¹ r̄|^{1/2}/|fᵀψ|^{1/2} with the residual r and D = |diag A|.
+        """Return relative residuals |rᵀ D⁻¹ r̄|^{1/2}/|fᵀψ|^{1/2} with the residual r and D = |diag A|, shape (loads,).
 
-        D⁻¹ stands for (A − λM)⁻¹, with which the square would be the relative error of fᵀψ (collective).
+        With (A − λM)⁻¹ instead of D⁻¹ the square would be the relative error of fᵀψ (collective).
         """
         responses = np.abs(np.einsum("lv,lv->l", self.project(loads), coordinates))
-        # A load that moves hardly any water is compared with the others.
+        # Loads that move hardly any water are compared with the others.
         floor = max(_NO_RESPONSE * float(responses.max(initial=0.0)), np.finfo(float).tiny)
         return self.misfits(eigenvalue, loads, coordinates) / np.sqrt(np.maximum(responses, floor))
 
     def misfits(self, eigenvalue: complex, loads: np.ndarray, coordinates: np.ndarray) -> np.ndarray:
-        """|rᵀ D⁻¹ r̄|^{1/2} of the same, not compared with anything (collective)."""
+        """Return |rᵀ D⁻¹ r̄|^{1/2} of solutions, shape (loads,) (collective)."""
         laplace, mass = self._images
         rest = (loads - coordinates @ (laplace - eigenvalue * mass)) * self._weights
         return np.array([self._norm(left) for left in rest])

@@ -12,11 +12,11 @@ MOST_DAMPING_ANYWHERE = 0.7
 
 @dataclass(frozen=True, kw_only=True)
 class Region:
-    """Where resonances are sought: lowest < Re ω < highest, −Im ω < damping · Re ω.
+    """Region in which resonances are sought: lowest < Re ω < highest, −Im ω < damping · Re ω.
 
     Attributes:
-        lowest: rad/s, positive.
-        highest: rad/s.
+        lowest: lower limit of Re ω, rad/s, positive.
+        highest: upper limit of Re ω, rad/s.
         damping: largest −Im ω/Re ω.
     """
 
@@ -25,10 +25,10 @@ class Region:
     damping: float
 
     def holds(self, omega: complex) -> bool:
-        """Whether a frequency lies within."""
+        """Whether a frequency in rad/s lies in the region."""
         return self.lowest < omega.real < self.highest and -omega.imag < self.damping * omega.real
 
-    def rim(self, places: np.ndarray) -> np.ndarray:
+    def boundary(self, places: np.ndarray) -> np.ndarray:
         """Return ω of points on the boundary, rad/s.
 
         Args:
@@ -45,7 +45,7 @@ class Region:
         for place in places:
             side, part = int(place) % 4, float(place) % 1.0
             start, end = corners[side], corners[(side + 1) % 4]
-            # Equal ratios along the axis, equal steps across it.
+            # Geometric steps along the real axis, equal steps across it.
             along = side % 2 == 0
             points.append(start * (end / start) ** part if along else start + part * (end - start))
         return np.array(points)

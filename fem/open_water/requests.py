@@ -11,7 +11,7 @@ class RadiationRequest:
     """Added mass, radiation damping and excitation forces.
 
     Attributes:
-        omega: frequencies, rad/s; 0 for very long waves, inf for the infinite-frequency limit.
+        omega: frequencies, rad/s; 0 for the limit of long waves, inf for the infinite-frequency limit.
         elastic_modes: number of elastic shapes of each beam that are reported.
     """
 
@@ -26,7 +26,7 @@ class ResponseRequest:
 
     Attributes:
         omega: frequencies, rad/s, positive and finite.
-        waves_from: the side from which the waves come.
+        waves_from: the side from which the waves are incident.
         positions: number of points along each beam at which its deflection is reported.
     """
 
@@ -38,12 +38,13 @@ class ResponseRequest:
 
 @dataclass(frozen=True, kw_only=True)
 class ResonanceRequest:
-    """Complex frequencies of motions that die out by themselves.
+    """Complex frequencies of freely decaying motions.
 
     Attributes:
         count: largest number of resonances, from the smallest |ω|.
         below: upper limit of Re ω, rad/s; ``None`` for the lowest resonances.
-        largest_damping: upper limit of −Im ω/Re ω; above `region.MOST_DAMPING_ANYWHERE` all liquids must be endless.
+        largest_damping: upper limit of −Im ω/Re ω; above `region.MOST_DAMPING_ANYWHERE` all liquids must be infinitely
+            deep.
     """
 
     kind: ClassVar = "resonance"
@@ -60,7 +61,7 @@ class DecayRequest:
         body: index of the float among the bodies.
         heave: its initial displacement upwards, m.
         roll: its initial rotation anticlockwise, rad.
-        times: after the release, s.
+        times: times after the release, s.
     """
 
     kind: ClassVar = "decay"

@@ -11,7 +11,7 @@ from hydroelastic.fem.open_water.argument_principle import Solver, zeros_in
 from hydroelastic.fem.open_water.attempts import best_over_band
 from hydroelastic.fem.open_water.basin import open_basin
 from hydroelastic.fem.open_water.damped import DampedSolver, damped_resonances, mirror_angle
-from hydroelastic.fem.open_water.field_model import FRAMES, Band, OpenModel, first_resolution, open_model
+from hydroelastic.fem.open_water.field_model import LAYER_WEIGHT, Band, OpenModel, first_resolution, open_model
 from hydroelastic.fem.open_water.infinite_frequency import bodies_at_infinite_frequency
 from hydroelastic.fem.open_water.motion_scale import motion_scale
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
@@ -27,31 +27,30 @@ from hydroelastic.fem.tank.resolution import Resolution, rounding_error
 from hydroelastic.fem.truncation import truncation_errors
 
 ANGLE = 1.3
-"""α of the complex scaling: resonances with −Im ω/Re ω below tan(α/2) = 0.76 are uncovered in deep water; beyond
-`MOST_DAMPING_ANYWHERE` they are those of `damped`."""
+"""α of the complex scaling, rad: resonances with −Im ω/Re ω below tan(α/2) = 0.76 are eigenvalues in deep water; beyond
+`MOST_DAMPING_ANYWHERE` they are found by `damped`."""
 
-# A resonance does not move with α; what the search takes for one moves less than this.
+# A resonance does not depend on α: largest |dλ/dα|/|λ| of an eigenvalue that counts as a resonance.
 _STILL = 1e-2
-# The region searched goes beyond the expected frequencies by these factors.
+# Limits of the region over the lowest and the highest expected frequency.
 _BELOW, _ABOVE = 0.3, 1.25
-# Eigenvalues sought near each target: a few resonances and the waves that leave around them.
+# Eigenvalues sought near each target: a few resonances and those of the continuous spectrum.
 _PER_TARGET = 8
-# Error of λ over what it moves by a radian of α; measured on a circle and a thin float it is smaller.
+# Error of λ over |dλ/dα|; measured on a circle and a thin float it is smaller.
 _DRIFT = 0.1
-# Where a resonance lies on the rim of the region it is counted in a part of it.
+# Factors of the damping of smaller regions, for the count where a resonance lies on the boundary.
 _NARROWER = (0.93, 0.85)
-# Shapes of beams that vibrate faster than this times the region take part as if they were rigid, and are left out
-# where resonances are only to be found.
+# Dry modes above this multiple of the highest frequency deform quasi-statically, and are left out of initial values.
 _STIFF = 4.0
-# The search far below the axis begins at this part of where that near it ends.
+# Least damping of the starts of the search for damped resonances over the largest damping of the other search.
 _OVERLAP = 0.9
-# Distances of the points at which it begins, in ln ω; it goes on until as many are found as there are.
+# Distances of these starts in ln ω, reduced until as many resonances are found as are counted.
 _SPACINGS = (0.1, 0.05, 0.025)
-# A mesh for some resonances alone holds frequencies so far beside them.
+# Factor of the range of frequencies of a mesh for given resonances.
 _AROUND = 1.1
-# The same resonance from two targets.
+# Relative difference of ω below which two targets have found the same resonance.
 _SAME = 1e-6
-# Bodies with a smaller part in a motion rest while the water moves by itself.
+# Bodies with a smaller participation are at rest in a resonance of the water.
 _AT_REST = 1e-8
 
 
@@ -61,10 +60,10 @@ class ResonanceSolution:
 
     Attributes:
         table: the results in SI units.
-        model: the last field model; ``None`` where nothing restores the bodies.
+        model: the last field model; ``None`` where no motion has a restoring force.
         error: the largest relative error.
         known: number of resonances that were found in the region of the independent count.
-        unstable: whether a float is unstable, so that its motion grows and is none of the resonances.
+        unstable: whether a float is unstable, with a growing motion that is not a resonance.
     """
 
     table: ResonanceTable
@@ -87,7 +86,7 @@ def solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> Res
 
     Args:
         problem: the open water.
-        request: how many, and where.
+        request: number and region of the resonances.
 
     Raises:
         EigenSolverError: if SLEPc fails.
@@ -130,7 +129,7 @@ def solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> Res
 
 
 def _nothing(problem: OpenWaterProblem) -> ResonanceSolution:
-    """The solution where nothing restores the bodies: no resonances."""
+    """Return the solution without resonances, where no motion has a restoring force."""
     basin = open_basin(problem.tank, 0.0)
     dofs = motion_scale(basin, whole_bodies(basin.tank, (0,) * len(basin.tank.bodies))).dofs
     table = ResonanceTable(
@@ -147,10 +146,10 @@ def _nothing(problem: OpenWaterProblem) -> ResonanceSolution:
 
 
 def _counted(solver: Solver, region: Region) -> tuple[Region, int | None]:
-    """Count in a region, or in a narrower one where a resonance lies on its rim (collective)."""
+    """Count in a region, or in a narrower one where a resonance lies on its boundary (collective)."""
     for damping in (1.0, *_NARROWER):
         narrower = replace(region, damping=damping * region.damping)
-        counted = zeros_in(solver, narrower.rim)
+        counted = zeros_in(solver, narrower.boundary)
         if counted is not None:
             return narrower, counted
     return region, None
@@ -160,13 +159,13 @@ def _region(expected: list[float], request: ResonanceRequest) -> Region:
     highest = request.below if request.below is not None else _ABOVE * expected[min(request.count, len(expected)) - 1]
     lowest, damping = _BELOW * min(expected[0], highest), request.largest_damping
     if damping > MOST_DAMPING_ANYWHERE:
-        # What dies out fast has a small Re ω for its |ω|.
+        # Strongly damped resonances have a small Re ω for their |ω|.
         lowest /= sqrt(1.0 + damping**2)
     return Region(lowest=lowest, highest=highest, damping=damping)
 
 
 def _around(values: list[complex], region: Region) -> tuple[Band, float]:
-    """The frequencies of a mesh for the given resonances of a region alone, and α of its scaling."""
+    """Return the range of frequencies of a mesh for given resonances, and α of its scaling, rad."""
     sizes = [abs(omega) for omega in values] or [region.lowest, region.highest]
     damping = max((-omega.imag / omega.real for omega in values), default=region.damping)
     return Band(lowest=min(sizes) / _AROUND, highest=max(sizes) * _AROUND), mirror_angle(damping)
@@ -179,22 +178,22 @@ def _outgoing_search(model: OpenModel) -> ResonanceSearch:
 def rough_resonances(
     problem: OpenWaterProblem, expected: list[float], region: Region
 ) -> tuple[OpenModel, list[complex]]:
-    """Find the resonances of a region in which bodies move, with little accuracy.
+    """Find approximate resonances of a region in which bodies move (collective).
 
     Args:
         problem: the open water.
-        expected: frequencies near which to look, rad/s.
-        region: where.
+        expected: frequencies near which resonances are expected, rad/s.
+        region: region of ω.
 
     Returns:
-        The model, and ω by ascending |ω|, rad/s (collective).
+        The model, and ω by ascending |ω|, rad/s.
 
     Raises:
         EigenSolverError: if SLEPc fails.
     """
     rough, band = problem.rough(), Band(lowest=region.lowest, highest=region.highest)
     resolution = first_resolution(rough.tank, rough.tolerance, band)
-    # Motions that nothing restores are not among the expected ones.
+    # Motions without restoring force are not among the expected ones.
     enough = sum(omega < _STIFF * region.highest for omega in expected) + 4
     resolution = replace(resolution, shapes=tuple(min(count, enough) for count in resolution.shapes))
     model = open_model(rough, band, resolution, angle=ANGLE)
@@ -209,7 +208,7 @@ def _search(model: OpenModel, targets: list[float], region: Region) -> list[comp
     search = _outgoing_search(model)
     found: list[complex] = []
     for target in targets:
-        # Beside the axis, on which the waves' own spectrum begins.
+        # Beside the real axis, where the continuous spectrum begins.
         for pair in search.near(model.squared_frequency(target * (1.0 - 0.05j)), _PER_TARGET):
             omega = complex(np.sqrt(pair.eigenvalue)) * unit
             known = any(abs(omega - other) <= _SAME * abs(omega) for other in found)
@@ -221,13 +220,13 @@ def _search(model: OpenModel, targets: list[float], region: Region) -> list[comp
 def _damped_resonances(
     problem: OpenWaterProblem, resolution: Resolution, region: Region, known: list[complex]
 ) -> tuple[DampedSolver, list[complex]]:
-    """Resonances of a region that reaches far below the axis, with little accuracy (collective).
+    """Find approximate resonances of a region that extends far below the real axis (collective).
 
     Args:
-        problem: open water of endless liquids.
-        resolution: whose shapes of beams are taken.
-        region: where.
-        known: those near the axis, rad/s.
+        problem: open water of infinitely deep liquids.
+        resolution: resolution with the numbers of dry modes.
+        region: region of ω.
+        known: resonances near the real axis, rad/s.
 
     Returns:
         The solver, and ω in rad/s by ascending |ω|.
@@ -238,7 +237,7 @@ def _damped_resonances(
     model = open_model(rough, band, resolution, angle=mirror_angle(region.damping))
     solver = DampedSolver(model, problem.watch)
     with problem.watch.stage("resonances"):
-        counted = zeros_in(solver, region.rim)
+        counted = zeros_in(solver, region.boundary)
         for spacing in _SPACINGS:
             known = damped_resonances(solver, region, _OVERLAP * MOST_DAMPING_ANYWHERE, known, spacing)
             if counted is None or len(known) >= counted:
@@ -247,7 +246,7 @@ def _damped_resonances(
 
 
 def _closed_region(region: Region, found: _Found, request: ResonanceRequest) -> Region:
-    """The region of those that are reported: it ends halfway to where the next may be."""
+    """Return the region of the reported resonances."""
     if request.below is not None or len(found.pairs) < request.count:
         return region
     last = max(np.sqrt(pair.eigenvalue).real for pair in found.pairs) * found.model.basin.units.frequency
@@ -255,18 +254,18 @@ def _closed_region(region: Region, found: _Found, request: ResonanceRequest) -> 
 
 
 def resonance_errors(model: OpenModel, pairs: list[Eigenpair]) -> FrequencyErrors:
-    """Errors of ω, half of those of λ: the energy missed over xᵀT'x, and how λ moves with α (collective)."""
+    """Estimate relative errors of ω, half of those of λ: energy error over xᵀT'x, and dλ/dα (collective)."""
     count = len(pairs)
     if not pairs:
         return FrequencyErrors(liquid=np.zeros(0), tips=np.zeros(0), truncation=np.zeros(0), rounding=np.zeros(0))
-    # The faster a resonance dies out, the less do errors in the frames cancel.
+    # The stronger the damping, the less do errors in the absorbing layer cancel.
     omegas = np.sqrt(np.array([pair.eigenvalue for pair in pairs]))
-    frames = np.where(-omegas.imag > MOST_DAMPING_ANYWHERE * omegas.real, 1.0, FRAMES)
-    away, tips = model.energies_missed(np.array([pair.potential for pair in pairs]), frames)
+    weights = np.where(-omegas.imag > MOST_DAMPING_ANYWHERE * omegas.real, 1.0, LAYER_WEIGHT)
+    away, tips = model.energies_missed(np.array([pair.potential for pair in pairs]), weights)
     norms = np.array([abs(pair.norm) for pair in pairs])
     drifts = np.array([pair.drift for pair in pairs])
     tank = model.basin.tank
-    # Shapes left out hold the same part of the energy as in a mode of that frequency without damping.
+    # Omitted dry modes have the same part of the energy as in an undamped mode of that frequency.
     amplitudes = np.array([np.abs(pair.bodies) / np.sqrt(abs(pair.norm)) for pair in pairs])
     values = np.array([abs(pair.eigenvalue) for pair in pairs])
     return FrequencyErrors(

@@ -6,8 +6,8 @@ is inverted at a target σ by one factorization of A − σM and a small Schur c
 build of PETSc a complex operator acts on (Re x, Im x); that has the eigenvalues θ of the operator and their conjugates,
 and the part v₁ + iv₂ of an eigenvector (v₁, v₂) vanishes for the latter.
 
-Turning the coordinates by another angle α moves the spectrum of the waves that leave, but no resonance: dλ/dα, which
-follows from the eigenvector alone, tells one from the other, and how well a resonance is resolved.
+The continuous spectrum of outgoing waves depends on the angle α of the complex scaling, resonances do not: dλ/dα, which
+follows from the eigenvector alone, distinguishes both, and measures how well a resonance is resolved.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from hydroelastic.fem.open_water.complex_scaling import complex_product
 from hydroelastic.fem.open_water.pencil import OpenPencil
 from hydroelastic.meshes.interrupts import interrupts_deferred
 
-# An eigenvector of the conjugate leaves rounding.
+# Relative norm of v₁ + iv₂ below which an eigenvector is that of a conjugate.
 _CONJUGATE = 1e-6
 # Newton's steps double the digits until rounding stops them.
 _STEP = 1e-11
@@ -39,11 +39,11 @@ class Eigenpair:
 
     Attributes:
         eigenvalue: λ = ω².
-        bodies: a, on every process.
-        potential: ψ, own free unknowns.
+        bodies: a, on every process, shape (body unknowns,).
+        potential: ψ on own free unknowns, shape (free unknowns,).
         norm: xᵀT'(λ)x of the symmetric form T = [[λ(A − λM), −λF], [−λFᵀ, K − λM_b]].
         drift: |dλ/dα|/|λ|.
-        participation: |λaᵀM_b a|/|λ xᵀT'x|, zero where the water moves by itself and the bodies rest.
+        participation: |λaᵀM_b a|/|λ xᵀT'x|, zero for resonances of the water around bodies at rest.
         residual: relative: of the first equation as SLEPc leaves it, or the last step of Newton's method.
     """
 
@@ -61,12 +61,12 @@ class ResonanceSearch:
 
     Args:
         pencil: the liquid and the loads of the bodies.
-        stiffness: K of the bodies, shape (body unknowns, body unknowns); empty holds them.
-        mass: M_b.
+        stiffness: K of the bodies, shape (body unknowns, body unknowns); shape (0, 0) for fixed bodies.
+        mass: M_b, of the same shape.
     """
 
     def __init__(self, pencil: OpenPencil, stiffness: np.ndarray, mass: np.ndarray) -> None:
-        """Assemble what turning changes (collective)."""
+        """Assemble the derivatives with respect to α (collective)."""
         self._pencil = pencil
         self._stiffness, self._mass = stiffness, mass
         self._loads = pencil.loads[: len(stiffness)].astype(complex)
@@ -74,15 +74,12 @@ class ResonanceSearch:
         self._turning = pencil.turning()
 
     def near(self, target: complex, count: int, tolerance: float = 1e-9) -> list[Eigenpair]:
-        """Eigenvalues nearest to a target.
+        """Return the eigenpairs nearest to a target (collective).
 
         Args:
             target: σ.
-            count: how many, those of the waves that leave included.
+            count: number of eigenvalues, with those of the continuous spectrum.
             tolerance: relative residual of the inverted problem.
-
-        Returns:
-            The eigenpairs (collective).
 
         Raises:
             EigenSolverError: if SLEPc stops before enough pairs have converged.
@@ -107,18 +104,19 @@ class ResonanceSearch:
             vector = operator.eigenvector(solver, index)
             if vector is not None:
                 pairs.append(self._pair(target + 1.0 / inverse, *vector))
-        # PETSc and the operator hold each other, and with it the factorization, until one is told to let go.
+        # PETSc and the operator reference each other, and the factorization, until one of them is destroyed.
         solver.destroy()
         operator.matrix.destroy()
         return pairs
 
     def refined(self, eigenvalue: complex) -> Eigenpair:
-        """The resonance next to a value, by Newton's method on the bodies' small matrix (collective).
+        """Return the resonance next to a value λ, by Newton's method on the dynamic stiffness of the bodies
+        (collective).
 
         Of D(λ) = K − λ(M_b + H(λ)), with dH/dλ = ΨᵀMΨ and Ψ = (A − λM)⁻¹F, the step δ solves (D + δD') a = 0.
 
         Args:
-            eigenvalue: near a resonance in which bodies move.
+            eigenvalue: approximate λ of a resonance in which bodies move.
 
         Raises:
             EigenSolverError: if it does not converge.

@@ -10,19 +10,19 @@ import numpy as np
 from hydroelastic.fem.open_water.attempts import best_over_band
 from hydroelastic.fem.open_water.field_model import Band, OpenModel, open_model
 from hydroelastic.fem.open_water.frequency import OpenResponse
-from hydroelastic.fem.open_water.missed_peaks import missed_peaks
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
-from hydroelastic.fem.open_water.radiation import between, judged_places, relative_difference
+from hydroelastic.fem.open_water.radiation import between, estimated_places, relative_difference
 from hydroelastic.fem.open_water.requests import ResponseRequest
-from hydroelastic.fem.open_water.results import MissedPeak, PlateDeflection, ResponseTable
+from hydroelastic.fem.open_water.results import PlateDeflection, ResponseTable, UnresolvedPeak
 from hydroelastic.fem.open_water.solver import OpenSolver
 from hydroelastic.fem.open_water.sweep import FEW, Problem, Swept, sweep
+from hydroelastic.fem.open_water.unresolved_peaks import unresolved_peaks
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.fem.tank.attempts import Attempt
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors, boundary_error, joined_errors
 from hydroelastic.fem.tank.resolution import Resolution, rounding_error
 
-# Dry modes of the tail, which the last ones stand for: at the tips their deflections add like Σ n⁻⁵.
+# Deflection of all omitted dry modes, per mode in use, over the last two amplitudes: at the tips they add like Σ n⁻⁵.
 _TAIL = 0.25
 
 
@@ -55,7 +55,7 @@ def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Respo
 
     Args:
         problem: the open water.
-        request: the waves.
+        request: frequencies and direction of the incident waves.
     """
     omegas = np.array(request.omega)
     band = Band(lowest=float(omegas.min()), highest=float(omegas.max()))
@@ -71,7 +71,7 @@ def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Respo
         )
         swept = sweep(frequencies, omegas, problem.tolerance)
         with problem.watch.stage("errors"):
-            places = judged_places(omegas)
+            places = estimated_places(omegas)
             causes = [_errors(swept.solutions[place]) for place in places]
         errors = between(omegas, places, np.array([cause.total.max() for cause in causes])) + swept.errors
         return Attempt(
@@ -85,11 +85,11 @@ def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Respo
     model = found.solver.model
     table = _table(request, model, omegas, found.swept.solutions, found.errors)
     if len(omegas) > FEW:
-        table = replace(table, missed_peaks=_missed(request, found.solver, table))
+        table = replace(table, missed_peaks=_unresolved(request, found.solver, table))
     return ResponseSolution(table=table, model=model, error=attempt.error)
 
 
-def _missed(request: ResponseRequest, solver: OpenSolver, table: ResponseTable) -> tuple[MissedPeak, ...]:
+def _unresolved(request: ResponseRequest, solver: OpenSolver, table: ResponseTable) -> tuple[UnresolvedPeak, ...]:
     """Peaks between the frequencies, by the reduced basis of the sweep (collective)."""
     incident = _incident(solver.model, request)
 
@@ -97,17 +97,17 @@ def _missed(request: ResponseRequest, solver: OpenSolver, table: ResponseTable) 
         solutions = [solver.response_between(float(omega), incident)[0] for omega in omegas]
         return _table(request, solver.model, omegas, solutions, np.full(len(omegas), nan))
 
-    return missed_peaks(table, solver.resonances_between(), between)
+    return unresolved_peaks(table, solver.resonances_between(), between)
 
 
 def _incident(model: OpenModel, request: ResponseRequest) -> list[int]:
-    """Places of the waves that come: those to the right are first."""
+    """Indices of the incident waves: those to the right are first."""
     count = len(model.basin.scaled_layers.branches)
     return list(range(count)) if request.waves_from == "left" else list(range(count, 2 * count))
 
 
 def _outcome(solution: OpenResponse) -> np.ndarray:
-    """The quantities whose error is kept below the tolerance: elevations of the waves that leave, and motions, per
+    """The quantities whose error is kept below the tolerance: elevations of the outgoing waves, and motions, per
     incident elevation."""
     elevations = solution.incidence.elevations
     incident = elevations[solution.incident]
@@ -116,8 +116,8 @@ def _outcome(solution: OpenResponse) -> np.ndarray:
 
 
 def _errors(solution: OpenResponse) -> FrequencyErrors:
-    """Errors relative to the incident wave: the energy that the scattered field misses over the flux of that wave,
-    and dry modes left out over the largest deflection (collective)."""
+    """Errors relative to the incident wave: the energy error of the scattered field over the power of that wave,
+    and omitted dry modes over the largest deflection (collective)."""
     model, powers = solution.model, solution.incidence.powers[solution.incident]
     away, tips = model.energies_missed(solution.scattered)
     count = len(solution.incident)
@@ -130,7 +130,7 @@ def _errors(solution: OpenResponse) -> FrequencyErrors:
 
 
 def _truncation(motions: np.ndarray, model: OpenModel) -> float:
-    """Deflection in the dry modes left out, as a part of the largest motion."""
+    """Deflection in the omitted dry modes, relative to the largest motion."""
     largest = np.abs(motions).max()
     if not largest:
         return 0.0
@@ -169,10 +169,10 @@ def _table(
 
 
 def _waves(solution: OpenResponse) -> np.ndarray:
-    """Elevations of the waves that leave per incident elevation, both with their phases at x = 0, shape (incident,
+    """Elevations of the outgoing waves per incident elevation, both with their phases at x = 0, shape (incident,
     waves)."""
     incidence = solution.incidence
-    # A wave whose phase is zero at x = 0 has the phase e^{±ikx₀} at the basin's side.
+    # A wave of zero phase at x = 0 has the factor e^{±ikx₀} at the basin's left side.
     phases = np.exp(1j * incidence.phases_at_origin(solution.model.basin))
     scaled = incidence.elevations * phases
     ratios: np.ndarray = (solution.outgoing() * scaled[:, None] / scaled[solution.incident]).T

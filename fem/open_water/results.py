@@ -31,16 +31,17 @@ class RadiationTable:
         dofs: m degrees of freedom.
         waves: w names.
         wavenumbers: (n, w) k, 1/m.
-        added_mass: (n, m, m) a; entry (i, j) is the force in i by motion in j.
-        radiation_damping: (n, m, m) b; the force is −(−ω² a − iω b) ζ.
-        excitation_force: (n, w, 2, m) per metre of elevation e^{i(±kx − ωt)}, in the directions of `DIRECTIONS`.
+        added_mass: (n, m, m) a, kg/m, kg, kg m; entry (i, j) is the force in i by motion in j.
+        radiation_damping: (n, m, m) b, kg/(m s), kg/s, kg m/s; the force is −(−ω² a − iω b) ζ.
+        excitation_force: (n, w, 2, m) N/m², moments N/m, per metre of elevation e^{i(±kx − ωt)}, in the directions of
+            `DIRECTIONS`.
         froude_krylov_force: (n, w, 2, m) the part of the incident wave.
         diffraction_force: (n, w, 2, m) the part of the scattered waves.
         relative_error: (n,) estimated relative error of a + ib/ω.
-        energy_residual: (n,) relative difference of b and the power that leaves.
+        energy_residual: (n,) relative difference of b and the power of the radiated waves.
         haskind_residual: (n,) relative difference of the excitation and Haskind's formula with the radiated waves.
-        inertia: (m, m) of the bodies.
-        stiffness: (m, m) of the bodies and hydrostatics.
+        inertia: (m, m) of the bodies, kg/m, kg, kg m.
+        stiffness: (m, m) of the bodies and hydrostatics, N/m², N/m, N.
         infinite_frequency_added_mass: (m, m), the limit of infinite frequency, if it was requested.
         factorizations: number of factorizations.
     """
@@ -79,7 +80,7 @@ class PlateDeflection:
 
 
 @dataclass(frozen=True, kw_only=True)
-class MissedPeak:
+class UnresolvedPeak:
     """A peak or a dip between two frequencies of a response, that its curve does not show.
 
     Attributes:
@@ -108,8 +109,8 @@ class ResponseTable:
         waves: w names.
         wavenumbers: (n, w) k, 1/m.
         dofs: m degrees of freedom.
-        waves_from: the side from which the waves come.
-        amplitudes: (n, w, m) of the motions.
+        waves_from: the side from which the waves are incident.
+        amplitudes: (n, w, m) of the motions, m/m or rad/m.
         reflection: (n, w in, w out) ratio of elevations.
         transmission: (n, w in, w out) ratio of elevations.
         energy_residual: (n, w) relative difference of incident and outgoing power.
@@ -129,12 +130,12 @@ class ResponseTable:
     energy_residual: Floats
     relative_error: Floats
     plates: tuple[PlateDeflection, ...]
-    missed_peaks: tuple[MissedPeak, ...] = ()
+    missed_peaks: tuple[UnresolvedPeak, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
 class ResonanceTable:
-    """Motions e^{−iωt} that die out by themselves. Shapes: r resonances, m motions.
+    """Freely decaying motions e^{−iωt}. Shapes: r resonances, m motions.
 
     Attributes:
         omega: (r,) rad/s, with negative imaginary part.
@@ -144,7 +145,7 @@ class ResonanceTable:
         residuals: (r,) relative residual of the equations.
         relative_error: (r,) estimated relative error of ω.
         counted: number of resonances in the region by an independent count; ``None`` where that is not certain.
-        region: of ω in which they were counted; ``None`` where nothing restores the bodies.
+        region: of ω in which they were counted; ``None`` where no motion has a restoring force.
     """
 
     omega: Complexes
@@ -165,8 +166,8 @@ class DecayTable:
         times: (n,) s.
         dofs: m degrees of freedom.
         displacement: (n, m) m or rad.
-        initial: (m,) the displacement at t = 0.
-        absolute_error: (n,) estimated error of the displacement.
+        initial: (m,) the displacement at t = 0, m or rad.
+        absolute_error: (n,) estimated error of the displacement, m or rad.
         tail: T of the tail T/t² of the released motion, m s² or rad s²; None where no tail is known.
         certified_until: the time to which the error holds, s.
     """

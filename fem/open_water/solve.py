@@ -19,7 +19,7 @@ from hydroelastic.fem.open_water.response import ResponseSolution, solve_respons
 from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, ResonanceTable, ResponseTable
 from hydroelastic.fem.stopwatch import Report
 
-# The power of waves is of first order in the error of the field; measured, it is off by less than the tolerance.
+# Factor of the tolerance for energy and Haskind residuals, which are of first order in the error of the field.
 _POWER = 10.0
 
 _Solution: TypeAlias = RadiationSolution | ResponseSolution | ResonanceSolution | DecaySolution
@@ -36,7 +36,7 @@ class OpenWaterSolution:
         decay: one for each decay analysis.
         size: "cells", "dofs" (unknowns of ψ) and "degree" of the largest problem that was solved.
         seconds: time by stage.
-        reasons: why the solution does not keep what was asked; empty if it does.
+        reasons: why the solution does not keep the tolerance or is incomplete; empty if it does.
     """
 
     radiation: tuple[RadiationTable, ...] = ()
@@ -49,22 +49,22 @@ class OpenWaterSolution:
 
     @property
     def status(self) -> Literal["ok", "unconverged"]:
-        """Whether everything that was asked is kept."""
+        """ "ok" if all results keep the tolerance, else "unconverged"."""
         return "unconverged" if self.reasons else "ok"
 
 
 def solve_open_water(
     problem: OpenWaterProblem, requests: Sequence[Request], report: Report = lambda _message: None
 ) -> OpenWaterSolution:
-    """Solve all analyses of open water.
+    """Solve all analyses of open water (collective).
 
     Args:
-        problem: open water, and how accurately to solve it.
+        problem: open water, with the tolerance.
         requests: the analyses.
-        report: called with a word on what is being done.
+        report: receives messages on the progress.
 
     Returns:
-        The tables, with `OpenWaterSolution.reasons` where they do not keep the asked tolerance (collective).
+        The tables, with `OpenWaterSolution.reasons` where they do not keep the tolerance.
 
     Raises:
         MeshError: if no mesh can be made.
@@ -110,7 +110,7 @@ def _solved(problem: OpenWaterProblem, request: Request) -> _Solution:
 
 
 def _reasons(tolerance: float, number: int, kind: str, solution: _Solution) -> list[str]:
-    """Why a solution does not keep what was asked, in words."""
+    """Return messages on why a solution does not keep the tolerance or is incomplete."""
     reasons = []
     if solution.error > tolerance:
         reasons.append(
@@ -137,7 +137,7 @@ def _reasons(tolerance: float, number: int, kind: str, solution: _Solution) -> l
 
 
 def resonance_reasons(solution: ResonanceSolution) -> Iterator[str]:
-    """Yield why the resonances of a region are not known to be all, in words."""
+    """Yield messages on why resonances of a region may be missing."""
     counted = solution.table.counted
     if counted is None:
         yield "the independent count of the resonances is not certain: one may lie on the boundary of its region"

@@ -30,21 +30,21 @@ class OpenSolver:
         self._reduced = ReducedPencil(model.pencil)
         self._loads = model.pencil.loads.astype(complex)
         self._projected = np.zeros((len(self._loads), 0), dtype=complex)
-        # A sweep comes back to a frequency several times.
+        # A sweep evaluates a frequency several times.
         self._waves: dict[float, Incidence] = {}
 
     @property
     def factorizations(self) -> int:
-        """How many there were."""
+        """Number of factorizations."""
         return self._direct.factorizations
 
     @property
     def basis_size(self) -> int:
-        """Vectors of the reduced basis."""
+        """Number of vectors of the reduced basis."""
         return self._reduced.size
 
     def incidence(self, omega: float) -> Incidence:
-        """The travelling waves at ω (collective)."""
+        """Return the travelling waves at ω in rad/s (collective)."""
         if omega not in self._waves:
             with self._watch.stage("waves"):
                 scaled = omega / self.model.basin.units.frequency
@@ -52,7 +52,8 @@ class OpenSolver:
         return self._waves[omega]
 
     def radiation(self, squared: complex) -> np.ndarray:
-        """ψ of a unit of each body unknown at λ, in full; they enter the basis (collective)."""
+        """Return ψ radiated by a unit of each body unknown at λ, shape (body unknowns, free unknowns), by a
+        factorization; the solutions extend the basis (collective)."""
         with self._watch.stage("solve"):
             self._direct.shift(squared)
             radiated = self._solved(self._loads)
@@ -67,17 +68,21 @@ class OpenSolver:
             return np.array([projected @ self._reduced.solve(square, projected).T for square in squares])
 
     def hydrodynamic(self, squared: complex) -> tuple[np.ndarray, float]:
-        """H at λ on the basis, and the relative residual of one motion in which all have a part (collective)."""
+        """Return H at λ on the basis, shape (body unknowns, body unknowns), and a relative residual (collective).
+
+        The residual is that of one combination of all motions.
+        """
         with self._watch.stage("reduce"):
             projected = self._projected_loads()
             coordinates = self._reduced.solve(squared, projected)
-            # No simple ratios, lest parts cancel by symmetry.
+            # Factors without simple ratios, so that no parts cancel by symmetry.
             parts = np.cos(1.0 + np.arange(len(projected)))[None]
             residual = self._reduced.residuals(squared, parts @ self._loads, parts @ coordinates)[0]
             return projected @ coordinates.T, float(residual)
 
     def frequency(self, omega: float) -> OpenFrequency:
-        """Radiation and diffraction in full; they enter the basis (collective)."""
+        """Return radiation and diffraction at ω in rad/s by a factorization; the solutions extend the basis
+        (collective)."""
         squared = self.model.squared_frequency(omega)
         waves = self.incidence(omega)
         radiated = self.radiation(squared)
@@ -113,11 +118,11 @@ class OpenSolver:
         )
 
     def response(self, omega: float, incident: list[int]) -> OpenResponse:
-        """Bodies that move freely, in full; what they scatter enters the basis (collective).
+        """Return the response of free bodies by a factorization; the scattered waves extend the basis (collective).
 
         Args:
-            omega: ω.
-            incident: places of the waves that come, see `Incidence`.
+            omega: ω, rad/s.
+            incident: indices of the incident waves, see `Incidence`.
         """
         squared = self.model.squared_frequency(omega)
         waves = self.incidence(omega)
@@ -152,13 +157,13 @@ class OpenSolver:
         return self._response(squared, waves, incident, scattered, motions), float(residual)
 
     def resonances_between(self) -> np.ndarray:
-        """ω in rad/s of bodies and liquid together on the basis, with Re ω ≥ 0; some are those of the liquid's far part
+        """Return ω of bodies and liquid on the basis, rad/s, Re ω ≥ 0, with those of the continuous spectrum
         (collective)."""
         with self._watch.stage("reduce"):
             stiffness = self._coupled(0.0)
             squares = eigvals(stiffness, stiffness - self._coupled(1.0))
             omegas = np.sqrt(squares[np.isfinite(squares)]) * self.model.basin.units.frequency
-        # Rounding of one process must not lead it elsewhere than the others.
+        # All processes must take the same branch in spite of rounding.
         found: np.ndarray = self.model.pencil.comm.bcast(omegas)
         return found
 

@@ -1,9 +1,9 @@
 """Many frequencies from few factorizations: a reduced basis that grows where its residual is largest.
 
-Solutions at the ends and in the middle of a range begin the basis of `fem.open_water.reduced_pencil`. Wherever the
-residual between them is largest the problem is solved in full next, which tells the true error there. For functionals
-of second order the error goes like the square of the residual, and the ratio of the two, the largest of those that were
-seen last, carries it to all other frequencies.
+Solutions at the ends and in the middle of a range begin the basis of `reduced_pencil`. The next full solution, by a
+factorization, is made where the residual is largest, and gives the true error there. For functionals of second order
+the error is proportional to the square of the residual; the largest of the last ratios of both estimates the error at
+all other frequencies.
 """
 
 from __future__ import annotations
@@ -18,27 +18,27 @@ import numpy as np
 Solution = TypeVar("Solution")
 
 FEW = 6
-"""So many frequencies are solved in full, each by itself."""
+"""Largest number of frequencies that are all solved by factorizations, without a reduced basis."""
 
-# Until the basis is good at so many frequencies the others are not looked at.
+# Number of frequencies at which the basis must be accurate before the others are checked.
 _CANDIDATES = 24
 # Part of the tolerance that is left to the reduced basis.
 _SHARE = 0.1
-# A ratio that was seen at a few frequencies may be larger at others.
+# Safety factor of the ratio between frequencies.
 _SAFETY = 3.0
-# So many ratios count, the last ones: those of a basis that has nothing of the solution yet are a thousand times
-# larger, and would ask for solutions without end.
+# Number of last ratios in use: those of a basis that does not yet contain the solution are a thousand times larger, and
+# would require too many solutions.
 _RECENT = 6
 
 
 @dataclass(frozen=True, kw_only=True)
 class Problem(Generic[Solution]):
-    """What a sweep needs of a problem.
+    """Functions that a sweep needs of a problem.
 
     Attributes:
-        full: solves at a frequency, and takes the solution into the basis.
-        reduced: the solution at a frequency on the basis, and its relative residual.
-        difference: relative difference of a solution on the basis and the one in full.
+        full: solves at a frequency by a factorization, and adds the solution to the basis.
+        reduced: returns the solution at a frequency on the basis, and its relative residual.
+        difference: relative difference of a solution on the basis and the full one.
     """
 
     full: Callable[[complex], Solution]
@@ -52,8 +52,8 @@ class Swept(Generic[Solution]):
 
     Attributes:
         solutions: in the order of the frequencies.
-        errors: estimated relative errors by the reduced basis; zero where it was solved in full.
-        in_full: whether each was.
+        errors: estimated relative errors by the reduced basis, shape (frequencies,); zero for full solutions.
+        in_full: whether each solution is a full one.
     """
 
     solutions: list[Solution]
@@ -65,8 +65,8 @@ def sweep(problem: Problem[Solution], omegas: np.ndarray, tolerance: float) -> S
     """Solve at all frequencies to a relative tolerance.
 
     Args:
-        problem: what to solve.
-        omegas: frequencies, real or along a line in the complex plane, in any order, all different.
+        problem: functions that solve and compare.
+        omegas: different frequencies in any order, real or along a line in the complex plane, shape (frequencies,).
         tolerance: largest relative error that is accepted of what `Problem.difference` compares.
     """
     if len(omegas) <= FEW:

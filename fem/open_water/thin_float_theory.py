@@ -1,4 +1,4 @@
-"""The thin-float theory beside the field solution of a float in open water."""
+"""Comparison of the thin-float theory with the field solution of a float in open water."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ from hydroelastic.physics.tank import Tank
 
 @dataclass(frozen=True, kw_only=True)
 class Comparison:
-    """One number of the theory beside the field's.
+    """A value by the theory and by the field solution.
 
     Attributes:
         quantity: what it is, with its unit.
         theory: its value by the thin-float theory.
-        field: by the field solution.
-        difference: relative, of the theory to the field; of a curve the largest over all frequencies or times, with
-            its values at that place.
+        field: its value by the field solution.
+        difference: relative difference of the theory from the field; of a curve the largest over all frequencies or
+            times, with the values there.
     """
 
     quantity: str
@@ -35,14 +35,14 @@ class Comparison:
 
 
 def thin_float_comparisons(tank: Tank, solution: OpenWaterSolution) -> tuple[tuple[Comparison, ...], str]:
-    """Set the thin-float theory beside the heave of a lone float.
+    """Compare the thin-float theory with the heave of a single float.
 
     Args:
         tank: open water, in SI units.
         solution: the field solution.
 
     Returns:
-        The comparisons, and what the theory neglects or why it has no value; nothing where it does not apply.
+        The comparisons, and what the theory neglects or why it has no value; an empty tuple where it does not apply.
     """
     profile, layers = lone_profile(tank), two_layers(tank)
     if profile is None:
@@ -85,7 +85,7 @@ def _radiation(table: RadiationTable, profile: Profile, layers: TwoLayers) -> li
         ("b", "kg/(m s)", theory.damping, table.radiation_damping),
     ):
         own = field[places, heave, heave]
-        # Added mass has zeros, and damping falls to nothing: differences are those from the largest value.
+        # Added mass has zeros, and damping decays to zero: differences are relative to the largest value.
         differences = np.abs(values - own) / np.abs(own).max()
         worst = int(np.argmax(differences))
         rows.append(

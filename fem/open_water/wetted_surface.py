@@ -1,4 +1,4 @@
-"""The wetted surface of a body as quadrature points, for loads and integrals of fields that change with frequency."""
+"""Quadrature on the wetted surface of a body, for loads and integrals of fields that depend on the frequency."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ class WettedSurface:
 
     Args:
         liquid: space of ψ.
-        body: the body; its own shapes are evaluated once.
-        wavenumber: the largest of the fields.
+        body: the body; its shapes are evaluated once.
+        wavenumber: largest wavenumber of the fields, in units of the mesh.
 
     Attributes:
-        points: on this process, shape (points, gdim).
+        points: quadrature points of this process, shape (points, gdim).
         normals: outward unit normals of the liquid there, of the same shape.
-        layers: index of the layer at each point.
-        shapes: of the body, shape (shapes, points).
+        layers: index of the layer at each point, shape (points,).
+        shapes: normal displacement of each shape of the body, shape (shapes, points).
     """
 
     def __init__(self, liquid: LiquidSpace, body: Body, wavenumber: float) -> None:
@@ -54,7 +54,7 @@ class WettedSurface:
         ).reshape(body.size, len(self.points))
 
     def loads(self, fluxes: np.ndarray) -> np.ndarray:
-        """∫ρ f q for complex functions f, shape (functions, points), on own unknowns: (functions, unknowns)
+        """Return ∫ρ f q of complex functions f, shape (functions, points), on own unknowns: shape (functions, unknowns)
         (collective)."""
         index_map = self._liquid.space.dofmap.index_map
         parts = np.vstack([fluxes.real, fluxes.imag]) * self._weights
@@ -70,8 +70,8 @@ class WettedSurface:
         return complex_loads
 
     def integrals(self, one: np.ndarray, other: np.ndarray) -> np.ndarray:
-        """∫ρ f g for functions f and g at the points, shape (functions f, functions g), without conjugation
-        (collective)."""
+        """Return ∫ρ f g of functions f and g, shapes (functions, points), without conjugation: shape (functions f,
+        functions g) (collective)."""
         total = ((one * self._weights) @ other.T).astype(complex)
         self._liquid.tank.mesh.comm.Allreduce(MPI.IN_PLACE, total)
         return np.asarray(total)

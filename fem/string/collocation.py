@@ -99,8 +99,8 @@ class Collocation:
         """One step (collective).
 
         Args:
-            displacement: w, own entries.
-            velocity: v, own entries.
+            displacement: w, dimensionless, own entries, shape (own entries,).
+            velocity: v, dimensionless, of the same shape.
             step: h; a new length requires a new factorization.
             loads: F at the nodes, own entries, shape (stages, own entries); ``None`` without loads.
 
@@ -126,7 +126,7 @@ class Collocation:
         return displacement + added_displacement, velocity + added_velocity
 
     def energy(self, displacement: NDArray[np.float64], velocity: NDArray[np.float64]) -> float:
-        """½vᵀMv + ½wᵀKw (collective)."""
+        """Return ½vᵀMv + ½wᵀKw, dimensionless, of own entries v and w, shape (own entries,) (collective)."""
         kinetic = velocity @ self._times(self._mass, velocity)
         elastic = displacement @ self._times(self._stiffness, displacement)
         return float(0.5 * self._mass.comm.tompi4py().allreduce(kinetic + elastic))

@@ -31,7 +31,7 @@ class EndMotion(Protocol):
 
 
 def after(function: Callable[[ArrayLike], NDArray[np.float64]], time: float) -> float:
-    """Return the limit of a function from the right."""
+    """Return the limit of a function of times, shape (n,) → (n,), from the right at a time, s."""
     return float(np.asarray(function(np.nextafter(time, np.inf))))
 
 

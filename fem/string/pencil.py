@@ -30,12 +30,12 @@ class StringPencil:
         string: the string, in SI units; the matrices are those of the dimensionless one.
         space: polynomials on the line, the unknown of the upper end included.
         degree: polynomial degree.
-        free: owned unknowns but that of the upper end.
+        free: local indices of the owned unknowns without the upper end, shape (free unknowns,).
         mass: M.
         resistance: C.
         stiffness: K.
-        mass_load: own entries of M·1, the inertia of the string that follows its upper end.
-        resistance_load: own entries of C·1.
+        mass_load: own entries of M·1, the inertia of the string that follows its upper end, shape (free unknowns,).
+        resistance_load: own entries of C·1, shape (free unknowns,).
     """
 
     string: HangingString

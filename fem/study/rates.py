@@ -1,4 +1,4 @@
-"""Observed rates of convergence, fitted, with the error of the fit and beside what theory expects."""
+"""Observed rates of convergence, fitted, with the error of the fit and the rate of theory."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from math import exp, inf, log
 
 import numpy as np
 
-from hydroelastic.fem.study.corners import sharpest_of, symmetries_apart
 from hydroelastic.fem.study.row import Family, StudyRow
+from hydroelastic.fem.study.singular_points import sharpest_of, symmetries_apart
 from hydroelastic.fem.study.theory import expected_order, expected_remainders, gain_along_a_ray
 from hydroelastic.meshes.grading import Grading
 from hydroelastic.physics.symmetry import Parity
@@ -20,11 +20,11 @@ DIFFERENCE = 0.1
 """An order that differs from theory by more than this part of it is flagged: not yet asymptotic."""
 
 GAIN_FACTOR = 1.4
-"""The same for a gain per degree that is more than this many times that of theory, or less than its part."""
+"""A gain per degree that differs from theory by more than this factor is flagged as well."""
 
-# Frequencies that are further out than this have not seen the mesh yet.
+# Frequencies with a larger relative error are not resolved by the mesh.
 _COARSE = 0.05
-# How many rows a fit takes: the finest above rounding, for coarser ones lie before the asymptotic range.
+# Number of rows of a fit: the finest above rounding, since coarser ones are not in the asymptotic range.
 _POINTS = 3
 
 
@@ -34,12 +34,12 @@ class Rate:
 
     Attributes:
         family: the kind of mesh.
-        degree: of ψ.
+        degree: polynomial degree of ψ.
         grading: β; 1 on uniform meshes.
-        symmetry: of the modes among which the one below is chosen; ``None`` where all have the same order.
-        mode: whose frequency, counted from 1: the lowest whose error stays above rounding on the finest mesh.
-        sizes: elements of the meshes that the fit used, in tank lengths.
-        observed: q.
+        symmetry: symmetry of the modes among which the one below is chosen; ``None`` where all have the same order.
+        mode: number of the mode, from 1: the lowest whose error is above rounding on the finest mesh.
+        sizes: sizes of elements of the fitted meshes, in tank lengths.
+        observed: fitted q.
         deviation: standard error of the fit.
         expected: q of theory.
     """
@@ -56,23 +56,22 @@ class Rate:
 
     @property
     def agrees(self) -> bool:
-        """Whether it differs by at most `DIFFERENCE` from theory."""
+        """Whether the relative difference from theory is at most `DIFFERENCE`."""
         return abs(self.observed - self.expected) <= DIFFERENCE * self.expected
 
 
 @dataclass(frozen=True, kw_only=True)
 class Gain:
-    """By which factor each degree lowers the error on geometric rings.
+    """Factor by which each degree reduces the error on geometric rings.
 
     Attributes:
-        degrees: that the fit used.
-        symmetry: of the modes that the sharpest corner slows down; ``None`` where it does so to all of them.
-        mode: whose frequency, counted from 1; chosen as for a rate.
-        observed: the factor.
+        degrees: degrees of the fit.
+        symmetry: symmetry of the modes with the sharpest singular point; ``None`` where all modes have it.
+        mode: number of the mode, from 1; chosen as for a rate.
+        observed: fitted factor.
         deviation: standard error of its logarithm.
-        expected: what the best polynomials of these degrees gain on one ring; ``None`` where ψ is smooth, so that the
-            rings are not what limits.
-        along_a_ray: ((1 + √σ)/(1 − √σ))², what they would gain on sectors of no angle.
+        expected: factor of the best polynomials of these degrees on one ring; ``None`` where ψ is smooth.
+        along_a_ray: ((1 + √σ)/(1 − √σ))², their factor on sectors of zero angle.
     """
 
     degrees: tuple[int, ...]
@@ -85,18 +84,18 @@ class Gain:
 
     @property
     def agrees(self) -> bool:
-        """Whether it differs by at most `GAIN_FACTOR` from theory, where there is one."""
+        """Whether it differs from theory, if there is one, by at most a factor `GAIN_FACTOR`."""
         return self.expected is None or abs(log(self.observed / self.expected)) <= log(GAIN_FACTOR)
 
 
 def fitted_rates(tank: Tank, rows: Sequence[StudyRow], parities: Sequence[Parity | None]) -> tuple[Rate, ...]:
     """Fit the order of every degree on uniform and algebraic meshes that has three meshes above rounding.
 
-    Where symmetric and antisymmetric modes meet different singularities each kind has its own order.
+    Where symmetric and antisymmetric modes have different singularities, each symmetry has its own order.
 
     Args:
-        tank: the tank, in its own units.
-        rows: of its study.
+        tank: the dimensionless tank.
+        rows: rows of its study.
         parities: symmetry of each mode.
     """
     series = [row for row in rows if row.family in ("uniform", "algebraic")]
@@ -156,13 +155,13 @@ def _is_used(row: StudyRow, mode: int) -> bool:
 
 
 def _of(symmetry: Parity | None, parities: Sequence[Parity | None], series: list[StudyRow]) -> list[int]:
-    """Indices of the modes of one symmetry, or of all, that every row has."""
+    """Indices of the modes of one symmetry, or of all modes, that are in every row."""
     shared = min((len(row.errors) for row in series), default=0)
     return [mode for mode in range(shared) if symmetry is None or parities[mode] == symmetry]
 
 
 def _asymptotic(series: list[StudyRow], modes: list[int]) -> tuple[int, list[StudyRow]] | None:
-    """The lowest mode whose error stays above rounding as far along a series as any, and the last rows it has there."""
+    """The lowest of the modes whose error is above rounding on the finest meshes, and the last rows above rounding."""
     best: tuple[int, int, list[StudyRow]] | None = None
     for mode in modes:
         places = [place for place, row in enumerate(series) if _is_used(row, mode)][-_POINTS:]
@@ -173,7 +172,8 @@ def _asymptotic(series: list[StudyRow], modes: list[int]) -> tuple[int, list[Stu
 
 
 def fitted_slope(x: np.ndarray, y: np.ndarray) -> tuple[float, float]:
-    """Slope of the straight line of least squares through three points or more, and its standard error."""
+    """Return the slope of a least-squares line through three points or more, shape (points,), and its standard
+    error."""
     slope, start = np.polyfit(x, y, 1)
     misfit = y - start - slope * x
     deviation = np.sqrt(misfit @ misfit / (len(x) - 2) / np.square(x - x.mean()).sum())

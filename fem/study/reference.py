@@ -1,4 +1,4 @@
-"""What the errors of a study are measured against: a closed form, or a finer solution that says how far it is out."""
+"""Reference frequencies of a study: a closed form, or a finer solution with its estimated error."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from hydroelastic.modal.tank_estimates import exact_frequencies
 from hydroelastic.physics.symmetry import Parity
 from hydroelastic.physics.tank import Tank
 
-# No row of a study asks for this; dry modes, rings and elements of all of them come from it.
+# Tolerance, stricter than that of any row, that determines dry modes, rings and elements of all rows.
 _STRICTEST = 1e-11
-# So many times the dry modes: what is left out, in every row and in the reference, falls to a sixth.
+# Factor of the number of dry modes, with which the truncation error in rows and reference falls to a sixth.
 _MORE_SHAPES = 1.3
-# With the degree the elements' error falls and rounding grows: the better of two is taken. Measured on three tanks with
-# frequencies known to twelve digits: true errors of 5e-13 to 2e-12 where 1.8e-11 is estimated, nearly all for rounding.
+# With the degree the discretization error falls and rounding grows: the better of two is taken. Measured on three tanks
+# with frequencies known to twelve digits: true errors of 5e-13 to 2e-12, estimated 1.8e-11, nearly all rounding.
 _DEGREES = (9, 10)
 _FINER = 0.7
 _RING_RATIO = 0.5
@@ -32,7 +32,7 @@ class Reference:
     """Frequencies that count as exact.
 
     Attributes:
-        name: formula, or what was solved.
+        name: formula, or description of the solution.
         omega: the frequencies, rad/s, ascending.
         uncertainty: their estimated relative error; 0 for a formula.
         parities: symmetry of each mode where the tank was solved as two halves; empty for a formula.
@@ -45,7 +45,7 @@ class Reference:
 
 
 def finest_resolution(tank: Tank, modes: int) -> Resolution:
-    """Elements, rings and dry modes of a tank in its own units for a tolerance that no row of a study reaches."""
+    """Return elements, rings and dry modes of a dimensionless tank for a tolerance below that of any row of a study."""
     return initial_resolution(tank, _STRICTEST, modes=modes).with_shapes(_MORE_SHAPES)
 
 
@@ -54,8 +54,8 @@ def reference_of(physical: Tank, count: int, *, half: bool) -> Reference:
 
     Args:
         physical: the tank, in SI units.
-        count: how many frequencies.
-        half: whether it is solved as two halves.
+        count: number of frequencies.
+        half: whether the symmetric tank is solved as two halves.
     """
     formula, frequencies = exact_frequencies(physical, count)
     if frequencies:

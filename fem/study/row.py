@@ -1,4 +1,4 @@
-"""One solution of a study: its errors against the reference, and what it cost. No dolfinx."""
+"""One solution of a study: its errors against the reference, and its cost. No dolfinx."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 Family: TypeAlias = Literal["uniform", "algebraic", "geometric", "tolerance", "thinness"]
-"""Series of solutions; the last one compares two boundaries, the others measure errors."""
+"""Series of solutions; "thinness" compares two boundary conditions, the others measure errors."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -15,19 +15,19 @@ class StudyRow:
 
     Attributes:
         family: which series it belongs to.
-        degree: of ψ.
-        element_size: largest element asked for at the top, in tank lengths.
-        grading: β of meshes drawn towards the tips, 1 for uniform ones; ``None`` in the other families.
-        tolerance: asked relative error; ``None`` but in the family ``"tolerance"``.
-        attempts: resolutions that were tried.
-        unknowns: of ψ and of the surfaces, those of both halves of a tank that is solved as two.
-        errors: ω/ω_exact − 1 of the frequencies asked for.
-        floor: below this an error is rounding, or that of the reference.
-        estimate: largest error that the solver itself estimates; ``None`` where it gives no estimate.
-        reasons: why the solver says that it missed the tolerance; empty if it does not.
-        seconds: time by stage.
-        memory: highest resident memory while it was solved, above what was held before, in bytes over all processes;
-            ``None`` where the system does not tell.
+        degree: polynomial degree of ψ.
+        element_size: largest element at the top, in tank lengths.
+        grading: β of meshes graded towards the tips, 1 for uniform ones; ``None`` in the other families.
+        tolerance: requested relative error; ``None`` except in the family ``"tolerance"``.
+        attempts: number of resolutions that were solved.
+        unknowns: number of unknowns of ψ and of the surfaces, of both halves of a tank that is solved as two.
+        errors: ω/ω_exact − 1 of the requested frequencies.
+        floor: error of rounding and of the reference, below which errors are not significant.
+        estimate: largest error by the estimate of the solver; ``None`` without an estimate.
+        reasons: why the solver did not keep the tolerance; empty if it did.
+        seconds: time by stage, s.
+        memory: increase of the resident memory during the solution, bytes, over all processes; ``None`` where the
+            system does not report it.
     """
 
     family: Family
@@ -46,7 +46,7 @@ class StudyRow:
 
     @property
     def error(self) -> float:
-        """Largest relative error of the frequencies asked for."""
+        """Largest relative error of the requested frequencies."""
         return max(map(abs, self.errors))
 
     @property
@@ -56,5 +56,5 @@ class StudyRow:
 
     @property
     def total_seconds(self) -> float:
-        """Time of all stages."""
+        """Time of all stages, s."""
         return sum(self.seconds.values())

@@ -1,4 +1,4 @@
-"""Solutions of a study, each with its errors against the reference and what it cost."""
+"""Solutions of a study, each with its errors against the reference and its cost."""
 
 from __future__ import annotations
 
@@ -32,14 +32,14 @@ def mesh_row(
 
     Args:
         studied: the tank.
-        family: the series the row belongs to.
+        family: series of the row.
         resolution: degree and number of dry modes.
-        make_mesh: makes the mesh; its time counts.
-        element_size: of the mesh, for the record.
-        grading: β of the mesh, for the record.
+        make_mesh: makes the mesh; its time is part of the cost.
+        element_size: size of elements of the mesh, in tank lengths, for the row.
+        grading: β of the mesh, for the row.
 
     Returns:
-        The row; ``None`` if the mesh is too coarse to have the modes asked for.
+        The row; ``None`` if the mesh is too coarse for the requested modes.
     """
     watch = Stopwatch()
     estimate = None
@@ -47,7 +47,7 @@ def mesh_row(
         with watch.stage("mesh"):
             mesh = make_mesh()
         field = solve_field(mesh, studied.tank, resolution, studied.modes, watch, half=studied.half)
-        # The estimate takes the singularity to lie in the rings.
+        # The estimate assumes that the singularity is within the rings.
         if resolution.degree >= LOWEST_DEGREE and family == "geometric":
             with watch.stage("errors"):
                 indices = list(range(len(field.modes.eigenvalues)))
@@ -75,7 +75,7 @@ def mesh_row(
 
 
 def tolerance_row(studied: StudiedTank, tolerance: float) -> StudyRow:
-    """Solve to an asked tolerance, with all that a run does: estimates, count, tones, refinement (collective)."""
+    """Solve to a relative tolerance as a run does, with estimates, count, tones and refinement (collective)."""
     with peak_memory(MPI.COMM_WORLD) as memory:
         solution = solve_tank(studied.physical, tolerance=tolerance, modes=studied.modes)
     omega = np.array([solution.omega(mode.eigenvalue) for mode in solution.asked])

@@ -12,10 +12,10 @@ from mpi4py import MPI
 from hydroelastic.fem.liquid import compile_form
 from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.stopwatch import Stopwatch
-from hydroelastic.fem.study.corners import has_curved_contours, sharpest_of
 from hydroelastic.fem.study.meshes import coarsest_size, full_order_gradings, nested_meshes
 from hydroelastic.fem.study.row import StudyRow
 from hydroelastic.fem.study.rows import mesh_row, tolerance_row
+from hydroelastic.fem.study.singular_points import has_curved_contours, sharpest_of
 from hydroelastic.fem.study.steady import steadily_timed
 from hydroelastic.fem.study.studied_tank import StudiedTank
 from hydroelastic.fem.tank.field_model import build_mesh, distributed_mesh
@@ -26,7 +26,7 @@ from hydroelastic.meshes.grading import Grading
 
 _mesh_row, _tolerance_row = steadily_timed(mesh_row), steadily_timed(tolerance_row)
 
-# Tolerance of solutions that only have their forms compiled.
+# Tolerance of solutions that serve only to compile forms.
 _ROUGH = 1e-3
 
 
@@ -38,15 +38,15 @@ def nested_rows(
     halvings: int,
     most_unknowns: int,
 ) -> Iterator[StudyRow]:
-    """Solve on elements of one size, halved again and again, while errors are above rounding (collective).
+    """Solve on meshes with repeatedly halved elements, while errors are above rounding (collective).
 
     Args:
         studied: the tank; there are no such meshes along curved contours.
-        family: ``"algebraic"`` draws the same meshes towards the corners, so far that the full order is expected; there
-            are none where ψ is smooth.
-        degrees: of ψ.
-        halvings: how often elements are halved, at most.
-        most_unknowns: the meshes of a degree end before one with more unknowns of ψ than this.
+        family: ``"algebraic"`` grades the uniform meshes towards the singular points, so that the full order is
+            expected; there are none where ψ is smooth.
+        degrees: polynomial degrees of ψ.
+        halvings: largest number of halvings of the elements.
+        most_unknowns: largest number of unknowns of ψ.
     """
     tank = studied.tank
     if has_curved_contours(tank) or (family == "algebraic" and sharpest_of(tank) is None):
@@ -56,7 +56,7 @@ def nested_rows(
     points = first.mesh.topology.index_map(0).size_global
     parts = 2 if studied.half else 1
     for degree in degrees:
-        uniform = (1.0,) * len(meshes.corners)
+        uniform = (1.0,) * len(meshes.graded_points)
         gradings = full_order_gradings(tank, meshes, degree) if family == "algebraic" else uniform
         solved = False
         for halved in range(halvings + 1):
@@ -70,11 +70,11 @@ def nested_rows(
                     replace(studied.finest, degree=degree),
                     partial(distributed_mesh, MPI.COMM_WORLD, partial(meshes.mesh, halved, gradings)),
                     element_size=coarsest_size(tank) / 2**halved,
-                    # At the sharpest corner.
+                    # At the sharpest singular point.
                     grading=max(gradings, default=1.0),
                 )
             except EigenSolverError:
-                # On a mesh with hardly as many nodes at the top as modes are asked for.
+                # The mesh has hardly as many nodes at the top as there are requested modes.
                 if solved:
                     raise
                 continue
@@ -84,9 +84,9 @@ def nested_rows(
 
 
 def geometric_rows(studied: StudiedTank, degrees: Sequence[int]) -> Iterator[StudyRow]:
-    """Solve on one mesh with geometric rings around the tips, degree by degree (collective)."""
+    """Solve on one mesh with geometric rings around the tips at each degree (collective)."""
     for degree in degrees:
-        # One ratio for all tanks, whatever a solution would choose, so that their gains can be compared.
+        # The same ratio of rings for all tanks, so that their gains can be compared.
         resolution = replace(studied.finest, degree=degree, ring_ratio=Grading.ring_ratio)
         row = _mesh_row(
             studied,
@@ -100,12 +100,12 @@ def geometric_rows(studied: StudiedTank, degrees: Sequence[int]) -> Iterator[Stu
 
 
 def tolerance_rows(studied: StudiedTank, tolerances: Sequence[float]) -> Iterator[StudyRow]:
-    """Solve to tolerances, one after the other, as any tank is solved (collective)."""
+    """Solve to each of some relative tolerances (collective)."""
     return (_tolerance_row(studied, tolerance) for tolerance in tolerances)
 
 
 def compile_forms(studied: StudiedTank, degrees: Iterable[int]) -> None:
-    """Solve once with each degree that may be needed: a study measures solving, not the compiler (collective)."""
+    """Solve once with each degree, so that the rows of a study do not include the time of compilation (collective)."""
     coarse = initial_resolution(studied.tank, _ROUGH, modes=1)
     for degree in sorted(set(degrees)):
         resolution = replace(coarse, degree=degree)

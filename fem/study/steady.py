@@ -1,4 +1,4 @@
-"""Steady times of short solutions: the least of a few, for another task of the computer only adds to a time."""
+"""Times of short solutions: the least of a few, since other tasks of the computer only add to a time."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from mpi4py import MPI
 
 from hydroelastic.fem.study.row import StudyRow
 
-# Seconds below which a solution is repeated, and how often: that adds little to a study.
+# Time in s below which a solution is repeated, and number of repetitions.
 _SHORT = 0.15
 _REPEATS = 2
 
@@ -19,10 +19,10 @@ _Row = TypeVar("_Row", StudyRow, StudyRow | None)
 
 
 def steadily_timed(solve: Callable[_Given, _Row]) -> Callable[_Given, _Row]:
-    """Return a function that solves as another one does, and solves quick rows again and keeps the quickest.
+    """Return a function that repeats short solutions of ``solve`` and keeps the fastest.
 
     Args:
-        solve: gives a row (collective).
+        solve: returns a row (collective).
     """
 
     @wraps(solve)

@@ -1,4 +1,4 @@
-"""A tank whose frequencies are studied, and what all of its solutions share."""
+"""A tank whose frequencies are studied, and the data that all of its solutions share."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from hydroelastic.fem.tank.resolution import Resolution, rounding_error
 from hydroelastic.physics.symmetry import is_mirror_image
 from hydroelastic.physics.tank import Tank
 
-# Below this an error is rounding, whatever the degree: measured on meshes of up to 2e5 unknowns with exact frequencies.
+# Rounding error at any degree, measured on meshes of up to 2e5 unknowns with exact frequencies.
 _ROUNDING = 1e-11
 
 
@@ -22,7 +22,7 @@ class StudiedTank:
 
     Attributes:
         physical: the tank, in SI units.
-        modes: how many frequencies, from the lowest.
+        modes: number of frequencies, from the lowest.
     """
 
     physical: Tank
@@ -30,29 +30,29 @@ class StudiedTank:
 
     @cached_property
     def tank(self) -> Tank:
-        """The tank in its own units."""
+        """The dimensionless tank."""
         return self.physical.scaled()
 
     @cached_property
     def half(self) -> bool:
-        """Whether it is its own mirror image and is solved as two halves, in every family."""
+        """Whether it is symmetric and therefore solved as two halves, in every family."""
         return is_mirror_image(self.tank)
 
     @cached_property
     def finest(self) -> Resolution:
-        """Elements, rings and dry modes that leave less than any row does."""
+        """Elements, rings and dry modes with errors below those of any row."""
         return finest_resolution(self.tank, self.modes)
 
     @cached_property
     def reference(self) -> Reference:
-        """What counts as exact; solved for when it is first asked for (collective)."""
+        """Reference frequencies, computed at the first access (collective)."""
         return reference_of(self.physical, self.modes, half=self.half)
 
     def errors(self, omega: np.ndarray) -> tuple[float, ...]:
-        """ω/ω_exact − 1 of frequencies in rad/s, of those that both have."""
+        """Return ω/ω_exact − 1 of frequencies in rad/s, shape (frequencies,), as far as there are references."""
         shared = min(len(omega), len(self.reference.omega))
         return tuple(map(float, omega[:shared] / self.reference.omega[:shared] - 1.0))
 
     def floor(self, degree: int) -> float:
-        """Errors below this say nothing of the mesh."""
+        """Return the relative error below which errors of a degree are rounding or that of the reference."""
         return max(_ROUNDING, self.reference.uncertainty, rounding_error(degree, self.tank.depth))

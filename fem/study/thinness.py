@@ -1,14 +1,14 @@
-"""Thin boundary against exact boundary: how their difference falls as a float gets thinner.
+"""Linearized thin-float condition compared with the exact one: their difference as a float becomes thinner.
 
-The same float is solved with its conditions on the contour itself and on its middle line, its half width halved again
-and again; by Archimedes its mass follows. Relative to each other the two models differ
+The same float is solved with its boundary condition on the contour and on its middle line, for repeatedly halved half
+widths; its mass follows from Archimedes' principle. The relative difference of the two models falls
 
     in ω of heave and its modal mass           like the square of the thinness
     in the added mass at infinite frequency    like the thinness
-    in ω of waves in a tank of length L        like half width/L: the thin float leaves its area to the liquid
+    in ω of waves in a tank of length L        like half width/L: the thin float displaces no liquid
 
-as theory says: the source of the next order on the middle line is that of the squared thinness, and added mass is
-itself a part of the mass that falls like the thinness. See docs, studies.
+as expected: the next order of the condition on the middle line is that of the squared thinness, and the added mass over
+the mass itself falls like the thinness. See docs, studies.
 """
 
 from __future__ import annotations
@@ -23,21 +23,21 @@ from hydroelastic.fem.tank.solve import TankSolution, solve_tank
 from hydroelastic.physics.tank import Tank
 
 ASKED = 1e-8
-"""Relative error asked of both models: far below their difference."""
+"""Tolerance of both models: far below their difference."""
 
 _WAVES = 2
-# Differences within so many times what both models may be out say little of the boundary.
+# Multiple of the uncertainty of both models above which their difference is significant.
 _CLEAR = 10.0
 _POINTS = 3
 
 
 @dataclass(frozen=True, kw_only=True)
 class Comparison:
-    """One number by both models.
+    """A value by both models.
 
     Attributes:
-        thin: with conditions on the middle line.
-        exact: with conditions on the contour.
+        thin: value, in its unit in `QUANTITIES`, with the condition on the middle line.
+        exact: value with the condition on the contour.
         uncertainty: sum of the estimated relative errors of both.
     """
 
@@ -52,7 +52,7 @@ class Comparison:
 
     @property
     def is_clear(self) -> bool:
-        """Whether the difference is that of the boundaries, and not of the solutions."""
+        """Whether the difference is larger than the errors of the solutions."""
         return abs(self.difference) > _CLEAR * self.uncertainty
 
 
@@ -61,11 +61,11 @@ class ThinnessRow:
     """Both models of one float.
 
     Attributes:
-        half_width: of the float, m.
+        half_width: half width of the float, m.
         thinness: half width over half height.
         breadth: half width over tank length.
-        compared: what both models say, by the name in `QUANTITIES`; a heave that neither model finds is not there.
-        shared: whether heave is shared with waves in one of the models, so that its modal mass says little.
+        compared: values by both models, by the name in `QUANTITIES`; without heave if neither model finds it.
+        shared: whether heave couples with waves of nearby frequency in one of the models.
     """
 
     half_width: float
@@ -81,10 +81,10 @@ class ThinnessRate:
 
     Attributes:
         quantity: name in `QUANTITIES`.
-        observed: rate, fitted to the thinnest three floats whose difference is clear.
+        observed: dimensionless rate, fitted to the thinnest three floats whose difference is clear.
         deviation: standard error of the fit.
         expected: rate of theory.
-        shared: whether one of these floats shares its heave with waves: its numbers then follow those of the waves.
+        shared: whether the heave of one of these floats couples with waves of nearby frequency, which affects the rate.
     """
 
     quantity: str
@@ -105,20 +105,20 @@ QUANTITIES: dict[str, tuple[str, float]] = {
     "added mass": ("added mass at infinite frequency, kg/m", 1.0),
     **{f"wave {number}": (f"ω of wave {number}, rad/s", 1.0) for number in range(1, _WAVES + 1)},
 }
-"""What is compared, by name: in words, and the power of the thinness with which the difference falls."""
+"""Compared quantities by name: description, and power of the thinness with which the difference falls."""
 
 OF_HEAVE = ("heave", "modal mass")
-"""Those of one mode, which may be shared with waves."""
+"""Quantities of the heave mode, which may couple with waves."""
 
 
 def thinness_rows(pairs: Iterable[tuple[Tank, Tank]], modes: int) -> Iterator[ThinnessRow]:
     """Solve both models of a float, one width after the other (collective).
 
-    It ends early where a model does not keep what is asked.
+    It ends early where a model does not keep its tolerance.
 
     Args:
-        pairs: tanks with one float that heaves alone, the same one with thin and with exact boundary; in SI units.
-        modes: how many modes are asked for.
+        pairs: pairs of tanks in SI units, with one float that only heaves: with the thin and the exact condition.
+        modes: number of modes.
 
     Raises:
         EigenSolverError: if the eigen-solver fails.
@@ -169,7 +169,7 @@ def _values(solution: TankSolution) -> dict[str, tuple[float, float]]:
 
 
 def fitted_thinness(rows: Sequence[ThinnessRow]) -> tuple[ThinnessRate, ...]:
-    """Fit the rate of every quantity that three floats show clearly."""
+    """Fit the rate of every quantity whose difference is significant for three floats."""
     rates = []
     for quantity, (_, expected) in QUANTITIES.items():
         used = [row for row in rows if quantity in row.compared and row.compared[quantity].is_clear][-_POINTS:]

@@ -1,4 +1,4 @@
-"""Solve at finer and finer resolutions: each refines what has the largest part in the errors of the one before."""
+"""Solve at successively finer resolutions: each refines the largest contribution to the error of the previous one."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ class Attempt(Generic[Result]):
     Attributes:
         result: the result.
         causes: its relative errors by cause.
-        resolution: with which it was found.
-        missing: how many of the quantities asked for it lacks.
+        resolution: its resolution.
+        missing: number of requested quantities that were not found.
     """
 
     result: Result
@@ -49,19 +49,19 @@ def best_attempt(
     """Return the first attempt whose error is below a tolerance, or the best of a few (collective).
 
     Args:
-        tank: the scene.
-        tolerance: asked relative error; what double precision can keep of it is worked towards.
+        tank: the dimensionless tank.
+        tolerance: largest relative error that is accepted, or what double precision allows, see `workable_tolerance`.
         solve: solves at a resolution.
         first: resolution of the first attempt.
         rounds: largest number of attempts.
-        infinite_frequency: whether it is the infinite-frequency limit.
-        remesh: whether meshes may be made anew; that of the user may not.
+        infinite_frequency: whether the infinite-frequency limit is solved.
+        remesh: whether new meshes may be made; a user mesh is kept.
     """
     tolerance = workable_tolerance(tolerance, tank.depth)
     exponent = sharpest_exponent(tank, infinite_frequency=infinite_frequency)
 
     def finer(resolution: Resolution, attempt: Attempt[Result]) -> Resolution | None:
-        # What is missing beside small errors no finer model brings.
+        # A finer model does not find missing quantities if the errors are small already.
         if attempt.error <= tolerance:
             return None
         return refined(resolution, attempt.causes, tolerance, exponent=exponent, remesh=remesh)

@@ -1,9 +1,9 @@
-"""The first elastic tone: the mode in which a beam's first dry mode takes the largest part.
+"""The first elastic tone: the mode in which a beam's first dry mode has the largest participation.
 
 pₙ = (e₁ᵀ K φₙ)², with the K-normalised dry mode e₁ and K-orthonormal modes φₙ; Σ pₙ = 1. In a tank with a free surface
-the elastic energy is spread over several hybrid modes, the more the shorter the beam beside the water; the tone then
-has a runner-up of nearly the same participation. The pressure-release tone, with ψ = 0 on the water, is always in one
-mode.
+the elastic energy is spread over several hybrid modes, the more the shorter the beam compared with the free surface;
+the tone then has a runner-up of nearly the same participation. The pressure-release tone, with ψ = 0 on the free
+surface, is always a single mode.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ SHARED = 0.5
 """A mode that has more than this part of the largest participation shares the tone."""
 
 LEAST_OF_ONE_MODE = 0.25
-"""A shared tone whose largest participation is less is no single mode's."""
+"""A shared tone whose largest participation is less is not attributed to a single mode."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,11 +30,11 @@ class ElasticTone:
     Attributes:
         body: index of the beam.
         index: index of the mode, from 0.
-        participation: its pₙ.
+        participation: pₙ of that mode.
         runner_up: the next largest pₙ.
         sharing: indices of the first and the last mode that share it.
-        certain: whether no mode that was not computed is expected to have a larger part: what is left is less than
-            the largest part, or the modes reach past the tone and down its flank.
+        certain: whether no mode above the computed ones can have a larger participation: their sum is less than the
+            largest one, or the computed modes extend well above the tone.
     """
 
     body: int
@@ -46,17 +46,17 @@ class ElasticTone:
 
     @property
     def is_shared(self) -> bool:
-        """Whether a second mode has nearly as large a part."""
+        """Whether a second mode has a participation nearly as large."""
         return self.runner_up > SHARED * self.participation
 
     @property
     def is_of_one_mode(self) -> bool:
-        """Whether it makes sense to name a single mode."""
+        """Whether the tone is attributed to a single mode."""
         return not self.is_shared or self.participation >= LEAST_OF_ONE_MODE
 
 
 def participations(modes: ModeSet, bodies: tuple[Body, ...], body: int) -> np.ndarray:
-    """pₙ of a beam's first dry mode, one for each mode."""
+    """Return pₙ of a beam's first dry mode, shape (modes,)."""
     first = bodies[body].dofs.index(FIRST_ELASTIC)
     position, stiffness = sum(other.size for other in bodies[:body]) + first, bodies[body].stiffness[first]
     # Modes have unit generalized mass, so φᵀKφ = λ.
@@ -67,13 +67,13 @@ def participations(modes: ModeSet, bodies: tuple[Body, ...], body: int) -> np.nd
 def elastic_tone(
     modes: ModeSet, bodies: tuple[Body, ...], body: int, *, pressure_release: float | None = None
 ) -> ElasticTone:
-    """The mode of largest participation.
+    """Return the mode of largest participation.
 
     Args:
         modes: the modes.
         bodies: the bodies of the pencil.
         body: index of the beam.
-        pressure_release: λ of its pressure-release tone, about which the participations gather, where there is one.
+        pressure_release: dimensionless λ of its pressure-release tone, near which the participations are large, if any.
     """
     parts = participations(modes, bodies, body)
     order = np.argsort(parts)[::-1]
@@ -92,7 +92,7 @@ def elastic_tone(
 def _reaches_past(modes: ModeSet, parts: np.ndarray, tone: float | None) -> bool:
     """Whether the last fifth of the modes lies above a pressure-release tone, with less than half the largest part.
 
-    Without half of the energy in sight, what looks like a flank is not one.
+    Participations that decrease there with less than half of the energy found are not those above the tone.
     """
     start = len(parts) - len(parts) // 5
     if tone is None or start == len(parts):
@@ -102,8 +102,8 @@ def _reaches_past(modes: ModeSet, parts: np.ndarray, tone: float | None) -> bool
 
 
 def mode_kind(mode: Mode, bodies: tuple[Body, ...], surfaces: tuple[LiquidSurface, ...]) -> str:
-    """What holds most of the potential energy: a motion of the bodies ("heave", "pitch", "sway", "roll", "elastic"),
-    or the liquids: "sloshing" of one liquid, "interface wave" or "surface wave" of two.
+    """Return what has most of the potential energy: a motion of the bodies ("heave", "pitch", "sway", "roll",
+    "elastic"), or the liquids: "sloshing" of one liquid, "interface wave" or "surface wave" of two.
     """
     first = sum(body.size for body in bodies)
     shares = {"sloshing": 0.0}
@@ -119,19 +119,19 @@ def mode_kind(mode: Mode, bodies: tuple[Body, ...], surfaces: tuple[LiquidSurfac
 
 
 def bending_fraction(mode: Mode, bodies: tuple[Body, ...]) -> float:
-    """Strain energy of bending over total potential energy."""
+    """Return the strain energy of bending over the total potential energy."""
     bending = np.concatenate([body.bending_stiffness for body in bodies] or [np.empty(0)])
     return float(bending @ mode.body_amplitudes**2 / mode.eigenvalue)
 
 
 def added_mass(stiffness: float, mass: float, eigenvalue: float, relative_error: float) -> tuple[float, float]:
-    """Added mass m_a = k/λ − m of a tone or a motion from its frequency, and the relative error that follows from ω's.
+    """Return the added mass m_a = k/λ − m of a tone or a motion from its frequency, with its relative error.
 
     Args:
-        stiffness: k: EI κ⁴ + s ρ g of a dry mode, per unit of its shape, or that of a float's motion.
-        mass: m of the dry mode or the float, the same way.
-        eigenvalue: λ = ω².
-        relative_error: of ω.
+        stiffness: generalized stiffness k: EI κ⁴ + s ρ g of a dry mode, or that of a float's motion.
+        mass: generalized mass m of the dry mode or the motion.
+        eigenvalue: λ = ω², in the unit of k/m.
+        relative_error: relative error of ω.
 
     Returns:
         The added mass in the same unit as ``mass``, and its relative error.

@@ -1,4 +1,4 @@
-"""How far a frequency may lie from the exact one, by cause, and what to refine when that is too far."""
+"""Error estimates of frequencies by cause, and the refinement that they imply."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.physics.tank import Tank
 
 ROUNDING_OF_SPREAD = 1e-15
-"""Lanczos leaves a few units of the last place of the largest 1/λ in each."""
+"""Rounding of each 1/λ by the Lanczos method, relative to the largest 1/λ."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,10 +29,10 @@ class FrequencyErrors:
     """Estimated relative errors of some frequencies ω, by cause; each has shape (modes,).
 
     Attributes:
-        liquid: elements away from the tips, and curved boundaries that they follow in polynomials only.
-        tips: the innermost elements at the tips.
-        truncation: dry modes left out.
-        rounding: double precision.
+        liquid: discretization away from the tips, and polynomial approximation of curved boundaries.
+        tips: discretization by the innermost elements at the tips.
+        truncation: omitted dry modes.
+        rounding: rounding in double precision.
     """
 
     liquid: np.ndarray
@@ -42,7 +42,7 @@ class FrequencyErrors:
 
     @property
     def total(self) -> np.ndarray:
-        """All causes together."""
+        """Sum of all causes, shape (modes,)."""
         return self.liquid + self.tips + self.truncation + self.rounding
 
     @property
@@ -51,16 +51,16 @@ class FrequencyErrors:
         return float(self.total.max(initial=0.0))
 
     def scaled(self, factors: float | np.ndarray) -> FrequencyErrors:
-        """What they make of something that moves by so many times each, shape (modes,) or one for all."""
+        """Return the errors times factors, of shape (modes,) or one for all."""
         return FrequencyErrors(**{cause.name: getattr(self, cause.name) * factors for cause in fields(self)})
 
     def largest(self, cause: str) -> float:
-        """The largest over the modes of one cause."""
+        """Return the largest error of one cause."""
         return float(getattr(self, cause).max(initial=0.0))
 
 
 def joined_errors(errors: list[FrequencyErrors], reduced: float = 0.0) -> FrequencyErrors:
-    """The errors of several lists as those of one list; that of a reduced basis counts as one of the liquid's."""
+    """Concatenate errors; the error of a reduced basis is added to those of the liquid."""
     names = [cause.name for cause in fields(FrequencyErrors)]
     joined = FrequencyErrors(**{name: np.concatenate([getattr(each, name) for each in errors]) for name in names})
     return replace(joined, liquid=joined.liquid + reduced)
@@ -79,11 +79,11 @@ def frequency_errors(
 
     Args:
         solution: the modes at one resolution.
-        modes: the modes to judge, with their ψ.
-        parts: which of the solution's parts each belongs to.
-        resolution: that resolution.
-        tank: the scene.
-        infinite_frequency: whether it is the infinite-frequency limit.
+        modes: the modes, with their ψ.
+        parts: index of the part of the solution that each mode belongs to.
+        resolution: resolution of the solution.
+        tank: the dimensionless tank.
+        infinite_frequency: whether the solution is that of the infinite-frequency limit.
     """
     liquid, tips = np.empty(len(modes)), np.empty(len(modes))
     for number, part in enumerate(solution.parts):
@@ -115,10 +115,14 @@ def energies_missed(
     half: bool,
     infinite_frequency: bool,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Estimate the kinetic energy that some ψ lack, away from the tips and at them, each of shape (potentials,)
-    (collective)."""
+    """Estimate the energy error ∫ρ|∇(ψ − ψ_h)|² of potentials away from tips and at tips, each of shape (potentials,)
+    (collective).
+
+    Raises:
+        EigenSolverError: if an energy is not finite.
+    """
     mesh = liquid.tank.mesh
-    # Without rings no element is made for the tips.
+    # Without rings there are no elements of the tips.
     corners = np.empty((0, 2))
     if resolution.tip_size is not None:
         corners = tip_points(tank, half=half, infinite_frequency=infinite_frequency)
@@ -126,7 +130,7 @@ def energies_missed(
     at_tips = mesh.comm.allreduce(cells[:, cells_at(mesh, corners)].sum(axis=1), op=MPI.SUM)
     whole = mesh.comm.allreduce(cells.sum(axis=1), op=MPI.SUM)
     if not np.all(np.isfinite(whole)):
-        # Comparisons with a tolerance would let it pass.
+        # Comparisons of NaN with a tolerance are false.
         raise EigenSolverError("the error of a mode cannot be estimated: its energy is not a number")
     return whole - at_tips, at_tips
 
@@ -145,10 +149,10 @@ def added_mass_errors(
     Args:
         liquid: the space of ψ.
         potentials: ψ of a unit of each motion.
-        added_mass: of each, with which its error is compared, shape (motions,).
-        tank: the scene.
-        resolution: of the mesh.
-        half: whether it is that of half the tank.
+        added_mass: scale of the error of each motion, shape (motions,).
+        tank: the dimensionless tank.
+        resolution: resolution of the mesh.
+        half: whether the mesh is that of the left half of the tank.
     """
     away, tips = energies_missed(liquid, potentials, tank, resolution, half=half, infinite_frequency=True)
     return FrequencyErrors(
@@ -160,9 +164,9 @@ def added_mass_errors(
 
 
 def boundary_error(mesh: TankMesh, tank: Tank) -> float:
-    """Relative error of frequencies from cells that miss a float's contour by δ, an upper estimate.
+    """Return an upper estimate of the relative error of frequencies from a deviation δ of the cells from a contour.
 
-    Between nodes the boundary lies now on one side of the contour, now on the other, and most of it cancels. Measured
+    Between nodes the deviation changes its sign, and most of its effect cancels. Measured
     on circles, ellipses 10:1 and 1:10 and parabolas, degrees 2 to 8: 0.05 to 0.8 times 10 (δ/s)^{3/2}, less above it,
     with the smallest extent s of the contour.
     """
@@ -173,17 +177,17 @@ def boundary_error(mesh: TankMesh, tank: Tank) -> float:
 def refined(
     resolution: Resolution, errors: FrequencyErrors, tolerance: float, *, exponent: float, remesh: bool
 ) -> Resolution | None:
-    """What to solve next, so that each cause keeps its part of the tolerance.
+    """Return a finer resolution, with which each cause is expected to keep its part of the tolerance.
 
     Args:
-        resolution: the last one.
-        errors: what it gave.
-        tolerance: of the frequencies.
+        resolution: the last resolution.
+        errors: errors at the last resolution.
+        tolerance: tolerance of the frequencies.
         exponent: α of ψ ~ r^α at the sharpest tips.
-        remesh: whether meshes may be made anew; that of the user may not.
+        remesh: whether new meshes may be made; a user mesh is kept.
 
     Returns:
-        The next resolution; ``None`` where rounding alone exceeds the tolerance, or all is at its limit.
+        The next resolution; ``None`` where rounding alone exceeds the tolerance, or no refinement is left.
     """
     if errors.largest("rounding") > tolerance:
         return None

@@ -12,7 +12,7 @@ from hydroelastic.fem.liquid import Layer, liquid_matrices, liquid_space
 from hydroelastic.fem.pencil import CoupledPencil, build_pencil
 from hydroelastic.fem.surfaces import Body, LiquidSurface
 from hydroelastic.fem.tank.mesh import check_mesh, make_mesh
-from hydroelastic.fem.tank.outline import grounded_names, layer_names
+from hydroelastic.fem.tank.outline import layer_names, zero_potential_surfaces
 from hydroelastic.fem.tank.resolution import Resolution
 from hydroelastic.meshes.distribute import TankMesh, distribute_mesh
 from hydroelastic.meshes.geometry import FAR_END, FREE_SURFACE, INTERFACE, SYMMETRY_PLANE
@@ -24,13 +24,13 @@ from hydroelastic.physics.tank import Tank
 def build_mesh(
     comm: MPI.Comm, tank: Tank, resolution: Resolution, *, half: bool = False, infinite_frequency: bool = False
 ) -> TankMesh:
-    """Mesh a scene, or its left half, with gmsh on rank 0 and distribute it (collective).
+    """Mesh a scaled tank, or its left half, with gmsh on rank 0 and distribute it (collective).
 
     Args:
         comm: MPI communicator.
-        tank: the scene.
+        tank: the dimensionless tank.
         resolution: sizes of elements.
-        half: whether the scene is its own mirror image, and the left half is meant.
+        half: whether the left half of a symmetric tank is meshed.
         infinite_frequency: whether the mesh is for the infinite-frequency limit.
     """
     return distributed_mesh(comm, lambda: make_mesh(tank, resolution, half=half, infinite_frequency=infinite_frequency))
@@ -47,7 +47,7 @@ def distributed_mesh(comm: MPI.Comm, make: Callable[[], TaggedMesh]) -> TankMesh
         try:
             tagged = make()
         except Exception as error:
-            # Whatever it is, the other processes wait to hear of it.
+            # Any error must reach the other processes, which wait for the mesh.
             problem = str(error) or type(error).__name__
     problem = comm.bcast(problem, root=0)
     if problem:
@@ -77,11 +77,11 @@ def build_field_model(
 
     Args:
         mesh: the liquid's mesh.
-        tank: the scene.
+        tank: the dimensionless tank.
         degree: polynomial degree of ψ.
         shapes: number of dry modes of each beam, 0 for floats.
-        infinite_frequency: the infinite-frequency limit whatever the scene says: ψ = 0 on an open top, and two liquids
-            move as one, on a mesh that is made for it.
+        infinite_frequency: whether to assemble the infinite-frequency limit, ψ = 0 on an open top and ρψ continuous
+            across an open interface, on a mesh for that limit.
 
     Returns:
         The dimensionless pencil (collective).
@@ -103,21 +103,21 @@ def build_half_models(
 
     Args:
         mesh: the mesh of the half.
-        tank: the whole scene.
+        tank: the whole dimensionless tank.
         degree: polynomial degree of ψ.
         shapes: number of dry modes of each beam of the whole tank, 0 for floats.
-        infinite_frequency: the infinite-frequency limit.
-        parities: which problems.
+        infinite_frequency: whether to assemble the infinite-frequency limit.
+        parities: symmetries of the problems.
 
     Returns:
         A pencil for each of the parities, with energies of half the tank (collective). A body that the mirror plane
-        cuts keeps its shapes of that parity; of two bodies that are mirror images the left one is there.
+        cuts keeps its shapes of that parity; of two bodies that are mirror images it has the left one.
     """
     return _field_models(mesh, tank, degree, shapes, infinite_frequency, parities)
 
 
 def moving_parities(tank: Tank, shapes: tuple[int, ...], *, infinite_frequency: bool) -> tuple[Parity, ...]:
-    """The symmetries in which something moves: none of a lid's, and none above the waves that no body has."""
+    """Return the symmetries with unknowns: with a lid or at infinite frequency those of the shapes of bodies only."""
     if not infinite_frequency and tank.has_waves:
         return PARITIES
     return tuple(parity for parity in PARITIES if any(body.size for body in _half_bodies(tank, shapes, parity)))
@@ -132,28 +132,30 @@ def _field_models(
     parities: tuple[Parity | None, ...],
 ) -> tuple[CoupledPencil, ...]:
     surfaces = () if infinite_frequency else moving_surfaces(mesh, tank)
-    grounded = (
-        *grounded_names(tank, infinite_frequency=infinite_frequency),
+    zero_potential = (
+        *zero_potential_surfaces(tank, infinite_frequency=infinite_frequency),
         *((FAR_END,) if FAR_END in mesh.facet_names else ()),
     )
     layers = tuple(
         Layer(name=name, density=layer.density) for name, layer in zip(layer_names(tank), tank.layers, strict=True)
     )
-    liquid = liquid_space(mesh, degree, grounded, layers, continuous_pressure=infinite_frequency and tank.moves_as_one)
+    liquid = liquid_space(
+        mesh, degree, zero_potential, layers, continuous_pressure=infinite_frequency and tank.has_continuous_pressure
+    )
     matrices = liquid_matrices(liquid, tuple(surface.surface for surface in surfaces))
     pencils = []
     for parity in parities:
         plane = (SYMMETRY_PLANE,) if parity == "antisymmetric" else ()
         bodies = whole_bodies(tank, shapes) if parity is None else _half_bodies(tank, shapes, parity)
-        part = replace(liquid, grounded=liquid.grounded + plane)
-        # A float in the middle may have no motion of this parity, and a beam may be held still.
+        part = replace(liquid, zero_potential=liquid.zero_potential + plane)
+        # A float in the middle may have no motion of this parity, and a beam may be fixed.
         moving = tuple(body for body in bodies if body.size)
         pencils.append(build_pencil(part, matrices, bodies=moving, surfaces=surfaces))
     return tuple(pencils)
 
 
 def moving_surfaces(mesh: TankMesh, tank: Tank) -> tuple[LiquidSurface, ...]:
-    """The surfaces of the liquids on which gravity waves travel."""
+    """Return the surfaces of the liquids on which gravity waves travel."""
     surfaces = (
         LiquidSurface(
             surface=FREE_SURFACE if level.above is None else INTERFACE,
@@ -168,9 +170,9 @@ def moving_surfaces(mesh: TankMesh, tank: Tank) -> tuple[LiquidSurface, ...]:
 
 
 def whole_bodies(tank: Tank, shapes: tuple[int, ...]) -> tuple[Body, ...]:
-    """Every beam of a tank in its first dry modes, every float in its motions, in the scene's order.
+    """Return every beam of a tank in its first dry modes, every float in its motions, in the order of the tank.
 
-    A beam without dry modes is held still.
+    A beam without dry modes is fixed. ``shapes`` has the number of dry modes of each beam, 0 for floats.
     """
     return tuple(body_model(tank, index).moving(count, None) for index, count in enumerate(shapes))
 

@@ -1,7 +1,6 @@
 """Solve a scene at one resolution: a whole tank, or the two halves of a tank that is its own mirror image.
 
-Modes of the halves are put in one ascending list and written in the bodies of the whole tank, so that nothing later
-needs to know how they were found.
+Modes of the halves are sorted into one ascending list, with the amplitudes of the bodies of the whole tank.
 """
 
 from __future__ import annotations
@@ -36,9 +35,9 @@ class Part:
     """One eigenproblem of a scene.
 
     Attributes:
-        parity: which modes it holds; ``None`` is all of them, on the whole tank.
-        pencil: its matrices.
-        modes: its modes, with energies of its part of the tank.
+        parity: symmetry of its modes; ``None`` is all of them, on the whole tank.
+        pencil: matrices of the part.
+        modes: modes of the part, with energies of its part of the tank.
     """
 
     parity: Parity | None
@@ -55,8 +54,8 @@ class FieldSolution:
         parts: the eigenproblems.
         bodies: the bodies of the whole tank.
         modes: the lowest modes of all parts, ascending, in the bodies of the whole tank at unit generalized mass.
-        origins: part and index there of each of them.
-        growing_parts: part of each of the growing modes.
+        origins: index of the part, and index in that part, of each mode.
+        growing_parts: index of the part of each growing mode.
     """
 
     mesh: TankMesh
@@ -67,17 +66,17 @@ class FieldSolution:
     growing_parts: tuple[int, ...] = ()
 
     def parts_of(self, indices: list[int]) -> list[int]:
-        """The part of each of some modes."""
+        """Return the index of the part of each of some modes."""
         return [self.origins[index][0] for index in indices]
 
     @property
     def dofs(self) -> int:
-        """Unknowns of ψ and of the surfaces, over all parts."""
+        """Number of unknowns of ψ and of the surfaces, over all parts."""
         return sum(part.pencil.liquid.size + part.pencil.size for part in self.parts)
 
     @property
     def surface_unknowns(self) -> int:
-        """Unknowns of the surfaces, over all parts."""
+        """Number of unknowns of the surfaces, over all parts."""
         return sum(part.pencil.size for part in self.parts)
 
     @property
@@ -91,7 +90,7 @@ class FieldSolution:
         return self.parts[0].pencil.surfaces
 
     def parity(self, index: int) -> Parity | None:
-        """Symmetry of a mode; ``None`` where the whole tank was solved."""
+        """Return the symmetry of a mode; ``None`` where the whole tank was solved."""
         return self.parts[self.origins[index][0]].parity
 
 
@@ -104,18 +103,15 @@ def solve_field(
     *,
     half: bool,
 ) -> FieldSolution:
-    """Assemble and solve for the lowest modes.
+    """Assemble and solve for the lowest modes (collective).
 
     Args:
         mesh: the mesh, of the left half if ``half``.
-        tank: the scene.
+        tank: the dimensionless tank.
         resolution: degree and number of dry modes.
-        count: how many modes; fewer come back if the model has fewer.
-        watch: told the time of compiling the form, of assembly and of solution.
-        half: whether the tank is its own mirror image and is solved as two halves.
-
-    Returns:
-        The modes (collective).
+        count: number of modes; fewer are returned if the model has fewer.
+        watch: records the time of compiling the form, of assembly and of solution.
+        half: whether a symmetric tank is solved as two halves.
 
     Raises:
         EigenSolverError: if SLEPc stops before enough pairs have converged.
@@ -137,16 +133,16 @@ def part_models(
     half: bool,
     infinite_frequency: bool = False,
 ) -> PartPencils:
-    """The problems of a scene by their symmetries: one of the whole tank, or those of its halves in which something
-    moves (collective).
+    """Assemble the problems of a tank by their symmetries: one of the whole tank, or those of its halves that have
+    unknowns (collective).
 
     Args:
         mesh: the mesh, of the left half if ``half``.
-        tank: the scene.
+        tank: the dimensionless tank.
         degree: polynomial degree of ψ.
         shapes: number of dry modes of each beam, 0 for floats.
-        half: whether the tank is its own mirror image and is solved as two halves.
-        infinite_frequency: the infinite-frequency limit, on a mesh that is made for it.
+        half: whether a symmetric tank is solved as two halves.
+        infinite_frequency: whether to assemble the infinite-frequency limit, on a mesh for that limit.
     """
     if not half:
         pencil = build_field_model(mesh, tank, degree=degree, shapes=shapes, infinite_frequency=infinite_frequency)
@@ -171,8 +167,8 @@ def solve_parts(mesh: TankMesh, tank: Tank, shapes: tuple[int, ...], pencils: Pa
 
 
 def _solved_parts(pencils: PartPencils, count: int) -> list[Part]:
-    """Solve each part for its share of the modes, and the ones that fall short for more."""
-    # The two kinds of modes alternate but for a rigid motion or two.
+    """Solve each part for its share of the modes, and for more where the shares are not enough."""
+    # Symmetric and antisymmetric modes alternate, except for a rigid motion or two.
     shares = [count] if len(pencils) == 1 else [count // 2 + 2] * len(pencils)
     parts = [
         Part(parity=parity, pencil=pencil, modes=solve_modes(pencil, share, shapes=0))
@@ -180,7 +176,7 @@ def _solved_parts(pencils: PartPencils, count: int) -> list[Part]:
     ]
     while True:
         limit = _rounding_limit(parts)
-        # A part that gives fewer than asked has no more, or rounding hides them.
+        # A part that gives fewer than requested has no more above rounding.
         reached = [
             min(part.modes.eigenvalues[-1], limit) if len(part.modes.eigenvalues) == share else limit
             for part, share in zip(parts, shares, strict=True)
@@ -194,7 +190,7 @@ def _solved_parts(pencils: PartPencils, count: int) -> list[Part]:
 
 
 def _rounding_limit(parts: list[Part]) -> float:
-    """The λ beyond which the lowest mode of all parts hides others: what one part still sees the other may not."""
+    """Return the λ above which modes are lost in the rounding of the lowest mode of all parts."""
     lowest = (float(part.modes.eigenvalues[0]) for part in parts if len(part.modes.eigenvalues))
     return min(lowest, default=np.inf) / HIDDEN
 
@@ -241,8 +237,9 @@ def _merged(mesh: TankMesh, tank: Tank, shapes: tuple[int, ...], parts: list[Par
 
 
 def _extended(mode: Mode, extension: np.ndarray) -> Mode:
-    """A mode in the bodies of the whole tank; its ζ and ψ stay those of its part, at unit generalized mass there."""
-    # Each unknown's share goes to the bodies of the whole tank as the squares of the amplitudes do.
+    """Return a mode in the unknowns of all bodies; its ζ and ψ are those of its part, at unit generalized mass
+    there."""
+    # The energy of each unknown is divided among the bodies of the whole tank like the squares of their amplitudes.
     squares = extension**2
     own = extension.shape[1]
     shares = (squares / squares.sum(axis=0)) @ mode.energy[:own]
@@ -254,7 +251,8 @@ def _extended(mode: Mode, extension: np.ndarray) -> Mode:
 
 
 def extension(tank: Tank, bodies: tuple[Body, ...], parity: Parity | None) -> np.ndarray:
-    """Matrix from the body unknowns of a part to those of the whole tank, both at their unit generalized mass."""
+    """Return the matrix from the body unknowns of a part to those of the whole tank, each at unit generalized mass,
+    shape (unknowns of the whole tank, unknowns of the part)."""
     size = sum(body.size for body in bodies)
     if parity is None:
         return np.eye(size)
@@ -268,14 +266,15 @@ def extension(tank: Tank, bodies: tuple[Body, ...], parity: Parity | None) -> np
             column = np.zeros(size)
             column[offsets[body] + number] = np.sqrt(0.5)
             if twin != body:
-                # Seen from the other side, odd shapes change their sign.
+                # In the mirror image odd shapes change their sign.
                 column[offsets[twin] + number] = np.sqrt(0.5) if own == parity else -np.sqrt(0.5)
             columns.append(column)
     return np.array(columns).reshape(len(columns), size).T
 
 
 def count_is_confirmed(solution: FieldSolution) -> bool:
-    """Count the modes below the widest of the last gaps by inertia, in each part."""
+    """Whether the inertia of K − σM in each part confirms the number of modes below σ, in the widest of the last
+    gaps."""
     values = solution.modes.eigenvalues
     if len(values) < 2:
         shift = 2.0 * float(values[-1]) if len(values) else 1.0

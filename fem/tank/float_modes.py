@@ -1,8 +1,8 @@
-"""The mode of each motion of a float: that in which it moves most.
+"""The mode of each motion of a float: the one with the largest amplitude of that motion.
 
 At unit generalized mass a motion of amplitude a has the modal mass 1/a²; the mode of the motion is the one with the
-smallest. In a tank the resonance of a float is shared with the waves near it: where the runner-up is close, there is no
-such thing as its one natural frequency.
+smallest. In a tank the resonance of a float couples with standing waves of nearby frequencies: where the runner-up is
+close, the motion has no single natural frequency.
 """
 
 from __future__ import annotations
@@ -18,21 +18,21 @@ from hydroelastic.fem.tank.infinite_frequency import InfiniteFrequencyAddedMass
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.physics.tank import Tank
 
-# A motion with a smaller part of a mode's kinetic energy is held: what is left of it is rounding.
-_HELD = 1e-18
+# A motion with a smaller part of a mode's kinetic energy is constrained, and its amplitude rounding.
+_CONSTRAINED = 1e-18
 # A runner-up with less than so many times the smallest modal mass makes the mode of a motion a shared one.
 _SHARED = 2.0
 
 
 @dataclass(frozen=True, kw_only=True)
 class FloatMode:
-    """The mode of a motion that gravity restores.
+    """The mode of a motion with restoring force.
 
     Attributes:
         body: index of the float among the bodies.
-        motion: which.
-        index: of the mode, from 0; ``None`` where it is not one of the modes computed.
-        reason: why there is none, or "".
+        motion: degree of freedom.
+        index: index of the mode, from 0; ``None`` where it is not one of the computed modes.
+        reason: why there is no mode, or "".
         stiffness: hydrostatic stiffness of the motion, in units of the tank.
         inertia: mass or moment of inertia of the float, in units of the tank.
         modal_mass: smallest 1/a², in units of the tank.
@@ -50,7 +50,7 @@ class FloatMode:
 
     @property
     def is_shared(self) -> bool:
-        """Whether waves or other bodies share the motion, so that no mode is its alone."""
+        """Whether a second mode has nearly the same amplitude, by coupling with waves or other bodies."""
         return self.index is not None and self.runner_up < _SHARED * self.modal_mass
 
 
@@ -65,7 +65,7 @@ class _Motion:
 
 
 def _restored(tank: Tank, bodies: tuple[Body, ...]) -> list[_Motion]:
-    """The motions of floats that have a stiffness, with their places among the unknowns of all bodies."""
+    """Return the motions of floats with restoring force, with their indices among the unknowns of all bodies."""
     offsets = np.cumsum([0, *(body.size for body in bodies)])
     return [
         _Motion(
@@ -95,11 +95,11 @@ def float_modes(
     """Find the mode of each motion.
 
     Args:
-        tank: the scene.
+        tank: the dimensionless tank.
         bodies: its bodies in the field model.
-        modes: the modes computed.
-        added: the floats' added mass at infinite frequency.
-        complete: whether they are all that there are.
+        modes: the computed modes.
+        added: added mass of the floats at infinite frequency.
+        complete: whether the computed modes are all modes of the tank.
     """
     found = []
     for motion in _restored(tank, bodies):
@@ -111,7 +111,7 @@ def float_modes(
         limit = motion.stiffness / (motion.mass + more)
         certain = complete or bool(modes.eigenvalues[-1] >= 0.8 * FAR_ENOUGH * limit)
         reason = ""
-        if complete and motion.mass * moved.max(initial=0.0) < _HELD:
+        if complete and motion.mass * moved.max(initial=0.0) < _CONSTRAINED:
             reason = "conservation of volume excludes it"
         elif not certain or not np.any(moved):
             reason = "it may lie above the modes computed; ask for more modes"
@@ -131,6 +131,6 @@ def float_modes(
 
 
 def _inverse(squares: np.ndarray, order: np.ndarray, place: int) -> float:
-    """1/a² of the motion in that place of an order of the modes; infinite where there is none."""
+    """Return 1/a² of the mode at a place of an order; infinite where there is none."""
     largest = squares[order[place]] if place < len(order) else 0.0
     return float(1.0 / largest) if largest > 0.0 else np.inf

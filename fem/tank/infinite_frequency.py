@@ -1,9 +1,9 @@
 """The infinite-frequency limit of a tank: ψ = 0 on an open top, the pressure continuous across interfaces, no waves.
 
-It has a mesh of its own, for all bodies: no elements for waves, but sharper tips. Beams take from it their
-pressure-release tones: in a tank with waves the elastic energy of a stiff beam is spread over several modes, here it is
-always in one mode, smooth in every parameter. Floats take their added mass, with beams held still. The Ritz method
-gives it from below: M_a − M_a,h = ρ∫|∇(ψ − ψ_h)|², the missing energy of the motion.
+It has a mesh of its own: without refinement for waves, but with stronger grading at tips. It gives the pressure-release
+tones of beams: in a tank with waves the elastic energy of a stiff beam is spread over several modes, here it is in one
+mode, which depends smoothly on all parameters. It gives the added mass of floats beside fixed beams, by the Ritz method
+from below: M_a − M_a,h = ρ∫|∇(ψ − ψ_h)|², the energy error.
 """
 
 from __future__ import annotations
@@ -41,11 +41,11 @@ _NO_LIQUID = 1e-9
 
 @dataclass(frozen=True, kw_only=True)
 class PressureReleaseTone:
-    """The first elastic tone of a beam at ψ = 0 on the water.
+    """The first elastic tone of a beam with ψ = 0 on the free surface.
 
     Attributes:
-        eigenvalue: its λ.
-        error: estimated relative error of its ω.
+        eigenvalue: dimensionless λ.
+        error: estimated relative error of ω.
     """
 
     eigenvalue: float
@@ -57,34 +57,35 @@ class InfiniteFrequencyAddedMass:
     """Added mass of all motions of all floats, in units of the tank.
 
     Attributes:
-        matrix: symmetric, shape (motions, motions), the floats in the scene's order; beams are held still.
-        error: estimated error of each entry, as a part of the root of its row's and column's diagonal entries.
+        matrix: symmetric, shape (motions, motions), the floats in the order of the tank; beams are fixed.
+        error: estimated error of each entry (i, j), relative to the root of the product of the diagonal entries i and
+            j.
     """
 
     matrix: np.ndarray
     error: float
 
     def block(self, tank: Tank, body: int) -> np.ndarray:
-        """The part of one float, of its own motions in its own movement, shape (motions, motions)."""
+        """Return the block of one float, shape (motions, motions)."""
         first = sum(len(tank.bodies[index].rigid_motions) for index in tank.rigid if index < body)
         own = slice(first, first + len(tank.bodies[body].rigid_motions))
         return self.matrix[own, own]
 
     def principal(self, tank: Tank, body: int, motions: np.ndarray) -> np.ndarray:
-        """Added mass of each of a float's principal motions, shape (motions,), by `Body.motions`."""
+        """Return the added mass of each principal motion of a float, shape (motions,), from `Body.motions`."""
         added: np.ndarray = np.diag(motions.T @ self.block(tank, body) @ motions)
         return added
 
 
 @dataclass(frozen=True, kw_only=True)
 class InfiniteFrequencyLimit:
-    """What bodies take from the limit.
+    """Results of the limit.
 
     Attributes:
-        tones: of each beam, ``None`` where it is not among the modes of the model, or rounding hides it; none at all
-            where there are no waves to be far above.
-        eigenvalues: λ of the lowest modes, if there are tones.
-        added_mass: of the floats; ``None`` without floats, or where a lid leaves no such limit.
+        tones: tone of each beam, ``None`` where it is not among the modes of the model or is lost in rounding; empty in
+            a tank without waves, whose limit is the tank itself.
+        eigenvalues: dimensionless λ of the lowest modes, if there are tones.
+        added_mass: added mass of the floats; ``None`` without floats, or under a lid, where there is no such limit.
     """
 
     tones: tuple[PressureReleaseTone | None, ...] = ()
@@ -103,20 +104,20 @@ def infinite_frequency_limit(
     user_mesh: TankMesh | None = None,
     report: Report = lambda _message: None,
 ) -> InfiniteFrequencyLimit:
-    """Solve for it to a tolerance, or as near to it as a few attempts come.
+    """Solve the limit to a tolerance, or return the best of a few attempts (collective).
 
     Args:
         comm: MPI communicator.
-        tank: the scene.
-        first: resolution of the first attempt, of `infinite_frequency_resolution`.
-        tolerance: asked relative error.
-        watch: told the time.
-        half: whether the tank is its own mirror image and is solved as two halves.
-        user_mesh: a mesh that is to be used, instead of ours.
-        report: told what is being done.
+        tank: the dimensionless tank.
+        first: resolution of the first attempt, see `infinite_frequency_resolution`.
+        tolerance: largest relative error that is accepted.
+        watch: records the time by stage.
+        half: whether a symmetric tank is solved as two halves.
+        user_mesh: a user mesh instead of the built-in one.
+        report: receives messages on the progress.
 
     Returns:
-        What the bodies take from it; nothing, without a solution, where there is no such limit (collective).
+        The results; empty where there is no such limit.
     """
     has_tones, has_added_mass = tank.elastic and tank.has_waves, tank.rigid and tank.has_infinite_frequency_limit
     if not has_tones and not has_added_mass:
@@ -131,7 +132,7 @@ def infinite_frequency_limit(
         with watch.stage(stage):
             mesh = user_mesh or build_mesh(comm, tank, resolution, half=half, infinite_frequency=True)
         with watch.stage("forms"):
-            compile_form(mesh, resolution.degree, continuous_pressure=tank.moves_as_one)
+            compile_form(mesh, resolution.degree, continuous_pressure=tank.has_continuous_pressure)
         shapes = resolution.shapes if has_tones else (0,) * len(tank.bodies)
         with watch.stage(stage):
             pencils = part_models(mesh, tank, resolution.degree, shapes, half=half, infinite_frequency=True)
@@ -163,7 +164,7 @@ def _with_tones(
     pencils: PartPencils,
     tolerance: float,
 ) -> tuple[InfiniteFrequencyLimit, FrequencyErrors]:
-    """Solve for more and more modes until they hold the tone of each beam."""
+    """Solve for more modes until they contain the tone of each beam."""
     count = resolution.modes
     while True:
         field = solve_parts(mesh, tank, resolution.shapes, pencils, count)
@@ -187,7 +188,7 @@ def _with_tones(
 
 
 def _is_hidden(field: FieldSolution, tone: ElasticTone, tolerance: float) -> bool:
-    """Whether a beam is rigid to double precision: its tone lies so far above other modes that rounding hides it."""
+    """Whether a beam is rigid to double precision: its tone is lost in the rounding of the lowest mode."""
     values = field.modes.eigenvalues
     return bool(ROUNDING_OF_SPREAD * values[tone.index] > tolerance * values[0])
 
@@ -195,7 +196,7 @@ def _is_hidden(field: FieldSolution, tone: ElasticTone, tolerance: float) -> boo
 def _added_mass(
     tank: Tank, resolution: Resolution, shapes: tuple[int, ...], pencils: PartPencils
 ) -> tuple[InfiniteFrequencyAddedMass, FrequencyErrors]:
-    """The floats' part of the added mass of all bodies, with its relative errors."""
+    """Return the added mass of the floats, with its relative errors."""
     bodies = whole_bodies(tank, shapes)
     of_floats = np.repeat([index in tank.rigid for index in range(len(bodies))], [body.size for body in bodies])
     matrix = np.zeros((of_floats.sum(), of_floats.sum()))
@@ -217,17 +218,19 @@ def _added_mass(
 
 
 def _restriction(tank: Tank, bodies: tuple[Body, ...], parity: Parity | None) -> np.ndarray:
-    """From motions of the whole tank to those of a part (as columns), so that energies of all parts add up."""
+    """Return the map from motions of the whole tank to those of a part (columns), with which energies of parts add
+    up."""
     columns = extension(tank, bodies, parity)
     if parity is None:
         return columns
-    # A body that the mirror plane cuts moves alike in both halves; of twins each half has the mean, or the difference.
+    # A body cut by the mirror plane has the same motion in both halves; of two mirrored bodies each half has the
+    # mean, or the difference.
     restriction: np.ndarray = np.sqrt(2.0) * np.sign(columns) / np.count_nonzero(columns, axis=0)
     return restriction
 
 
 def _is_relevant(tank: Tank, restriction: np.ndarray, added: np.ndarray) -> np.ndarray:
-    """Whether each motion of a part moves liquid: a circle that turns about its centre does not."""
+    """Whether each motion of a part moves liquid, shape (motions,): a circle that rotates about its centre does not."""
     scales = np.array(
         [
             tank.hulls[index].smallest_extent ** (4 if motion.is_rotation else 2)

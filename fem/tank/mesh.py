@@ -1,4 +1,4 @@
-"""The liquid of a scaled scene as a mesh on one process: made by gmsh, or the user's own after a check. No dolfinx."""
+"""The mesh of the liquid of a scaled tank on one process, by gmsh, and the check of a user mesh. No dolfinx."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ from hydroelastic.fem.tank.resolution import Resolution, sharpest_exponent
 from hydroelastic.fem.tank.singularities import tank_singular_points
 from hydroelastic.meshes.geometry import FREE_SURFACE, LID, LIQUID, TankGeometry, tank_geometry
 from hydroelastic.meshes.grading import Grading
-from hydroelastic.meshes.outline import Corner, Outline
+from hydroelastic.meshes.outline import GradedPoint, Outline
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 from hydroelastic.physics.dofs import body_name
 from hydroelastic.physics.tank import Tank
 
-# A user mesh may miss the scene's abscissae by this part of the tank's length: files round.
+# Largest deviation of a user mesh from the scene, by rounding in files, in tank lengths.
 _MESH_ROUNDING = 1e-6
 
 
 def geometry_of(tank: Tank, *, half: bool = False) -> TankGeometry:
-    """The outline of a tank with one liquid and no floats, or of its left half, with the names of its top."""
+    """Return the outline of a tank with one liquid and no floats, or of its left half, with the names of its top."""
     rest = LID if tank.top == "rigid" else FREE_SURFACE
     length = 0.5 if half else 1.0
     pieces = tuple(
@@ -35,13 +35,13 @@ def geometry_of(tank: Tank, *, half: bool = False) -> TankGeometry:
 def make_mesh(
     tank: Tank, resolution: Resolution, *, half: bool = False, infinite_frequency: bool = False
 ) -> TaggedMesh:
-    """Mesh a scene, or its left half, with gmsh; in units of the tank.
+    """Mesh a scaled tank, or its left half, with gmsh; in units of the tank.
 
     Args:
-        tank: the scene.
-        resolution: sizes of elements, and the degree, which curved cells have too.
-        half: whether the scene is its own mirror image, and the left half is meant.
-        infinite_frequency: whether the mesh is for the infinite-frequency limit, in which liquids move as one.
+        tank: the dimensionless tank.
+        resolution: sizes of elements, and the degree, which is also that of curved cells.
+        half: whether the left half of a symmetric tank is meshed.
+        infinite_frequency: whether the mesh is for the infinite-frequency limit.
 
     Raises:
         MeshError: if gmsh fails.
@@ -70,7 +70,7 @@ def make_mesh(
 
 
 def graded_outline(tank: Tank, resolution: Resolution, *, half: bool, infinite_frequency: bool) -> Outline:
-    """The outline of a scene with rings at its singular points, each as deep as its singularity asks for."""
+    """Return the outline of a tank with graded points at its singular points, graded according to their exponents."""
     contours = {
         piece.body: size
         for piece, size in zip(tank.pieces, resolution.surface_sizes, strict=True)
@@ -83,19 +83,19 @@ def graded_outline(tank: Tank, resolution: Resolution, *, half: bool, infinite_f
     exponent = sharpest_exponent(tank, infinite_frequency=infinite_frequency)
     depth = resolution.tip_size / resolution.ring_size
     points = tank_singular_points(tank, sizes, half=half, infinite_frequency=infinite_frequency)
-    corners = tuple(
-        Corner(
+    graded_points = tuple(
+        GradedPoint(
             point=point.point,
-            inner=min(resolution.ring_size, point.reach) * depth ** (exponent / point.exponent),
-            outer=min(point.reach, 0.45 * tank.depth),
+            inner=min(resolution.ring_size, point.grading_distance) * depth ** (exponent / point.exponent),
+            outer=min(point.grading_distance, 0.45 * tank.depth),
         )
         for point in points
     )
-    return replace(outline, corners=corners)
+    return replace(outline, graded_points=graded_points)
 
 
 def tip_points(tank: Tank, *, half: bool, infinite_frequency: bool = False) -> np.ndarray:
-    """Where meshes of a scene are graded to, shape (points, 2)."""
+    """Return the points towards which meshes of a tank are graded, in units of the tank, shape (points, 2)."""
     if is_plain(tank):
         return np.array([[tip, 0.0] for tip in geometry_of(tank, half=half).tips]).reshape(-1, 2)
     points = tank_singular_points(tank, unsized(tank), half=half, infinite_frequency=infinite_frequency)
@@ -103,20 +103,20 @@ def tip_points(tank: Tank, *, half: bool, infinite_frequency: bool = False) -> n
 
 
 def is_plain(tank: Tank) -> bool:
-    """Whether the liquid is a rectangle whose top is cut into pieces, with beams that are smooth on each."""
+    """Whether the liquid is a single rectangle, with beams without joints or steps on its top."""
     return len(tank.layers) == 1 and not tank.hulls and not any(body.nodes for body in tank.bodies)
 
 
 def unknown_count(points: int, triangles: int, degree: int, *, parts: int = 1) -> int:
     """Number of unknowns of a continuous polynomial of a degree on simply connected meshes of triangles.
 
-    A mesh each of whose triangles is cut into n² has, at the same degree, the unknowns of the uncut one at n times it.
+    With each triangle divided into n², a mesh has as many unknowns as the original one at n times the degree.
 
     Args:
         points: number of nodes.
         triangles: number of triangles.
-        degree: of the polynomial.
-        parts: number of meshes that do not hang together, like those of two liquids.
+        degree: degree of the polynomial.
+        parts: number of unconnected meshes, such as those of two liquids.
     """
     edges = points + triangles - parts
     return points + (degree - 1) * edges + (degree - 1) * (degree - 2) // 2 * triangles

@@ -1,4 +1,4 @@
-"""Mode shapes of a solution in metres, on one process: what is drawn and what is written."""
+"""Mode shapes of a solution in SI units on one process, for pictures and files."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ from hydroelastic.physics.tank import StillLevel
 
 @dataclass(frozen=True, kw_only=True)
 class ModeShapes:
-    """The modes asked for, then those that grow, in SI units, scaled to a generalized mass of 1 kg per metre of width.
+    """The requested modes, then the growing ones, in SI units at a generalized mass of 1 kg per metre of width.
 
     Attributes:
-        liquid: ψ and ∇ψ.
+        liquid: ψ and ∇ψ at the points of the liquid.
         curves: for each mode, the displaced surfaces and beams.
         floats: for each mode, the displaced floats.
-        motions: for each mode and float, its heave and sway in m and roll in rad, those that it has, in this order.
-        growing: how many modes, the last ones, grow; the fastest first.
-        length: of the tank, m.
-        depths: of the liquids from the bottom up, m.
-        densities: of the liquids, kg/m³.
-        lid: pieces of a rigid top, left and right end, m.
+        motions: for each mode and float, the motions that it has of heave, m, sway, m, and roll, rad, in this order.
+        growing: number of growing modes, which are the last ones, the fastest first.
+        length: length of the tank, m.
+        depths: depths of the liquids from the bottom up, m.
+        densities: densities of the liquids, kg/m³.
+        lid: left and right end of each piece of a rigid top, m.
     """
 
     liquid: LiquidSample
@@ -44,13 +44,13 @@ class ModeShapes:
 
 
 def sample_shapes(solution: TankSolution) -> ModeShapes | None:
-    """Sample the modes asked for and those that grow.
+    """Sample the requested and the growing modes (collective).
 
-    The largest displacement of a body, without bodies of the lowest surface, is positive: upwards, to the right or
+    The largest displacement of a body, or without bodies of the lowest surface, is positive: upwards, to the right or
     anticlockwise.
 
     Returns:
-        The shapes on rank 0, ``None`` elsewhere (collective).
+        The shapes on rank 0, ``None`` elsewhere.
     """
     tank, field = solution.tank, solution.field
     growing = sorted(
@@ -109,7 +109,7 @@ def sample_shapes(solution: TankSolution) -> ModeShapes | None:
 def _sampled(
     solution: TankSolution, modes: list[Mode], parities: list[Parity | None]
 ) -> tuple[LiquidSample, list[tuple[StillLevel, SurfaceTrace]]] | None:
-    """Modes in the whole liquids and along the levels that move, in units of the tank (collective)."""
+    """Sample modes in all liquids and along the moving still levels, in units of the tank (collective)."""
     # Both halves of a symmetric tank share mesh and space.
     space = solution.field.parts[0].pencil.liquid
     functions = as_functions(space, [mode.potential for mode in modes])
@@ -131,7 +131,7 @@ def _mirrored_liquid(half: LiquidSample, signs: np.ndarray) -> LiquidSample:
     mirrored = half.displacement * (sign[:, :, None] * [-1.0, 1.0])
     return LiquidSample(
         points=np.vstack([half.points, flipped]),
-        # A mirror image turns the sense of rotation.
+        # A mirror image reverses the orientation of triangles.
         triangles=np.vstack([half.triangles, half.triangles[:, ::-1] + len(half.points)]),
         liquid=np.concatenate([half.liquid, half.liquid]),
         potential=np.hstack([np.sqrt(0.5) * half.potential, sign * half.potential]),

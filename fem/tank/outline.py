@@ -1,8 +1,8 @@
-"""The liquids of a scaled scene as a planar outline: layers, still levels, wetted contours, slits of thin floats.
+"""The liquids of a scaled tank as a planar outline: layers, still levels, wetted contours, slits of thin floats.
 
-Each layer is bounded from below by the bottom or the level under it, from above by its own level; where a float dips
-in, the boundary follows its contour. A thin float is a slit: its layer is split by the vertical line through it, which
-is no boundary beyond the slit's end.
+Each layer is bounded from below by the bottom or the level under it, from above by its own level; at a
+float the boundary follows its wetted contour. A thin float is a slit: its layer is divided by the vertical line through
+it, which is not a boundary beyond the end of the slit.
 """
 
 from __future__ import annotations
@@ -38,36 +38,38 @@ Directed = tuple[int, bool]
 
 @dataclass(frozen=True, kw_only=True)
 class Sizes:
-    """Largest elements: on each piece of the levels (all of them, in order), and on the contour of each float."""
+    """Largest sizes of elements in tank lengths: on each piece of all levels, and on the contour of each float by
+    index."""
 
     pieces: tuple[float, ...]
     contours: dict[int, float]
 
 
 def unsized(tank: Tank) -> Sizes:
-    """No wishes for the sizes of elements."""
+    """Return infinite sizes of elements."""
     return Sizes(pieces=(inf,) * len(tank.pieces), contours=dict.fromkeys(tank.hulls, inf))
 
 
 def layer_names(tank: Tank) -> tuple[str, ...]:
-    """Physical names of the layers' cells, from the bottom up."""
+    """Return the physical names of the cells of each layer, from the bottom up."""
     return (LIQUID,) if len(tank.layers) == 1 else (LOWER_LIQUID, UPPER_LIQUID)
 
 
-def grounded_names(tank: Tank, *, infinite_frequency: bool) -> tuple[str, ...]:
-    """Surfaces on which ψ = 0: the open top in the infinite-frequency limit, or where the scene says so."""
-    is_grounded = tank.top == "pressure_release" or (infinite_frequency and tank.top == "free")
-    return (FREE_SURFACE,) if is_grounded and tank.levels[-1].is_open else ()
+def zero_potential_surfaces(tank: Tank, *, infinite_frequency: bool) -> tuple[str, ...]:
+    """Return the names of surfaces with ψ = 0: a pressure-release top, or in the infinite-frequency limit a free
+    one."""
+    is_zero = tank.top == "pressure_release" or (infinite_frequency and tank.top == "free")
+    return (FREE_SURFACE,) if is_zero and tank.levels[-1].is_open else ()
 
 
 def tank_outline(tank: Tank, sizes: Sizes, *, half: bool = False, infinite_frequency: bool = False) -> Outline:
-    """The outline of a tank, or of its left half, without graded corners.
+    """Return the outline of a tank, or of its left half, without graded points.
 
     Args:
-        tank: the scene.
-        sizes: of elements.
-        half: whether it is its own mirror image, and the left half is meant.
-        infinite_frequency: whether liquids move through the interface as one: it is then no boundary beside the bodies.
+        tank: the dimensionless tank.
+        sizes: largest sizes of elements.
+        half: whether the left half of a symmetric tank is meant.
+        infinite_frequency: whether it is for the infinite-frequency limit, in which the open interface is no boundary.
 
     Raises:
         MeshError: if a thin float has another body straight above or below it.
@@ -81,7 +83,7 @@ def tank_outline(tank: Tank, sizes: Sizes, *, half: bool = False, infinite_frequ
 
 @dataclass(kw_only=True)
 class _Builder:
-    """Collects curves; each one is added once, though two regions may share it."""
+    """Collects curves, each only once if two regions share it."""
 
     tank: Tank
     sizes: Sizes
@@ -105,7 +107,7 @@ class _Builder:
             yield Region(name=name, loop=(*below, *up, *_reversed(above), *_reversed(down)))
 
     def _splits(self, number: int) -> dict[float, list[int]]:
-        """Abscissae of the thin floats in a layer, and which they are."""
+        """Abscissae of the thin floats in a layer, with the indices of the floats."""
         splits: dict[float, list[int]] = {}
         for index, hull in self.tank.hulls.items():
             level = self.tank.level_of(index)
@@ -126,7 +128,7 @@ class _Builder:
         return self._level(self.tank.levels[number], marks, upper_side=False)
 
     def _level(self, level: StillLevel, marks: tuple[float, ...], *, upper_side: bool) -> list[Directed]:
-        # Both layers must cut the level at the slits of either.
+        # Both layers must divide the level at the slits of either.
         other = level.above if not upper_side else level.below
         stops = sorted({*marks, *(self._splits(other) if other is not None else ())})
         first = sum(len(lower.pieces) for lower in self.tank.levels[: level.below])
@@ -152,7 +154,7 @@ class _Builder:
         ]
 
     def _condition(self, level: StillLevel, piece: Piece) -> tuple[str, bool]:
-        """Physical name of a piece, and whether the liquids above and below it are parted."""
+        """Physical name of a piece, and whether the liquids above and below it have separate nodes."""
         if piece.body is not None:
             return body_name(piece.body + 1), level.above is not None
         if level.above is not None:
@@ -175,14 +177,14 @@ class _Builder:
             for arc in arcs
             for smooth in _smooth_pieces(arc)
         ]
-        # Contours turn counterclockwise: over the float they run from right to left.
+        # Contours are counterclockwise: above the float they run from right to left.
         return _reversed(path) if upper_side else path
 
     def _side(self, number: int, x: float, bottom: Point, top: Point, splits: dict[float, list[int]]) -> list[Directed]:
         """The vertical line at x from the floor to the ceiling: a wall, the mirror plane, or a line through slits."""
         name = "" if 0.0 < x < self.right else LEFT_WALL if x == 0.0 else SYMMETRY_PLANE if self.half else RIGHT_WALL
         pieces = [(bottom, top, name)]
-        # From the floor up: a slit may stand on it, and another hang from the ceiling.
+        # From the floor up: one slit may begin at the floor, another end at the ceiling.
         for index in sorted(splits.get(x, []), key=lambda index: self.tank.level_of(index).below == number):
             hull = self.tank.hulls[index]
             low, high = hull.slit
@@ -249,7 +251,7 @@ def _reversed(path: tuple[Directed, ...] | list[Directed]) -> list[Directed]:
 
 
 def _smooth_pieces(arc: Arc) -> Iterator[Arc]:
-    """An arc cut at its knots: polynomials do not follow a spline across them."""
+    """Divide an arc at its knots, where a spline is not smooth."""
     if not arc.knots:
         yield arc
         return
@@ -276,15 +278,15 @@ def _left_of(arcs: tuple[Arc, ...], x: float) -> tuple[Arc, ...]:
 
 
 def _meets(arc: Arc, x: float) -> float:
-    """Where an arc that begins and ends on different sides of a vertical line crosses it."""
+    """Parameter at which an arc that begins and ends on different sides of a vertical line crosses it."""
     return root(lambda t: float(arc.curve(np.array([t]))[0, 0]) - x, 0.0, 1.0)
 
 
-# Corners of a float in the middle miss the mirror plane by rounding, in tank lengths.
+# Rounding of the corners of a float on the mirror plane, in tank lengths.
 _ON_PLANE = 1e-13
 
 
 def _onto(arc: Arc, x: float) -> Arc:
-    """An arc whose ends lie on the plane if they nearly do."""
+    """Return an arc with ends near the plane moved onto it."""
     start, end = ((x, p[1]) if abs(p[0] - x) < _ON_PLANE else p for p in (arc.start, arc.end))
     return replace(arc, start=start, end=end)

@@ -1,4 +1,4 @@
-"""What resolution a scene starts from, and how it is refined: degree, grading and number of dry modes."""
+"""Initial resolution of a tank and its refinement: degree, grading and number of dry modes."""
 
 from __future__ import annotations
 
@@ -23,42 +23,42 @@ if TYPE_CHECKING:
 
 HIGHEST_DEGREE = 10
 MOST_SHAPES = 400
-# Below this the coordinates of a ring's nodes keep fewer than three digits of their distance from the tip.
+# Below this radius, coordinates of a ring's nodes have fewer than three digits of their distance from the tip.
 SMALLEST_TIP = 1e-13
-# Every cause of error has a part of the tolerance, rounding too.
+# The tolerance over the rounding error, so that other errors have a part of it too.
 _ROOM_FOR_ROUNDING = 5.0
 # κ₁ l of the first elastic dry mode.
 _FIRST_ROOT = 4.73
-# Below the pressure-release tone of a beam lie at most its rigid motions, and with several beams modes of softer ones.
+# Number of modes per beam that contain its pressure-release tone: below it are rigid motions and modes of softer beams.
 _MODES_OF_A_BEAM = 6
-# More modes than this below the first elastic tone are not searched: the tone has then no individual meaning.
+# Most modes below a first elastic tone that is sought; with more of them the tone is spread over many modes.
 MOST_MODES_TO_TONE = 200
-# More than this below a float's motion, or than twice the modes asked for, are not looked at to find its mode.
+# Most modes below a float's motion, or twice the requested modes, for its mode to be sought.
 MOST_MODES_TO_MOTION = 40
-# Tips with a smaller α get rings that shrink more slowly.
+# Exponent α below which the radii of rings decrease more slowly.
 _SHARP = 0.75
-# α of a scene without singular points: nothing depends on it.
+# α of a tank without singular points, on which nothing depends.
 _SMOOTH = 2.0
-# Elements along a contour, in parts of a float's larger extent.
+# Largest element along a contour, in parts of a float's larger extent.
 _OF_CONTOUR = 0.35
 
 
 @dataclass(frozen=True, kw_only=True)
 class Resolution:
-    """How finely a scene is resolved.
+    """Degree, sizes of elements and numbers of modes.
 
     Attributes:
         degree: polynomial degree of ψ.
-        surface_sizes: largest element on each piece of the still levels, on that of a float along its contour; in tank
+        surface_sizes: largest element on each piece of the still levels, for a float along its contour; in tank
             lengths.
-        bulk_size: largest element anywhere.
-        tip_size: innermost ring around the sharpest tips; ``None`` on a mesh that is not graded by rings.
-        ring_size: outermost ring that goes with it.
+        bulk_size: largest element anywhere, in tank lengths.
+        tip_size: radius of the innermost ring around the sharpest tips, in tank lengths; ``None`` without rings.
+        ring_size: radius of the outermost ring, in tank lengths.
         ring_ratio: ratio of the radii of successive rings.
         shapes: number of dry modes of each beam, 0 for a float.
-        modes: how many modes are solved for.
+        modes: number of modes that are solved for.
         reaches_tones: whether the first elastic tone of each beam is expected among them.
-        widened: whether modes were added because the tone was not found among those first planned.
+        widened: whether modes were added because a tone was not found among the planned ones.
     """
 
     degree: int
@@ -73,11 +73,11 @@ class Resolution:
     widened: bool = False
 
     def with_degree(self, more: int) -> Resolution:
-        """A higher degree on the same mesh."""
+        """Return a higher degree on the same mesh."""
         return replace(self, degree=min(self.degree + more, HIGHEST_DEGREE))
 
     def with_smaller_elements(self) -> Resolution:
-        """A finer mesh, and more rings around the tips."""
+        """Return a finer mesh with more rings around the tips."""
         return replace(
             self,
             surface_sizes=tuple(0.6 * size for size in self.surface_sizes),
@@ -86,18 +86,18 @@ class Resolution:
         )
 
     def with_tips(self, factor: float) -> Resolution:
-        """Smaller rings around the tips."""
+        """Return smaller innermost rings around the tips."""
         if self.tip_size is None:
             return self
         return replace(self, tip_size=max(factor * self.tip_size, SMALLEST_TIP))
 
     def with_shapes(self, factor: float) -> Resolution:
-        """More dry modes."""
+        """Return more dry modes."""
         return replace(self, shapes=tuple(min(MOST_SHAPES, ceil(factor * count)) for count in self.shapes))
 
 
 def rounding_error(degree: int, depth: float) -> float:
-    """What double precision leaves of a frequency, relative; measured on tanks with known modes.
+    """Return the relative rounding error of a frequency in double precision, measured on tanks with known modes.
 
     It grows with the condition of the Laplace matrix: about like the fifth power of the degree, and in thin layers,
     where long waves hold little energy in each cell, like (L/H)^{3/2}.
@@ -106,32 +106,32 @@ def rounding_error(degree: int, depth: float) -> float:
 
 
 def workable_tolerance(tolerance: float, depth: float) -> float:
-    """The tolerance to work towards: what is asked, or what double precision can be expected to keep."""
+    """Return the requested relative tolerance, or the smallest one that double precision can be expected to keep."""
     return max(tolerance, _ROOM_FOR_ROUNDING * rounding_error(HIGHEST_DEGREE - 2, depth))
 
 
 def initial_resolution(
     tank: Tank, tolerance: float, *, modes: int, tones: tuple[float, ...] = (), motions: tuple[float, ...] = ()
 ) -> Resolution:
-    """Resolution for a number of modes, for elastic tones and for motions of floats.
+    """Return the resolution for a number of modes, for elastic tones and for motions of floats.
 
-    Elements hold as many radians of the shortest wave as their degree resolves to the tolerance; rings reach as far
-    into the tips as the singularity there asks for.
+    Elements are as long as their degree resolves the shortest wave to the tolerance; the innermost rings are as small
+    as the singularity at the tips requires.
 
     Args:
-        tank: of unit length.
-        tolerance: asked relative error.
-        modes: how many are asked for.
-        tones: about the (dimensionless) λ of the first elastic tone of each beam.
-        motions: up to which λ modes are looked at to find those of each motion of a float.
+        tank: the dimensionless tank, of unit length.
+        tolerance: largest relative error that is accepted.
+        modes: number of requested modes.
+        tones: estimated dimensionless λ of the first elastic tone of each beam.
+        motions: dimensionless λ up to which the mode of each motion of a float is sought.
     """
     moving = moving_pieces(tank)
-    # Where other waves are many below a tone or a float's motion it is not searched for: one may ask for more modes.
+    # With too many modes below it, a tone or a float's motion is not sought unless more modes are requested.
     tone = _highest(tones, lambda value: _modes_to_tone(moving, value) <= MOST_MODES_TO_TONE)
     most_to_motion = max(MOST_MODES_TO_MOTION, 2 * modes)
     motion = _highest(motions, lambda value: _modes_to_motion(moving, value) <= most_to_motion)
     to_motion = [_modes_to_motion(moving, motion)] if motion is not None else []
-    # The modes above the highest one reported show where the tone is, but need not be accurate.
+    # Modes above the highest reported one identify the tone, but need not be accurate.
     reported = max([modes, *([ceil(modes_below(moving, tone)) + 1] if tone is not None else []), *to_motion])
     modes = max([modes, *([_modes_to_tone(moving, tone)] if tone is not None else []), *to_motion])
     reaches_tones = tuple(tone is not None and other <= tone for other in tones)
@@ -145,7 +145,8 @@ def initial_resolution(
 
 
 def _modes_to_tone(moving: tuple[LevelPiece, ...], tone: float) -> int:
-    """Enough above a tone to hold its flank: the part in each mode falls off like a resonance curve."""
+    """Number of modes that contain a tone, and enough above it where participations decrease as on a resonance
+    curve."""
     return ceil(1.25 * modes_below(moving, tone)) + 4
 
 
@@ -154,19 +155,20 @@ def _modes_to_motion(moving: tuple[LevelPiece, ...], motion: float) -> int:
 
 
 def _highest(values: tuple[float, ...], reached: Callable[[float], bool]) -> float | None:
-    """The highest value that is reached, as all below it are: a few of many values are tried."""
+    """The highest value that is reached, by bisection: all below it are reached too."""
     ordered = sorted(values)
     count = bisect_left(ordered, True, key=lambda value: not reached(value))
     return ordered[count - 1] if count else None
 
 
 def infinite_frequency_resolution(tank: Tank, tolerance: float, tones: tuple[float, ...]) -> Resolution:
-    """Resolution of the infinite-frequency limit: no waves beside the bodies, but sharper tips.
+    """Return the resolution of the infinite-frequency limit: without waves beside the bodies, with sharper
+    singularities.
 
     Args:
-        tank: the scene.
-        tolerance: asked relative error.
-        tones: about the (dimensionless) λ of the first elastic tone of each beam.
+        tank: the dimensionless tank.
+        tolerance: largest relative error that is accepted.
+        tones: estimated dimensionless λ of the first elastic tone of each beam.
     """
     expected = dict(zip(tank.elastic, tones, strict=True))
     wavenumbers = tuple(
@@ -182,11 +184,11 @@ def infinite_frequency_resolution(tank: Tank, tolerance: float, tones: tuple[flo
 
 
 def sharpest_exponent(tank: Tank, *, infinite_frequency: bool) -> float:
-    """The smallest α with which ψ ~ r^α at a tip, a corner or a contact point.
+    """Return the smallest α of ψ ~ r^α at a tip, a corner or a contact point.
 
     Args:
-        tank: the scene.
-        infinite_frequency: whether gravity is left out: ψ = 0 on the top, and liquids move as one.
+        tank: the dimensionless tank.
+        infinite_frequency: whether it is that of the infinite-frequency limit.
     """
     if not tank.hulls:
         return 0.5 if infinite_frequency or tank.top == "pressure_release" else 1.0
@@ -198,21 +200,27 @@ def sharpest_exponent(tank: Tank, *, infinite_frequency: bool) -> float:
 
 
 def _wavenumber(tank: Tank, level: StillLevel, piece: Piece, squared_frequency: float) -> float:
-    """The shortest wave on a piece of a still level, up to λ."""
+    """Return the largest dimensionless wavenumber on a piece of a still level, up to λ."""
     waves = (moving.wavenumber(squared_frequency) for moving in moving_parts(tank, level, piece))
     return max(waves, default=0.0)
 
 
 def resolution_for(tank: Tank, tolerance: float, wavenumbers: tuple[float, ...], *, exponent: float) -> Resolution:
-    """Elements, rings and dry modes for the shortest waves on the pieces of the still levels.
+    """Return elements, rings and dry modes for the shortest waves on the pieces of the still levels.
 
-    Where ψ ~ r^α at a tip, the error falls like the power 2α of the innermost ring: like its square beside water under
-    gravity or a lid, ψ ~ r ln r, like the ring itself beside a surface with ψ = 0, ψ ~ r^{1/2}.
+    Where ψ ~ r^α at a tip, the error falls like the radius of the innermost ring to the power 2α: like its square
+    beside a free surface or a lid, ψ ~ r ln r, like the radius itself beside a surface with ψ = 0, ψ ~ r^{1/2}.
+
+    Args:
+        tank: the dimensionless tank.
+        tolerance: largest relative error that is accepted.
+        wavenumbers: largest dimensionless wavenumber on each piece.
+        exponent: α of the sharpest singularity.
     """
     # Measured on tanks with known modes: the cheapest degree for each tolerance.
     degree = ceil(1.5 - 0.75 * log10(tolerance))
     degree = min(max(degree, 4), HIGHEST_DEGREE - 1)
-    # In thin layers rounding takes more than a high degree gives.
+    # In thin layers the rounding of a high degree exceeds its gain.
     while degree > 6 and rounding_error(degree, tank.depth) > 0.3 * tolerance:
         degree -= 1
     sizes = tuple(
@@ -243,16 +251,17 @@ def resolution_for(tank: Tank, tolerance: float, wavenumbers: tuple[float, ...],
 
 
 def _innermost(exponent: float, tolerance: float) -> float:
-    """The innermost ring in parts of the outermost one; measured at beams' tips, with α = 1 and 1/2."""
+    """Radius of the innermost ring over that of the outermost; measured at tips of beams with α = 1 and 1/2."""
     return min((5.0 + 10.0 * exponent) * float(tolerance ** (0.5 / exponent)), 0.25)
 
 
 def _contour_size(hull: Hull) -> float:
-    """Largest element along a contour; where it bends, the mesh takes smaller ones."""
+    """Largest element along a contour, in tank lengths; where it is curved, the mesh takes smaller ones."""
     left, right, low, high = hull.bounds
     return min(_OF_CONTOUR * max(right - left, high - low), 0.25)
 
 
 def radians(degree: int, tolerance: float) -> float:
-    """How much of a wave one element resolves: the error of polynomials on it is about (e kh/(4p))^{2p}."""
+    """Return the size kh of elements, in radians of a wave, for which the error (e kh/(4p))^{2p} keeps the
+    tolerance."""
     return 4.0 / e * degree * float((0.1 * tolerance) ** (0.5 / degree))

@@ -1,4 +1,4 @@
-"""Where ψ is singular: ends of bodies, corners of contours, contact points, ends of slits; and how sharply.
+"""Singular points of ψ with their exponents: ends of bodies, corners of contours, contact points, ends of slits.
 
 In a wedge of angle β ψ behaves like r^α: α = π/β between walls and bodies, π/(2β) where ψ = 0 on one of its sides. At a
 beam's tip, β = π, it is r ln r for α = 1. The energy of ∇ψ within r of the corner is about r^{2α}.
@@ -13,7 +13,7 @@ from math import atan2, dist, inf, pi
 
 import numpy as np
 
-from hydroelastic.fem.tank.outline import Sizes, grounded_names, tank_outline
+from hydroelastic.fem.tank.outline import Sizes, tank_outline, zero_potential_surfaces
 from hydroelastic.meshes.geometry import LEFT_WALL, RIGHT_WALL, SYMMETRY_PLANE
 from hydroelastic.meshes.outline import Outline, Point
 from hydroelastic.physics.dofs import body_number
@@ -21,13 +21,13 @@ from hydroelastic.physics.tank import Tank
 
 _MIRRORS = (LEFT_WALL, RIGHT_WALL, SYMMETRY_PLANE)
 
-# Joints of smooth arcs turn by rounding and by how the arcs are given.
+# Largest change of direction at a joint of arcs that counts as smooth, rad.
 _SMOOTH = 1e-6
-# α of a smooth body between two liquids that move as one: r² ln r beside the jump of the slope.
+# α of a smooth body at an interface across which ρψ is continuous: r² ln r beside the jump of the slope.
 _JUMP = 2.0
 # α where the flux on a side jumps: r ln r.
 _SIDE_JUMPS = 1.0
-# How far along a curve its direction at an end is taken.
+# Parameter of a curve from its end at which its direction there is taken.
 _NEAR = 1e-7
 
 
@@ -36,19 +36,20 @@ class SingularPoint:
     """A point where ψ is singular.
 
     Attributes:
-        point: where.
-        exponent: α of the sharpest term there.
-        reach: how far it may be graded: distance to the next end of a curve, and sizes of elements beside it.
+        point: coordinates, in units of the outline.
+        exponent: α of the sharpest term r^α.
+        grading_distance: largest radius of graded rings: less than half the distance to the next end of a curve, and
+            the sizes of elements beside the point.
     """
 
     point: Point
     exponent: float
-    reach: float
+    grading_distance: float
 
 
 @dataclass(frozen=True, kw_only=True)
 class _Wedge:
-    """A region's part around a point: from the curve that leaves the point counterclockwise to the one that comes."""
+    """A region's wedge at a point, between the curve of its boundary that leaves the point and the one that arrives."""
 
     leaving: int
     coming: int
@@ -56,25 +57,34 @@ class _Wedge:
 
 
 def singular_points(
-    outline: Outline, *, grounded: tuple[str, ...], continuous_pressure: bool, kinks: dict[Point, float] | None = None
+    outline: Outline,
+    *,
+    zero_potential: tuple[str, ...],
+    continuous_pressure: bool,
+    kinks: dict[Point, float] | None = None,
 ) -> tuple[SingularPoint, ...]:
     """Find the singular points of an outline.
 
     Args:
-        outline: the liquids.
-        grounded: names of curves with ψ = 0.
-        continuous_pressure: whether liquids of different densities move as one across uncut lines.
-        kinks: points of smooth sides at which what is prescribed, or a derivative of it, jumps, with α there.
+        outline: outline of the liquids.
+        zero_potential: names of curves with ψ = 0.
+        continuous_pressure: whether ρψ is continuous across lines between liquids of different densities.
+        kinks: points of smooth sides at which the prescribed displacement or a derivative jumps, with α there.
     """
     wedges = _wedges(outline)
     points = []
     for point, around in wedges.items():
         sharpest = min(
-            (_exponent(sector, grounded, continuous_pressure) for sector in _sectors(outline, around)), default=inf
+            (_exponent(sector, zero_potential, continuous_pressure) for sector in _sectors(outline, around)),
+            default=inf,
         )
         sharpest = min(sharpest, (kinks or {}).get(point, inf))
         if sharpest < inf:
-            points.append(SingularPoint(point=point, exponent=sharpest, reach=_reach(outline, point, wedges)))
+            points.append(
+                SingularPoint(
+                    point=point, exponent=sharpest, grading_distance=_grading_distance(outline, point, wedges)
+                )
+            )
     return tuple(points)
 
 
@@ -90,7 +100,7 @@ def _wedges(outline: Outline) -> dict[Point, list[_Wedge]]:
 
 
 def _direction(outline: Outline, number: int, *, from_start: bool) -> float:
-    """Angle at which a curve leaves one of its ends."""
+    """Direction of a curve at one of its ends, rad."""
     t = np.array([0.0, _NEAR]) if from_start else np.array([1.0, 1.0 - _NEAR])
     curve = outline.curves[number]
     (x, y), (x_near, y_near) = curve.at(t)
@@ -99,7 +109,7 @@ def _direction(outline: Outline, number: int, *, from_start: bool) -> float:
 
 @dataclass(frozen=True, kw_only=True)
 class _Sector:
-    """Wedges that no boundary parts."""
+    """Wedges without a boundary between them."""
 
     names: tuple[str, str]
     angle: float
@@ -120,19 +130,19 @@ def _sectors(outline: Outline, around: list[_Wedge]) -> Iterator[_Sector]:
         yield _Sector(names=names, angle=angle, crossed=last != wedge.coming)
 
 
-def _exponent(sector: _Sector, grounded: tuple[str, ...], continuous_pressure: bool) -> float:
+def _exponent(sector: _Sector, zero_potential: tuple[str, ...], continuous_pressure: bool) -> float:
     """α in a sector; infinite where ψ is smooth."""
     if not any(body_number(name) for name in sector.names):
         return inf
-    # A wall is a mirror: beyond it the sector goes on as its image.
+    # A wall is a mirror: the sector continues as its image.
     angle = sector.angle * (2.0 if any(name in _MIRRORS for name in sector.names) else 1.0)
     if (len(set(sector.names)) == 1 or SYMMETRY_PLANE in sector.names) and abs(angle - pi) < _SMOOTH:
         # Where two liquids meet a smooth body the slope of ψ jumps.
         return _JUMP if continuous_pressure and sector.crossed else inf
-    return (0.5 if any(name in grounded for name in sector.names) else 1.0) * pi / angle
+    return (0.5 if any(name in zero_potential for name in sector.names) else 1.0) * pi / angle
 
 
-def _reach(outline: Outline, point: Point, wedges: dict[Point, list[_Wedge]]) -> float:
+def _grading_distance(outline: Outline, point: Point, wedges: dict[Point, list[_Wedge]]) -> float:
     others = [dist(point, other) for other in wedges if other != point]
     beside = {number for wedge in wedges[point] for number in (wedge.leaving, wedge.coming)}
     return min(0.45 * min(others), *(outline.curves[number].size for number in beside))
@@ -141,10 +151,10 @@ def _reach(outline: Outline, point: Point, wedges: dict[Point, list[_Wedge]]) ->
 def tank_singular_points(
     tank: Tank, sizes: Sizes, *, half: bool, infinite_frequency: bool
 ) -> tuple[SingularPoint, ...]:
-    """The singular points of a scene, or of its left half; see `tank_outline`."""
+    """Return the singular points of a tank, or of its left half; see `tank_outline`."""
     return singular_points(
         tank_outline(tank, sizes, half=half, infinite_frequency=infinite_frequency),
-        grounded=grounded_names(tank, infinite_frequency=infinite_frequency),
+        zero_potential=zero_potential_surfaces(tank, infinite_frequency=infinite_frequency),
         continuous_pressure=infinite_frequency,
         kinks=_kinks(tank),
     )

@@ -1,7 +1,7 @@
-"""Solve a tank to a tolerance, and say how far each number can be trusted.
+"""Solve a tank to a tolerance, with estimated errors of all results.
 
-Each attempt solves once and judges itself: by the decay of the liquid's motion with the degree, by what the dry modes
-left out would add, and by rounding. An attempt that misses the tolerance is refined where the error comes from.
+Each attempt solves once and estimates its errors: from the decay of ψ with the polynomial degree, from the omitted dry
+modes, and from rounding. Where the tolerance is exceeded, the largest contributions to the error are refined.
 """
 
 from __future__ import annotations
@@ -54,11 +54,11 @@ class ToneSolution:
 
     Attributes:
         body: index of the beam among the bodies.
-        tone: the mode and its participation; ``None`` where it is not one of the modes that can be told apart.
+        tone: the mode and its participation; ``None`` where it is not attributed to one of the modes.
         reason: why there is no tone, or "".
-        pressure_release: λ of the tone with ψ = 0 on the water; ``None`` where there is no water.
+        pressure_release: dimensionless λ of the tone with ψ = 0 on the free surface; ``None`` without one.
         pressure_release_error: relative error of that frequency.
-        pressure_release_values: λ of the lowest modes with ψ = 0 on the water.
+        pressure_release_values: dimensionless λ of the lowest modes with ψ = 0 on the free surface.
     """
 
     body: int
@@ -76,21 +76,22 @@ class TankSolution:
     Attributes:
         physical: the tank, in SI units.
         tank: the same in its own units.
-        tolerance: asked relative error of the frequencies.
-        count: how many modes were asked for.
+        tolerance: requested relative error of the frequencies.
+        count: number of requested modes.
         resolution: the resolution of the last attempt.
-        field: its mesh, matrices and modes; one mode more than were planned.
-        asked: the modes asked for, with their shapes.
-        relative_errors: estimated relative error of the frequency of each mode of the field; NaN where none was asked.
-        growing_errors: estimated relative error of the growth rate of each growing mode.
-        causes: the errors of the modes whose error is known, and then of the growing ones, by cause.
+        field: its mesh, matrices and modes; one mode more than planned.
+        asked: the requested modes, with their shapes.
+        relative_errors: estimated relative error of the frequency of each mode, shape (modes,); NaN where not
+            estimated.
+        growing_errors: estimated relative error of the growth rate of each growing mode, shape (growing modes,).
+        causes: errors by cause of the modes with an estimate, then of the growing ones.
         counted: whether the inertia of an independent factorization confirms that no mode is missing.
         tones: one for each beam.
-        float_modes: one for each motion of a float that gravity restores.
-        added_mass: of the floats, at infinite frequency; ``None`` without floats, or where a lid leaves no such limit.
-        attempts: how many resolutions were tried.
-        reasons: why the solution does not keep what was asked; empty if it does.
-        seconds: time by stage.
+        float_modes: one for each motion of a float with restoring force.
+        added_mass: added mass of the floats at infinite frequency; ``None`` without floats, or under a lid.
+        attempts: number of resolutions that were solved.
+        reasons: why the solution does not keep the tolerance or is incomplete; empty if it does.
+        seconds: time by stage, s.
     """
 
     physical: Tank
@@ -113,7 +114,7 @@ class TankSolution:
 
     @property
     def units(self) -> Scales:
-        """The tank's own units."""
+        """Units of the dimensionless tank."""
         return self.physical.units
 
     @property
@@ -123,11 +124,11 @@ class TankSolution:
 
     @property
     def largest_error(self) -> float:
-        """The largest error of the modes asked for, of the tones, and of growth rates."""
+        """The largest relative error of requested modes, tones, modes of floats and growth rates."""
         return float(np.nanmax([0.0, *self.relative_errors, *self.growing_errors]))
 
     def omega(self, eigenvalue: float) -> float:
-        """ω in rad/s of a dimensionless λ."""
+        """Return ω in rad/s of a dimensionless λ."""
         return float(np.sqrt(eigenvalue)) * self.units.frequency
 
 
@@ -141,20 +142,20 @@ def solve_tank(
     halves: bool = True,
     report: Report = lambda _message: None,
 ) -> TankSolution:
-    """Solve a tank between walls.
+    """Solve a tank between walls (collective).
 
     Args:
         physical: the tank, in SI units.
-        tolerance: asked relative error of the frequencies.
-        modes: how many modes are asked for, from the lowest.
+        tolerance: largest relative error of the frequencies that is accepted.
+        modes: number of modes, from the lowest.
         comm: MPI communicator; all processes by default.
-        mesh: a user mesh of the liquid in metres (on rank 0), instead of ours. Its elements are then kept, and only
-            degree and dry modes are refined.
-        halves: whether a tank that is its own mirror image is solved as two halves; ``False`` is for comparison.
-        report: told what is being done.
+        mesh: a user mesh of the liquid in metres (on rank 0), instead of the built-in one. Its elements are kept, and
+            only degree and dry modes are refined.
+        halves: whether a symmetric tank is solved as two halves; ``False`` is for comparison.
+        report: receives messages on the progress.
 
     Returns:
-        The solution, with `TankSolution.reasons` where it does not keep the asked tolerance (collective).
+        The solution, with `TankSolution.reasons` where it does not keep the tolerance.
 
     Raises:
         MeshError: if the mesh does not fit the scene.
@@ -189,9 +190,9 @@ def solve_tank(
         attempt = next(attempts)
         report(f"attempt {attempt}: degree {resolution.degree}, {resolution.modes} modes")
         with watch.stage("mesh"):
-            own_mesh = user_mesh or build_mesh(comm, tank, resolution, half=half)
+            mesh = user_mesh or build_mesh(comm, tank, resolution, half=half)
         beside = limit()
-        field = solve_field(own_mesh, tank, resolution, resolution.modes + 1, watch, half=half)
+        field = solve_field(mesh, tank, resolution, resolution.modes + 1, watch, half=half)
         return _judged(physical, tank, (tolerance, modes), resolution, field, beside, watch, attempt)
 
     found = adaptive_solve(
@@ -206,7 +207,7 @@ def solve_tank(
 
 
 def _next_resolution(solution: TankSolution, *, remesh: bool) -> Resolution | None:
-    """More modes if a tone was not among them, else a finer model; ``None`` where neither would help."""
+    """Return more modes if a tone was not among them, else a finer resolution; ``None`` where neither would help."""
     resolution = solution.resolution
     if any(tone.tone is not None and not tone.tone.certain for tone in solution.tones):
         wider = initial_resolution(
@@ -236,7 +237,7 @@ def _judged(
     watch: Stopwatch,
     attempt: int,
 ) -> TankSolution:
-    """An attempt with all that it says about itself."""
+    """Return an attempt with its estimated errors and reasons."""
     tolerance, count = asked_for
     tones = tuple(_tone(field, beam, body, resolution, limit) for beam, body in enumerate(tank.elastic))
     complete = len(field.modes.eigenvalues) <= resolution.modes
@@ -301,7 +302,7 @@ def _tone(
 
 
 def _reasons(solution: TankSolution) -> Iterator[str]:
-    """Why a solution does not keep what was asked, in words."""
+    """Yield messages on why a solution does not keep the tolerance or is incomplete."""
 
     def excess(quantity: str, error: float | None, *, rounding: float = 0.0) -> Iterator[str]:
         if error is not None and error > tolerance:
@@ -309,7 +310,7 @@ def _reasons(solution: TankSolution) -> Iterator[str]:
             yield f"{quantity} of {error:.1e}, above the tolerance {tolerance:g}; {cause}{kept_tolerance(error)}"
 
     tolerance, errors, estimated = solution.tolerance, solution.relative_errors, "has an estimated error"
-    # Counted from one: without modes the zero is the largest.
+    # Mode numbers start at one; the zero is for a tank without modes.
     modes = [0.0, *errors[: len(solution.asked)]]
     number = int(np.argmax(modes))
     rounding = solution.causes.largest("rounding")
@@ -334,6 +335,6 @@ def _reasons(solution: TankSolution) -> Iterator[str]:
 
 
 def _modes_there(solution: TankSolution) -> float:
-    """How many modes a tank has: no more than rigid motions where no wave travels and nothing bends."""
+    """Number of modes of a tank: finite without waves and elastic bodies."""
     count = mode_count(solution.tank)
     return np.inf if count is None else count - len(solution.modes.growing)

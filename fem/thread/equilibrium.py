@@ -17,6 +17,7 @@ from hydroelastic.fem.thread.forms import ThreadForms, ThreadState
 from hydroelastic.fem.thread.newton import NewtonSolver
 from hydroelastic.fem.thread.space import ThreadSpace
 from hydroelastic.fem.thread.units import Units
+from hydroelastic.meshes.compat import collapsed
 from hydroelastic.physics.thread import Thread
 
 Along = Callable[[NDArray[np.float64]], NDArray[np.float64]]
@@ -172,10 +173,10 @@ def interpolate_start(solution: Any, start: Start, units: Units) -> None:
     if start.curvature is not None:
         parts.append((start.curvature, 1.0 / units.length))
     for index, (along, unit) in enumerate(parts[: solution.function_space.num_sub_spaces]):
-        space, places = solution.function_space.sub(index).collapse()
+        space, places = collapsed(solution.function_space, index)
         part = fem.Function(space)
         part.interpolate(lambda x, along=along, unit=unit: np.atleast_2d(along(x[0] * units.length).T) / unit)
-        solution.x.array[np.asarray(places)] = part.x.array
+        solution.x.array[places] = part.x.array
 
 
 def _between_ends(model: Thread, start: Start) -> Start:

@@ -16,6 +16,7 @@ from hydroelastic.fem.kernels import compiled_form
 from hydroelastic.fem.thread.eigenpairs import Eigenpair
 from hydroelastic.fem.thread.operators import ThreadOperators
 from hydroelastic.fem.thread.table import line_table
+from hydroelastic.meshes.compat import collapsed
 
 
 class QuadraticDecay:
@@ -34,7 +35,7 @@ class QuadraticDecay:
         if forms.stream is not None:
             raise ValueError("amplitude is given, but in a stream the drag damps linearly: leave it out")
         self._operators = operators
-        positions, self._places = space.mixed.sub(0).collapse()
+        positions, self._places = collapsed(space.mixed, 0)
         self._shape = fem.Function(positions)
         self._velocity = fem.Function(self._shape.function_space)
         position = operators.equilibrium.state.position

@@ -16,6 +16,7 @@ from hydroelastic.fem.thread.equivalent_damping import QuadraticDecay
 from hydroelastic.fem.thread.hyperbolicity import require_real_wave_speeds
 from hydroelastic.fem.thread.operators import ThreadOperators, thread_operators
 from hydroelastic.fem.thread.table import line_table
+from hydroelastic.meshes.compat import collapsed
 
 # Relative to its extent: a thread is planar, or straight, if it deviates less from a plane, or a line.
 _FLAT = 1e-8
@@ -197,7 +198,7 @@ def _shape(operators: ThreadOperators, pair: Eigenpair) -> NDArray[np.complex128
 def _along(operators: ThreadOperators, vector: PETSc.Vec, normal: NDArray[np.float64]) -> PETSc.Vec:
     """Part of a motion in one direction."""
     function = operators.function(vector)
-    _, places = function.function_space.sub(0).collapse()
+    _, places = collapsed(function.function_space, 0)
     displacement = function.x.array[places].reshape(-1, len(normal))
     function.x.array[:] = 0.0
     function.x.array[places] = np.outer(displacement @ normal, normal).ravel()

@@ -23,6 +23,7 @@ from hydroelastic.fem.thread.step_control import StepControl
 from hydroelastic.fem.thread.time_integrator import ExternalActions, TimeIntegrator
 from hydroelastic.fem.thread.units import Units
 from hydroelastic.fem.thread.vortex_shedding import SheddingLoad
+from hydroelastic.meshes.compat import collapsed
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.stream import Stream
 from hydroelastic.physics.thread import Thread
@@ -179,10 +180,10 @@ def _scaled_course(prescribed: PrescribedEnd, units: Units) -> PrescribedEnd:
 
 
 def _interpolate(function: Any, along: Along, length: float, unit: float) -> None:
-    space, places = function.function_space.sub(0).collapse()
+    space, places = collapsed(function.function_space, 0)
     part = fem.Function(space)
     part.interpolate(lambda x: np.asarray(along(x[0] * length)).T / unit)
-    function.x.array[np.asarray(places)] = part.x.array
+    function.x.array[places] = part.x.array
 
 
 def _fastest_stream(model: Thread, positions: NDArray[np.float64], velocities: NDArray[np.float64]) -> float:

@@ -52,7 +52,7 @@ class MotionInSpace:
 
     Attributes:
         times: s, shape (times,).
-        nodes: s of the nodes, m, shape (nodes,).
+        nodes: arc length s of the nodes, m, shape (nodes,).
         positions: r, m, shape (times, nodes, 3).
         tensions: T, N, shape (times, nodes).
         step_error: largest change of a position by halving all steps, m.

@@ -47,7 +47,7 @@ class MotionPlan:
     """A motion to be solved for.
 
     Attributes:
-        times: of the output, s, increasing; the first is that of the start.
+        times: output times, s, increasing, shape (times,); the first is that of the start.
         step: the longest step, s; that of all steps without `tolerance`, up to landing on output times.
         tolerance: error of positions that a step may add, relative to the length; the steps adapt to it.
         ends: of A and B.
@@ -57,7 +57,7 @@ class MotionPlan:
         dissipation: spectral radius at infinite frequency of the generalised-α method, which damps frequencies that the
             steps do not resolve; without it the midpoint rule, which conserves energy.
         shedding: vortices, if any.
-        grid: times at which steps end, s, increasing, in place of `step` and `tolerance`.
+        grid: times at which steps end, s, increasing, shape (steps,), in place of `step` and `tolerance`.
         rest_speed: m/s; the motion ends when no component of a velocity is larger, after at least one step. With long
             steps this needs `dissipation`: the midpoint rule keeps oscillating.
         tension_at_start: whether a thread without flexural rigidity is refused that would be in compression at once.

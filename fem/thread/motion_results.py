@@ -101,10 +101,10 @@ def find_slack(
     """Find the times in which the lowest tension is below zero.
 
     Args:
-        times: shape (n,).
-        nodes: s, shape (nodes,).
-        tensions: shape (n, nodes).
-        force: a characteristic one.
+        times: times, s, shape (n,).
+        nodes: arc lengths s, m, shape (nodes,).
+        tensions: tensions, N, shape (n, nodes).
+        force: a characteristic force, N.
     """
     lowest = tensions.min(axis=1)
     loose = lowest < -SLACK * force
@@ -131,10 +131,10 @@ def at_step_ends(
     the mean of two neighbours is free of it, and belongs to the end between them.
 
     Args:
-        ends: times, shape (n + 1,).
-        middles: forces in the middles of the steps, shape (n, ...).
+        ends: times of the ends of steps, s, shape (n + 1,).
+        middles: forces at the midpoints of the steps, N, shape (n, ...).
         starts: by the number of an end, forces at the start and just after breaks, where they are known.
-        part: of a step, at which its forces belong.
+        part: fraction of a step at which its forces act.
 
     Returns:
         Shape (n + 1, ...); where a piece ends, linear from the ends before.

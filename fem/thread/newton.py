@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from petsc4py import PETSc
 
 from hydroelastic.fem.kernels import compiled_form
+from hydroelastic.meshes.compat import collapsed
 
 # Largest displacement of a node in one step, of the thread's length.
 STEP_LIMIT = 0.3
@@ -62,7 +63,7 @@ class NewtonSolver:
         self._owned = space.dofmap.index_map.size_local * space.dofmap.index_map_bs
         held = np.concatenate([_indices(condition) for condition in fixed]) if fixed else np.empty(0, dtype=np.int32)
         self._held = held[held < self._owned]
-        positions = np.asarray(space.sub(0).collapse()[1])
+        positions = collapsed(space, 0)[1]
         self._positions = positions[positions < self._owned]
         self.jacobian = create_matrix(self._derivative)
         self.values = np.zeros(self._owned)

@@ -23,6 +23,7 @@ from hydroelastic.fem.liquid import assembled
 from hydroelastic.fem.thread.equilibrium import Equilibrium, split_state
 from hydroelastic.fem.thread.forms import ThreadForms, ThreadState, tangent
 from hydroelastic.fem.thread.table import line_table
+from hydroelastic.meshes.compat import collapsed
 
 # Of the length: a thread this close to its chord is straight.
 _STRAIGHT = 1e-9
@@ -179,8 +180,7 @@ def _undetermined_tension(equilibrium: Equilibrium) -> NDArray[np.int32]:
     if not all(np.all(np.array(end.held)[crossed]) for end in model.ends):
         return none
     comm = space.mesh.comm
-    _, dofs = space.mixed.sub(1).collapse()
-    own = np.asarray(dofs, dtype=np.int32)
+    _, own = collapsed(space.mixed, 1)
     own = own[own < _owned(equilibrium)][:1]
     lowest = comm.allreduce(comm.rank if len(own) else comm.size, op=MPI.MIN)
     return own if comm.rank == lowest else none
@@ -196,7 +196,7 @@ def _curvature_scale(equilibrium: Equilibrium, free: NDArray[np.int32], matrix: 
     space = equilibrium.space
     scale = fem.Function(space.mixed)
     scale.x.array[:] = 1.0
-    _, dofs = space.mixed.sub(2).collapse()
+    _, dofs = collapsed(space.mixed, 2)
     scale.x.array[dofs] = -equilibrium.forms.model.flexural_rigidity
     vector = matrix.createVecLeft()
     vector.array[:] = scale.x.array[free]
@@ -209,7 +209,7 @@ def _time_unit(equilibrium: Equilibrium) -> float:
     mass = (model.mass + model.added_mass) * model.length + sum(load.mass + load.added_mass for load in model.bodies)
     if mass == 0.0:
         raise ValueError("mass and added_mass are zero: a thread that vibrates has a mass, or carries one")
-    _, dofs = space.mixed.sub(1).collapse()
+    _, dofs = collapsed(space.mixed, 1)
     forces = np.abs(equilibrium.solution.x.array[dofs])
     tension = space.mesh.comm.allreduce(float(forces.max(initial=0.0)), op=MPI.MAX)
     stiffness = tension / model.length + model.flexural_rigidity / model.length**3

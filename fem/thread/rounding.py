@@ -14,6 +14,7 @@ from mpi4py import MPI
 
 from hydroelastic.fem.thread.equilibrium import Equilibrium
 from hydroelastic.fem.thread.table import line_table
+from hydroelastic.meshes.compat import collapsed
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,7 +63,7 @@ def _stretch_unknown(equilibrium: Equilibrium) -> float:
     up to one, with equal signs; and no less than eps for each element and each length from the origin.
     """
     space = equilibrium.space
-    rows = np.asarray(space.mixed.sub(1).collapse()[1])
+    rows = collapsed(space.mixed, 1)[1]
     left = equilibrium.residual[rows[rows < len(equilibrium.residual)]]
     total = float(space.mesh.comm.allreduce(float(np.sum(np.abs(left))), op=MPI.SUM))
     farthest = float(np.max(np.abs(line_table(equilibrium.solution, space.nodes, 0).values)))

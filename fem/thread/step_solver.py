@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from petsc4py import PETSc
 
 from hydroelastic.fem.kernels import compiled_form
+from hydroelastic.meshes.compat import collapsed
 
 # The last change of a mean velocity, times the step, in units of the length: the next one would be rounding.
 _TOLERANCE = 1e-9
@@ -68,7 +69,7 @@ class StepSolver:
         space = unknown.function_space
         self._comm = space.mesh.comm
         self._owned = space.dofmap.index_map.size_local * space.dofmap.index_map_bs
-        positions = np.asarray(space.sub(0).collapse()[1])
+        positions = collapsed(space, 0)[1]
         self._positions = positions[positions < self._owned]
         self._matrix = create_matrix(self._derivative)
         self._vector, self._change = (unknown.x.petsc_vec.duplicate() for _ in range(2))

@@ -44,9 +44,9 @@ def straight_equilibrium(
     Args:
         comm: communicator.
         model: a thread that does not stretch; the positions of both ends count, held or not, and are its length apart.
-        nodes: s of the nodes in m from 0 to the length, increasing.
+        nodes: arc length s of the nodes, m, from 0 to the length, increasing, shape (nodes,).
         tension: T, N: a constant, or T(s) with s in m where weight or friction changes it along the thread.
-        degree: of the polynomials.
+        degree: polynomial degree.
 
     Returns:
         The equilibrium, its equations checked (collective).

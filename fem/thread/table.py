@@ -10,7 +10,7 @@ import numpy as np
 from mpi4py import MPI
 from numpy.typing import NDArray
 
-from hydroelastic.meshes.compat import geometry_dofmap
+from hydroelastic.meshes.compat import collapsed, geometry_dofmap
 
 
 @dataclass(frozen=True)
@@ -69,8 +69,8 @@ def line_table(function: Any, nodes: NDArray[np.float64], component: int | None 
     """
     space, places = function.function_space, None
     if component is not None:
-        space, places = space.sub(component).collapse()
-    array = function.x.array if places is None else function.x.array[np.asarray(places)]
+        space, places = collapsed(space, component)
+    array = function.x.array if places is None else function.x.array[places]
     size = space.dofmap.bs
     mesh = space.mesh
     owned = mesh.topology.index_map(1).size_local

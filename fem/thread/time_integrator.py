@@ -24,6 +24,7 @@ from hydroelastic.fem.thread.step import GeneralisedAlpha, ThreadStep, midpoint_
 from hydroelastic.fem.thread.step_solver import HeldUnknowns, StepSolver
 from hydroelastic.fem.thread.table import gather_elements
 from hydroelastic.fem.thread.vortex_shedding import SheddingLoad
+from hydroelastic.meshes.compat import collapsed
 
 _ENDS = np.array([[0.0], [1.0]])
 # Of the unit of time, for one-sided differences of the prescribed motion of an end.
@@ -76,8 +77,8 @@ class TimeIntegrator:
         self._solver = StepSolver(self.step.residual, self.step.unknown, self._update_stream)
         self._consistent = ConsistentState(self.step)
         space = forms.space
-        self._places = np.asarray(space.mixed.sub(0).collapse()[1])
-        self._force_places = np.asarray(space.mixed.sub(1).collapse()[1])
+        self._places = collapsed(space.mixed, 0)[1]
+        self._force_places = collapsed(space.mixed, 1)[1]
         self._dimension = forms.model.dimension
         self._facets = [space.end_tags.find(tag) for tag in (1, 2)]
         self._end_places = [self._places_of_end(facets) for facets in self._facets]
@@ -229,8 +230,8 @@ class TimeIntegrator:
         """Error of positions that the step adds, Δt³ |r_ttt|/12, by the change of the acceleration (collective).
 
         Args:
-            length: of the step.
-            rate_age: time from the known acceleration to the beginning of the step.
+            length: length Δt of the step, dimensionless.
+            rate_age: dimensionless time from the known acceleration to the beginning of the step.
         """
         change = np.max(np.abs(self._new_rate(length) - self.step.old_acceleration.x.array)[self._places], initial=0.0)
         # Between midpoints of steps with the midpoint rule, between their ends with generalised α.

@@ -27,12 +27,12 @@ class BeamShapes:
     """The first shapes of a beam, ∫wᵢwⱼ = l δᵢⱼ.
 
     Attributes:
-        dofs: what each is.
+        dofs: degree of freedom of each.
         parities: +1 or −1: the mirror image of a shape about the middle of its beam is ± a shape of the mirrored beam.
         deflection: number of the shape and distances from the left end → w.
-        bending: twice the strain energy of each.
-        mass: ∫m wᵢwⱼ.
-        wavenumber: the largest among them.
+        bending: twice the strain energy of each, in units of the beam, shape (shapes,).
+        mass: ∫m wᵢwⱼ, shape (shapes, shapes).
+        wavenumber: the largest wavenumber among them, 1/m or dimensionless as the beam.
     """
 
     dofs: tuple[Dof, ...]

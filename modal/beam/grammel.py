@@ -27,8 +27,8 @@ class QuotientPair:
     """Both quotients for the same trial space; exact ≤ Grammel ≤ Rayleigh, index by index.
 
     Attributes:
-        grammel: eigenvalue estimates from the inertia load, ascending, shape (trials,).
-        rayleigh: eigenvalue estimates from the trial itself, ascending, shape (trials,).
+        grammel: estimates of λ = ω² from the inertia load, ascending, shape (trials,).
+        rayleigh: estimates of λ = ω² from the trial itself, ascending, shape (trials,).
     """
 
     grammel: FloatArray

@@ -32,8 +32,8 @@ class Tones:
     """Modes of a `TonePencil` without its zero modes.
 
     Attributes:
-        squared_frequencies: λ, ascending.
-        participation: p_n = (e₁ᵀ K φ_n)² of the K-normalised dry mode 1; they sum to one.
+        squared_frequencies: λ = ω², ascending, shape (modes,).
+        participation: p_n = (e₁ᵀ K φ_n)² of the K-normalised dry mode 1, shape (modes,); they sum to one.
         elastic_index: which mode has the largest participation, counted from 1.
     """
 

@@ -15,7 +15,7 @@ from hydroelastic.modal.estimate import NoEstimateError
 from hydroelastic.modal.floats.complex_moments import ComplexArray
 from hydroelastic.modal.floats.thin_float import thin_constants
 from hydroelastic.modal.floats.thin_float_resonance import FreePole, heave_pole, pole_count, second_pole
-from hydroelastic.modal.floats.wave_integral import fastest_scale, greatest_angle, is_endless, wave_integral
+from hydroelastic.modal.floats.wave_integral import fastest_scale, greatest_angle, has_infinite_draught, wave_integral
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.profiles import Profile
 
@@ -122,15 +122,15 @@ def crossover_time(profile: Profile) -> float:
 def _plan(profile: Profile) -> tuple[tuple[FreePole, ...], float, float]:
     """Return the poles to the right of the ray, its angle φ, and how far the nearest singularity is from it."""
     poles: tuple[FreePole, ...] = (heave_pole(profile),)
-    if is_endless(profile):
-        poles, limit = _plan_endless(profile)
+    if has_infinite_draught(profile):
+        poles, limit = _plan_infinite_draught(profile)
     else:
         limit = _clear_angle(profile)
     first = max(cmath.phase(pole.frequency) for pole in poles)
     return poles, (first + limit) / 2, (limit - first) / 2
 
 
-def _plan_endless(profile: Profile) -> tuple[tuple[FreePole, ...], float]:
+def _plan_infinite_draught(profile: Profile) -> tuple[tuple[FreePole, ...], float]:
     heave, second = heave_pole(profile), second_pole(profile)
     if thin_constants(profile).coupling > _BOTH_POLES:
         return (heave, second), math.pi

@@ -42,9 +42,9 @@ def printed_constants(profile: Profile, layers: TwoLayers) -> dict[str, PrintedA
     """
     if profile.shape != "exponential":
         raise NoEstimateError(f"the paper prints no constants for the {profile.shape}")
-    endless = Profile(shape="exponential", half_width=profile.half_width, half_height=profile.half_height)
-    corrected = _corrected(endless, layers)
-    printed = _printed(endless, layers)
+    infinite = Profile(shape="exponential", half_width=profile.half_width, half_height=profile.half_height)
+    corrected = _corrected(infinite, layers)
+    printed = _printed(infinite, layers)
     return {name: PrintedAndCorrected(printed=printed[name], corrected=corrected[name]) for name in corrected}
 
 

@@ -13,7 +13,7 @@ import numpy.typing as npt
 from hydroelastic.modal.estimate import NoEstimateError
 from hydroelastic.modal.floats.complex_moments import ComplexArray
 from hydroelastic.modal.floats.thin_float import thin_constants
-from hydroelastic.modal.floats.wave_integral import fastest_scale, greatest_angle, is_endless, wave_integral
+from hydroelastic.modal.floats.wave_integral import fastest_scale, greatest_angle, has_infinite_draught, wave_integral
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.profiles import Profile
 
@@ -79,12 +79,12 @@ def heave_pole(profile: Profile) -> FreePole:
 
 @functools.lru_cache(maxsize=256)
 def second_pole(profile: Profile) -> FreePole:
-    """Return the other pole of the endless exponential, which comes from z = −1: −1 + (1 + i)√τ/2 + O(τ).
+    """Return the other pole of the exponential of infinite draught, which comes from z = −1: −1 + (1 + i)√τ/2 + O(τ).
 
     Raises:
-        NoEstimateError: for any other shape, whose further poles are endless in number, beyond an angle of about 3π/4.
+        NoEstimateError: for any other shape, which has infinitely many further poles, beyond an angle of about 3π/4.
     """
-    if not is_endless(profile):
+    if not has_infinite_draught(profile):
         raise NoEstimateError("only the exponential without end has exactly one more pole")
     coupling = min(thin_constants(profile).coupling, 1e-3)
     slenderness = math.pi * coupling / (2 - coupling)
@@ -107,7 +107,7 @@ def pole_count(profile: Profile, angle: float) -> int:
     """
     if not math.pi / 2 < angle <= greatest_angle(profile):
         raise ValueError(f"angle is {angle}; it must be between π/2 and {greatest_angle(profile):.4f}")
-    order = 4 if is_endless(profile) else 0
+    order = 4 if has_infinite_draught(profile) else 0
     outward = _turn(profile, math.pi / 2, order)
     back = _turn(profile, angle, order)
     arc = (2 + order) * (angle - math.pi / 2)

@@ -20,11 +20,12 @@ _PLAIN_SECTOR = (math.pi + MOST_ANGLE) / 2
 
 
 def greatest_angle(profile: Profile) -> float:
-    """Return up to which |arg z| `wave_integral` is known: π for the endless exponential, 130° for other shapes.
+    """Return up to which |arg z| `wave_integral` is known: π for the exponential of infinite draught, 130° for other
+    shapes.
 
     Beyond 3π/4 R(−z²) of a float with ends grows like e^{|z|²}.
     """
-    return math.pi if is_endless(profile) else _PLAIN_SECTOR
+    return math.pi if has_infinite_draught(profile) else _PLAIN_SECTOR
 
 
 def fastest_scale(profile: Profile) -> float:
@@ -37,8 +38,8 @@ def wave_integral(profile: Profile, frequency: npt.ArrayLike) -> ComplexArray:
 
         G(z) = ∫₀^∞ R² dκ/(κ + z²) − 2πi R(−z²)²,     π/2 < arg z.
 
-    The endless exponential has (s − 1 − 2 Ln z)/(s − 1)², s = z². For other shapes κ runs on the ray arg κ = ±π/4, away
-    from the pole −z², by the trapezoidal rule in ln κ, whose error falls exponentially with the step.
+    The exponential of infinite draught has (s − 1 − 2 Ln z)/(s − 1)², s = z². For other shapes κ runs on the ray arg κ
+    = ±π/4, away from the pole −z², by the trapezoidal rule in ln κ, whose error falls exponentially with the step.
 
     Args:
         profile: the section.
@@ -61,17 +62,17 @@ def wave_integral(profile: Profile, frequency: npt.ArrayLike) -> ComplexArray:
         raise ValueError(f"frequencies must not be 0, nor beyond an angle of {limit:.3f} from the positive axis")
     below = z.imag < 0
     upper = np.where(below, z.conj(), z)
-    value = (_endless if is_endless(profile) else functools.partial(_by_ray, profile))(upper.ravel())
+    value = (_infinite_draught if has_infinite_draught(profile) else functools.partial(_by_ray, profile))(upper.ravel())
     value = value.reshape(z.shape)
     return np.where(below, value.conj(), value).reshape(np.shape(frequency))
 
 
-def is_endless(profile: Profile) -> bool:
+def has_infinite_draught(profile: Profile) -> bool:
     """Whether it is the exponential without end, whose R has a pole at κ = −1 and no growth beyond."""
     return profile.shape == "exponential" and not profile.tail
 
 
-def _endless(z: ComplexArray) -> ComplexArray:
+def _infinite_draught(z: ComplexArray) -> ComplexArray:
     """(v − 2 Ln z)/v², v = z² − 1; beside z = 1, and only there, by Σ (−v)^m/(m + 2)."""
     v = z * z - 1
     near = (np.abs(v) < _NEAR_ONE) & (z.real > 0)

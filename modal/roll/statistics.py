@@ -24,11 +24,11 @@ class RollStatistics:
         largest_time: when |φ| is largest, s, the first and last time included.
         largest_angle: φ there, rad, with its sign.
         extreme_times: times between the first and the last at which the rate changes its sign, s, shape (extremes,).
-        extreme_angles: φ there, rad.
+        extreme_angles: φ there, rad, shape (extremes,).
         swing_times: times of the swings, s, shape (swings,). The zeros of φ cut the time into pieces; the swing of a
             piece is its largest |φ|. One at the last time is left out, for it may still grow, and one at the first time
             unless that is t = 0, as in a release. Where φ touches 0 without a change of sign nothing is cut.
-        swing_angles: φ there, rad.
+        swing_angles: φ there, rad, shape (swings,).
         root_mean_square: √(∫φ² dt/duration), rad.
     """
 

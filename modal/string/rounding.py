@@ -58,7 +58,8 @@ class Rounding:
         self._sums += np.stack([np.where(oscillating, 0.0, sizes), moving, moving * frequencies**2]) @ (shapes**2).T
 
     def at(self, rows: NDArray[np.int_], columns: NDArray[np.int_]) -> NDArray[np.float64]:
-        """Return estimates at points, m, given by indices of positions and times."""
+        """Return estimates at points, m, shape (points,), given by indices of positions and times, both of shape
+        (points,)."""
         aperiodic, oscillating, turning = self._sums[:, rows]
         moving = oscillating * self._steps[columns] ** 2 + turning * self._phase[columns] ** 2
         squares = aperiodic * self._steps[columns] ** 2 + self._decay[columns] * moving

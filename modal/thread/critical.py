@@ -136,11 +136,11 @@ class NearlyCriticalTail:
 
     Attributes:
         angles: below the stream, −f, rad, shape (n,).
-        tensions: T, N.
-        across: how far upstream of the tail, m.
-        lengths: arc length from the tail, m.
-        small: largest change of the stream, of it.
-        angle_truncation: estimate of the error of the angles: their change times the change of the stream.
+        tensions: T, N, shape (n,).
+        across: distance upstream of the tail, m, shape (n,).
+        lengths: arc length from the tail, m, shape (n,).
+        small: largest relative change of the stream.
+        angle_truncation: estimated error of the angles, rad: their change times the change of the stream.
     """
 
     angles: FloatArray

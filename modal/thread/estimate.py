@@ -22,11 +22,11 @@ class ThreadEstimate:
     """An estimate.
 
     Attributes:
-        name: of the theory.
-        order: of the last terms that are kept; ``None`` of a solution that is exact.
+        name: name of the theory.
+        order: order of the last terms that are kept; ``None`` of a solution that is exact.
         parameter: what must be small, in words; empty of an exact solution.
-        small: its value; 0 of an exact solution.
-        seconds: that the estimate took.
+        small: its dimensionless value; 0 of an exact solution.
+        seconds: computing time, s.
     """
 
     name: str
@@ -73,8 +73,8 @@ class ValueEstimate(ThreadEstimate):
     Attributes:
         quantity: which.
         label: symbol or words for the quantity, with its unit.
-        values: shape (values,).
-        truncation: estimates of their absolute errors, shape (values,).
+        values: values in the unit of the label, shape (values,).
+        truncation: estimates of their absolute errors in that unit, shape (values,).
         analysis: number of the analysis of modes or of stability that it is an estimate of, from 0.
     """
 

@@ -1,4 +1,4 @@
-"""What will be asked of open water, and which waves leave, said before anything is solved."""
+"""Description of the analyses of open water and of the outgoing waves, before anything is solved."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from hydroelastic.modal.tank_estimates import two_layers
 from hydroelastic.scenes.models.open_analyses import Analysis, Decay, Radiation, Resonance, Response
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.estimates import endless_comparison, endless_words
+from hydroelastic.scenes.open_water.estimates import infinite_draught_comparison, infinite_draught_message
 from hydroelastic.scenes.output.sections import Section
 from hydroelastic.scenes.tank.check import modelled_tank
 
 
 def check_open(scene: TankScene) -> Iterator[Section]:
-    """Yield what open water is modelled as, what is asked of it, and which waves leave; a decay is meshed, to tell its
+    """Yield the description of open water, the analyses and the outgoing waves; a decay is meshed, to estimate its
     cost.
 
     Args:
@@ -33,13 +33,13 @@ def open_requests(scene: TankScene) -> Iterator[str]:
         yield f"  {number}. {_request(scene, analysis)}"
         if isinstance(analysis, Decay):
             yield f"     {decay_cost_words(scene, analysis)}"
-    endless = endless_comparison(scene)
-    if endless is not None:
-        yield endless_words(endless)
+    infinite = infinite_draught_comparison(scene)
+    if infinite is not None:
+        yield infinite_draught_message(infinite)
 
 
 def decay_cost_words(scene: TankScene, analysis: Decay) -> str:
-    """Return what a decay analysis will cost; its first mesh is made."""
+    """Return the estimated cost of a decay analysis; its first mesh is made."""
     # This needs dolfinx, which takes a second to import.
     from hydroelastic.fem.open_water.cost import WITHIN, decay_cost
 
@@ -88,7 +88,7 @@ def _span(values: tuple[float, ...], what: str) -> str:
 
 
 def open_waves(scene: TankScene) -> Iterator[str]:
-    """Yield the lengths of the waves that leave, at the lowest and the highest frequency asked for."""
+    """Yield the lengths of the outgoing waves, m, at the lowest and the highest requested frequency."""
     asked = [
         omega
         for analysis in scene.analyses

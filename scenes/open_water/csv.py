@@ -36,7 +36,7 @@ def write_csv(solution: OpenSolution, folder: Path) -> None:
     for name, rows in files.items():
         if not rows:
             continue
-        # Analyses of one kind may have different motions: a column for each, in the order of their coming.
+        # Analyses of one kind may have different motions: a column for each, in order of appearance.
         columns = list({column: None for row in rows for column in row})
         with (folder / f"{name}.csv").open("w", encoding="utf-8", newline="") as file:
             writer = csv.DictWriter(file, columns, lineterminator="\n")

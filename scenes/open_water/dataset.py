@@ -70,7 +70,7 @@ _SAID_OF_MOTIONS = {
     "decay_absolute_error": (*MOTION_UNITS, "estimated error of the motion after release"),
     "decay_tail": ("m s^2", "m s^2, of roll rad s^2", "asymptotic coefficient of 1/t^2"),
 }
-# What has the phase of an incident wave.
+# Variables whose phase is relative to an incident wave.
 _PHASED = (
     "excitation_force",
     "Froude_Krylov_force",
@@ -81,7 +81,7 @@ _PHASED = (
     "shape_amplitude",
 )
 _PHASE = "beside an incident wave whose crest is at x = 0 of the scene at t = 0"
-# Analyses are told by labelled arrays, but for what is counted.
+# Analyses are labelled arrays; only counts are taken from the summary.
 OPEN_NAMES = SummaryNames(
     dimensions={
         "radiation": ("radiation_analysis",),
@@ -121,7 +121,7 @@ def open_dataset(solution: OpenSolution) -> xarray.Dataset:
         *_numbered([_decay(table) for table in solution.decay]),
     ]
     found = reduce(lambda one, other: one.combine_first(other), parts)
-    # Joining analyses sorts the labels: put them in the order of the bodies again.
+    # Joining analyses sorts the labels: restore the order of the bodies.
     ending = [*(table.dofs for table in solution.resonance), *(table.dofs for table in solution.decay)]
     others = max(ending, key=len, default=())
     order = {"radiating_dof": motions, "influenced_dof": motions, "dof": others}
@@ -157,7 +157,7 @@ def _attributes(name: str, *, turning: bool) -> dict[str, str]:
 
 
 def _capitalised(dofs: tuple[Dof, ...]) -> list[str]:
-    """The names that Capytaine gives to degrees of freedom."""
+    """Names of degrees of freedom in Capytaine."""
     return [dof.capitalised for dof in dofs]
 
 
@@ -168,7 +168,7 @@ def _dataset(coordinates: dict[str, Any], variables: dict[str, Any]) -> xarray.D
 
 
 def _waves(omega: npt.NDArray[np.float64], wavenumbers: npt.NDArray[np.float64]) -> dict[str, Any]:
-    """Wavenumber, wavelength and period; very long waves have no end."""
+    """Wavenumber, wavelength and period; infinite in the limit of long waves."""
     with np.errstate(divide="ignore"):
         return {
             "wavenumber": (("omega", "wave"), wavenumbers),
@@ -210,7 +210,7 @@ def _radiation(table: RadiationTable) -> xarray.Dataset:
 
 
 def _response(table: ResponseTable, motions: tuple[Dof, ...]) -> xarray.Dataset:
-    """The response in the motions of the radiation analysis, and in shapes beyond them, which bend the deflection."""
+    """The response in the motions of the radiation analysis, and in further dry modes."""
     kept = [place for place, dof in enumerate(table.dofs) if dof in motions]
     direction = DIRECTIONS[0] if table.waves_from == "left" else DIRECTIONS[1]
     of_waves = ("omega", "wave_direction", "wave", "outgoing_wave")
@@ -276,7 +276,7 @@ def _decay(table: DecayTable) -> xarray.Dataset:
 
 
 def _numbered(parts: list[xarray.Dataset]) -> list[xarray.Dataset]:
-    """Where there are several of a kind, tell them apart by a dimension `analysis`, from 1."""
+    """Join several analyses of a kind along a dimension `analysis`, from 1."""
     if len(parts) < 2:
         return parts
     return [part.expand_dims(analysis=np.array([number], dtype=np.int32)) for number, part in enumerate(parts, 1)]

@@ -40,6 +40,6 @@ def _write_bodies(field: SampledField, folder: Path) -> None:
 
 
 def _parts(name: str, values: np.ndarray) -> dict[str, np.ndarray]:
-    """What ParaView, which has no complex numbers, is given of them."""
+    """Real part, imaginary part and magnitude, since ParaView has no complex numbers."""
     size = np.abs(values) if values.ndim == 1 else np.linalg.norm(values, axis=1)
     return {f"{name}_real": values.real, f"{name}_imaginary": values.imag, f"{name}_magnitude": size}

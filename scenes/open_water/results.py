@@ -1,4 +1,4 @@
-"""The solution of a scene with open ends: the tables of its analyses, and what they cost."""
+"""The solution of a scene with open ends: the tables of its analyses, and their cost."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class OpenSolution(OpenWaterSolution):
 
 
 def region_words(region: Region | None) -> str:
-    """Return in which region of ω resonances were sought, in words."""
+    """Return a description of the region of ω in which resonances were sought."""
     if region is None:
         return "any ω: the bodies have no restoring force"
     return f"{region.lowest:.4g} < Re ω < {region.highest:.4g} rad/s, −Im ω < {region.damping:g} Re ω"

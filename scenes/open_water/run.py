@@ -29,11 +29,11 @@ from hydroelastic.scenes.output.staged_run import StagedRun
 
 @dataclass(frozen=True, kw_only=True)
 class SampledWater:
-    """What is written and drawn of a solution.
+    """Results that are written and drawn.
 
     Attributes:
         solution: the tables.
-        fields: of the waves, on rank 0.
+        fields: fields of the analyses, on rank 0.
         missing: which fields there are not, and why.
     """
 
@@ -50,7 +50,7 @@ def _sample(solution: OpenSolution, _summary: Summary) -> SampledWater:
             # One field after the other: each comes with a mesh and matrices of its own.
             sampled += [sample_field(field) for field in fields]
         except (MeshError, EigenSolverError) as error:
-            # The numbers are there whatever their picture does.
+            # A field that fails does not affect the tables.
             missing.append(f"no field of {name}: {error}")
     fields_here = tuple(field for field in sampled if field is not None)
     return SampledWater(solution=solution, fields=fields_here, missing=tuple(missing))

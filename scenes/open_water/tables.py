@@ -1,4 +1,4 @@
-"""The tables of a scene with open ends that a person reads: printed, and kept as Markdown."""
+"""Tables of a scene with open ends, printed and written as Markdown."""
 
 from __future__ import annotations
 
@@ -9,10 +9,16 @@ from math import ceil, degrees, inf, isfinite, pi
 
 import numpy as np
 
-from hydroelastic.fem.open_water.results import DecayTable, MissedPeak, RadiationTable, ResonanceTable, ResponseTable
+from hydroelastic.fem.open_water.results import (
+    DecayTable,
+    RadiationTable,
+    ResonanceTable,
+    ResponseTable,
+    UnresolvedPeak,
+)
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.estimates import endless_comparison, endless_words
+from hydroelastic.scenes.open_water.estimates import infinite_draught_comparison, infinite_draught_message
 from hydroelastic.scenes.open_water.results import OpenSolution, region_words
 from hydroelastic.scenes.output.digits import beyond_error, number, per_cent, with_certain_digits
 from hydroelastic.scenes.output.provenance import Summary
@@ -20,13 +26,13 @@ from hydroelastic.scenes.output.sections import Row, Section
 from hydroelastic.scenes.tank.check_hints import draughts_left_out
 
 MOST_ROWS = 25
-"""Rows of one table that are shown at most; of longer ones every so many."""
+"""Largest number of rows of a table; longer ones are shown at equal distances."""
 
 _MOST_MOTIONS = 4
 
 
 def open_sections(solution: OpenSolution, summary: Summary) -> Iterator[Section]:
-    """Yield the tables, by analysis, and the thin-float theory beside them.
+    """Yield the tables by analysis, and the comparison with the thin-float theory.
 
     Args:
         solution: the solution.
@@ -47,7 +53,7 @@ def open_sections(solution: OpenSolution, summary: Summary) -> Iterator[Section]
 
 
 def _estimates(scene: TankScene, summary: Summary) -> Iterator[Section]:
-    """The thin-float theory beside the field solution."""
+    """Comparison of the thin-float theory with the field solution."""
     estimate = summary["estimates"]["thin_float"]
     if estimate["rows"]:
         yield Section(
@@ -63,16 +69,18 @@ def _estimates(scene: TankScene, summary: Summary) -> Iterator[Section]:
             ),
             compares=True,
         )
-    endless = endless_comparison(scene)
-    if endless is not None:
+    infinite = infinite_draught_comparison(scene)
+    if infinite is not None:
         yield Section(
-            title="The endless float of the paper, by its closed form",
+            title="The float of infinite draught of the paper, by its closed form",
             headings=("pole", "Re ω, rad/s", "Im ω, 1/s", "Re residue", "Im residue"),
             rows=[
                 (name, number(omega.real), number(omega.imag), number(residue.real), number(residue.imag))
-                for name, omega, residue in zip(("heave", "second"), endless.resonances, endless.residues, strict=True)
+                for name, omega, residue in zip(
+                    ("heave", "second"), infinite.resonances, infinite.residues, strict=True
+                )
             ],
-            lines=("After a release s/s₀ contains 2 Re(residue e^(−iωt)) of each.", endless_words(endless)),
+            lines=("After a release s/s₀ contains 2 Re(residue e^(−iωt)) of each.", infinite_draught_message(infinite)),
         )
 
 
@@ -87,7 +95,7 @@ def open_cost(summary: Summary) -> str:
 
 
 def _radiation(table: RadiationTable) -> Iterator[Section]:
-    """One table for each motion: the diagonal of a and b, and what waves from the left do."""
+    """One table for each motion: the diagonals of a and b, and the excitation by waves from the left."""
     several = len(table.waves) > 1
     shown, thinned = _shown(len(table.omega), "frequencies", "radiation.csv")
     worst = f"Largest residuals: energy {_largest(table.energy_residual)}, Haskind {_largest(table.haskind_residual)}."
@@ -128,7 +136,7 @@ def _radiation(table: RadiationTable) -> Iterator[Section]:
 
 
 def _response(table: ResponseTable) -> Iterator[Section]:
-    """What leaves for each wave that comes, and how the bodies move."""
+    """Outgoing waves and motions of the bodies for each incident wave."""
     several = len(table.waves) > 1
     places = max(MOST_ROWS // len(table.waves), 2)
     shown, thinned = _shown(len(table.omega), "frequencies", "response.csv", places=places)
@@ -187,8 +195,8 @@ def _response(table: ResponseTable) -> Iterator[Section]:
     )
 
 
-def _missed(peak: MissedPeak) -> str:
-    """A word about a peak that the curve does not show."""
+def _missed(peak: UnresolvedPeak) -> str:
+    """Message on a peak that the curve does not show."""
     return (
         f"NOT SHOWN: between {peak.below:.6g} and {peak.above:.6g} rad/s {Dof(peak.quantity).words} changes by more "
         f"than the curve shows: {peak.value:.3g} at {peak.omega:.6g} rad/s, where the line between these has "
@@ -230,7 +238,7 @@ def _counted(table: ResonanceTable) -> str:
 
 def _decay(table: DecayTable) -> Section:
     shown, thinned = _shown(len(table.times), "times", "decay.csv")
-    # Those let go come first.
+    # Released motions are first.
     columns = sorted(range(len(table.dofs)), key=lambda place: table.initial[place] == 0.0)[:_MOST_MOTIONS]
     dofs = [table.dofs[place] for place in columns]
     left_out = len(table.dofs) - len(dofs)
@@ -269,11 +277,11 @@ def _decay(table: DecayTable) -> Section:
 
 
 def _shown(count: int, what: str, file: str, places: int = MOST_ROWS) -> tuple[list[int], tuple[str, ...]]:
-    """Rows that are shown, every so many from the first and the last one, and a word about the others."""
+    """Return the rows that are shown, at equal distances with the first and the last one, and a note on the others."""
     if count <= places:
         return list(range(count)), ()
     least = ceil((count - 1) / (places - 1))
-    # Equal distances to the last one too, where a few rows less allow it.
+    # With a few rows less all distances may be equal.
     stride = next((step for step in range(least, ceil(1.5 * least)) if (count - 1) % step == 0), least)
     rows = sorted({*range(0, count, stride), count - 1})
     return rows, (f"{len(rows)} of {count} {what}; all of them are in {file}.",)
@@ -289,7 +297,7 @@ def _certain(value: float, error: float) -> str:
 
 
 def _phase(value: complex) -> str:
-    """The phase in degrees; that of nothing is none."""
+    """The phase in degrees; none of zero."""
     return f"{degrees(phase(value)) + 0.0:.1f}°" if value and isfinite(abs(value)) else "–"
 
 

@@ -71,7 +71,7 @@ def solved_section(scene: RollScene, comm: MPI.Comm, watch: Stopwatch, report: R
         from hydroelastic.fem.section_roll import SectionRollError, section_roll
         from hydroelastic.meshes.tagged_mesh import MeshError
         from hydroelastic.scenes.models.physical import physical_tank
-        from hydroelastic.scenes.tank.own_mesh import mesh_refused, own_mesh
+        from hydroelastic.scenes.tank.user_mesh import mesh_refused, user_mesh
     report("section")
     try:
         with watch.stage("section"):
@@ -81,7 +81,7 @@ def solved_section(scene: RollScene, comm: MPI.Comm, watch: Stopwatch, report: R
                 modes=section.accuracy.modes,
                 comm=comm,
                 title=section.title,
-                mesh=own_mesh(section, comm),
+                mesh=user_mesh(section, comm),
                 report=report,
             )
     except MeshError as error:

@@ -16,7 +16,7 @@ _ENOUGH_POSITIONS = 61
 _OF_FRONTS = (301, 801)
 
 
-def as_drawn(result: StringResult) -> StringSolution:
+def drawn_solution(result: StringResult) -> StringSolution:
     """Return the same motion at more positions and times, including the requested ones.
 
     A series is summed again. A field solution is drawn as it is, since computing it again is expensive.

@@ -12,7 +12,7 @@ from hydroelastic.output.pictures.colours import diverging_colours
 from hydroelastic.output.pictures.curves import COLOURS, DASHES, GREY, Sheets, label_axes, sequence_colours
 from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.scenes.output.line_sequence import frame_numbers
-from hydroelastic.scenes.string.drawn import as_drawn, columns_of
+from hydroelastic.scenes.string.drawn import columns_of, drawn_solution
 from hydroelastic.scenes.string.frames import HEIGHT, animate_string, draw_frames
 from hydroelastic.scenes.string.results import StringResult
 
@@ -37,7 +37,7 @@ def draw_string(result: StringResult, folder: Path, options: PictureOptions) -> 
     ``motion.gif`` is drawn if asked.
     """
     sheets = Sheets(folder=folder, title=result.scene.title, options=options)
-    times, drawn = result.solution.times, as_drawn(result)
+    times, drawn = result.solution.times, drawn_solution(result)
     if len(drawn.positions) > 1 and len(drawn.times) > 1:
         _draw_space_time(drawn, sheets)
         _draw_modes(drawn, sheets)

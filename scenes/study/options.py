@@ -1,4 +1,4 @@
-"""The plan of a study as the command line gives it: lists such as ``1,2,5-8``, one clear message for each mistake."""
+"""The plan of a study from the command line: lists such as ``1,2,5-8``, one message for each mistake."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ EXAMPLES = {
     "most_unknowns": "50000",
     "width_halvings": "5",
 }
-"""What each option may look like, by attribute of `StudyPlan`."""
+"""Example of each option, by attribute of `StudyPlan`."""
 
-# More than any range has; what lies beyond is refused by its ends.
+# Longer than any allowed range, whose ends are checked later.
 _LONGEST_RANGE = 1000
 
 
 def plan_from_options(options: Mapping[str, str | None]) -> StudyPlan:
-    """Return the plan that the texts of a command line ask for.
+    """Return the plan of the options of a command line.
 
     Args:
         options: text by attribute of `StudyPlan`; ``None`` where an option is not given.
@@ -40,7 +40,7 @@ def plan_from_options(options: Mapping[str, str | None]) -> StudyPlan:
             continue
         try:
             value = _READERS[name](text)
-            # One at a time: the plan's complaint is then about this option.
+            # One at a time, so that an error of the plan belongs to this option.
             StudyPlan(**{name: value})
         except ValueError as error:
             problems.append(Problem(key=name, value=shown_value(text), wrong=str(error), allowed=LIMITS[name].words))

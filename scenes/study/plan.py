@@ -1,4 +1,4 @@
-"""What a study solves: series of meshes, degrees and tolerances, and how large its meshes may become. No dolfinx."""
+"""The plan of a study: series of meshes, degrees and tolerances, and the largest meshes. No dolfinx."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from hydroelastic.scenes.words import proposal
 FAMILIES: tuple[Family, ...] = get_args(Family)
 
 ERROR_FAMILIES: tuple[Family, ...] = ("uniform", "algebraic", "geometric", "tolerance")
-"""Those that measure error against cost, in any scene."""
+"""Series that measure error against cost, in any scene."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Limits:
-    """Which numbers an entry of a plan takes.
+    """Allowed numbers of an entry of a plan.
 
     Attributes:
         low: smallest.
@@ -32,11 +32,11 @@ class Limits:
 
     @property
     def words(self) -> str:
-        """What is allowed, in words."""
+        """Description of the allowed numbers."""
         return f"{'whole ' if self.whole else ''}numbers from {self.low:.10g} to {self.high:.10g}"
 
     def objection(self, value: object) -> str:
-        """What is wrong with a value; empty if nothing is."""
+        """Return what is wrong with a value; empty if it is allowed."""
         if not isinstance(value, int if self.whole else int | float) or isinstance(value, bool):
             return f"it is not a {'whole ' if self.whole else ''}number"
         # The comparison fails for NaN as well.
@@ -56,7 +56,7 @@ LIMITS = {
 
 @dataclass(frozen=True, kw_only=True)
 class StudyPlan:
-    """What a study solves. Lists are put in order, and each entry is taken once.
+    """The plan of a study. Lists are sorted, without duplicates.
 
     Attributes:
         families: ``"uniform"``: meshes of one element size, halved again and again. ``"algebraic"``: the same meshes
@@ -84,7 +84,7 @@ class StudyPlan:
     width_halvings: int = 6
 
     def __post_init__(self) -> None:
-        """Check every value, and put lists in order."""
+        """Check every value, and sort lists."""
         problems = _family_problems(self.families)
         for name, limits in LIMITS.items():
             problems += _number_problems(name, getattr(self, name), limits)
@@ -101,7 +101,7 @@ class StudyPlan:
 
 
 def _number_problems(name: str, given: Any, limits: Limits) -> list[Problem]:
-    """The first thing that is wrong with a number or a list of numbers."""
+    """The first error of a number or a list of numbers."""
     many = name in ("degrees", "geometric_degrees", "tolerances")
     if many and not isinstance(given, list | tuple | range):
         return [Problem(key=name, value=shown_value(given), wrong="it is not a list", allowed=limits.words)]

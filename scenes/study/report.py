@@ -1,4 +1,4 @@
-"""What a study leaves: tables, a CSV file, a figure and a summary."""
+"""Output of a study: tables, a CSV file, a figure and a summary."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
-from hydroelastic.fem.study.corners import has_curved_contours, sharpest_of, symmetries_apart
 from hydroelastic.fem.study.rates import DIFFERENCE, GAIN_FACTOR, Gain
 from hydroelastic.fem.study.reference import Reference
 from hydroelastic.fem.study.row import Family, StudyRow
+from hydroelastic.fem.study.singular_points import has_curved_contours, sharpest_of, symmetries_apart
 from hydroelastic.fem.study.thinness import fitted_thinness
 from hydroelastic.output.pictures.curves import Sheets
 from hydroelastic.output.pictures.options import DEFAULT_PICTURES, PictureOptions
@@ -31,10 +31,10 @@ from hydroelastic.scenes.study.thinness_figure import draw_thinness
 from hydroelastic.scenes.study.thinness_report import print_thinness, thinness_csv
 
 STAGES = ("plan", "mesh", "forms", "assemble", "solve", "count", "errors", "pressure release")
-"""Stages of a solution in their order; others that the solver may time follow them."""
+"""Stages of a solution in their order; other timed stages follow them."""
 
 _SHORT = {"pressure release": "ψ=0", "added mass": "m_a"}
-# Where all modes have one order nothing is said of their symmetry.
+# Where all modes have one order their symmetry is not stated.
 _SYMMETRIES: dict[Parity | None, str] = {None: "", "symmetric": " sym.", "antisymmetric": " antisym."}
 _WIDTH = 120
 
@@ -60,7 +60,7 @@ _COLUMNS: dict[str, Cell] = {
     "estimate": lambda row: "" if row.estimate is None else f"{row.estimate:.1e}",
     "ratio": lambda row: _ratio(row),
 }
-# Columns that say the same in every row of a family are left out of its table.
+# Columns with the same value in every row of a family are left out of its table.
 _SHOWN: dict[Family, tuple[str, ...]] = {
     "uniform": ("degree", "element/L", "unknowns", "error", "lowest"),
     "algebraic": ("degree", "β", "element/L", "unknowns", "error", "lowest"),
@@ -70,7 +70,7 @@ _SHOWN: dict[Family, tuple[str, ...]] = {
 
 
 def study_table(study: Study) -> str:
-    """All rows, family by family, and the observed rates beside those of theory, as text."""
+    """All rows by family, and the observed rates with those of theory, as text."""
     console = Console(file=io.StringIO(), width=_WIDTH, color_system=None, highlight=False)
     if study.reference is not None:
         _print_errors(console, study, study.reference)
@@ -121,10 +121,10 @@ def _print_errors(console: Console, study: Study, reference: Reference) -> None:
 
 
 def _symmetry_lines(tank: Tank) -> Iterator[str]:
-    """What the error over all modes follows where their orders differ."""
+    """The exponents of the error where the orders of symmetric and antisymmetric modes differ."""
     found = [f"{(sharpest_of(tank, parity) or inf):.3g} ({parity} modes)" for parity in symmetries_apart(tank)]
     if found:
-        yield f"At the worst corner ψ ~ r^α, α = {' or '.join(found)}: the error of all follows the smaller."
+        yield f"At the worst point ψ ~ r^α, α = {' or '.join(found)}: the error of all follows the smaller."
 
 
 def _why_none(tank: Tank, family: Family) -> str:
@@ -134,7 +134,7 @@ def _why_none(tank: Tank, family: Family) -> str:
 
 
 def _rows_table(family: Family, rows: Sequence[StudyRow]) -> Table:
-    # Planning takes a thousandth of a second and stands in the CSV file alone.
+    # Planning takes a millisecond and is in the CSV file only.
     stages = [stage for stage in _stages(rows) if stage != "plan" and any(stage in row.seconds for row in rows)]
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=0)
     for heading in (*_SHOWN[family], *stages, "total", "MB"):
@@ -150,7 +150,7 @@ def _rows_table(family: Family, rows: Sequence[StudyRow]) -> Table:
 
 
 def _above(row: StudyRow, error: float) -> str:
-    """An error; where it is rounding, or that of the reference, what it is below."""
+    """An error; its upper limit where it is rounding or that of the reference."""
     return f"{error:.1e}" if error > row.floor else f"<{row.floor:.0e}"
 
 
@@ -215,7 +215,7 @@ def csv_columns(study: Study) -> tuple[str, ...]:
 
 
 def study_csv(study: Study) -> str:
-    """All rows at full precision; what a family does not have is empty."""
+    """All rows at full precision; columns that a family does not have are empty."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(csv_columns(study))

@@ -1,4 +1,4 @@
-"""Error against cost for one scene: uniform and graded meshes, degrees and tolerances, and the rates they show.
+"""Error against cost for one scene: uniform and graded meshes, degrees and tolerances, and observed rates.
 
     from hydroelastic.scenes.read import read_scene
     from hydroelastic.scenes.study.run import StudyPlan, study_scene
@@ -33,12 +33,12 @@ from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.read import closed_tank
 from hydroelastic.scenes.study.plan import ERROR_FAMILIES, StudyPlan
 from hydroelastic.scenes.study.thinness import both_boundaries, check_thinness
-from hydroelastic.scenes.tank.own_mesh import mesh_refused
+from hydroelastic.scenes.tank.user_mesh import mesh_refused
 
 
 @dataclass(frozen=True, kw_only=True)
 class Study:
-    """What a study found.
+    """Results of a study.
 
     Attributes:
         scene: the scene.
@@ -64,7 +64,7 @@ class Study:
 
     @property
     def reasons(self) -> tuple[str, ...]:
-        """Which tolerances were missed, and why; empty if none was."""
+        """Tolerances that were not kept, with reasons; empty if all were."""
         return tuple(f"tolerance {row.tolerance:g}: {reason}" for row in self.rows for reason in row.reasons)
 
     def rows_of(self, family: Family, degree: int | None = None) -> tuple[StudyRow, ...]:
@@ -78,10 +78,10 @@ def study_scene(scene: TankScene, plan: StudyPlan | None = None, *, report: Repo
     Args:
         scene: the scene; its own tolerance plays no part.
         plan: what to solve; a minute of it by default.
-        report: told what is being done.
+        report: receives messages on the progress.
 
     Returns:
-        The rows and the rates they show.
+        The rows and observed rates.
 
     Raises:
         SceneError: if the scene's ends are open, if it brings a mesh of its own, if it has no float for the thinness

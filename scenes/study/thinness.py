@@ -1,4 +1,4 @@
-"""The float of a scene with thin and with exact boundary, thinner and thinner, for a study of thinness."""
+"""The float of a scene with the thin and the exact boundary condition, at decreasing thinness."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Boundary: TypeAlias = Literal["thin", "exact"]
 
 
 def check_thinness(scene: TankScene) -> None:
-    """Refuse scenes whose float only one of the boundaries knows.
+    """Refuse scenes whose float has only one of the boundary conditions.
 
     Raises:
         SceneError: saying which float is needed.
@@ -59,7 +59,7 @@ def both_boundaries(scene: TankScene, halvings: int) -> Iterator[tuple[Tank, Tan
 
 
 def _with_boundary(scene: TankScene, factor: float, boundary: Boundary) -> TankScene:
-    """The scene with a float of another width: by Archimedes a given mass goes with it."""
+    """The scene with a float of another width; a given mass is changed by Archimedes' principle."""
     index, body = scene.floats[0]
     assert body.half_width is not None
     changed = body.model_copy(

@@ -1,4 +1,4 @@
-"""What a study of thinness leaves: a table with fitted rates and a CSV file."""
+"""Output of a study of thinness: a table with fitted rates and a CSV file."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ def _rates(rows: Sequence[ThinnessRow]) -> Table:
 
 
 def thinness_csv(rows: Sequence[ThinnessRow]) -> str:
-    """Both models of every row at full precision; what a model does not have is empty."""
+    """Both models of every row at full precision; missing values are empty."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     names = {name: name.replace(" ", "_") for name in QUANTITIES}

@@ -21,7 +21,7 @@ class BeamWords(BodyWords):
     name = "beam"
 
     def condition(self) -> str:
-        """Return what holds on the beam."""
+        """Return the boundary condition on the beam, as formulas."""
         scene, beam, level = self.scene, self.beam, self.level
         jump = jump_of(scene, level)
         restoring = f" + {jump} g w" if beam.hydrostatic else ""
@@ -35,7 +35,7 @@ class BeamWords(BodyWords):
         return f"{slopes} = w, {bending}{restoring} − ω² m w = ω² {pressure}; {_ENDS[beam.ends]}{joints}"
 
     def basis(self, *, is_held: bool) -> str:
-        """Return the shapes in which it moves."""
+        """Return a description of its dry modes."""
         beam = self.beam
         if beam.ends == "guided":
             return "w = Σ aᵢ φᵢ: elastic shapes cos(nπx/L), n ≥ 1; heave is excluded by the volume"
@@ -75,7 +75,7 @@ class BeamWords(BodyWords):
 
 
 def _joint_conditions(beam: AnyBeam) -> Iterator[str]:
-    """What holds at the hinges and at the other joints of a beam."""
+    """Return the conditions at the hinges and at the other joints of a beam."""
     if beam.hinges:
         yield "w″ = 0 at its hinges"
     if len(beam.hinges) < len(beam.joints):

@@ -1,4 +1,4 @@
-"""What moves in the liquids as a file of lines and polygons for ParaView: surfaces, beams, floats."""
+"""Surfaces, beams and floats as a file of lines and polygons for ParaView."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 
 
 def displacement_of(surfaces: Iterable[SurfaceCurve], floats: Iterable[FloatSection]) -> Array:
-    """Return the displacement of every point of what moves, in the order of `write_bodies`, shape (points, 3)."""
+    """Return the displacement of every point, m, in the order of `write_bodies`, shape (points, 3)."""
     zero = np.zeros
     moved = [np.column_stack([zero(len(one.x)), one.displacement, zero(len(one.x))]) for one in surfaces]
     moved += [np.column_stack([one.displacement, zero(len(one.displacement))]) for one in floats]
@@ -33,12 +33,12 @@ def write_bodies(
     *,
     start: float = 0.0,
 ) -> None:
-    """Write a VTU file of surfaces of liquids and beams, as lines, and of floats, as polygons, where they rest; in m.
+    """Write a VTU file of surfaces of liquids and beams, as lines, and of floats, as polygons, at rest; in m.
 
     The array `part` of its cells is 1 on a free surface, 2 on an interface, 3 on a beam, 4 on a float.
 
     Args:
-        path: of the file in an existing folder.
+        path: path of the file in an existing folder.
         surfaces: free surfaces, interfaces and beams.
         floats: sections of floats.
         arrays: values at all points, by name.

@@ -14,12 +14,12 @@ from hydroelastic.scenes.tank.symbols import Group
 
 @dataclass(frozen=True, kw_only=True)
 class BodyWords(ABC):
-    """A body in words.
+    """Description of a body.
 
     Attributes:
         scene: the scene.
-        index: of the body.
-        symbol: of its unknowns.
+        index: index of the body.
+        symbol: symbol of its unknowns.
         name: what it is.
     """
 
@@ -30,21 +30,21 @@ class BodyWords(ABC):
 
     @property
     def level(self) -> Level:
-        """Where it floats."""
+        """Still level on which it floats."""
         return self.scene.level_of(self.scene.body[self.index])
 
     @abstractmethod
     def condition(self) -> str:
-        """Return what holds on the body."""
+        """Return the boundary condition on the body, as formulas."""
 
     @abstractmethod
     def basis(self, *, is_held: bool) -> str:
-        """Return in what it moves; ``is_held`` says that conservation of volume excludes its heave."""
+        """Return a description of its unknowns; ``is_held``: whether conservation of volume excludes its heave."""
 
     @abstractmethod
     def groups(self) -> Iterator[Group]:
         """Yield its dimensionless groups."""
 
     def at_rest(self) -> dict[str, str]:
-        """Return how it rests, by quantity and unit; empty of a body without draught."""
+        """Return its hydrostatics, by quantity and unit; empty for a body without draught."""
         return {}

@@ -1,4 +1,4 @@
-"""What a scene will be modelled as, said before anything is solved."""
+"""Description of the model of a scene and of its first attempt, before anything is solved."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from hydroelastic.scenes.tank.check_tables import boundary_table, group_table, h
 
 
 def check_tank(scene: TankScene) -> Iterator[Section]:
-    """Yield what a closed tank is modelled as, how large it is, and what to expect; only the built-in meshes are made.
+    """Yield the description of a closed tank, the size of its model, and hints; only the built-in meshes are made.
 
     Args:
         scene: a validated scene.
@@ -34,7 +34,7 @@ def check_tank(scene: TankScene) -> Iterator[Section]:
 
 
 def modelled_tank(scene: TankScene, *, requests: Iterable[str], scale: Section) -> Iterator[Section]:
-    """Yield the surfaces, the unknown fields, the dimensionless groups, how floats rest, and hints.
+    """Yield the surfaces, the unknown fields, the dimensionless groups, hydrostatics of floats, and hints.
 
     Args:
         scene: a validated scene, closed or open.
@@ -55,7 +55,7 @@ def modelled_tank(scene: TankScene, *, requests: Iterable[str], scale: Section) 
 
 
 def _sizes(scene: TankScene) -> Iterator[str]:
-    """What the first attempt is, and why it should be enough; the built-in meshes are made to count them."""
+    """Yield the first attempt, and why it should be enough; the built-in meshes are made to count their unknowns."""
     tank, user_mesh = physical_tank(scene).scaled(), _user_mesh(scene)
     tolerance = scene.accuracy.tolerance
     tones = expected_tones(tank)
@@ -96,10 +96,10 @@ def _sizes(scene: TankScene) -> Iterator[str]:
 def _user_mesh(scene: TankScene) -> TaggedMesh | None:
     if scene.mesh is None:
         return None
-    # Only scenes with a user mesh need what reads it.
-    from hydroelastic.scenes.tank.own_mesh import read_own_mesh
+    # Only scenes with a user mesh need this import.
+    from hydroelastic.scenes.tank.user_mesh import read_user_mesh
 
-    return read_own_mesh(scene)
+    return read_user_mesh(scene)
 
 
 def _size(

@@ -1,4 +1,4 @@
-"""What to expect of the answer of a scene, in a sentence or two each."""
+"""Hints on the results of a scene, of a sentence or two each."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from hydroelastic.physics.symmetry import is_mirror_image
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
 
-# Half width over half height from which the conditions of a thin float are off by more than some per cent.
+# Half width over half height from which the thin-float condition has an error of more than some per cent.
 _THICK = 0.1
 
-# Draught of a beam over its length, or over the depth below it, from which leaving it out counts.
+# Draught of a beam over its length, or over the depth below it, from which its neglect matters.
 _DEEP = 0.05
 
 
 def hints(scene: TankScene) -> tuple[str, ...]:
-    """Return what to expect of the answer, one sentence or two each."""
+    """Return hints on the results, of a sentence or two each."""
     return tuple(hint for find in (_HINTS_OF_OPEN_WATER if scene.is_open else _HINTS) for hint in find(scene))
 
 
@@ -96,7 +96,8 @@ def _walls(scene: TankScene) -> Iterator[str]:
 
 
 def _shared_tone(scene: TankScene) -> Iterator[str]:
-    """The elastic tone radiates into the sloshing modes unless it is slow or its beam heavy (docs, aquarium, § 4)."""
+    """Yield hints on tones that couple with sloshing modes, unless they are slow or the beam is heavy (docs, aquarium,
+    § 4)."""
     tank = physical_tank(scene)
     if len(tank.layers) > 1 or tank.top != "free" or not tank.levels[0].is_open:
         return
@@ -128,7 +129,7 @@ def _hydrostatics(scene: TankScene) -> Iterator[str]:
 
 
 def draughts_left_out(scene: TankScene) -> Iterator[str]:
-    """Say of which beams the draught counts: mass over density tells it, and the model leaves it out."""
+    """Yield hints on beams whose draught, mass over density, is not negligible; the model neglects it."""
     for index, beam in physical_tank(scene).beams.items():
         draught = beam.mass_per_length / scene.densities_at(beam.level)[0]
         depth = scene.layers[0 if beam.level == "interface" else -1].depth

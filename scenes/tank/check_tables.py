@@ -1,4 +1,4 @@
-"""What a scene will be modelled as, in tables: boundaries, unknown fields, dimensionless groups, floats at rest."""
+"""The model of a scene in tables: boundaries, unknown fields, dimensionless groups, floats at rest."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ SURFACE_NAMES = {
 
 
 def boundary_table(scene: TankScene) -> Section:
-    """Return what bounds the liquids, from the top down and from left to right, with the condition there."""
+    """Return the boundaries of the liquids, from the top down and from left to right, with their conditions."""
     several = len(scene.layers) == 2
     title = "Boundaries of the liquids (levels" if several else "Boundary of the liquid (top"
     on_levels = [
@@ -86,7 +86,7 @@ def _surface_elevation(scene: TankScene) -> str:
 
 
 def unknown_table(scene: TankScene) -> Section:
-    """Return the fields that are solved for, where they live and why they are there."""
+    """Return the unknown fields, with their domain and the reason for them."""
     return Section(title="Unknown fields", headings=("field", "where", "why"), rows=tuple(_unknowns(scene)))
 
 
@@ -130,7 +130,7 @@ def _elevation_row(scene: TankScene, level: StillLevel) -> tuple[str, str, str]:
 
 
 def group_table(scene: TankScene) -> Section:
-    """Return the dimensionless groups that tell one scene from another."""
+    """Return the dimensionless groups that determine the scene."""
     return Section(
         title="Dimensionless groups",
         headings=("group", "value", "meaning"),
@@ -145,7 +145,7 @@ def _groups(scene: TankScene) -> Iterator[Group]:
         yield "ρᵤ/ρₗ", upper.density / lower.density, "density of the upper liquid over that of the lower"
         if not isinf(lower.depth) and not isinf(upper.depth):
             yield "hᵤ/hₗ", upper.depth / lower.depth, "depth of the upper liquid over that of the lower"
-    # Nothing in open water depends on the length that is drawn.
+    # Results of open water do not depend on the length of its pictures.
     if not scene.is_open:
         name = "H/L" if len(scene.layers) == 1 else "hₗ/L"
         what = "depth" if len(scene.layers) == 1 else "depth of the lower liquid"
@@ -155,7 +155,7 @@ def _groups(scene: TankScene) -> Iterator[Group]:
 
 
 def hydrostatics_table(scene: TankScene) -> Section:
-    """Return how each float rests, and what restores it; without rows where there is none."""
+    """Return hydrostatics and stiffness of each float; no rows without floats."""
     columns = {index: found for index in range(len(scene.body)) if (found := _words_of(scene, index).at_rest())}
     quantities = next(iter(columns.values()), {})
     return Section(

@@ -1,4 +1,4 @@
-"""What is solved of a closed tank as labelled arrays: what moves in each mode, and the matrices of floats."""
+"""Results of a closed tank as labelled arrays: the shape of each mode, and the matrices of floats."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def tank_dataset(solution: TankSolution, shapes: ModeShapes) -> xarray.Dataset:
 
     Args:
         solution: the field solution.
-        shapes: of its modes, SI units.
+        shapes: mode shapes, in SI units.
     """
     # xarray takes a while to import.
     import xarray
@@ -70,7 +70,7 @@ def tank_dataset(solution: TankSolution, shapes: ModeShapes) -> xarray.Dataset:
 
 
 def _modes(solution: TankSolution, shapes: ModeShapes, modes: slice, dimension: str, prefix: str) -> xarray.Dataset:
-    """What moves in some of the modes, which lie along a dimension."""
+    """Shapes of some of the modes, along a dimension of the modes."""
     import xarray
 
     found = xarray.Dataset()
@@ -95,7 +95,7 @@ def _modes(solution: TankSolution, shapes: ModeShapes, modes: slice, dimension: 
 
 
 def _curve_names(solution: TankSolution, curves: tuple[SurfaceCurve, ...]) -> list[str]:
-    """Beams, which come first, by their numbers among the bodies; pieces of a level counted from the left."""
+    """Names of curves: beams, which are first, by their numbers among the bodies; pieces of a level from the left."""
     names, counts = [body_name(index + 1) for index in solution.tank.elastic], Counter[str]()
     for curve in curves[len(names) :]:
         counts[curve.kind] += 1

@@ -1,4 +1,4 @@
-"""What a summary says of rigid floats: hydrostatics, added mass at infinite frequency, modes, and motions that grow."""
+"""Rigid floats in a summary: hydrostatics, added mass at infinite frequency, modes, and growing motions."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def float_rows(solution: TankSolution, estimates: dict[int, EstimatesOfFloat]) -
 
     Args:
         solution: the field solution.
-        estimates: of the theories, by index of the float.
+        estimates: estimates by the theories, by index of the float.
     """
     return [_float_row(solution, index, estimates.get(index)) for index in solution.tank.rigid]
 
@@ -47,7 +47,7 @@ def _float_row(solution: TankSolution, index: int, estimates: EstimatesOfFloat |
 
 
 def _compared(estimates: EstimatesOfFloat, modes: list[dict[str, Any]]) -> dict[str, Any]:
-    """Each estimate of heave and its difference to the mode of heave of the field solution."""
+    """Each estimate of heave and its relative difference from the mode of heave of the field solution."""
     heave: dict[str, Any] = next((mode for mode in modes if mode["motion"] == "heave"), {})
     return {
         name: {
@@ -76,7 +76,7 @@ def _high_frequency(solution: TankSolution, index: int) -> dict[str, Any] | None
 
 
 def _mode(solution: TankSolution, mode: FloatMode) -> dict[str, Any]:
-    """The mode of one motion; its added mass is k/ω² − m, the liquid's inertia that explains the frequency."""
+    """The mode of one motion; its added mass is k/ω² − m, the inertia of the liquid at that frequency."""
     row: dict[str, Any] = {
         "motion": mode.motion,
         "index": None,

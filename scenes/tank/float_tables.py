@@ -1,4 +1,4 @@
-"""What the printed tables say of rigid floats."""
+"""Rigid floats in the printed tables."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _UNITS = {"heave": "kg/m", "sway": "kg/m", "roll": "kg·m"}
 
 
 def float_lines(summary: Summary) -> list[str]:
-    """How each float rests and in which mode it moves most, and what grows."""
+    """Yield hydrostatics and modes of each float, and growing motions."""
     lines = [line for row in summary["floats"] for line in _lines(row)]
     for growing in summary["growing"]:
         rate = with_certain_digits(growing["growth_rate"], growing["relative_error"])

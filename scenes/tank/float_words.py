@@ -13,14 +13,14 @@ from hydroelastic.scenes.tank.symbols import Group, depth_group, jump_of, potent
 
 @dataclass(frozen=True, kw_only=True)
 class FloatWords(BodyWords):
-    """A float: what its contour prescribes, its motions, its groups and how it rests."""
+    """Description of a float: its boundary condition, motions, dimensionless groups and hydrostatics."""
 
     body: Float
     symbol = "s"
     name = "float"
 
     def condition(self) -> str:
-        """Return what holds on its contour."""
+        """Return the boundary condition on its contour, as formulas."""
         scene, body, level = self.scene, self.body, self.level
         layers = (1, 0) if level == "interface" else (len(scene.layers) - 1,)
         normal, across = (
@@ -37,7 +37,7 @@ class FloatWords(BodyWords):
         return f"{normal} = n · s on its contour{part}; s: {', '.join(body.motions)}"
 
     def basis(self, *, is_held: bool) -> str:
-        """Return the motions in which it moves."""
+        """Return a description of its motions."""
         body = self.body
         motions = ", ".join("roll about its centre of mass" if motion == "roll" else motion for motion in body.motions)
         held = "; heave is excluded by the volume" if "heave" in body.motions and is_held else ""
@@ -70,7 +70,7 @@ class FloatWords(BodyWords):
             yield "x₀/L", body.position / scene.tank.length, of_float + "position"
 
     def at_rest(self) -> dict[str, str]:
-        """Return how it rests, by quantity and unit."""
+        """Return its hydrostatics, by quantity and unit."""
         placed = placed_float(self.scene, self.index)
         rest = placed.hydrostatics
         _, _, low, high = placed.hull.bounds

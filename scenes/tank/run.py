@@ -1,4 +1,4 @@
-"""Run a closed tank: solve, set the estimates beside the solution, tabulate, write and draw."""
+"""Run a closed tank: solve, compare with the estimates, tabulate, write and draw."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ from hydroelastic.scenes.output.staged_run import StagedRun
 from hydroelastic.scenes.read import closed_tank
 from hydroelastic.scenes.tank.check_hints import draughts_left_out
 from hydroelastic.scenes.tank.dataset import TANK_NAMES, tank_dataset
-from hydroelastic.scenes.tank.own_mesh import mesh_refused, own_mesh
 from hydroelastic.scenes.tank.solve import EstimatedTank, solve_scene
 from hydroelastic.scenes.tank.summary import summarize
 from hydroelastic.scenes.tank.tables import compared_sections, mode_csv, tank_cost, tank_sections
+from hydroelastic.scenes.tank.user_mesh import mesh_refused, user_mesh
 
 if TYPE_CHECKING:
     import xarray
@@ -37,11 +37,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class SampledTank:
-    """What is written and drawn.
+    """Results that are written and drawn.
 
     Attributes:
         solution: the field solution.
-        shapes: of the modes; ``None`` but on rank 0.
+        shapes: mode shapes in SI units; ``None`` except on rank 0.
         summary: content of ``summary.json``.
     """
 
@@ -70,7 +70,7 @@ def solve_tank(scene: TankScene, comm: MPI.Comm, report: Report) -> EstimatedTan
 
             of_floats = float_estimates(physical)
     try:
-        solution = solve_scene(scene, comm=comm, mesh=own_mesh(scene, comm), report=report)
+        solution = solve_scene(scene, comm=comm, mesh=user_mesh(scene, comm), report=report)
     except MeshError as error:
         raise mesh_refused(scene, str(error)) from error
     except EigenSolverError as error:
@@ -79,7 +79,7 @@ def solve_tank(scene: TankScene, comm: MPI.Comm, report: Report) -> EstimatedTan
 
 
 def _sample(estimated: EstimatedTank, summary: Summary) -> SampledTank:
-    # Who only wants the numbers does without what draws.
+    # Without pictures their modules are not imported.
     from hydroelastic.fem.tank.mode_shapes import sample_shapes
 
     return SampledTank(solution=estimated.tank, shapes=sample_shapes(estimated.tank), summary=summary)

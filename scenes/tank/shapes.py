@@ -14,9 +14,9 @@ from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.scenes.output.provenance import Summary
 from hydroelastic.scenes.tank.body_file import displacement_of, write_bodies
 
-# Always shown, whatever they are.
+# Number of lowest modes that are always shown.
 _LOWEST = 2
-# Part of the elastic energy below which nobody would say that a body bends.
+# Part of the elastic energy below which a mode does not count as bending.
 _BENDS = 0.005
 
 
@@ -34,7 +34,7 @@ def growing_title(number: int, mode: Summary) -> str:
 
 
 def pictures(shapes: ModeShapes, summary: Summary) -> list[ModePicture]:
-    """One picture for each mode, those that grow last."""
+    """One picture for each mode, the growing ones last."""
     titles = [mode_title(number, mode) for number, mode in enumerate(summary["modes"], 1)]
     titles += [growing_title(number, mode) for number, mode in enumerate(summary["growing"], 1)]
     two = len(shapes.depths) > 1
@@ -58,13 +58,14 @@ def pictures(shapes: ModeShapes, summary: Summary) -> list[ModePicture]:
 
 
 def mode_names(shapes: ModeShapes) -> list[str]:
-    """Names of the modes in files: numbers from 1, and growing_ before those that grow."""
+    """Names of the modes in files: numbers from 1, of growing modes with the prefix growing_."""
     names = [f"{number + 1:03d}" for number in range(len(shapes.curves) - shapes.growing)]
     return names + [f"growing_{number + 1:03d}" for number in range(shapes.growing)]
 
 
 def animated_modes(summary: Summary) -> list[int]:
-    """Places of the lowest two modes, of the lowest mode of each kind, and of the one in which bodies bend most."""
+    """Places of the lowest two modes, of the lowest mode of each kind, and of the one with the largest part of
+    bending."""
     modes = summary["modes"]
     chosen = set(range(min(_LOWEST, len(modes))))
     kinds = [mode["kind"] for mode in modes]
@@ -76,7 +77,7 @@ def animated_modes(summary: Summary) -> list[int]:
 
 
 def draw_all(shapes: ModeShapes, summary: Summary, folder: Path, options: PictureOptions, report: Report) -> None:
-    """Draw every mode, and all of them on one sheet, into a folder; animate some if asked; tell how far it is.
+    """Draw every mode, and all of them on one sheet, into a folder, animate some if requested, and report the progress.
 
     Animations are half as wide as pictures, which keeps them small.
     """
@@ -95,7 +96,7 @@ def draw_all(shapes: ModeShapes, summary: Summary, folder: Path, options: Pictur
 
 
 def write_fields(shapes: ModeShapes, folder: Path) -> None:
-    """Write what every mode does as VTU files for ParaView, in metres.
+    """Write the shape of every mode as VTU files for ParaView, in metres.
 
     ``modes.vtu`` has ψ, ∇ψ and the number of each cell's liquid; ``bodies.vtu``, of surfaces, beams and floats, their
     displacements under the same names.

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class EstimatedTank:
-    """The field solution of a closed tank, and the estimates to set beside it.
+    """The field solution of a closed tank, and the estimates for comparison.
 
     Attributes:
         scene: the scene.
@@ -43,7 +43,7 @@ class EstimatedTank:
 
     @property
     def seconds(self) -> dict[str, float]:
-        """Time by stage."""
+        """Time by stage, s."""
         return self.tank.seconds | self.estimating
 
 

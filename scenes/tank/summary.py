@@ -1,4 +1,4 @@
-"""The answer to a scene as one JSON-ready value: numbers with their errors, estimates beside them, cost."""
+"""Results of a scene as one JSON-ready value: numbers with their errors, estimates, cost."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ def _modes(solution: TankSolution) -> list[dict[str, Any]]:
 
 
 def _exact(solution: TankSolution) -> list[dict[str, Any]]:
-    """The exact frequencies of the modes asked for, for scenes that have a closed form."""
+    """The exact frequencies of the requested modes, for scenes that have a closed form."""
     formula, frequencies = exact_frequencies(solution.physical, solution.count)
     rows = []
     for mode, exact in zip(solution.asked, frequencies, strict=False):
@@ -147,7 +147,7 @@ def _tone(solution: TankSolution, tone: ToneSolution) -> dict[str, Any]:
 
 
 def compared(solution: TankSolution, estimates: dict[str, Estimate], first: dict[str, Any]) -> dict[str, Any]:
-    """Each estimate, its difference to the first beam's tone, and whether the bound that theory promises holds."""
+    """Each estimate, its relative difference from the tone of the first beam, and whether its bound by theory holds."""
     rows = {}
     for name, estimate in estimates.items():
         rows[name] = {
@@ -165,7 +165,8 @@ def compared(solution: TankSolution, estimates: dict[str, Estimate], first: dict
 
 
 def _bound_holds(solution: TankSolution, estimate: Estimate) -> bool | None:
-    """Whether an upper bound lies above what it bounds; ``None`` where that was not computed or nothing is bounded."""
+    """Whether an upper bound is above the bounded frequency; ``None`` where that was not computed or there is no
+    bound."""
     if estimate.omega is None or estimate.mode_index is None:
         return None
     number = estimate.mode_index - 1
@@ -179,5 +180,5 @@ def _bound_holds(solution: TankSolution, estimate: Estimate) -> bool | None:
         return None
     if number >= len(values) or np.isnan(errors[number]):
         return None
-    # The field solution is itself an upper bound: its own error may not count against the estimate.
+    # The field solution is itself an upper bound: its error is allowed for.
     return bool(estimate.omega >= solution.omega(values[number]) * (1.0 - errors[number] - 1e-9))

@@ -1,4 +1,4 @@
-"""Symbols of what liquids and levels have, as tables name them: of two liquids 1 is above and 2 below."""
+"""Symbols of the quantities of liquids and levels in tables: of two liquids 1 is above and 2 below."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def potential_of(scene: TankScene, layer: int) -> str:
 
 
 def jump_of(scene: TankScene, level: Level) -> str:
-    """Return the name of the difference of density that restores a level."""
+    """Return the symbol of the density difference across a level."""
     if len(scene.layers) == 1:
         return "ρ"
     return "(ρₗ − ρᵤ)" if level == "interface" else "ρᵤ"

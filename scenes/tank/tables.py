@@ -1,4 +1,4 @@
-"""The tables that a person reads: printed, and kept as Markdown and CSV."""
+"""Tables of a closed tank, printed and written as Markdown and CSV."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ MODE_HEADINGS = ("mode", "ω, rad/s", "f, Hz", "relative error", "kind", "symmet
 
 
 def tone_lines(summary: Summary) -> list[str]:
-    """What is said of each beam's first elastic tone."""
+    """Text on the first elastic tone of each beam."""
     lines = []
     several = len(summary["first_elastic_by_body"]) > 1
     for tone in summary["first_elastic_by_body"]:
@@ -114,7 +114,7 @@ def _bound(estimate: Summary) -> str:
 
 
 def mode_lines(summary: Summary) -> list[str]:
-    """How far the modes lie from a known exact solution, where there is one, and what is not listed."""
+    """Difference of the modes from a known exact solution, where there is one, and modes that are not listed."""
     lines = []
     if summary["exact"]:
         largest = max(abs(row["difference"]) for row in summary["exact"])
@@ -145,7 +145,7 @@ def tank_sections(summary: Summary, expected: Iterable[str] = ()) -> Iterator[Se
 
 
 def compared_sections(summary: Summary) -> Iterator[Section]:
-    """Yield the tables of the estimates, then what the field solution says of the same."""
+    """Yield the tables of the estimates with the field solution."""
     yield from _estimates(summary)
     yield Section(title="Field solution", lines=(*mode_lines(summary), *tone_lines(summary), *float_lines(summary)))
 
@@ -188,7 +188,7 @@ def _float_estimates(row: Summary) -> Iterator[Section]:
 
 
 def _notes(estimates: Summary) -> tuple[str, ...]:
-    """What each estimate neglects."""
+    """Return what each estimate neglects."""
     return tuple(f"{name}: {estimate['note']}" for name, estimate in estimates.items())
 
 

@@ -78,7 +78,7 @@ class PlainProblem:
         stiffness, mass: K and M as full arrays.
         coupling, laplace: C and A, sparse.
         densities: ρ at each unknown of ψ.
-        fixed: unknowns of ψ that a grounded surface fixes.
+        fixed: unknowns of ψ that are zero on a surface with ψ = 0.
         volumes: what each unknown takes from each closed layer, shape (closed layers, n).
         pins: one unknown of ψ of each closed layer.
     """
@@ -89,7 +89,7 @@ class PlainProblem:
         self.stiffness, self.mass = (sparse(matrix).toarray() for matrix in (pencil.stiffness, pencil.mass))
         self.coupling, self.laplace = sparse(pencil.coupling), sparse(pencil.laplace)
         self.densities = np.array([layer.density for layer in liquid.layers])[liquid.owned_layer_of]
-        self.fixed = liquid.surface_dofs(liquid.grounded) if liquid.grounded else np.empty(0, dtype=int)
+        self.fixed = liquid.surface_dofs(liquid.zero_potential) if liquid.zero_potential else np.empty(0, dtype=int)
         layers = [np.flatnonzero(liquid.owned_layer_of == layer) for layer in range(len(liquid.layers))]
         closed = [dofs for dofs in layers if not np.isin(dofs, self.fixed).any()]
         self.volumes = np.array([self.coupling[dofs].sum(axis=0) for dofs in closed]).reshape(len(closed), -1)

@@ -48,13 +48,15 @@ class Level:
         slopes = self.symbol(self.wave_numbers + 1j * step).imag / step
         return np.asarray(-1 / slopes)
 
-    def kernel(self, reach: float) -> Callable[[np.ndarray], np.ndarray]:
+    def kernel(self, absorbing_layer: float) -> Callable[[np.ndarray], np.ndarray]:
         """c Q(x) for 0 < x <= ``reach``, 1/m: that of deep liquids in closed form, the rest by polynomials."""
         if math.isinf(self.depth):
             return self._deep_kernel
-        count = math.ceil(reach / min(self.depth, 3 / self.wave_numbers[-1], 3 / self.deep))
-        width, nodes = reach / count, np.polynomial.chebyshev.chebpts1(24)
-        samples = self._correction((np.arange(count)[:, None] * width + width / 2 * (nodes + 1)).ravel(), reach)
+        count = math.ceil(absorbing_layer / min(self.depth, 3 / self.wave_numbers[-1], 3 / self.deep))
+        width, nodes = absorbing_layer / count, np.polynomial.chebyshev.chebpts1(24)
+        samples = self._correction(
+            (np.arange(count)[:, None] * width + width / 2 * (nodes + 1)).ravel(), absorbing_layer
+        )
         orders = np.arange(24)
         to_series = 2 / 24 * np.cos(orders[:, None] * np.arccos(nodes))
         to_series[0] /= 2
@@ -75,9 +77,9 @@ class Level:
         real = -np.cos(u) * cosine - np.sin(u) * (sine - math.pi / 2)
         return np.asarray(self.deep / math.pi * (real + 1j * math.pi * np.exp(1j * u)))
 
-    def _correction(self, x: np.ndarray, reach: float) -> np.ndarray:
+    def _correction(self, x: np.ndarray, absorbing_layer: float) -> np.ndarray:
         """(1/π) ∫ cos kx (c Q̂ − deep/(k − deep)) dk, below the real axis by 2/``reach`` at most."""
-        dip, end = 2 / reach, 20 / self.depth
+        dip, end = 2 / absorbing_layer, 20 / self.depth
         graded = np.concatenate([[0], dip * 2.0 ** np.arange(-24, 1)])
         edges = np.concatenate([graded * (1 - 1j), np.linspace(dip, end, 2 + int(end / dip))[1:] - 1j * dip])
         nodes, weights = np.polynomial.legendre.leggauss(20)

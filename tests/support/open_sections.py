@@ -191,20 +191,20 @@ def _refine(
         part = slice(columns.start + panel * order, columns.start + (panel + 1) * order)
         single[near, part] = double[near, part] = 0
         for end in (low, high):
-            reach = end - nearest[near]
-            offset = reach[:, None] * rule
+            absorbing_layer = end - nearest[near]
+            offset = absorbing_layer[:, None] * rule
             source = nearest[near, None] + offset
             split = along[near, None] - nearest[near, None] - offset
             gap = split[..., None] * side.tangent + across[near, None, None] * side.normal
             # A part of no length has no weight.
-            gap[reach == 0] = 1.0
+            gap[absorbing_layer == 0] = 1.0
             s = points[near, None, 1] + side.start[1] + source * side.tangent[1]
             values = _deep_green(gap, s, side.normal, square)
             to_nodes = side.panels.interpolation((2 * (source - low) / length - 1).ravel()).reshape(
                 *source.shape, order
             )
             for matrix, kernel in zip((single, double), values, strict=True):
-                weighted = kernel * (np.abs(reach)[:, None] * rule_weights)
+                weighted = kernel * (np.abs(absorbing_layer)[:, None] * rule_weights)
                 matrix[near, part] += np.einsum("ij,ijk->ik", weighted, to_nodes)
 
 

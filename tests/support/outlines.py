@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.meshes.geometry import BOTTOM, LEFT_WALL, LID, RIGHT_WALL, SYMMETRY_PLANE
-from hydroelastic.meshes.outline import Corner, Curve, Outline, Path, Point, Region
+from hydroelastic.meshes.outline import Curve, GradedPoint, Outline, Path, Point, Region
 
 LOWER, UPPER = "lower", "upper"
 INTERFACE, FLOAT = "interface", "float"
@@ -149,7 +149,7 @@ def two_liquids(
     return Outline(
         curves=tuple(curves),
         regions=(Region(name=LOWER, loop=around_lower), Region(name=UPPER, loop=around_upper)),
-        corners=tuple(Corner(point=point, inner=tip_size, outer=size) for point in rings),
+        graded_points=tuple(GradedPoint(point=point, inner=tip_size, outer=size) for point in rings),
     )
 
 
@@ -194,8 +194,8 @@ def thin_float_tank(
         Region(name=UPPER, loop=((1, True), (11, True), (12, True), (5, False), (4, False))),
     )
     points = ((x, -height), (x, 0.0), (x, height))
-    corners = tuple(Corner(point=point, inner=tip_size, outer=size) for point in points)
-    return Outline(curves=curves, regions=regions, corners=corners)
+    graded_points = tuple(GradedPoint(point=point, inner=tip_size, outer=size) for point in points)
+    return Outline(curves=curves, regions=regions, graded_points=graded_points)
 
 
 def surface_slit(*, low: float = -0.2, high: float = 0.0, rings: bool = True) -> Outline:
@@ -222,5 +222,5 @@ def surface_slit(*, low: float = -0.2, high: float = 0.0, rings: bool = True) ->
         Region(name=LOWER, loop=((4, True), (5, True), (1, False), *down)),
     )
     points = ((x, low), (x, high)) if rings else ()
-    corners = tuple(Corner(point=point, inner=1e-6, outer=size) for point in points)
-    return Outline(curves=curves, regions=regions, corners=corners)
+    graded_points = tuple(GradedPoint(point=point, inner=1e-6, outer=size) for point in points)
+    return Outline(curves=curves, regions=regions, graded_points=graded_points)

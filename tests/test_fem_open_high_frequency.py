@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from hydroelastic.fem.open_water.fast_waves import fast_waves, fastest_meshed
+from hydroelastic.fem.open_water.high_frequency import high_frequency_series, highest_meshed_frequency
 from hydroelastic.modal.floats.thin_float import thin_constants
 from hydroelastic.modal.floats.wave_integral import wave_integral
 from hydroelastic.physics.profiles import FloatShape, float_profile
@@ -28,8 +28,8 @@ def test_series_continues_the_closed_form(shape: FloatShape, slenderness: float,
         return whole[:, None, None]
 
     own = np.sqrt(constants.frequency_squared)
-    highest = fastest_meshed(own, tolerance) * np.exp(-1j * ANGLE)
-    series = fast_waves(inertia, highest, np.ones((1, 1)))
+    highest = highest_meshed_frequency(own, tolerance) * np.exp(-1j * ANGLE)
+    series = high_frequency_series(inertia, highest, np.ones((1, 1)))
     omegas = highest * np.geomspace(1.0, 200.0, 500)
     misses, stated = np.abs(series.hydrodynamic(omegas) - inertia(omegas)), series.errors(omegas)
     # What an error of H makes of the motion, K/|D|² |ω|² d ln ω/π.

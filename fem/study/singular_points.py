@@ -1,9 +1,9 @@
-"""How sharply ψ is singular at the corners of a tank, for all modes or for those of one symmetry.
+"""Exponents of the singular points of ψ in a tank, for all modes or for those of one symmetry.
 
 In a sector of angle θ between walls, bodies and mirror planes ψ ~ r^α with α = π/θ, and α = π/(2θ) where ψ = 0 on one
-side; whole α bring r^α ln r, from loads that do not fit together. In a tank that is its own mirror image the middle
-plane is a wall for symmetric modes and has ψ = 0 for antisymmetric ones: at the ends of a thin float in the middle α is
-1 for the former and 1/2 for the latter. The load of a thin ellipse, ω′ ~ r^{-1/2}, brings r^{1/2} to both.
+side; an integer α brings r^α ln r, by incompatible loads of both sides. In a tank that is its own mirror image the
+middle plane is a wall for symmetric modes and has ψ = 0 for antisymmetric ones: at the ends of a thin float in the
+middle α is 1 for the former and 1/2 for the latter. The load of a thin ellipse, ω′ ~ r^{-1/2}, brings r^{1/2} to both.
 """
 
 from __future__ import annotations
@@ -11,19 +11,20 @@ from __future__ import annotations
 from dataclasses import replace
 from math import inf
 
-from hydroelastic.fem.tank.outline import Sizes, grounded_names, tank_outline
+from hydroelastic.fem.tank.outline import Sizes, tank_outline, zero_potential_surfaces
 from hydroelastic.fem.tank.singularities import singular_points
 from hydroelastic.meshes.geometry import LEFT_WALL, RIGHT_WALL, SYMMETRY_PLANE
 from hydroelastic.meshes.outline import Outline, Point
 from hydroelastic.physics.symmetry import PARITIES, Parity, is_mirror_image
 from hydroelastic.physics.tank import MIDDLE, Tank
 
-# Names of curves that are no mirrors to `singular_points`: it judges all modes at once, and meshes for the worst.
+# Names of walls and mirror plane that `singular_points` does not treat as mirrors, which it does for all modes at once.
 _WALL, _PLANE = "wall", "plane"
 
 
 def plain_outline(tank: Tank, size: float = inf, *, half: bool) -> Outline:
-    """The outline of a tank, or of its left half, with elements of one size along levels and floats, without rings."""
+    """Return the outline of a tank, or of its left half, with one size of elements along levels and floats, in tank
+    lengths, without rings."""
     sizes = Sizes(pieces=(size,) * len(tank.pieces), contours=dict.fromkeys(tank.hulls, size))
     return tank_outline(tank, sizes, half=half)
 
@@ -33,12 +34,12 @@ def has_curved_contours(tank: Tank) -> bool:
     return any(curve.path is not None for curve in plain_outline(tank, half=False).curves)
 
 
-def corner_exponents(tank: Tank, parity: Parity | None = None) -> dict[Point, float]:
-    """α at every corner where ψ is singular, in the left half of a tank that is its own mirror image.
+def singular_exponents(tank: Tank, parity: Parity | None = None) -> dict[Point, float]:
+    """Return α of every singular point, of a symmetric tank in its left half.
 
     Args:
-        tank: the tank.
-        parity: of the modes; ``None`` is the sharper of both.
+        tank: the dimensionless tank.
+        parity: symmetry of the modes; ``None`` is the sharper of both.
     """
     if not tank.bodies:
         return {}
@@ -51,20 +52,21 @@ def corner_exponents(tank: Tank, parity: Parity | None = None) -> dict[Point, fl
 
 
 def sharpest_of(tank: Tank, parity: Parity | None = None) -> float | None:
-    """α of the worst corner; ``None`` where ψ is smooth.
+    """Return the smallest α of all singular points; ``None`` where ψ is smooth.
 
-    1 at a tip beside water with waves or a lid, 1/2 where ψ = 0 on the water, 2 where a free end meets a wall; π/θ at
+    1 at a tip beside a free surface or a lid, 1/2 beside a surface with ψ = 0, 2 where a free end meets a wall; π/θ at
     the corner of a float with the liquid's angle θ.
 
     Args:
-        tank: the tank.
+        tank: the dimensionless tank.
         parity: symmetry of the modes in a tank that is its own mirror image; ``None`` is the sharper of both.
     """
-    return min(corner_exponents(tank, parity).values(), default=None)
+    return min(singular_exponents(tank, parity).values(), default=None)
 
 
 def symmetries_apart(tank: Tank) -> tuple[Parity, ...]:
-    """Both symmetries if their worst corners differ, so that their modes converge at different orders; else none."""
+    """Return both symmetries if their smallest α differ, so that their modes converge at different orders; else
+    none."""
     if not is_mirror_image(tank):
         return ()
     one, other = (sharpest_of(tank, parity) for parity in PARITIES)
@@ -73,14 +75,16 @@ def symmetries_apart(tank: Tank) -> tuple[Parity, ...]:
 
 def _exponents(tank: Tank, parity: Parity | None) -> dict[Point, float]:
     outline = plain_outline(tank, half=parity is not None)
-    grounded = grounded_names(tank, infinite_frequency=False)
-    # Only what is singular to some mode: smooth contours cross the middle plane at right angles.
-    singular = {point.point for point in singular_points(outline, grounded=grounded, continuous_pressure=False)}
+    zero_potential = zero_potential_surfaces(tank, infinite_frequency=False)
+    # Only points that are singular for some mode: smooth contours cross the middle plane at right angles.
+    singular = {
+        point.point for point in singular_points(outline, zero_potential=zero_potential, continuous_pressure=False)
+    }
     unmirrored = replace(
         outline, curves=tuple(replace(curve, name=_unmirrored(curve.name)) for curve in outline.curves)
     )
     plane = (_PLANE,) if parity == "antisymmetric" else ()
-    found = singular_points(unmirrored, grounded=grounded + plane, continuous_pressure=False)
+    found = singular_points(unmirrored, zero_potential=zero_potential + plane, continuous_pressure=False)
     smooth = _ends_of_guided_beams(tank)
     blunt = _ends_of_thin_ellipses(tank)
     return {
@@ -95,7 +99,7 @@ def _unmirrored(name: str) -> str:
 
 
 def _ends_of_guided_beams(tank: Tank) -> set[Point]:
-    """Guided ends at walls: beyond a wall, beam and liquid go on as their images, smoothly."""
+    """Guided ends at walls: beam and liquid continue smoothly as their images beyond the wall."""
     return {
         (x, tank.level_of(index).height)
         for index, beam in tank.beams.items()

@@ -1,13 +1,12 @@
-"""Low-frequency series of H in endless liquids, used below the frequencies that the mesh resolves.
+"""Low-frequency series of H in infinitely deep liquids, used below the frequencies that the mesh resolves.
 
 With κ = kb, b the length of the basin, and L = ln p on a line p = −iω of the complex plane,
 
     H = C + D L + κ (E + F L + G L²) + O(κ² L²),        C … G real,    D = −(2/π) lim b/ω,
 
-the series of long waves: 1 and ln κ are the source that a body is to them, and further terms what it is
-besides. The coefficients are taken from a few frequencies; how far they miss H at twice the highest of these tells what
-the rest of the series does to them.
-Over a bed H has no logarithm, and all frequencies are meshed.
+the expansion for long waves: C and D are those of a source at the body, further terms those of higher multipoles. The
+coefficients are fitted to H at a few frequencies; their error at twice the highest of these estimates the neglected
+terms. Over a bed H has no logarithm, and the mesh resolves all frequencies.
 """
 
 from __future__ import annotations
@@ -23,22 +22,22 @@ from hydroelastic.modal.tank_estimates import two_layers
 from hydroelastic.physics.tank import Tank
 
 SPREAD = 2.0
-"""The coefficients are taken from the lowest frequency of the mesh to this multiple of it."""
+"""The coefficients are fitted from the lowest frequency of the mesh to this multiple of it."""
 
 # κ at the lowest frequency of the mesh.
 _LONG = 1e-4
-# Frequencies from which the coefficients are taken.
+# Number of frequencies of the fit.
 _POINTS = 5
-# Over a bed: so far below 1/t H hardly counts.
-_HARDLY = 0.02
+# Over a bed: lowest frequency of the mesh times the last time, below which H hardly affects the motion.
+_LOWEST_OVER_A_BED = 0.02
 
 
 @dataclass(frozen=True, kw_only=True)
-class LongWaves:
+class LowFrequencySeries:
     """The low-frequency series of H. Shapes: m body unknowns.
 
     Attributes:
-        unit: the frequency |ω| at which κ counts as 1 and L has no real part.
+        unit: the frequency |ω| at which κ is scaled to 1 and Re L = 0.
         coefficients: C, D, E, F, G, shape (5, m, m).
         misfit: relative error of H by the rest of the series, an upper estimate.
     """
@@ -48,7 +47,7 @@ class LongWaves:
     misfit: float
 
     def hydrodynamic(self, omegas: np.ndarray) -> np.ndarray:
-        """H at some ω, shape (n, m, m)."""
+        """Return H at ω of shape (n,): shape (n, m, m)."""
         values: np.ndarray = np.tensordot(_terms(omegas / self.unit), self.coefficients, axes=1)
         return values
 
@@ -59,12 +58,12 @@ class LongWaves:
         return slow
 
 
-def long_waves(hydrodynamics: Callable[[np.ndarray], np.ndarray], lowest: complex) -> LongWaves:
-    """Take the series from H at a few slow ω.
+def low_frequency_series(hydrodynamics: Callable[[np.ndarray], np.ndarray], lowest: complex) -> LowFrequencySeries:
+    """Fit the series to H at a few low ω.
 
     Args:
         hydrodynamics: H, shape (n, m, m), at some ω (collective).
-        lowest: the lowest ω, Re ω > 0 > Im ω; those taken lie on the line from the origin through it.
+        lowest: the lowest ω, Re ω > 0 > Im ω; the others lie on the line from the origin through it.
     """
     omegas = lowest * np.append(np.linspace(1.0, SPREAD, _POINTS), 2.0 * SPREAD)
     values = hydrodynamics(omegas)
@@ -72,7 +71,7 @@ def long_waves(hydrodynamics: Callable[[np.ndarray], np.ndarray], lowest: comple
     terms, flat = _terms(omegas / unit), values.reshape(len(omegas), -1)
     known, wanted = (np.vstack([part[:-1].real, part[:-1].imag]) for part in (terms, flat))
     coefficients = np.linalg.lstsq(known, wanted, rcond=None)[0]
-    return LongWaves(
+    return LowFrequencySeries(
         unit=unit,
         coefficients=coefficients.reshape(-1, *values.shape[1:]),
         misfit=float(np.abs(terms[-1] @ coefficients - flat[-1]).max() / np.abs(flat[-1]).max()),
@@ -80,25 +79,25 @@ def long_waves(hydrodynamics: Callable[[np.ndarray], np.ndarray], lowest: comple
 
 
 def _terms(omegas: np.ndarray) -> np.ndarray:
-    """1, L, κ, κL, κL² at some ω, shape (n, 5)."""
+    """1, L, κ, κL, κL² at ω of shape (n,): shape (n, 5)."""
     logarithm, kappa = np.log(-1j * omegas), omegas**2
     return np.stack([np.ones_like(kappa), logarithm, kappa, kappa * logarithm, kappa * logarithm**2], axis=1)
 
 
-def slowest_meshed(water: Tank, latest: float) -> float:
-    """The lowest frequency for which a mesh is needed, rad/s.
+def lowest_meshed_frequency(water: Tank, latest: float) -> float:
+    """Return the lowest frequency that the mesh must resolve, rad/s.
 
     Args:
         water: open water in SI units.
         latest: the last time at which the motion is wanted, s.
     """
-    if not is_endless(water):
-        return _HARDLY / latest
+    if not is_infinitely_deep(water):
+        return _LOWEST_OVER_A_BED / latest
     layers, extent = two_layers(water), open_basin(water, 0.0).units.length
     buoyancy = (layers.density_below - layers.density_above) / (layers.density_below + layers.density_above)
     return sqrt(_LONG * layers.gravity * buoyancy / extent)
 
 
-def is_endless(water: Tank) -> bool:
+def is_infinitely_deep(water: Tank) -> bool:
     """Whether all liquids are infinitely deep."""
     return all(isinf(layer.depth) for layer in water.layers)

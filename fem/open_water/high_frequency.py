@@ -4,14 +4,14 @@ With s = p² over that of the mesh's highest frequency, p = −iω, and N orders
 
     H = a(∞) + Σ_{j=1…N} (Cⱼ + Dⱼ ln s) s⁻ʲ,        Cⱼ, Dⱼ real,
 
-the series of short waves, which are felt near the lines only where a body meets the water: powers are the source and
-what else these are to them, logarithms come from the body's curvature and from contours that meet the level at
-other angles. The coefficients are taken from the arc |p| = constant between the positive axis, where no waves leave,
-and the ray: around it H is analytic but for the cut of ln s, so that N orders miss it by a geometric sequence. How far
-N − 2 orders miss it tells the error.
+the expansion for short waves, which depend only on the body near its waterline: powers are those of multipoles there,
+logarithms come from the curvature of the body and from contours that meet the level at other than right angles. The
+coefficients are fitted on the arc |p| = constant between the positive axis, where no waves are radiated, and the ray:
+around it H is analytic but for the cut of ln s, so that the error decreases geometrically with N. The difference from
+N − 2 orders estimates the error.
 
-Measured with H of thin floats of five shapes (slenderness 0.1 to 0.6), exact but for noise of 1e-7: of their motion
-N = 10 misses less than 1e-5 from 1.5 times their frequency on, 6e-7 from 2 and 3e-8 from 2.7 on.
+Measured with H of thin floats of five shapes (slenderness 0.1 to 0.6), exact but for noise of 1e-7: the error of their
+motion with N = 10 is less than 1e-5 from 1.5 times their frequency on, 6e-7 from 2 and 3e-8 from 2.7 on.
 """
 
 from __future__ import annotations
@@ -22,20 +22,20 @@ from math import log10, pi
 
 import numpy as np
 
-# N, and how many points of the arc determine the 2N coefficients.
+# N, and the number of points of the arc to which the 2N coefficients are fitted.
 _ORDERS = 10
 _POINTS = 48
 
 
 @dataclass(frozen=True, kw_only=True)
-class FastWaves:
+class HighFrequencySeries:
     """The high-frequency series of H. Shapes: m body unknowns.
 
     Attributes:
         unit: the frequency |ω| of the arc.
         limit: a(∞), shape (m, m).
         coefficients: C₁, D₁, C₂ …, shape (2N, m, m).
-        fewer: the same of N − 2 orders.
+        fewer: coefficients with N − 2 orders, shape (2N − 4, m, m).
     """
 
     unit: float
@@ -44,11 +44,11 @@ class FastWaves:
     fewer: np.ndarray
 
     def hydrodynamic(self, omegas: np.ndarray) -> np.ndarray:
-        """H at some ω, shape (n, m, m)."""
+        """Return H at ω of shape (n,): shape (n, m, m)."""
         return self.limit + self._sum(omegas, self.coefficients)
 
     def errors(self, omegas: np.ndarray) -> np.ndarray:
-        """|δH| by the rest of the series, an upper estimate, shape (n, m, m)."""
+        """Return an upper estimate of |δH| of the truncated series at ω of shape (n,): shape (n, m, m)."""
         return np.abs(self._sum(omegas, self.coefficients) - self._sum(omegas, self.fewer))
 
     def _sum(self, omegas: np.ndarray, coefficients: np.ndarray) -> np.ndarray:
@@ -57,18 +57,20 @@ class FastWaves:
 
 
 def arc(highest: complex, count: int) -> np.ndarray:
-    """Some ω of one magnitude from where p = −iω is positive to the ray.
+    """Return ω of one magnitude from where p = −iω is positive to the ray, shape (count,).
 
     Args:
         highest: the end on the ray, Re ω > 0 > Im ω.
-        count: how many.
+        count: number of points.
     """
     omegas: np.ndarray = abs(highest) * np.exp(1j * np.linspace(0.5 * pi, np.angle(highest), count))
     return omegas
 
 
-def fast_waves(hydrodynamics: Callable[[np.ndarray], np.ndarray], highest: complex, limit: np.ndarray) -> FastWaves:
-    """Take the series from H on the arc.
+def high_frequency_series(
+    hydrodynamics: Callable[[np.ndarray], np.ndarray], highest: complex, limit: np.ndarray
+) -> HighFrequencySeries:
+    """Fit the series to H on the arc.
 
     Args:
         hydrodynamics: H, shape (n, m, m), at some ω (collective).
@@ -85,21 +87,21 @@ def fast_waves(hydrodynamics: Callable[[np.ndarray], np.ndarray], highest: compl
         coefficients: np.ndarray = np.linalg.lstsq(known, values, rcond=None)[0]
         return coefficients.reshape(-1, *limit.shape)
 
-    return FastWaves(unit=abs(highest), limit=limit, coefficients=fitted(_ORDERS), fewer=fitted(_ORDERS - 2))
+    return HighFrequencySeries(unit=abs(highest), limit=limit, coefficients=fitted(_ORDERS), fewer=fitted(_ORDERS - 2))
 
 
 def _terms(omegas: np.ndarray, orders: int) -> np.ndarray:
-    """s⁻¹, s⁻¹ ln s, s⁻² … at some ω, shape (n, 2N)."""
+    """s⁻¹, s⁻¹ ln s, s⁻² … at ω of shape (n,): shape (n, 2N)."""
     logarithm = 2.0 * np.log(-1j * omegas)
     powers = (-(omegas**2))[:, None] ** -np.arange(1.0, orders + 1.0)
     return np.stack([powers, powers * logarithm[:, None]], axis=2).reshape(len(omegas), -1)
 
 
-def fastest_meshed(fastest: float, tolerance: float) -> float:
-    """The highest frequency for which a mesh is needed, rad/s: the lower the tolerance, the higher.
+def highest_meshed_frequency(fastest: float, tolerance: float) -> float:
+    """Return the highest frequency that the mesh must resolve, rad/s: the lower the tolerance, the higher.
 
     Args:
-        fastest: at which the bodies oscillate, rad/s.
+        fastest: largest natural frequency of the bodies, rad/s.
         tolerance: largest error of the motion that is accepted, relative to the initial displacement.
     """
     return fastest * (1.0 - 0.2 * log10(tolerance))

@@ -1,4 +1,4 @@
-"""The mesh that the user brings: read, and checked against the scene."""
+"""A user mesh: read, and checked against the scene."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
 
 
-def read_own_mesh(scene: TankScene) -> TaggedMesh | None:
-    """Return the mesh that a scene names, m; ``None`` if it names none.
+def read_user_mesh(scene: TankScene) -> TaggedMesh | None:
+    """Return the user mesh of a scene, in m; ``None`` without one.
 
     Raises:
         SceneError: if it cannot be read, or does not fit the scene.
@@ -28,8 +28,8 @@ def read_own_mesh(scene: TankScene) -> TaggedMesh | None:
     return mesh
 
 
-def own_mesh(scene: TankScene, comm: MPI.Comm) -> TaggedMesh | None:
-    """Return the mesh that a scene names, on rank 0; ``None`` elsewhere, and if it names none (collective).
+def user_mesh(scene: TankScene, comm: MPI.Comm) -> TaggedMesh | None:
+    """Return the user mesh of a scene on rank 0, in m; ``None`` elsewhere, and without one (collective).
 
     Raises:
         SceneError: on all processes, if it cannot be read, or does not fit the scene.
@@ -39,11 +39,11 @@ def own_mesh(scene: TankScene, comm: MPI.Comm) -> TaggedMesh | None:
     mesh, refused = None, None
     if comm.rank == 0:
         try:
-            mesh = read_own_mesh(scene)
+            mesh = read_user_mesh(scene)
         except SceneError as error:
             refused = error
         except Exception as error:
-            # Whatever it is, the other processes wait to hear of it.
+            # Any error must reach the other processes, which wait for the mesh.
             refused = mesh_refused(scene, str(error) or type(error).__name__)
     refused = comm.bcast(refused, root=0)
     if refused is not None:
@@ -52,7 +52,7 @@ def own_mesh(scene: TankScene, comm: MPI.Comm) -> TaggedMesh | None:
 
 
 def mesh_refused(scene: TankScene, wrong: str) -> SceneError:
-    """Return what is said of a mesh that cannot be used, the user's or the built-in one."""
+    """Return the error for a mesh that cannot be used, the user's or the built-in one."""
     if scene.mesh is None:
         return SceneError(Problem(wrong=f"no mesh could be made: {wrong}", remedy="Please report this scene"))
     problem = Problem(

@@ -1,4 +1,4 @@
-"""The wave on the level of endless liquids at a complex frequency, where it grows or falls along the level."""
+"""The wave on the level of infinitely deep liquids at a complex frequency, where it grows or falls along the level."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from hydroelastic.modal.liquid.two_layer import TwoLayers
 
 
 @dataclass(frozen=True, kw_only=True)
-class EndlessWave:
+class DeepWaterWave:
     """A wave ψ = e^{±ikx} Z(y) e^{−iωt} with Z = e^{ky} in the lower liquid and −e^{−ky} in the upper one,
 
         k = ω²(ρ₂ + ρ₁)/(g (ρ₂ − ρ₁)).

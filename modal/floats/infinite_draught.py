@@ -1,4 +1,4 @@
-"""The endless exponential float of the paper beside the one with an end that a scene can have."""
+"""The exponential float of infinite draught of the paper, compared with one that ends at its tail."""
 
 from __future__ import annotations
 
@@ -12,11 +12,12 @@ from hydroelastic.physics.profiles import Profile
 
 
 @dataclass(frozen=True, kw_only=True)
-class EndlessFloat:
-    """The endless float after a release in deep liquids, by the closed form.
+class InfiniteDraughtFloat:
+    """The float of infinite draught after a release in infinitely deep liquids, by the closed form.
 
     Attributes:
-        cut: estimate of the largest |f − f_endless| over all times, f = s/s₀ of the float with its end; at most 2.
+        cut: estimate of the largest |f − f_∞| over all times, f = s/s₀ of the float with its end and f_∞ without; at
+            most 2.
         resonances: ω − iγ, rad/s, of heave and of the second pole, of motions e^{−iωt}.
         residues: f contains 2 Re(residue e^{−iωt}) of each.
     """
@@ -26,19 +27,19 @@ class EndlessFloat:
     residues: tuple[complex, complex]
 
 
-def endless_float(profile: Profile, layers: TwoLayers) -> EndlessFloat:
-    """Return the poles and residues of an exponential float without its end, and how far the end takes it from that.
+def infinite_draught_float(profile: Profile, layers: TwoLayers) -> InfiniteDraughtFloat:
+    """Return poles and residues of an exponential float without its end, and the effect of the end on the motion.
 
     Args:
         profile: an exponential, with an end or without.
-        layers: deep liquids.
+        layers: infinitely deep liquids.
 
     Raises:
         NoEstimateError: as `heave_pole`.
     """
-    endless, rate = replace(profile, tail=0.0), natural_rate(profile, layers)
-    poles = heave_pole(endless), second_pole(endless)
-    return EndlessFloat(
+    infinite, rate = replace(profile, tail=0.0), natural_rate(profile, layers)
+    poles = heave_pole(infinite), second_pole(infinite)
+    return InfiniteDraughtFloat(
         cut=cut_distance(profile),
         resonances=(
             1j * poles[0].frequency.conjugate() * rate,
@@ -49,7 +50,7 @@ def endless_float(profile: Profile, layers: TwoLayers) -> EndlessFloat:
 
 
 def cut_distance(profile: Profile) -> float:
-    """Return about the largest |f − f_endless| of an exponential that ends where its width is a part ``tail`` of b:
+    """Return the approximate largest |f − f_∞| of an exponential that ends where its width is a part ``tail`` of b:
 
         2/(eτ) tail (1 + ln 1/tail), at most 2.
 

@@ -1,8 +1,8 @@
-"""Peaks of a response between the frequencies at which it was computed, which its curve does not show.
+"""Peaks of a response between the frequencies at which it was computed, which its curve does not resolve.
 
 Bodies and liquid on the reduced basis of a sweep are a small linear pencil in ω²; its eigenvalues near the real axis
-are the frequencies at which the response may change faster than the curve tells. The response there, on the same basis,
-is set beside the straight line between the two neighbours on the curve.
+are the frequencies at which the response may change faster than the curve shows. The response there, on the same basis,
+is compared with the straight line between the two neighbours on the curve.
 """
 
 from __future__ import annotations
@@ -13,41 +13,41 @@ from typing import TypeAlias
 
 import numpy as np
 
-from hydroelastic.fem.open_water.results import Complexes, Floats, MissedPeak, ResponseTable
+from hydroelastic.fem.open_water.results import Complexes, Floats, ResponseTable, UnresolvedPeak
 
-# Of the largest on the curve: by what a peak must differ from the line between its neighbours.
+# Least difference of a peak from the line between its neighbours, relative to the largest value of the curve.
 _DIFFERS = 0.1
 
 # Name of a quantity, its magnitudes on the curve and at the peaks, and what is large for it.
 _Curve: TypeAlias = tuple[str, Floats, Floats, float]
 
 
-def missed_peaks(
+def unresolved_peaks(
     table: ResponseTable, resonances: Complexes, between: Callable[[Floats], ResponseTable]
-) -> tuple[MissedPeak, ...]:
+) -> tuple[UnresolvedPeak, ...]:
     """Return the largest of the peaks between each two frequencies, by ascending frequency.
 
     Args:
         table: the response at the frequencies requested.
-        resonances: ω of bodies and liquid together, rad/s; those that no wave excites show nothing.
-        between: the response at other frequencies.
+        resonances: ω of bodies and liquid together, rad/s; those that no wave excites have no peak.
+        between: returns the response at other frequencies, shape (frequencies,), rad/s.
     """
     omegas = np.sort(table.omega)
     probed = np.array(list(_narrow(omegas, resonances)))
     if not probed.size:
         return ()
     peaks = between(probed)
-    # Where a motion tells, waves need not.
+    # Peaks of motions replace those of waves between the same frequencies.
     worst = _worst(probed, table.omega, _ratios(table, peaks)) | _worst(probed, table.omega, _motions(table, peaks))
     return tuple(worst[below] for below in sorted(worst))
 
 
-def _worst(probed: Floats, omegas: Floats, curves: Iterator[_Curve]) -> dict[float, MissedPeak]:
-    """What changes most between each two frequencies, by the lower one."""
+def _worst(probed: Floats, omegas: Floats, curves: Iterator[_Curve]) -> dict[float, UnresolvedPeak]:
+    """The largest peak between each two frequencies, by the lower one."""
     order = np.argsort(omegas)
     ordered = omegas[order]
     changes: dict[float, float] = {}
-    worst: dict[float, MissedPeak] = {}
+    worst: dict[float, UnresolvedPeak] = {}
     for quantity, shown, found, scale in curves:
         drawn = np.interp(probed, ordered, shown[order])
         for omega, value, line in zip(probed, found, drawn, strict=True):
@@ -56,7 +56,7 @@ def _worst(probed: Floats, omegas: Floats, curves: Iterator[_Curve]) -> dict[flo
             change = abs(value - line) / max(scale, value)
             if change > changes.get(below, _DIFFERS):
                 changes[below] = change
-                worst[below] = MissedPeak(
+                worst[below] = UnresolvedPeak(
                     below=below,
                     above=above,
                     omega=float(omega),
@@ -79,7 +79,7 @@ def _motions(table: ResponseTable, peaks: ResponseTable) -> Iterator[_Curve]:
     sizes = np.abs(table.amplitudes)
     for incident, wave in enumerate(table.waves):
         for place, dof in enumerate(table.dofs):
-            # A small motion beside a large one of its unit is none that is missed.
+            # Motions are compared with the largest one of the same unit.
             scale = float(sizes[:, incident, turns == turns[place]].max())
             found = np.abs(peaks.amplitudes[:, incident, place])
             yield dof + _of(table, wave), sizes[:, incident, place], found, scale

@@ -1,4 +1,4 @@
-"""How far an exponential float with an end is from the endless one of the paper, and the poles of that one."""
+"""How far an exponential float with an end is from the paper's one of infinite draught, and the poles of that one."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hydroelastic.modal.floats.endless_float import cut_distance, endless_float
+from hydroelastic.modal.floats.infinite_draught import cut_distance, infinite_draught_float
 from hydroelastic.modal.floats.thin_float_decay import free_motion
 from hydroelastic.modal.liquid.two_layer import TwoLayers
 from hydroelastic.physics.profiles import Profile
@@ -26,9 +26,9 @@ CASES = {
 @pytest.mark.parametrize("slenderness", [0.1, 0.55, 1.0])
 def test_estimate_of_the_cut(slenderness: float, tail: float) -> None:
     profile = Profile(shape="exponential", half_width=slenderness, half_height=1.0, tail=tail)
-    endless = Profile(shape="exponential", half_width=slenderness, half_height=1.0)
+    infinite = Profile(shape="exponential", half_width=slenderness, half_height=1.0)
     times = np.linspace(0.0, 60.0, 601)
-    distance = np.abs(free_motion(profile, times).heave - free_motion(endless, times).heave).max()
+    distance = np.abs(free_motion(profile, times).heave - free_motion(infinite, times).heave).max()
     # Measured: 1.07 to 1.27.
     assert 1.0 < cut_distance(profile) / distance < 1.4
 
@@ -41,7 +41,7 @@ def test_poles_and_residues(name: str) -> None:
         shape="exponential", half_width=height * float(case["inputs"]["tau"]), half_height=height, tail=1e-3
     )
     layers = TwoLayers(density_below=1000.0, density_above=800.0, depth_below=inf, depth_above=inf, gravity=gravity)
-    found = endless_float(profile, layers)
+    found = infinite_draught_float(profile, layers)
     rate = np.sqrt(gravity / 9.0 / height)
     for number in (1, 2):
         pole, residue = (complex(*map(float, case["values"][f"{key}{number}"])) for key in ("z", "res"))

@@ -7,7 +7,7 @@ import pytest
 from mpi4py import MPI
 from open_tables import open_scene
 
-from hydroelastic.fem.open_water.results import MissedPeak
+from hydroelastic.fem.open_water.results import UnresolvedPeak
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.dataset import OPEN_NAMES
 from hydroelastic.scenes.open_water.results import OpenSolution
@@ -46,7 +46,7 @@ def coarse() -> OpenSolution:
     return solved(barge({"start": 0.3, "stop": 1.7, "number": 15}, {"kind": "resonance"}))
 
 
-def peak_of(solution: OpenSolution) -> MissedPeak:
+def peak_of(solution: OpenSolution) -> UnresolvedPeak:
     (peak,) = solution.response[0].missed_peaks
     return peak
 

@@ -14,6 +14,7 @@ import json
 import shutil
 import sys
 import tempfile
+from io import BytesIO
 from pathlib import Path
 
 import numpy as np
@@ -91,9 +92,13 @@ def shown_modes(summary: Summary) -> dict[int, str]:
 
 
 def _keep_picture(source: Path, target: Path) -> None:
-    """Store a picture with all its colours in few bytes."""
+    """Store a picture with all its colours, its rows as they are or filtered, whichever takes fewer bytes."""
+    filtered = BytesIO()
     with Image.open(source) as picture:
+        picture.convert("RGB").save(filtered, "PNG", optimize=True)
         save(np.asarray(picture.convert("RGBA")), target, compression=9)
+    if len(filtered.getvalue()) < target.stat().st_size:
+        target.write_bytes(filtered.getvalue())
 
 
 def index() -> str:

@@ -9,6 +9,7 @@ import struct
 import zlib
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib import rc_context
@@ -38,7 +39,7 @@ POINT = 0.72
 
 _PER_INCH = 72.0 / POINT
 # Hinting would move small letters to whole pixels, a quarter nearer to each other.
-_LETTERS = {"text.hinting": "no_hinting"}
+_LETTERS: Any = {"text.hinting": "no_hinting"}
 # Letters of DejaVu Sans are so wide in the mean, over their height.
 _LETTER = 0.6
 

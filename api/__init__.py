@@ -19,7 +19,7 @@ The names below are imported when they are first used: ``import hydroelastic`` i
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from hydroelastic.fem.pictures.options import PictureOptions
+    from hydroelastic.output.pictures.options import PictureOptions
     from hydroelastic.scenes.errors import SceneError, UnsolvedError
     from hydroelastic.scenes.models import (
         Accuracy,
@@ -57,7 +57,7 @@ __all__ = [
 ]
 
 _ELSEWHERE = {
-    "PictureOptions": "fem.pictures.options",
+    "PictureOptions": "output.pictures.options",
     **dict.fromkeys(("Result", "load", "solve"), "scenes.result"),
     **dict.fromkeys(("SceneError", "UnsolvedError"), "scenes.errors"),
     **dict.fromkeys(("read", "shipped_scenes"), "scenes.read"),

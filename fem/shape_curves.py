@@ -10,7 +10,7 @@ from dolfinx import fem
 from numpy.typing import NDArray
 
 from hydroelastic.fem.liquid import LiquidSpace
-from hydroelastic.fem.pictures.modes import FloatSection, SurfaceCurve
+from hydroelastic.fem.pictures.mode import FloatSection, SurfaceCurve
 from hydroelastic.fem.sampling import SurfaceTrace, sample_surface
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.meshes.geometry import FREE_SURFACE, INTERFACE

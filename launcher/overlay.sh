@@ -8,7 +8,7 @@ make_overlay() {
     local folder version metadata requirement
     version=$(sed -n 's/^version = "\(.*\)"/\1/p' "$checkout/pyproject.toml" | head -n 1)
     mkdir -- "$building/hydroelastic" "$building/bin" "$building/hydroelastic-$version.dist-info"
-    for folder in physics meshes fem modal scenes benchmarks; do
+    for folder in physics meshes fem modal output scenes benchmarks; do
         ln -s -- "$checkout/$folder" "$building/hydroelastic/$folder"
     done
     ln -s -- "$checkout"/api/{__init__.py,py.typed} "$building/hydroelastic"

@@ -14,10 +14,14 @@ import json
 import shutil
 import sys
 import tempfile
+from io import BytesIO
 from pathlib import Path
 
+import numpy as np
 from PIL import Image
 
+from hydroelastic.output.pictures.options import PictureOptions
+from hydroelastic.output.pictures.page import save
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.output.folder import SUMMARY
 from hydroelastic.scenes.output.markdown import markdown_table, markdown_text
@@ -36,7 +40,8 @@ STUDIED = {
     "float_ellipse": StudyPlan(),
     "float_parabola": StudyPlan(families=FAMILIES),
 }
-SHOWN_WIDTH = 800
+# At the width that pages show.
+SHOWN = PictureOptions(width=800, dpi=100)
 TABLES = ("summary.json", "summary.md", "modes.csv")
 OTHER_TABLES = ("summary.json", "summary.md")
 
@@ -49,7 +54,7 @@ def regenerate(name: str) -> str:
     """
     scene = read_scene(name)
     with tempfile.TemporaryDirectory() as scratch:
-        outcome = run_scene(scene, out=Path(scratch) / name)
+        outcome = run_scene(scene, out=Path(scratch) / name, images=SHOWN)
         assert outcome.folder is not None
         kept = SHIPPED / name
         shutil.rmtree(kept, ignore_errors=True)
@@ -72,7 +77,7 @@ def regenerate(name: str) -> str:
             write_study(study_scene(scene, STUDIED[name]), Path(scratch) / name)
             for file in (Path(scratch) / name).iterdir():
                 if file.name != SUMMARY:
-                    shutil.copy(file, kept)
+                    (_keep_picture if file.suffix == ".png" else shutil.copy)(file, kept / file.name)
     return outcome.status
 
 
@@ -87,12 +92,13 @@ def shown_modes(summary: Summary) -> dict[int, str]:
 
 
 def _keep_picture(source: Path, target: Path) -> None:
-    """Store a picture at the width that pages show it, in as many colours as a byte tells apart."""
+    """Store a picture with all its colours, its rows as they are or filtered, whichever takes fewer bytes."""
+    filtered = BytesIO()
     with Image.open(source) as picture:
-        height = round(picture.height * SHOWN_WIDTH / picture.width)
-        shown = picture.convert("RGB").resize((SHOWN_WIDTH, height), Image.Resampling.LANCZOS)
-        # Chosen to cover all colours: the most frequent ones alone would turn the ends of a colour bar grey.
-        shown.quantize(256, method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE).save(target, optimize=True)
+        picture.convert("RGB").save(filtered, "PNG", optimize=True)
+        save(np.asarray(picture.convert("RGBA")), target, compression=9)
+    if len(filtered.getvalue()) < target.stat().st_size:
+        target.write_bytes(filtered.getvalue())
 
 
 def index() -> str:

@@ -16,8 +16,8 @@ from typing import Any, NoReturn
 
 import click
 
-from hydroelastic.fem.pictures.options import DEFAULT_PICTURES, CurveFormat
 from hydroelastic.meshes.interrupts import end_on_interrupt
+from hydroelastic.output.pictures.options import DEFAULT_PICTURES, CurveFormat
 from hydroelastic.scenes.command_options import (
     animate_option,
     dpi_option,

@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from hydroelastic.fem.pictures.options import (
+from hydroelastic.output.pictures.options import (
     CURVE_FORMATS,
     DEFAULT_PICTURES,
     DPI_LIMITS,

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from hydroelastic.fem.pictures.options import DEFAULT_PICTURES, PictureOptions
+from hydroelastic.output.pictures.options import DEFAULT_PICTURES, PictureOptions
 from hydroelastic.scenes.errors import Problem, SceneError, shown_value
 from hydroelastic.scenes.kinds import runner_of
 from hydroelastic.scenes.output.dataset import DATASET, read_dataset

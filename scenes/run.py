@@ -6,8 +6,8 @@ from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
-from hydroelastic.fem.pictures.options import DEFAULT_PICTURES, PictureOptions
 from hydroelastic.fem.stopwatch import Report
+from hydroelastic.output.pictures.options import DEFAULT_PICTURES, PictureOptions
 from hydroelastic.scenes.kinds import runner_of
 from hydroelastic.scenes.output.outcome import Outcome
 from hydroelastic.scenes.read import Scene

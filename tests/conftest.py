@@ -2,7 +2,6 @@
 
 import csv
 import os
-from collections.abc import Iterator
 from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any
@@ -48,14 +47,12 @@ def tanks() -> Any:
     return Tanks()
 
 
-@pytest.fixture(scope="module")
-def canvas() -> Iterator[Any]:
-    """What renders pictures; where nothing can render, a test that asks for it is skipped."""
-    from hydroelastic.fem.pictures.canvas import Canvas, NoRendererError
+@pytest.fixture(scope="session")
+def renderer() -> None:
+    """Where nothing can render fields, a test that asks for it is skipped."""
+    from hydroelastic.output.pictures.rendering import NoRendererError, open_window
 
     try:
-        opened = Canvas()
+        open_window()
     except NoRendererError as error:
         pytest.skip(str(error))
-    with opened:
-        yield opened

@@ -9,11 +9,9 @@ import numpy as np
 import pytest
 from mode_pictures import gif_pages
 
-from hydroelastic.fem.pictures.canvas import Canvas, NoRendererError
-from hydroelastic.fem.pictures.gif import FRAMES
-from hydroelastic.fem.pictures.line import DrawnLine
-from hydroelastic.fem.pictures.line_view import LineView
-from hydroelastic.fem.pictures.options import PictureOptions
+from hydroelastic.output.pictures.gif import FRAMES
+from hydroelastic.output.pictures.line_view import DrawnLine, LineView
+from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.run import run_scene
@@ -25,14 +23,7 @@ HALF = FRAMES // 2
 MOTION = '{kind="motion",times=[0.0,0.1,0.2],move=[{end="b",amplitude=[0.2,0.0,0.0],omega=3.0}]}'
 
 
-@pytest.fixture(scope="module", autouse=True)
-def _renderer() -> None:
-    """Where nothing can render, nothing is tested here."""
-    try:
-        with Canvas():
-            pass
-    except NoRendererError as error:
-        pytest.skip(str(error))
+pytestmark = pytest.mark.usefixtures("renderer")
 
 
 def animations(folder: Path) -> list[str]:

@@ -13,7 +13,7 @@ import pytest
 from click.testing import CliRunner, Result
 from scene_files import BEAM_IN_TANK
 
-from hydroelastic.fem.pictures.options import PictureOptions
+from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.scenes.command_line import main
 from hydroelastic.scenes.read import scene_path
 

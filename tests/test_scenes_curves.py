@@ -25,17 +25,17 @@ from hydroelastic.benchmarks.rows import Row
 from hydroelastic.benchmarks.string.figure import draw_strings
 from hydroelastic.benchmarks.tank.figure import draw_speed
 from hydroelastic.benchmarks.thread.figure import draw_threads
-from hydroelastic.fem.pictures.options import SCALE_LIMITS, PictureOptions
 from hydroelastic.fem.study.row import StudyRow
 from hydroelastic.fem.study.thinness import QUANTITIES, Comparison, ThinnessRow
 from hydroelastic.fem.thread.stability import Stability, Threshold
+from hydroelastic.output.pictures.curves import Sheets
+from hydroelastic.output.pictures.options import SCALE_LIMITS, PictureOptions
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.roll import RollScene
 from hydroelastic.scenes.models.string import StringScene
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.open_water.figures import draw_open
-from hydroelastic.scenes.output.curve_style import Sheets
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.roll.figure import draw_roll
 from hydroelastic.scenes.roll.solve import solve_roll

@@ -19,10 +19,10 @@ from hydroelastic.fem.open_water.basin import open_basin
 from hydroelastic.fem.open_water.field_samples import SampledField, sample_field
 from hydroelastic.fem.open_water.fields import OpenField, open_fields
 from hydroelastic.fem.open_water.resonance_search import ResonanceSearch
-from hydroelastic.fem.pictures.canvas import NoRendererError
-from hydroelastic.fem.pictures.gif import FRAMES
-from hydroelastic.fem.pictures.options import PictureOptions
 from hydroelastic.fem.stopwatch import Stopwatch
+from hydroelastic.output.pictures.gif import FRAMES
+from hydroelastic.output.pictures.options import PictureOptions
+from hydroelastic.output.pictures.rendering import NoRendererError
 from hydroelastic.scenes.models.open_analyses import Radiation, Resonance
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.field_files import write_fields

@@ -22,7 +22,7 @@ from mpi4py import MPI
 from open_tables import ANALYSES, FROM_BOTH_SIDES, arbitrary_solution, open_scene, two_bodies
 from scene_files import CIRCLE_IN_OPEN_WATER
 
-from hydroelastic.fem.pictures.options import PictureOptions
+from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.scenes.command_line import main
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.models.tank import TankScene

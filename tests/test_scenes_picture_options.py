@@ -9,7 +9,7 @@ import pytest
 from click.testing import CliRunner, Result
 from PIL import Image
 
-from hydroelastic.fem.pictures.options import DEFAULT_PICTURES, OF_CURVES, OF_FIELDS, PictureOptions
+from hydroelastic.output.pictures.options import DEFAULT_PICTURES, OF_CURVES, OF_FIELDS, PictureOptions
 from hydroelastic.scenes.command_line import main
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.run import run_scene

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from hydroelastic.fem.pictures.mode import SurfaceCurve
-from hydroelastic.fem.pictures.modes import Canvas, NoRendererError
-from hydroelastic.fem.pictures.options import PictureOptions
 from hydroelastic.fem.shape_curves import largest_of
 from hydroelastic.fem.tank.mode_shapes import ModeShapes, sample_shapes
+from hydroelastic.output.pictures.options import PictureOptions
+from hydroelastic.output.pictures.rendering import NoRendererError, open_window
 from hydroelastic.scenes.models.bodies import Beam, Float
 from hydroelastic.scenes.models.body_kinds import Body
 from hydroelastic.scenes.models.tank import TankScene
@@ -185,7 +185,7 @@ def unstable(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A slender box that capsizes, run to its folder."""
     folder = tmp_path_factory.mktemp("shapes") / "result"
     try:
-        Canvas().__exit__(None, None, None)
+        open_window()
         images = PictureOptions()
     except NoRendererError:
         images = None

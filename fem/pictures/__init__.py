@@ -1,1 +1,1 @@
-"""Pictures of fields and lines, rendered without a screen."""
+"""Motions as they are drawn and written: sampled fields, surfaces and floats, as plain values."""

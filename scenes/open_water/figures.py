@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, ResonanceTable, ResponseTable
-from hydroelastic.fem.pictures.options import PictureOptions
+from hydroelastic.output.pictures.colours import BLUE
+from hydroelastic.output.pictures.curves import COLOURS, GREY, Sheets, label_axes, plot_curve, sequence_colours
+from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.scenes.open_water.results import OpenSolution
-from hydroelastic.scenes.output.curve_style import BLUE, COLOURS, GREY, Sheets, label_axes, plot_curve, sequence_colours
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -10,13 +10,12 @@ from mpi4py import MPI
 from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.open_water.field_samples import SampledField, sample_field
 from hydroelastic.fem.open_water.fields import open_fields
-from hydroelastic.fem.pictures.options import OF_CURVES, OF_FIELDS, OF_MOTIONS, PictureOptions
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.meshes.tagged_mesh import MeshError
+from hydroelastic.output.pictures.options import OF_CURVES, OF_FIELDS, OF_MOTIONS, PictureOptions
 from hydroelastic.scenes.open_water.csv import write_csv
 from hydroelastic.scenes.open_water.dataset import OPEN_NAMES, open_dataset
 from hydroelastic.scenes.open_water.field_files import write_fields
-from hydroelastic.scenes.open_water.field_pictures import draw_fields
 from hydroelastic.scenes.open_water.figures import draw_open
 from hydroelastic.scenes.open_water.physics import open_water_problem
 from hydroelastic.scenes.open_water.results import OpenSolution
@@ -63,6 +62,11 @@ def _write(water: SampledWater, folder: Path) -> None:
 
 
 def _draw(water: SampledWater, folder: Path, options: PictureOptions, report: Report) -> None:
+    # Who only wants the numbers does without what draws.
+
+    # Who only wants the numbers does without what draws.
+    from hydroelastic.scenes.open_water.field_pictures import draw_fields
+
     report("pictures of curves")
     draw_open(water.solution, folder, options)
     report("pictures of fields")

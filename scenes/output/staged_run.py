@@ -9,8 +9,8 @@ from typing import Any, Generic, Protocol, TypeVar
 
 from mpi4py import MPI
 
-from hydroelastic.fem.pictures.options import DEFAULT_PICTURES, PictureOption, PictureOptions
 from hydroelastic.fem.stopwatch import Report, Stopwatch
+from hydroelastic.output.pictures.options import DEFAULT_PICTURES, PictureOption, PictureOptions
 from hydroelastic.scenes.output.dataset import LabelledResults
 from hydroelastic.scenes.output.manifest import read_manifest
 from hydroelastic.scenes.output.outcome import Outcome

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 from mpi4py import MPI
 
-from hydroelastic.fem.pictures.canvas import NoRendererError
 from hydroelastic.fem.stopwatch import Report, Stopwatch
+from hydroelastic.output.pictures.rendering import NoRendererError
 from hydroelastic.scenes.output.dataset import DATASET, with_summary, write_dataset
 from hydroelastic.scenes.output.folder import raise_on_all, result_folder, write_summary
 from hydroelastic.scenes.output.provenance import Summary

@@ -6,8 +6,9 @@ from pathlib import Path
 
 import numpy as np
 
-from hydroelastic.fem.pictures.options import PictureOptions
-from hydroelastic.scenes.output.curve_style import BLUE, GREEN, GREY, VERMILLION, Sheets, label_axes
+from hydroelastic.output.pictures.colours import BLUE, GREEN, VERMILLION
+from hydroelastic.output.pictures.curves import GREY, Sheets, label_axes
+from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.scenes.roll.results import RollResult
 
 _WAVES = "#999999"

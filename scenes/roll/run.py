@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hydroelastic.fem.pictures.options import OF_CURVES
+from hydroelastic.output.pictures.options import OF_CURVES
 from hydroelastic.scenes.output.dataset import LabelledResults
 from hydroelastic.scenes.output.staged_run import StagedRun
 from hydroelastic.scenes.roll.dataset import ROLL_NAMES, roll_dataset

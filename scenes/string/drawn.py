@@ -12,6 +12,8 @@ from hydroelastic.scenes.string.solve import solve_series
 # Numbers of times and of positions from which a motion and a shape are drawn smooth.
 _ENOUGH_TIMES = 61
 _ENOUGH_POSITIONS = 61
+# Positions and times at which the fronts of a step are lines and no stairs.
+_OF_FRONTS = (301, 801)
 
 
 def drawn_solution(result: StringResult) -> StringSolution:
@@ -25,13 +27,15 @@ def drawn_solution(result: StringResult) -> StringSolution:
     scene, solution = result.scene, result.solution
     few_positions = len(solution.positions) < _ENOUGH_POSITIONS
     few_times = len(solution.times) < _ENOUGH_TIMES
-    if scene.method != "series" or not (few_positions or few_times):
+    jumps = scene.motion.kind == "step" and solution.times[-1] > 0.0
+    if scene.method != "series" or not (few_positions or few_times or jumps):
         return solution
     positions, times = solution.positions, solution.times
-    if few_positions:
-        positions = np.union1d(positions, scene.string.length * np.linspace(0.0, 1.0, DEFAULT_POSITIONS) ** 2)
-    if few_times:
-        times = np.union1d(times, np.linspace(0.0, times[-1], DEFAULT_TIMES))
+    heights, instants = _OF_FRONTS if jumps else (DEFAULT_POSITIONS, DEFAULT_TIMES)
+    if few_positions or jumps:
+        positions = np.union1d(positions, scene.string.length * np.linspace(0.0, 1.0, heights) ** 2)
+    if few_times or jumps:
+        times = np.union1d(times, np.linspace(0.0, times[-1], instants))
     return solve_series(scene, positions, times)
 
 

@@ -7,17 +7,10 @@ from typing import Any, Literal
 
 import numpy as np
 
-from hydroelastic.fem.pictures.options import PictureOptions
 from hydroelastic.modal.string.solution import Floats, StringSolution
-from hydroelastic.scenes.output.curve_style import (
-    COLOURS,
-    DASHES,
-    GREY,
-    Sheets,
-    diverging_colours,
-    label_axes,
-    sequence_colours,
-)
+from hydroelastic.output.pictures.colours import diverging_colours
+from hydroelastic.output.pictures.curves import COLOURS, DASHES, GREY, Sheets, label_axes, sequence_colours
+from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.scenes.output.line_sequence import frame_numbers
 from hydroelastic.scenes.string.drawn import columns_of, drawn_solution
 from hydroelastic.scenes.string.frames import HEIGHT, animate_string, draw_frames
@@ -59,22 +52,24 @@ def draw_string(result: StringResult, folder: Path, options: PictureOptions) -> 
 
 def _draw_space_time(solution: StringSolution, sheets: Sheets) -> None:
     """U over time and height; blue to red, white at rest; the first front dashed."""
-    displacement = _across_fronts(solution)
+    from matplotlib.colors import Normalize
+    from matplotlib.image import NonUniformImage
+
+    displacement = _bridged(solution.times, solution.displacement, solution.trusted)
     low, high = _colour_limits(displacement)
     limit = max(-low, high)
     beyond = (bool(displacement.min() < low), bool(displacement.max() > high))
     with sheets.sheet("space_time", "displacement over time and height", width=10.0, height=6.0) as figure:
         axes = figure.subplots()
-        picture = axes.pcolormesh(
-            solution.times,
-            solution.positions,
-            displacement,
+        picture = NonUniformImage(
+            axes,
+            interpolation="bilinear",
             cmap=diverging_colours(low / limit, high / limit),
-            vmin=low,
-            vmax=high,
-            shading="gouraud",
-            rasterized=True,
+            norm=Normalize(low, high),
+            extent=(solution.times[0], solution.times[-1], solution.positions[0], solution.positions[-1]),
         )
+        picture.set_data(solution.times, solution.positions, displacement)
+        axes.add_image(picture)
         figure.colorbar(picture, ax=axes, label="displacement U, m", extend=_EXTENDED[beyond])
         axes.plot(
             solution.string.arrival_times(solution.positions),
@@ -86,6 +81,7 @@ def _draw_space_time(solution: StringSolution, sheets: Sheets) -> None:
         )
         axes.grid(visible=False)
         axes.set_xlim(solution.times[0], solution.times[-1])
+        axes.set_ylim(solution.positions[0], solution.positions[-1])
         label_axes(axes, "time t, s", HEIGHT)
 
 
@@ -99,27 +95,31 @@ def _colour_limits(displacement: Floats) -> tuple[float, float]:
     return (min(low, 0.0), max(high, 0.0)) if limit else (-1.0, 1.0)
 
 
-def _across_fronts(solution: StringSolution) -> Floats:
-    """U, with what cannot be trusted beside a front replaced by what lies between the values before and after it.
+def _bridged(along: Floats, displacement: Floats, trusted: np.ndarray) -> Floats:
+    """U along its rows, with what cannot be trusted beside a front replaced by what lies between its neighbours.
 
     At a front U jumps, or grows without bound: a few values taken there by chance would look like spots.
     """
-    displacement = solution.displacement.copy()
-    for row, trusted in zip(displacement, solution.trusted, strict=True):
-        if trusted.any():
-            row[~trusted] = np.interp(solution.times[~trusted], solution.times[trusted], row[trusted])
-    return displacement
+    bridged = displacement.copy()
+    for row, known in zip(bridged, trusted, strict=True):
+        if known.any():
+            row[~known] = np.interp(along[~known], along[known], row[known])
+    return bridged
 
 
 def _draw_shapes(solution: StringSolution, times: Floats, sheets: Sheets) -> None:
-    """The string at a few of some times, from light to dark; open where a front is."""
+    """The string at a few of some times, from light to dark; dotted across a front, where its course is not known."""
     places = columns_of(solution, times[frame_numbers(_SHOWN_SHAPES, len(times))])
-    displacement = np.where(solution.trusted, solution.displacement, np.nan)
+    known = solution.trusted[:, places]
+    bridged = _bridged(solution.positions, solution.displacement[:, places].T, known.T)
     with sheets.sheet("shapes", "shapes at some times", width=6.5, height=7.5) as figure:
         axes = figure.subplots()
-        for column, colour in zip(places, sequence_colours(len(places)), strict=True):
-            label = f"{solution.times[column]:.4g} s"
-            axes.plot(displacement[:, column], solution.positions, **_drawn(solution), color=colour, label=label)
+        for place, curve, sure, colour in zip(places, bridged, known.T, sequence_colours(len(places)), strict=True):
+            label = f"{solution.times[place]:.4g} s"
+            axes.plot(curve, solution.positions, ":", color=colour, linewidth=1.2)
+            axes.plot(np.where(sure, curve, np.nan), solution.positions, **_drawn(solution), color=colour, label=label)
+        if not known.all():
+            axes.plot([], [], ":", color=GREY, linewidth=1.2, label="across a front")
         label_axes(axes, "displacement U, m", HEIGHT, legend="beside", heading="time t")
 
 

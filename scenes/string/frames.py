@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hydroelastic.fem.pictures.gif import FRAMES, SECONDS, write_gif
-from hydroelastic.fem.pictures.options import PictureOptions
 from hydroelastic.modal.string.solution import StringSolution
-from hydroelastic.scenes.output.curve_style import BLUE, curve_style, label_axes
+from hydroelastic.output.pictures.colours import BLUE
+from hydroelastic.output.pictures.curves import curve_style, label_axes
+from hydroelastic.output.pictures.gif import FRAMES, SECONDS, write_gif
+from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.scenes.string.drawn import columns_of
 
 if TYPE_CHECKING:

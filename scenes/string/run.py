@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hydroelastic.fem.pictures.options import OF_CURVES, OF_MOTIONS
+from hydroelastic.output.pictures.options import OF_CURVES, OF_MOTIONS
 from hydroelastic.scenes.output.dataset import LabelledResults
 from hydroelastic.scenes.output.staged_run import StagedRun
 from hydroelastic.scenes.string.dataset import STRING_NAMES, string_dataset

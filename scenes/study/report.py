@@ -14,15 +14,15 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
-from hydroelastic.fem.pictures.options import DEFAULT_PICTURES, PictureOptions
 from hydroelastic.fem.study.rates import DIFFERENCE, GAIN_FACTOR, Gain
 from hydroelastic.fem.study.reference import Reference
 from hydroelastic.fem.study.row import Family, StudyRow
 from hydroelastic.fem.study.singular_points import has_curved_contours, sharpest_of, symmetries_apart
 from hydroelastic.fem.study.thinness import fitted_thinness
+from hydroelastic.output.pictures.curves import Sheets
+from hydroelastic.output.pictures.options import DEFAULT_PICTURES, PictureOptions
 from hydroelastic.physics.symmetry import Parity
 from hydroelastic.physics.tank import Tank
-from hydroelastic.scenes.output.curve_style import Sheets
 from hydroelastic.scenes.output.folder import SUMMARY, result_folder
 from hydroelastic.scenes.study.figure import draw_study
 from hydroelastic.scenes.study.plan import ERROR_FAMILIES

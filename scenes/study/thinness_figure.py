@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from hydroelastic.fem.study.thinness import QUANTITIES, ThinnessRow
-from hydroelastic.scenes.output.curve_style import BLUE, GREEN, GREY, ORANGE, PURPLE, VERMILLION, Sheets
+from hydroelastic.output.pictures.colours import BLUE, GREEN, ORANGE, PURPLE, VERMILLION
+from hydroelastic.output.pictures.curves import GREY, Sheets
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -17,7 +17,7 @@ from hydroelastic.scenes.output.summary_variables import SummaryNames
 if TYPE_CHECKING:
     import xarray
 
-    from hydroelastic.fem.pictures.modes import FloatSection, SurfaceCurve
+    from hydroelastic.fem.pictures.mode import FloatSection, SurfaceCurve
     from hydroelastic.fem.tank.mode_shapes import ModeShapes
     from hydroelastic.fem.tank.solve import TankSolution
 

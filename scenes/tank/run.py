@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 from mpi4py import MPI
 
 from hydroelastic.fem.modes import EigenSolverError
-from hydroelastic.fem.pictures.options import OF_FIELDS, OF_MOTIONS, PictureOptions
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.fem.tank.solve import TankSolution
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.modal.tank_estimates import tone_estimates
+from hydroelastic.output.pictures.options import OF_FIELDS, OF_MOTIONS, PictureOptions
 from hydroelastic.scenes.errors import UnsolvedError
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene

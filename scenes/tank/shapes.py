@@ -7,10 +7,10 @@ from pathlib import Path
 import meshio
 import numpy as np
 
-from hydroelastic.fem.pictures.modes import Canvas, ModePicture, animate_mode, draw_mode, draw_overview
-from hydroelastic.fem.pictures.options import PictureOptions
+from hydroelastic.fem.pictures.mode import ModePicture
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.tank.mode_shapes import ModeShapes
+from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.scenes.output.provenance import Summary
 from hydroelastic.scenes.tank.body_file import displacement_of, write_bodies
 
@@ -81,17 +81,18 @@ def draw_all(shapes: ModeShapes, summary: Summary, folder: Path, options: Pictur
 
     Animations are half as wide as pictures, which keeps them small.
     """
+    # Who only wants the fields does without what draws.
+    from hydroelastic.output.pictures.modes import animate_mode, draw_mode, draw_overview
+
     drawn = pictures(shapes, summary)
-    with Canvas() as canvas:
-        for number, (picture, name) in enumerate(zip(drawn, mode_names(shapes), strict=True), 1):
-            report(f"picture {number} of {len(drawn)}")
-            file = name if name.startswith("growing") else f"mode_{name}"
-            draw_mode(picture, folder / f"{file}.png", width=options.width, canvas=canvas)
-        draw_overview(drawn, folder / "overview.png", width=options.width, canvas=canvas)
-        for place in animated_modes(summary) if options.animate else ():
-            report(f"animation of mode {place + 1}")
-            path = folder / f"mode_{place + 1:03d}.gif"
-            animate_mode(drawn[place], path, width=options.animation_width, canvas=canvas)
+    for number, (picture, name) in enumerate(zip(drawn, mode_names(shapes), strict=True), 1):
+        report(f"picture {number} of {len(drawn)}")
+        file = name if name.startswith("growing") else f"mode_{name}"
+        draw_mode(picture, folder / f"{file}.png", width=options.width)
+    draw_overview(drawn, folder / "overview.png", width=options.width)
+    for place in animated_modes(summary) if options.animate else ():
+        report(f"animation of mode {place + 1}")
+        animate_mode(drawn[place], folder / f"mode_{place + 1:03d}.gif", width=options.animation_width)
 
 
 def write_fields(shapes: ModeShapes, folder: Path) -> None:

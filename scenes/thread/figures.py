@@ -8,21 +8,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hydroelastic.fem.pictures.options import PictureOptions
 from hydroelastic.fem.thread.modes import ThreadModes
 from hydroelastic.fem.thread.motion_in_space import MotionInSpace
 from hydroelastic.fem.thread.stability import Stability
-from hydroelastic.scenes.output.curve_style import (
-    BLUE,
-    COLOURS,
-    DASHES,
-    GREEN,
-    GREY,
-    VERMILLION,
-    Sheets,
-    label_axes,
-    sequence_colours,
-)
+from hydroelastic.output.pictures.colours import BLUE, GREEN, VERMILLION
+from hydroelastic.output.pictures.curves import COLOURS, DASHES, GREY, Sheets, label_axes, sequence_colours
+from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.scenes.thread.files import numbered
 from hydroelastic.scenes.thread.line_pictures import (
     animate_modes,
@@ -132,8 +123,9 @@ def _draw_stability(sweep: Stability, sheets: Sheets, name: str) -> None:
     with sheets.sheet(name, "free motions exp(λt) against the stream", width=8.0, height=7.5) as figure:
         upper, lower = figure.subplots(2, 1, sharex=True)
         for number, branch in enumerate(_different(sweep.roots)):
-            # Dashes show coincident roots.
-            style = {"color": COLOURS[number % len(COLOURS)], "linestyle": DASHES[number % len(DASHES)], "marker": "."}
+            # Dashes let one see two that lie on each other.
+            style: dict[str, Any] = {"color": COLOURS[number % len(COLOURS)], "marker": "."}
+            style |= {"linestyle": DASHES[number % len(DASHES)], "label": f"free motion {number + 1}"}
             upper.plot(sweep.values, branch.imag, **style)
             lower.plot(sweep.values, branch.real, **style)
         lower.axhline(0.0, color=GREY, linewidth=0.9)
@@ -143,7 +135,7 @@ def _draw_stability(sweep: Stability, sheets: Sheets, name: str) -> None:
                 axes.axvline(threshold.value, color="black", linestyle=dashes, linewidth=1.3)
             lower.plot([], [], dashes, color="black", label=f"{threshold.kind} at {threshold.value:.5g}")
         label_axes(upper, "", "frequency |Im λ|, rad/s", legend="")
-        label_axes(lower, "factor of the stream", "growth Re λ, 1/s", legend="below" if sweep.thresholds else "")
+        label_axes(lower, "factor of the stream", "growth Re λ, 1/s", legend="below")
 
 
 def _different(roots: NDArray[np.complex128]) -> list[NDArray[np.complex128]]:

@@ -2,23 +2,34 @@
 
 from __future__ import annotations
 
-from hydroelastic.fem.pictures.options import OF_CURVES, OF_FIELDS, OF_MOTIONS
+from pathlib import Path
+
+from hydroelastic.fem.stopwatch import Report
+from hydroelastic.output.pictures.options import OF_CURVES, OF_FIELDS, OF_MOTIONS, PictureOptions
 from hydroelastic.scenes.output.dataset import LabelledResults
 from hydroelastic.scenes.output.staged_run import StagedRun
 from hydroelastic.scenes.thread.animation import animation_notes
 from hydroelastic.scenes.thread.dataset import THREAD_NAMES, thread_dataset
-from hydroelastic.scenes.thread.figures import draw_thread
 from hydroelastic.scenes.thread.files import write_thread_files
+from hydroelastic.scenes.thread.results import ThreadSolutionOfScene
 from hydroelastic.scenes.thread.solve import solve_thread_scene
 from hydroelastic.scenes.thread.summary import summarize_thread
 from hydroelastic.scenes.thread.tables import thread_cost, thread_sections
+
+
+def _draw(solution: ThreadSolutionOfScene, folder: Path, options: PictureOptions, _report: Report) -> None:
+    # Who only wants the numbers does without what draws.
+    from hydroelastic.scenes.thread.figures import draw_thread
+
+    draw_thread(solution, folder, options)
+
 
 run_thread = StagedRun(
     solve=solve_thread_scene,
     summarize=summarize_thread,
     write=write_thread_files,
     dataset=LabelledResults(arrays=thread_dataset, names=THREAD_NAMES),
-    draw=lambda solution, folder, options, _report: draw_thread(solution, folder, options),
+    draw=_draw,
     animation_warnings=animation_notes,
     used_options=OF_CURVES | OF_FIELDS | OF_MOTIONS,
     sections=lambda _solution, summary: thread_sections(summary),

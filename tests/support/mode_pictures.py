@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 from PIL import Image
 
-from hydroelastic.fem.pictures.modes import ModePicture, SurfaceCurve
+from hydroelastic.fem.pictures.mode import ModePicture, SurfaceCurve
 
 
 def sloshing_picture(

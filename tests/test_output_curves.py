@@ -13,15 +13,9 @@ import pytest
 from eyes import EYES, lab
 from PIL import Image
 
-from hydroelastic.fem.pictures.options import PictureOptions
-from hydroelastic.scenes.output.curve_style import (
-    COLOURS,
-    Sheets,
-    diverging_colours,
-    label_axes,
-    plot_curve,
-    sequence_colours,
-)
+from hydroelastic.output.pictures.colours import diverging_colours
+from hydroelastic.output.pictures.curves import COLOURS, Sheets, label_axes, plot_curve, sequence_colours
+from hydroelastic.output.pictures.options import PictureOptions
 
 ALL = PictureOptions(formats=("png", "svg", "pdf"), dpi=80)
 SVG = "{http://www.w3.org/2000/svg}"

@@ -9,14 +9,15 @@ import pytest
 from mode_pictures import gif_pages, has_colour, heave_picture, sloshing_picture
 from PIL import Image
 
-from hydroelastic.fem.pictures.canvas import Canvas
-from hydroelastic.fem.pictures.colours import mode_colours
-from hydroelastic.fem.pictures.gif import FRAMES, write_gif
 from hydroelastic.fem.pictures.mode import ModePicture
-from hydroelastic.fem.pictures.modes import animate_mode, animate_motion
-from hydroelastic.fem.pictures.tank import BODY, drawn_vectors
-from hydroelastic.fem.pictures.view import view_of
+from hydroelastic.output.pictures.colours import BODY, mode_colours
+from hydroelastic.output.pictures.gif import FRAMES, write_gif
+from hydroelastic.output.pictures.modes import animate_mode, animate_motion
+from hydroelastic.output.pictures.tank import drawn_vectors
+from hydroelastic.output.pictures.view import view_of
 from hydroelastic.scenes.tank.shapes import animated_modes
+
+pytestmark = pytest.mark.usefixtures("renderer")
 
 WIDTH = 800
 UNIT = WIDTH / 1600
@@ -24,8 +25,8 @@ HALF = FRAMES // 2
 MEGABYTE = 1_000_000
 
 
-def animated(picture: ModePicture, folder: Path, canvas: Canvas) -> list[np.ndarray]:
-    animate_mode(picture, folder / "mode.gif", width=WIDTH, canvas=canvas)
+def animated(picture: ModePicture, folder: Path) -> list[np.ndarray]:
+    animate_mode(picture, folder / "mode.gif", width=WIDTH)
     return gif_pages(folder / "mode.gif")
 
 
@@ -35,9 +36,9 @@ def tank_part(page: np.ndarray) -> np.ndarray:
 
 
 @pytest.fixture(scope="module")
-def sloshing(tmp_path_factory: pytest.TempPathFactory, canvas: Canvas) -> tuple[Path, list[np.ndarray]]:
+def sloshing(tmp_path_factory: pytest.TempPathFactory, renderer: None) -> tuple[Path, list[np.ndarray]]:
     folder = tmp_path_factory.mktemp("sloshing")
-    return folder / "mode.gif", animated(sloshing_picture(), folder, canvas)
+    return folder / "mode.gif", animated(sloshing_picture(), folder)
 
 
 @pytest.mark.slow
@@ -62,9 +63,9 @@ def test_the_motion_goes_on_without_a_jump(sloshing: tuple[Path, list[np.ndarray
         assert np.abs(pages[place] - pages[-place]).mean() < 0.1
 
 
-def test_half_a_period_later_the_body_is_on_the_other_side(tmp_path: Path, canvas: Canvas) -> None:
+def test_half_a_period_later_the_body_is_on_the_other_side(tmp_path: Path) -> None:
     picture = heave_picture(1.0)
-    rows = [np.nonzero(has_colour(tank_part(page), BODY))[0].mean() for page in animated(picture, tmp_path, canvas)]
+    rows = [np.nonzero(has_colour(tank_part(page), BODY))[0].mean() for page in animated(picture, tmp_path)]
     view = view_of(picture)
     largest = view.surface_scale * (WIDTH - 230 * UNIT) / view.length
     expected = -largest * np.cos(2.0 * np.pi * np.arange(FRAMES) / FRAMES)
@@ -89,7 +90,7 @@ def test_colours_keep_their_meaning(sloshing: tuple[Path, list[np.ndarray]]) -> 
     # The colour bar is the same on all pages, and its ends are those of the scale.
     bars = [page[-round(125 * UNIT) : -round(100 * UNIT)] for page in sloshing[1]]
     assert all((bar == bars[0]).all() for bar in bars)
-    colours = np.round(255 * mode_colours()).astype(int)
+    colours = np.round(255 * np.array(mode_colours().colors)).astype(int)
     for end in (colours[0], colours[-1]):
         # A few of 255 colours stand for an end of the scale.
         assert np.abs(bars[0] - end).sum(axis=2).min() <= 24

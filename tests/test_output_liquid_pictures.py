@@ -8,16 +8,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hydroelastic.fem.pictures.canvas import Canvas
-from hydroelastic.fem.pictures.floats import BODY, displaced_corners, up_to_floats
-from hydroelastic.fem.pictures.frame import frame_of
-from hydroelastic.fem.pictures.legend import scale_notes
 from hydroelastic.fem.pictures.mode import FloatSection, ModePicture, SurfaceCurve
-from hydroelastic.fem.pictures.modes import draw_mode, draw_overview
-from hydroelastic.fem.pictures.shapes import area, closed, dashed
-from hydroelastic.fem.pictures.tank import FREE_SURFACE, INTERFACE, LOWER_WASH, UPPER_WASH
-from hydroelastic.fem.pictures.view import view_of
 from hydroelastic.fem.sampling import SurfaceTrace
+from hydroelastic.output.pictures.colours import BODY, FREE_SURFACE, INTERFACE, LOWER_WASH, UPPER_WASH
+from hydroelastic.output.pictures.floats import up_to_floats
+from hydroelastic.output.pictures.modes import draw_mode, draw_overview
+from hydroelastic.output.pictures.notes import scale_notes
+from hydroelastic.output.pictures.view import view_of
+
+pytestmark = pytest.mark.usefixtures("renderer")
 
 WIDTH = 800
 UNIT = WIDTH / 1600
@@ -76,12 +75,12 @@ def floating_picture(heave: float) -> ModePicture:
     return replace(picture, surfaces=curves, floats=(section,))
 
 
-def drawn(picture: ModePicture, folder: Path, canvas: Canvas) -> np.ndarray:
+def drawn(picture: ModePicture, folder: Path) -> np.ndarray:
     """Pixels in 0…255 above the legend, shape (height, width, 3), the uppermost row first."""
     from matplotlib.image import imread
 
     path = folder / "mode.png"
-    draw_mode(picture, path, width=WIDTH, canvas=canvas)
+    draw_mode(picture, path, width=WIDTH)
     image = np.round(255 * imread(path)[:, :, :3]).astype(int)
     return image[: len(image) - FOOTER]
 
@@ -92,8 +91,8 @@ def has_colour(image: np.ndarray, colour: str) -> np.ndarray:
     return np.abs(image - rgb).max(axis=2) <= 2
 
 
-def test_two_liquids_show_their_interface_their_top_and_their_colours(tmp_path: Path, canvas: Canvas) -> None:
-    image = drawn(layered_picture(), tmp_path, canvas)
+def test_two_liquids_show_their_interface_their_top_and_their_colours(tmp_path: Path) -> None:
+    image = drawn(layered_picture(), tmp_path)
     interface, top = (np.nonzero(has_colour(image, colour))[0] for colour in (INTERFACE, FREE_SURFACE))
     assert len(interface) > 30
     assert len(top) > 30
@@ -115,20 +114,20 @@ def test_the_colours_are_those_of_the_pressure() -> None:
     assert (one.drawn_field == one.potential).all()
 
 
-def test_a_lid_is_drawn_where_the_top_is_rigid(tmp_path: Path, canvas: Canvas) -> None:
+def test_a_lid_is_drawn_where_the_top_is_rigid(tmp_path: Path) -> None:
     half = replace(layered_picture(lid=True), lid=((0.0, 5.0),))
-    dark = has_colour(drawn(half, tmp_path, canvas), "#3c3c3c").sum(axis=1)
+    dark = has_colour(drawn(half, tmp_path), "#3c3c3c").sum(axis=1)
     # 5 m of the tank's 10 m in 625 pixels, and both walls.
     assert dark.max() == pytest.approx(0.5 * (WIDTH - 350 * UNIT) + 2 * 5 * UNIT, abs=3)
     assert dark.argmax() < round(100 * UNIT)
     # Nothing but walls and letters where the top is open.
-    assert has_colour(drawn(layered_picture(), tmp_path, canvas), "#3c3c3c").sum(axis=1).max() < 20
+    assert has_colour(drawn(layered_picture(), tmp_path), "#3c3c3c").sum(axis=1).max() < 20
 
 
-def test_float_is_displaced_by_the_stated_scale(tmp_path: Path, canvas: Canvas) -> None:
+def test_float_is_displaced_by_the_stated_scale(tmp_path: Path) -> None:
     rows = {}
     for heave in (1.0, -1.0):
-        rows[heave] = np.nonzero(has_colour(drawn(floating_picture(heave), tmp_path, canvas), BODY))[0].mean()
+        rows[heave] = np.nonzero(has_colour(drawn(floating_picture(heave), tmp_path), BODY))[0].mean()
     view = view_of(floating_picture(1.0))
     pixels_per_metre = (WIDTH - 350 * UNIT) / view.length
     # Dashes of the place at rest shift the mean of what is orange by less than a pixel.
@@ -143,8 +142,8 @@ def test_floats_stay_near_their_place_and_the_scale_is_stated() -> None:
     assert "×0.125" in scale_notes(view, picture)
 
 
-def test_an_overview_names_the_pressure(tmp_path: Path, canvas: Canvas) -> None:
-    draw_overview([layered_picture(), floating_picture(1.0)], tmp_path / "all.png", width=WIDTH, canvas=canvas)
+def test_an_overview_names_the_pressure(tmp_path: Path) -> None:
+    draw_overview([layered_picture(), floating_picture(1.0)], tmp_path / "all.png", width=WIDTH)
     assert (tmp_path / "all.png").stat().st_size > 10_000
 
 
@@ -160,7 +159,7 @@ def test_an_overview_names_the_pressure(tmp_path: Path, canvas: Canvas) -> None:
     ],
 )
 def test_thin_and_deep_layers_fit_and_say_how(
-    tmp_path: Path, canvas: Canvas, length: float, depths: tuple[float, float], lid: bool, note: str
+    tmp_path: Path, length: float, depths: tuple[float, float], lid: bool, note: str
 ) -> None:
     picture = layered_picture(length=length, depths=depths, lid=lid)
     view = view_of(picture)
@@ -169,52 +168,28 @@ def test_thin_and_deep_layers_fit_and_say_how(
         assert drawn_depth >= 0.05 * length
         # Neither surface reaches the other side of its liquid.
         assert view.rise * view.amplitude < 0.5 * drawn_depth
-    assert has_colour(drawn(picture, tmp_path, canvas), INTERFACE).sum() > 30
+    assert has_colour(drawn(picture, tmp_path), INTERFACE).sum() > 30
 
 
 def test_the_page_is_stretched_on_either_side_of_the_interface() -> None:
     view = view_of(layered_picture(length=1.0, depths=(0.5, 0.005)))
-    frame = frame_of(view, left=10.0, bottom=20.0, per_metre=1000.0, unit=1.0)
-    ys = frame.page(np.zeros(4), np.array([-0.5, 0.0, 0.005, 0.105]))[:, 1]
+    ys = view.drawn(np.array([-0.5, 0.0, 0.005, 0.105]))
     # 0.5 m at ×1, 5 mm at ×20, and above the top ×1 again.
-    assert ys == pytest.approx([20.0, 520.0, 620.0, 720.0])
+    assert ys == pytest.approx([-0.5, 0.0, 0.1, 0.2])
 
 
 def test_surfaces_go_on_to_the_displaced_float() -> None:
     picture = floating_picture(1.0)
-    frame = frame_of(view_of(picture), left=0.0, bottom=0.0, per_metre=1.0, unit=1.0)
+    view = replace(view_of(picture), surface_scale=1.0)
     moved = replace(picture.floats[0], displacement=np.tile([0.3, 0.0], (4, 1)))
-    left, right = (up_to_floats(curve, (moved,), 1.0, frame) for curve in picture.surfaces)
+    left, right = (up_to_floats(curve, (moved,), view) for curve in picture.surfaces)
     # The float has gone 0.3 m to the right: there the left surface meets it, and the right one goes on behind it.
     assert left.x[-1] == pytest.approx(4.3)
     assert (right.x[:2] <= 5.0).all()
-    assert displaced_corners(moved, 1.0, frame)[0] == pytest.approx([4.3, 3.5])
+    assert view.displaced(moved)[0] == pytest.approx([4.3, -0.5])
     # One that has gone up and away meets nothing.
     lifted = replace(moved, displacement=np.tile([0.0, 2.0], (4, 1)))
-    assert up_to_floats(picture.surfaces[0], (lifted,), 1.0, frame).x[-1] == 4.0
-
-
-def covered(corners: np.ndarray) -> float:
-    shape = area(corners)
-    a, b, c = np.moveaxis(shape.points[shape.triangles], 1, 0)
-    return float(0.5 * np.abs((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]).sum())
-
-
-def test_the_inside_of_a_polygon_is_filled_once() -> None:
-    assert covered(SQUARE) == pytest.approx(1.0)
-    # A hook, concave, with level sides and slanting ones: 4 × 3 without a notch of 2 × 2 and a corner of 1 × 1 / 2.
-    hook = np.array([[0.0, 0.0], [4.0, 0.0], [4.0, 2.0], [3.0, 3.0], [3.0, 2.0], [1.0, 2.0], [1.0, 3.0], [0.0, 3.0]])
-    assert covered(hook) == pytest.approx(4 * 2 + 1 + 0.5)
-    angle = np.linspace(0.0, 2 * np.pi, 100, endpoint=False)
-    circle = np.column_stack([np.cos(angle), np.sin(angle)])
-    assert covered(circle) == pytest.approx(50 * np.sin(2 * np.pi / 100))
-
-
-def test_dashes_follow_a_curve() -> None:
-    pieces = dashed(closed(SQUARE)[:-1], dash=0.75, gap=0.25)
-    assert len(pieces) == 4
-    for piece in pieces:
-        assert np.hypot(*np.diff(piece, axis=0).T).sum() == pytest.approx(0.75)
+    assert up_to_floats(picture.surfaces[0], (lifted,), view).x[-1] == 4.0
 
 
 def test_a_trace_has_both_values_at_a_slit() -> None:

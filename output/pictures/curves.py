@@ -13,25 +13,20 @@ from warnings import catch_warnings, filterwarnings
 
 import numpy as np
 
-from hydroelastic.fem.pictures.options import DEFAULT_PICTURES, PictureOptions
+from hydroelastic.output.pictures.colours import BLUE, GREEN, ORANGE, PURPLE, SEQUENCE, SKY, VERMILLION, part_of_colours
+from hydroelastic.output.pictures.options import DEFAULT_PICTURES, PictureOptions
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.axis import Axis
-    from matplotlib.colors import ListedColormap
     from matplotlib.figure import Figure
 
-# Okabe and Ito's colours, which colour-blind readers distinguish; curves also differ in dashes or markers.
-BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"
 COLOURS = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY)
 DASHES = ("-", "--", "-.", ":")
 GREY = "#555555"
 """Of what is beside the curves: theory, limits, notes."""
 SHADE = "#dddddd"
 """Of what lies behind the curves."""
-# Of values of both signs: blue below zero, white, red above; distinct for colour-blind readers.
-_DIVERGING_MAP = "RdBu_r"
-_SEQUENCE_MAP = "viridis_r"
 
 _STYLE: dict[str, Any] = {
     "font.family": "DejaVu Sans",
@@ -77,7 +72,6 @@ _FEW, _SOME = 20, 200
 _SHORT_AXIS = 2.0
 # Length of a tick that has a number, points.
 _TICK = 3.5
-_SHADES = 256
 
 
 @contextmanager
@@ -176,18 +170,8 @@ def plot_curve(axes: Axes, x: np.ndarray, y: np.ndarray, number: int, label: str
 
 def sequence_colours(count: int) -> list[tuple[float, float, float, float]]:
     """Colours of curves in an order, from light to dark."""
-    from matplotlib import colormaps
-
-    shades = colormaps[_SEQUENCE_MAP]
-    return [shades(0.1 + 0.9 * place / max(count - 1, 1)) for place in range(count)]
-
-
-def diverging_colours(low: float, high: float) -> ListedColormap:
-    """Colours from blue at −1 by white at 0 to red at 1, or the part of them from `low` to `high`."""
-    from matplotlib import colormaps
-    from matplotlib.colors import ListedColormap
-
-    return ListedColormap(colormaps[_DIVERGING_MAP](np.linspace(0.5 + 0.5 * low, 0.5 + 0.5 * high, _SHADES)))
+    shades = part_of_colours(SEQUENCE, 0.9, 0.0)
+    return [shades(place / max(count - 1, 1)) for place in range(count)]
 
 
 def _label_decades(axis: Axis) -> None:

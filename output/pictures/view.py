@@ -6,8 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hydroelastic.fem.pictures.mode import Array, ModePicture
-from hydroelastic.fem.pictures.ticks import round_ticks
+from hydroelastic.fem.pictures.mode import Array, FloatSection, ModePicture, SurfaceCurve
 
 _ROUND_NUMBERS = np.array([1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0])
 
@@ -77,14 +76,26 @@ class View:
         return min(self.stretch, self.upper_stretch)
 
     @property
-    def drawn_height(self) -> float:
-        """Height on the page, in the scale of the abscissae."""
-        return self.stretch * self.depth + self.upper_stretch * self.upper_depth + self.rise * self.headroom
-
-    @property
     def aspect(self) -> float:
         """Height over width on the page."""
-        return self.drawn_height / self.length
+        (low, high) = self.drawn(np.array([-self.depth, self.upper_depth + self.headroom]))
+        return float(high - low) / self.length
+
+    def drawn(self, y: Array) -> Array:
+        """Heights on the page of ordinates in m, in the scale of the abscissae."""
+        below, above = np.minimum(y, 0.0), np.maximum(y - self.upper_depth, 0.0)
+        return self.stretch * below + self.upper_stretch * (y - below - above) + self.rise * above
+
+    def displaced(self, section: FloatSection) -> Array:
+        """Corners of a displaced float on the page, in the scale of the abscissae, shape (points, 2)."""
+        moved = self.surface_scale * section.displacement
+        x, y = section.contour.T
+        return np.column_stack([x + moved[:, 0], self.drawn(y) + self.rise * moved[:, 1]])
+
+    def heights(self, curve: SurfaceCurve, displacement: Array) -> Array:
+        """Heights on the page of a curve with a displacement in the mode's arbitrary scale."""
+        level = self.drawn(np.full(len(curve.x), curve.level))
+        return np.asarray(level + self.rise * self.surface_scale * displacement)
 
 
 def view_of(picture: ModePicture) -> View:
@@ -176,16 +187,6 @@ def _stretches(lower: float, upper: float) -> tuple[float, float]:
 def colour_limit(picture: ModePicture) -> float:
     """Largest absolute value of the drawn field, or 1 for liquids at rest."""
     return float(np.abs(picture.drawn_field).max(initial=0.0)) or 1.0
-
-
-def iso_levels(limit: float) -> Array:
-    """Round levels of ψ between −limit and limit, six to twelve on each side.
-
-    The level 0 is a hair above it: on the mirror plane of an antisymmetric mode ψ is 0 at whole edges of triangles,
-    where a line has no course.
-    """
-    levels = round_ticks(-limit, limit, 24)
-    return levels + np.where(levels == 0.0, 1e-6 * limit, 0.0)
 
 
 def _round_up(value: float) -> float:

@@ -1,0 +1,272 @@
+"""Pictures of natural modes and of waves: one of them, all of them on a sheet, animations."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.patches import Rectangle
+from numpy.typing import NDArray
+
+from hydroelastic.fem.pictures.mode import ModePicture
+from hydroelastic.output.pictures.colours import INK, LOWER_WASH, UPPER_WASH, mode_colours
+from hydroelastic.output.pictures.gif import FRAMES, SECONDS, write_gif
+from hydroelastic.output.pictures.notes import field_name, overview_note, scale_notes
+from hydroelastic.output.pictures.page import (
+    FOOTER,
+    HEADING,
+    KEYS,
+    POINT,
+    WIDTH,
+    ColourBar,
+    FieldImage,
+    new_page,
+    pixels,
+    place,
+    round_ticks,
+    save,
+    shrink,
+    tick_labels,
+    write_caption,
+    write_keys,
+    write_title,
+)
+from hydroelastic.output.pictures.tank import WALL, draw_tank, erase_tank, key_names, keys
+from hydroelastic.output.pictures.view import View, colour_limit, view_of
+
+# Of ψ and ρψ.
+_UNITS = {"ψ": "m²", "ρψ": "kg/m"}
+# Left and right of a tank, and for the densities of two liquids.
+_BESIDE, _DENSITIES = 230.0, 120.0
+# Of a sheet of panels.
+_MARGIN, _SHEET_FOOTER, _SHEET_HEADING, _THIN = 40.0, 100.0, 62.0, 0.62
+# Pixels: what reads pictures may refuse more than 89 million of them.
+_HIGHEST_SHEET = 10_000
+
+
+def draw_mode(picture: ModePicture, path: Path | str, *, width: int = 1600, largest: ModePicture | None = None) -> None:
+    """Write a mode as one PNG with axes, colour bar and legend.
+
+    The height follows from the tank. Shallow tanks are stretched vertically and deep ones cut; the caption says so.
+
+    Args:
+        picture: the mode.
+        path: of the PNG file in an existing folder.
+        width: of the image in pixels.
+        largest: what gives the scales, if the picture is an instant of a motion; the picture itself by default.
+
+    Raises:
+        FileNotFoundError: the folder of the file does not exist.
+        ValueError: the file's name does not end in .png, or the width is below 400.
+        NoRendererError: no library of this computer can render.
+    """
+    path = _checked_path(path, width, ".png")
+    save(_mode_pixels(picture, width, largest), path)
+
+
+def animate_mode(picture: ModePicture, path: Path | str, *, width: int = 800) -> None:
+    """Write a period of a mode's motion as a GIF that repeats itself: everything moves as cos ωt in the same scales.
+
+    Args:
+        picture: the mode, at its largest displacement.
+        path: of the GIF file in an existing folder.
+        width: of the image in pixels.
+
+    Raises:
+        FileNotFoundError: the folder of the file does not exist.
+        ValueError: the file's name does not end in .gif, or the width is below 400.
+        NoRendererError: no library of this computer can render.
+    """
+    instants = [
+        replace(picture.times(np.cos(2.0 * np.pi * part)), title=f"{picture.title}, {phase_words(part)}")
+        for part in np.arange(FRAMES) / FRAMES
+    ]
+    animate_motion(instants, picture, path, width=width)
+
+
+def phase_words(part: float) -> str:
+    """The time of a part of a period in words, always as long."""
+    return f"t = {part:.2f} T"
+
+
+def animate_motion(
+    instants: Sequence[ModePicture], largest: ModePicture, path: Path | str, *, width: int = 800
+) -> None:
+    """Write a motion as a GIF that repeats itself.
+
+    Args:
+        instants: a period of the motion.
+        largest: the largest values of everything in the period, which give the scales of all pages.
+        path: of the GIF file in an existing folder.
+        width: of the image in pixels.
+
+    Raises:
+        FileNotFoundError: the folder of the file does not exist.
+        ValueError: the file's name does not end in .gif, or the width is below 400.
+        NoRendererError: no library of this computer can render.
+    """
+    path = _checked_path(path, width, ".gif")
+    pages = [_mode_pixels(instant, width, largest) for instant in instants]
+    write_gif(pages, path, seconds=SECONDS, kept=mode_colours())
+
+
+def draw_overview(
+    pictures: Sequence[ModePicture], path: Path | str, *, columns: int | None = None, width: int = 1600
+) -> None:
+    """Write several modes as panels of one PNG, without axes and colour bars; narrower if it would be too high.
+
+    Args:
+        pictures: the modes; each is drawn in its own scale.
+        path: of the PNG file in an existing folder.
+        columns: panels in a row; chosen from the shape of the tank by default.
+        width: of the image in pixels.
+
+    Raises:
+        FileNotFoundError: the folder of the file does not exist.
+        ValueError: no picture, no column, a wrong file name or a width below 400.
+        NoRendererError: no library of this computer can render.
+    """
+    path = _checked_path(path, width, ".png")
+    if not pictures:
+        raise ValueError("an overview needs at least one picture")
+    views = [view_of(picture) for picture in pictures]
+    aspect = max(view.aspect for view in views)
+    columns = min(_default_columns(aspect, len(pictures)) if columns is None else columns, len(pictures))
+    if columns < 1:
+        raise ValueError(f"an overview needs at least one column, got {columns}")
+    rows = -(-len(pictures) // columns)
+    panel = (WIDTH - _MARGIN * (columns + 1)) / columns
+    row = aspect * panel + _SHEET_HEADING
+    height = _SHEET_FOOTER + rows * row + 20.0
+    figure = new_page(height, min(width, int(_HIGHEST_SHEET * WIDTH / height)))
+    tops = [height - 15.0 - (index // columns) * row for index in range(len(pictures))]
+    lefts = [_MARGIN + (index % columns) * (panel + _MARGIN) for index in range(len(pictures))]
+    titles = [
+        figure.text((left + 0.5 * panel) / WIDTH, (top - 42.0) / height, picture.title, size=19.0 * POINT, ha="center")
+        for picture, left, top in zip(pictures, lefts, tops, strict=True)
+    ]
+    for title in titles:
+        title.set_parse_math(False)
+        shrink(title, panel / WIDTH * figure.bbox.width)
+    smallest = min(title.get_fontsize() for title in titles)
+    for title in titles:
+        title.set_fontsize(smallest)
+    write_keys(figure, keys(key_names(pictures, field_name(pictures[0]), vectors=False)), 66.0)
+    write_caption(figure, overview_note(pictures, views))
+    page = pixels(figure)
+    axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
+    for picture, view, left, top in zip(pictures, views, lefts, tops, strict=True):
+        drawn = view.aspect * panel
+        axes.set_position(place(figure, left, top - _SHEET_HEADING - drawn + 8.0, panel, drawn))
+        draw_tank(axes, picture, view, vectors=False, thin=_THIN)
+        figure.draw_artist(axes)
+        erase_tank(axes)
+    save(page, path)
+
+
+def _mode_pixels(picture: ModePicture, width: int, largest: ModePicture | None = None) -> NDArray[np.uint8]:
+    """A mode, or an instant of its motion in the scales of its largest values."""
+    scales = largest or picture
+    view = view_of(scales)
+    names = key_names([picture], field_name(picture), vectors=True)
+    # What of a view differs from mode to mode is not of the page.
+    page = _page(replace(view, surface_scale=0.0), picture.start, picture.densities, names, picture.amplitude, width)
+    return page.drawn(picture, view, largest)
+
+
+class _Page:
+    """What is the same on the pictures of several modes, drawn once: letters and axes take longer than fields."""
+
+    def __init__(
+        self, view: View, start: float, densities: tuple[float, ...], names: tuple[str, ...], amplitude: str, width: int
+    ) -> None:
+        """Draw scales, densities and keys; make room for a tank, a colour bar and words."""
+        beside = _DENSITIES if densities else 0.0
+        drawn_width = min(WIDTH - _BESIDE - beside, 0.75 * WIDTH / view.aspect)
+        drawn_height = drawn_width * view.aspect
+        height = round(FOOTER + drawn_height + HEADING)
+        still, self._figure = new_page(height, width), new_page(height, width)
+        tank = place(still, 0.5 * (WIDTH - drawn_width - beside) + 45.0, FOOTER, drawn_width, drawn_height)
+        axes, self._tank = still.add_axes(tank), self._figure.add_axes(tank)
+        axes.set_xlim(0.0, view.length)
+        axes.set_ylim(*view.drawn(np.array([-view.depth, view.upper_depth + view.headroom])))
+        _draw_scales(axes, view, start, drawn_width / view.length)
+        _label_liquids(axes, densities, view, view.length / drawn_width)
+        write_keys(still, keys(names), KEYS)
+        self._figure.add_artist(FieldImage(pixels(still), 0, 0))
+        name, meaning = ("ρψ", "ρψ ∝ dynamic pressure") if densities else ("ψ", "ψ")
+        measure = f"{_UNITS[name]}, {amplitude}"
+        self._bar = ColourBar(self._figure, mode_colours(), meaning=meaning, measure=measure)
+
+    def drawn(self, picture: ModePicture, view: View, largest: ModePicture | None) -> NDArray[np.uint8]:
+        """Draw a mode in place of the one before."""
+        limit = colour_limit(largest or picture)
+        self._bar.span(-limit, limit)
+        draw_tank(self._tank, picture, view, largest=largest)
+        words = write_title(self._figure, picture.title), write_caption(self._figure, scale_notes(view, picture))
+        page = pixels(self._figure).copy()
+        for text in words:
+            text.remove()
+        erase_tank(self._tank)
+        return page
+
+
+_page = lru_cache(maxsize=1)(_Page)
+
+
+def _draw_scales(axes: Axes, view: View, start: float, per_metre: float) -> None:
+    """Ticks and labels of x, which begins at a start, below, and of y on the left, in metres.
+
+    Each of two liquids with a vertical scale of its own has its own step of y.
+    """
+    x = round_ticks(start, start + view.length, 8)
+    depths = [(-view.depth, view.upper_depth, view.stretch)]
+    if view.stretch != view.upper_stretch:
+        depths = [(-view.depth, 0.0, view.stretch), (0.0, view.upper_depth, view.upper_stretch)]
+    counts = [max(2, min(6, round(stretch * per_metre * (high - low) / 75.0))) for low, high, stretch in depths]
+    y = np.unique(np.concatenate([round_ticks(*ends[:2], n) for ends, n in zip(depths, counts, strict=True)]))
+    axes.set_axis_on()
+    axes.spines[:].set_visible(False)
+    axes.set_xticks(x - start, tick_labels(x))
+    axes.set_yticks(view.drawn(y), tick_labels(y))
+    axes.tick_params(length=(WALL + 8.0) * POINT, width=1.6 * POINT, pad=4.0 * POINT, labelsize=21.0 * POINT)
+    axes.set_xlabel("x (m)", fontsize=23.0 * POINT, labelpad=8.0 * POINT)
+    axes.set_ylabel("y (m)", fontsize=23.0 * POINT, labelpad=8.0 * POINT)
+    # Beside the liquids, not the room above them.
+    low, middle, high = view.drawn(
+        np.array([-view.depth, 0.5 * (view.upper_depth - view.depth), view.upper_depth + view.headroom])
+    )
+    axes.yaxis.set_label_coords(-75.0 / (per_metre * view.length), (middle - low) / (high - low))
+
+
+def _label_liquids(axes: Axes, densities: tuple[float, ...], view: View, pixel: float) -> None:
+    """Write the densities of two liquids on their right, beside the colours they have beyond their still levels."""
+    depths, colours = (-view.depth, view.upper_depth), (LOWER_WASH, UPPER_WASH)
+    for name, density, depth, colour in zip("₂₁", densities, depths, colours, strict=False):
+        x, y = view.length + (WALL + 14.0) * pixel, float(view.drawn(np.array([0.5 * depth]))[0])
+        swatch = Rectangle((x, y - 24.0 * pixel), 20.0 * pixel, 48.0 * pixel, color=colour, linewidth=0, clip_on=False)
+        axes.add_patch(swatch)
+        words = f"ρ{name} = {density:.5g}\nkg/m³"
+        axes.text(x + 30.0 * pixel, y, words, fontsize=20.0 * POINT, va="center", color=INK)
+
+
+def _checked_path(path: Path | str, width: int, suffix: str) -> Path:
+    path = Path(path)
+    if path.suffix.lower() != suffix:
+        raise ValueError(f"the name of this picture ends in {suffix}, got {path.name}")
+    if not path.parent.is_dir():
+        raise FileNotFoundError(f"the folder {path.parent} of the picture {path.name} does not exist")
+    if width < 400:
+        raise ValueError(f"a picture is at least 400 pixels wide, got {width}")
+    return path
+
+
+def _default_columns(aspect: float, panels: int) -> int:
+    """Columns by the shape of the panels, as few as fill the same number of rows."""
+    most = 2 if aspect < 0.35 else 3 if aspect < 0.9 else 5
+    rows = -(-panels // most)
+    return -(-panels // rows)

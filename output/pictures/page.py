@@ -1,0 +1,223 @@
+"""Pages of matplotlib for fields and lines in space: title, keys, colour bar and caption around what is drawn.
+
+Sizes are in pixels of a page that is 1600 pixels wide; wider pages have the same proportions and finer pixels.
+"""
+
+from __future__ import annotations
+
+import struct
+import zlib
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib import rc_context
+from matplotlib.artist import Artist
+from matplotlib.backend_bases import RendererBase
+from matplotlib.backends.backend_agg import FigureCanvasAgg, RendererAgg
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Colormap, Normalize
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.markers import MarkerStyle
+from matplotlib.path import Path as PathOfMarker
+from matplotlib.text import Text
+from matplotlib.ticker import MaxNLocator
+from numpy.typing import NDArray
+from PIL import Image
+from PIL.PngImagePlugin import putchunk
+
+from hydroelastic.output.pictures.colours import GREY, INK
+
+WIDTH = 1600.0
+"""Of the page to which sizes refer."""
+FOOTER, HEADING, KEYS = 285.0, 85.0, 172.0
+"""Heights below and above a drawing, for its axis, keys, colours and caption, and for its title; height of the keys."""
+POINT = 0.72
+"""Points, in which matplotlib measures strokes and letters, of a pixel."""
+
+_PER_INCH = 72.0 / POINT
+# Hinting would move small letters to whole pixels, a quarter nearer to each other.
+_LETTERS: Any = {"text.hinting": "no_hinting"}
+# Letters of DejaVu Sans are so wide in the mean, over their height.
+_LETTER = 0.6
+
+
+class FieldImage(Artist):
+    """Pixels that go into a page as they are, below all else: resampling them would take longer than drawing.
+
+    Args:
+        image: red, green, blue in 0…255, and opacity if it is there, shape (height, width, 3 or 4), the uppermost row
+            first.
+        left: where they begin, in pixels of the page.
+        bottom: where they end.
+    """
+
+    zorder = 0.0
+
+    def __init__(self, image: NDArray[np.uint8], left: int, bottom: int) -> None:
+        """Take the pixels."""
+        super().__init__()
+        self._image, self._left, self._bottom = image, left, bottom
+
+    def draw(self, renderer: RendererBase) -> None:
+        """Write the pixels over those of the page."""
+        assert isinstance(renderer, RendererAgg)
+        page = np.asarray(renderer.buffer_rgba())
+        height, width, channels = self._image.shape
+        left, top = self._left, len(page) - self._bottom - height
+        page[top : top + height, left : left + width, :channels] = self._image
+
+
+def new_page(height: float, width: int) -> Figure:
+    """An empty page: height in pixels of the page to which sizes refer, width in those of the image."""
+    figure = Figure(figsize=(WIDTH / _PER_INCH, height / _PER_INCH), dpi=width / WIDTH * _PER_INCH)
+    FigureCanvasAgg(figure)
+    return figure
+
+
+def place(figure: Figure, left: float, bottom: float, width: float, height: float) -> tuple[float, float, float, float]:
+    """Where something stands on a page, as matplotlib has it: in parts of its width and height."""
+    across, up = figure.get_size_inches() * _PER_INCH
+    return left / across, bottom / up, width / across, height / up
+
+
+def pixels(figure: Figure) -> NDArray[np.uint8]:
+    """Red, green, blue in 0…255, and opacity, shape (height, width, 4), the uppermost row first.
+
+    They are those of the page itself: drawing it anew changes them.
+    """
+    canvas = figure.canvas
+    assert isinstance(canvas, FigureCanvasAgg)
+    with rc_context(_LETTERS):
+        canvas.draw()
+    return np.asarray(canvas.buffer_rgba())
+
+
+def save(page: NDArray[np.uint8], path: Path, *, compression: int = 3) -> None:
+    """Write the pixels of a page as PNG in full colour.
+
+    Rows as they are compress better than the differences that Pillow would choose for each, and in a third of the time.
+    They repeat in these pictures: a compression of 4 takes twice as long as 3 and saves 2 %.
+    """
+    height, width, _ = page.shape
+    colours = np.asarray(Image.fromarray(page).convert("RGB")).reshape(height, -1)
+    # Each row begins with its filter: none.
+    rows = zlib.compress(np.pad(colours, ((0, 0), (1, 0))), compression)
+    with path.open("wb") as file:
+        file.write(b"\x89PNG\r\n\x1a\n")
+        putchunk(file, b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0))
+        putchunk(file, b"IDAT", rows)
+        putchunk(file, b"IEND")
+
+
+def write(figure: Figure, text: str, y: float, *, size: float, colour: str = INK) -> Text:
+    """Write a centred line at a height of a page, smaller if it would not fit."""
+    _, height = figure.get_size_inches() * _PER_INCH
+    # A dollar sign would begin a formula.
+    line = figure.text(0.5, y / height, text, size=size * POINT, color=colour, ha="center", va="center")
+    line.set_parse_math(False)
+    shrink(line, figure.bbox.width * (1.0 - 40.0 / WIDTH))
+    return line
+
+
+def shrink(line: Text, room: float) -> None:
+    """Make a line of text as small as fits into so many pixels of the image."""
+    with rc_context(_LETTERS):
+        width = max(line.get_window_extent().width, 1.0)
+    line.set_fontsize(float(line.get_fontsize()) * min(1.0, room / width))
+
+
+def write_title(figure: Figure, text: str) -> Text:
+    """Write a title at the top of a page."""
+    _, height = figure.get_size_inches() * _PER_INCH
+    return write(figure, text, height - 42.0, size=30.0)
+
+
+def write_caption(figure: Figure, text: str) -> Text:
+    """Write what the reader must know to measure at the bottom of a page."""
+    return write(figure, text, 30.0, size=19.0, colour=GREY)
+
+
+def write_keys(figure: Figure, keys: Sequence[Artist], y: float) -> None:
+    """Write keys with their names in one centred row, smaller if they would not fit."""
+    _, height = figure.get_size_inches() * _PER_INCH
+    # A key, its two gaps, and a name.
+    wide = sum(5.5 + _LETTER * len(str(key.get_label())) for key in keys)
+    size = min(20.0, (WIDTH - 40.0) / wide)
+    figure.legend(
+        handles=keys,
+        loc="center",
+        bbox_to_anchor=(0.5, y / height),
+        ncols=len(keys),
+        fontsize=size * POINT,
+        frameon=False,
+        handlelength=2.8,
+        handletextpad=0.6,
+        columnspacing=2.1,
+        borderpad=0.0,
+    )
+
+
+def arrow_key(colour: str, name: str) -> Line2D:
+    """The key of vectors."""
+    corners = (
+        (-1.0, 0.06),
+        (0.4, 0.06),
+        (0.4, 0.24),
+        (1.0, 0.0),
+        (0.4, -0.24),
+        (0.4, -0.06),
+        (-1.0, -0.06),
+        (-1.0, 0.06),
+    )
+    marker = MarkerStyle(PathOfMarker(corners, closed=True))
+    size = 44.0 * POINT
+    return Line2D([], [], color=colour, linestyle="none", marker=marker, markersize=size, mew=0.0, label=name)
+
+
+class ColourBar:
+    """Colours between two limits with round ticks, what they mean on the right, all centred.
+
+    Args:
+        figure: receives them.
+        colours: from the first to the last.
+        meaning: of the values.
+        measure: their unit, with anything that belongs into the same parentheses.
+    """
+
+    def __init__(self, figure: Figure, colours: Colormap | str, *, meaning: str, measure: str) -> None:
+        """Draw the colours."""
+        self._meaning, self._measure = meaning, measure
+        width, gap = 640.0, 40.0
+        left = 0.5 * (WIDTH - width - gap - _LETTER * 21.0 * len(f"{meaning} ({measure})"))
+        self._axes = figure.add_axes(place(figure, left, 102.0, width, 20.0))
+        bar = figure.colorbar(ScalarMappable(Normalize(), colours), cax=self._axes, orientation="horizontal")
+        bar.set_ticks([])
+        self._axes.tick_params(labelsize=20.0 * POINT, length=7.0 * POINT)
+        size = 21.0 * POINT
+        self._label = self._axes.text(
+            1.0 + gap / width, 0.5, "", size=size, va="center", transform=self._axes.transAxes
+        )
+
+    def span(self, low: float, high: float) -> None:
+        """Put ticks on the colours, which span these values."""
+        exponent = int(np.floor(np.log10(max(abs(low), abs(high)))))
+        exponent = 0 if -3 <= exponent <= 3 else exponent
+        power = f"$10^{{{exponent}}}$ " if exponent else ""
+        self._label.set_text(f"{self._meaning} ({power}{self._measure})")
+        ticks = round_ticks(low / 10.0**exponent, high / 10.0**exponent, 8)
+        self._axes.set_xticks((ticks * 10.0**exponent - low) / (high - low), tick_labels(ticks))
+
+
+def round_ticks(low: float, high: float, count: int) -> NDArray[np.float64]:
+    """Multiples of 1, 2 or 5 times a power of ten in [low, high], about ``count`` of them and never many more."""
+    ticks = np.asarray(MaxNLocator(count, steps=(1, 2, 5, 10)).tick_values(low, high))
+    rounding = 1e-9 * (high - low)
+    return ticks[(ticks >= low - rounding) & (ticks <= high + rounding)]
+
+
+def tick_labels(ticks: NDArray[np.float64]) -> list[str]:
+    """Numbers with a true minus sign."""
+    return [f"{tick + 0.0:.6g}".replace("-", "−") for tick in ticks]

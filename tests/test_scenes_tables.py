@@ -11,6 +11,7 @@ from mpi4py import MPI
 from open_tables import CIRCLE, arbitrary_solution, open_scene
 
 from hydroelastic.fem.open_water.results import DecayTable
+from hydroelastic.physics.dofs import Dof
 from hydroelastic.scenes.models.roll import RollScene
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.open_water.results import OpenSolution
@@ -49,7 +50,7 @@ def decaying(count: int) -> Section:
     scene = open_scene(ROLLING, analyses=[{"kind": "decay", "displacement": 0.1, "times": [0.0, 1.0]}])
     table = DecayTable(
         times=np.linspace(0.0, 0.2 * (count - 1), count),
-        dofs=("heave", "roll"),
+        dofs=(Dof("heave"), Dof("roll")),
         displacement=np.full((count, 2), [0.1, 1e-9]),
         initial=np.array([0.1, 0.0]),
         absolute_error=np.full(count, 1e-6),

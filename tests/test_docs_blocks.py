@@ -38,7 +38,10 @@ NOT_RUN = {
     "./hydro python docs/scene_reference.py": "writes into the checkout; a test compares what is there",
     "./hydro exec ruff format .": "changes the checkout; the lint checks the format",
     "./hydro test tests/test_modal_grammel.py": ALL_TESTS,
+    "./hydro test --all": ALL_TESTS,
     "./hydro test -m slow": ALL_TESTS,
+    "./hydro test --junitxml=report.xml": ALL_TESTS,
+    "./hydro python tests/support/slowest.py report.xml": "needs the report of all tests",
     "HYDROELASTIC_SUITE=sid ./hydro test": "the second lane: another Debian, from the network",
     "./hydro env": "a command of the launcher, tests/test_launcher_commands.py",
     "./hydro mpirun -n 2 python -m hydroelastic.scenes run aquarium": (

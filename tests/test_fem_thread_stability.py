@@ -138,7 +138,7 @@ def test_branches_cross_and_pairs_split() -> None:
     pairs = np.array([(1.0 + 0.7 * x) * 1j for x in values]), np.array([(2.0 - 0.9 * x) * 1j for x in values])
     slow = np.sqrt((values - 0.55) * 0.1 + 0j)
     spectra: list[Any] = [
-        SimpleNamespace(value=x, whole=np.array([a, b, c, -a, -b, -c]))
+        SimpleNamespace(value=x, with_conjugates=np.array([a, b, c, -a, -b, -c]))
         for x, a, b, c in zip(values, *pairs, slow, strict=True)
     ]
     followed = branches(spectra)

@@ -41,7 +41,7 @@ STUDIED = {
     "float_parabola": StudyPlan(families=FAMILIES),
 }
 # At the width that pages show.
-SHOWN = PictureOptions(width=800, dpi=100)
+SHOWN = PictureOptions(width=720, dpi=85)
 TABLES = ("summary.json", "summary.md", "modes.csv")
 OTHER_TABLES = ("summary.json", "summary.md")
 

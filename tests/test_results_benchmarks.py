@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
+from hydroelastic.benchmarks import output
 from hydroelastic.benchmarks.circle.cases import CIRCLE, circle_cases
 from hydroelastic.benchmarks.circle.report import CIRCLE_COLUMNS
 from hydroelastic.benchmarks.measure import cases_of
-from hydroelastic.benchmarks.output import CIRCLE_NAME, NAME, STRING_NAME, THREAD_NAME
 from hydroelastic.benchmarks.string.cases import MOTIONS, string_cases
 from hydroelastic.benchmarks.string.report import STRING_COLUMNS
 from hydroelastic.benchmarks.tank.cases import TANKS
@@ -22,7 +22,7 @@ FOLDER = Path(__file__).parent.parent / "results" / "benchmarks"
 
 @pytest.fixture(scope="module")
 def rows() -> list[dict[str, str]]:
-    with (FOLDER / f"{NAME}.csv").open(encoding="utf-8", newline="") as file:
+    with (FOLDER / f"{output.TANKS.name}.csv").open(encoding="utf-8", newline="") as file:
         return list(csv.DictReader(file))
 
 
@@ -45,13 +45,13 @@ def test_hydroelastic_kept_every_tolerance_asked(rows: list[dict[str, str]]) -> 
 
 
 def test_page_and_figure_are_there() -> None:
-    assert "Milliseconds at equal error" in (FOLDER / f"{NAME}.md").read_text(encoding="utf-8")
-    assert (FOLDER / f"{NAME}.png").stat().st_size > 10_000
+    assert "Milliseconds at equal error" in (FOLDER / f"{output.TANKS.name}.md").read_text(encoding="utf-8")
+    assert (FOLDER / f"{output.TANKS.name}.png").stat().st_size > 10_000
 
 
 @pytest.fixture(scope="module")
 def circle_rows() -> list[dict[str, str]]:
-    with (FOLDER / f"{CIRCLE_NAME}.csv").open(encoding="utf-8", newline="") as file:
+    with (FOLDER / f"{output.CIRCLE.name}.csv").open(encoding="utf-8", newline="") as file:
         return list(csv.DictReader(file))
 
 
@@ -77,13 +77,13 @@ def test_hydroelastic_kept_every_tolerance_of_the_circle(circle_rows: list[dict[
 
 
 def test_page_and_figure_of_the_circle_are_there() -> None:
-    assert "not a comparison of like with like" in (FOLDER / f"{CIRCLE_NAME}.md").read_text(encoding="utf-8")
-    assert (FOLDER / f"{CIRCLE_NAME}.png").stat().st_size > 10_000
+    assert "not a comparison of like with like" in (FOLDER / f"{output.CIRCLE.name}.md").read_text(encoding="utf-8")
+    assert (FOLDER / f"{output.CIRCLE.name}.png").stat().st_size > 10_000
 
 
 @pytest.fixture(scope="module")
 def string_rows() -> list[dict[str, str]]:
-    with (FOLDER / f"{STRING_NAME}.csv").open(encoding="utf-8", newline="") as file:
+    with (FOLDER / f"{output.STRING.name}.csv").open(encoding="utf-8", newline="") as file:
         return list(csv.DictReader(file))
 
 
@@ -105,13 +105,13 @@ def test_field_and_series_kept_every_tolerance_of_the_string(string_rows: list[d
 
 
 def test_page_and_figure_of_the_string_are_there() -> None:
-    assert "cut sharply" in (FOLDER / f"{STRING_NAME}.md").read_text(encoding="utf-8")
-    assert (FOLDER / f"{STRING_NAME}.png").stat().st_size > 10_000
+    assert "cut sharply" in (FOLDER / f"{output.STRING.name}.md").read_text(encoding="utf-8")
+    assert (FOLDER / f"{output.STRING.name}.png").stat().st_size > 10_000
 
 
 @pytest.fixture(scope="module")
 def thread_rows() -> list[dict[str, str]]:
-    with (FOLDER / f"{THREAD_NAME}.csv").open(encoding="utf-8", newline="") as file:
+    with (FOLDER / f"{output.THREADS.name}.csv").open(encoding="utf-8", newline="") as file:
         return list(csv.DictReader(file))
 
 
@@ -138,8 +138,8 @@ def test_field_kept_every_tolerance_of_threads_at_rest(thread_rows: list[dict[st
 
 
 def test_page_and_figure_of_threads_are_there() -> None:
-    assert "Flexible threads" in (FOLDER / f"{THREAD_NAME}.md").read_text(encoding="utf-8")
-    assert (FOLDER / f"{THREAD_NAME}.png").stat().st_size > 10_000
+    assert "Flexible threads" in (FOLDER / f"{output.THREADS.name}.md").read_text(encoding="utf-8")
+    assert (FOLDER / f"{output.THREADS.name}.png").stat().st_size > 10_000
 
 
 def test_pages_have_the_tables_of_the_committed_measurements() -> None:

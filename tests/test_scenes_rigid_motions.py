@@ -10,6 +10,7 @@ from scipy.linalg import block_diag, null_space
 
 from hydroelastic.physics.motions import Level
 from hydroelastic.physics.rigid_motions import mode_count, zero_mode_count
+from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.models.bodies import Beam, Float
 from hydroelastic.scenes.models.floats import placed_float
 from hydroelastic.scenes.models.physical import physical_tank
@@ -131,7 +132,7 @@ def test_zero_modes_are_those_of_statics(bodies: tuple[Beam | Float, ...], upper
     given, refusal = None, ""
     try:
         given = scene(*bodies, top=top, upper=upper)
-    except ValueError as error:
+    except SceneError as error:
         refusal = str(error)
     if given is None:
         assert "nothing oscillates" in refusal

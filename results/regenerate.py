@@ -24,6 +24,7 @@ from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.output.pictures.page import save
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.output.folder import SUMMARY
+from hydroelastic.scenes.output.manifest import MANIFEST
 from hydroelastic.scenes.output.markdown import markdown_table, markdown_text
 from hydroelastic.scenes.output.provenance import Summary
 from hydroelastic.scenes.read import read_scene, shipped_scenes
@@ -76,7 +77,7 @@ def regenerate(name: str) -> str:
         with tempfile.TemporaryDirectory() as scratch:
             write_study(study_scene(scene, STUDIED[name]), Path(scratch) / name)
             for file in (Path(scratch) / name).iterdir():
-                if file.name != SUMMARY:
+                if file.name not in (SUMMARY, MANIFEST):
                     (_keep_picture if file.suffix == ".png" else shutil.copy)(file, kept / file.name)
     return outcome.status
 

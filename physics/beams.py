@@ -82,6 +82,11 @@ class Beam(Body):
         rigid = ("heave",) if self.ends == "guided" else ("heave", "pitch")
         return (*map(Dof, rigid), *(Dof.hinge(number + 1) for number in range(len(self.hinges))))
 
+    def dofs(self, count: int) -> tuple[Dof, ...]:
+        """Return its first shapes: the rigid motions, then elastic ones."""
+        rigid = self.rigid_motions
+        return (*rigid, *(Dof.elastic(number + 1) for number in range(count - len(rigid))))[:count]
+
     def zero_stiffness_motions(self) -> Iterator[tuple[Dof, bool]]:
         """A free beam without hydrostatics heaves, pitches and turns about its hinges without energy."""
         if not self.hydrostatic and self.ends == "free":

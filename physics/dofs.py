@@ -81,12 +81,6 @@ def dof_names(motions: Iterable[Iterable[str]]) -> tuple[Dof, ...]:
     return tuple(dof.of_body(number) if len(bodies) > 1 else dof for number, own in enumerate(bodies, 1) for dof in own)
 
 
-def beam_dofs(rigid: tuple[str, ...], hinges: int, count: int) -> tuple[Dof, ...]:
-    """The first shapes of a beam: rigid ones, one for each hinge, then elastic ones."""
-    first = [*map(Dof, rigid), *(Dof.hinge(number + 1) for number in range(hinges))]
-    return (*first, *(Dof.elastic(number + 1) for number in range(count - len(first))))[:count]
-
-
 def body_name(number: int) -> str:
     """Name of a body, counted from 1 in the scene's order, and of its wetted surface in meshes."""
     return f"{_BODY}{number}"

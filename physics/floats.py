@@ -98,7 +98,7 @@ class RigidFloat(Body):
     @property
     def is_rotation(self) -> NDArray[np.float64]:
         """1 of a motion that is an angle, 0 of one that is a length, shape (motions,)."""
-        return np.array([float(motion == "roll") for motion in self.motions])
+        return np.array([float(motion.is_rotation) for motion in self.rigid_motions])
 
     def displacement(self, motion: Motion, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Displacement by a unit of a motion: upwards, to the right, anticlockwise about the centre of mass.

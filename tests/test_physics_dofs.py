@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from hydroelastic.physics.dofs import Dof, beam_dofs, body_name, body_number, dof_names
+from hydroelastic.physics.beam_parts import Joint, Section
+from hydroelastic.physics.beams import Beam
+from hydroelastic.physics.dofs import Dof, body_name, body_number, dof_names
 
 
 @pytest.mark.parametrize(
@@ -32,8 +34,11 @@ def test_the_body_is_named_only_where_there_are_several() -> None:
 
 
 def test_shapes_of_a_beam_are_rigid_then_elastic() -> None:
-    assert beam_dofs(("heave", "pitch"), 1, 5) == ("heave", "pitch", "hinge 1", "elastic 1", "elastic 2")
-    assert beam_dofs(("heave", "pitch"), 1, 2) == ("heave", "pitch")
+    part = Section(length=2.0, flexural_rigidity=1.0, mass_per_length=1.0)
+    hinged = Beam(sections=(part,), joints=(Joint(at=1.0, rotational_stiffness=0.0),))
+    assert hinged.dofs(5) == ("heave", "pitch", "hinge 1", "elastic 1", "elastic 2")
+    assert hinged.dofs(2) == ("heave", "pitch")
+    assert Beam(sections=(part,), ends="guided").dofs(2) == ("heave", "elastic 1")
 
 
 def test_names_of_surfaces_and_numbers_of_bodies_belong_together() -> None:

@@ -13,7 +13,6 @@ from hydroelastic.modal.beam.beam_shapes import BeamShapes, beam_shapes, first_b
 from hydroelastic.physics.beams import Beam
 from hydroelastic.physics.dofs import body_name
 from hydroelastic.physics.symmetry import Parity
-from hydroelastic.physics.tank import Tank
 
 # Added mass per ρ l of dry mode 1 and of heave, and between them, on deep open water with ψ = 0 beside the beam.
 _DEEP_ELASTIC = 0.12787
@@ -39,7 +38,25 @@ class BeamModel(BodyModel):
 
     def moving(self, count: int, parity: Parity | None) -> Body:
         """See `BodyModel.moving`."""
-        return _in_dry_modes(self.tank, self.index, count, parity)
+        tank, beam = self.tank, self.beam
+        piece, jump = tank.piece_of(self.index), tank.level_of(self.index).jump
+        part = 1.0 if parity is None else 0.5
+        shapes = beam_shapes(beam, count)
+        # Two asymmetric beams that are mirror images have mirrored shapes: all count as even.
+        parities: tuple[Parity, ...] = tuple("symmetric" if sign > 0 else "antisymmetric" for sign in shapes.parities)
+        numbers = [number for number, own in enumerate(parities) if parity in (None, own)]
+        bending = part * shapes.bending[numbers]
+        return Body(
+            surface=body_name(self.index + 1),
+            shapes=partial(_shape_at, shapes, piece.start, piece.length, numbers),
+            wavenumber=shapes.wavenumber,
+            dofs=tuple(shapes.dofs[number] for number in numbers),
+            parities=tuple(parities[number] for number in numbers),
+            motions=np.eye(len(numbers)),
+            stiffness=bending + part * float(beam.hydrostatic) * jump * piece.length,
+            bending_stiffness=bending,
+            mass=part * shapes.mass[np.ix_(numbers, numbers)],
+        )
 
     def dry_mode_count(self, wavenumber: float, tolerance: float) -> int:
         """Return the number of dry modes up to the shortest wave, and of a tail whose error falls like N⁻⁷.
@@ -73,27 +90,6 @@ class BeamModel(BodyModel):
         heave = beam.mass_per_length + _DEEP_HEAVE * liquid
         inertia = elastic - (_DEEP_COUPLING * liquid) ** 2 / heave
         return ((first_bending(beam) + float(beam.hydrostatic) * level.jump) / inertia,)
-
-
-def _in_dry_modes(tank: Tank, index: int, count: int, parity: Parity | None) -> Body:
-    beam, piece, jump = tank.beams[index], tank.piece_of(index), tank.level_of(index).jump
-    part = 1.0 if parity is None else 0.5
-    shapes = beam_shapes(beam, count)
-    # Two asymmetric beams that are mirror images have mirrored shapes: all count as even.
-    parities: tuple[Parity, ...] = tuple("symmetric" if sign > 0 else "antisymmetric" for sign in shapes.parities)
-    numbers = [number for number, own in enumerate(parities) if parity in (None, own)]
-    bending = part * shapes.bending[numbers]
-    return Body(
-        surface=body_name(index + 1),
-        shapes=partial(_shape_at, shapes, piece.start, piece.length, numbers),
-        wavenumber=shapes.wavenumber,
-        dofs=tuple(shapes.dofs[number] for number in numbers),
-        parities=tuple(parities[number] for number in numbers),
-        motions=np.eye(len(numbers)),
-        stiffness=bending + part * float(beam.hydrostatic) * jump * piece.length,
-        bending_stiffness=bending,
-        mass=part * shapes.mass[np.ix_(numbers, numbers)],
-    )
 
 
 def _shape_at(

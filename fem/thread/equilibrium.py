@@ -173,10 +173,23 @@ def interpolate_start(solution: Any, start: Start, units: Units) -> None:
     if start.curvature is not None:
         parts.append((start.curvature, 1.0 / units.length))
     for index, (along, unit) in enumerate(parts[: solution.function_space.num_sub_spaces]):
-        space, places = collapsed(solution.function_space, index)
-        part = fem.Function(space)
-        part.interpolate(lambda x, along=along, unit=unit: np.atleast_2d(along(x[0] * units.length).T) / unit)
-        solution.x.array[places] = part.x.array
+        interpolate_part(solution, index, along, length=units.length, unit=unit)
+
+
+def interpolate_part(function: Any, part: int, along: Along, *, length: float, unit: float) -> None:
+    """Interpolate values along a thread into one part of a function of the mixed space.
+
+    Args:
+        function: the function.
+        part: number of the part: positions, force or curvature.
+        along: values at s in m, shape (n,) or (n, dimension), SI.
+        length: unit of s, m.
+        unit: of the values.
+    """
+    space, places = collapsed(function.function_space, part)
+    own = fem.Function(space)
+    own.interpolate(lambda x: np.atleast_2d(along(x[0] * length).T) / unit)
+    function.x.array[places] = own.x.array
 
 
 def _between_ends(model: Thread, start: Start) -> Start:

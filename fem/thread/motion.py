@@ -5,14 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from math import inf
-from typing import Any
 
 import numpy as np
-from dolfinx import fem
 from mpi4py import MPI
 from numpy.typing import NDArray
 
-from hydroelastic.fem.thread.equilibrium import Along, Equilibrium, in_space
+from hydroelastic.fem.thread.equilibrium import Along, Equilibrium, in_space, interpolate_part
 from hydroelastic.fem.thread.force_scale import force_scale
 from hydroelastic.fem.thread.forms import ThreadForms
 from hydroelastic.fem.thread.motion_plan import MotionPlan, PrescribedEnd, ThreadMotionError, VectorOfTime
@@ -23,7 +21,6 @@ from hydroelastic.fem.thread.step_control import StepControl
 from hydroelastic.fem.thread.time_integrator import ExternalActions, TimeIntegrator
 from hydroelastic.fem.thread.units import Units
 from hydroelastic.fem.thread.vortex_shedding import SheddingLoad
-from hydroelastic.meshes.compat import collapsed
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.stream import Stream
 from hydroelastic.physics.thread import Thread
@@ -112,9 +109,10 @@ def move_thread(
     units = motion_units(model)
     space = ThreadSpace(comm, np.asarray(nodes / model.length, dtype=np.float64), degree, model.dimension, model.bends)
     integrator = _make_integrator(model, units, space, plan)
-    _interpolate(integrator.step.old_state, start.position, units.length, units.length)
+    step, length = integrator.step, units.length
+    interpolate_part(step.old_state, 0, start.position, length=length, unit=length)
     if start.velocity is not None:
-        _interpolate(integrator.step.old_velocity, start.velocity, units.length, units.length / units.time)
+        interpolate_part(step.old_velocity, 0, start.velocity, length=length, unit=length / units.time)
     return _Run(integrator, units, plan, model.length).go(place=True)
 
 
@@ -177,13 +175,6 @@ def _scaled_course(prescribed: PrescribedEnd, units: Units) -> PrescribedEnd:
     return PrescribedEnd(
         position=scaled(prescribed.position, units.length), force=scaled(prescribed.force, units.force), release=release
     )
-
-
-def _interpolate(function: Any, along: Along, length: float, unit: float) -> None:
-    space, places = collapsed(function.function_space, 0)
-    part = fem.Function(space)
-    part.interpolate(lambda x: np.asarray(along(x[0] * length)).T / unit)
-    function.x.array[places] = part.x.array
 
 
 def _fastest_stream(model: Thread, positions: NDArray[np.float64], velocities: NDArray[np.float64]) -> float:

@@ -17,7 +17,7 @@ from hydroelastic.modal.beam.dry_modes import free_free_shape, free_free_wavenum
 from hydroelastic.modal.beam.guided_modes import guided_shape, guided_wavenumber
 from hydroelastic.modal.beam.jointed_modes import JointedModes, jointed_modes
 from hydroelastic.physics.beams import Beam
-from hydroelastic.physics.dofs import FIRST_ELASTIC, Dof, beam_dofs
+from hydroelastic.physics.dofs import FIRST_ELASTIC, Dof
 
 Array = NDArray[np.float64]
 
@@ -58,7 +58,7 @@ def _closed_shapes(beam: Beam, count: int) -> BeamShapes:
         return np.asarray(values, dtype=np.float64)
 
     return BeamShapes(
-        dofs=beam_dofs(("heave",) if guided else ("heave", "pitch"), 0, count),
+        dofs=beam.dofs(count),
         parities=tuple(1 - 2 * (number % 2) for number in range(count)),
         deflection=deflection,
         bending=beam.flexural_rigidity * (roots / length) ** 4 * length,

@@ -28,7 +28,7 @@ from hydroelastic.modal.beam.dry_modes import RIGID_SHAPES
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.beam_parts import Section
 from hydroelastic.physics.beams import Beam, defines_shape_direction
-from hydroelastic.physics.dofs import Dof, beam_dofs
+from hydroelastic.physics.dofs import Dof
 
 Side = Literal["left", "right"]
 
@@ -68,7 +68,7 @@ class JointedModes:
     @property
     def dofs(self) -> tuple[Dof, ...]:
         """What each mode is."""
-        return beam_dofs(("heave", "pitch"), len(self.beam.hinges), len(self.squared_frequencies))
+        return self.beam.dofs(len(self.squared_frequencies))
 
     @property
     def wavenumbers(self) -> FloatArray:

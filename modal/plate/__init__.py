@@ -1,0 +1,1 @@
+"""Dry modes of thin plates: closed polynomials in rectangles, discs and rings."""

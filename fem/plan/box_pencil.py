@@ -157,7 +157,7 @@ def plate_loads(liquid: BoxLiquid, plate: RectangleBody) -> NDArray[np.float64]:
     """Return ∫φ q over a plate for each of its shapes φ, shape (shapes, N)."""
     moments = []
     for axis, space in enumerate(liquid.spaces):
-        start, end = plate.extent(axis)
+        start, end = plate.extents[axis]
         moments.append(
             space.moments(
                 start,
@@ -171,30 +171,39 @@ def plate_loads(liquid: BoxLiquid, plate: RectangleBody) -> NDArray[np.float64]:
     return loads.reshape(len(loads), -1)
 
 
-def _water(liquid: BoxLiquid, plates: tuple[RectangleBody, ...]) -> SurfaceBlocks | None:
-    """S on the unknowns beside the plates; ``None`` where plates cover all of the surface."""
-    whole = sparse.csr_matrix((liquid.size, liquid.size))
-    # Cell by cell: the difference of the whole surface and the plates would leave rounding under the plates.
-    cells = [space.nodes[:-1] for space in liquid.spaces]
-    covered = np.zeros((len(cells[0]), len(cells[1])), dtype=bool)
+def water_masses(
+    liquid: BoxLiquid, plates: tuple[RectangleBody, ...]
+) -> list[tuple[NDArray[np.float64], NDArray[np.float64]]]:
+    """Return S = Σ M_x ⊗ M_y over the water beside the plates: pairs of matrices, none where plates cover all of it.
+
+    It is summed over cells: the difference of the whole surface and the plates would leave rounding under the plates.
+    """
+    middles = [0.5 * (space.nodes[:-1] + space.nodes[1:]) for space in liquid.spaces]
+    water = np.full((len(middles[0]), len(middles[1])), True)
     for plate in plates:
-        under = [
-            (left >= plate.extent(axis)[0] - 1e-12) & (left < plate.extent(axis)[1] - 1e-12)
-            for axis, left in enumerate(cells)
-        ]
-        covered |= np.outer(*under)
-    if covered.all():
+        under = [(middles[axis] > start) & (middles[axis] < end) for axis, (start, end) in enumerate(plate.extents)]
+        water &= ~np.outer(*under)
+    # Rows of cells along x that have the same water across share one product.
+    patterns, kinds = np.unique(water, axis=0, return_inverse=True)
+    return [
+        (liquid.spaces[0].mass_on(kinds.ravel() == kind), liquid.spaces[1].mass_on(pattern))
+        for kind, pattern in enumerate(patterns)
+        if pattern.any()
+    ]
+
+
+def water_columns(masses: list[tuple[NDArray[np.float64], NDArray[np.float64]]]) -> NDArray[np.int64]:
+    """Return the unknowns that are not zero on the water."""
+    return np.flatnonzero(sum(np.outer(*(np.diagonal(mass) for mass in pair)) for pair in masses))
+
+
+def _water(liquid: BoxLiquid, plates: tuple[RectangleBody, ...]) -> SurfaceBlocks | None:
+    """S on the unknowns that are not zero on the water."""
+    masses = water_masses(liquid, plates)
+    if not masses:
         return None
-    # Rows of cells along x with the same pattern across share one product.
-    patterns, which = np.unique(~covered, axis=0, return_inverse=True)
-    for number, pattern in enumerate(patterns):
-        if pattern.any():
-            masses = [
-                liquid.spaces[0].mass_on(which.ravel() == number),
-                liquid.spaces[1].mass_on(pattern),
-            ]
-            whole = whole + sparse.kron(*(sparse.csr_matrix(mass) for mass in masses), format="csr")
-    columns = np.flatnonzero(np.diff(whole.indptr))
+    whole = sum(sparse.kron(*map(sparse.csr_matrix, pair), format="csr") for pair in masses)
+    columns = water_columns(masses)
     return SurfaceBlocks(
         coupling=as_matrix(whole[:, columns].tocsr()), stiffness=as_matrix(whole[columns][:, columns].tocsr())
     )

@@ -10,7 +10,7 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import eigh
+from scipy.linalg import eigh, solve
 
 from hydroelastic.modal.plate.rectangle import polynomials_of
 
@@ -112,6 +112,12 @@ class IntervalSpace:
         """
         points, weights = self.quadrature(self.between(start, end), more=count)
         return np.asarray((self.table(points) * weights) @ polynomials_of(count, points - middle, side).T)
+
+    def embedding(self, coarser: IntervalSpace) -> NDArray[np.float64]:
+        """Return the matrix that gives functions of a space contained in this one, shape (functions, coarser ones)."""
+        points, weights = self.quadrature(np.full(len(self.nodes) - 1, True))
+        mixed = (self.table(points) * weights) @ coarser.table(points).T
+        return np.asarray(solve(self.mass, mixed, assume_a="pos"))
 
     @cached_property
     def waves(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -45,10 +45,11 @@ class RectangleBody:
         assert isinstance(self.plate.outline, Rectangle)
         return self.plate.outline
 
-    def extent(self, axis: int) -> tuple[float, float]:
-        """Return its ends along an axis."""
-        middle, half = self.outline.position[axis], 0.5 * self.outline.size[axis]
-        return middle - half, middle + half
+    @property
+    def extents(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Its ends along x and along y."""
+        (x, y), (length, width) = self.outline.position, self.outline.size
+        return (x - 0.5 * length, x + 0.5 * length), (y - 0.5 * width, y + 0.5 * width)
 
     @property
     def part(self) -> float:

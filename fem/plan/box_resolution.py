@@ -46,7 +46,7 @@ class BoxResolution:
         """Return the resolution that confirms the number of modes."""
         return replace(
             self,
-            degree=max(3, self.degree - 2),
+            degree=max(3, self.degree - 3),
             layers=min(1, self.layers),
             polynomials=tuple(max(6, count - 6) for count in self.polynomials),
         )
@@ -75,7 +75,7 @@ class BoxResolution:
 def box_resolution(tank: LevelTank, tolerance: float, count: int) -> BoxResolution:
     """Return the resolution for some modes of a dimensionless tank."""
     digits = -log10(tolerance)
-    degree = min(max(ceil(1.2 + 0.75 * digits), 4), HIGHEST_DEGREE - 2)
+    degree = min(max(ceil(0.5 + 0.75 * digits), 4), HIGHEST_DEGREE - 2)
     eigenvalue = expected_eigenvalue(tank, count)
     wavenumbers = [plate_wavenumber(tank, plate, eigenvalue) for plate in tank.plates]
     shortest = max([water_wavenumber(tank, eigenvalue), *wavenumbers])

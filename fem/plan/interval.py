@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh, solve
 
+from hydroelastic.modal.plate.legendre import gauss
 from hydroelastic.modal.plate.rectangle import polynomials_of
 
 
@@ -81,7 +82,7 @@ class IntervalSpace:
             chosen: which cells.
             more: degree of another factor beside two functions.
         """
-        points, weights = np.polynomial.legendre.leggauss(self.degree + 1 + more // 2)
+        points, weights = gauss(self.degree + 1 + more // 2)
         left, right = self.nodes[:-1][chosen, None], self.nodes[1:][chosen, None]
         half = 0.5 * (right - left)
         return (left + half * (1.0 + points)).ravel(), (half * weights).ravel()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -16,6 +18,13 @@ def legendre_table(count: int, points: NDArray[np.float64], derivative: int = 0)
     coefficients = np.polynomial.legendre.legder(np.diag(np.sqrt(np.arange(count) + 0.5)), derivative, axis=0)
     table: NDArray[np.float64] = np.polynomial.legendre.legval(points, coefficients)
     return table
+
+
+@lru_cache(maxsize=64)
+def gauss(count: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the points and weights of Gauss' quadrature on [−1, 1]; not to be written to."""
+    points, weights = np.polynomial.legendre.leggauss(count)
+    return points, weights
 
 
 def edge_basis(count: int, edges: tuple[Edge, Edge]) -> NDArray[np.float64]:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve, eigh
 
-from hydroelastic.modal.plate.legendre import edge_basis, legendre_table
+from hydroelastic.modal.plate.legendre import edge_basis, gauss, legendre_table
 from hydroelastic.physics.plate import Edge
 
 AxisParity: TypeAlias = Literal[0, 1] | None
@@ -113,7 +113,7 @@ def _of_parity(basis: NDArray[np.float64], parity: AxisParity) -> NDArray[np.flo
 def _side_matrices(basis: NDArray[np.float64], side: float) -> tuple[NDArray[np.float64], ...]:
     """∫uv, ∫u'v', ∫u''v'' and ∫u''v over a side, for a basis in orthonormal polynomials of [−1, 1]."""
     count = basis.shape[1]
-    points, weights = np.polynomial.legendre.leggauss(count)
+    points, weights = gauss(count)
     value, slope, bend = (
         basis @ legendre_table(count, points, order) * (2.0 / side) ** order for order in range(3)
     )

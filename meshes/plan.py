@@ -1,0 +1,454 @@
+"""Plans of tanks: triangles with layers along the edges of plates, graded geometrically across them.
+
+ψ has singularities r ln r at an edge and is smooth along it, so that only the distance from it is graded. Each outline has
+bands of layers on both sides, made here: between mitred parallels of a polygon, between concentric circles of a disc.
+gmsh fills what is left. At circles cells are curved; those of the bands have their nodes at polar coordinates, for layers
+thinner than the sagitta of their arcs would else fold.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import ceil, pi
+
+import gmsh
+import numpy as np
+from numpy.typing import NDArray
+
+from hydroelastic.meshes.curved_cells import geometry_element, smallest_jacobian
+from hydroelastic.meshes.filling import gmsh_model
+from hydroelastic.meshes.interrupts import interrupts_deferred
+from hydroelastic.meshes.tagged_mesh import CurvedCells, MeshError, TaggedMesh
+
+# Ratio of the thicknesses of successive layers.
+RATIO = 0.2
+# Smallest Jacobian of an accepted curved cell, relative to the straight cell.
+_SMALLEST_JACOBIAN = 0.05
+# Size of cells at a distance from a re-entrant corner, and of the smallest ones in parts of the largest.
+_CORNER_GROWTH, _SMALLEST_AT_CORNER = 0.5, 1e-3
+# Corners of a wall that turn the other way by more than this are re-entrant, radians.
+_REENTRANT = 1e-3
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class PolygonLoop:
+    """A closed polygon; its interior is on the left of its sides.
+
+    Attributes:
+        corners: shape (corners, 2), anticlockwise.
+    """
+
+    corners: NDArray[np.float64]
+
+    def parallel(self, distance: float, places: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return points of the mitred parallel outside it (inside if negative).
+
+        Args:
+            distance: from the sides.
+            places: number of the side plus the part of it that is passed, shape (points,).
+        """
+        sides = np.roll(self.corners, -1, axis=0) - self.corners
+        tangents = sides / np.linalg.norm(sides, axis=1)[:, None]
+        before = np.roll(tangents, 1, axis=0)
+        normals = np.column_stack([tangents[:, 1], -tangents[:, 0]])
+        # The mitre of a corner: the sum of both normals over one plus the cosine between them.
+        sums = normals + np.roll(normals, 1, axis=0)
+        mitres = sums / (1.0 + (tangents * before).sum(axis=1))[:, None]
+        moved = self.corners + distance * mitres
+        number = np.floor(places).astype(int) % len(moved)
+        part = (places - np.floor(places))[:, None]
+        points: NDArray[np.float64] = (1.0 - part) * moved[number] + part * moved[(number + 1) % len(moved)]
+        return points
+
+    def places(self, size: float, layer: float, layers: int) -> NDArray[np.float64]:
+        """Return where the nodes lie: cells of a size, smaller ones towards the corners."""
+        places = []
+        lengths = np.linalg.norm(np.roll(self.corners, -1, axis=0) - self.corners, axis=1)
+        for number, length in enumerate(lengths):
+            towards = min(layer / length, 0.3) * RATIO ** np.arange(layers)[::-1]
+            first = towards[-1] if layers else 0.0
+            count = max(ceil((1.0 - 2.0 * first) * length / size), 1)
+            places.append(
+                number + np.concatenate([[0.0], towards, np.linspace(first, 1.0 - first, count + 1)[1:-1], 1.0 - towards[::-1]])
+            )
+        return np.concatenate(places)
+
+    def contains(self, point: NDArray[np.float64]) -> bool:
+        """Whether a point lies inside."""
+        x, y = (self.corners - point).T
+        u, v = np.roll(x, -1), np.roll(y, -1)
+        crossing = (y > 0.0) != (v > 0.0)
+        return bool(np.sum(crossing & ((x * v - u * y > 0.0) == (v > y))) % 2)
+
+    @property
+    def reentrant(self) -> NDArray[np.float64]:
+        """Corners with more than half a turn inside, shape (corners, 2)."""
+        ahead = np.roll(self.corners, -1, axis=0) - self.corners
+        behind = np.roll(ahead, 1, axis=0)
+        turn = np.arctan2(behind[:, 0] * ahead[:, 1] - behind[:, 1] * ahead[:, 0], (behind * ahead).sum(axis=1))
+        return np.asarray(self.corners[turn < -_REENTRANT])
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class CircleLoop:
+    """A circle, anticlockwise.
+
+    Attributes:
+        centre: shape (2,).
+        radius: its radius.
+    """
+
+    centre: NDArray[np.float64]
+    radius: float
+
+    def parallel(self, distance: float, places: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return points of the concentric circle outside it, at parts of a turn."""
+        angles = 2.0 * pi * places
+        return self.centre + (self.radius + distance) * np.column_stack([np.cos(angles), np.sin(angles)])
+
+    def places(self, size: float, _layer: float, _layers: int) -> NDArray[np.float64]:
+        """Return where the nodes lie, in parts of a turn."""
+        count = max(ceil(2.0 * pi * self.radius / size), 12)
+        return np.arange(count) / count
+
+    def contains(self, point: NDArray[np.float64]) -> bool:
+        """Whether a point lies inside."""
+        return bool(np.hypot(*(point - self.centre)) < self.radius)
+
+    @property
+    def reentrant(self) -> NDArray[np.float64]:
+        """It has no corners."""
+        return np.empty((0, 2))
+
+
+Loop = PolygonLoop | CircleLoop
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlanRegion:
+    """A region of a plan.
+
+    Attributes:
+        name: physical name of its cells.
+        outside: its outer loop.
+        inside: loops of its holes.
+    """
+
+    name: str
+    outside: Loop
+    inside: tuple[Loop, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Band:
+    """Nodes around a loop: rows of parallels, from the inside out.
+
+    Attributes:
+        loop: the loop.
+        places: of the columns.
+        distances: of the rows; one row, 0, of a wall.
+        first: number of its first node; they are numbered row by row.
+    """
+
+    loop: Loop
+    places: NDArray[np.float64]
+    distances: NDArray[np.float64]
+    first: int
+
+    def row(self, number: int) -> NDArray[np.int64]:
+        """Return the nodes of a row, number −1 being the outermost."""
+        number %= len(self.distances)
+        return np.asarray(self.first + number * len(self.places) + np.arange(len(self.places)))
+
+    @property
+    def points(self) -> NDArray[np.float64]:
+        """Its nodes, shape (nodes, 2)."""
+        return np.concatenate([self.loop.parallel(distance, self.places) for distance in self.distances])
+
+
+def plan_mesh(
+    wall: PlanRegion,
+    plates: tuple[PlanRegion, ...],
+    *,
+    size: Callable[[str], float],
+    layers: int,
+    thickness: float,
+    geometry_degree: int,
+) -> TaggedMesh:
+    """Triangulate a plan.
+
+    Args:
+        wall: the tank, with the name of the water; its holes are inner walls.
+        plates: those beside which there is water all around, or one that covers the plan; without overlap.
+        size: largest cell of a region by its name.
+        layers: number of layers on each side of an edge.
+        thickness: of the outermost layer; it is smaller where a band would touch another one or a wall.
+        geometry_degree: of cells at circles.
+
+    Raises:
+        MeshError: if gmsh fails, or a curved cell is inverted.
+    """
+    covered = any(plate.outside is wall.outside for plate in plates)
+    edges = () if covered else tuple(loop for plate in plates for loop in (plate.outside, *plate.inside))
+    walls = (wall.outside, *wall.inside)
+    room = _room(walls, edges)
+    bands: dict[int, _Band] = {}
+    count = 0
+    for loop in (*walls, *edges):
+        is_wall = loop in walls
+        thick = min(thickness, room)
+        steps = np.zeros(0) if is_wall else thick * RATIO ** np.arange(layers)
+        names = [plates[0].name] if covered else [wall.name, *(p.name for p in plates if loop in (p.outside, *p.inside))]
+        places = loop.places(min(map(size, names)), 0.0 if is_wall else thick, 0 if is_wall else max(layers - 1, 1))
+        distances = np.concatenate([-steps, [0.0], steps[::-1]])
+        bands[id(loop)] = _Band(loop=loop, places=places, distances=distances, first=count)
+        count += len(places) * len(distances)
+    points = np.concatenate([band.points for band in bands.values()])
+    regions = [(plate.name, plate.outside, plate.inside) for plate in plates]
+    if not covered:
+        holes = tuple(hole for hole in (*wall.inside, *(plate.outside for plate in plates)))
+        regions.append((wall.name, wall.outside, holes))
+        regions += [
+            (wall.name, hole, tuple(p.outside for p in plates if hole.contains(_a_point(p.outside))))
+            for plate in plates
+            for hole in plate.inside
+            if not any(wall_hole == hole for wall_hole in wall.inside)
+        ]
+        regions = [(name, outside, _directly(outside, inside)) for name, outside, inside in regions]
+    names = list(dict.fromkeys([name for name, _, _ in regions]))
+    cells, tags = [], []
+    if not covered:
+        for loop in edges:
+            for outer, block in enumerate(_band_cells(bands[id(loop)])):
+                # A band's outer half belongs to the water, or to the plate around a hole of it.
+                owner = next(plate for plate in plates if loop in (plate.outside, *plate.inside))
+                is_plate = (loop == owner.outside) != bool(outer)
+                cells.append(block)
+                tags.append(np.full(len(block), names.index(owner.name if is_plate else wall.name)))
+    corners = np.concatenate([loop.reentrant for loop in (wall.outside, *edges)] + [np.empty((0, 2))])
+    with gmsh_model():
+        points, filled = _filled(points, regions, bands, walls, size, corners)
+    for (name, _, _), block in zip(regions, filled, strict=True):
+        cells.append(block)
+        tags.append(np.full(len(block), names.index(name)))
+    all_cells = np.concatenate(cells)
+    corner = points[all_cells]
+    turn = _cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+    all_cells[turn < 0.0] = all_cells[turn < 0.0][:, ::-1]
+    return TaggedMesh(
+        points=points,
+        cells=all_cells,
+        cell_tags=np.concatenate(tags).astype(np.int32),
+        facets=np.empty((0, 2), dtype=np.int64),
+        facet_tags=np.empty(0, dtype=np.int32),
+        cell_names={name: number for number, name in enumerate(names)},
+        facet_names={},
+        curved=_curved(points, all_cells, bands, geometry_degree),
+    )
+
+
+def _cross(one: NDArray[np.float64], other: NDArray[np.float64]) -> NDArray[np.float64]:
+    product: NDArray[np.float64] = one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]
+    return product
+
+
+def _directly(outside: Loop, inside: tuple[Loop, ...]) -> tuple[Loop, ...]:
+    """The holes of a region that lie in no other hole of it."""
+    own = [hole for hole in inside if hole != outside and outside.contains(_a_point(hole))]
+    return tuple(
+        hole for hole in own if not any(other != hole and other.contains(_a_point(hole)) for other in own)
+    )
+
+
+def _a_point(loop: Loop) -> NDArray[np.float64]:
+    return np.asarray(loop.parallel(0.0, np.array([0.0]))[0])
+
+
+def _room(walls: tuple[Loop, ...], edges: tuple[Loop, ...]) -> float:
+    """Two fifths of the smallest distance between two loops, and a third of the smallest length along one."""
+    room = np.inf
+    sampled = {
+        id(loop): loop.parallel(0.0, loop.places(_extent(loop) / 200.0, 0.0, 0)) for loop in (*walls, *edges)
+    }
+    for loop in edges:
+        own = sampled[id(loop)]
+        for other in (*walls, *edges):
+            if other is not loop:
+                apart = np.linalg.norm(own[:, None] - sampled[id(other)][None], axis=2)
+                room = min(room, 0.4 * float(apart.min()))
+        if isinstance(loop, CircleLoop):
+            room = min(room, loop.radius / 3.0)
+        else:
+            room = min(room, _inner_room(loop))
+    return room
+
+
+def _extent(loop: Loop) -> float:
+    return float(np.ptp(loop.parallel(0.0, np.linspace(0.0, 1.0, 200) * _turns(loop)), axis=0).max())
+
+
+def _turns(loop: Loop) -> float:
+    return len(loop.corners) - 1e-9 if isinstance(loop, PolygonLoop) else 1.0
+
+
+def _inner_room(loop: PolygonLoop) -> float:
+    """The offset inwards at which a side of the polygon vanishes, a third of it."""
+    here = loop.parallel(0.0, np.arange(len(loop.corners), dtype=float))
+    there = loop.parallel(-1.0, np.arange(len(loop.corners), dtype=float))
+    lengths = np.linalg.norm(np.roll(here, -1, axis=0) - here, axis=1)
+    sides = (np.roll(here, -1, axis=0) - here) / lengths[:, None]
+    shrinking = ((np.roll(there, -1, axis=0) - there) * sides).sum(axis=1)
+    rate = np.abs(lengths - shrinking)
+    return float((lengths / np.maximum(rate, 1e-12)).min()) / 3.0
+
+
+def _band_cells(band: _Band) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Triangles of the inner and of the outer half of a band."""
+    halves = []
+    middle = (len(band.distances) - 1) // 2
+    for rows in (range(middle), range(middle, len(band.distances) - 1)):
+        cells = [np.empty((0, 3), dtype=np.int64)]
+        for number in rows:
+            low, high = band.row(number), band.row(number + 1)
+            low_next, high_next = np.roll(low, -1), np.roll(high, -1)
+            cells += [np.column_stack([low, low_next, high_next]), np.column_stack([low, high_next, high])]
+        halves.append(np.concatenate(cells))
+    return halves[0], halves[1]
+
+
+def _filled(
+    points: NDArray[np.float64],
+    regions: list[tuple[str, Loop, tuple[Loop, ...]]],
+    bands: dict[int, _Band],
+    walls: tuple[Loop, ...],
+    size: Callable[[str], float],
+    corners: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], list[NDArray[np.int64]]]:
+    """All nodes, and gmsh's triangles of each region between the bands."""
+    geo = gmsh.model.geo
+    tags: dict[int, int] = {}
+
+    def loop_of(nodes: NDArray[np.int64]) -> int:
+        for node in nodes:
+            if int(node) not in tags:
+                tags[int(node)] = int(geo.addPoint(*points[node], 0.0))
+        lines = [
+            int(geo.addLine(tags[int(a)], tags[int(b)])) for a, b in zip(nodes, np.roll(nodes, -1), strict=True)
+        ]
+        for line in lines:
+            geo.mesh.setTransfiniteCurve(line, 2)
+        return int(geo.addCurveLoop(lines))
+
+    surfaces, largest = [], {}
+    for name, outside, inside in regions:
+        # Of a band around a hole the outer row faces the region.
+        curves = [loop_of(bands[id(outside)].row(0)), *(loop_of(bands[id(hole)].row(-1)) for hole in inside)]
+        surfaces.append(int(geo.addPlaneSurface(curves)))
+        largest[surfaces[-1]] = size(name)
+    geo.synchronize()
+    for option, value in (("FromPoints", 0), ("ExtendFromBoundary", 1), ("FromCurvature", 0)):
+        gmsh.option.setNumber(f"Mesh.MeshSize{option}", value)
+    gmsh.option.setNumber("Mesh.Algorithm", 6)
+
+    def wanted(_dim: int, tag: int, x: float, y: float, _z: float, boundary: float) -> float:
+        biggest = largest.get(tag, max(largest.values()))
+        near = biggest
+        if len(corners):
+            distance = float(np.hypot(corners[:, 0] - x, corners[:, 1] - y).min())
+            near = max(_CORNER_GROWTH * distance, _SMALLEST_AT_CORNER * biggest)
+        return min(boundary, biggest, near)
+
+    gmsh.model.mesh.setSizeCallback(wanted)
+    with interrupts_deferred():
+        gmsh.model.mesh.generate(2)
+    nodes, coordinates, _ = gmsh.model.mesh.getNodes()
+    number_of = np.full(int(nodes.max()) + 1, -1, dtype=np.int64)
+    for node, tag in tags.items():
+        number_of[int(gmsh.model.mesh.getNodes(0, tag)[0][0])] = node
+    fresh = nodes.astype(np.int64)[number_of[nodes.astype(np.int64)] < 0]
+    number_of[fresh] = len(points) + np.arange(len(fresh))
+    place = {int(node): index for index, node in enumerate(nodes)}
+    added = coordinates.reshape(-1, 3)[[place[int(node)] for node in fresh], :2]
+    cells = []
+    for surface in surfaces:
+        _, found = gmsh.model.mesh.getElementsByType(2, surface)
+        cells.append(number_of[found.astype(np.int64)].reshape(-1, 3))
+    return np.concatenate([points, added.reshape(-1, 2)]), cells
+
+
+def _curved(
+    points: NDArray[np.float64], cells: NDArray[np.int64], bands: dict[int, _Band], degree: int
+) -> CurvedCells | None:
+    """Geometry of the cells at circles: at polar coordinates in bands, with one arc beside them."""
+    circles = [band for band in bands.values() if isinstance(band.loop, CircleLoop)]
+    if not circles:
+        return None
+    element = geometry_element(degree)
+    barycentric = np.column_stack([1.0 - element.points.sum(axis=1), element.points])
+    chosen, nodes = [], []
+    for band in circles:
+        loop = band.loop
+        assert isinstance(loop, CircleLoop)
+        columns = len(band.places)
+        local = cells - band.first
+        inside = (local >= 0) & (local < columns * len(band.distances))
+        whole = np.flatnonzero(inside.all(axis=1))
+        # A gmsh cell may have all corners on one circle; a band's have two rows.
+        rows = local // columns
+        in_band = whole[np.ptp(rows[whole], axis=1) == 1]
+        angle = 2.0 * pi * band.places[local[in_band] % columns]
+        angle = angle[:, :1] + (angle - angle[:, :1] + pi) % (2.0 * pi) - pi
+        radius = loop.radius + band.distances[rows[in_band]]
+        turned, away = angle @ barycentric.T, radius @ barycentric.T
+        chosen.append(in_band)
+        nodes.append(loop.centre + away[..., None] * np.stack([np.cos(turned), np.sin(turned)], axis=-1))
+        beside = np.flatnonzero((inside.sum(axis=1) >= 2) & ~np.isin(np.arange(len(cells)), in_band))
+        bent, moved = _beside_arcs(points, cells[beside], local[beside], inside[beside], band, barycentric, degree)
+        chosen.append(beside[bent])
+        nodes.append(moved[bent])
+    # A cell that touches two circles keeps the displacement of each.
+    straight = np.einsum("nb,cbd->cnd", barycentric, points[cells])
+    total = straight.copy()
+    for some, places in zip(chosen, nodes, strict=True):
+        np.add.at(total, some, places - straight[some])
+    curved_cells = np.unique(np.concatenate(chosen))
+    found = CurvedCells(degree=degree, cells=curved_cells, nodes=total[curved_cells])
+    if smallest_jacobian(found) < _SMALLEST_JACOBIAN:
+        raise MeshError("a cell at a circle is too narrow to follow it: ask for smaller elements there")
+    return found
+
+
+def _beside_arcs(
+    points: NDArray[np.float64],
+    cells: NDArray[np.int64],
+    local: NDArray[np.int64],
+    inside: NDArray[np.bool_],
+    band: _Band,
+    barycentric: NDArray[np.float64],
+    degree: int,
+) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
+    """Nodes of cells with an edge on the outermost or innermost circle of a band; see `curved_cells`."""
+    columns = len(band.places)
+    element = geometry_element(degree)
+    inner = np.asarray(element.points[np.array(element.entity_dofs[1][2], dtype=np.int64), 0])
+    nodes = np.einsum("nb,cbd->cnd", barycentric, points[cells])
+    bent = np.full(len(cells), False)
+    for start, end in ((0, 1), (1, 2), (2, 0)):
+        row, column = local[:, [start, end]] // columns, local[:, [start, end]] % columns
+        step = (column[:, 1] - column[:, 0]) % columns
+        here = inside[:, start] & inside[:, end] & (row[:, 0] == row[:, 1]) & ((step == 1) | (step == columns - 1))
+        first, second = points[cells[here, start]], points[cells[here, end]]
+        angles = 2.0 * pi * band.places[column[here]]
+        sweep = (angles[:, 1] - angles[:, 0] + pi) % (2.0 * pi) - pi
+        turned = angles[:, :1] + sweep[:, None] * inner
+        radius = np.linalg.norm(first - band.loop.centre, axis=1)[:, None]  # type: ignore[union-attr]
+        arc = band.loop.centre + radius[..., None] * np.stack([np.cos(turned), np.sin(turned)], axis=-1)  # type: ignore[union-attr]
+        away = arc - first[:, None] - inner[None, :, None] * (second - first)[:, None]
+        values = away / (inner * (1.0 - inner))[None, :, None]
+        fit = np.linalg.inv(np.polynomial.chebyshev.chebvander(2.0 * inner - 1.0, len(inner) - 1))
+        along = np.polynomial.chebyshev.chebvander(barycentric[:, end] - barycentric[:, start], len(inner) - 1)
+        weight = (barycentric[:, start] * barycentric[:, end])[:, None] * (along @ fit)
+        nodes[here] += np.einsum("nk,ckd->cnd", weight, values)
+        bent |= here
+    return bent, nodes

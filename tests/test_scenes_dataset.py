@@ -15,13 +15,13 @@ from mpi4py import MPI
 from open_tables import ANALYSES, CIRCLE, DEEP, OIL, PLATE, arbitrary_solution, open_scene
 from scene_files import read_written
 
+from hydroelastic.output.dataset import read_dataset, with_summary, write_dataset
+from hydroelastic.output.folder import SUMMARY, write_summary
+from hydroelastic.output.json_values import json_ready
+from hydroelastic.output.provenance import Summary
+from hydroelastic.output.summary_variables import SummaryNames
 from hydroelastic.scenes.open_water.dataset import OPEN_NAMES, open_dataset
 from hydroelastic.scenes.open_water.summary import summarize_open
-from hydroelastic.scenes.output.dataset import read_dataset, with_summary, write_dataset
-from hydroelastic.scenes.output.folder import SUMMARY, write_summary
-from hydroelastic.scenes.output.json_values import json_ready
-from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.output.summary_variables import SummaryNames
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.run import run_scene
 

@@ -14,11 +14,11 @@ import numpy as np
 import numpy.typing as npt
 
 from hydroelastic.fem.open_water.results import DIRECTIONS, DecayTable, RadiationTable, ResonanceTable, ResponseTable
+from hydroelastic.output.dof_units import INERTIA_UNITS, MOTION_UNITS, STIFFNESS_UNITS
+from hydroelastic.output.summary_variables import SummaryNames
 from hydroelastic.physics.dofs import Dof, body_name
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.results import OpenSolution
-from hydroelastic.scenes.output.dof_units import INERTIA_UNITS, MOTION_UNITS, STIFFNESS_UNITS
-from hydroelastic.scenes.output.summary_variables import SummaryNames
 
 if TYPE_CHECKING:
     import xarray

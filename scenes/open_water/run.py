@@ -12,7 +12,9 @@ from hydroelastic.fem.open_water.field_samples import SampledField, sample_field
 from hydroelastic.fem.open_water.fields import open_fields
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.meshes.tagged_mesh import MeshError
+from hydroelastic.output.dataset import LabelledResults
 from hydroelastic.output.pictures.options import OF_CURVES, OF_FIELDS, OF_MOTIONS, PictureOptions
+from hydroelastic.output.provenance import Summary
 from hydroelastic.scenes.open_water.csv import write_csv
 from hydroelastic.scenes.open_water.dataset import OPEN_NAMES, open_dataset
 from hydroelastic.scenes.open_water.field_files import write_fields
@@ -22,9 +24,7 @@ from hydroelastic.scenes.open_water.results import OpenSolution
 from hydroelastic.scenes.open_water.solve import solve_open
 from hydroelastic.scenes.open_water.summary import summarize_open
 from hydroelastic.scenes.open_water.tables import open_cost, open_sections
-from hydroelastic.scenes.output.dataset import LabelledResults
-from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.output.staged_run import StagedRun
+from hydroelastic.scenes.staged_run import StagedRun
 
 
 @dataclass(frozen=True, kw_only=True)

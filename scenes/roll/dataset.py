@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from hydroelastic.scenes.output.dataset import labelled
-from hydroelastic.scenes.output.summary_variables import SummaryNames
+from hydroelastic.output.dataset import labelled
+from hydroelastic.output.summary_variables import SummaryNames
 from hydroelastic.scenes.roll.results import RollResult
 
 if TYPE_CHECKING:

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
+from hydroelastic.output.dataset import LabelledResults
 from hydroelastic.output.pictures.options import OF_CURVES
-from hydroelastic.scenes.output.dataset import LabelledResults
-from hydroelastic.scenes.output.staged_run import StagedRun
 from hydroelastic.scenes.roll.dataset import ROLL_NAMES, roll_dataset
 from hydroelastic.scenes.roll.figure import draw_roll
 from hydroelastic.scenes.roll.files import write_roll_files
 from hydroelastic.scenes.roll.solve import solve_roll
 from hydroelastic.scenes.roll.summary import summarize_roll
 from hydroelastic.scenes.roll.tables import roll_cost, roll_sections
+from hydroelastic.scenes.staged_run import StagedRun
 
 run_roll = StagedRun(
     solve=solve_roll,

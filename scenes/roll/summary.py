@@ -6,8 +6,8 @@ from dataclasses import asdict
 from math import degrees, exp, pi
 from typing import TYPE_CHECKING, Any
 
+from hydroelastic.output.provenance import Summary, complete_summary
 from hydroelastic.physics.ship import Ship
-from hydroelastic.scenes.output.provenance import Summary, complete_summary
 from hydroelastic.scenes.roll.results import RollResult
 
 if TYPE_CHECKING:

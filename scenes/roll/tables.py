@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import degrees
 
-from hydroelastic.scenes.output.digits import counted, number, with_certain_digits
-from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.output.sections import Section
+from hydroelastic.output.digits import counted, number, with_certain_digits
+from hydroelastic.output.provenance import Summary
+from hydroelastic.output.sections import Section
 from hydroelastic.scenes.roll.summary import LINEAR_UP_TO
 
 

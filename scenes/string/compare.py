@@ -10,11 +10,11 @@ from pydantic import ValidationError
 
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.modal.string.solution import StringSolution
+from hydroelastic.output.outcome import Outcome
+from hydroelastic.output.provenance import Summary
+from hydroelastic.output.sections import Section
 from hydroelastic.scenes.errors import Problem, SceneError, scene_error
 from hydroelastic.scenes.models.string import StringScene
-from hydroelastic.scenes.output.outcome import Outcome
-from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.output.sections import Section
 from hydroelastic.scenes.string.results import StringResult
 from hydroelastic.scenes.string.solve import solve_series, solve_string_field
 from hydroelastic.scenes.string.summary import summarize_string

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hydroelastic.scenes.output.dataset import labelled
-from hydroelastic.scenes.output.summary_variables import SummaryNames
+from hydroelastic.output.dataset import labelled
+from hydroelastic.output.summary_variables import SummaryNames
 from hydroelastic.scenes.string.results import StringResult
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from hydroelastic.modal.string.solution import FreeMotions, StringSolution
-from hydroelastic.scenes.output.line_sequence import Frame, frame_numbers, write_sequence
+from hydroelastic.output.line_sequence import Frame, frame_numbers, write_sequence
 from hydroelastic.scenes.string.results import StringResult
 
 COLUMNS = ("time", "position", "displacement", "absolute_error")

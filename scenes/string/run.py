@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from hydroelastic.output.dataset import LabelledResults
 from hydroelastic.output.pictures.options import OF_CURVES, OF_MOTIONS
-from hydroelastic.scenes.output.dataset import LabelledResults
-from hydroelastic.scenes.output.staged_run import StagedRun
+from hydroelastic.scenes.staged_run import StagedRun
 from hydroelastic.scenes.string.dataset import STRING_NAMES, string_dataset
 from hydroelastic.scenes.string.drawn import animation_notes
 from hydroelastic.scenes.string.figures import draw_string

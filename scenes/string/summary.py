@@ -10,10 +10,10 @@ import numpy as np
 from hydroelastic.modal.string.closed_form import first_oscillating_mode, natural_frequency, steady_amplitude
 from hydroelastic.modal.string.resonance import nearest_resonance
 from hydroelastic.modal.string.solution import FreeMotions, StringSolution
+from hydroelastic.output.provenance import Summary, complete_summary
 from hydroelastic.physics.string import HangingString
 from hydroelastic.scenes.models.string import StringScene
 from hydroelastic.scenes.models.string_parts import SineMotion
-from hydroelastic.scenes.output.provenance import Summary, complete_summary
 from hydroelastic.scenes.string.results import StringResult
 
 if TYPE_CHECKING:

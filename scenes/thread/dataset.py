@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hydroelastic.fem.thread.motion_in_space import MotionInSpace
-from hydroelastic.scenes.output.dataset import Labelled, labelled
-from hydroelastic.scenes.output.summary_variables import SummaryNames
+from hydroelastic.output.dataset import Labelled, labelled
+from hydroelastic.output.summary_variables import SummaryNames
 from hydroelastic.scenes.thread.files import numbered
 from hydroelastic.scenes.thread.results import ThreadSolutionOfScene
 

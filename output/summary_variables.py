@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from hydroelastic.scenes.output.long_names import long_name_of
-from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.output.summary_units import unit_of
+from hydroelastic.output.long_names import long_name_of
+from hydroelastic.output.provenance import Summary
+from hydroelastic.output.summary_units import unit_of
 
 if TYPE_CHECKING:
     import xarray

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from hydroelastic.scenes.output.json_values import json_ready
-from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.output.summary_variables import SummaryNames, summary_variables
+from hydroelastic.output.json_values import json_ready
+from hydroelastic.output.provenance import Summary
+from hydroelastic.output.summary_variables import SummaryNames, summary_variables
 
 if TYPE_CHECKING:
     import xarray

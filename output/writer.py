@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING
 from mpi4py import MPI
 
 from hydroelastic.fem.stopwatch import Report, Stopwatch
+from hydroelastic.output.dataset import DATASET, with_summary, write_dataset
+from hydroelastic.output.folder import raise_on_all, result_folder, write_summary
 from hydroelastic.output.pictures.rendering import NoRendererError
-from hydroelastic.scenes.output.dataset import DATASET, with_summary, write_dataset
-from hydroelastic.scenes.output.folder import raise_on_all, result_folder, write_summary
-from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.output.summary_variables import SummaryNames
+from hydroelastic.output.provenance import Summary
+from hydroelastic.output.summary_variables import SummaryNames
 
 if TYPE_CHECKING:
     import xarray
@@ -53,7 +53,7 @@ def write_results(
         Warnings: pictures that could not be drawn, and why.
 
     Raises:
-        SceneError: if the folder cannot be written.
+        FolderError: if the folder cannot be written.
     """
     comm, watch = MPI.COMM_WORLD, Stopwatch()
     problem: BaseException | None = None

@@ -10,13 +10,14 @@ from typing import Any, Generic, Protocol, TypeVar
 from mpi4py import MPI
 
 from hydroelastic.fem.stopwatch import Report, Stopwatch
+from hydroelastic.output.dataset import LabelledResults
+from hydroelastic.output.manifest import read_manifest
+from hydroelastic.output.outcome import Outcome
 from hydroelastic.output.pictures.options import DEFAULT_PICTURES, PictureOption, PictureOptions
-from hydroelastic.scenes.output.dataset import LabelledResults
-from hydroelastic.scenes.output.manifest import read_manifest
-from hydroelastic.scenes.output.outcome import Outcome
-from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.output.sections import Section, markdown_sections
-from hydroelastic.scenes.output.writer import write_results
+from hydroelastic.output.provenance import Summary
+from hydroelastic.output.sections import Section, markdown_sections
+from hydroelastic.output.writer import write_results
+from hydroelastic.scenes.errors import folder_errors
 
 _Scene = TypeVar("_Scene", contravariant=True)
 _Solution = TypeVar("_Solution", contravariant=True)
@@ -143,16 +144,17 @@ class StagedRun(Generic[_Scene, _Solution]):
                 replaces=replaces,
             )
 
-        warnings = write_results(
-            out,
-            summary,
-            scene_file=scene_file,
-            tables=lambda folder: self.write(sampled, folder),
-            arrays=lambda: self.dataset.arrays(sampled),
-            names=self.dataset.names,
-            pictures=None if images is None else (lambda folder: self.draw(sampled, folder, images, report)),
-            text=lambda content: markdown_sections(content, outcome.sections, self.cost(content)),
-            page=None if page is None else lambda folder, warnings: page(with_warnings(warnings), folder),
-            report=report,
-        )
+        with folder_errors():
+            warnings = write_results(
+                out,
+                summary,
+                scene_file=scene_file,
+                tables=lambda folder: self.write(sampled, folder),
+                arrays=lambda: self.dataset.arrays(sampled),
+                names=self.dataset.names,
+                pictures=None if images is None else (lambda folder: self.draw(sampled, folder, images, report)),
+                text=lambda content: markdown_sections(content, outcome.sections, self.cost(content)),
+                page=None if page is None else lambda folder, warnings: page(with_warnings(warnings), folder),
+                report=report,
+            )
         return with_warnings(warnings)

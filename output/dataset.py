@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from hydroelastic.output.json_values import json_ready
-from hydroelastic.output.provenance import Summary
-from hydroelastic.output.summary_variables import SummaryNames, summary_variables
+from hydroelastic.output.provenance import OF_ALL_SCENES, Summary
+from hydroelastic.output.quantities import Group
+from hydroelastic.output.summary_variables import DeclaredNames, Naming, summary_variables
+from hydroelastic.output.variables import PARTS, Variable, array_variables, merged, separate_parts
 
 if TYPE_CHECKING:
     import xarray
@@ -21,11 +24,8 @@ DATASET = "dataset.nc"
 SUMMARY_TEXT = "summary"
 """The variable that holds the summary as the text of ``summary.json``."""
 
-Labelled: TypeAlias = tuple[Any, Any, str | None, str] | tuple[Any, Any, str | None, str, float | None]
-"""Dimensions of an array, its values, their unit, if they have one, what they are, and their absolute error."""
-
-# Keys of summaries whose variables come last: those about the solution and its cost.
-_BOOKKEEPING = ("reasons", "solver", "size", "timing", "memory_peak", "versions")
+# Keys of summaries that are no variables: the scene is in the text only, the status an attribute.
+_NO_VARIABLES = ("scene", "status")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,68 +33,102 @@ class LabelledResults:
     """The contents of the datasets of one kind of scene.
 
     Attributes:
-        arrays: function that returns the labelled arrays of a solution, which may be complex.
-        names: of the tables of the summary.
+        arrays: returns the labelled arrays of a solution that the summary does not have.
+        names: of the variables of the summary.
+        attributes: of the dataset as a whole.
     """
 
-    arrays: Callable[[Any], xarray.Dataset]
-    names: SummaryNames
+    arrays: Callable[[Any], Iterable[Variable]]
+    names: Naming
+    attributes: Mapping[str, str] = field(default_factory=dict)
 
 
-def labelled(
-    arrays: Mapping[str, Labelled], coordinates: Mapping[str, Labelled], labels: Mapping[str, Sequence[str]] = {}
-) -> xarray.Dataset:
-    """Return labelled arrays, by name.
-
-    Args:
-        arrays: variables.
-        coordinates: places along their dimensions.
-        labels: of dimensions that have names instead of places.
-    """
-    # xarray takes a while to import.
-    import xarray
-
-    def variable(dimensions: Any, values: Any, unit: str | None, said: str, error: float | None = None) -> Any:
-        attributes = {"units": unit, "long_name": said, "absolute_error": error}
-        return dimensions, values, {name: value for name, value in attributes.items() if value is not None}
-
-    places = {name: variable(*one) for name, one in coordinates.items()} | {name: list(labels[name]) for name in labels}
-    return xarray.Dataset({name: variable(*one) for name, one in arrays.items()}, places)
+def declared_results(kind: Group) -> LabelledResults:
+    """Return what the datasets of a kind of scene hold whose quantities are all declared."""
+    return LabelledResults(arrays=partial(array_variables, kind), names=DeclaredNames(kind, OF_ALL_SCENES))
 
 
-def with_summary(arrays: xarray.Dataset, summary: Summary, names: SummaryNames) -> xarray.Dataset:
+def complete_variables(arrays: Iterable[Variable], summary: Summary, names: Naming) -> list[Variable]:
     """Return labelled arrays with the summary: its values as variables, and its whole text.
 
     Args:
         arrays: of the kind of scene.
         summary: content of ``summary.json``.
-        names: of its tables.
+        names: of the variables of the summary.
     """
-    import xarray
-
     content = json_ready(summary)
-    # The scene is in the text only.
-    told = {key: value for key, value in content.items() if key not in ("scene", "status")}
-    told |= {key: told.pop(key) for key in _BOOKKEEPING if key in told}
-    text = xarray.Variable((), json.dumps(content, ensure_ascii=False), {"long_name": "content of summary.json"})
-    dataset = xarray.merge([arrays, summary_variables(told, names)], join="exact", compat="no_conflicts")
-    return dataset.assign({SUMMARY_TEXT: text}).assign_attrs(
-        Conventions="CF-1.8",
-        title=content["scene"]["title"],
-        source=f"hydroelastic {content['versions']['hydroelastic']}",
-        status=content["status"],
-        **arrays.attrs,
+    told = {key: value for key, value in content.items() if key not in _NO_VARIABLES}
+    text = Variable(
+        name=SUMMARY_TEXT,
+        dimensions=(),
+        values=np.array(json.dumps(content, ensure_ascii=False)),
+        attributes={"long_name": "content of summary.json"},
     )
+    return merged(arrays, summary_variables(told, names), [text])
 
 
-def write_dataset(dataset: xarray.Dataset, path: Path) -> None:
-    """Write a dataset as NetCDF 3, which every reader of NetCDF knows and SciPy alone can read and write, in its order.
+def global_attributes(summary: Summary) -> dict[str, str]:
+    """Return the attributes of a dataset as a whole."""
+    return {
+        "Conventions": "CF-1.8",
+        "title": summary["scene"]["title"],
+        "source": f"hydroelastic {summary['versions']['hydroelastic']}",
+        "status": summary["status"],
+    }
 
-    Complex numbers become a leading dimension `complex` of "re" and "im", as Capytaine writes them. Empty arrays, which
-    this format does not have, are left out.
+
+def write_dataset(path: Path, variables: Iterable[Variable], attributes: Mapping[str, Any]) -> None:
+    """Write a dataset as NetCDF 3, which every reader of NetCDF knows and SciPy alone can read and write.
+
+    Complex numbers become a leading dimension `complex` of "re" and "im", as Capytaine writes them. Texts and truth
+    values are written as xarray does, which reads them back. Empty arrays, which this format does not have, are left
+    out.
+
+    Raises:
+        ValueError: if two arrays have different lengths along the same dimension.
     """
-    filled = dataset.drop_dims([name for name, size in dataset.sizes.items() if size == 0])
-    _without_complex_numbers(filled).to_netcdf(path, engine="scipy", format="NETCDF3_64BIT")
+    from scipy.io import netcdf_file
+
+    found = [separate_parts(variable) for variable in variables if variable.values.size]
+    if any("complex" in variable.dimensions for variable in found):
+        found = merged(found, [PARTS])
+    further = [variable.name for variable in found if variable.is_coordinate]
+    sizes: dict[str, int] = {}
+    with netcdf_file(path, "w", version=2) as file:
+        for name, text in (attributes | ({"coordinates": " ".join(further)} if further else {})).items():
+            setattr(file, name, _attribute(text))
+        for variable in found:
+            values, dimensions, coding = _stored(variable)
+            for name, size in zip(dimensions, values.shape, strict=True):
+                if sizes.setdefault(name, size) != size:
+                    raise ValueError(f"{variable.name} has {size} values along {name}, others have {sizes[name]}")
+                if name not in file.dimensions:
+                    file.createDimension(name, size)
+            stored = file.createVariable(variable.name, values.dtype, dimensions)
+            stored.data[...] = values
+            for name, value in (variable.attributes | coding).items():
+                setattr(stored, name, _attribute(value))
+
+
+def _stored(variable: Variable) -> tuple[np.ndarray[Any, Any], tuple[str, ...], dict[str, str]]:
+    """Values in a type of NetCDF 3, their dimensions, and attributes by which xarray reads the type."""
+    values = np.asarray(variable.values)
+    if values.dtype.kind in "UO":
+        signs = np.char.encode(values.astype(np.str_), "utf-8")
+        length = max(signs.dtype.itemsize, 1)
+        signs = np.ascontiguousarray(signs).reshape(values.shape).astype(f"S{length}")
+        cut = np.frombuffer(signs.tobytes(), dtype="S1").reshape(*values.shape, length)
+        return cut, (*variable.dimensions, f"string{length}"), {"_Encoding": "utf-8"}
+    if values.dtype.kind == "b":
+        return values.astype(np.int8), variable.dimensions, {"dtype": "bool"}
+    return values.astype(np.int32 if values.dtype.kind in "iu" else np.float64), variable.dimensions, {}
+
+
+def _attribute(value: Any) -> Any:
+    """An attribute in a type of NetCDF 3."""
+    if isinstance(value, str):
+        return value.encode()
+    return np.atleast_1d(np.asarray(value, dtype=np.int32 if isinstance(value, int) else np.float64))
 
 
 def read_dataset(path: Path) -> tuple[xarray.Dataset, Summary]:
@@ -110,19 +144,8 @@ def read_dataset(path: Path) -> tuple[xarray.Dataset, Summary]:
         FileNotFoundError: if there is no such file.
         KeyError: if it holds no summary.
     """
+    # xarray takes a while to import.
     import xarray
 
     dataset = xarray.load_dataset(path, engine="scipy")
     return dataset, json.loads(str(dataset[SUMMARY_TEXT].values))
-
-
-def _without_complex_numbers(dataset: xarray.Dataset) -> xarray.Dataset:
-    import xarray
-
-    separated = dataset.copy()
-    for name, values in dataset.data_vars.items():
-        if np.iscomplexobj(values):
-            # Values that were not computed are NaN in both parts.
-            parts = xarray.concat([values.real, values.imag], dim="complex").where(values.notnull())
-            separated[name] = parts.assign_coords(complex=["re", "im"]).assign_attrs(values.attrs)
-    return separated

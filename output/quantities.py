@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import KW_ONLY, dataclass
-from operator import attrgetter
 from typing import Any, TypeAlias
 
 from hydroelastic.output.digits import number, with_certain_digits
@@ -58,6 +57,10 @@ class Quantity:
     def of(self, record: Any) -> Any:
         """Return the value of a record."""
         return _taken(self.key, self.value, record)
+
+    def is_missing(self, record: Any) -> bool:
+        """Return whether a record, a mapping, lacks the key."""
+        return self.value is None and isinstance(record, Mapping) and self.key not in record
 
     @property
     def unit_text(self) -> str:
@@ -147,16 +150,24 @@ class Group:
         """The groups within."""
         return tuple(part for part in self.parts if isinstance(part, Group))
 
+    def is_missing(self, record: Any) -> bool:
+        """Return whether a record, a mapping, lacks the key."""
+        return self.record is None and isinstance(record, Mapping) and self.key not in record
+
     def of(self, record: Any) -> Any:
         """Return the record or records of the group, from the record of the group around it."""
         return _taken(self.key, self.record, record)
 
     def evaluated(self, record: Any) -> Values:
-        """Return the values of the quantities in ``summary.json``, by key, of one record of the group itself."""
+        """Return the values of the quantities in ``summary.json``, by key.
+
+        Args:
+            record: one record of the group itself. What a mapping lacks is left out.
+        """
         return {
             part.key: _evaluated(part, record)
             for part in self.parts
-            if isinstance(part, Group) or part.in_summary
+            if (isinstance(part, Group) or part.in_summary) and not part.is_missing(record)
         }
 
     def places(self, place: str = "", prefix: str = "") -> Iterator[tuple[str, str, Quantity | Group]]:
@@ -176,7 +187,9 @@ class Group:
 
 
 def _taken(key: str, function: Callable[[Any], Any] | None, record: Any) -> Any:
-    return attrgetter(key)(record) if function is None else function(record)
+    if function is not None:
+        return function(record)
+    return record[key] if isinstance(record, Mapping) else getattr(record, key)
 
 
 def _evaluated(part: Quantity | Group, record: Any) -> Any:

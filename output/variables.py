@@ -40,7 +40,7 @@ def array_variables(group: Group, record: Any) -> list[Variable]:
     """Return the arrays that only ``dataset.nc`` has, of a group and of all groups within.
 
     Of a list of records each has arrays of its own: from the second on, their names, and those of their dimensions
-    which the groups around do not declare, end in the number of the record. Labels along unused dimensions are left out.
+    which the groups around do not declare, end in the number of the record. Labels of unused dimensions are left out.
 
     Args:
         group: of declared quantities.
@@ -63,7 +63,9 @@ def _arrays(group: Group, record: Any, shared: frozenset[str], place: int) -> It
             attributes=attributes,
         )
     # Names along dimensions that all records of the solution share.
-    shared |= {quantity.key for quantity in group.arrays if quantity.dimensions == (quantity.key,)} if not place else set()
+    shared |= (
+        {quantity.key for quantity in group.arrays if quantity.dimensions == (quantity.key,)} if not place else set()
+    )
     for inner in group.groups:
         found = inner.of(record)
         records = [] if found is None else found if inner.dimension else [found]

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from hydroelastic.fem.thread.stability import Stability
 
 THREAD_NAMES = SummaryNames(
-    dimensions={
+    by_place={
         "equilibrium.end_positions": ("end", "axis"),
         "equilibrium.end_tensions": ("end",),
         "equilibrium.newton_steps": ("newton_mesh",),

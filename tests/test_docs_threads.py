@@ -8,9 +8,9 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 
+from hydroelastic.output.outcome import Outcome
 from hydroelastic.scenes.kinds import runner_of
 from hydroelastic.scenes.models.thread import ThreadScene
-from hydroelastic.scenes.output.outcome import Outcome
 from hydroelastic.scenes.read import read_scene, shipped_scenes
 from hydroelastic.scenes.thread.dataset import thread_dataset
 

@@ -15,9 +15,9 @@ from open_tables import CIRCLE, DEEP, FROM_BOTH_SIDES, OIL, arbitrary_solution, 
 
 from hydroelastic.fem.open_water.radiation import solve_radiation
 from hydroelastic.fem.open_water.response import solve_response
+from hydroelastic.output.dataset import write_dataset
 from hydroelastic.scenes.models.open_analyses import Radiation, Response
 from hydroelastic.scenes.open_water.dataset import open_dataset
-from hydroelastic.scenes.output.dataset import write_dataset
 
 
 @pytest.fixture

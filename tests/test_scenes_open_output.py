@@ -22,7 +22,10 @@ from mpi4py import MPI
 from open_tables import ANALYSES, FROM_BOTH_SIDES, arbitrary_solution, open_scene, two_bodies
 from scene_files import CIRCLE_IN_OPEN_WATER
 
+from hydroelastic.output.dataset import write_dataset
 from hydroelastic.output.pictures.options import PictureOptions
+from hydroelastic.output.provenance import Summary
+from hydroelastic.output.sections import markdown_sections, printed_sections
 from hydroelastic.scenes.command_line import main
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.models.tank import TankScene
@@ -32,9 +35,6 @@ from hydroelastic.scenes.open_water.figures import draw_open
 from hydroelastic.scenes.open_water.results import OpenSolution
 from hydroelastic.scenes.open_water.summary import json_ready, summarize_open
 from hydroelastic.scenes.open_water.tables import open_cost, open_sections
-from hydroelastic.scenes.output.dataset import write_dataset
-from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.output.sections import markdown_sections, printed_sections
 from hydroelastic.scenes.run import run_scene
 from hydroelastic.scenes.study.run import study_scene
 from hydroelastic.scenes.tank.run import compare_tank

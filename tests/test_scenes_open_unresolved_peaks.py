@@ -8,13 +8,13 @@ from mpi4py import MPI
 from open_tables import open_scene
 
 from hydroelastic.fem.open_water.results import UnresolvedPeak
+from hydroelastic.output.summary_variables import summary_variables
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.dataset import OPEN_NAMES
 from hydroelastic.scenes.open_water.results import OpenSolution
 from hydroelastic.scenes.open_water.solve import solve_open
 from hydroelastic.scenes.open_water.summary import summarize_open
 from hydroelastic.scenes.open_water.tables import open_sections
-from hydroelastic.scenes.output.summary_variables import summary_variables
 
 BARGE = {
     "kind": "float",

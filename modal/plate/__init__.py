@@ -1,1 +1,1 @@
-"""Dry modes of thin plates: closed polynomials in rectangles, discs and rings."""
+"""Plates: dry modes, closed forms and estimates."""

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import degrees
 
-from hydroelastic.scenes.output.digits import counted, number, with_certain_digits
-from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.output.sections import Section
-from hydroelastic.scenes.roll.summary import LINEAR_UP_TO
+from hydroelastic.output.digits import counted
+from hydroelastic.output.provenance import Summary
+from hydroelastic.output.quantity_tables import columns, headings, listed
+from hydroelastic.output.roll.quantities import EXCEEDANCES, FREE_DECAY, LINEAR_UP_TO, RESPONSE, SECTION, SHIP
+from hydroelastic.output.sections import Section
 
 
 def roll_sections(summary: Summary) -> Iterator[Section]:
@@ -22,59 +23,28 @@ def roll_sections(summary: Summary) -> Iterator[Section]:
 
 
 def _section(section: Summary) -> Section:
-    rows = [
-        ("natural frequency k, rad/s", with_certain_digits(section["natural_frequency"], section["relative_error"])),
-        ("stiffness, N", number(section["stiffness"])),
-        ("inertia of the body, kg·m", number(section["inertia"])),
-        ("added inertia, kg·m", number(section["added_inertia"])),
-        ("wave damping, kg·m/s", number(section["wave_damping"])),
-        ("damping by waves n, 1/s", number(section["damping"])),
-        ("estimated error, of the whole inertia", f"{section['relative_error']:.1e}"),
-    ]
     followers = " and ".join(section["followers"])
     return Section(
         title=f"Section: {section['title'] or 'untitled'}, per metre of length",
         headings=("roll", "value"),
-        rows=rows,
+        rows=listed(SECTION, section),
         lines=(f"The section is free to follow its roll in {followers}: no force acts on it there.",) * bool(followers),
     )
 
 
 def _ship(summary: Summary) -> Section:
     ship, decay = summary["ship"], summary["free_decay"]
-    rows = [
-        ("natural period 2π/k, s", number(ship["natural_period"])),
-        ("natural frequency k, rad/s", number(ship["natural_frequency"])),
-        ("damping n, 1/s", number(ship["damping"])),
-        ("damping ratio n/k", f"{number(ship['damping_ratio'])}, {ship['regime']}"),
-    ]
-    if ship["quadratic_damping"]:
-        rows.append(("quadratic damping d, 1/rad", number(ship["quadratic_damping"])))
+    rows = listed(SHIP, {key: value for key, value in ship.items() if key != "quadratic_damping" or value})
     if decay is not None and ship["damping"]:
-        rows += [
-            ("period of free motion, s", number(decay["period"])),
-            ("logarithmic decrement", number(decay["logarithmic_decrement"])),
-            ("ratio of successive swings", number(decay["ratio_of_swings"])),
-        ]
+        rows += listed(FREE_DECAY, decay)
     return Section(title="Ship", headings=("quantity", "value"), rows=rows)
 
 
 def _response(response: Summary) -> Section:
-    # Angles are rounded for reading; summary.json has all digits.
-    error = max(response["relative_error"], 1e-6)
-    rows = [
-        ("largest angle, rad", with_certain_digits(response["largest_angle"], error)),
-        ("largest angle, degrees", with_certain_digits(response["largest_angle_degrees"], error)),
-        ("at, s", number(response["time_of_largest_angle"])),
-        ("root mean square, rad", number(response["root_mean_square"])),
-        ("swings", str(response["swings"])),
-        ("mean of the largest third of swings, rad", number(response["significant_angle"])),
-        ("estimated error of the angle, of the largest", f"{response['relative_error']:.1e}"),
-    ]
     waves = response["waves"]
     title = f"Motion {'on ' + counted(waves, 'wave') if waves else 'in calm water'}, until {response['until']:.6g} s"
     lines = () if response["restoring_is_linear"] else (_beyond_linear(response),)
-    return Section(title=title, headings=("quantity", "value"), rows=rows, lines=lines)
+    return Section(title=title, headings=("quantity", "value"), rows=listed(RESPONSE, response), lines=lines)
 
 
 def _beyond_linear(response: Summary) -> str:
@@ -86,10 +56,14 @@ def _beyond_linear(response: Summary) -> str:
 
 
 def _exceedances(response: Summary) -> Section:
+    level, swings = headings(EXCEEDANCES)
     rows = [
-        (number(row["level"]), f"{degrees(row['level']):.4g}", str(row["swings"])) for row in response["exceedances"]
+        (cell, f"{degrees(entry['level']):.4g}", count)
+        for entry, (cell, count) in zip(
+            response["exceedances"], columns(EXCEEDANCES, response["exceedances"]), strict=True
+        )
     ]
-    return Section(title="Exceedances", headings=("level, rad", "level, degrees", "swings above it"), rows=rows)
+    return Section(title="Exceedances", headings=(level, "level, degrees", swings), rows=rows)
 
 
 def roll_cost(summary: Summary) -> str:

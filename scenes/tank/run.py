@@ -13,15 +13,15 @@ from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.fem.tank.solve import TankSolution
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.modal.tank_estimates import tone_estimates
+from hydroelastic.output.dataset import LabelledResults
+from hydroelastic.output.outcome import Outcome
 from hydroelastic.output.pictures.options import OF_FIELDS, OF_MOTIONS, PictureOptions
+from hydroelastic.output.provenance import Summary
 from hydroelastic.scenes.errors import UnsolvedError
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.output.dataset import LabelledResults
-from hydroelastic.scenes.output.outcome import Outcome
-from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.output.staged_run import StagedRun
 from hydroelastic.scenes.read import closed_tank
+from hydroelastic.scenes.staged_run import StagedRun
 from hydroelastic.scenes.tank.check_hints import draughts_left_out
 from hydroelastic.scenes.tank.dataset import TANK_NAMES, tank_dataset
 from hydroelastic.scenes.tank.solve import EstimatedTank, solve_scene

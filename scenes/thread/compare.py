@@ -5,8 +5,8 @@ from __future__ import annotations
 from mpi4py import MPI
 
 from hydroelastic.fem.stopwatch import Report
+from hydroelastic.output.outcome import Outcome
 from hydroelastic.scenes.models.thread import ThreadScene
-from hydroelastic.scenes.output.outcome import Outcome
 from hydroelastic.scenes.thread.comparison_tables import comparison_sections
 from hydroelastic.scenes.thread.differences import thread_differences
 from hydroelastic.scenes.thread.estimates import thread_estimates

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hydroelastic.fem.thread.motion_in_space import MotionInSpace
-from hydroelastic.scenes.output.dataset import Labelled, labelled
-from hydroelastic.scenes.output.summary_variables import SummaryNames
+from hydroelastic.output.dataset import Labelled, labelled
+from hydroelastic.output.summary_variables import SummaryNames
 from hydroelastic.scenes.thread.files import numbered
 from hydroelastic.scenes.thread.results import ThreadSolutionOfScene
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from hydroelastic.fem.thread.stability import Stability
 
 THREAD_NAMES = SummaryNames(
-    dimensions={
+    by_place={
         "equilibrium.end_positions": ("end", "axis"),
         "equilibrium.end_tensions": ("end",),
         "equilibrium.newton_steps": ("newton_mesh",),

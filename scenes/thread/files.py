@@ -9,7 +9,7 @@ import numpy as np
 
 from hydroelastic.fem.thread.modes import Roots
 from hydroelastic.fem.thread.motion_in_space import MotionInSpace
-from hydroelastic.scenes.output.line_sequence import Frame, frame_numbers, write_line, write_sequence
+from hydroelastic.output.line_sequence import Frame, frame_numbers, write_line, write_sequence
 from hydroelastic.scenes.thread.results import Floats, ThreadSolutionOfScene
 
 SHAPE_COLUMNS = ("s", "x", "y", "z", "tension", "force_x", "force_y", "force_z", "curvature")

@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from hydroelastic.fem.stopwatch import Report
+from hydroelastic.output.dataset import LabelledResults
 from hydroelastic.output.pictures.options import OF_CURVES, OF_FIELDS, OF_MOTIONS, PictureOptions
-from hydroelastic.scenes.output.dataset import LabelledResults
-from hydroelastic.scenes.output.staged_run import StagedRun
+from hydroelastic.scenes.staged_run import StagedRun
 from hydroelastic.scenes.thread.animation import animation_notes
 from hydroelastic.scenes.thread.dataset import THREAD_NAMES, thread_dataset
 from hydroelastic.scenes.thread.files import write_thread_files

@@ -10,7 +10,7 @@ import numpy as np
 from hydroelastic.fem.thread.modes import Roots, ThreadModes
 from hydroelastic.fem.thread.motion_in_space import MotionInSpace
 from hydroelastic.fem.thread.stability import Stability
-from hydroelastic.scenes.output.provenance import Summary, complete_summary
+from hydroelastic.output.provenance import Summary, complete_summary
 from hydroelastic.scenes.thread.results import ThreadSolutionOfScene
 
 if TYPE_CHECKING:

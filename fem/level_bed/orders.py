@@ -1,0 +1,154 @@
+"""The lowest modes of all orders of an upright tank at one resolution.
+
+Orders are solved until no lower frequency can come. With ‖·‖ over the surfaces, k_n the lowest wavenumber of an order and
+κ_n that of a plate's dry modes,
+
+    K ≥ Σ_plates (D κ_n⁴ + sρg)‖w‖² + ρg‖η‖²,    M ≤ Σ_plates (m + ρ/(k_n tanh k_nH))‖w‖² + ρ/(k_n tanh k_nH) ‖η‖²
+
+so that λ is at least the smallest quotient of both, (D κ_n⁴ + sρg)/(m + ρ/(k_n tanh k_nH)) and g k_n tanh k_nH, for n ≥ 2,
+where no plate moves as a rigid body. Both rise with n.
+"""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass
+from math import inf, tanh
+
+import numpy as np
+
+from hydroelastic.fem.level_bed.line import Line
+from hydroelastic.fem.level_bed.order_problem import LineLiquid, order_pencil
+from hydroelastic.fem.level_bed.resolution import LineResolution, line_nodes
+from hydroelastic.fem.level_bed.separation import Separation
+from hydroelastic.fem.modes import ModeSet, solve_modes
+from hydroelastic.fem.pencil import CoupledPencil
+from hydroelastic.modal.plate.line_modes import LineModes, PlateLine, dry_modes
+from hydroelastic.physics.level_tank import LevelTank
+from hydroelastic.physics.plate import Edge
+from hydroelastic.physics.tank import ROUND_OFF
+
+# Orders from which no plate has a rigid motion.
+_ELASTIC = 2
+# Dry modes that give the lowest one of an order to rounding.
+_FEW = 12
+
+
+@dataclass(frozen=True, kw_only=True)
+class OrderSolution:
+    """The modes of one order.
+
+    Attributes:
+        order: n.
+        pencil: its problem.
+        modes: its lowest modes, at unit generalized mass.
+        shapes: dry modes of the plates that move in it, by their index.
+    """
+
+    order: int
+    pencil: CoupledPencil[LineLiquid]
+    modes: ModeSet
+    shapes: dict[int, LineModes]
+
+    def body_of(self, plate: int) -> int | None:
+        """Return the place of a plate among the bodies of the problem, if it moves in it."""
+        return list(self.shapes).index(plate) if plate in self.shapes else None
+
+
+def plate_line(tank: LevelTank, separation: Separation, index: int, order: int) -> PlateLine:
+    """Return a plate of a tank on the line of an order."""
+    plate, (start, end) = tank.plates[index], separation.places[index]
+
+    def held(place: float) -> Edge:
+        on_wall = min(abs(place - separation.start), abs(place - separation.end)) <= ROUND_OFF
+        return plate.edge if on_wall else "free"
+
+    return PlateLine(
+        start=start,
+        end=end,
+        round=separation.round,
+        transverse=separation.transverse(order),
+        poisson_ratio=plate.poisson_ratio,
+        edges=(held(start), held(end)),
+    )
+
+
+def plate_shapes(tank: LevelTank, separation: Separation, order: int, counts: tuple[int, ...]) -> dict[int, LineModes]:
+    """Return the dry modes of each plate that moves in an order, by its index; a rigid one has its rigid motions."""
+    found = {}
+    for index, plate in enumerate(tank.plates):
+        line = plate_line(tank, separation, index, order)
+        count = counts[index] if plate.is_elastic else line.rigid_count
+        if count:
+            found[index] = dry_modes(line, count)
+    return found
+
+
+def lower_bound(tank: LevelTank, separation: Separation, order: int) -> float:
+    """Return a λ below which an order has no mode; −∞ of those in which a plate may move as a rigid body."""
+    if order < _ELASTIC:
+        return -inf
+    least = separation.least_wavenumber(order)
+    water = 1.0 / (least * tanh(least * tank.depth))
+    bounds = [1.0 / water] if has_waves(tank, separation) else []
+    for index, plate in enumerate(tank.plates):
+        if plate.is_elastic:
+            dry = dry_modes(plate_line(tank, separation, index, order), _FEW).eigenvalues[0]
+            stiffness = plate.flexural_rigidity * float(dry) + float(plate.hydrostatic)
+            bounds.append(stiffness / (plate.mass_per_area + water))
+    return min(bounds, default=inf)
+
+
+def order_problem(
+    tank: LevelTank, separation: Separation, resolution: LineResolution, order: int, *, pressure_release: bool = False
+) -> tuple[CoupledPencil[LineLiquid], dict[int, LineModes]] | None:
+    """Return the problem of an order and the shapes of its plates; ``None`` where nothing moves in it."""
+    shapes = plate_shapes(tank, separation, order, resolution.shapes)
+    if not shapes and (pressure_release or not has_waves(tank, separation)):
+        return None
+    nodes = line_nodes(separation, resolution, tank.depth)
+    line = Line(nodes=nodes, degree=resolution.degree, separation=separation, order=order)
+    return order_pencil(tank, line, shapes, pressure_release=pressure_release), shapes
+
+
+def has_waves(tank: LevelTank, separation: Separation) -> bool:
+    """Whether the plates leave part of a free surface open."""
+    covered = sum(end - start for start, end in separation.places)
+    return tank.top == "free" and covered < separation.end - separation.start - ROUND_OFF
+
+
+def solve_order(
+    tank: LevelTank, separation: Separation, resolution: LineResolution, order: int, count: int
+) -> OrderSolution | None:
+    """Return the lowest modes of an order; ``None`` where nothing moves in it."""
+    problem = order_problem(tank, separation, resolution, order)
+    if problem is None:
+        return None
+    pencil, shapes = problem
+    return OrderSolution(order=order, pencil=pencil, modes=solve_modes(pencil, count, shapes=0), shapes=shapes)
+
+
+def solve_orders(
+    tank: LevelTank, separation: Separation, resolution: LineResolution, count: int, counts: dict[int, int]
+) -> tuple[OrderSolution, ...]:
+    """Solve order after order, until as many modes are found as are wanted, and no order can have a lower one.
+
+    Args:
+        tank: the dimensionless tank.
+        separation: its orders.
+        resolution: of the lines.
+        count: number of modes of all orders together; each order is solved for as many.
+        counts: least number of modes of some orders.
+    """
+    found: list[OrderSolution] = []
+    values = np.empty(0)
+    required = max(counts, default=0)
+    for order in itertools.count():
+        highest = values[count - 1] if len(values) >= count else inf
+        if order > required and lower_bound(tank, separation, order) >= highest:
+            return tuple(found)
+        solved = solve_order(tank, separation, resolution, order, max(count, counts.get(order, 0)))
+        if solved is not None:
+            found.append(solved)
+            values = np.sort(np.concatenate([values, solved.modes.eigenvalues]))
+    raise AssertionError("the count has no end")

@@ -200,7 +200,7 @@ def plan_mesh(
         thick = min(thickness, room)
         steps = np.zeros(0) if is_wall else thick * RATIO ** np.arange(layers)
         names = [plates[0].name] if covered else [wall.name, *(p.name for p in plates if loop in (p.outside, *p.inside))]
-        places = loop.places(min(map(size, names)), 0.0 if is_wall else thick, 0 if is_wall else max(layers - 1, 1))
+        places = loop.places(min(map(size, names)), 0.0 if is_wall else thick, 0 if is_wall else max(layers - 2, 1))
         distances = np.concatenate([-steps, [0.0], steps[::-1]])
         bands[id(loop)] = _Band(loop=loop, places=places, distances=distances, first=count)
         count += len(places) * len(distances)

@@ -13,8 +13,8 @@ from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.box_pencil import BoxLiquid, box_pencil, plate_loads, water_columns, water_masses
 from hydroelastic.fem.plan.box_resolution import BoxResolution, axis_space, box_resolution
 from hydroelastic.fem.plan.classes import ClassModes, SymmetryClass, count_is_confirmed, solve_classes
+from hydroelastic.fem.plan.truncation import rectangle_energies
 from hydroelastic.fem.plan.rectangle_body import AxisParity, ClassParity, RectangleBody, rectangle_body
-from hydroelastic.modal.plate.rectangle import bending_energies
 from hydroelastic.physics.level_tank import Box, LevelTank
 from hydroelastic.physics.plate import Rectangle
 from hydroelastic.physics.tank import ROUND_OFF
@@ -22,11 +22,6 @@ from hydroelastic.physics.tank import ROUND_OFF
 _MOST_ATTEMPTS = 6
 # Measured: the finer answer shows 0.98 to 1 of the error.
 _SAFETY = 1.3
-# Of the energy in the last polynomials, the part that the others do not take over if they are left out; measured: 1/13 to
-# 1/18.
-_REARRANGED = 0.25
-# Slowest decay of the energy with two more polynomials along each side.
-_SLOWEST = 0.6
 # Relative rounding of frequencies, measured.
 _ROUNDING = 3e-13
 
@@ -192,25 +187,12 @@ def _liquid_errors(
 
 
 def _plate_errors(bodies: tuple[RectangleBody, ...], modes: list[Mode]) -> np.ndarray:
-    """Relative error of ω from the energy of the plates in their last two polynomials along each side."""
+    """Relative error of ω from the energy that the plates' polynomials lack."""
     errors = np.zeros(len(modes))
     first = 0
     for body in bodies:
         last = first + body.body.size
-        if body.plate.is_elastic and last > first:
-            amplitudes = np.array([mode.body_amplitudes[first:last] for mode in modes]).reshape(len(modes), -1)
-            table = np.einsum("ks,smn->kmn", amplitudes, body.coefficients)
-            last_parts, before = (_energies_beyond(body, table, dropped) for dropped in (2, 4))
-            # The parts fall like a geometric series, or slower where the corners of the plate are felt.
-            decay = np.minimum(last_parts / np.maximum(before - last_parts, np.finfo(float).tiny), _SLOWEST)
-            errors += 0.5 * _REARRANGED * last_parts * decay / (1.0 - decay) / np.array([mode.eigenvalue for mode in modes])
+        amplitudes = np.array([mode.body_amplitudes[first:last] for mode in modes]).reshape(len(modes), -1)
+        errors += rectangle_energies(body, amplitudes)
         first = last
-    return errors
-
-
-def _energies_beyond(body: RectangleBody, table: np.ndarray, dropped: int) -> np.ndarray:
-    """Strain energy in the last polynomials along either side, shape (modes,)."""
-    rest = table.copy()
-    rest[:, : table.shape[1] - dropped, : table.shape[2] - dropped] = 0.0
-    energies = bending_energies(body.outline.size, body.plate.poisson_ratio, rest)
-    return energies * body.part * body.plate.flexural_rigidity
+    return 0.5 * errors / np.array([mode.eigenvalue for mode in modes])

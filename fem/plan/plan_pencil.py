@@ -42,12 +42,15 @@ class PlanPlate:
     Attributes:
         body: the body.
         deflection: its shapes.
-        wavenumber: a quadrature that resolves waves as short as this is exact for them to rounding.
+        wavenumber: of its shortest shape.
+        missing_energy: from the amplitudes of the shapes in some modes (modes, shapes), an estimate of the energy that
+            the shapes left out would have, shape (modes,).
     """
 
     body: Body
     deflection: Deflection
     wavenumber: float
+    missing_energy: Callable[[NDArray[np.float64]], NDArray[np.float64]]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,7 +85,7 @@ class PlanSpace:
         sizes = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
         loads = np.zeros((plate.body.size, self.size))
         # Cells in the layers need fewer points than the longest ones.
-        orders = degree + _SPARE_DEGREES + 2 * np.ceil(0.6 * plate.wavenumber * sizes).astype(int)
+        orders = degree + _SPARE_DEGREES + 2 * np.ceil(0.5 * plate.wavenumber * sizes).astype(int)
         for order in np.unique(orders):
             chosen = cells[orders == order]
             reference, weights = basix.make_quadrature(basix.CellType.triangle, int(order))
@@ -100,7 +103,7 @@ class PlanSpace:
 
 
 # Degrees of the quadrature beyond that of ψ.
-_SPARE_DEGREES = 10
+_SPARE_DEGREES = 8
 
 
 def plan_space(tank: TankMesh, degree: int) -> PlanSpace:

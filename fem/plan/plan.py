@@ -13,7 +13,7 @@ from hydroelastic.fem.modes import Mode
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.box_resolution import expected_eigenvalue, plate_wavenumber, water_wavenumber
 from hydroelastic.fem.plan.classes import ClassModes, count_is_confirmed, solve_classes
-from hydroelastic.fem.plan.plan_errors import liquid_errors, pole_errors
+from hydroelastic.fem.plan.plan_errors import liquid_and_pole_errors
 from hydroelastic.fem.plan.plan_pencil import PlanPlate, PlanSpace, plan_pencil, plan_space, stacked_pencil
 from hydroelastic.fem.plan.plates import anticlockwise, plan_plate
 from hydroelastic.fem.tank.resolution import radians
@@ -34,6 +34,9 @@ _OF_PLAN = 0.25
 # The decay of gradients alone shows about half of a pole's energy, whose other part is d ∫(ψ_j)².
 _WITH_MASS = 2.0
 _ROUNDING = 1e-12
+# The lowest wavenumber of a convex plan is π over its diameter at least (Payne and Weinberger 1960), 2.2 in a square of unit
+# length; a half of that, for other plans.
+_LOWEST = 0.5 * pi / sqrt(2.0)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -163,9 +166,10 @@ def solve_plan(tank: LevelTank, *, tolerance: float, count: int, comm: MPI.Comm 
         pencil = plan_pencil(space, poles, plates, waves=tank.top == "free", comm=processes)
         modes = solve_classes({(None, None): pencil}, count + 1)
         found = [modes.completed(index) for index in range(len(modes.eigenvalues))]
+        gradients, missing = liquid_and_pole_errors(pencil, found, tank.depth, _LOWEST)
         errors = PlanErrors(
-            liquid=0.5 * _WITH_MASS * liquid_errors(pencil, found),
-            poles=0.5 * pole_errors(pencil, found),
+            liquid=0.5 * _WITH_MASS * gradients,
+            poles=0.5 * missing,
             plates=_plate_errors(plates, found),
         )
 
@@ -207,7 +211,7 @@ def plan_resolution(tank: LevelTank, tolerance: float, count: int) -> PlanResolu
         degree=degree,
         size=min(1.3 * radians(degree, tolerance) / shortest, _OF_PLAN),
         layers=min(max(ceil(digits / 1.4 - 1.7), 1), MOST_LAYERS - 2),
-        pole_error=0.4 * tolerance,
+        pole_error=2.0 * tolerance,
         wavenumber=max(shortest, 3.0),
         polynomials=tuple(
             min(ceil(1.1 * wavenumber * _extent(plate) / pi + 1.2 * digits) + 4, MOST_POLYNOMIALS)
@@ -241,8 +245,7 @@ def _parts(tank: LevelTank, resolution: PlanResolution) -> tuple[PlanSpace, tupl
     bodies = tuple(
         plan_plate(tank, index, polynomials) for index, polynomials in enumerate(resolution.polynomials)
     )
-    # Payne and Weinberger: the lowest wavenumber of a convex plan is π over its diameter at least; a half of that here.
-    poles = vertical_poles(tank.depth, resolution.wavenumber, resolution.pole_error, lowest=0.5 * pi / sqrt(2.0))
+    poles = vertical_poles(tank.depth, resolution.wavenumber, resolution.pole_error, lowest=_LOWEST)
     return space, bodies, poles
 
 

@@ -117,7 +117,7 @@ def _disc(tank: LevelTank, index: int, disc: Disc, polynomials: int) -> PlanPlat
             poisson_ratio=plate.poisson_ratio,
             edges=edges,
         )
-        count = max(ceil(0.5 * (polynomials - 0.5 * order)), 3) if plate.is_elastic else line.rigid_count
+        count = max(ceil(0.5 * (polynomials - 0.5 * order)) + 1, 5) if plate.is_elastic else line.rigid_count
         count += 2 if disc.inner_radius and plate.is_elastic else 0
         if count:
             modes = dry_modes(line, count)
@@ -148,7 +148,7 @@ def _disc(tank: LevelTank, index: int, disc: Disc, polynomials: int) -> PlanPlat
         body=body,
         deflection=shapes,
         wavenumber=0.8 * polynomials / disc.radius,
-        missing_energy=partial(_disc_tail, body, tuple(order for order, _ in orders), tuple(modes.count for modes in families)),
+        missing_energy=partial(_disc_tail, body, shapes),
     )
 
 
@@ -161,21 +161,28 @@ def _covers(tank: LevelTank, disc: Disc) -> bool:
 
 
 def _disc_tail(
-    body: Body, orders: tuple[int, ...], counts: tuple[int, ...], amplitudes: NDArray[np.float64]
+    body: Body, shapes: _DiscShapes, amplitudes: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Energy of the orders and radial shapes left out, from those of the last ones."""
+    """Energy of the orders and radial polynomials left out, from that of the last ones."""
     energies = body.bending_stiffness * amplitudes**2
-    highest = max(orders)
-    of_order = np.zeros((len(amplitudes), highest + 1))
+    rigid_free = body.bending_stiffness > 0.0
+    of_order = np.zeros((len(amplitudes), max(order for order, _ in shapes.orders) + 1))
     radial = np.zeros(len(amplitudes))
     first = 0
-    for order, count in zip(orders, counts, strict=True):
-        own = energies[:, first : first + count]
-        of_order[:, order] += own.sum(axis=1)
-        radial += geometric_tail(own[:, -1], own[:, -2]) if count > 1 else 0.0
-        first += count
-    last = of_order[:, -2:].sum(axis=1)
-    return radial + geometric_tail(last, of_order[:, -4:-2].sum(axis=1))
+    for (order, _), modes in zip(shapes.orders, shapes.families, strict=True):
+        own = slice(first, first + modes.count)
+        of_order[:, order] += energies[:, own].sum(axis=1)
+        if rigid_free[own].any():
+            # From dry modes back to the polynomials, by ascending degree.
+            inverse = np.linalg.pinv(modes.coefficients)
+            parts = amplitudes[:, own] @ modes.coefficients.T
+            stiffness = (inverse.T * body.bending_stiffness[own]) @ inverse
+            last, before = (
+                ((parts[:, -kept:] @ stiffness[-kept:, -kept:]) * parts[:, -kept:]).sum(axis=1) for kept in (1, 2)
+            )
+            radial += geometric_tail(last, before - last)
+        first += modes.count
+    return radial + geometric_tail(of_order[:, -2:].sum(axis=1), of_order[:, -4:-2].sum(axis=1))
 
 
 def _polygon(plate: Plate, index: int, outline: Polygon, polynomials: int) -> PlanPlate:

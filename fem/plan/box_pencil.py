@@ -32,11 +32,13 @@ class BoxLiquid:
     Attributes:
         spaces: along x and along y.
         depth: H.
+        images: number of parts of the tank that are alike; energies are those of all of them.
         densities: see `LiquidUnknowns`.
     """
 
     spaces: tuple[IntervalSpace, IntervalSpace]
     depth: float
+    images: int
     densities: tuple[float, ...] = (1.0,)
 
     @property
@@ -70,7 +72,7 @@ class BoxLiquid:
         squares = np.add.outer(self.spaces[0].waves[0], self.spaces[1].waves[0])
         values = np.zeros(self.shape)
         moving = squares > 0.0
-        values[moving] = surface_response(np.sqrt(squares[moving]), self.depth)
+        values[moving] = surface_response(np.sqrt(squares[moving]), self.depth) / self.images
         return values
 
     def answer(self, loads: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -99,7 +101,7 @@ class BoxOperator:
 
 
 class _Stiffness:
-    """A as a shell matrix: A = Σ (M u_i v_j) (M u_i v_j)ᵀ / f, 0 of the constant."""
+    """A as a shell matrix: A = Σ (M u_i v_j) (M u_i v_j)ᵀ / f, 0 of the constant; with f over the number of images."""
 
     def __init__(self, liquid: BoxLiquid) -> None:
         self._liquid = liquid
@@ -154,7 +156,7 @@ def box_pencil(liquid: BoxLiquid, plates: tuple[RectangleBody, ...], *, waves: b
 
 
 def plate_loads(liquid: BoxLiquid, plate: RectangleBody) -> NDArray[np.float64]:
-    """Return ∫φ q over a plate for each of its shapes φ, shape (shapes, N)."""
+    """Return ∫φ q over a plate and its images for each of its shapes φ, shape (shapes, N)."""
     moments = []
     for axis, space in enumerate(liquid.spaces):
         start, end = plate.extents[axis]
@@ -168,13 +170,13 @@ def plate_loads(liquid: BoxLiquid, plate: RectangleBody) -> NDArray[np.float64]:
             )
         )
     loads = np.einsum("im,smn,jn->sij", moments[0], plate.coefficients, moments[1], optimize=True)
-    return loads.reshape(len(loads), -1)
+    return liquid.images * loads.reshape(len(loads), -1)
 
 
 def water_masses(
     liquid: BoxLiquid, plates: tuple[RectangleBody, ...]
 ) -> list[tuple[NDArray[np.float64], NDArray[np.float64]]]:
-    """Return S = Σ M_x ⊗ M_y over the water beside the plates: pairs of matrices, none where plates cover all of it.
+    """Return S = Σ M_x ⊗ M_y over the water beside the plates and its images: pairs of matrices, none where plates cover all of it.
 
     It is summed over cells: the difference of the whole surface and the plates would leave rounding under the plates.
     """
@@ -186,7 +188,7 @@ def water_masses(
     # Rows of cells along x that have the same water across share one product.
     patterns, kinds = np.unique(water, axis=0, return_inverse=True)
     return [
-        (liquid.spaces[0].mass_on(kinds.ravel() == kind), liquid.spaces[1].mass_on(pattern))
+        (liquid.images * liquid.spaces[0].mass_on(kinds.ravel() == kind), liquid.spaces[1].mass_on(pattern))
         for kind, pattern in enumerate(patterns)
         if pattern.any()
     ]

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.fem.plan.interval import IntervalSpace, graded_nodes
+from hydroelastic.fem.plan.rectangle_body import rectangle_of
 from hydroelastic.fem.tank.resolution import radians
 from hydroelastic.physics.beam_parts import Section
 from hydroelastic.physics.level_tank import Box, LevelTank
@@ -46,8 +47,8 @@ class BoxResolution:
         """Return the resolution that confirms the number of modes."""
         return replace(
             self,
-            degree=max(3, self.degree - 3),
-            layers=min(1, self.layers),
+            degree=3,
+            layers=0,
             polynomials=tuple(max(6, count - 6) for count in self.polynomials),
         )
 
@@ -80,7 +81,7 @@ def box_resolution(tank: LevelTank, tolerance: float, count: int) -> BoxResoluti
     wavenumbers = [plate_wavenumber(tank, plate, eigenvalue) for plate in tank.plates]
     shortest = max([water_wavenumber(tank, eigenvalue), *wavenumbers])
     polynomials = tuple(
-        min(ceil(1.1 * wavenumber * max(_sides(plate)) / pi + 1.2 * digits) + 4, MOST_POLYNOMIALS)
+        min(ceil(1.1 * wavenumber * max(rectangle_of(plate.outline).size) / pi + 1.2 * digits) + 4, MOST_POLYNOMIALS)
         for plate, wavenumber in zip(tank.plates, wavenumbers, strict=True)
     )
     assert isinstance(tank.plan, Box)
@@ -90,10 +91,6 @@ def box_resolution(tank: LevelTank, tolerance: float, count: int) -> BoxResoluti
         layers=min(max(ceil(digits / 1.4 - 1.9), 1), MOST_LAYERS - 2),
         polynomials=polynomials,
     )
-
-
-def _sides(plate: Plate) -> tuple[float, float]:
-    return plate.outline.size  # type: ignore[union-attr]
 
 
 def expected_eigenvalue(tank: LevelTank, count: int) -> float:

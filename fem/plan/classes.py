@@ -19,7 +19,7 @@ class SymmetryClass:
 
     Attributes:
         parity: about the middle of the tank along x and y.
-        pencil: its problem, with energies of its part of the tank.
+        pencil: its problem, with energies of the whole tank.
         modes: its lowest modes.
     """
 
@@ -50,7 +50,7 @@ class ClassModes:
     origins: tuple[tuple[int, int], ...]
 
     def completed(self, index: int) -> Mode:
-        """Return a mode with its shape, at unit generalized mass in its part of the tank."""
+        """Return a mode with its shape, at unit generalized mass."""
         number, place = self.origins[index]
         return self.classes[number].modes.completed(place)
 

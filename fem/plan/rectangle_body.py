@@ -13,7 +13,7 @@ from hydroelastic.fem.surfaces import Body
 from hydroelastic.modal.plate.rectangle import AxisParity, RectangleModes, rectangle_modes
 from hydroelastic.physics.dofs import Dof, body_name
 from hydroelastic.physics.level_tank import Box
-from hydroelastic.physics.plate import Edge, Plate, Rectangle
+from hydroelastic.physics.plate import Edge, Outline, Plate, Rectangle, Strip
 from hydroelastic.physics.symmetry import Parity
 
 # A plate this close to a wall, in units of the tank, touches it.
@@ -31,30 +31,22 @@ class RectangleBody:
         index: index of the plate.
         plate: the plate, on a `Rectangle`.
         modes: its Ritz modes by their own parities.
-        parity: the class.
     """
 
     index: int
     plate: Plate
     modes: tuple[tuple[ClassParity, RectangleModes], ...]
-    parity: ClassParity
 
     @property
     def outline(self) -> Rectangle:
         """The rectangle."""
-        assert isinstance(self.plate.outline, Rectangle)
-        return self.plate.outline
+        return rectangle_of(self.plate.outline)
 
     @property
     def extents(self) -> tuple[tuple[float, float], tuple[float, float]]:
         """Its ends along x and along y."""
         (x, y), (length, width) = self.outline.position, self.outline.size
         return (x - 0.5 * length, x + 0.5 * length), (y - 0.5 * width, y + 0.5 * width)
-
-    @property
-    def part(self) -> float:
-        """The part of the plate that lies in the part of the tank of the class."""
-        return float(np.prod([1.0 if parity is None else 0.5 for parity in self.parity]))
 
     @cached_property
     def coefficients(self) -> NDArray[np.float64]:
@@ -92,8 +84,8 @@ class RectangleBody:
 
     @cached_property
     def body(self) -> Body:
-        """The body of the pencil, with the energies of its part in the class."""
-        squares = (self.coefficients**2).sum(axis=(1, 2)) * self.part
+        """The body of the pencil."""
+        squares = (self.coefficients**2).sum(axis=(1, 2))
         bending = np.zeros(len(squares))
         if self.plate.is_elastic:
             bending = self.plate.flexural_rigidity * self._stiffness * squares
@@ -138,12 +130,13 @@ def rectangle_body(plan: Box, index: int, plate: Plate, polynomials: int, parity
         polynomials: number of Legendre polynomials along each side.
         parity: the class; a plate is in the middle of the axes with a symmetry.
     """
-    outline = plate.outline
-    assert isinstance(outline, Rectangle)
-    edges = tuple(
+    outline = rectangle_of(plate.outline)
+    edges = [
         _edges(plate, outline.position[axis], outline.size[axis], length)
         for axis, length in enumerate((plan.length, plan.width))
-    )
+    ]
+    if isinstance(plate.outline, Strip):
+        edges[1] = ("sliding", "sliding")
     # Shapes of either parity about the plate's own middle exist apart where its two edges are held alike.
     own = [
         (None,) if pair[0] != pair[1] else (0, 1) if wanted is None else (wanted,)
@@ -158,7 +151,16 @@ def rectangle_body(plan: Box, index: int, plate: Plate, polynomials: int, parity
         )
         for along, across in product(*own)
     )
-    return RectangleBody(index=index, plate=plate, modes=modes, parity=parity)
+    return RectangleBody(index=index, plate=plate, modes=modes)
+
+
+def rectangle_of(outline: Outline) -> Rectangle:
+    """Return a rectangle, or a strip as one."""
+    if isinstance(outline, Strip):
+        middle = outline.start + 0.5 * outline.length, 0.5 * outline.width
+        return Rectangle(position=middle, size=(outline.length, outline.width))
+    assert isinstance(outline, Rectangle)
+    return outline
 
 
 def _edges(plate: Plate, middle: float, side: float, length: float) -> tuple[Edge, Edge]:

@@ -44,4 +44,4 @@ def _energies_beyond(body: RectangleBody, table: NDArray[np.float64], dropped: i
     rest = table.copy()
     rest[:, : table.shape[1] - dropped, : table.shape[2] - dropped] = 0.0
     energies = bending_energies(body.outline.size, body.plate.poisson_ratio, rest)
-    return energies * body.part * body.plate.flexural_rigidity
+    return energies * body.plate.flexural_rigidity

@@ -12,7 +12,7 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import cho_factor, cho_solve, eigh
+from scipy.linalg import eigh
 
 from hydroelastic.modal.plate.legendre import edge_basis, gauss, legendre_table
 from hydroelastic.physics.plate import Edge
@@ -76,10 +76,13 @@ def rectangle_modes(
     mixed = np.kron(mixed_x, mixed_y.T)
     stiffness += poisson_ratio * (mixed + mixed.T)
     rigid = _rigid_motions(stiffness, bases)
-    # eigh is exact to rounding of the largest eigenvalue only: of the inverse, that is the softest mode.
+    # eigh is exact to rounding of the largest eigenvalue only, and so of the inverse: that of the softest mode. Scaled to
+    # unit stiffness, the polynomials are nearly orthogonal in it.
     shift = 1.0 / max(size) ** 4
-    inverse = cho_solve(cho_factor(stiffness + shift * np.eye(len(stiffness))), np.eye(len(stiffness)))
-    inverses, vectors = eigh(0.5 * (inverse + inverse.T))
+    shifted = stiffness + shift * np.eye(len(stiffness))
+    scale = 1.0 / np.sqrt(np.diagonal(shifted))
+    inverses, vectors = eigh(np.diag(scale**2), shifted * np.outer(scale, scale))
+    vectors = scale[:, None] * vectors / np.sqrt(inverses)
     values = np.maximum(1.0 / inverses[::-1] - shift, 0.0)
     values[:rigid] = 0.0
     shapes = vectors.T[::-1].reshape(-1, len(bases[0]), len(bases[1]))

@@ -135,7 +135,7 @@ def order_pencil(
         pressure_release: whether ψ = 0 on the water, whatever the tank's top.
     """
     covered = [line.within(*place) for place in line.separation.places]
-    water = np.setdiff1d(np.arange(len(line.nodes) - 1), np.concatenate([np.empty(0, np.int64), *covered]))
+    water = np.setdiff1d(np.arange(len(line.nodes) - 1), covered_elements(line))
     released = pressure_release or tank.top == "pressure_release"
     zeros = line.unknowns_of(water) if released else np.empty(0, dtype=np.int64)
     liquid = LineLiquid(line=line, depth=tank.depth, zeros=zeros)
@@ -162,6 +162,11 @@ def order_pencil(
         solver=operator,
         closed=(0,) if liquid.is_closed else (),
     )
+
+
+def covered_elements(line: Line) -> np.ndarray:
+    """Return the numbers of the elements under plates."""
+    return np.concatenate([np.empty(0, np.int64), *(line.within(*place) for place in line.separation.places)])
 
 
 def _body(plate: Plate, index: int, line: Line, shapes: LineModes) -> Body:

@@ -18,12 +18,14 @@ from math import inf, tanh
 import numpy as np
 
 from hydroelastic.fem.level_bed.line import Line
-from hydroelastic.fem.level_bed.order_problem import LineLiquid, order_pencil
+from hydroelastic.fem.level_bed.order_problem import LineLiquid, covered_elements, order_pencil
 from hydroelastic.fem.level_bed.resolution import LineResolution, line_nodes
 from hydroelastic.fem.level_bed.separation import Separation
-from hydroelastic.fem.modes import ModeSet, solve_modes
+from hydroelastic.fem.level_bed.solution import SampledSurface
+from hydroelastic.fem.modes import Mode, ModeSet, solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.modal.plate.line_modes import LineModes, PlateLine, dry_modes
+from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.level_tank import LevelTank
 from hydroelastic.physics.plate import Edge
 from hydroelastic.physics.tank import ROUND_OFF
@@ -49,10 +51,49 @@ class OrderSolution:
     pencil: CoupledPencil[LineLiquid]
     modes: ModeSet
     shapes: dict[int, LineModes]
+    symmetry: str = ""
 
-    def body_of(self, plate: int) -> int | None:
-        """Return the place of a plate among the bodies of the problem, if it moves in it."""
-        return list(self.shapes).index(plate) if plate in self.shapes else None
+    @property
+    def separation(self) -> Separation:
+        """The tank's."""
+        return self.pencil.liquid.line.separation
+
+    @property
+    def multiplicity(self) -> int:
+        """Number of independent modes at each frequency."""
+        return self.separation.multiplicity(self.order)
+
+    def sampled(self, mode: Mode, x: FloatArray, y: FloatArray, *, second: bool) -> SampledSurface:
+        """See `PlanProblem.sampled`."""
+        liquid, separation = self.pencil.liquid, self.separation
+        line = liquid.line
+        turn = separation.transverse(self.order)
+        along = np.hypot(x, y) if separation.round else x
+        angle = np.arctan2(y, x) * self.order if separation.round else turn * y
+        across = np.sin(angle) if second else np.cos(angle)
+        along = np.clip(along, separation.start, separation.end)
+        surface = np.zeros((line.size, 1))
+        if self.pencil.surfaces:
+            water = line.unknowns_of(np.setdiff1d(np.arange(len(line.nodes) - 1), covered_elements(line)))
+            surface[water, 0] = mode.displacement.array_r[self.pencil.body_size :]
+        elevation = line.evaluated(surface, along)[:, 0]
+        position = 0
+        covered = np.zeros(len(along), dtype=bool)
+        for index, (start, end) in enumerate(separation.places):
+            inside = (along >= start) & (along <= end) & ~covered
+            covered |= inside
+            elevation[inside] = 0.0
+            if index in self.shapes:
+                amplitudes = mode.body_amplitudes[position : position + self.shapes[index].count]
+                position += len(amplitudes)
+                elevation[inside] = self.shapes[index].values(along[inside]) @ amplitudes
+        squares, functions = line.eigenpairs
+        parts = functions.T @ (line.mass(np.arange(len(line.nodes) - 1)) @ mode.potential.array_r)
+        return SampledSurface(
+            elevation=elevation * across,
+            wavenumbers=np.sqrt(np.maximum(squares, 0.0)),
+            potentials=line.evaluated(functions * parts, along) * across[:, None],
+        )
 
 
 def plate_line(tank: LevelTank, separation: Separation, index: int, order: int) -> PlateLine:
@@ -129,7 +170,7 @@ def solve_order(
 
 
 def solve_orders(
-    tank: LevelTank, separation: Separation, resolution: LineResolution, count: int, counts: dict[int, int]
+    tank: LevelTank, separation: Separation, resolution: LineResolution, count: int
 ) -> tuple[OrderSolution, ...]:
     """Solve order after order, until as many modes are found as are wanted, and no order can have a lower one.
 
@@ -138,16 +179,14 @@ def solve_orders(
         separation: its orders.
         resolution: of the lines.
         count: number of modes of all orders together; each order is solved for as many.
-        counts: least number of modes of some orders.
     """
     found: list[OrderSolution] = []
     values = np.empty(0)
-    required = max(counts, default=0)
     for order in itertools.count():
         highest = values[count - 1] if len(values) >= count else inf
-        if order > required and lower_bound(tank, separation, order) >= highest:
+        if lower_bound(tank, separation, order) >= highest:
             return tuple(found)
-        solved = solve_order(tank, separation, resolution, order, max(count, counts.get(order, 0)))
+        solved = solve_order(tank, separation, resolution, order, count)
         if solved is not None:
             found.append(solved)
             values = np.sort(np.concatenate([values, solved.modes.eigenvalues]))

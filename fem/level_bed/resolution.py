@@ -18,6 +18,8 @@ from hydroelastic.physics.tank import ROUND_OFF
 
 HIGHEST_DEGREE = 14
 MOST_SHAPES = 120
+# Rounding of frequencies is below a fifth of it, measured.
+_LEAST_TOLERANCE = 1e-12
 # Of successive layers at an edge.
 _RATIO = 0.2
 
@@ -54,6 +56,11 @@ class LineResolution:
             layers=self.layers + 2,
             shapes=_more(self.shapes, 1.5),
         )
+
+
+def workable(tolerance: float) -> float:
+    """Return the requested relative tolerance, or the smallest one that double precision keeps."""
+    return max(tolerance, _LEAST_TOLERANCE)
 
 
 def _more(shapes: tuple[int, ...], factor: float) -> tuple[int, ...]:

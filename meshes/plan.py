@@ -70,7 +70,10 @@ class PolygonLoop:
             first = towards[-1] if layers else 0.0
             count = max(ceil((1.0 - 2.0 * first) * length / size), 1)
             places.append(
-                number + np.concatenate([[0.0], towards, np.linspace(first, 1.0 - first, count + 1)[1:-1], 1.0 - towards[::-1]])
+                number
+                + np.concatenate(
+                    [[0.0], towards, np.linspace(first, 1.0 - first, count + 1)[1:-1], 1.0 - towards[::-1]]
+                )
             )
         return np.concatenate(places)
 
@@ -139,6 +142,15 @@ class PlanRegion:
     outside: Loop
     inside: tuple[Loop, ...] = ()
 
+    @property
+    def loops(self) -> tuple[Loop, ...]:
+        """Its outer loop and those of its holes."""
+        return (self.outside, *self.inside)
+
+    def gap(self, other: PlanRegion) -> float:
+        """Return the distance of its loops from those of another region, as far as a few hundred points show it."""
+        return min(_gap(one, another) for one in self.loops for another in other.loops)
+
 
 @dataclass(frozen=True, kw_only=True)
 class _Band:
@@ -199,7 +211,9 @@ def plan_mesh(
         is_wall = loop in walls
         thick = min(thickness, room)
         steps = np.zeros(0) if is_wall else thick * RATIO ** np.arange(layers)
-        names = [plates[0].name] if covered else [wall.name, *(p.name for p in plates if loop in (p.outside, *p.inside))]
+        names = (
+            [plates[0].name] if covered else [wall.name, *(p.name for p in plates if loop in (p.outside, *p.inside))]
+        )
         places = loop.places(min(map(size, names)), 0.0 if is_wall else thick, 0 if is_wall else max(layers - 2, 1))
         distances = np.concatenate([-steps, [0.0], steps[::-1]])
         bands[id(loop)] = _Band(loop=loop, places=places, distances=distances, first=count)
@@ -256,9 +270,7 @@ def _cross(one: NDArray[np.float64], other: NDArray[np.float64]) -> NDArray[np.f
 def _directly(outside: Loop, inside: tuple[Loop, ...]) -> tuple[Loop, ...]:
     """The holes of a region that lie in no other hole of it."""
     own = [hole for hole in inside if hole != outside and outside.contains(_a_point(hole))]
-    return tuple(
-        hole for hole in own if not any(other != hole and other.contains(_a_point(hole)) for other in own)
-    )
+    return tuple(hole for hole in own if not any(other != hole and other.contains(_a_point(hole)) for other in own))
 
 
 def _a_point(loop: Loop) -> NDArray[np.float64]:
@@ -268,20 +280,24 @@ def _a_point(loop: Loop) -> NDArray[np.float64]:
 def _room(walls: tuple[Loop, ...], edges: tuple[Loop, ...]) -> float:
     """Two fifths of the smallest distance between two loops, and a third of the smallest length along one."""
     room = np.inf
-    sampled = {
-        id(loop): loop.parallel(0.0, loop.places(_extent(loop) / 200.0, 0.0, 0)) for loop in (*walls, *edges)
-    }
-    for loop in edges:
-        own = sampled[id(loop)]
-        for other in (*walls, *edges):
-            if other is not loop:
-                apart = np.linalg.norm(own[:, None] - sampled[id(other)][None], axis=2)
-                room = min(room, 0.4 * float(apart.min()))
-        if isinstance(loop, CircleLoop):
-            room = min(room, loop.radius / 3.0)
-        else:
-            room = min(room, _inner_room(loop))
+    for number, loop in enumerate(edges):
+        others = (*walls, *edges[:number])
+        room = min([room, *(0.4 * _gap(loop, other) for other in others)])
+        room = min(room, loop.radius / 3.0 if isinstance(loop, CircleLoop) else _inner_room(loop))
     return room
+
+
+def _gap(one: Loop, other: Loop) -> float:
+    """Distance of two loops: of the points of one from the straight pieces between those of the other."""
+    first, second = (loop.parallel(0.0, loop.places(_extent(loop) / 60.0, 0.0, 0)) for loop in (one, other))
+    return min(_distance(first, second), _distance(second, first))
+
+
+def _distance(points: NDArray[np.float64], corners: NDArray[np.float64]) -> float:
+    sides = np.roll(corners, -1, axis=0) - corners
+    away = points[:, None] - corners
+    parts = np.clip((away * sides).sum(axis=2) / (sides**2).sum(axis=1), 0.0, 1.0)
+    return float(np.linalg.norm(away - parts[..., None] * sides, axis=2).min())
 
 
 def _extent(loop: Loop) -> float:
@@ -333,9 +349,7 @@ def _filled(
         for node in nodes:
             if int(node) not in tags:
                 tags[int(node)] = int(geo.addPoint(*points[node], 0.0))
-        lines = [
-            int(geo.addLine(tags[int(a)], tags[int(b)])) for a, b in zip(nodes, np.roll(nodes, -1), strict=True)
-        ]
+        lines = [int(geo.addLine(tags[int(a)], tags[int(b)])) for a, b in zip(nodes, np.roll(nodes, -1), strict=True)]
         for line in lines:
             geo.mesh.setTransfiniteCurve(line, 2)
         return int(geo.addCurveLoop(lines))

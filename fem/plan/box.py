@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import count as numbered
 from itertools import product
 
 import numpy as np
@@ -15,6 +16,7 @@ from hydroelastic.fem.plan.box_resolution import BoxResolution, axis_space, box_
 from hydroelastic.fem.plan.classes import ClassModes, SymmetryClass, count_is_confirmed, solve_classes
 from hydroelastic.fem.plan.truncation import rectangle_energies
 from hydroelastic.fem.plan.rectangle_body import AxisParity, ClassParity, RectangleBody, rectangle_body, rectangle_of
+from hydroelastic.fem.stopwatch import Report
 from hydroelastic.physics.level_tank import Box, LevelTank
 from hydroelastic.physics.plate import Rectangle
 from hydroelastic.physics.tank import ROUND_OFF
@@ -35,17 +37,30 @@ class BoxSolution:
         tank: the tank.
         resolution: the last one.
         modes: the lowest modes of all symmetry classes, one more than asked for.
+        plates: the plates in the shapes of each class.
         liquid_errors: relative error of each frequency by the space of ψ, shape (modes,).
         plate_errors: relative error by the polynomials of the plates, shape (modes,).
         counted: whether a coarser model confirms the number of modes.
+        attempts: number of resolutions that were solved.
     """
 
     tank: LevelTank
     resolution: BoxResolution
     modes: ClassModes
+    plates: dict[ClassParity, tuple[RectangleBody, ...]]
     liquid_errors: np.ndarray
     plate_errors: np.ndarray
     counted: bool
+    attempts: int
+
+    @property
+    def sizes(self) -> dict[str, int]:
+        """Numbers of its resolution, by name."""
+        return {
+            "classes": len(self.modes.classes),
+            "degree": self.resolution.degree,
+            "layers": self.resolution.layers,
+        }
 
     @property
     def relative_errors(self) -> np.ndarray:
@@ -66,16 +81,20 @@ def symmetries(tank: LevelTank) -> tuple[ClassParity, ...]:
     return tuple(product(along(0, tank.plan.length), along(1, tank.plan.width)))
 
 
-def solve_box(tank: LevelTank, *, tolerance: float, count: int) -> BoxSolution:
+def solve_box(tank: LevelTank, *, tolerance: float, count: int, report: Report = lambda _message: None) -> BoxSolution:
     """Solve a dimensionless box with rectangular plates, alike on each process.
 
     Args:
         tank: the box, with waves or a lid beside the plates.
         tolerance: largest relative error of the frequencies that is accepted.
         count: number of modes, from the lowest.
+        report: receives messages on the progress.
     """
+    attempts = numbered(1)
 
     def solve(resolution: BoxResolution) -> BoxSolution:
+        attempt = next(attempts)
+        report(f"attempt {attempt}: degree {resolution.degree}, {resolution.layers} layers")
         problems = {parity: _problem(tank, resolution, parity) for parity in symmetries(tank)}
         modes = solve_classes({parity: pencil for parity, (pencil, _) in problems.items() if pencil.size}, count + 1)
         found = [modes.completed(index) for index in range(len(modes.eigenvalues))]
@@ -91,9 +110,11 @@ def solve_box(tank: LevelTank, *, tolerance: float, count: int) -> BoxSolution:
             tank=tank,
             resolution=resolution,
             modes=modes,
+            plates={parity: bodies for parity, (_, bodies) in problems.items()},
             liquid_errors=liquid,
             plate_errors=plates,
             counted=count_is_confirmed(modes, lambda parity: _problem(tank, coarser, parity, dense=True)[0]),
+            attempts=attempt,
         )
 
     def refine(_: BoxResolution, solution: BoxSolution) -> BoxResolution | None:
@@ -165,7 +186,9 @@ def _liquid_errors(
         both.append(
             (
                 water_masses(space, bodies) if one.pencil.surfaces else [],
-                np.concatenate([plate_loads(space, body) for body in bodies if body.body.size] or [np.empty((0, space.size))]),
+                np.concatenate(
+                    [plate_loads(space, body) for body in bodies if body.body.size] or [np.empty((0, space.size))]
+                ),
             )
         )
     (masses, loads), (finer_masses, finer_loads) = both

@@ -105,9 +105,7 @@ class _Stiffness:
 
     def __init__(self, liquid: BoxLiquid) -> None:
         self._liquid = liquid
-        self._moments = tuple(
-            space.mass @ space.waves[1] for space in liquid.spaces
-        )
+        self._moments = tuple(space.mass @ space.waves[1] for space in liquid.spaces)
         with np.errstate(divide="ignore"):
             inverse = 1.0 / liquid.responses
         self._inverses = np.where(liquid.responses > 0.0, inverse, 0.0)
@@ -125,7 +123,9 @@ class _Stiffness:
         return (moments * self._inverses.ravel()) @ moments.T
 
 
-def box_pencil(liquid: BoxLiquid, plates: tuple[RectangleBody, ...], *, waves: bool, dense: bool = False) -> CoupledPencil[BoxLiquid]:
+def box_pencil(
+    liquid: BoxLiquid, plates: tuple[RectangleBody, ...], *, waves: bool, dense: bool = False
+) -> CoupledPencil[BoxLiquid]:
     """Assemble the coupled problem of a symmetry class, alike on each process.
 
     Args:

@@ -101,7 +101,9 @@ def expected_eigenvalue(tank: LevelTank, count: int) -> float:
 
 def water_wavenumber(tank: LevelTank, eigenvalue: float) -> float:
     """Return the wavenumber of waves of a λ on open water."""
-    return LevelPiece(length=1.0, beam=None, jump=1.0, restored=True, layers=((1.0, tank.depth),)).wavenumber(eigenvalue)
+    return LevelPiece(length=1.0, beam=None, jump=1.0, restored=True, layers=((1.0, tank.depth),)).wavenumber(
+        eigenvalue
+    )
 
 
 def plate_wavenumber(tank: LevelTank, plate: Plate, eigenvalue: float) -> float:
@@ -109,15 +111,11 @@ def plate_wavenumber(tank: LevelTank, plate: Plate, eigenvalue: float) -> float:
     if not plate.is_elastic:
         return 0.0
     section = Section(length=1.0, flexural_rigidity=plate.flexural_rigidity, mass_per_length=plate.mass_per_area)
-    piece = LevelPiece(
-        length=1.0, beam=section, jump=1.0, restored=plate.hydrostatic, layers=((1.0, tank.depth),)
-    )
+    piece = LevelPiece(length=1.0, beam=section, jump=1.0, restored=plate.hydrostatic, layers=((1.0, tank.depth),))
     return piece.wavenumber(eigenvalue)
 
 
-def axis_space(
-    resolution: BoxResolution, length: float, edges: tuple[float, ...], parity: int | None
-) -> IntervalSpace:
+def axis_space(resolution: BoxResolution, length: float, edges: tuple[float, ...], parity: int | None) -> IntervalSpace:
     """Return the space along one axis, of half of it where it has a symmetry.
 
     Args:
@@ -128,7 +126,5 @@ def axis_space(
     """
     end = length if parity is None else 0.5 * length
     places = tuple(place for place in edges if place <= end)
-    nodes: NDArray[np.float64] = graded_nodes(
-        0.0, end, places, largest=resolution.largest, layers=resolution.layers
-    )
+    nodes: NDArray[np.float64] = graded_nodes(0.0, end, places, largest=resolution.largest, layers=resolution.layers)
     return IntervalSpace(nodes=nodes, degree=resolution.degree, zero_at_end=parity == 1)

@@ -30,9 +30,7 @@ class SymmetryClass:
     @property
     def label(self) -> str:
         """What the class is called: xS even and xA odd along x, "" without a symmetry."""
-        return "".join(
-            f"{axis}{'SA'[own]}" for axis, own in zip("xy", self.parity, strict=True) if own is not None
-        )
+        return "".join(f"{axis}{'SA'[own]}" for axis, own in zip("xy", self.parity, strict=True) if own is not None)
 
 
 @dataclass(frozen=True, kw_only=True)

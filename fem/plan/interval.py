@@ -73,9 +73,7 @@ class IntervalSpace:
         middles = 0.5 * (self.nodes[:-1] + self.nodes[1:])
         return np.asarray((middles > start) & (middles < end))
 
-    def quadrature(
-        self, chosen: NDArray[np.bool_], more: int = 0
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def quadrature(self, chosen: NDArray[np.bool_], more: int = 0) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return points and weights on some cells, exact for products of two functions.
 
         Args:
@@ -179,5 +177,11 @@ def graded_nodes(
         low = from_left[-1] if len(from_left) else left
         high = from_right[0] if len(from_right) else right
         cells = max(1, int(np.ceil((high - low) / largest - 1e-9)))
-        nodes += [*from_left, *np.linspace(low, high, cells + 1)[1:-1], *([high] if len(from_right) else []), *from_right[1:], right]
+        nodes += [
+            *from_left,
+            *np.linspace(low, high, cells + 1)[1:-1],
+            *([high] if len(from_right) else []),
+            *from_right[1:],
+            right,
+        ]
     return np.array(nodes)

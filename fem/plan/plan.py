@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import count as numbered
 from math import ceil, log10, pi, sqrt
 
 import numpy as np
@@ -16,6 +17,7 @@ from hydroelastic.fem.plan.classes import ClassModes, count_is_confirmed, solve_
 from hydroelastic.fem.plan.plan_errors import liquid_and_pole_errors
 from hydroelastic.fem.plan.plan_pencil import PlanPlate, PlanSpace, plan_pencil, plan_space, stacked_pencil
 from hydroelastic.fem.plan.plates import anticlockwise, plan_plate
+from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.tank.resolution import radians
 from hydroelastic.meshes.distribute import distribute_mesh
 from hydroelastic.meshes.geometry import FREE_SURFACE
@@ -73,7 +75,9 @@ class PlanResolution:
     def refined(self, errors: PlanErrors, tolerance: float) -> PlanResolution | None:
         """Return the next resolution by the parts of the error; ``None`` where it ends."""
         share, finer = tolerance / 3.0, self
-        liquid, poles, plates = (float(part.max(initial=0.0)) / share for part in (errors.liquid, errors.poles, errors.plates))
+        liquid, poles, plates = (
+            float(part.max(initial=0.0)) / share for part in (errors.liquid, errors.poles, errors.plates)
+        )
         if liquid > 1.0:
             more = 1 + int(liquid > 30.0)
             finer = replace(
@@ -130,6 +134,7 @@ class PlanSolution:
         modes: the lowest modes, one more than asked for.
         errors: of their frequencies.
         counted: whether a coarser model confirms the number of modes.
+        attempts: number of resolutions that were solved.
     """
 
     tank: LevelTank
@@ -140,6 +145,17 @@ class PlanSolution:
     modes: ClassModes
     errors: PlanErrors
     counted: bool
+    attempts: int
+
+    @property
+    def sizes(self) -> dict[str, int]:
+        """Numbers of its resolution, by name."""
+        return {
+            "cells": self.space.liquid.tank.cell_count,
+            "degree": self.resolution.degree,
+            "layers": self.resolution.layers,
+            "poles": len(self.poles.shifts),
+        }
 
     @property
     def relative_errors(self) -> np.ndarray:
@@ -147,7 +163,14 @@ class PlanSolution:
         return self.errors.total
 
 
-def solve_plan(tank: LevelTank, *, tolerance: float, count: int, comm: MPI.Comm | None = None) -> PlanSolution:
+def solve_plan(
+    tank: LevelTank,
+    *,
+    tolerance: float,
+    count: int,
+    comm: MPI.Comm | None = None,
+    report: Report = lambda _message: None,
+) -> PlanSolution:
     """Solve a dimensionless tank on its plan (collective).
 
     Args:
@@ -155,13 +178,17 @@ def solve_plan(tank: LevelTank, *, tolerance: float, count: int, comm: MPI.Comm 
         tolerance: largest relative error of the frequencies that is accepted.
         count: number of modes, from the lowest.
         comm: the processes over which the poles are distributed; all by default.
+        report: receives messages on the progress.
 
     Raises:
         MeshError: if the plan cannot be meshed.
     """
     processes = comm or MPI.COMM_WORLD
+    attempts = numbered(1)
 
     def solve(resolution: PlanResolution) -> PlanSolution:
+        attempt = next(attempts)
+        report(f"attempt {attempt}: degree {resolution.degree}, {resolution.layers} layers")
         space, plates, poles = _parts(tank, resolution)
         pencil = plan_pencil(space, poles, plates, waves=tank.top == "free", comm=processes)
         modes = solve_classes({(None, None): pencil}, count + 1)
@@ -186,6 +213,7 @@ def solve_plan(tank: LevelTank, *, tolerance: float, count: int, comm: MPI.Comm 
             modes=modes,
             errors=errors,
             counted=count_is_confirmed(modes, coarse),
+            attempts=attempt,
         )
 
     return adaptive_solve(
@@ -231,8 +259,7 @@ def _extent(plate: Plate) -> float:
 
 
 def _parts(tank: LevelTank, resolution: PlanResolution) -> tuple[PlanSpace, tuple[PlanPlate, ...], VerticalPoles]:
-    wall = _wall(tank)
-    plates = tuple(_region(tank, index, wall) for index in range(len(tank.plates)))
+    wall, plates = plan_regions(tank)
     mesh = plan_mesh(
         wall,
         plates,
@@ -242,11 +269,15 @@ def _parts(tank: LevelTank, resolution: PlanResolution) -> tuple[PlanSpace, tupl
         geometry_degree=min(max(resolution.degree, 4), 8),
     )
     space = plan_space(distribute_mesh(MPI.COMM_SELF, mesh), resolution.degree)
-    bodies = tuple(
-        plan_plate(tank, index, polynomials) for index, polynomials in enumerate(resolution.polynomials)
-    )
+    bodies = tuple(plan_plate(tank, index, polynomials) for index, polynomials in enumerate(resolution.polynomials))
     poles = vertical_poles(tank.depth, resolution.wavenumber, resolution.pole_error, lowest=_LOWEST)
     return space, bodies, poles
+
+
+def plan_regions(tank: LevelTank) -> tuple[PlanRegion, tuple[PlanRegion, ...]]:
+    """Return the inside of the walls, and the outline of each plate."""
+    wall = _wall(tank)
+    return wall, tuple(_region(tank, index, wall) for index in range(len(tank.plates)))
 
 
 def _wall(tank: LevelTank) -> PlanRegion:

@@ -77,12 +77,14 @@ def _largest_missing(
     exact = surface_response(wavenumbers, depth)
     allowed = exact * (1.0 + (wavenumbers / poles.wavenumber) ** 2) * poles.error
     missing = np.maximum(exact - poles.values(wavenumbers), 0.0) / allowed
-    functions = np.column_stack(
-        [1.0 / (wavenumbers[:, None] ** 2 + poles.shifts), np.ones(_SAMPLES)]
-    ) / allowed[:, None]
+    functions = (
+        np.column_stack([1.0 / (wavenumbers[:, None] ** 2 + poles.shifts), np.ones(_SAMPLES)]) / allowed[:, None]
+    )
     sizes = functions.max(axis=0)
     # The bound of the poles themselves, ε(1 + (k/k_w)²) f_h, which is always there.
-    plain = np.append(poles.weights * (1.0 - poles.shifts / poles.wavenumber**2), poles.weights.sum() / poles.wavenumber**2)
+    plain = np.append(
+        poles.weights * (1.0 - poles.shifts / poles.wavenumber**2), poles.weights.sum() / poles.wavenumber**2
+    )
     bounds = poles.error * (moments @ plain)
     for number, moment in enumerate(moments):
         # In units of the plain bound, for the program's tolerances are absolute.

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.fem.plan.plan_pencil import Deflection, PlanPlate
-from hydroelastic.fem.plan.rectangle_body import rectangle_body
+from hydroelastic.fem.plan.rectangle_body import dofs_by_stiffness, rectangle_body
 from hydroelastic.fem.plan.truncation import geometric_tail, rectangle_energies
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.modal.plate.line_modes import LineModes, PlateLine, dry_modes
@@ -57,7 +57,12 @@ def _far_from_walls(outline: Rectangle) -> Box:
 
 
 def _body(
-    plate: Plate, index: int, deflection: Deflection, dofs: tuple[Dof, ...], bending: NDArray[np.float64], squares: NDArray[np.float64]
+    plate: Plate,
+    index: int,
+    deflection: Deflection,
+    dofs: tuple[Dof, ...],
+    bending: NDArray[np.float64],
+    squares: NDArray[np.float64],
 ) -> Body:
     parities: tuple[Parity, ...] = ("symmetric",) * len(squares)
     return Body(
@@ -124,8 +129,7 @@ def _disc(tank: LevelTank, index: int, disc: Disc, polynomials: int) -> PlanPlat
             for sign in (1, -1) if order else (1,):
                 orders.append((order, sign))
                 families.append(modes)
-    factors, squares, bending, names = [], [], [], []
-    elastic = 0
+    factors, squares, bending, rigid = [], [], [], []
     for (order, sign), modes in zip(orders, families, strict=True):
         whole = 2.0 * pi if order == 0 else pi
         for place in range(modes.count):
@@ -133,17 +137,16 @@ def _disc(tank: LevelTank, index: int, disc: Disc, polynomials: int) -> PlanPlat
                 # W is 1 of heave, r/a of pitch, r of roll.
                 edge_value = float(modes.values(np.array([disc.radius]))[0, place])
                 factor = (1.0 if order == 0 or sign > 0 else disc.radius) / edge_value
-                names.append(Dof("heave" if order == 0 else "pitch" if sign > 0 else "roll"))
+                rigid.append(Dof("heave" if order == 0 else "pitch" if sign > 0 else "roll"))
             else:
-                elastic += 1
                 factor = 1.0
-                names.append(Dof.elastic(elastic))
             factors.append(factor)
             squares.append(whole * modes.squares[place] * factor**2)
             bending.append(whole * modes.bending[place] * factor**2)
     shapes = _DiscShapes(disc=disc, orders=tuple(orders), families=tuple(families), factors=np.array(factors))
     rigidity = plate.flexural_rigidity if plate.is_elastic else 0.0
-    body = _body(plate, index, shapes, tuple(names), rigidity * np.array(bending), np.array(squares))
+    names = dofs_by_stiffness(np.array(bending) / np.array(squares), rigid)
+    body = _body(plate, index, shapes, names, rigidity * np.array(bending), np.array(squares))
     return PlanPlate(
         body=body,
         deflection=shapes,
@@ -160,9 +163,7 @@ def _covers(tank: LevelTank, disc: Disc) -> bool:
     )
 
 
-def _disc_tail(
-    body: Body, shapes: _DiscShapes, amplitudes: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _disc_tail(body: Body, shapes: _DiscShapes, amplitudes: NDArray[np.float64]) -> NDArray[np.float64]:
     """Energy of the orders and radial polynomials left out, from that of the last ones."""
     energies = body.bending_stiffness * amplitudes**2
     rigid_free = body.bending_stiffness > 0.0
@@ -196,9 +197,7 @@ def _polygon(plate: Plate, index: int, outline: Polygon, polynomials: int) -> Pl
     def deflection(points: NDArray[np.float64]) -> NDArray[np.float64]:
         return modes.deflection(points)[:count] * root
 
-    names = tuple(
-        Dof(_RIGID_MOTIONS[number]) if number < 3 else Dof.elastic(number - 2) for number in range(count)
-    )
+    names = tuple(Dof(_RIGID_MOTIONS[number]) if number < 3 else Dof.elastic(number - 2) for number in range(count))
     bending = np.zeros(count)
     if plate.is_elastic:
         bending = rigidity * modes.stiffness[:count] * squares
@@ -233,4 +232,3 @@ def anticlockwise(corners: NDArray[np.float64]) -> NDArray[np.float64]:
     ahead = np.roll(corners, -1, axis=0)
     area = float((corners[:, 0] * ahead[:, 1] - corners[:, 1] * ahead[:, 0]).sum())
     return corners if area > 0.0 else corners[::-1]
-

@@ -56,7 +56,10 @@ class RectangleBody:
         """
         tables = [modes.coefficients for _, modes in self.modes]
         if not self.plate.is_elastic:
-            tables = [table[: int(np.sum(modes.stiffness == 0.0))] for table, (_, modes) in zip(tables, self.modes, strict=True)]
+            tables = [
+                table[: int(np.sum(modes.stiffness == 0.0))]
+                for table, (_, modes) in zip(tables, self.modes, strict=True)
+            ]
         table = np.concatenate(tables) * np.sqrt(self.outline.area)
         for number, dof in enumerate(self._dofs):
             if not dof.is_elastic:
@@ -66,21 +69,18 @@ class RectangleBody:
 
     @cached_property
     def _stiffness(self) -> NDArray[np.float64]:
-        values = [modes.stiffness if self.plate.is_elastic else modes.stiffness[modes.stiffness == 0.0] for _, modes in self.modes]
+        values = [
+            modes.stiffness if self.plate.is_elastic else modes.stiffness[modes.stiffness == 0.0]
+            for _, modes in self.modes
+        ]
         return np.concatenate(values)
 
     @cached_property
     def _dofs(self) -> tuple[Dof, ...]:
-        names: list[Dof] = []
-        elastic = 0
+        rigid: list[Dof] = []
         for own, modes in self.modes:
-            for value in modes.stiffness:
-                if value == 0.0:
-                    names.append(_rigid_name(own, sum(not name.is_elastic for name in names)))
-                elif self.plate.is_elastic:
-                    elastic += 1
-                    names.append(Dof.elastic(elastic))
-        return tuple(names)
+            rigid += [_rigid_name(own, len(rigid) + place) for place in range(int(np.sum(modes.stiffness == 0.0)))]
+        return dofs_by_stiffness(self._stiffness, rigid)
 
     @cached_property
     def body(self) -> Body:
@@ -110,9 +110,7 @@ class RectangleBody:
     def deflection(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return all shapes at points (2, n), in coordinates of the tank, shape (shapes, n)."""
         middle = np.array(self.outline.position)[:, None]
-        whole = RectangleModes(
-            size=self.outline.size, stiffness=self._stiffness, coefficients=self.coefficients
-        )
+        whole = RectangleModes(size=self.outline.size, stiffness=self._stiffness, coefficients=self.coefficients)
         return whole.deflection(*(points[:2] - middle))
 
     def _shape_at(self, points: NDArray[np.float64], _normals: NDArray[np.float64], number: int) -> NDArray[np.float64]:
@@ -152,6 +150,20 @@ def rectangle_body(plan: Box, index: int, plate: Plate, polynomials: int, parity
         for along, across in product(*own)
     )
     return RectangleBody(index=index, plate=plate, modes=modes)
+
+
+def dofs_by_stiffness(stiffness: NDArray[np.float64], rigid: list[Dof]) -> tuple[Dof, ...]:
+    """Return the names of shapes: rigid motions in their order, elastic ones numbered from the softest.
+
+    Args:
+        stiffness: κ of each shape, 0 of rigid motions, shape (shapes,).
+        rigid: names of the rigid motions.
+    """
+    left = iter(rigid)
+    ranks = np.argsort(np.argsort(stiffness, kind="stable"), kind="stable") - len(rigid) + 1
+    return tuple(
+        next(left) if value == 0.0 else Dof.elastic(int(rank)) for value, rank in zip(stiffness, ranks, strict=True)
+    )
 
 
 def rectangle_of(outline: Outline) -> Rectangle:

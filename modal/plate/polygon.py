@@ -42,7 +42,9 @@ class PolygonModes:
 
     def deflection(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return all shapes at points (2, n), shape (modes, n)."""
-        return np.asarray(self.coefficients @ _products(self.degree, (points - self.middle[:, None]) / self.half[:, None]))
+        return np.asarray(
+            self.coefficients @ _products(self.degree, (points - self.middle[:, None]) / self.half[:, None])
+        )
 
 
 def polygon_modes(corners: NDArray[np.float64], poisson_ratio: float, degree: int) -> PolygonModes:
@@ -61,7 +63,9 @@ def polygon_modes(corners: NDArray[np.float64], poisson_ratio: float, degree: in
     # The first three columns are 1, x and y, so that the rigid motions are the first three orthonormal polynomials.
     _, triangle = qr((values * np.sqrt(weights)).T, mode="economic")
     xx, yy, xy = (
-        solve_triangular(triangle, _products(degree, local, along, across) / (half[0] ** along * half[1] ** across), trans=1)
+        solve_triangular(
+            triangle, _products(degree, local, along, across) / (half[0] ** along * half[1] ** across), trans=1
+        )
         for along, across in ((2, 0), (0, 2), (1, 1))
     )
     mixed = (xx * weights) @ yy.T
@@ -92,9 +96,7 @@ def _products(degree: int, local: NDArray[np.float64], along: int = 0, across: i
     return np.array([first[total - n] * second[n] for total in range(degree + 1) for n in range(total + 1)])
 
 
-def polygon_quadrature(
-    corners: NDArray[np.float64], count: int
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def polygon_quadrature(corners: NDArray[np.float64], count: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return points (2, n) and weights, exact for polynomials of degree 2·count − 2 on a polygon.
 
     Each triangle of it is the image of a square, one side of which becomes a corner.

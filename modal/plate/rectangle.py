@@ -72,7 +72,9 @@ def rectangle_modes(
     (mass_x, slope_x, bend_x, mixed_x), (mass_y, slope_y, bend_y, mixed_y) = (
         _side_matrices(basis, side) for basis, side in zip(bases, size, strict=True)
     )
-    stiffness = np.kron(bend_x, mass_y) + np.kron(mass_x, bend_y) + 2.0 * (1.0 - poisson_ratio) * np.kron(slope_x, slope_y)
+    stiffness = (
+        np.kron(bend_x, mass_y) + np.kron(mass_x, bend_y) + 2.0 * (1.0 - poisson_ratio) * np.kron(slope_x, slope_y)
+    )
     mixed = np.kron(mixed_x, mixed_y.T)
     stiffness += poisson_ratio * (mixed + mixed.T)
     rigid = _rigid_motions(stiffness, bases)
@@ -95,9 +97,7 @@ def bending_energies(
     size: tuple[float, float], poisson_ratio: float, coefficients: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """Return a(w, w) of Σ c_mn p_m(x) p_n(y), for coefficients of shape (functions, m, n)."""
-    sides = [
-        _side_matrices(np.eye(count), side) for count, side in zip(coefficients.shape[1:], size, strict=True)
-    ]
+    sides = [_side_matrices(np.eye(count), side) for count, side in zip(coefficients.shape[1:], size, strict=True)]
     (_, slope_x, bend_x, mixed_x), (_, slope_y, bend_y, mixed_y) = sides
     image = bend_x @ coefficients + coefficients @ bend_y
     image += 2.0 * (1.0 - poisson_ratio) * (slope_x @ coefficients @ slope_y)
@@ -117,9 +117,7 @@ def _side_matrices(basis: NDArray[np.float64], side: float) -> tuple[NDArray[np.
     """∫uv, ∫u'v', ∫u''v'' and ∫u''v over a side, for a basis in orthonormal polynomials of [−1, 1]."""
     count = basis.shape[1]
     points, weights = gauss(count)
-    value, slope, bend = (
-        basis @ legendre_table(count, points, order) * (2.0 / side) ** order for order in range(3)
-    )
+    value, slope, bend = (basis @ legendre_table(count, points, order) * (2.0 / side) ** order for order in range(3))
     return tuple(
         (first * weights) @ second.T for first, second in ((value, value), (slope, slope), (bend, bend), (bend, value))
     )

@@ -1,9 +1,9 @@
 """Plans of tanks: triangles with layers along the edges of plates, graded geometrically across them.
 
-ψ has singularities r ln r at an edge and is smooth along it, so that only the distance from it is graded. Each outline has
-bands of layers on both sides, made here: between mitred parallels of a polygon, between concentric circles of a disc.
-gmsh fills what is left. At circles cells are curved; those of the bands have their nodes at polar coordinates, for layers
-thinner than the sagitta of their arcs would else fold.
+ψ has singularities r ln r at an edge and is smooth along it, so that only the distance from it is graded. Each outline
+has bands of layers on both sides, made here: between mitred parallels of a polygon, between concentric circles of a
+disc. gmsh fills what is left. At circles cells are curved; those of the bands have their nodes at polar coordinates,
+for layers thinner than the sagitta of their arcs would else fold.
 """
 
 from __future__ import annotations

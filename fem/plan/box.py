@@ -14,8 +14,8 @@ from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.box_pencil import BoxLiquid, box_pencil, plate_loads, water_columns, water_masses
 from hydroelastic.fem.plan.box_resolution import BoxResolution, axis_space, box_resolution
 from hydroelastic.fem.plan.classes import ClassModes, SymmetryClass, count_is_confirmed, solve_classes
-from hydroelastic.fem.plan.truncation import rectangle_energies
 from hydroelastic.fem.plan.rectangle_body import AxisParity, ClassParity, RectangleBody, rectangle_body, rectangle_of
+from hydroelastic.fem.plan.truncation import rectangle_energies
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.physics.level_tank import Box, LevelTank
 from hydroelastic.physics.plate import Rectangle
@@ -24,8 +24,8 @@ from hydroelastic.physics.tank import ROUND_OFF
 _MOST_ATTEMPTS = 6
 # Measured: the finer answer shows 0.98 to 1 of the error.
 _SAFETY = 1.3
-# Relative rounding of frequencies without and with elastic plates, measured; the stiffest shape of a plate is 10⁹ times as
-# stiff as the softest.
+# Relative rounding of frequencies without and with elastic plates, measured; the stiffest shape of a plate is 10⁹
+# times as stiff as the softest.
 _ROUNDING, _ROUNDING_OF_PLATES = 3e-13, 5e-11
 
 
@@ -175,8 +175,8 @@ def _liquid_errors(
 ) -> np.ndarray:
     """Relative error of ω from the added mass that the motion of each mode has in a finer space beyond its own.
 
-    At unit generalized mass the Rayleigh quotient of that motion is λ/(1 + δ), δ the difference of ζᵀM_aζ. The motion of
-    the finer mode differs from it by a part of higher order in g k/λ of the waves that the coarser space lacks.
+    At unit generalized mass the Rayleigh quotient of that motion is λ/(1 + δ), δ the difference of ζᵀM_aζ. The motion
+    of the finer mode differs from it by a part of higher order in g k/λ of the waves that the coarser space lacks.
     """
     liquid: BoxLiquid = one.pencil.liquid
     finer = _liquid(tank, resolution.finer(), one.parity)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -166,7 +167,7 @@ def graded_nodes(
     inside = sorted({place for place in edges if start < place < end} | {start, end})
     graded = set(edges)
     nodes = [start]
-    for left, right in zip(inside[:-1], inside[1:], strict=True):
+    for left, right in pairwise(inside):
         length = right - left
         both = (left in graded) + (right in graded)
         # The outermost layer is as large as its neighbours.

@@ -36,8 +36,8 @@ _OF_PLAN = 0.25
 # The decay of gradients alone shows about half of a pole's energy, whose other part is d ∫(ψ_j)².
 _WITH_MASS = 2.0
 _ROUNDING = 1e-12
-# The lowest wavenumber of a convex plan is π over its diameter at least (Payne and Weinberger 1960), 2.2 in a square of unit
-# length; a half of that, for other plans.
+# The lowest wavenumber of a convex plan is π over its diameter at least (Payne and Weinberger 1960), 2.2 in a square of
+# unit length; a half of that, for other plans.
 _LOWEST = 0.5 * pi / sqrt(2.0)
 
 

@@ -64,7 +64,7 @@ def _body(
     bending: NDArray[np.float64],
     squares: NDArray[np.float64],
 ) -> Body:
-    parities: tuple[Parity, ...] = ("symmetric",) * len(squares)
+    parities: tuple[Parity, ...] = tuple("symmetric" for _ in squares)
     return Body(
         surface=body_name(index + 1),
         shapes=lambda points, _normals, number: deflection(points[:2])[number],

@@ -71,7 +71,7 @@ class BoxProblem:
         """See `PlanProblem.sampled`; there is no second mode."""
         del second
         liquid = self.pencil.liquid
-        sign = np.ones(len(x))
+        sign: FloatArray = np.ones(len(x))
         folded = []
         for axis, places in enumerate((x, y)):
             parity, length = self.symmetry_class.parity[axis], self.size[axis]
@@ -169,7 +169,7 @@ class MeshProblem:
     def sampled(self, mode: Mode, x: FloatArray, y: FloatArray, *, second: bool) -> SampledSurface:
         """See `PlanProblem.sampled`; there is no second mode.
 
-        Below the surface ψ is carried by the lowest standing waves of the plan; the rest decays like the highest of them.
+        Below the surface the lowest standing waves of the plan carry ψ; the rest decays like the highest of them.
         """
         del second
         space: PlanSpace = self.pencil.liquid.space

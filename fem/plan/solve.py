@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Literal, TypeAlias
 
 import numpy as np
@@ -139,7 +140,7 @@ def solve_upright_tank(
 
 
 def _tone(tank: LevelTank, found: ClassModes, plate: int, errors: np.ndarray) -> PlateTone:
-    """The first elastic tone of a plate: of the class of its lowest elastic dry mode, among the modes that were solved."""
+    """The first elastic tone of a plate, of the class of its softest dry mode, among the modes that were solved."""
     best: tuple[float, int, int] | None = None
     for number, one in enumerate(found.classes):
         for place, body in enumerate(one.pencil.bodies):
@@ -154,24 +155,25 @@ def _tone(tank: LevelTank, found: ClassModes, plate: int, errors: np.ndarray) ->
     body = one.pencil.bodies[place]
     first = body.dofs.index(FIRST_ELASTIC)
     density = tank.plates[plate].mass_per_area
-    common = {
-        "plate": plate,
-        "order": None,
-        "dry": dry,
-        "squares": float(body.mass[first, first] / density) if density else 1.0,
-        "stiffness": float(body.stiffness[first]),
-        "mass": float(body.mass[first, first]),
-    }
+    plain = PlateTone(
+        plate=plate,
+        order=None,
+        dry=dry,
+        squares=float(body.mass[first, first] / density) if density else 1.0,
+        stiffness=float(body.stiffness[first]),
+        mass=float(body.mass[first, first]),
+        reason="it may lie above the modes that were solved; more modes show it",
+    )
     tone = elastic_tone(one.modes, one.pencil.bodies, place) if len(one.modes.eigenvalues) else None
     index = found.origins.index((number, tone.index)) if tone and (number, tone.index) in found.origins else None
     if tone is None or not tone.certain or index is None:
-        reason = "it may lie above the modes that were solved; more modes show it"
-        return PlateTone(**common, reason=reason)
-    return PlateTone(
-        **common,
+        return plain
+    return replace(
+        plain,
         tone=tone,
         eigenvalue=float(one.modes.eigenvalues[tone.index]),
         relative_error=float(errors[index]),
+        reason="",
     )
 
 
@@ -180,8 +182,8 @@ def _reasons(listed: tuple[LevelMode, ...], counted: bool, tolerance: float) -> 
     errors = [one.relative_error for one in listed]
     if errors and max(errors) > tolerance:
         yield (
-            f"mode {int(np.argmax(errors)) + 1} has an estimated relative error of {max(errors):.1e}, above the tolerance "
-            f"{tolerance:g}; {kept_tolerance(max(errors))}"
+            f"mode {int(np.argmax(errors)) + 1} has an estimated relative error of {max(errors):.1e}, above the "
+            f"tolerance {tolerance:g}; {kept_tolerance(max(errors))}"
         )
     if not counted:
         yield "an independent count of the modes by inertia disagrees: a mode may be missing"

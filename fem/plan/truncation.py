@@ -8,15 +8,15 @@ from numpy.typing import NDArray
 from hydroelastic.fem.plan.rectangle_body import RectangleBody
 from hydroelastic.modal.plate.rectangle import bending_energies
 
-# Of the energy in the last polynomials, the part that the others do not take over if those are left out; measured: 1/13 to
-# 1/18.
+# Of the energy in the last polynomials, the part that the others do not take over if those are left out; measured:
+# 1/13 to 1/18.
 _REARRANGED = 0.25
 # Slowest decay of the energy with two more polynomials along each side.
 _SLOWEST = 0.6
 
 
 def geometric_tail(last: NDArray[np.float64], before: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the remainder of a geometric series after its last term; parts that fall slower count as falling slowly."""
+    """Return the remainder of a geometric series after its last term, of which none falls slower than some."""
     decay = np.minimum(last / np.maximum(before, np.finfo(float).tiny), _SLOWEST)
     tail: NDArray[np.float64] = last * decay / (1.0 - decay)
     return tail

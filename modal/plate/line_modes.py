@@ -130,7 +130,11 @@ def _zernike(order: int, count: int, s: FloatArray, derivative: int) -> FloatArr
     if derivative == 1:
         return slope * jacobi(0) + value * 4.0 * x * jacobi(1)
     curved = order * (order - 1) * x ** max(order - 2, 0)
-    return curved * jacobi(0) + 2.0 * slope * 4.0 * x * jacobi(1) + value * (4.0 * jacobi(1) + 16.0 * x**2 * jacobi(2))
+    return (
+        curved * jacobi(0)
+        + 2.0 * slope * 4.0 * x * jacobi(1)
+        + value * (4.0 * jacobi(1) + 16.0 * x**2 * jacobi(2))
+    )
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -2,9 +2,9 @@
 
     a(w, w) = ∫ w_xx² + w_yy² + 2ν w_xx w_yy + 2(1 − ν) w_xy²
 
-Products of Legendre polynomials of the box around the polygon, up to a degree in x and y together, are made orthonormal on
-the polygon. At corners of less than half a turn the modes are smooth enough for the error to fall like a high power of the
-degree; at re-entrant ones it falls slowly, and the estimate of the error tells so.
+Products of Legendre polynomials of the box around the polygon, up to a degree in x and y together, are made orthonormal
+on the polygon. At corners of less than half a turn the modes are smooth enough for the error to fall like a high power
+of the degree; at re-entrant ones it falls slowly, and the estimate of the error tells so.
 """
 
 from __future__ import annotations

@@ -78,8 +78,8 @@ def rectangle_modes(
     mixed = np.kron(mixed_x, mixed_y.T)
     stiffness += poisson_ratio * (mixed + mixed.T)
     rigid = _rigid_motions(stiffness, bases)
-    # eigh is exact to rounding of the largest eigenvalue only, and so of the inverse: that of the softest mode. Scaled to
-    # unit stiffness, the polynomials are nearly orthogonal in it.
+    # eigh is exact to rounding of the largest eigenvalue only, and so of the inverse: that of the softest mode. Scaled
+    # to unit stiffness, the polynomials are nearly orthogonal in it.
     shift = 1.0 / max(size) ** 4
     shifted = stiffness + shift * np.eye(len(stiffness))
     scale = 1.0 / np.sqrt(np.diagonal(shifted))

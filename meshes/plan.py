@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import ceil, pi
+from math import pi
 
 import gmsh
 import numpy as np
@@ -19,137 +19,13 @@ from numpy.typing import NDArray
 from hydroelastic.meshes.curved_cells import geometry_element, smallest_jacobian
 from hydroelastic.meshes.filling import gmsh_model
 from hydroelastic.meshes.interrupts import interrupts_deferred
+from hydroelastic.meshes.plan_loops import RATIO, UNGRADED, CircleLoop, Loop, PlanRegion, room_between
 from hydroelastic.meshes.tagged_mesh import CurvedCells, MeshError, TaggedMesh
 
-# Ratio of the thicknesses of successive layers.
-RATIO = 0.2
 # Smallest Jacobian of an accepted curved cell, relative to the straight cell.
 _SMALLEST_JACOBIAN = 0.05
-# Size of cells at a distance from a re-entrant corner, and of the smallest ones in parts of the largest.
-_CORNER_GROWTH, _SMALLEST_AT_CORNER = 0.5, 1e-3
-# Corners of a wall that turn the other way by more than this are re-entrant, radians.
-_REENTRANT = 1e-3
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class PolygonLoop:
-    """A closed polygon; its interior is on the left of its sides.
-
-    Attributes:
-        corners: shape (corners, 2), anticlockwise.
-    """
-
-    corners: NDArray[np.float64]
-
-    def parallel(self, distance: float, places: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return points of the mitred parallel outside it (inside if negative).
-
-        Args:
-            distance: from the sides.
-            places: number of the side plus the part of it that is passed, shape (points,).
-        """
-        sides = np.roll(self.corners, -1, axis=0) - self.corners
-        tangents = sides / np.linalg.norm(sides, axis=1)[:, None]
-        before = np.roll(tangents, 1, axis=0)
-        normals = np.column_stack([tangents[:, 1], -tangents[:, 0]])
-        # The mitre of a corner: the sum of both normals over one plus the cosine between them.
-        sums = normals + np.roll(normals, 1, axis=0)
-        mitres = sums / (1.0 + (tangents * before).sum(axis=1))[:, None]
-        moved = self.corners + distance * mitres
-        number = np.floor(places).astype(int) % len(moved)
-        part = (places - np.floor(places))[:, None]
-        points: NDArray[np.float64] = (1.0 - part) * moved[number] + part * moved[(number + 1) % len(moved)]
-        return points
-
-    def places(self, size: float, layer: float, layers: int) -> NDArray[np.float64]:
-        """Return where the nodes lie: cells of a size, smaller ones towards the corners."""
-        places = []
-        lengths = np.linalg.norm(np.roll(self.corners, -1, axis=0) - self.corners, axis=1)
-        for number, length in enumerate(lengths):
-            towards = min(layer / length, 0.3) * RATIO ** np.arange(layers)[::-1]
-            first = towards[-1] if layers else 0.0
-            count = max(ceil((1.0 - 2.0 * first) * length / size), 1)
-            places.append(
-                number
-                + np.concatenate(
-                    [[0.0], towards, np.linspace(first, 1.0 - first, count + 1)[1:-1], 1.0 - towards[::-1]]
-                )
-            )
-        return np.concatenate(places)
-
-    def contains(self, point: NDArray[np.float64]) -> bool:
-        """Whether a point lies inside."""
-        x, y = (self.corners - point).T
-        u, v = np.roll(x, -1), np.roll(y, -1)
-        crossing = (y > 0.0) != (v > 0.0)
-        return bool(np.sum(crossing & ((x * v - u * y > 0.0) == (v > y))) % 2)
-
-    @property
-    def reentrant(self) -> NDArray[np.float64]:
-        """Corners with more than half a turn inside, shape (corners, 2)."""
-        ahead = np.roll(self.corners, -1, axis=0) - self.corners
-        behind = np.roll(ahead, 1, axis=0)
-        turn = np.arctan2(behind[:, 0] * ahead[:, 1] - behind[:, 1] * ahead[:, 0], (behind * ahead).sum(axis=1))
-        return np.asarray(self.corners[turn < -_REENTRANT])
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class CircleLoop:
-    """A circle, anticlockwise.
-
-    Attributes:
-        centre: shape (2,).
-        radius: its radius.
-    """
-
-    centre: NDArray[np.float64]
-    radius: float
-
-    def parallel(self, distance: float, places: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return points of the concentric circle outside it, at parts of a turn."""
-        angles = 2.0 * pi * places
-        return self.centre + (self.radius + distance) * np.column_stack([np.cos(angles), np.sin(angles)])
-
-    def places(self, size: float, _layer: float, _layers: int) -> NDArray[np.float64]:
-        """Return where the nodes lie, in parts of a turn."""
-        count = max(ceil(2.0 * pi * self.radius / size), 12)
-        return np.arange(count) / count
-
-    def contains(self, point: NDArray[np.float64]) -> bool:
-        """Whether a point lies inside."""
-        return bool(np.hypot(*(point - self.centre)) < self.radius)
-
-    @property
-    def reentrant(self) -> NDArray[np.float64]:
-        """It has no corners."""
-        return np.empty((0, 2))
-
-
-Loop = PolygonLoop | CircleLoop
-
-
-@dataclass(frozen=True, kw_only=True)
-class PlanRegion:
-    """A region of a plan.
-
-    Attributes:
-        name: physical name of its cells.
-        outside: its outer loop.
-        inside: loops of its holes.
-    """
-
-    name: str
-    outside: Loop
-    inside: tuple[Loop, ...] = ()
-
-    @property
-    def loops(self) -> tuple[Loop, ...]:
-        """Its outer loop and those of its holes."""
-        return (self.outside, *self.inside)
-
-    def gap(self, other: PlanRegion) -> float:
-        """Return the distance of its loops from those of another region, as far as a few hundred points show it."""
-        return min(_gap(one, another) for one in self.loops for another in other.loops)
+# Ratio of successive nodes' distances from a re-entrant corner of a wall, and size of cells at a distance from it.
+_CORNER_RATIO, _CORNER_GROWTH = 0.4, 0.7
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -204,7 +80,7 @@ def plan_mesh(
     covered = any(plate.outside is wall.outside for plate in plates)
     edges = () if covered else tuple(loop for plate in plates for loop in (plate.outside, *plate.inside))
     walls = (wall.outside, *wall.inside)
-    room = _room(walls, edges)
+    room = room_between(walls, edges)
     bands: dict[int, _Band] = {}
     count = 0
     for loop in (*walls, *edges):
@@ -214,7 +90,11 @@ def plan_mesh(
         names = (
             [plates[0].name] if covered else [wall.name, *(p.name for p in plates if loop in (p.outside, *p.inside))]
         )
-        places = loop.places(min(map(size, names)), 0.0 if is_wall else thick, 0 if is_wall else max(layers - 2, 1))
+        largest = min(map(size, names))
+        towards = UNGRADED if is_wall else thick * RATIO ** np.arange(max(layers - 2, 1))[::-1]
+        # ψ ~ r^(2/3) at a re-entrant corner of a wall; its cells are as long as they are wide.
+        reentrant = 0.5 * largest * _CORNER_RATIO ** np.arange(2 * layers + 2)[::-1] if is_wall else towards
+        places = loop.places(largest, towards, reentrant)
         distances = np.concatenate([-steps, [0.0], steps[::-1]])
         bands[id(loop)] = _Band(loop=loop, places=places, distances=distances, first=count)
         count += len(places) * len(distances)
@@ -240,7 +120,7 @@ def plan_mesh(
                 is_plate = (loop == owner.outside) != bool(outer)
                 cells.append(block)
                 tags.append(np.full(len(block), names.index(owner.name if is_plate else wall.name)))
-    corners = np.concatenate([loop.reentrant for loop in (wall.outside, *edges)] + [np.empty((0, 2))])
+    corners = np.concatenate([loop.reentrant for loop in walls] + [np.empty((0, 2))])
     with gmsh_model():
         points, filled = _filled(points, regions, bands, walls, size, corners)
     for (name, _, _), block in zip(regions, filled, strict=True):
@@ -275,48 +155,6 @@ def _directly(outside: Loop, inside: tuple[Loop, ...]) -> tuple[Loop, ...]:
 
 def _a_point(loop: Loop) -> NDArray[np.float64]:
     return np.asarray(loop.parallel(0.0, np.array([0.0]))[0])
-
-
-def _room(walls: tuple[Loop, ...], edges: tuple[Loop, ...]) -> float:
-    """Two fifths of the smallest distance between two loops, and a third of the smallest length along one."""
-    room = np.inf
-    for number, loop in enumerate(edges):
-        others = (*walls, *edges[:number])
-        room = min([room, *(0.4 * _gap(loop, other) for other in others)])
-        room = min(room, loop.radius / 3.0 if isinstance(loop, CircleLoop) else _inner_room(loop))
-    return room
-
-
-def _gap(one: Loop, other: Loop) -> float:
-    """Distance of two loops: of the points of one from the straight pieces between those of the other."""
-    first, second = (loop.parallel(0.0, loop.places(_extent(loop) / 60.0, 0.0, 0)) for loop in (one, other))
-    return min(_distance(first, second), _distance(second, first))
-
-
-def _distance(points: NDArray[np.float64], corners: NDArray[np.float64]) -> float:
-    sides = np.roll(corners, -1, axis=0) - corners
-    away = points[:, None] - corners
-    parts = np.clip((away * sides).sum(axis=2) / (sides**2).sum(axis=1), 0.0, 1.0)
-    return float(np.linalg.norm(away - parts[..., None] * sides, axis=2).min())
-
-
-def _extent(loop: Loop) -> float:
-    return float(np.ptp(loop.parallel(0.0, np.linspace(0.0, 1.0, 200) * _turns(loop)), axis=0).max())
-
-
-def _turns(loop: Loop) -> float:
-    return len(loop.corners) - 1e-9 if isinstance(loop, PolygonLoop) else 1.0
-
-
-def _inner_room(loop: PolygonLoop) -> float:
-    """The offset inwards at which a side of the polygon vanishes, a third of it."""
-    here = loop.parallel(0.0, np.arange(len(loop.corners), dtype=float))
-    there = loop.parallel(-1.0, np.arange(len(loop.corners), dtype=float))
-    lengths = np.linalg.norm(np.roll(here, -1, axis=0) - here, axis=1)
-    sides = (np.roll(here, -1, axis=0) - here) / lengths[:, None]
-    shrinking = ((np.roll(there, -1, axis=0) - there) * sides).sum(axis=1)
-    rate = np.abs(lengths - shrinking)
-    return float((lengths / np.maximum(rate, 1e-12)).min()) / 3.0
 
 
 def _band_cells(band: _Band) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
@@ -370,7 +208,7 @@ def _filled(
         near = biggest
         if len(corners):
             distance = float(np.hypot(corners[:, 0] - x, corners[:, 1] - y).min())
-            near = max(_CORNER_GROWTH * distance, _SMALLEST_AT_CORNER * biggest)
+            near = max(_CORNER_GROWTH * distance, 1e-9)
         return min(boundary, biggest, near)
 
     gmsh.model.mesh.setSizeCallback(wanted)

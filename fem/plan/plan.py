@@ -21,7 +21,8 @@ from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.tank.resolution import radians
 from hydroelastic.meshes.distribute import distribute_mesh
 from hydroelastic.meshes.geometry import FREE_SURFACE
-from hydroelastic.meshes.plan import CircleLoop, Loop, PlanRegion, PolygonLoop, plan_mesh
+from hydroelastic.meshes.plan import plan_mesh
+from hydroelastic.meshes.plan_loops import CircleLoop, Loop, PlanRegion, PolygonLoop
 from hydroelastic.modal.liquid.vertical_poles import VerticalPoles, vertical_poles
 from hydroelastic.physics.dofs import body_name
 from hydroelastic.physics.level_tank import Box, Cylinder, LevelTank

@@ -19,7 +19,7 @@ from hydroelastic.fem.plan.classes import SymmetryClass
 from hydroelastic.fem.plan.plan_pencil import PlanLiquid, PlanPlate, PlanSpace, water_unknowns
 from hydroelastic.fem.plan.rectangle_body import RectangleBody
 from hydroelastic.meshes.geometry import FREE_SURFACE
-from hydroelastic.meshes.plan import PlanRegion
+from hydroelastic.meshes.plan_loops import PlanRegion
 from hydroelastic.physics.arrays import FloatArray
 
 # Standing waves with less than this part of the largest amplitude are not sampled.

@@ -95,8 +95,8 @@ def solve_box(tank: LevelTank, *, tolerance: float, count: int, report: Report =
     def solve(resolution: BoxResolution) -> BoxSolution:
         attempt = next(attempts)
         report(f"attempt {attempt}: degree {resolution.degree}, {resolution.layers} layers")
-        problems = {parity: _problem(tank, resolution, parity) for parity in symmetries(tank)}
-        modes = solve_classes({parity: pencil for parity, (pencil, _) in problems.items() if pencil.size}, count + 1)
+        problems = {parity: box_problem(tank, resolution, parity) for parity in symmetries(tank)}
+        modes = solve_classes({parity: one for parity, (one, _) in problems.items() if one is not None}, count + 1)
         found = [modes.completed(index) for index in range(len(modes.eigenvalues))]
         liquid, plates = np.zeros(len(found)), np.zeros(len(found))
         for number, one in enumerate(modes.classes):
@@ -113,7 +113,7 @@ def solve_box(tank: LevelTank, *, tolerance: float, count: int, report: Report =
             plates={parity: bodies for parity, (_, bodies) in problems.items()},
             liquid_errors=liquid,
             plate_errors=plates,
-            counted=count_is_confirmed(modes, lambda parity: _problem(tank, coarser, parity, dense=True)[0]),
+            counted=count_is_confirmed(modes, lambda parity: box_problem(tank, coarser, parity, dense=True)[0]),
             attempts=attempt,
         )
 
@@ -154,9 +154,17 @@ def _liquid(tank: LevelTank, resolution: BoxResolution, parity: ClassParity) -> 
     return BoxLiquid(spaces=(spaces[0], spaces[1]), depth=tank.depth, images=images)
 
 
-def _problem(
+def box_problem(
     tank: LevelTank, resolution: BoxResolution, parity: ClassParity, *, dense: bool = False
-) -> tuple[CoupledPencil[BoxLiquid], tuple[RectangleBody, ...]]:
+) -> tuple[CoupledPencil[BoxLiquid] | None, tuple[RectangleBody, ...]]:
+    """Return the problem of a symmetry class, ``None`` where nothing moves in it, and the plates in its shapes.
+
+    Args:
+        tank: the dimensionless box.
+        resolution: of it.
+        parity: the class.
+        dense: whether A is made as a matrix, of which the inertia can be had.
+    """
     assert isinstance(tank.plan, Box)
     bodies = tuple(
         rectangle_body(tank.plan, index, plate, resolution.polynomials[index], parity)
@@ -216,7 +224,7 @@ def _plate_errors(bodies: tuple[RectangleBody, ...], modes: list[Mode]) -> np.nd
     first = 0
     for body in bodies:
         last = first + body.body.size
-        amplitudes = np.array([mode.body_amplitudes[first:last] for mode in modes]).reshape(len(modes), -1)
+        amplitudes = np.array([mode.body_amplitudes[first:last] for mode in modes]).reshape(len(modes), last - first)
         errors += rectangle_energies(body, amplitudes)
         first = last
     return 0.5 * errors / np.array([mode.eigenvalue for mode in modes])

@@ -125,7 +125,7 @@ class _Stiffness:
 
 def box_pencil(
     liquid: BoxLiquid, plates: tuple[RectangleBody, ...], *, waves: bool, dense: bool = False
-) -> CoupledPencil[BoxLiquid]:
+) -> CoupledPencil[BoxLiquid] | None:
     """Assemble the coupled problem of a symmetry class, alike on each process.
 
     Args:
@@ -133,16 +133,21 @@ def box_pencil(
         plates: the plates with their shapes of the class.
         waves: whether the water beside the plates moves under gravity.
         dense: whether A is made as a matrix, of which the inertia can be had.
+
+    Returns:
+        The problem; ``None`` where nothing moves in the class.
     """
+    moving = tuple(plate for plate in plates if plate.body.size)
+    water = _water(liquid, plates) if waves else None
+    if not moving and water is None:
+        return None
     operator = _Stiffness(liquid)
     if dense:
         laplace = as_matrix(sparse.csr_matrix(operator.dense))
     else:
         laplace = PETSc.Mat().createPython((liquid.size, liquid.size), operator, comm=PETSc.COMM_SELF)
         laplace.setUp()
-    moving = tuple(plate for plate in plates if plate.body.size)
     loads = [column for plate in moving for column in plate_loads(liquid, plate)]
-    water = _water(liquid, plates) if waves else None
     return coupled_pencil(
         liquid,
         bodies=tuple(plate.body for plate in moving),
@@ -176,7 +181,7 @@ def plate_loads(liquid: BoxLiquid, plate: RectangleBody) -> NDArray[np.float64]:
 def water_masses(
     liquid: BoxLiquid, plates: tuple[RectangleBody, ...]
 ) -> list[tuple[NDArray[np.float64], NDArray[np.float64]]]:
-    """Return S = Σ M_x ⊗ M_y over the water beside the plates and its images: pairs of matrices, none where plates cover all of it.
+    """Return S = Σ M_x ⊗ M_y over the water and its images: pairs of matrices, none where plates cover all of it.
 
     It is summed over cells: the difference of the whole surface and the plates would leave rounding under the plates.
     """
@@ -204,7 +209,9 @@ def _water(liquid: BoxLiquid, plates: tuple[RectangleBody, ...]) -> SurfaceBlock
     masses = water_masses(liquid, plates)
     if not masses:
         return None
-    whole = sum(sparse.kron(*map(sparse.csr_matrix, pair), format="csr") for pair in masses)
+    whole = sparse.csr_matrix((liquid.size, liquid.size))
+    for along, across in masses:
+        whole = whole + sparse.kron(sparse.csr_matrix(along), sparse.csr_matrix(across), format="csr")
     columns = water_columns(masses)
     return SurfaceBlocks(
         coupling=as_matrix(whole[:, columns].tocsr()), stiffness=as_matrix(whole[columns][:, columns].tocsr())

@@ -60,6 +60,8 @@ def solve_classes(pencils: dict[ClassParity, CoupledPencil], count: int) -> Clas
         pencils: the problem of each class that has unknowns.
         count: number of modes; fewer are returned if the model has fewer.
     """
+    if not pencils:
+        return ClassModes(classes=(), eigenvalues=np.empty(0), origins=())
     share = count if len(pencils) == 1 else count // len(pencils) + 2
     classes = [
         SymmetryClass(parity=parity, pencil=pencil, modes=solve_modes(pencil, share, shapes=0))
@@ -93,7 +95,7 @@ def solve_classes(pencils: dict[ClassParity, CoupledPencil], count: int) -> Clas
     )
 
 
-def count_is_confirmed(solution: ClassModes, coarse: Callable[[ClassParity], CoupledPencil]) -> bool:
+def count_is_confirmed(solution: ClassModes, coarse: Callable[[ClassParity], CoupledPencil | None]) -> bool:
     """Whether a coarser model of each class has as many modes below the widest of the last gaps (collective).
 
     Ritz values of the coarser space are not below those of the finer: it has no more modes under any limit, and as many
@@ -110,6 +112,9 @@ def count_is_confirmed(solution: ClassModes, coarse: Callable[[ClassParity], Cou
     first = max(0, len(gaps) - 4)
     widest = first + int(np.argmax(gaps[first:]))
     shift = float(np.sqrt(values[widest] * values[widest + 1]))
-    return all(
-        count_below(coarse(one.parity), shift) == int(np.sum(one.modes.eigenvalues < shift)) for one in solution.classes
-    )
+    for one in solution.classes:
+        pencil = coarse(one.parity)
+        assert pencil is not None
+        if count_below(pencil, shift) != int(np.sum(one.modes.eigenvalues < shift)):
+            return False
+    return True

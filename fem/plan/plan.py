@@ -316,6 +316,6 @@ def _plate_errors(plates: tuple[PlanPlate, ...], modes: list[Mode]) -> np.ndarra
     first = 0
     for plate in plates:
         last = first + plate.body.size
-        errors += plate.missing_energy(np.array([mode.body_amplitudes[first:last] for mode in modes]))
+        errors += plate.missing_energy(np.array([mode.body_amplitudes[first:last] for mode in modes]).reshape(len(modes), last - first))
         first = last
     return 0.5 * errors / np.array([mode.eigenvalue for mode in modes])

@@ -1,12 +1,12 @@
 """The lowest modes of all orders of an upright tank at one resolution.
 
-Orders are solved until no lower frequency can come. With ‖·‖ over the surfaces, k_n the lowest wavenumber of an order and
-κ_n that of a plate's dry modes,
+Orders are solved until no lower frequency can come. With ‖·‖ over the surfaces, k_n the lowest wavenumber of an order
+and κ_n that of a plate's dry modes,
 
     K ≥ Σ_plates (D κ_n⁴ + sρg)‖w‖² + ρg‖η‖²,    M ≤ Σ_plates (m + ρ/(k_n tanh k_nH))‖w‖² + ρ/(k_n tanh k_nH) ‖η‖²
 
-so that λ is at least the smallest quotient of both, (D κ_n⁴ + sρg)/(m + ρ/(k_n tanh k_nH)) and g k_n tanh k_nH, for n ≥ 2,
-where no plate moves as a rigid body. Both rise with n.
+so that λ is at least the smallest quotient of both, (D κ_n⁴ + sρg)/(m + ρ/(k_n tanh k_nH)) and g k_n tanh k_nH, for
+n ≥ 2, where no plate moves as a rigid body. Both rise with n.
 """
 
 from __future__ import annotations

@@ -4,8 +4,8 @@ Waves on open water and under a plate with sliding edges that covers all of it s
 
     ω² = (D k⁴ + sρg)/(m + ρ/(k tanh kH)),    D = m = 0, s = 1 without a plate
 
-with k² = (iπ/L)² + (jπ/B)² in a box, J_n'(kR) = 0 in a cylinder, where a covered one is closed for n = 0 only: w_r = 0 on
-a curved edge leaves a shear force for n ≥ 1.
+with k² = (iπ/L)² + (jπ/B)² in a box, J_n'(kR) = 0 in a cylinder. A covered cylinder has no such form: w_r = 0 on a
+curved edge leaves a shear force for n ≥ 1.
 """
 
 from __future__ import annotations

@@ -1,13 +1,13 @@
 """Dry modes of a plate of one order by Ritz's method: W(x) cos k_y y of a strip, W(r) cos nθ of a disc or ring.
 
-Shapes are polynomials, on a disc r^n times polynomials of r², which keep the conditions of held edges. The bending energy
-is D/2 times ∫(Δw)² − 2(1 − ν)(w_xx w_yy − w_xy²), of one order
+Shapes are polynomials, on a disc r^n times polynomials of r², which keep the conditions of held edges. The bending
+energy is D/2 times ∫(Δw)² − 2(1 − ν)(w_xx w_yy − w_xy²), of one order
 
     strip:  ∫(W'' − k²W)² + 2(1 − ν)k²(WW'' + W'²) dx
     disc:   ∫[(Δₙf)² − 2(1 − ν)(f''(f'/r − n²f/r²) − n²(f'/r − f/r²)²)] r dr
 
-so moments and Kirchhoff shears vanish at free edges. Eigenvalues come from above, and reach rounding with about twice as
-many shapes as half waves.
+so moments and Kirchhoff shears vanish at free edges. Eigenvalues come from above, and reach rounding with about twice
+as many shapes as half waves.
 """
 
 from __future__ import annotations

@@ -17,8 +17,6 @@ from hydroelastic.scenes.read import read_scene, shipped_scenes
 
 DOCS = Path(__file__).parent.parent / "docs"
 PAGE = (DOCS / "scenes_threads.md").read_text(encoding="utf-8")
-CONVENTIONS = (DOCS / "conventions.md").read_text(encoding="utf-8")
-SUMMARY = CONVENTIONS.split("## `summary.json` of flexible threads")[1].split("\n## ")[0]
 EXAMPLES = [block for block in re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL) if block.startswith("kind")]
 RESULTS = PAGE.split("## Results")[1].split("\n## ")[0]
 REFUSED = re.findall(r'^\| "(.*?)" \|', PAGE.split("## What is refused")[1].split("\n## ")[0], re.MULTILINE)

@@ -107,6 +107,32 @@ class Quantity:
         return with_certain_digits(value, max(error, 10.0**-self.digits))
 
 
+def array(
+    key: str,
+    meaning: str,
+    unit: str | None,
+    dimensions: str,
+    value: Callable[[Any], Any] | None = None,
+    *,
+    error: str = "",
+    variable: str = "",
+) -> Quantity:
+    """Return an array of ``dataset.nc`` alone.
+
+    Args:
+        key: name in its group, and of its variable if no other is given.
+        meaning: what it is.
+        unit: in names of UDUNITS.
+        dimensions: names, separated by blanks; places along a dimension have its name and that dimension alone.
+        value: returns it from a record; by default the attribute of the name `key`.
+        error: key of the absolute error of all of its values, in the same group.
+        variable: name in ``dataset.nc``.
+    """
+    along = tuple(dimensions.split())
+    named = variable or key
+    return Quantity(key, meaning, unit, value=value, error=error, dimensions=along, variable=named, in_summary=False)
+
+
 @dataclass(frozen=True)
 class Group:
     """Quantities of one record of a solution, or of each record of a list.

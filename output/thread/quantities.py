@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 
 from hydroelastic.fem.thread.frame import Frame
 from hydroelastic.fem.thread.modes import Roots, ThreadModes
-from hydroelastic.fem.thread.motion_in_space import MotionInSpace
 from hydroelastic.fem.thread.stability import Stability
 from hydroelastic.output.provenance import PROCESSES
-from hydroelastic.output.quantities import Group, Quantity
+from hydroelastic.output.quantities import Group, Quantity, array
+from hydroelastic.output.thread.motion_quantities import MOTION
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -69,35 +69,6 @@ def _stability(sweep: Stability) -> dict[str, Any]:
         "ill_posed_reason": None if sweep.ill_posed is None else sweep.ill_posed[1],
         "roots": sweep.roots,
     }
-
-
-def _largest_at(motion: MotionInSpace) -> list[float]:
-    high = int(motion.extremes.highest.argmax())
-    return [float(motion.step_ends[high]), float(motion.extremes.highest_at[high])]
-
-
-def _smallest_at(motion: MotionInSpace) -> list[float]:
-    low = int(motion.extremes.lowest.argmin())
-    return [float(motion.step_ends[low]), float(motion.extremes.lowest_at[low])]
-
-
-def _energy(motion: MotionInSpace) -> NDArray[np.float64]:
-    return np.asarray(motion.energies.sum(axis=1))
-
-
-def _array(
-    key: str, meaning: str, unit: str | None, dimensions: str, value: Any = None, error: str = "", variable: str = ""
-) -> Quantity:
-    return Quantity(
-        key,
-        meaning,
-        unit,
-        value=value,
-        error=error,
-        dimensions=tuple(dimensions.split()),
-        variable=variable or key,
-        in_summary=False,
-    )
 
 
 _ALONG = "distance from end A along the thread"
@@ -160,13 +131,13 @@ EQUILIBRIUM = Group(
         Quantity("start", "[start](../scenes_threads.md#how-a-start-is-chosen) of Newton's method"),
         Quantity("newton_steps", "steps of Newton's method on each mesh", "1", dimensions=("newton_mesh",)),
         Quantity("failed_starts", "why the starts before it failed", dimensions=("failed_start",)),
-        _array(
+        array(
             "position", "position at rest, z upwards", "m", "s axis", lambda it: it.positions, error="position_error"
         ),
-        _array("tension", "tension at rest", "N", "s", lambda rest: rest.tensions, error="tension_error"),
-        _array("contact_force", "force of the part beyond on the part before", "N", "s axis", lambda rest: rest.forces),
-        _array("curvature", "curvature at rest", "1/m", "s", lambda rest: rest.curvatures),
-        _array(
+        array("tension", "tension at rest", "N", "s", lambda rest: rest.tensions, error="tension_error"),
+        array("contact_force", "force of the part beyond on the part before", "N", "s axis", lambda rest: rest.forces),
+        array("curvature", "curvature at rest", "1/m", "s", lambda rest: rest.curvatures),
+        array(
             "reaction",
             "support force on the thread",
             "N",
@@ -174,7 +145,7 @@ EQUILIBRIUM = Group(
             lambda rest: rest.reactions,
             error="reaction_error",
         ),
-        _array("end_moment", "bending moment", "N m", "end", lambda rest: rest.end_moments, error="moment_error"),
+        array("end_moment", "bending moment", "N m", "end", lambda rest: rest.end_moments, error="moment_error"),
     ),
     record=lambda solution: solution.rest,
 )
@@ -213,11 +184,11 @@ MODES = Group(
             prefix="aperiodic",
         ),
         Quantity("stable", "whether no motion grows", value=lambda it: it.modes.is_stable),
-        _array("mode", "number of the mode", None, "mode", lambda it: np.arange(1, len(it.joined("values")) + 1)),
-        _array("mode_s", _ALONG, "m", "mode_s", lambda it: it.modes.nodes),
-        _array("root", "root λ of a free motion e^{λt}", "1/s", "mode", lambda it: it.joined("values")),
-        _array("root_error", "estimated error of the root", "1/s", "mode", lambda it: it.joined("errors")),
-        _array(
+        array("mode", "number of the mode", None, "mode", lambda it: np.arange(1, len(it.joined("values")) + 1)),
+        array("mode_s", _ALONG, "m", "mode_s", lambda it: it.modes.nodes),
+        array("root", "root λ of a free motion e^{λt}", "1/s", "mode", lambda it: it.joined("values")),
+        array("root_error", "estimated error of the root", "1/s", "mode", lambda it: it.joined("errors")),
+        array(
             "mode_shape",
             "displacement in a free motion, at a generalized mass of that of the thread",
             "1",
@@ -251,11 +222,11 @@ STABILITY = Group(
         THRESHOLDS,
         Quantity("ill_posed_from", "first factor at which the problem is ill-posed", "1", note="or `null`"),
         Quantity("ill_posed_reason", "why it is ill-posed there", note="or `null`"),
-        _array("factor", "factor of the stream", "1", "factor", lambda sweep: sweep["factors"]),
-        _array(
+        array("factor", "factor of the stream", "1", "factor", lambda sweep: sweep["factors"]),
+        array(
             "followed_root", "root followed through the factors", "1/s", "factor branch", lambda sweep: sweep["roots"]
         ),
-        _array(
+        array(
             "growing_motions",
             "number of motions that grow",
             "1",
@@ -266,132 +237,6 @@ STABILITY = Group(
     ),
     record=lambda it: [_stability(sweep) for sweep in it.stability],
     dimension="stability_analysis",
-)
-MOTION = Group(
-    "motion",
-    "motion in time, by analysis; extremes are those over all steps, between the times asked too",
-    (
-        Quantity("until", "last time", "s", value=lambda motion: motion.times[-1]),
-        Quantity("steps", "number of steps", "1"),
-        Quantity("nodes", "number of nodes", "1", value=lambda motion: len(motion.nodes)),
-        Quantity(
-            "largest_tension",
-            "largest tension over all steps",
-            "N",
-            value=lambda motion: motion.extremes.highest.max(),
-            error="extreme_tension_error",
-        ),
-        Quantity(
-            "largest_tension_at",
-            "time, s, and place along the thread, m, of the largest tension",
-            "s and m",
-            value=_largest_at,
-            dimensions=("time_and_s",),
-        ),
-        Quantity(
-            "smallest_tension",
-            "smallest tension over all steps",
-            "N",
-            value=lambda motion: motion.extremes.lowest.min(),
-            error="extreme_tension_error",
-        ),
-        Quantity(
-            "smallest_tension_at",
-            "time, s, and place along the thread, m, of the smallest tension",
-            "s and m",
-            value=_smallest_at,
-            dimensions=("time_and_s",),
-        ),
-        Quantity(
-            "end_tensions_range",
-            "smallest and largest tension at A and B",
-            "N",
-            value=lambda motion: [
-                [float(tensions.min()), float(tensions.max())] for tensions in motion.extremes.end_tensions.T
-            ],
-            dimensions=("end", "extreme"),
-            error="extreme_tension_error",
-        ),
-        Quantity(
-            "extreme_tension_error",
-            "estimated error of the extremes of tension",
-            "N",
-            value=lambda motion: motion.extremes.error,
-            shown=".2g",
-        ),
-        Quantity(
-            "energy_at_start",
-            "energy at the start",
-            "J",
-            value=lambda motion: _energy(motion)[0],
-            note="kinetic, of weight and dead forces, of stretch, of bending",
-        ),
-        Quantity("energy_at_end", "energy at the end", "J", value=lambda motion: _energy(motion)[-1]),
-        Quantity("work_of_drag", "work of drag", "J", value=lambda motion: motion.drag_work[-1]),
-        Group(
-            "slack",
-            "times at which a part would be in compression",
-            (
-                Quantity("from", "beginning", "s", value=lambda slack: slack.start),
-                Quantity("to", "end", "s", value=lambda slack: slack.end),
-                Quantity("at", "place along the thread", "m", value=lambda slack: slack.where),
-                Quantity("tension", "lowest tension", "N"),
-            ),
-            dimension="slack",
-            prefix="slack",
-        ),
-        Quantity("distance_to_rest", "last distance from the equilibrium", "m", shown=".3g"),
-        Quantity("step_error", "estimated error of positions by the steps", "m", shown=".1e"),
-        Quantity("mesh_error", "estimated error of positions by the mesh", "m", shown=".1e"),
-        Quantity("position_error", "estimated error of positions", "m", shown=".1e"),
-        Quantity("tension_error", "estimated error of tensions at the times asked", "N", shown=".2g"),
-        _array("time", "time", "s", "time", lambda motion: motion.times),
-        _array("node", _ALONG, "m", "node", lambda motion: motion.nodes),
-        _array("step_end", "end of a step in time", "s", "step_end", lambda motion: motion.step_ends),
-        _array(
-            "motion_position",
-            "position in motion",
-            "m",
-            "time node axis",
-            lambda motion: motion.positions,
-            error="position_error",
-        ),
-        _array(
-            "motion_tension",
-            "tension in motion",
-            "N",
-            "time node",
-            lambda motion: motion.tensions,
-            error="tension_error",
-        ),
-        _array(
-            "end_tension",
-            "tension at A and B at the ends of steps",
-            "N",
-            "step_end end",
-            lambda motion: motion.extremes.end_tensions,
-            error="extreme_tension_error",
-        ),
-        _array(
-            "tension_range",
-            "lowest and highest tension along the thread at the ends of steps",
-            "N",
-            "step_end extreme",
-            lambda motion: np.column_stack([motion.extremes.lowest, motion.extremes.highest]),
-            error="extreme_tension_error",
-        ),
-        _array("energy", "energy at the ends of steps", "J", "step_end energy_kind", lambda motion: motion.energies),
-        _array(
-            "work_so_far",
-            "work of the drag so far",
-            "J",
-            "step_end",
-            lambda motion: motion.drag_work,
-            variable="work_of_drag",
-        ),
-    ),
-    record=lambda solution: solution.motions,
-    dimension="motion_analysis",
 )
 THREAD = Group(
     "",
@@ -424,11 +269,11 @@ THREAD = Group(
                 PROCESSES,
             ),
         ),
-        _array("s", _ALONG, "m", "s"),
-        _array("axis", "direction, z upwards", None, "axis", lambda _: ("x", "y", "z")),
-        _array("end", "end of the thread", None, "end", lambda _: ("A", "B")),
-        _array("extreme", "which extreme", None, "extreme", lambda _: ("lowest", "highest")),
-        _array(
+        array("s", _ALONG, "m", "s"),
+        array("axis", "direction, z upwards", None, "axis", lambda _: ("x", "y", "z")),
+        array("end", "end of the thread", None, "end", lambda _: ("A", "B")),
+        array("extreme", "which extreme", None, "extreme", lambda _: ("lowest", "highest")),
+        array(
             "energy_kind",
             "kind of energy",
             None,

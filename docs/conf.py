@@ -91,6 +91,7 @@ def _mathml(translator: Any, node: nodes.math | nodes.math_block) -> None:
         shown = str(tex2mathml(node.astext(), as_block=is_block))
         # Few devices have a font with the italics of mathematics, above all Greek ones: ordinary letters are slanted.
         shown = re.sub(r"<mi>(\w)</mi>", r'<mi class="variable" mathvariant="normal">\1</mi>', shown)
+        shown = re.sub(r"<mi(?: class=.capital-greek.)?>(.)</mi>", r'<mi mathvariant="normal">\1</mi>', shown)
         shown = re.sub(r"<mi>(\w+)</mi>", r'<mo lspace="0.17em" rspace="0.17em">\1</mo>', shown)
     except MathError as error:
         logging.getLogger(__name__).warning("%s: %s", error, node.astext(), location=node)

@@ -53,6 +53,8 @@ NOT_RUN = {
     "./hydro study aquarium": "a quarter of a minute; results/regenerate.py keeps what it gives",
     "./hydro study float_parabola --families thinness": "half a minute; the page runs it with fewer widths",
     "HYDROELASTIC_SUITE=trixie ./hydro python requirements/lock.py": "from the network",
+    "./hydro exec python -m pip install jupyterlab": "from the network",
+    "./hydro exec jupyter lab": "is not part of the environment",
     "./hydro python tests/support/golden_corpus.py write before": MINUTES,
     "./hydro python tests/support/golden_corpus.py compare before after": MINUTES,
     "./hydro python results/start_up.py": MINUTES,

@@ -51,7 +51,7 @@ autodoc_typehints = "description"
 autodoc_typehints_description_target = "documented"
 autodoc_member_order = "bysource"
 # Said by their names, not by what they stand for.
-autodoc_type_aliases = {name: name for name in ("ArrayLike", "npt.ArrayLike", "FloatArray", "Force", "Scene", "Report")}
+autodoc_type_aliases = {name: name for name in ("ArrayLike", "npt.ArrayLike", "FloatArray", "Force", "Report")}
 # Names of code in single backticks.
 default_role = "code"
 napoleon_use_ivar = True

@@ -295,6 +295,7 @@ print(he.__file__, beam.__file__, len(he.solve("swell")._repr_html_()), sep="\\n
     assert int(files[2]) > 1000
 
 
+@pytest.mark.only_on_ranks
 @pytest.mark.mpi
 def test_all_processes_have_the_same_result(tmp_path_factory: pytest.TempPathFactory) -> None:
     from mpi4py import MPI

@@ -152,6 +152,7 @@ def test_shedding_must_be_finite() -> None:
         VortexShedding(lift=np.inf, wave_number=1.0)
 
 
+@pytest.mark.only_on_ranks
 @pytest.mark.mpi
 def test_shared_motion() -> None:
     """All processes get the numbers of one."""

@@ -336,6 +336,7 @@ def test_momentum_is_the_coupling_times_the_density() -> None:
 
 
 @pytest.mark.slow_on_ranks_but("free")
+@pytest.mark.only_on_ranks
 @pytest.mark.mpi
 @pytest.mark.parametrize("top", TOPS)
 def test_two_processes_find_what_one_finds(top: LayerTop) -> None:

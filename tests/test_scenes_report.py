@@ -272,6 +272,7 @@ def test_a_page_that_fails_leaves_no_folder(tmp_path: Path, monkeypatch: pytest.
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.only_on_ranks
 @pytest.mark.mpi
 @pytest.mark.parametrize("kind", ["tank", "thread"])
 def test_one_process_writes_the_page(tmp_path: Path, kind: str) -> None:

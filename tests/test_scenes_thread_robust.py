@@ -225,6 +225,7 @@ def test_moving_load_beyond_the_tension() -> None:
         solved(data)
 
 
+@pytest.mark.only_on_ranks
 @pytest.mark.mpi
 def test_on_all_processes() -> None:
     found = solved(random_thread("slack", 2))

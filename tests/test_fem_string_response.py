@@ -72,12 +72,13 @@ def test_what_hardly_moves_and_what_moves_long() -> None:
 def test_silence_before_the_front_but_for_ripples() -> None:
     times = np.array([0.2, 0.5, 0.9])
     for motion in (step(), ramp(), smooth(4.0)):
-        solution = field_response(COMM, plain(0.1), motion, [0.0, 0.1], times, tolerance=1e-6)
+        solution = field_response(COMM, plain(0.1), motion, [0.0, 0.1], times, tolerance=1e-4)
         # At 0.1 the front passes after 1.37.
-        assert np.all(np.abs(solution.values) <= 1e-6)
+        assert np.all(np.abs(solution.values) <= 1e-4)
         assert solution.converged
 
 
+@pytest.mark.slow
 def test_values_in_a_front_are_not_claimed() -> None:
     # At x = 0.25 the front of a step passes at t = 1: what is given is the mean of both sides, off by half of the jump.
     damping = 0.2
@@ -185,6 +186,7 @@ def test_a_step_is_softened_with_its_jump() -> None:
         assert soft.curvature(time) == pytest.approx(bend * time, rel=1e-4)
 
 
+@pytest.mark.slow
 def test_tables_with_an_end() -> None:
     # A table of straight lines that ends with the last output time.
     knots, heights = np.array([0.0, 0.4, 1.0, 2.0]), np.array([0.0, 0.2, -0.1, 0.3])

@@ -109,7 +109,9 @@ REFUSALS: list[tuple[dict[str, Any], dict[str, Any], str]] = [
 ]
 
 
-@pytest.fixture(scope="module", params=EXAMPLES, ids=["buoy", "hose"])
+@pytest.fixture(
+    scope="module", params=[EXAMPLES[0], pytest.param(EXAMPLES[1], marks=pytest.mark.slow)], ids=["buoy", "hose"]
+)
 def outcome(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Outcome:
     """An example of the page, with its result folder but for the pictures."""
     folder = tmp_path_factory.mktemp("thread")

@@ -146,6 +146,7 @@ def test_what_falls_short_is_said_loudly() -> None:
     assert counts == {7}
 
 
+@pytest.mark.slow
 def test_every_analysis_has_its_curves(tmp_path: Path) -> None:
     from PIL import Image
 

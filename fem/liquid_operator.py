@@ -1,7 +1,7 @@
 """What the coupled pencil asks of a liquid, whichever way Laplace's equation is solved.
 
-A liquid is an operator: a load on the moving surfaces → ψ on them. For the unit displacements ζ of the surfaces the load
-on ψ is C ζ, a functional on N unknowns of ψ, and
+A liquid is an operator: a load on the moving surfaces → ψ on them. For the unit displacements ζ of the surfaces the
+load on ψ is C ζ, a functional on N unknowns of ψ, and
 
     A ψ = C ζ,    ψ = A⁺ C ζ,    added mass M_a = (ρC)ᵀ A⁺ C,    all dimensionless (ρ = g = 1, lengths in one unit).
 
@@ -17,13 +17,13 @@ The N unknowns need not fill the volume. What the pencil, its modes, errors and 
   pole, ψ = Σⱼ cⱼ ψⱼ. Then A is block diagonal, cⱼ (K₂ + dⱼ M₂), C has the blocks cⱼ C₂ upon each other, and (ρC)ᵀψ
   is the whole pressure. Count and condensation hold as they are; "ψ" of a mode is that stack.
 
-The constant: where ψ = 0 nowhere on the boundary of a layer, A has the constant in its null space. A load of nonzero flux
-has no answer then; A⁺ takes the flux out of it first, and gives ψ with ∫ψ = 0 over the moving surfaces:
+The constant: where ψ = 0 nowhere on the boundary of a layer, A has the constant in its null space. A load of nonzero
+flux has no answer then; A⁺ takes the flux out of it first, and gives ψ with ∫ψ = 0 over the moving surfaces:
 
     A⁺ = Πᵀ A⁻¹ Π,    Π b = b − (1ᵀb) s/|s|,    s = ∫q over the moving surfaces, |s| = 1ᵀs
 
-where 1 has ones at the unknowns of that layer which carry the constant: with poles at those of d₀ = 0 only. Such a layer
-is told to the pencil as *closed*; it then keeps ∫ζ = 0 itself, and adds the constant to ψ of the modes.
+where 1 has ones at the unknowns of that layer which carry the constant: with poles at those of d₀ = 0 only. Such a
+layer is told to the pencil as *closed*; it then keeps ∫ζ = 0 itself, and adds the constant to ψ of the modes.
 """
 
 from __future__ import annotations

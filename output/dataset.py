@@ -95,7 +95,7 @@ def write_dataset(path: Path, variables: Iterable[Variable], attributes: Mapping
     further = [variable.name for variable in found if variable.is_coordinate]
     sizes: dict[str, int] = {}
     with netcdf_file(path, "w", version=2) as file:
-        for name, text in (attributes | ({"coordinates": " ".join(further)} if further else {})).items():
+        for name, text in {**attributes, **({"coordinates": " ".join(further)} if further else {})}.items():
             setattr(file, name, _attribute(text))
         for variable in found:
             values, dimensions, coding = _stored(variable)
@@ -106,7 +106,7 @@ def write_dataset(path: Path, variables: Iterable[Variable], attributes: Mapping
                     file.createDimension(name, size)
             stored = file.createVariable(variable.name, values.dtype, dimensions)
             stored.data[...] = values
-            for name, value in (variable.attributes | coding).items():
+            for name, value in {**variable.attributes, **coding}.items():
                 setattr(stored, name, _attribute(value))
 
 

@@ -11,6 +11,8 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import KW_ONLY, dataclass
 from typing import Any, TypeAlias
 
+import numpy as np
+
 from hydroelastic.output.digits import number, with_certain_digits
 
 Values: TypeAlias = dict[str, Any]
@@ -105,6 +107,32 @@ class Quantity:
         return with_certain_digits(value, max(error, 10.0**-self.digits))
 
 
+def array(
+    key: str,
+    meaning: str,
+    unit: str | None,
+    dimensions: str,
+    value: Callable[[Any], Any] | None = None,
+    *,
+    error: str = "",
+    variable: str = "",
+) -> Quantity:
+    """Return an array of ``dataset.nc`` alone.
+
+    Args:
+        key: name in its group, and of its variable if no other is given.
+        meaning: what it is.
+        unit: in names of UDUNITS.
+        dimensions: names, separated by blanks; places along a dimension have its name and that dimension alone.
+        value: returns it from a record; by default the attribute of the name `key`.
+        error: key of the absolute error of all of its values, in the same group.
+        variable: name in ``dataset.nc``.
+    """
+    along = tuple(dimensions.split())
+    named = variable or key
+    return Quantity(key, meaning, unit, value=value, error=error, dimensions=along, variable=named, in_summary=False)
+
+
 @dataclass(frozen=True)
 class Group:
     """Quantities of one record of a solution, or of each record of a list.
@@ -170,20 +198,26 @@ class Group:
             if (isinstance(part, Group) or part.in_summary) and not part.is_missing(record)
         }
 
-    def places(self, place: str = "", prefix: str = "") -> Iterator[tuple[str, str, Quantity | Group]]:
-        """Yield, of all parts, the keys that lead there, joined by dots, the name of the variable, and the part.
+    def places(
+        self, place: str = "", prefix: str = "", dimensions: tuple[str, ...] = ()
+    ) -> Iterator[tuple[str, str, tuple[str, ...], Quantity | Group]]:
+        """Yield each part within with its place.
 
-        Of a group the name is the prefix of its variables.
+        Yields:
+            The keys that lead to it, joined by dots; the name of its variable, of a group the prefix of those below;
+            their dimensions; the part.
         """
         for part in self.parts:
             inner, name = f"{place}.{part.key}".lstrip("."), f"{prefix}_{part.key}".lstrip("_")
             if isinstance(part, Group):
                 name = name if part.prefix is None else part.prefix
-                yield inner, name, part
-                yield from part.places(inner, name)
+                along = (*dimensions, part.dimension) if part.dimension else dimensions
+                yield inner, name, along, part
+                yield from part.places(inner, name, along)
+            elif part.in_summary:
+                yield inner, name if part.variable is None else part.variable, (*dimensions, *part.dimensions), part
             else:
-                own = name if part.in_summary else part.key
-                yield inner, own if part.variable is None else part.variable, part
+                yield inner, part.variable or part.key, part.dimensions, part
 
 
 def _taken(key: str, function: Callable[[Any], Any] | None, record: Any) -> Any:
@@ -194,6 +228,9 @@ def _taken(key: str, function: Callable[[Any], Any] | None, record: Any) -> Any:
 
 def _evaluated(part: Quantity | Group, record: Any) -> Any:
     found = part.of(record)
-    if isinstance(part, Quantity) or found is None:
-        return found
+    if isinstance(part, Quantity):
+        # Plain numbers and lists in place of arrays and NumPy's numbers.
+        return found.tolist() if isinstance(found, np.ndarray | np.generic) else found
+    if found is None:
+        return None
     return [part.evaluated(one) for one in found] if part.dimension else part.evaluated(found)

@@ -42,14 +42,14 @@ def _printed(group: Group) -> Iterator[Quantity]:
 def reference_table(kind: Group) -> str:
     """Return a table in Markdown of all keys and variables of a kind of scene, in the order of their declaration."""
     rows: list[Row] = []
-    for place, name, part in kind.places():
+    for place, name, dimensions, part in kind.places():
         level = place.count(".")
         key = "· " * level + f"`{part.key}`"
         if isinstance(part, Group):
             what = f"{part.meaning}; a list" if part.dimension else part.meaning
             rows.append((key, "", "", _noted(what, part.note), ""))
             continue
-        variable = f"`{name}`" + (f" ({', '.join(part.dimensions)})" if part.dimensions else "") if name else ""
+        variable = f"`{name}`" + (f" ({', '.join(dimensions)})" if dimensions else "") if name else ""
         rows.append(
             (key if part.in_summary else "", part.symbol, part.unit_text, _noted(part.meaning, part.note), variable)
         )

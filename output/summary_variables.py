@@ -45,7 +45,10 @@ class DeclaredNames:
     def __init__(self, *parts: Group) -> None:
         """Collect all places."""
         self._parts: dict[str, tuple[str, Quantity | Group]] = {
-            place: (name, part) for group in parts for place, name, part in group.places()
+            place: (name, part)
+            for group in parts
+            for place, name, _, part in group.places()
+            if isinstance(part, Group) or part.in_summary
         }
 
     def dimensions(self, place: str) -> tuple[str, ...]:

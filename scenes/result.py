@@ -118,7 +118,7 @@ class Result:
             problem = Problem(
                 key="picture",
                 value=shown_value(name),
-                wrong="there is no such picture of this result",
+                wrong="there is no such picture of this result" if self.pictures else "it was saved without pictures",
                 allowed=", ".join(self.pictures),
                 remedy=proposal(str(name), self.pictures),
             )

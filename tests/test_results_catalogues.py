@@ -116,14 +116,8 @@ def test_stages_of_the_start_are_those_of_a_run() -> None:
         assert sum(float(row[column]) for row in rows if row["stage"] in stages) <= total + rounding
 
 
-@pytest.mark.slow_but("sloshing")
-@pytest.mark.parametrize(
-    "name",
-    [
-        pytest.param(name, marks=[pytest.mark.slow] if name in ("float_ellipse", "interface_beam") else [])
-        for name in script("regenerate").STUDIED
-    ],
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("name", script("regenerate").STUDIED)
 def test_studies_are_those_of_the_scenes(name: str) -> None:
     """Rows of coarse meshes and few digits, which take a second."""
     stored = rows_of(f"shipped/{name}/study.csv")

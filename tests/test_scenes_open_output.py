@@ -23,6 +23,7 @@ from open_tables import ANALYSES, FROM_BOTH_SIDES, arbitrary_solution, open_scen
 from scene_files import CIRCLE_IN_OPEN_WATER
 
 from hydroelastic.output.dataset import write_dataset
+from hydroelastic.output.labelled import variables_of
 from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.output.provenance import Summary
 from hydroelastic.output.sections import markdown_sections, printed_sections
@@ -47,7 +48,7 @@ def summary_of(solution: OpenSolution) -> Summary:
 @pytest.mark.parametrize("kind", range(4))
 def test_each_analysis_may_stand_alone(tmp_path: Path, kind: int) -> None:
     solution = arbitrary_solution(open_scene(analyses=[ANALYSES[kind]]))
-    write_dataset(open_dataset(solution), tmp_path / "dataset.nc")
+    write_dataset(tmp_path / "dataset.nc", variables_of(open_dataset(solution)), {})
     xarray.load_dataset(tmp_path / "dataset.nc")
     assert printed_open(solution, summary_of(solution))
     write_csv(solution, tmp_path)
@@ -145,6 +146,7 @@ def test_what_falls_short_is_said_loudly() -> None:
     assert counts == {7}
 
 
+@pytest.mark.slow
 def test_every_analysis_has_its_curves(tmp_path: Path) -> None:
     from PIL import Image
 

@@ -42,7 +42,7 @@ class Line:
 
     @cached_property
     def unknowns(self) -> np.ndarray:
-        """Numbers of the functions of each element, shape (elements, p + 1); −1 for the one that is zero at the axis."""
+        """Numbers of the functions of each element, shape (elements, p + 1); −1 of the one that is zero at the axis."""
         count = len(self.nodes) - 1
         ends = np.arange(count)[:, None] + np.array([0, 1]) - int(self.is_zero_at_axis)
         inner = len(self.nodes) - int(self.is_zero_at_axis) + np.arange(count * (self.degree - 1))

@@ -1,7 +1,7 @@
 """The coupled problem of one order: ψ, plates and free surface on a line, exact in depth.
 
-With K₂v = k²M₂v on the line, A⁺ = Σ v vᵀ/(k tanh kH): Ritz's method in products of the line's functions and all functions
-of depth, so that frequencies come from above.
+With K₂v = k²M₂v on the line, A⁺ = Σ v vᵀ/(k tanh kH): Ritz's method in products of the line's functions and all
+functions of depth, so that frequencies come from above.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from functools import cached_property, partial
 
 import numpy as np
+from numpy.typing import NDArray
 from petsc4py import PETSc
 from scipy.linalg import cho_factor, cho_solve
 from scipy.sparse import csr_matrix
@@ -23,6 +24,7 @@ from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.dofs import Dof, body_name
 from hydroelastic.physics.level_tank import LevelTank
 from hydroelastic.physics.plate import Plate
+from hydroelastic.physics.symmetry import Parity
 
 # Gauss points beyond what a polynomial needs.
 _SPARE_POINTS = 2
@@ -171,15 +173,15 @@ def covered_elements(line: Line) -> np.ndarray:
 
 def _body(plate: Plate, index: int, line: Line, shapes: LineModes) -> Body:
     factor = line.separation.factor(line.order)
-    bending = np.zeros(shapes.count)
-    if plate.is_elastic:
-        bending = factor * plate.flexural_rigidity * shapes.bending
+    # A rigid plate has rigid motions only, without bending.
+    bending = factor * (plate.flexural_rigidity if plate.is_elastic else 0.0) * shapes.bending
+    parities: tuple[Parity, ...] = ("symmetric",) * shapes.count
     return Body(
         surface=body_name(index + 1),
         shapes=partial(_shape_at, shapes),
         wavenumber=float(shapes.eigenvalues[-1] ** 0.25),
         dofs=_dofs(line, shapes),
-        parities=("symmetric",) * shapes.count,
+        parities=parities,
         stiffness=bending + factor * float(plate.hydrostatic) * shapes.squares,
         bending_stiffness=bending,
         mass=np.diag(factor * plate.mass_per_area * shapes.squares),
@@ -196,8 +198,10 @@ def _dofs(line: Line, shapes: LineModes) -> tuple[Dof, ...]:
     return (*map(Dof, motions[: shapes.rigid]), *elastic)
 
 
-def _shape_at(shapes: LineModes, points: FloatArray, _normals: FloatArray, number: int) -> FloatArray:
-    values: FloatArray = shapes.values(points[0])[:, number]
+def _shape_at(
+    shapes: LineModes, points: NDArray[np.float64], _normals: NDArray[np.float64], number: int
+) -> NDArray[np.float64]:
+    values: NDArray[np.float64] = shapes.values(points[0])[:, number]
     return values
 
 

@@ -1,12 +1,12 @@
 """The lowest modes of all orders of an upright tank at one resolution.
 
-Orders are solved until no lower frequency can come. With ‖·‖ over the surfaces, k_n the lowest wavenumber of an order and
-κ_n that of a plate's dry modes,
+Orders are solved until no lower frequency can come. With ‖·‖ over the surfaces, k_n the lowest wavenumber of an order
+and κ_n that of a plate's dry modes,
 
     K ≥ Σ_plates (D κ_n⁴ + sρg)‖w‖² + ρg‖η‖²,    M ≤ Σ_plates (m + ρ/(k_n tanh k_nH))‖w‖² + ρ/(k_n tanh k_nH) ‖η‖²
 
-so that λ is at least the smallest quotient of both, (D κ_n⁴ + sρg)/(m + ρ/(k_n tanh k_nH)) and g k_n tanh k_nH, for n ≥ 2,
-where no plate moves as a rigid body. Both rise with n.
+so that λ is at least the smallest quotient of both, (D κ_n⁴ + sρg)/(m + ρ/(k_n tanh k_nH)) and g k_n tanh k_nH, for
+n ≥ 2, where no plate moves as a rigid body. Both rise with n.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from hydroelastic.fem.level_bed.separation import Separation
 from hydroelastic.fem.level_bed.solution import SampledSurface
 from hydroelastic.fem.modes import Mode, ModeSet, solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
-from hydroelastic.modal.plate.line_modes import LineModes, PlateLine, dry_modes
+from hydroelastic.modal.plate.line_modes import FEW_MODES, LineModes, PlateLine, dry_modes
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.level_tank import LevelTank
 from hydroelastic.physics.plate import Edge
@@ -32,8 +32,6 @@ from hydroelastic.physics.tank import ROUND_OFF
 
 # Orders from which no plate has a rigid motion.
 _ELASTIC = 2
-# Dry modes that give the lowest one of an order to rounding.
-_FEW = 12
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -134,7 +132,7 @@ def lower_bound(tank: LevelTank, separation: Separation, order: int) -> float:
     bounds = [1.0 / water] if has_waves(tank, separation) else []
     for index, plate in enumerate(tank.plates):
         if plate.is_elastic:
-            dry = dry_modes(plate_line(tank, separation, index, order), _FEW).eigenvalues[0]
+            dry = dry_modes(plate_line(tank, separation, index, order), FEW_MODES).eigenvalues[0]
             stiffness = plate.flexural_rigidity * float(dry) + float(plate.hydrostatic)
             bounds.append(stiffness / (plate.mass_per_area + water))
     return min(bounds, default=inf)

@@ -26,7 +26,7 @@ from hydroelastic.fem.level_bed.solution import PlateTone
 from hydroelastic.fem.modes import solve_modes
 from hydroelastic.fem.tank.elastic_tone import ElasticTone, elastic_tone
 from hydroelastic.fem.tank.resolution import MOST_MODES_TO_TONE
-from hydroelastic.modal.plate.line_modes import dry_modes
+from hydroelastic.modal.plate.line_modes import FEW_MODES, lowest_dry
 from hydroelastic.physics.dofs import FIRST_ELASTIC
 from hydroelastic.physics.level_tank import LevelTank
 from hydroelastic.physics.local_waves import modes_below
@@ -38,7 +38,6 @@ ROUNDING = 1e-13
 _ROUNDS = 3
 # Modes of an order with ψ = 0 on the water that contain the tone.
 _MODES_OF_A_PLATE = 6
-_FEW = 12
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -60,7 +59,7 @@ def plate_tone(tank: LevelTank, separation: Separation, plate: int, tolerance: f
         plate: index of the plate.
         tolerance: largest relative error of the frequencies that is accepted.
     """
-    order, dry = lowest_dry_order(tank, separation, plate)
+    order, dry = lowest_dry(partial(plate_line, tank, separation, plate))
     body = tank.plates[plate]
     start, end = separation.places[plate]
     wave = moving_piece(tank, end - start, plate).squared_frequency(dry**0.25)
@@ -75,7 +74,7 @@ def plate_tone(tank: LevelTank, separation: Separation, plate: int, tolerance: f
     solve = partial(_solved, tank, separation, plate, order, tolerance)
     if not has_waves(tank, separation):
         held = tank.top == "pressure_release"
-        return _with_tone(found, solve(wave, _FEW, exponent=0.5 if held else 1.0))
+        return _with_tone(found, solve(wave, FEW_MODES, exponent=0.5 if held else 1.0))
     release = solve(wave, _MODES_OF_A_PLATE, exponent=0.5, pressure_release=True)
     found = replace(
         found,
@@ -111,18 +110,6 @@ def _with_tone(found: PlateTone, tone: AdaptiveSolution[_Found]) -> PlateTone:
         stiffness=one.stiffness,
         mass=one.mass,
     )
-
-
-def lowest_dry_order(tank: LevelTank, separation: Separation, plate: int) -> tuple[int, float]:
-    """Return the order of the lowest elastic dry mode of a plate, and its κ⁴.
-
-    They rise with the order from the second one on.
-    """
-    found: list[float] = []
-    while len(found) < 4 or found[-1] <= min(found):
-        modes = dry_modes(plate_line(tank, separation, plate, len(found)), _FEW)
-        found.append(float(modes.eigenvalues[modes.rigid]))
-    return found.index(min(found)), min(found)
 
 
 def _solved(

@@ -112,9 +112,7 @@ def moving_piece(tank: LevelTank, length: float, index: int | None) -> LevelPiec
     plate = tank.plates[index] if index is not None and tank.plates[index].is_elastic else None
     section = None
     if plate is not None:
-        section = Section(
-            length=length, flexural_rigidity=plate.flexural_rigidity, mass_per_length=plate.mass_per_area
-        )
+        section = Section(length=length, flexural_rigidity=plate.flexural_rigidity, mass_per_length=plate.mass_per_area)
     return LevelPiece(
         length=length,
         beam=section,

@@ -1,7 +1,7 @@
 """Separation of the plan's second direction: for each order n a problem in x or r alone is left.
 
-    box:       ψ = ψ(x) cos(nπy/B),    k_y = nπ/B
-    cylinder:  ψ = ψ(r) cos nθ, and for n ≥ 1 also ψ(r) sin nθ
+box:       ψ = ψ(x) cos(nπy/B),    k_y = nπ/B
+cylinder:  ψ = ψ(r) cos nθ, and for n ≥ 1 also ψ(r) sin nθ
 """
 
 from __future__ import annotations

@@ -179,9 +179,7 @@ def _attempt(
     )
 
 
-def _values(
-    tank: LevelTank, separation: Separation, resolution: LineResolution, order: int, count: int
-) -> np.ndarray:
+def _values(tank: LevelTank, separation: Separation, resolution: LineResolution, order: int, count: int) -> np.ndarray:
     solved = solve_order(tank, separation, resolution, order, count)
     assert solved is not None
     return solved.modes.eigenvalues

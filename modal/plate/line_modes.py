@@ -1,17 +1,18 @@
 """Dry modes of a plate of one order by Ritz's method: W(x) cos k_y y of a strip, W(r) cos nθ of a disc or ring.
 
-Shapes are polynomials, on a disc r^n times polynomials of r², which keep the conditions of held edges. The bending energy
-is D/2 times ∫(Δw)² − 2(1 − ν)(w_xx w_yy − w_xy²), of one order
+Shapes are polynomials, on a disc r^n times polynomials of r², which keep the conditions of held edges. The bending
+energy is D/2 times ∫(Δw)² − 2(1 − ν)(w_xx w_yy − w_xy²), of one order
 
     strip:  ∫(W'' − k²W)² + 2(1 − ν)k²(WW'' + W'²) dx
     disc:   ∫[(Δₙf)² − 2(1 − ν)(f''(f'/r − n²f/r²) − n²(f'/r − f/r²)²)] r dr
 
-so moments and Kirchhoff shears vanish at free edges. Eigenvalues come from above, and reach rounding with about twice as
-many shapes as half waves.
+so moments and Kirchhoff shears vanish at free edges. Eigenvalues come from above, and reach rounding with about twice
+as many shapes as half waves.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -22,6 +23,11 @@ from scipy.special import eval_jacobi
 
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.plate import Edge
+
+FEW_MODES = 12
+"""Shapes that give the lowest dry mode of an order to rounding."""
+# Orders, at least, among which the lowest dry mode is sought: heave and pitch of the first two are no dry modes.
+_ORDERS = 4
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -130,11 +136,7 @@ def _zernike(order: int, count: int, s: FloatArray, derivative: int) -> FloatArr
     if derivative == 1:
         return slope * jacobi(0) + value * 4.0 * x * jacobi(1)
     curved = order * (order - 1) * x ** max(order - 2, 0)
-    return (
-        curved * jacobi(0)
-        + 2.0 * slope * 4.0 * x * jacobi(1)
-        + value * (4.0 * jacobi(1) + 16.0 * x**2 * jacobi(2))
-    )
+    return curved * jacobi(0) + 2.0 * slope * 4.0 * x * jacobi(1) + value * (4.0 * jacobi(1) + 16.0 * x**2 * jacobi(2))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -201,6 +203,19 @@ def dry_modes(plate: PlateLine, count: int) -> LineModes:
         squares=np.concatenate([np.ones(rigid), squares / largest]),
         bending=np.concatenate([np.zeros(rigid), np.full(len(squares), 1.0 / largest)]),
     )
+
+
+def lowest_dry(line: Callable[[int], PlateLine]) -> tuple[int, float]:
+    """Return the order of the lowest elastic dry mode of a plate, and its κ⁴.
+
+    Args:
+        line: returns the plate on the line of an order. Its lowest mode rises with the order from the second one on.
+    """
+    found: list[float] = []
+    while len(found) < _ORDERS or found[-1] <= min(found):
+        modes = dry_modes(line(len(found)), FEW_MODES)
+        found.append(float(modes.eigenvalues[modes.rigid]))
+    return found.index(min(found)), min(found)
 
 
 def _gauss(plate: PlateLine, polynomials: int) -> tuple[FloatArray, FloatArray]:

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Protocol
 
 from hydroelastic.modal.roll.solution import RollSolution
 from hydroelastic.output.provenance import PROCESSES
-from hydroelastic.output.quantities import Group, Quantity
+from hydroelastic.output.quantities import Group, Quantity, array
+from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.ship import Ship
 
 if TYPE_CHECKING:
@@ -49,6 +50,10 @@ def logarithmic_decrement(ship: Ship) -> float:
 
 def _swings_above(ship: RolledShip) -> list[dict[str, float]]:
     return [{"level": level, "swings": ship.solution.statistics.swings_above(level)} for level in ship.levels]
+
+
+def _slope(ship: RolledShip) -> FloatArray:
+    return ship.solution.train.slope(ship.solution.motion.times)
 
 
 SHIP = Group(
@@ -180,16 +185,6 @@ RESPONSE = Group(
     ),
     record=lambda result: result,
 )
-_ARRAYS = tuple(
-    Quantity(key, meaning, unit, value=value, dimensions=("time",), in_summary=False)
-    for key, meaning, unit, value in (
-        ("time", "time", "s", lambda it: it.solution.motion.times),
-        ("wave_slope", "slope of the waves", "rad", lambda it: it.solution.train.slope(it.solution.motion.times)),
-        ("angle", "angle of roll", "rad", lambda it: it.solution.motion.angle),
-        ("rate", "rate of roll", "rad/s", lambda it: it.solution.motion.rate),
-        ("acceleration", "acceleration of roll", "rad/s^2", lambda it: it.solution.motion.acceleration),
-    )
-)
 ROLL = Group(
     "",
     "a ship that rolls on a swell",
@@ -208,6 +203,10 @@ ROLL = Group(
             ),
             record=lambda result: result,
         ),
-        *_ARRAYS,
+        array("time", "time", "s", "time", lambda it: it.solution.motion.times),
+        array("wave_slope", "slope of the waves", "rad", "time", _slope),
+        array("angle", "angle of roll", "rad", "time", lambda it: it.solution.motion.angle),
+        array("rate", "rate of roll", "rad/s", "time", lambda it: it.solution.motion.rate),
+        array("acceleration", "acceleration of roll", "rad/s^2", "time", lambda it: it.solution.motion.acceleration),
     ),
 )

@@ -8,12 +8,13 @@ from math import pi
 from typing import Any, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hydroelastic.modal.string.closed_form import first_oscillating_mode, natural_frequency, steady_amplitude
 from hydroelastic.modal.string.resonance import nearest_resonance
 from hydroelastic.modal.string.solution import StringSolution
 from hydroelastic.output.provenance import PROCESSES
-from hydroelastic.output.quantities import Group, Quantity
+from hydroelastic.output.quantities import Group, Quantity, array
 from hydroelastic.physics.string_motions import Motion, Sine
 
 
@@ -46,6 +47,10 @@ def _free_motions(result: MovedString) -> Iterator[FreeMotion]:
     motions = result.solution.free_motions
     for root, size, error in zip(motions.roots, motions.frequencies, motions.relative_errors, strict=True):
         yield FreeMotion(root=complex(root), omega=float(size), relative_error=float(error))
+
+
+def _numbers(result: MovedString) -> NDArray[np.int64]:
+    return np.arange(1, len(result.solution.free_motions.roots) + 1)
 
 
 def _response(result: MovedString) -> Mapping[str, Any]:
@@ -210,36 +215,6 @@ STEADY = Group(
     record=_steady,
     note="`null` for other motions, and without a closed form",
 )
-_ARRAYS = tuple(
-    Quantity(key, meaning, unit, value=value, dimensions=dimensions, in_summary=False)
-    for key, meaning, unit, dimensions, value in (
-        ("position", "height above the free end at rest", "m", ("position",), lambda it: it.solution.positions),
-        ("time", "time", "s", ("time",), lambda it: it.solution.times),
-        (
-            "mode",
-            "number of the mode",
-            None,
-            ("mode",),
-            lambda it: np.arange(1, len(it.solution.free_motions.roots) + 1, dtype=np.int32),
-        ),
-        *(
-            (key, meaning, unit, ("position", "time"), value)
-            for key, meaning, unit, value in (
-                ("displacement", "displacement to the side", "m", lambda it: it.solution.displacement),
-                ("absolute_error", "estimated error of the displacement", "m", lambda it: it.solution.absolute_error),
-                ("beside_front", "whether a wave front is near", None, lambda it: it.solution.beside_fronts),
-            )
-        ),
-        ("root", "root p of a free motion e^{pt}", "1/s", ("mode",), lambda it: it.solution.free_motions.roots),
-        (
-            "mode_shape",
-            "shape of a free motion, its largest value 1",
-            "1",
-            ("mode", "position"),
-            lambda it: it.solution.free_motions.shapes,
-        ),
-    )
-)
 HANGING_STRING = Group(
     "",
     "a hanging string whose upper end is moved",
@@ -262,6 +237,31 @@ HANGING_STRING = Group(
             ),
             record=lambda result: result.solution.size,
         ),
-        *_ARRAYS,
+        array("position", "height above the free end at rest", "m", "position", lambda it: it.solution.positions),
+        array("time", "time", "s", "time", lambda it: it.solution.times),
+        array("mode", "number of the mode", None, "mode", _numbers),
+        array("displacement", "displacement to the side", "m", "position time", lambda it: it.solution.displacement),
+        array(
+            "absolute_error",
+            "estimated error of the displacement",
+            "m",
+            "position time",
+            lambda it: it.solution.absolute_error,
+        ),
+        array(
+            "beside_front",
+            "whether a wave front is near",
+            None,
+            "position time",
+            lambda it: it.solution.beside_fronts,
+        ),
+        array("root", "root p of a free motion e^{pt}", "1/s", "mode", lambda it: it.solution.free_motions.roots),
+        array(
+            "mode_shape",
+            "shape of a free motion, its largest value 1",
+            "1",
+            "mode position",
+            lambda it: it.solution.free_motions.shapes,
+        ),
     ),
 )

@@ -7,11 +7,11 @@ from pathlib import Path
 from hydroelastic.output.csv_files import write_csv
 from hydroelastic.output.pictures.options import OF_CURVES
 from hydroelastic.output.roll.quantities import ROLL
+from hydroelastic.output.roll.tables import roll_cost, roll_sections
 from hydroelastic.output.variables import array_variables
 from hydroelastic.scenes.roll.figure import draw_roll
 from hydroelastic.scenes.roll.results import RollResult
 from hydroelastic.scenes.roll.solve import solve_roll
-from hydroelastic.scenes.roll.tables import roll_cost, roll_sections
 from hydroelastic.scenes.staged_run import StagedRun, declared
 
 

@@ -14,11 +14,11 @@ from hydroelastic.output.outcome import Outcome
 from hydroelastic.output.provenance import Summary, summarize
 from hydroelastic.output.sections import Section
 from hydroelastic.output.string.quantities import HANGING_STRING
+from hydroelastic.output.string.tables import string_cost
 from hydroelastic.scenes.errors import Problem, SceneError, scene_error
 from hydroelastic.scenes.models.string import StringScene
 from hydroelastic.scenes.string.results import StringResult
 from hydroelastic.scenes.string.solve import solve_series, solve_string_field
-from hydroelastic.scenes.string.tables import string_cost
 
 
 def compare_string(scene: StringScene, *, report: Report = lambda _message: None) -> Outcome:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from hydroelastic.output.pictures.options import OF_CURVES, OF_MOTIONS
 from hydroelastic.output.string.quantities import HANGING_STRING
+from hydroelastic.output.string.tables import string_cost, string_sections
 from hydroelastic.scenes.staged_run import StagedRun, declared
 from hydroelastic.scenes.string.drawn import animation_notes
 from hydroelastic.scenes.string.figures import draw_string
 from hydroelastic.scenes.string.files import write_string_files
 from hydroelastic.scenes.string.solve import solve_string
-from hydroelastic.scenes.string.tables import string_cost, string_sections
 
 run_string = StagedRun(
     solve=solve_string,

@@ -128,7 +128,8 @@ def solve_level_tank(
         zero_modes=sum(one.multiplicity * one.modes.zero_modes for one in found.orders),
         counted=found.counted,
         size={
-            "orders": len(found.orders),
+            "problems": len(found.orders),
+            "poles": 0,
             "degree": found.resolution.degree,
             "layers": found.resolution.layers,
             "dofs": sum(one.pencil.liquid.size + one.pencil.size for one in found.orders),

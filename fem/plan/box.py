@@ -57,9 +57,10 @@ class BoxSolution:
     def sizes(self) -> dict[str, int]:
         """Numbers of its resolution, by name."""
         return {
-            "classes": len(self.modes.classes),
+            "problems": len(self.modes.classes),
             "degree": self.resolution.degree,
             "layers": self.resolution.layers,
+            "poles": 0,
         }
 
     @property

@@ -152,7 +152,7 @@ class PlanSolution:
     def sizes(self) -> dict[str, int]:
         """Numbers of its resolution, by name."""
         return {
-            "cells": self.space.liquid.tank.cell_count,
+            "problems": 1,
             "degree": self.resolution.degree,
             "layers": self.resolution.layers,
             "poles": len(self.poles.shifts),
@@ -316,6 +316,8 @@ def _plate_errors(plates: tuple[PlanPlate, ...], modes: list[Mode]) -> np.ndarra
     first = 0
     for plate in plates:
         last = first + plate.body.size
-        errors += plate.missing_energy(np.array([mode.body_amplitudes[first:last] for mode in modes]).reshape(len(modes), last - first))
+        errors += plate.missing_energy(
+            np.array([mode.body_amplitudes[first:last] for mode in modes]).reshape(len(modes), last - first)
+        )
         first = last
     return 0.5 * errors / np.array([mode.eigenvalue for mode in modes])

@@ -144,6 +144,11 @@ class MeshProblem:
         return self.symmetry_class.modes
 
     @cached_property
+    def _waves_at(self) -> dict[bytes, FloatArray]:
+        """The standing waves at points that were sampled, (points, waves)."""
+        return {}
+
+    @cached_property
     def _standing_waves(self) -> tuple[FloatArray, FloatArray]:
         """The lowest k and functions of K₂v = k²M₂v on the plan, vᵀM₂v = 1, shape (waves,) and (unknowns, waves)."""
         space: PlanSpace = self.pencil.liquid.space
@@ -198,11 +203,15 @@ class MeshProblem:
         parts = functions.T @ load
         rest = potential - functions @ parts
         every = np.arange(space.liquid.tank.cell_count, dtype=np.int32)
-        table = np.column_stack([functions * parts, rest])
+        # The waves there are the same for all modes, which are sampled at the same points one after the other.
+        known = self._waves_at
+        key = points.tobytes()
+        if key not in known:
+            known[key] = _evaluated(space, functions, points, every)
         return SampledSurface(
             elevation=elevation,
             wavenumbers=np.append(wavenumbers, wavenumbers[-1]),
-            potentials=_evaluated(space, table, points, every),
+            potentials=np.column_stack([known[key] * parts, _evaluated(space, rest[:, None], points, every)]),
         )
 
 

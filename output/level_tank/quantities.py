@@ -279,9 +279,10 @@ SIZE = Group(
     "size",
     "size of the problem",
     (
-        Quantity("orders", "orders that were solved", "1"),
+        Quantity("problems", "orders or symmetry classes that were solved, each a problem of its own", "1"),
         Quantity("degree", "polynomial degree of ψ", "1"),
         Quantity("layers", "layers at each edge", "1"),
+        Quantity("poles", "poles of the depth; 0 where it is exact", "1"),
         Quantity("dofs", "unknowns of all problems", "1"),
         Quantity("surface_unknowns", "unknowns of plates and water", "1"),
         Quantity("plate_shapes", "dry modes of the plates, of all problems", "1"),

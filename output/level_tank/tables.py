@@ -60,6 +60,6 @@ def level_tank_cost(summary: Summary) -> str:
     size = summary["size"]
     seconds = ", ".join(f"{stage} {value:.3f}" for stage, value in summary["timing"].items() if value >= 0.0005)
     return (
-        f"{size['orders']} orders, degree {size['degree']}, {size['dofs']} unknowns; seconds: {seconds}; "
+        f"{size['problems']} problem{'s' * (size['problems'] != 1)}, degree {size['degree']}, {size['dofs']} unknowns; seconds: {seconds}; "
         f"peak memory {summary['memory_peak'] / 2**20:.0f} MiB."
     )

@@ -89,8 +89,10 @@ def _plates(scene: LevelTankScene, tank: LevelTank) -> Iterator[Row]:
 def _size(scene: LevelTankScene, tank: LevelTank) -> Iterator[str]:
     scaled = tank.scaled()
     separation = separated(scaled)
-    assert separation is not None
     asked = scene.accuracy
+    if separation is None:
+        yield from _size_of_plan(scaled, asked.tolerance, asked.modes)
+        return
     tolerance = workable(asked.tolerance)
     resolution = line_resolution(scaled, separation, tolerance, expected_eigenvalue(scaled, separation, asked.modes))
     elements = len(line_nodes(separation, resolution, scaled.depth)) - 1
@@ -105,3 +107,23 @@ def _size(scene: LevelTankScene, tank: LevelTank) -> Iterator[str]:
     yield "  Each is solved with one degree and one layer at the edges more too, from which its error follows."
     if tolerance > asked.tolerance:
         yield f"  Double precision cannot reach {asked.tolerance:g}: the tolerance is {tolerance:.0e} instead."
+
+
+def _size_of_plan(tank: LevelTank, tolerance: float, modes: int) -> Iterator[str]:
+    from hydroelastic.fem.plan.box_resolution import box_resolution
+    from hydroelastic.fem.plan.plan import plan_resolution
+    from hydroelastic.fem.plan.solve import MODEL_WORDS, level_model
+
+    model = level_model(tank)
+    words = MODEL_WORDS[model]
+    yield f"{words[0].upper()}{words[1:]}; no volume mesh."
+    resolution = box_resolution(tank, tolerance, modes) if model == "box" else plan_resolution(tank, tolerance, modes)
+    layers = f"{resolution.layers} layers on each side of an edge"
+    polynomials = " + ".join(map(str, resolution.polynomials))
+    shapes = f", {polynomials} polynomials along each direction of the plates" if polynomials else ""
+    yield f"First attempt: degree {resolution.degree}, {layers}{shapes}."
+    if model == "box":
+        yield "  Plates in the middle of both sides leave four problems of a quarter of the tank, of one side two."
+        yield "  The added mass in a finer space shows the error of each mode."
+    else:
+        yield "  The decay of ψ with the degree, and a bound for the poles, show the error of each mode."

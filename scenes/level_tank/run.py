@@ -18,12 +18,11 @@ from hydroelastic.scenes.staged_run import StagedRun, declared
 
 
 def _sample(solved: SolvedLevelTank, summary: Summary) -> SampledTank:
-    from hydroelastic.fem.level_bed.patches import line_patches
-    from hydroelastic.fem.level_bed.separation import separated
+    from hydroelastic.fem.plan.patches import level_patches
 
-    separation = separated(solved.tank.tank)
-    assert separation is not None
-    return SampledTank(solved=solved, sample=sample_modes(solved.tank, line_patches(separation)), summary=summary)
+    return SampledTank(
+        solved=solved, sample=sample_modes(solved.tank, level_patches(solved.tank.tank)), summary=summary
+    )
 
 
 def _write(tank: SampledTank, folder: Path) -> None:

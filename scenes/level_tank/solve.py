@@ -47,16 +47,17 @@ class SolvedLevelTank:
         return self.tank.seconds | self.estimating
 
 
-def solve_level_scene(scene: LevelTankScene, _comm: MPI.Comm, report: Report) -> SolvedLevelTank:
-    """Solve a tank in three dimensions and estimate it, alike on each process.
+def solve_level_scene(scene: LevelTankScene, comm: MPI.Comm, report: Report) -> SolvedLevelTank:
+    """Solve a tank in three dimensions and estimate it (collective).
 
     Raises:
         SceneError: if no solver takes its plan and plates.
         UnsolvedError: if the eigen-solver fails.
     """
     require_treated(scene)
-    from hydroelastic.fem.level_bed.solve import solve_level_tank
     from hydroelastic.fem.modes import EigenSolverError
+    from hydroelastic.fem.plan.solve import solve_upright_tank
+    from hydroelastic.meshes.tagged_mesh import MeshError
 
     physical = physical_level_tank(scene)
     watch = Stopwatch()
@@ -64,11 +65,11 @@ def solve_level_scene(scene: LevelTankScene, _comm: MPI.Comm, report: Report) ->
         exact = exact_frequencies(physical, scene.accuracy.modes)
         estimates = plate_estimates(physical)
     try:
-        solution = solve_level_tank(
-            physical, tolerance=scene.accuracy.tolerance, modes=scene.accuracy.modes, report=report
+        solution = solve_upright_tank(
+            physical, tolerance=scene.accuracy.tolerance, modes=scene.accuracy.modes, comm=comm, report=report
         )
-    except EigenSolverError as error:
-        raise UnsolvedError(f"the eigen-solver failed: {error}") from error
+    except (EigenSolverError, MeshError) as error:
+        raise UnsolvedError(f"the tank could not be solved: {error}") from error
     return SolvedLevelTank(scene=scene, tank=solution, exact=exact, estimates=estimates, estimating=watch.seconds)
 
 
@@ -76,24 +77,19 @@ def require_treated(scene: LevelTankScene) -> None:
     """Refuse a tank that no solver takes.
 
     Raises:
-        SceneError: if its orders do not separate.
+        SceneError: if no model takes it.
     """
-    from hydroelastic.fem.level_bed.separation import separated
+    from hydroelastic.fem.level_bed.solve import NotTreatedError
+    from hydroelastic.fem.plan.solve import level_model
 
-    if separated(physical_level_tank(scene)) is not None:
-        return
-    if scene.tank.plan is not None:
-        problem = Problem(key='[tank], key "plan"', wrong="plans of corners are not solved", allowed=TREATED)
-    else:
-        outlines = " and ".join(dict.fromkeys(f'"{plate.outline}"' for plate in scene.body))
-        where = "a box" if scene.tank.width is not None else "a cylinder"
-        problem = Problem(
-            key='[[body]], key "outline"',
-            wrong=f"plates of outline {outlines} at these places in {where} are not solved",
-            allowed=TREATED,
-        )
-    raise SceneError(problem, file=None)
+    try:
+        level_model(physical_level_tank(scene))
+    except NotTreatedError as error:
+        raise SceneError(Problem(key="[[body]]", wrong=str(error), allowed=TREATED), file=None) from error
 
 
-TREATED = "strips in a box, discs and rings about the axis of a cylinder, and both without plates"
+TREATED = (
+    "strips and rectangles in a box; discs and rings about the axis of a cylinder; rectangles, discs, rings and free "
+    "polygons that keep off the walls or cover the plan; tanks without plates"
+)
 """Tanks that are solved."""

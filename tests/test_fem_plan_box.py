@@ -37,7 +37,7 @@ def _assert_kept(name: str, tolerance: float, *, certain: float) -> None:
     assert 1.0 <= solution.relative_errors[: len(exact)].max() / largest < 30.0
 
 
-@pytest.mark.slow_but("rectangle_base_s0", "rectangle_rigid_s1")
+@pytest.mark.slow_but("rectangle_base_s0")
 @pytest.mark.parametrize("name", RECTANGLES)
 def test_rectangles_keep_a_tolerance_of_1e_6(name: str) -> None:
     _assert_kept(name, 1e-6, certain=10.0 ** -CASES[name]["digits"])

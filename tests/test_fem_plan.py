@@ -100,12 +100,12 @@ def test_a_rectangle_is_a_polygon_and_the_poles_are_the_depth() -> None:
 
 
 def test_a_disc_beside_the_axis_approaches_the_one_on_it() -> None:
-    tank = reference_tank("disc_base_s0")
+    tank = reference_tank("disc_heavy_s1")
     moved = replace(tank, plates=(replace(tank.plates[0], outline=Disc(radius=2.0, position=(1e-6, 0.0))),))
     assert level_model(tank) == "orders"
     assert level_model(moved) == "plan"
     _, omega = _solved(moved, 1e-3, 4)
-    assert omega == pytest.approx(frequencies("disc_base_s0")[:4], rel=1e-3)
+    assert omega == pytest.approx(frequencies("disc_heavy_s1")[:4], rel=1e-3)
     # Moved by a third of the gap the modes are others: the position is used.
     away = replace(tank, plates=(replace(tank.plates[0], outline=Disc(radius=2.0, position=(1.0, 0.0))),))
     _, far = _solved(away, 1e-3, 4)
@@ -122,7 +122,7 @@ def test_elevations_of_the_water_are_those_of_its_potential() -> None:
     box = replace(tank, plates=plates[:1])
     for solution in (found, solve_upright_tank(box, tolerance=1e-3, modes=3)):
         # The third place is under no plate, the second one under the rectangle.
-        x, y = np.array([0.52, 0.25, 0.05]), np.array([0.30, 0.30, 0.55])
+        x, y = np.array([0.52, 0.25, 0.05]), np.array([0.30, 0.34, 0.55])
         for one in solution.modes:
             sampled = one.problem.sampled(one.mode, x, y, second=False)
             pressure = one.mode.eigenvalue * sampled.potential(0.0, solution.tank.depth)
@@ -173,3 +173,24 @@ def test_two_refinements_of_a_tank_with_two_plates_agree() -> None:
     coarse, first = _solved(tank, 1e-4, 8)
     _, second = _solved(tank, 1e-7, 8)
     assert np.all(np.abs(first / second - 1.0) < coarse.relative_errors[:8] + 1e-7)
+
+
+@pytest.mark.parametrize("inner", [0.0, 0.3])
+def test_shapes_of_a_disc_lie_about_its_centre(inner: float) -> None:
+    from hydroelastic.fem.plan.plates import plan_plate
+
+    outline = Disc(radius=0.8, inner_radius=inner, position=(2.0, -1.0))
+    plate = Plate(outline=outline, flexural_rigidity=1e3, mass_per_area=7.0)
+    body = plan_plate(LevelTank(plan=Cylinder(radius=5.0), depth=1.0, plates=(plate,), **WATER), 0, 8)
+    points, weights = np.polynomial.legendre.leggauss(24)
+    radius = inner + 0.5 * (0.8 - inner) * (1.0 + points)
+    angle = 2.0 * np.pi * np.arange(40) / 40.0
+    places = np.array([2.0 + np.outer(radius, np.cos(angle)).ravel(), -1.0 + np.outer(radius, np.sin(angle)).ravel()])
+    measure = np.outer(0.5 * (0.8 - inner) * weights * radius, np.full(40, np.pi / 20.0)).ravel()
+    shapes = body.deflection(places)
+    mass = body.body.mass
+    # Products of polynomials and trigonometric functions are integrated exactly.
+    assert 7.0 * (shapes * measure) @ shapes.T == pytest.approx(mass, abs=1e-9 * np.abs(mass).max())
+    names = list(body.body.dofs)
+    for name, wanted in (("heave", np.ones(960)), ("pitch", (places[0] - 2.0) / 0.8), ("roll", places[1] + 1.0)):
+        assert shapes[names.index(name)] == pytest.approx(wanted, abs=1e-10)

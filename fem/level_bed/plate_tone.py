@@ -97,7 +97,9 @@ def plate_tone(tank: LevelTank, separation: Separation, plate: int, tolerance: f
     search = line_resolution(tank, separation, _SEARCHED, value)
     while count <= MOST_MODES_TO_TONE:
         if _once(tank, separation, plate, order, search, count, release=value)[0].tone.certain:
-            return _with_tone(found, solve(value, count, release=value))
+            tone = solve(value, count, release=value)
+            if tone.solution.tone.certain:
+                return _with_tone(found, tone)
         count = ceil(1.6 * count)
     reason = f"it lies above more than {MOST_MODES_TO_TONE} modes of order {order}, or is spread over them"
     return replace(found, reason=f"{reason}; see the pressure-release tone")

@@ -9,11 +9,13 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import partial
 from math import ceil
-from typing import Any
+
+import numpy as np
 
 from hydroelastic.fem.adaptive import AdaptiveSolution, ErrorEstimate, adaptive_solve
 from hydroelastic.fem.level_bed.orders import has_waves, order_problem, plate_line
 from hydroelastic.fem.level_bed.resolution import (
+    LAYER_RATIO,
     LineResolution,
     breakpoints,
     line_resolution,
@@ -36,6 +38,8 @@ SAFETY = 1.5
 ROUNDING = 1e-13
 """Relative rounding of a frequency, measured."""
 _ROUNDS = 3
+# Tolerance at which the number of modes up to the tone is found.
+_SEARCHED = 1e-3
 # Modes of an order with ψ = 0 on the water that contain the tone.
 _MODES_OF_A_PLATE = 6
 
@@ -75,7 +79,7 @@ def plate_tone(tank: LevelTank, separation: Separation, plate: int, tolerance: f
     if not has_waves(tank, separation):
         held = tank.top == "pressure_release"
         return _with_tone(found, solve(wave, FEW_MODES, exponent=0.5 if held else 1.0))
-    release = solve(wave, _MODES_OF_A_PLATE, exponent=0.5, pressure_release=True)
+    release = solve(wave, _MODES_OF_A_PLATE, pressure_release=True)
     found = replace(
         found,
         pressure_release=release.solution.eigenvalue,
@@ -90,10 +94,12 @@ def plate_tone(tank: LevelTank, separation: Separation, plate: int, tolerance: f
         for left, right in zip(breakpoints(separation)[:-1], breakpoints(separation)[1:], strict=True)
     ]
     count = ceil(1.25 * modes_below(tuple(pieces), value)) + 4
+    search = line_resolution(tank, separation, _SEARCHED, value)
     while count <= MOST_MODES_TO_TONE:
-        tone = solve(value, count, release=value)
-        if tone.solution.tone.certain:
-            return _with_tone(found, tone)
+        if _once(tank, separation, plate, order, search, count, release=value)[0].tone.certain:
+            tone = solve(value, count, release=value)
+            if tone.solution.tone.certain:
+                return _with_tone(found, tone)
         count = ceil(1.6 * count)
     reason = f"it lies above more than {MOST_MODES_TO_TONE} modes of order {order}, or is spread over them"
     return replace(found, reason=f"{reason}; see the pressure-release tone")
@@ -127,33 +133,28 @@ def _solved(
 ) -> AdaptiveSolution[_Found]:
     """Solve one order for the tone of a plate to a tolerance."""
     tolerance = workable(tolerance)
+    once = partial(_once, tank, separation, plate, order, count=count, release=release)
 
-    def once(resolution: LineResolution) -> dict[str, Any]:
-        problem = order_problem(tank, separation, resolution, order, pressure_release=pressure_release)
-        assert problem is not None
-        pencil, shapes = problem
-        modes = solve_modes(pencil, count, shapes=0)
-        body = list(shapes).index(plate)
-        first = pencil.bodies[body].dofs.index(FIRST_ELASTIC)
-        tone = elastic_tone(modes, pencil.bodies, body, pressure_release=release)
-        return {
-            "tone": tone,
-            "eigenvalue": float(modes.eigenvalues[tone.index]),
-            "stiffness": float(pencil.bodies[body].stiffness[first]),
-            "mass": float(pencil.bodies[body].mass[first, first]),
-            "squares": separation.factor(order) * float(shapes[plate].squares[first]),
-            "all": modes.eigenvalues,
-        }
+    def value(resolution: LineResolution) -> tuple[_Found, np.ndarray]:
+        """The tone and all λ; with ψ = 0 on the water the limit of ever thinner layers.
+
+        There ψ ~ r^{1/2}, and the error falls like the thickness of the innermost layer.
+        """
+        found, values = once(resolution, pressure_release=pressure_release)
+        if not pressure_release:
+            return found, values
+        _, thinner = once(replace(resolution, layers=resolution.layers + 1), pressure_release=True)
+        values = thinner - (values - thinner) * LAYER_RATIO / (1.0 - LAYER_RATIO)
+        return replace(found, eigenvalue=float(values[found.tone.index])), values
 
     def solve(resolution: LineResolution) -> _Found:
-        coarse, fine = once(resolution), once(resolution.finer())
+        (coarse, _), (_, fine) = value(resolution), value(resolution.finer())
         # Of two modes with nearly the same part of the tone the finer one may take the other.
-        same = float(fine.pop("all")[coarse["tone"].index])
-        error = SAFETY * 0.5 * abs(coarse["eigenvalue"] / same - 1.0) + ROUNDING
-        return _Found(**{key: value for key, value in coarse.items() if key != "all"}, relative_error=error)
+        error = SAFETY * 0.5 * abs(coarse.eigenvalue / float(fine[coarse.tone.index]) - 1.0) + ROUNDING
+        return replace(coarse, relative_error=error)
 
     return adaptive_solve(
-        line_resolution(tank, separation, tolerance, eigenvalue, exponent=exponent),
+        line_resolution(tank, separation, tolerance, eigenvalue, exponent=exponent, waves=not pressure_release),
         solve,
         lambda found: ErrorEstimate(discretization=found.relative_error),
         lambda resolution, _: resolution.refined(),
@@ -161,3 +162,33 @@ def _solved(
         rounds=_ROUNDS,
         least_gain=1.0,
     )
+
+
+def _once(
+    tank: LevelTank,
+    separation: Separation,
+    plate: int,
+    order: int,
+    resolution: LineResolution,
+    count: int,
+    *,
+    release: float | None,
+    pressure_release: bool = False,
+) -> tuple[_Found, np.ndarray]:
+    """The tone among the modes of an order, without its error, and their λ."""
+    problem = order_problem(tank, separation, resolution, order, pressure_release=pressure_release)
+    assert problem is not None
+    pencil, shapes = problem
+    modes = solve_modes(pencil, count, shapes=0)
+    body = list(shapes).index(plate)
+    first = pencil.bodies[body].dofs.index(FIRST_ELASTIC)
+    tone = elastic_tone(modes, pencil.bodies, body, pressure_release=release)
+    found = _Found(
+        tone=tone,
+        eigenvalue=float(modes.eigenvalues[tone.index]),
+        relative_error=0.0,
+        stiffness=float(pencil.bodies[body].stiffness[first]),
+        mass=float(pencil.bodies[body].mass[first, first]),
+        squares=separation.factor(order) * float(shapes[plate].squares[first]),
+    )
+    return found, modes.eigenvalues

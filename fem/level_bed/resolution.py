@@ -20,8 +20,8 @@ HIGHEST_DEGREE = 14
 MOST_SHAPES = 120
 # Rounding of frequencies is below a fifth of it, measured.
 _LEAST_TOLERANCE = 1e-12
-# Of successive layers at an edge.
-_RATIO = 0.2
+LAYER_RATIO = 0.2
+"""Of successive layers at an edge."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -76,7 +76,13 @@ def breakpoints(separation: Separation) -> FloatArray:
 
 
 def line_resolution(
-    tank: LevelTank, separation: Separation, tolerance: float, eigenvalue: float, *, exponent: float = 1.0
+    tank: LevelTank,
+    separation: Separation,
+    tolerance: float,
+    eigenvalue: float,
+    *,
+    exponent: float = 1.0,
+    waves: bool = True,
 ) -> LineResolution:
     """Return the resolution for the waves up to a frequency.
 
@@ -86,19 +92,21 @@ def line_resolution(
         tolerance: largest relative error that is accepted.
         eigenvalue: λ of the highest mode.
         exponent: α of ψ ~ r^α at the edges: 1 for r ln r, ½ beside a surface with ψ = 0.
+        waves: whether there are waves on the water.
     """
     # Cheapest for each tolerance in tanks with known modes, as in two dimensions; a line may have a degree more.
     degree = min(max(ceil(2.5 - 0.75 * log10(tolerance)), 5), HIGHEST_DEGREE - 2)
     sizes, shapes = [], [0] * len(tank.plates)
     for left, right in pairwise(breakpoints(separation)):
         plate = plate_at(separation, 0.5 * (left + right))
-        wavenumber = moving_piece(tank, right - left, plate).wavenumber(eigenvalue)
+        moves = waves or plate is not None
+        wavenumber = moving_piece(tank, right - left, plate).wavenumber(eigenvalue) if moves else 0.0
         sizes.append(min(radians(degree, tolerance) / max(wavenumber, 1e-9), 0.5 * (right - left)))
         if plate is not None:
             half_waves = 0.5 * wavenumber * (right - left)
             shapes[plate] = min(ceil(1.1 * half_waves - 1.2 * log10(tolerance)) + 6, MOST_SHAPES)
     # The error falls like the thickness of the innermost layer to the power 2α.
-    layers = ceil(log((5.0 + 10.0 * exponent) * tolerance ** (0.5 / exponent)) / log(_RATIO))
+    layers = ceil(log((5.0 + 10.0 * exponent) * tolerance ** (0.5 / exponent)) / log(LAYER_RATIO))
     return LineResolution(degree=degree, sizes=tuple(sizes), layers=max(layers, 2), shapes=tuple(shapes))
 
 
@@ -149,11 +157,15 @@ def line_nodes(separation: Separation, resolution: LineResolution, depth: float)
         count = max(ceil((right - left) / size), 1 + sum(graded))
         uniform = np.linspace(left, right, count + 1)
         step = (right - left) / count
-        innermost = min(step, depth) * _RATIO**resolution.layers
-        layers = ceil(log(innermost / step) / log(_RATIO))
-        thickness = step * _RATIO ** np.arange(1, layers + 1)
+        innermost = min(step, depth) * LAYER_RATIO**resolution.layers
+        layers = ceil(log(innermost / step) / log(LAYER_RATIO))
+        thickness = step * LAYER_RATIO ** np.arange(1, layers + 1)
         inner = left if separation.round and 0.0 < left < step else step
-        around = np.empty(0) if graded[0] else step * _RATIO ** np.arange(1, ceil(log(inner / step) / log(_RATIO)) + 1)
+        around = (
+            np.empty(0)
+            if graded[0]
+            else step * LAYER_RATIO ** np.arange(1, ceil(log(inner / step) / log(LAYER_RATIO)) + 1)
+        )
         places += sorted(
             [
                 *(left + (thickness if graded[0] else around)),

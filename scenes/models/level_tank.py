@@ -38,7 +38,7 @@ class LevelTankScene(LevelTankParts):
         problems = [
             problem_at(
                 ("body", index, "kind"),
-                body.get("kind", "beam"),
+                body.get("kind", "plate"),
                 "in three dimensions bodies are plates; beams and floats are of tanks per metre of width",
                 allowed='"plate"',
                 remedy=f"Leave out {' and '.join(keys)} of [tank] for a tank per metre of width"
@@ -46,7 +46,7 @@ class LevelTankScene(LevelTankParts):
                 else "",
             )
             for index, body in enumerate(bodies if isinstance(bodies, list | tuple) else ())
-            if isinstance(body, dict) and body.get("kind", "beam") != "plate"
+            if isinstance(body, dict) and body.get("kind", "plate") != "plate"
         ]
         if problems:
             raise ValidationError.from_exception_data(cls.__name__, problems)

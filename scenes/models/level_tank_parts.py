@@ -104,11 +104,13 @@ class Plate(SceneModel):
     )
     flexural_rigidity: PositiveNumber | None = Field(default=None, description="D = E h³/(12(1 − ν²)), N·m")
     youngs_modulus: PositiveNumber | None = Field(
-        default=None, description="E, Pa, with thickness instead of flexural_rigidity"
+        default=None, description="Young's modulus E, N/m², with thickness instead of flexural_rigidity"
     )
     thickness: PositiveNumber | None = Field(default=None, description="h, m")
     rigid: Annotated[bool, Strict()] = Field(default=False, description="whether the plate does not bend")
-    poisson_ratio: Annotated[float, Strict(), Field(gt=-1, le=0.5)] = Field(default=0.3, description="ν")
+    poisson_ratio: Annotated[float, Strict(), Field(ge=-0.99, le=0.5)] = Field(
+        default=0.3, description="Poisson's ratio ν"
+    )
     mass_per_area: Annotated[float, Strict(), Field(ge=0, le=LARGEST)] | None = Field(
         default=None, description="mass per area, kg/m²"
     )

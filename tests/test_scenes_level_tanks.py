@@ -113,11 +113,9 @@ def test_what_does_not_fit_is_refused(case: str) -> None:
 
 
 def test_what_no_solver_takes_is_refused_by_check_and_run() -> None:
-    corners = scene(
-        tank={"plan": [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]}, body=[], liquid=[{"density": 1.0, "depth": 1.0}]
-    )
-    for use in (lambda: list(checker_of(corners)(corners)), lambda: runner_of(corners)(corners)):
-        with pytest.raises(SceneError, match="not solved"):
+    touching = scene(tank={"radius": 5.0}, body=[DISC | {"radius": 2.0, "position": [3.0, 0.0]}])
+    for use in (lambda: list(checker_of(touching)(touching)), lambda: runner_of(touching)(touching)):
+        with pytest.raises(SceneError, match="touches a wall"):
             use()
 
 

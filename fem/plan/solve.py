@@ -57,8 +57,16 @@ def level_model(physical: LevelTank) -> LevelModel:
             raise NotTreatedError(f"plate {number} is a polygon, whose edges are free")
     wall, regions = plan_regions(tank)
     for index, region in enumerate(regions):
-        if region.outside is not wall.outside and region.gap(wall) < _TOUCHING:
+        if region.outside is wall.outside:
+            continue
+        if region.gap(wall) < _TOUCHING:
             raise NotTreatedError(f"plate {index + 1} touches a wall, and covers only a part of the plan")
+        corner = region.outside.parallel(0.0, np.zeros(1))[0]
+        if not wall.outside.contains(corner) or any(hole.contains(corner) for hole in wall.inside):
+            raise NotTreatedError(f"plate {index + 1} does not lie inside the plan")
+        for other, earlier in enumerate(regions[:index]):
+            if region.gap(earlier) < _TOUCHING:
+                raise NotTreatedError(f"plates {other + 1} and {index + 1} touch each other")
     return "plan"
 
 

@@ -162,7 +162,7 @@ def _band_cells(band: _Band) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     halves = []
     middle = (len(band.distances) - 1) // 2
     for rows in (range(middle), range(middle, len(band.distances) - 1)):
-        cells = [np.empty((0, 3), dtype=np.int64)]
+        cells: list[NDArray[np.int64]] = [np.empty((0, 3), dtype=np.int64)]
         for number in rows:
             low, high = band.row(number), band.row(number + 1)
             low_next, high_next = np.roll(low, -1), np.roll(high, -1)

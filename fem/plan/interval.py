@@ -42,7 +42,7 @@ class IntervalSpace:
         cells = np.arange(len(self.nodes) - 1)
         right = cells + 1
         if self.zero_at_end:
-            right = np.where(right == len(cells), -1, right)
+            right[-1] = -1
         inner = self.hats + (self.degree - 1) * cells[:, None] + np.arange(self.degree - 1)
         return np.concatenate([cells[:, None], right[:, None], inner], axis=1)
 

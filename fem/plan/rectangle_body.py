@@ -136,7 +136,7 @@ def rectangle_body(plan: Box, index: int, plate: Plate, polynomials: int, parity
     if isinstance(plate.outline, Strip):
         edges[1] = ("sliding", "sliding")
     # Shapes of either parity about the plate's own middle exist apart where its two edges are held alike.
-    own = [
+    own: list[tuple[AxisParity, ...]] = [
         (None,) if pair[0] != pair[1] else (0, 1) if wanted is None else (wanted,)
         for pair, wanted in zip(edges, parity, strict=True)
     ]

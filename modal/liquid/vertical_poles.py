@@ -20,7 +20,8 @@ from functools import lru_cache
 from math import ceil, log, pi, sqrt
 
 import numpy as np
-from numpy.typing import NDArray
+
+from hydroelastic.physics.arrays import FloatArray
 
 # κ₁H at least, for below it f is 1/(Hk²) + H/3; and κ₁ in lowest wavenumbers of the plan.
 _LONGEST, _OF_LOWEST = 1.5, 0.7
@@ -43,20 +44,20 @@ class VerticalPoles:
         error: ε, with f − Σ c_j/(k² + d_j) ≤ ε (1 + (k/k_w)²) f for all k from the lowest one on.
     """
 
-    weights: NDArray[np.float64]
-    shifts: NDArray[np.float64]
+    weights: FloatArray
+    shifts: FloatArray
     wavenumber: float
     error: float
 
-    def values(self, wavenumbers: NDArray[np.float64]) -> NDArray[np.float64]:
+    def values(self, wavenumbers: FloatArray) -> FloatArray:
         """Return Σ c_j/(k² + d_j) for some k > 0, shape (k,)."""
-        sums: NDArray[np.float64] = (self.weights / (wavenumbers[:, None] ** 2 + self.shifts)).sum(axis=1)
+        sums: FloatArray = (self.weights / (wavenumbers[:, None] ** 2 + self.shifts)).sum(axis=1)
         return sums
 
 
-def surface_response(wavenumbers: NDArray[np.float64], depth: float) -> NDArray[np.float64]:
+def surface_response(wavenumbers: FloatArray, depth: float) -> FloatArray:
     """Return f = 1/(k tanh kH), the ψ of a unit flux through the still surface, for some k > 0."""
-    response: NDArray[np.float64] = 1.0 / (wavenumbers * np.tanh(wavenumbers * depth))
+    response: FloatArray = 1.0 / (wavenumbers * np.tanh(wavenumbers * depth))
     return response
 
 
@@ -94,7 +95,7 @@ def vertical_poles(depth: float, wavenumber: float, tolerance: float, *, lowest:
     return best
 
 
-def _compressed(wavenumbers: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _compressed(wavenumbers: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Galerkin's method in the constant and the profiles of some wavenumbers, for unit depth: c_j and d_j.
 
     In vertical eigenfunctions, A = diag((mπ)²), and the profile of κ is (A + κ²)⁻¹ times the load. With a basis Q
@@ -111,14 +112,15 @@ def _compressed(wavenumbers: NDArray[np.float64]) -> tuple[NDArray[np.float64], 
 
 
 @lru_cache(maxsize=1)
-def _eigenfunctions() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _eigenfunctions() -> tuple[FloatArray, FloatArray]:
     """(mπ)² and the weight 2 of the vertical eigenfunctions of unit depth, the higher ones replaced by fewer.
 
     The N integers from N + 1 to 2N are replaced by the nodes of Gauss' quadrature for sums over them, whose error is
     that of polynomials of degree 2n − 1: 5.8⁻²ⁿ. Their recurrence has β_k = k² (N² − k²)/(4 (4k² − 1)) (discrete
     Chebyshev polynomials, Gautschi, Orthogonal Polynomials, 2004, § 1.4).
     """
-    numbers, weights = [np.arange(1.0, _EIGENFUNCTIONS + 1)], [np.full(_EIGENFUNCTIONS, 2.0)]
+    numbers: list[FloatArray] = [np.arange(1.0, _EIGENFUNCTIONS + 1)]
+    weights: list[FloatArray] = [np.full(_EIGENFUNCTIONS, 2.0)]
     order = np.arange(1.0, _REPLACED_BY)
     for doubling in range(_DOUBLINGS):
         count = float(_EIGENFUNCTIONS * 2**doubling)

@@ -16,8 +16,7 @@ _VANISHING: dict[Edge, tuple[int, ...]] = {"free": (), "hinged": (0,), "clamped"
 def legendre_table(count: int, points: NDArray[np.float64], derivative: int = 0) -> NDArray[np.float64]:
     """Return √(n + ½) P_n or a derivative of it at points of [−1, 1], shape (count, points)."""
     coefficients = np.polynomial.legendre.legder(np.diag(np.sqrt(np.arange(count) + 0.5)), derivative, axis=0)
-    table: NDArray[np.float64] = np.polynomial.legendre.legval(points, coefficients)
-    return table
+    return np.asarray(np.polynomial.legendre.legval(points, coefficients), dtype=np.float64)
 
 
 @lru_cache(maxsize=64)
@@ -45,13 +44,12 @@ def edge_basis(count: int, edges: tuple[Edge, Edge]) -> NDArray[np.float64]:
         return _null_space(np.array(rows))
     # Conditions on even polynomials are the sums, on odd ones the differences.
     both = np.array(rows).reshape(2, -1, count)
-    basis = np.zeros((0, count))
+    parts = []
     for parity in (0, 1):
         own = _null_space(both[1][:, parity::2])
-        part = np.zeros((len(own), count))
-        part[:, parity::2] = own
-        basis = np.concatenate([basis, part])
-    return basis
+        parts.append(np.zeros((len(own), count)))
+        parts[-1][:, parity::2] = own
+    return np.concatenate(parts)
 
 
 def _null_space(rows: NDArray[np.float64]) -> NDArray[np.float64]:

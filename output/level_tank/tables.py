@@ -59,7 +59,8 @@ def level_tank_cost(summary: Summary) -> str:
     """Return size and cost of the solution."""
     size = summary["size"]
     seconds = ", ".join(f"{stage} {value:.3f}" for stage, value in summary["timing"].items() if value >= 0.0005)
+    problems = f"{size['problems']} problem{'s' * (size['problems'] != 1)}"
     return (
-        f"{size['problems']} problem{'s' * (size['problems'] != 1)}, degree {size['degree']}, {size['dofs']} unknowns; seconds: {seconds}; "
+        f"{problems}, degree {size['degree']}, {size['dofs']} unknowns; seconds: {seconds}; "
         f"peak memory {summary['memory_peak'] / 2**20:.0f} MiB."
     )

@@ -319,7 +319,7 @@ SYMMETRIC: dict[str, TankScene] = {
 
 
 @pytest.mark.slow_but("rectangle", "thin")
-@pytest.mark.slow_on_ranks_but("rectangle")
+@pytest.mark.slow_on_ranks_but
 @pytest.mark.mpi
 @pytest.mark.parametrize("name", SYMMETRIC)
 def test_halves_give_the_modes_of_the_whole_tank(tanks: Any, name: str) -> None:
@@ -371,7 +371,7 @@ PROCESSES: dict[str, TankScene] = {
 }
 
 
-@pytest.mark.slow_on_ranks_but("thin", "unstable")
+@pytest.mark.slow_on_ranks_but("unstable")
 @pytest.mark.only_on_ranks
 @pytest.mark.mpi
 @pytest.mark.parametrize("name", PROCESSES)

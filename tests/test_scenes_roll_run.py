@@ -203,6 +203,7 @@ def test_an_error_of_the_section_is_carried_to_the_angle() -> None:
     assert any("section" in reason for reason in result.reasons)
 
 
+@pytest.mark.slow
 def test_that_error_does_not_depend_on_the_times_of_the_output() -> None:
     given = ("roll={section = 'ship_section', damping_ratio = 0.01}", "accuracy.tolerance=1e-3")
     many = solve("swell", *given, "output.times={start=0, stop=60, number=601}")

@@ -318,7 +318,7 @@ SYMMETRIC: dict[str, TankScene] = {
 }
 
 
-@pytest.mark.slow_but("rectangle", "thin")
+@pytest.mark.slow_but("rectangle")
 @pytest.mark.slow_on_ranks_but
 @pytest.mark.mpi
 @pytest.mark.parametrize("name", SYMMETRIC)

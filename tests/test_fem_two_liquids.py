@@ -134,7 +134,7 @@ THIN_AIR = {
 }
 
 
-@pytest.mark.slow_but("beam")
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", THIN_AIR)
 def test_a_lighter_and_lighter_upper_liquid_becomes_air(tanks: Any, kind: str) -> None:
     """ω is a smooth function of ρ₁ up to ρ₁ = 0; the least that is modelled is ρ₁ = 10⁻⁶ ρ₂."""

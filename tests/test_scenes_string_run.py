@@ -132,6 +132,7 @@ def test_files_tell_one_motion(tmp_path: Path) -> None:
     assert len(sizes) == 1
 
 
+@pytest.mark.slow
 def test_a_single_place_and_time_are_enough(tmp_path: Path) -> None:
     scene = string_scene("string_ramp", "output.positions=[0.3]", "output.times=[0.9]")
     outcome = run_string(scene, out=tmp_path / "one")

@@ -17,6 +17,8 @@ from typing import Any, NoReturn
 import click
 
 from hydroelastic.meshes.interrupts import end_on_interrupt
+from hydroelastic.output.folder import check_output, results_message
+from hydroelastic.output.manifest import read_manifest
 from hydroelastic.output.pictures.options import DEFAULT_PICTURES, CurveFormat
 from hydroelastic.scenes.command_options import (
     animate_option,
@@ -28,10 +30,8 @@ from hydroelastic.scenes.command_options import (
     set_option,
     width_option,
 )
-from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
+from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError, folder_errors
 from hydroelastic.scenes.kinds import checker_of, comparer_of, runner_of
-from hydroelastic.scenes.output.folder import check_output, results_message
-from hydroelastic.scenes.output.manifest import read_manifest
 from hydroelastic.scenes.program import PROGRAM
 from hydroelastic.scenes.progress import progress
 from hydroelastic.scenes.read import Scene, closed_tank, read_scene, scene_path, shipped_scenes
@@ -95,7 +95,8 @@ def _folder_of_results(scene: str, out: Path | None, *, suffix: str = "") -> Pat
     """
     file = Path(os.path.realpath(scene_path(scene)))
     folder = out if out is not None else Path("results") / f"{file.stem}{suffix}"
-    earlier = check_output(folder)
+    with folder_errors():
+        earlier = check_output(folder)
     other = earlier.scene_file(folder) if earlier is not None else None
     if other is None or other == file:
         return folder
@@ -310,7 +311,7 @@ def check(scene: str, overrides: tuple[str, ...]) -> None:
     checked = read_scene(scene, overrides)
     from rich.console import Console
 
-    from hydroelastic.scenes.output.check_text import print_check
+    from hydroelastic.output.check_text import print_check
 
     # Evaluated completely before printing: an error leaves no partial output.
     print_check(checked.title, tuple(checker_of(checked)(checked)), Console())

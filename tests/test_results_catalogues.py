@@ -11,7 +11,7 @@ import hard_cases
 import pytest
 import random_threads
 
-from hydroelastic.scenes.output.manifest import read_manifest
+from hydroelastic.output.manifest import read_manifest
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.study.plan import StudyPlan
 from hydroelastic.scenes.study.run import study_scene

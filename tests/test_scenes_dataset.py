@@ -16,13 +16,16 @@ from mpi4py import MPI
 from open_tables import ANALYSES, CIRCLE, DEEP, OIL, PLATE, arbitrary_solution, open_scene
 from scene_files import read_written
 
+from hydroelastic.output.dataset import complete_variables, global_attributes, read_dataset, write_dataset
+from hydroelastic.output.folder import SUMMARY, write_summary
+from hydroelastic.output.json_values import json_ready
+from hydroelastic.output.labelled import variables_of
+from hydroelastic.output.provenance import Summary
+from hydroelastic.output.summary_names import SummaryNames
+from hydroelastic.output.summary_variables import Naming
+from hydroelastic.output.variables import Variable
 from hydroelastic.scenes.open_water.dataset import OPEN_NAMES, open_dataset
 from hydroelastic.scenes.open_water.summary import summarize_open
-from hydroelastic.scenes.output.dataset import read_dataset, with_summary, write_dataset
-from hydroelastic.scenes.output.folder import SUMMARY, write_summary
-from hydroelastic.scenes.output.json_values import json_ready
-from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.output.summary_variables import SummaryNames
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.run import run_scene
 
@@ -105,7 +108,7 @@ def _write_open(folder: Path) -> None:
     solution = arbitrary_solution(scene, reasons=("σ ≥ 1", "it is late"))
     summary = summarize_open(solution, MPI.COMM_WORLD, import_seconds=1.0)
     write_summary(summary, folder)
-    write_dataset(with_summary(open_dataset(solution), summary, OPEN_NAMES), folder / "dataset.nc")
+    _write(variables_of(open_dataset(solution)), summary, OPEN_NAMES, folder / "dataset.nc")
 
 
 @pytest.fixture(params=[name if name in FAST else pytest.param(name, marks=pytest.mark.slow) for name in ALL])
@@ -271,7 +274,7 @@ def test_odd_values_survive(tmp_path: Path) -> None:
         "pairs": [[[0.1, 0.2], [0.3, 0.4]]],
         "no words": [None, None],
     }
-    names = SummaryNames(dimensions={"table": ("row",)}, prefixes={"table": ""})
+    names = SummaryNames(by_place={"table": ("row",)}, prefixes={"table": ""})
     dataset, back = _there_and_back(summary, names, tmp_path / "dataset.nc")
     assert back == json_ready(summary)
     assert (dataset.yes.dtype, dataset.yes.item()) == (np.dtype(bool), True)
@@ -291,7 +294,7 @@ def test_odd_values_survive(tmp_path: Path) -> None:
 
 
 def test_what_arrays_tell_is_not_told_twice(tmp_path: Path) -> None:
-    names = SummaryNames(reported_by_arrays=frozenset({"modes.omega"}), dimensions={"modes": ("mode",)})
+    names = SummaryNames(reported_by_arrays=frozenset({"modes.omega"}), by_place={"modes": ("mode",)})
     summary: Summary = {
         "scene": {"title": ""},
         "status": "ok",
@@ -305,8 +308,12 @@ def test_what_arrays_tell_is_not_told_twice(tmp_path: Path) -> None:
 
 
 def _there_and_back(summary: Summary, names: SummaryNames, path: Path) -> tuple[xarray.Dataset, Summary]:
-    write_dataset(with_summary(xarray.Dataset(), summary, names), path)
+    _write([], summary, names, path)
     return read_dataset(path)
+
+
+def _write(arrays: list[Variable], summary: Summary, names: Naming, path: Path) -> None:
+    write_dataset(path, complete_variables(arrays, summary, names), global_attributes(summary))
 
 
 def test_the_same_run_writes_the_same_bytes(tmp_path: Path) -> None:
@@ -314,7 +321,7 @@ def test_the_same_run_writes_the_same_bytes(tmp_path: Path) -> None:
     solution = arbitrary_solution(open_scene())
     summary = summarize_open(solution, MPI.COMM_WORLD, import_seconds=1.0)
     for name in ("one.nc", "other.nc"):
-        write_dataset(with_summary(open_dataset(solution), summary, OPEN_NAMES), tmp_path / name)
+        _write(variables_of(open_dataset(solution)), summary, OPEN_NAMES, tmp_path / name)
     assert (tmp_path / "one.nc").read_bytes() == (tmp_path / "other.nc").read_bytes()
 
 
@@ -335,7 +342,7 @@ def test_any_dataset_comes_back(tmp_path: Path) -> None:
         {"a": [1.0, 2.0, 3.0], "c": np.arange(50, dtype=np.int32)},
         {"title": "odd", "number": 3},
     )
-    write_dataset(given, tmp_path / "dataset.nc")
+    write_dataset(tmp_path / "dataset.nc", variables_of(given), given.attrs)
     with xarray.open_dataset(tmp_path / "dataset.nc") as opened:
         xarray.testing.assert_identical(opened.load(), given.assign(words=("a", given.words.values.astype(object))))
 

@@ -18,8 +18,8 @@ from hydroelastic.meshes.files import save_mesh
 from hydroelastic.meshes.geometry import tank_geometry
 from hydroelastic.meshes.grading import Grading
 from hydroelastic.meshes.tank import build_tank_mesh
-from hydroelastic.scenes.output.dataset import read_dataset
-from hydroelastic.scenes.output.provenance import Summary
+from hydroelastic.output.dataset import read_dataset
+from hydroelastic.output.provenance import Summary
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.run import run_scene
 

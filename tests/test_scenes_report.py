@@ -18,9 +18,9 @@ from PIL import Image
 from reports import SCENES, Page, parsed
 from scene_files import read_written
 
+from hydroelastic.output.outcome import Outcome
+from hydroelastic.output.sections import Section
 from hydroelastic.scenes.command_line import main
-from hydroelastic.scenes.output.outcome import Outcome
-from hydroelastic.scenes.output.sections import Section
 from hydroelastic.scenes.read import SHIPPED_FOLDER, read_scene, shipped_scenes
 from hydroelastic.scenes.report import content, write
 from hydroelastic.scenes.report.answer import answer

@@ -19,7 +19,7 @@ from selenium.webdriver.chrome.options import Options
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
 
-from hydroelastic.scenes.output.outcome import Outcome
+from hydroelastic.output.outcome import Outcome
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.report.captions import place_and_caption
 from hydroelastic.scenes.run import run_scene

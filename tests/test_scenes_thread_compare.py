@@ -11,10 +11,10 @@ from click.testing import CliRunner
 from mpi4py import MPI
 
 from hydroelastic.modal.thread.estimate import Inapplicable
+from hydroelastic.output.thread.comparison_tables import comparison_sections
 from hydroelastic.scenes.command_line import main
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.read import read_scene
-from hydroelastic.scenes.thread.comparison_tables import comparison_sections
 from hydroelastic.scenes.thread.differences import thread_differences
 from hydroelastic.scenes.thread.estimates import thread_estimates
 from hydroelastic.scenes.thread.solve import solve_thread_scene

@@ -4,19 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any, Generic, Protocol, TypeVar
 
 from mpi4py import MPI
 
 from hydroelastic.fem.stopwatch import Report, Stopwatch
+from hydroelastic.output.dataset import LabelledResults, declared_results
+from hydroelastic.output.manifest import read_manifest
+from hydroelastic.output.outcome import Outcome
 from hydroelastic.output.pictures.options import DEFAULT_PICTURES, PictureOption, PictureOptions
-from hydroelastic.scenes.output.dataset import LabelledResults
-from hydroelastic.scenes.output.manifest import read_manifest
-from hydroelastic.scenes.output.outcome import Outcome
-from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.output.sections import Section, markdown_sections
-from hydroelastic.scenes.output.writer import write_results
+from hydroelastic.output.provenance import Summary, summarize
+from hydroelastic.output.quantities import Group
+from hydroelastic.output.sections import Section, markdown_sections
+from hydroelastic.output.writer import write_results
+from hydroelastic.scenes.errors import folder_errors
 
 _Scene = TypeVar("_Scene", contravariant=True)
 _Solution = TypeVar("_Solution", contravariant=True)
@@ -32,6 +35,11 @@ def _as_solved(solution: Any, _summary: Summary) -> Any:
 
 def _nothing(_solution: Any) -> tuple[str, ...]:
     return ()
+
+
+def declared(kind: Group) -> dict[str, Any]:
+    """Return the arguments `summarize` and `dataset` of a run whose quantities are all declared."""
+    return {"summarize": partial(summarize, kind), "dataset": declared_results(kind)}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -143,16 +151,17 @@ class StagedRun(Generic[_Scene, _Solution]):
                 replaces=replaces,
             )
 
-        warnings = write_results(
-            out,
-            summary,
-            scene_file=scene_file,
-            tables=lambda folder: self.write(sampled, folder),
-            arrays=lambda: self.dataset.arrays(sampled),
-            names=self.dataset.names,
-            pictures=None if images is None else (lambda folder: self.draw(sampled, folder, images, report)),
-            text=lambda content: markdown_sections(content, outcome.sections, self.cost(content)),
-            page=None if page is None else lambda folder, warnings: page(with_warnings(warnings), folder),
-            report=report,
-        )
+        with folder_errors():
+            warnings = write_results(
+                out,
+                summary,
+                scene_file=scene_file,
+                tables=lambda folder: self.write(sampled, folder),
+                arrays=lambda: self.dataset.arrays(sampled),
+                dataset=self.dataset,
+                pictures=None if images is None else (lambda folder: self.draw(sampled, folder, images, report)),
+                text=lambda content: markdown_sections(content, outcome.sections, self.cost(content)),
+                page=None if page is None else lambda folder, warnings: page(with_warnings(warnings), folder),
+                report=report,
+            )
         return with_warnings(warnings)

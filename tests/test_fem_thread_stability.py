@@ -81,6 +81,7 @@ def test_clamped_beam() -> None:
     assert_threshold(found.thresholds[0], "divergence", 2.0 * np.pi, 1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("share", [0.2, pytest.param(0.5, marks=pytest.mark.slow)])
 def test_cantilever_with_a_blunt_end(share: float) -> None:
     speed, frequency = results("M09")[f"beta={share}"]

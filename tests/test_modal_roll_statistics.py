@@ -138,6 +138,7 @@ def test_two_extremes_within_a_step_are_not_missed(depth: float) -> None:
     raise AssertionError("no dip was made")
 
 
+@pytest.mark.slow_but("0.05")
 @pytest.mark.parametrize("ratio", [0.0, 0.05, 2.0])
 def test_ten_thousand_waves(ratio: float) -> None:
     random = np.random.default_rng(2)

@@ -223,7 +223,7 @@ def test_heavy_damping_keeps_the_default_tolerance() -> None:
     assert abs(result.solution.statistics.largest_angle) < 2e-6 * 0.1
 
 
-@pytest.mark.slow_on_ranks_but
+@pytest.mark.slow
 @pytest.mark.mpi
 def test_a_section_in_open_water_rolls_as_its_resonance_says() -> None:
     from hydroelastic.fem.open_water.requests import ResonanceRequest

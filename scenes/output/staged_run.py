@@ -50,6 +50,7 @@ class StagedRun(Generic[_Scene, _Solution]):
         animation_warnings: returns limitations of an animation of the solution, and the key to set; none by default.
         sample: samples the solution for files and pictures (collective); the solution itself by default.
         sampling_warnings: returns what could not be sampled, and why; none by default.
+        solve_alone: as `solve`, without the estimates of older theories; `solve` by default, which then makes none.
     """
 
     solve: Callable[[_Scene, MPI.Comm, Report], _Solution]
@@ -63,6 +64,7 @@ class StagedRun(Generic[_Scene, _Solution]):
     animation_warnings: Callable[[_Solution], tuple[str, ...]] = _nothing
     sample: Callable[[_Solution, Summary], Any] = _as_solved
     sampling_warnings: Callable[[Any], tuple[str, ...]] = _nothing
+    solve_alone: Callable[[_Scene, MPI.Comm, Report], _Solution] | None = None
 
     def __call__(
         self,
@@ -95,10 +97,22 @@ class StagedRun(Generic[_Scene, _Solution]):
             return outcome
         return self.written(outcome, out, scene_file=scene_file, images=images, page=page, report=report)
 
-    def solved(self, scene: _Scene, *, import_seconds: float = 0.0, report: Report = lambda _message: None) -> Outcome:
-        """Solve a scene; write nothing (collective). The arguments and errors are those of a call."""
+    def solved(
+        self,
+        scene: _Scene,
+        *,
+        estimates: bool = True,
+        import_seconds: float = 0.0,
+        report: Report = lambda _message: None,
+    ) -> Outcome:
+        """Solve a scene; write nothing (collective). The other arguments and errors are those of a call.
+
+        Args:
+            estimates: whether to make the estimates of older theories too.
+        """
         comm = MPI.COMM_WORLD
-        solution = self.solve(scene, comm, report)
+        solve = self.solve if estimates else self.solve_alone or self.solve
+        solution = solve(scene, comm, report)
         summary = self.summarize(solution, comm, import_seconds=import_seconds)
         sections = tuple(self.sections(solution, summary))
         return Outcome(solution=solution, summary=summary, sections=sections, cost=self.cost(summary))

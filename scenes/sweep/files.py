@@ -1,0 +1,82 @@
+"""The result folder of a sweep: dataset, table, summary, picture."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from mpi4py import MPI
+
+from hydroelastic.output.pictures.options import PictureOptions
+from hydroelastic.scenes.output.dataset import DATASET, write_dataset
+from hydroelastic.scenes.output.folder import raise_on_all, result_folder, write_summary
+from hydroelastic.scenes.output.markdown import markdown_table, markdown_text
+from hydroelastic.scenes.output.provenance import versions
+from hydroelastic.scenes.output.writer import TABLES
+from hydroelastic.scenes.sweep.axes import shown_number
+from hydroelastic.scenes.sweep.figure import draw_sweep, shown_columns
+
+if TYPE_CHECKING:
+    from hydroelastic.scenes.sweep.result import Sweep
+
+TABLE = "sweep.csv"
+
+
+def write_sweep(sweep: Sweep, folder: Path, show: tuple[str, ...], images: PictureOptions | None) -> None:
+    """Write the result folder of a sweep on the first process (collective).
+
+    Raises:
+        SceneError: if the folder cannot be written, or a quantity cannot be drawn.
+    """
+    problem: BaseException | None = None
+    if MPI.COMM_WORLD.rank == 0:
+        try:
+            with result_folder(folder, scene_file=sweep.solved.file) as inside:
+                write_dataset(sweep.dataset, inside / DATASET)
+                sweep.table.to_csv(inside / TABLE, index=False, lineterminator="\n")
+                write_summary(sweep_summary(sweep), inside)
+                (inside / TABLES).write_text(sweep_text(sweep, show), encoding="utf-8")
+                if images is not None:
+                    draw_sweep(sweep.solved, sweep.table, inside, images, show)
+        except BaseException as error:
+            # Any exception must reach the other processes, which wait for it.
+            problem = error
+    raise_on_all(problem, MPI.COMM_WORLD)
+
+
+def sweep_summary(sweep: Sweep) -> dict[str, Any]:
+    """Return the content of ``summary.json``."""
+    solved = sweep.solved
+    found = [point.status for point in solved.points]
+    return {
+        "scene": solved.scene.model_dump(mode="json"),
+        "status": solved.status,
+        "reasons": solved.complaints,
+        "vary": {axis.key: axis.values for axis in solved.grid.axes},
+        "points": {status: found.count(status) for status in ("ok", "unconverged", "failed")},
+        "versions": versions(),
+    }
+
+
+def sweep_rows(sweep: Sweep, show: tuple[str, ...]) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+    """Return headings and rows of the main quantities of all points, or of those to show."""
+    table, keys = sweep.table, [axis.key for axis in sweep.solved.grid.axes]
+    headings = (*keys, "status", *shown_columns(table, show))
+    rows = [tuple(map(_cell, row)) for row in table[list(headings)].itertuples(index=False)]
+    return headings, rows
+
+
+def _cell(value: Any) -> str:
+    return shown_number(float(value)) if isinstance(value, float) else str(value)
+
+
+def sweep_text(sweep: Sweep, show: tuple[str, ...]) -> str:
+    """Return the content of ``summary.md``."""
+    solved = sweep.solved
+    headings, rows = sweep_rows(sweep, show)
+    escaped = tuple(map(markdown_text, headings)), [tuple(map(markdown_text, row)) for row in rows]
+    complaints = [f"- {markdown_text(line)}" for line in solved.complaints]
+    title = markdown_text(
+        f"{solved.scene.title or 'Untitled scene'}: sweep over {', '.join(headings[: len(solved.grid.axes)])}"
+    )
+    return "\n".join([f"# {title}", "", markdown_table(*escaped), "", *complaints]).rstrip() + "\n"

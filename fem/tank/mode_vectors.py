@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
+from scipy.interpolate import Akima1DInterpolator
 
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.surfaces import LiquidSurface
@@ -67,8 +68,11 @@ def _waves(solution: TankSolution, level: StillLevel) -> Iterator[tuple[str, np.
         inside = (places >= piece.start) & (places <= piece.end)
         points = piece.start + 0.5 * (at + 1.0) * piece.length
         roots = np.sqrt(level.jump * 0.5 * weights * piece.length)
-        values = np.array([np.interp(points, places[inside], row[inside]) for row in elevations])
-        yield f"{level.name} right of {left}", roots * values.reshape(len(elevations), _POINTS)
+        at_nodes, first = np.unique(places[inside], return_index=True)
+        curve = Akima1DInterpolator(at_nodes, elevations[:, inside][:, first], axis=1, method="makima")
+        # The last node may miss the end of the piece by rounding.
+        values = curve(np.clip(points, at_nodes[0], at_nodes[-1]))
+        yield f"{level.name} right of {left}", roots * values
 
 
 def _elevations(solution: TankSolution, level: StillLevel) -> tuple[np.ndarray, np.ndarray]:

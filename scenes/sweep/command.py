@@ -15,11 +15,10 @@ from hydroelastic.scenes.command_options import (
     scene_argument,
     set_option,
 )
-from hydroelastic.scenes.command_parts import NOT_TO_TOLERANCE, folder_of_results, is_first_rank, title_of_scene
-from hydroelastic.scenes.errors import SceneError
+from hydroelastic.scenes.command_parts import NOT_TO_TOLERANCE, folder_of_results
 from hydroelastic.scenes.output.manifest import read_manifest
 from hydroelastic.scenes.progress import progress
-from hydroelastic.scenes.read import scene_path, scene_source
+from hydroelastic.scenes.read import scene_source
 
 
 @click.command()
@@ -38,6 +37,13 @@ from hydroelastic.scenes.read import scene_path, scene_source
 @click.option("--show", multiple=True, metavar="NAME", help="Quantity to print and draw, a column of sweep.csv.")
 @click.option("--estimates", is_flag=True, help="Make the estimates of older theories at each point too.")
 @click.option("--pictures", is_flag=True, help="Write a result folder with pictures for each point, in points/.")
+@click.option("--no-follow", is_flag=True, help="Do not follow the modes of closed tanks from point to point.")
+@click.option(
+    "--refinements",
+    type=click.IntRange(min=0),
+    default=200,
+    help="Points that may be added between others for following modes; default 200.",
+)
 @click.option("--no-images", is_flag=True, help="Do not draw the sweep.")
 @format_option
 @dpi_option
@@ -53,6 +59,8 @@ def sweep(
     show: tuple[str, ...],
     estimates: bool,
     pictures: bool,
+    no_follow: bool,
+    refinements: int,
     no_images: bool,
     formats: tuple[CurveFormat, ...],
     dpi: int | None,
@@ -80,7 +88,9 @@ def sweep(
         from hydroelastic.scenes.sweep.result import Sweep
         from hydroelastic.scenes.sweep.run import SweepOptions, solve_sweep
 
-        options = SweepOptions(jobs=jobs, estimates=estimates, pictures=pictures)
+        options = SweepOptions(
+            jobs=jobs, estimates=estimates, pictures=pictures, follow=not no_follow, refinements=refinements
+        )
         found = Sweep(solved=solve_sweep(scene, grid, overrides=overrides, options=options, out=folder, report=report))
         report("tables and pictures")
         write_sweep(found, folder, show, None if no_images else picture_options(formats, dpi=dpi))

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from hydroelastic.scenes.output.provenance import versions
+from hydroelastic.scenes.sweep.branches import branch_variables
 from hydroelastic.scenes.sweep.run import SolvedSweep
 
 if TYPE_CHECKING:
@@ -38,6 +39,7 @@ def sweep_dataset(solved: SolvedSweep, table: xarray.Dataset) -> xarray.Dataset:
     }
     for name, one in table.data_vars.items():
         variables[str(name)] = ((*dims, *one.dims[1:]), on_grid(one.values), one.attrs)
+    variables |= branch_variables(solved)
     coordinates: dict[str, Any] = {axis.name: (axis.name, list(axis.values), {"key": axis.key}) for axis in axes}
     coordinates |= {str(name): one for name, one in table.coords.items() if one.dims != ("point",)}
     scene = json.dumps(solved.scene.model_dump(mode="json"), ensure_ascii=False)

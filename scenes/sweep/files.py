@@ -15,11 +15,14 @@ from hydroelastic.scenes.output.provenance import versions
 from hydroelastic.scenes.output.writer import TABLES
 from hydroelastic.scenes.sweep.axes import shown_number
 from hydroelastic.scenes.sweep.figure import draw_sweep, shown_columns
+from hydroelastic.scenes.sweep.run import SolvedSweep
 
 if TYPE_CHECKING:
     from hydroelastic.scenes.sweep.result import Sweep
 
 TABLE = "sweep.csv"
+BRANCHES = "branches.csv"
+ENCOUNTERS = "encounters.csv"
 
 
 def write_sweep(sweep: Sweep, folder: Path, show: tuple[str, ...], images: PictureOptions | None) -> None:
@@ -34,6 +37,9 @@ def write_sweep(sweep: Sweep, folder: Path, show: tuple[str, ...], images: Pictu
             with result_folder(folder, scene_file=sweep.solved.file) as inside:
                 write_dataset(sweep.dataset, inside / DATASET)
                 sweep.table.to_csv(inside / TABLE, index=False, lineterminator="\n")
+                if sweep.solved.lines:
+                    sweep.branches.to_csv(inside / BRANCHES, index=False, lineterminator="\n")
+                    sweep.encounters.to_csv(inside / ENCOUNTERS, index=False, lineterminator="\n")
                 write_summary(sweep_summary(sweep), inside)
                 (inside / TABLES).write_text(sweep_text(sweep, show), encoding="utf-8")
                 if images is not None:
@@ -54,8 +60,44 @@ def sweep_summary(sweep: Sweep) -> dict[str, Any]:
         "reasons": solved.complaints,
         "vary": {axis.key: axis.values for axis in solved.grid.axes},
         "points": {status: found.count(status) for status in ("ok", "unconverged", "failed")},
+        "followed": followed_summary(solved),
         "versions": versions(),
     }
+
+
+def followed_summary(solved: SolvedSweep) -> dict[str, Any] | None:
+    """Return how the modes were followed; ``None`` where they were not."""
+    if not solved.lines:
+        return None
+    kinds = [one.kind for line in solved.lines for one in line.encounters]
+    sums = [one.participation.sum(axis=1) for line in solved.lines for one in line.followed.modes]
+    return {
+        "added_points": sum(int(line.followed.refined.sum()) for line in solved.lines),
+        "more_needed": any(line.followed.exhausted for line in solved.lines),
+        "crossings": kinds.count("crossing"),
+        "veerings": kinds.count("veering"),
+        "unresolved": kinds.count("unresolved"),
+        "least_participation_sum": min((float(one) for some in sums for one in some), default=None),
+    }
+
+
+def followed_lines_of_text(solved: SolvedSweep) -> list[str]:
+    """Return what is said of the followed modes."""
+    found = followed_summary(solved)
+    if found is None:
+        return []
+    lines = [
+        f"Modes followed along {solved.grid.axes[0].key}: {found['crossings']} crossings, {found['veerings']} veerings; "
+        f"{found['added_points']} points were added for that."
+    ]
+    if found["least_participation_sum"] is not None:
+        lines.append(f"The modes hold {found['least_participation_sum']:.4f} or more of each first elastic tone.")
+    if found["unresolved"] or found["more_needed"]:
+        lines.append(
+            f"NOT RESOLVED: {found['unresolved']} encounters of modes, see encounters.csv. Take more values, or raise "
+            f"--refinements."
+        )
+    return lines
 
 
 def sweep_rows(sweep: Sweep, show: tuple[str, ...]) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
@@ -79,4 +121,5 @@ def sweep_text(sweep: Sweep, show: tuple[str, ...]) -> str:
     title = markdown_text(
         f"{solved.scene.title or 'Untitled scene'}: sweep over {', '.join(headings[: len(solved.grid.axes)])}"
     )
-    return "\n".join([f"# {title}", "", markdown_table(*escaped), "", *complaints]).rstrip() + "\n"
+    said = [f"{markdown_text(line)}\n" for line in followed_lines_of_text(solved)]
+    return "\n".join([f"# {title}", "", markdown_table(*escaped), "", *said, *complaints]).rstrip() + "\n"

@@ -10,7 +10,7 @@ from rich.console import Console
 
 from hydroelastic.scenes.output.folder import results_message
 from hydroelastic.scenes.output.sections import rich_table
-from hydroelastic.scenes.sweep.files import sweep_rows
+from hydroelastic.scenes.sweep.files import followed_lines_of_text, sweep_rows
 
 if TYPE_CHECKING:
     from hydroelastic.scenes.sweep.result import Sweep
@@ -35,6 +35,8 @@ def sweep_report(sweep: Sweep, show: tuple[str, ...], folder: Path, *, replaces:
     console.print(rich_table(headings, rows[:_MOST_ROWS]))
     if len(rows) > _MOST_ROWS:
         console.print(f"and {len(rows) - _MOST_ROWS} more points, in sweep.csv")
+    for line in followed_lines_of_text(solved):
+        console.print(line, markup=False)
     if solved.resumed:
         console.print(f"{solved.resumed} of {len(rows)} points were solved before, and kept in the folder.")
     text: str = console.file.getvalue()  # type: ignore[attr-defined]

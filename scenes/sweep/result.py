@@ -14,6 +14,7 @@ from hydroelastic.fem.stopwatch import Report
 from hydroelastic.output.pictures.options import DEFAULT_PICTURES, PictureOptions
 from hydroelastic.scenes.read import Scene
 from hydroelastic.scenes.sweep.axes import Vary, grid_from_values
+from hydroelastic.scenes.sweep.branches import branch_rows, encounter_rows
 from hydroelastic.scenes.sweep.dataset import sweep_dataset
 from hydroelastic.scenes.sweep.quantities import columns, quantities
 from hydroelastic.scenes.sweep.run import SolvedSweep, SweepOptions, solve_sweep
@@ -67,6 +68,21 @@ class Sweep:
             | columns(self.quantities)
         )
 
+    @cached_property
+    def branches(self) -> Any:
+        """The content of ``branches.csv``: ω and participations of each followed mode at each point, those that were
+        added for following them among them."""
+        import pandas
+
+        return pandas.DataFrame(branch_rows(self.solved))
+
+    @cached_property
+    def encounters(self) -> Any:
+        """The content of ``encounters.csv``: where followed modes cross, veer, or could not be followed."""
+        import pandas
+
+        return pandas.DataFrame(encounter_rows(self.solved))
+
     def plot(self, *show: str) -> Image:
         """Return the picture of the sweep, or of some quantities; notebooks show it.
 
@@ -108,6 +124,8 @@ def sweep(
     *,
     jobs: int = 1,
     estimates: bool = False,
+    follow: bool = True,
+    refinements: int = SweepOptions.refinements,
     out: str | Path | None = None,
     report: Report = lambda _message: None,
 ) -> Sweep:
@@ -120,12 +138,14 @@ def sweep(
         vary: values by dotted key, entries numbered from 1: ``{"body.1.start": numpy.linspace(0, 6, 25)}``.
         jobs: number of processes.
         estimates: whether to make the estimates of older theories at each point too.
+        follow: whether to follow the modes of closed tanks along the first key.
+        refinements: largest number of points that are added for that.
         out: folder for the journal, from which an interrupted sweep goes on; ``Sweep.save(out)`` writes the results.
         report: called with the number of points solved.
 
     Raises:
         SceneError: if no point has a valid scene, or the folder cannot be written.
     """
-    options = SweepOptions(jobs=jobs, estimates=estimates)
+    options = SweepOptions(jobs=jobs, estimates=estimates, follow=follow, refinements=refinements)
     folder = None if out is None else Path(out)
     return Sweep(solved=solve_sweep(scene, grid_from_values(vary), options=options, out=folder, report=report))

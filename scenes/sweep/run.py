@@ -6,19 +6,23 @@ import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from mpi4py import MPI
 
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.scenes.errors import Problem, SceneError, shown_value
 from hydroelastic.scenes.kinds import runner_of
+from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.output.summary_variables import SummaryNames
 from hydroelastic.scenes.read import Scene, SceneSource, scene_source
 from hydroelastic.scenes.sweep.axes import Grid, point_text
 from hydroelastic.scenes.sweep.journal import Journal, open_journal
 from hydroelastic.scenes.sweep.point import PointOptions, SolvedPoint, failed, point_key
 from hydroelastic.scenes.sweep.workers import Task, solved_tasks
+
+if TYPE_CHECKING:
+    from hydroelastic.scenes.sweep.lines import Line
 
 Point = Mapping[str, Any]
 
@@ -31,11 +35,15 @@ class SweepOptions:
         jobs: number of processes that solve points at the same time.
         estimates: whether the estimates of older theories are made at each point.
         pictures: whether each point has a result folder with its pictures.
+        follow: whether the modes of closed tanks are followed along the first key.
+        refinements: largest number of points that are added for following them.
     """
 
     jobs: int = 1
     estimates: bool = False
     pictures: bool = False
+    follow: bool = True
+    refinements: int = 200
 
     def __post_init__(self) -> None:
         """Refuse what cannot be done."""
@@ -57,6 +65,7 @@ class SolvedSweep:
         grid: the varied keys.
         points: in the order of the grid.
         names: of the quantities of this kind of scene.
+        lines: followed modes along the first key, one for each combination of the values of the others.
         resumed: number of points that an earlier sweep had solved.
     """
 
@@ -65,6 +74,7 @@ class SolvedSweep:
     grid: Grid
     points: tuple[SolvedPoint, ...]
     names: SummaryNames
+    lines: tuple[Line, ...]
     resumed: int
 
     @property
@@ -86,8 +96,11 @@ class SolvedSweep:
 class _Solver:
     """Solves points of one scene, and knows those that are solved already."""
 
-    def __init__(self, source: SceneSource, overrides: Iterable[str], journal: Journal, options: SweepOptions) -> None:
-        self.source, self.overrides, self.journal, self.options = source, tuple(overrides), journal, options
+    def __init__(
+        self, source: SceneSource, grid: Grid, overrides: Iterable[str], journal: Journal, options: SweepOptions
+    ) -> None:
+        self.source, self.grid, self.overrides = source, grid, tuple(overrides)
+        self.journal, self.options = journal, options
         self.resumed = 0
 
     def scene(self, point: Point) -> Scene | SceneError:
@@ -144,17 +157,33 @@ def solve_sweep(
     journal_folder = out if MPI.COMM_WORLD.rank == 0 else None
     with open_journal(journal_folder, scene_file=source.file) as journal:
         journal.share()
-        solver = _Solver(source, overrides, journal, options)
+        solver = _Solver(source, grid, overrides, journal, options)
         folder = Path(os.path.realpath(out)) / "points" if options.pictures and out is not None else None
         points = solver.solved(grid.points, PointOptions(estimates=options.estimates, pictures=folder), report)
+        lines = _followed(first, solver, points, report) if options.follow else ()
     return SolvedSweep(
         scene=first,
         file=source.file,
         grid=grid,
         points=tuple(points),
         names=runner_of(first).dataset.names,
+        lines=lines,
         resumed=solver.resumed,
     )
+
+
+def _followed(first: Scene, solver: _Solver, points: list[SolvedPoint], report: Report) -> tuple[Line, ...]:
+    """Follow the modes of a closed tank (collective)."""
+    if not isinstance(first, TankScene) or first.is_open:
+        return ()
+
+    def solve(more: list[dict[str, Any]]) -> list[SolvedPoint]:
+        return solver.solved(more, PointOptions(), lambda message: report(f"following modes, {message} between"))
+
+    from hydroelastic.scenes.sweep.lines import followed_lines
+
+    most = solver.options.refinements
+    return followed_lines(solver.grid, points, solve, count=first.accuracy.modes, most=most)
 
 
 def _first_scene(source: SceneSource, overrides: Iterable[str], grid: Grid) -> Scene:

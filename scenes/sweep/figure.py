@@ -1,24 +1,29 @@
-"""Pictures of a sweep: curves of quantities against one key, contours over two."""
+"""Pictures of a sweep: a veering diagram of followed modes, curves of quantities against a key, maps over two keys."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from hydroelastic.output.pictures.curves import Sheets, label_axes, plot_curve
+from hydroelastic.output.pictures.colours import BLUE, GREEN, SEQUENCE, VERMILLION, part_of_colours
+from hydroelastic.output.pictures.curves import DASHES, GREY, Sheets, label_axes, plot_curve
 from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.scenes.errors import Problem, SceneError, shown_value
-from hydroelastic.scenes.sweep.run import SolvedSweep
+from hydroelastic.scenes.sweep.lines import Line, is_logarithmic, place_of
 from hydroelastic.scenes.words import proposal
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+    from hydroelastic.scenes.sweep.result import Sweep
 
 PICTURE = "sweep"
 
-# The first of these that a table has is shown where nothing is asked for.
+# The first of these whose first name a table has is shown where nothing is asked for.
 _MAIN = (
     ("first_elastic_omega", "first_elastic_participation", "first_elastic_pressure_release_omega"),
     ("omega_1", "omega_2", "omega_3"),
@@ -26,6 +31,10 @@ _MAIN = (
     ("equilibrium_largest_tension",),
     ("response_largest_angle_degrees",),
 )
+_MARKS = {"crossing": ("x", GREEN), "veering": ("o", GREY), "unresolved": ("^", VERMILLION)}
+# Widths of curves without and with all of the first elastic tone, points.
+_WIDTHS = 0.9, 5.0
+_CURVES = 12
 
 
 def shown_columns(table: Any, show: tuple[str, ...]) -> tuple[str, ...]:
@@ -43,7 +52,7 @@ def shown_columns(table: Any, show: tuple[str, ...]) -> tuple[str, ...]:
                     value=shown_value(name),
                     wrong="it holds no numbers" if name in table else "there is no such quantity",
                     allowed="a column of sweep.csv with numbers",
-                    remedy=proposal(name, numbers) or f"There are {', '.join(numbers[:12])} …",
+                    remedy=proposal(name, numbers) or f"There are {', '.join(numbers[:_CURVES])} …",
                 )
             )
     if show:
@@ -52,30 +61,122 @@ def shown_columns(table: Any, show: tuple[str, ...]) -> tuple[str, ...]:
     return tuple(name for name in found if name in numbers)
 
 
-def draw_sweep(solved: SolvedSweep, table: Any, folder: Path, options: PictureOptions, show: tuple[str, ...]) -> None:
-    """Write ``sweep.png``, or other formats.
+def draw_sweep(sweep: Sweep, folder: Path, options: PictureOptions, show: tuple[str, ...]) -> None:
+    """Write ``sweep.png``, or other formats: a veering diagram, or curves, or maps over two keys.
 
     Args:
-        solved: the points.
-        table: one row for each, a data frame.
+        sweep: what was found.
         folder: an existing folder.
         options: formats and sizes.
-        show: names of quantities; the main ones by default.
+        show: names of quantities; by default the followed modes if there are any along a single key, else the main
+            quantities of the kind of scene.
     """
-    names = shown_columns(table, show)
+    solved = sweep.solved
+    axes = solved.grid.axes
+    names = shown_columns(sweep.table, show)
     sheets = Sheets(folder=folder, title=solved.scene.title, options=options)
-    heading = f"sweep over {' and '.join(axis.key for axis in solved.grid.axes)}"
+    heading = f"sweep over {' and '.join(axis.key for axis in axes)}"
+    if len(axes) == 1 and solved.lines and not show:
+        with sheets.sheet(PICTURE, heading, width=10.0, height=7.0) as figure:
+            _draw_veerings(figure, sweep, solved.lines[0])
+        return
+    maps = len(axes) == 2 and all(axis.is_number and len(axis.values) > 1 for axis in axes)
     with sheets.sheet(PICTURE, heading, width=9.0, height=2.0 + 3.2 * len(names)) as figure:
-        _draw_curves(figure, solved, table, names)
+        (_draw_maps if maps else _draw_curves)(figure, sweep, names)
 
 
-def _draw_curves(figure: Figure, solved: SolvedSweep, table: Any, names: tuple[str, ...]) -> None:
-    first, *others = solved.grid.axes
+def _draw_veerings(figure: Figure, sweep: Sweep, line: Line) -> None:
+    """Frequencies of the followed modes; colour and width tell their part in the first elastic tone."""
+    from matplotlib.collections import LineCollection
+
+    (axis,) = sweep.solved.grid.axes
+    followed = line.followed
+    x, omega = np.array(line.values), followed.of_branches("omega")
+    beams = len(followed.modes[0].participation)
+    # Of all beams together.
+    parts = sum((np.nan_to_num(followed.participation(beam)) for beam in range(beams)), np.zeros_like(omega))
+    panel = figure.subplots()
+    segments, shares = [], []
+    for curve, part in zip(omega.T, parts.T, strict=True):
+        points = np.column_stack([x, curve])
+        segments.append(np.stack([points[:-1], points[1:]], axis=1))
+        shares.append(0.5 * (part[:-1] + part[1:]))
+    drawn, share = np.concatenate(segments), np.concatenate(shares)
+    order = np.argsort(share)
+    colours = part_of_colours(SEQUENCE, 0.85, 0.0)
+    lines = LineCollection(
+        list(drawn[order]),
+        cmap=colours,
+        array=share[order],
+        linewidths=_WIDTHS[0] + (_WIDTHS[1] - _WIDTHS[0]) * np.clip(share[order], 0.0, 1.0),
+        capstyle="round",
+    )
+    lines.set_clim(0.0, 1.0)
+    panel.add_collection(lines)
+    if beams:
+        figure.colorbar(lines, ax=panel, label="part in the first elastic tone", pad=0.02)
+        release = np.array([one.pressure_release for one in followed.modes])
+        for beam in range(beams):
+            label = "pressure-release tone" if beam == 0 else None
+            panel.plot(x, release[:, beam], "--", color=BLUE, linewidth=1.2, label=label)
+    _draw_estimates(panel, sweep)
+    for kind, (marker, colour) in _MARKS.items():
+        met = [(place_of(one, axis), one.omega) for one in line.encounters if one.kind == kind]
+        if met:
+            panel.plot(*np.array(met).T, marker, color=colour, fillstyle="none", markersize=7, label=kind)
+    highest = max(modes.omega[min(followed.count, len(modes.omega)) - 1] for modes in followed.modes)
+    panel.set_ylim(0.0, 1.03 * highest)
+    panel.set_xlim(x[0], x[-1])
+    if is_logarithmic(axis):
+        panel.set_xscale("log")
+    label_axes(panel, axis.key, "ω, rad/s")
+
+
+def _draw_estimates(panel: Axes, sweep: Sweep) -> None:
+    """The first elastic tone by older theories, where they were asked for."""
+    if "estimate_omega" not in sweep.dataset:
+        return
+    (axis,) = sweep.solved.grid.axes
+    for number, name in enumerate(sweep.dataset["estimate"].values):
+        values = sweep.dataset["estimate_omega"].sel(estimate=name).values
+        style = DASHES[1 + number % (len(DASHES) - 1)]
+        panel.plot(axis.values, values, style, color=GREY, linewidth=0.7, label=str(name))
+
+
+def _draw_curves(figure: Figure, sweep: Sweep, names: Sequence[str]) -> None:
+    """Quantities against the first key, a curve for each combination of the others."""
+    first, *others = sweep.solved.grid.axes
+    points = sweep.solved.grid.points
+    places = np.array(first.values) if first.is_number else np.array([str(value) for value in first.values])
     panels = figure.subplots(len(names), 1, sharex=True, squeeze=False)[:, 0]
-    for axes, name in zip(panels, names, strict=True):
-        values = table[name].to_numpy(dtype=float).reshape(len(first.values), -1)
+    for panel, name in zip(panels, names, strict=True):
+        values = sweep.table[name].to_numpy(dtype=float).reshape(len(places), -1)
         for number, column in enumerate(values.T):
-            row = solved.grid.points[number]
-            label = ", ".join(f"{axis.key} = {row[axis.key]}" for axis in others)
-            plot_curve(axes, np.array(first.values), column, number, label)
-        label_axes(axes, first.key if axes is panels[-1] else "", name, legend="beside" if others else "")
+            label = ", ".join(f"{axis.key} = {points[number][axis.key]}" for axis in others)
+            plot_curve(panel, places, column, number, label)
+        if is_logarithmic(first):
+            panel.set_xscale("log")
+        label_axes(panel, first.key if panel is panels[-1] else "", _named(sweep, name), legend="beside" if others else "")
+
+
+def _draw_maps(figure: Figure, sweep: Sweep, names: Sequence[str]) -> None:
+    """Quantities over two keys."""
+    across, up = sweep.solved.grid.axes
+    panels = figure.subplots(len(names), 1, sharex=True, squeeze=False)[:, 0]
+    for panel, name in zip(panels, names, strict=True):
+        values = np.ma.masked_invalid(sweep.table[name].to_numpy(dtype=float).reshape(sweep.solved.grid.shape))
+        colours = part_of_colours(SEQUENCE, 0.95, 0.05)
+        drawn = panel.pcolormesh(across.values, up.values, values.T, cmap=colours, shading="nearest")
+        figure.colorbar(drawn, ax=panel, label=_named(sweep, name))
+        if min(values.shape) > 2 and values.count() == values.size and np.ptp(values) > 0.0:
+            panel.clabel(panel.contour(across.values, up.values, values.T, colors="black", linewidths=0.6), fontsize=8)
+        panel.set_xscale("log" if is_logarithmic(across) else "linear")
+        panel.set_yscale("log" if is_logarithmic(up) else "linear")
+        label_axes(panel, across.key if panel is panels[-1] else "", up.key, legend="")
+
+
+def _named(sweep: Sweep, column: str) -> str:
+    """A column with its unit."""
+    variables = [name for name in sweep.quantities if column == name or column.startswith(f"{name}_")]
+    unit = sweep.quantities[max(variables, key=len)].attrs.get("units", "1") if variables else "1"
+    return column if unit == "1" else f"{column}, {unit}"

@@ -43,7 +43,7 @@ def write_sweep(sweep: Sweep, folder: Path, show: tuple[str, ...], images: Pictu
                 write_summary(sweep_summary(sweep), inside)
                 (inside / TABLES).write_text(sweep_text(sweep, show), encoding="utf-8")
                 if images is not None:
-                    draw_sweep(sweep.solved, sweep.table, inside, images, show)
+                    draw_sweep(sweep, inside, images, show)
         except BaseException as error:
             # Any exception must reach the other processes, which wait for it.
             problem = error

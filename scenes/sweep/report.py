@@ -16,7 +16,8 @@ if TYPE_CHECKING:
     from hydroelastic.scenes.sweep.result import Sweep
 
 _MOST_ROWS = 60
-_WIDTH = 120
+# Names of columns are not cut.
+_WIDTH = 200
 
 
 def sweep_report(sweep: Sweep, show: tuple[str, ...], folder: Path, *, replaces: bool) -> str:

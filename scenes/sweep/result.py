@@ -97,7 +97,7 @@ class Sweep:
         from hydroelastic.scenes.sweep.figure import draw_sweep
 
         with TemporaryDirectory() as folder:
-            draw_sweep(self.solved, self.table, Path(folder), DEFAULT_PICTURES, show)
+            draw_sweep(self, Path(folder), DEFAULT_PICTURES, show)
             return Image.open(io.BytesIO((Path(folder) / "sweep.png").read_bytes()))
 
     def save(

@@ -59,7 +59,7 @@ def solved_tasks(tasks: Sequence[Task], options: PointOptions, jobs: int) -> Ite
     left = list(tasks)
     while left:
         survived, suspects = True, []
-        for task, point in _pooled(left, options, min(jobs, len(left))):
+        for task, point in _pooled(tuple(left), options, min(jobs, len(left))):
             if point is None:
                 survived = False
                 suspects.append(task)

@@ -101,18 +101,17 @@ class StagedRun(Generic[_Scene, _Solution]):
         self,
         scene: _Scene,
         *,
-        estimates: bool = True,
+        solve: Callable[[_Scene, MPI.Comm, Report], _Solution] | None = None,
         import_seconds: float = 0.0,
         report: Report = lambda _message: None,
     ) -> Outcome:
         """Solve a scene; write nothing (collective). The other arguments and errors are those of a call.
 
         Args:
-            estimates: whether to make the estimates of older theories too.
+            solve: in place of that of the kind of scene, for example without estimates.
         """
         comm = MPI.COMM_WORLD
-        solve = self.solve if estimates else self.solve_alone or self.solve
-        solution = solve(scene, comm, report)
+        solution = (solve or self.solve)(scene, comm, report)
         summary = self.summarize(solution, comm, import_seconds=import_seconds)
         sections = tuple(self.sections(solution, summary))
         return Outcome(solution=solution, summary=summary, sections=sections, cost=self.cost(summary))

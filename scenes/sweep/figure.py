@@ -156,7 +156,9 @@ def _draw_curves(figure: Figure, sweep: Sweep, names: Sequence[str]) -> None:
             plot_curve(panel, places, column, number, label)
         if is_logarithmic(first):
             panel.set_xscale("log")
-        label_axes(panel, first.key if panel is panels[-1] else "", _named(sweep, name), legend="beside" if others else "")
+        label_axes(
+            panel, first.key if panel is panels[-1] else "", _named(sweep, name), legend="beside" if others else ""
+        )
 
 
 def _draw_maps(figure: Figure, sweep: Sweep, names: Sequence[str]) -> None:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from dataclasses import asdict, dataclass
+from functools import cache, partial
 from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -15,6 +17,7 @@ from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.output.json_values import json_ready
 from hydroelastic.scenes.output.provenance import Summary, versions
 from hydroelastic.scenes.read import Scene
+from hydroelastic.scenes.sweep.families import Family, liquids_of
 
 if TYPE_CHECKING:
     from hydroelastic.fem.sweep.mode_vectors import ModeVectors
@@ -70,24 +73,32 @@ class SolvedPoint:
         )
 
 
-def point_key(scene: Scene, options: PointOptions) -> str:
+@cache
+def _versions() -> dict[str, str]:
+    return versions()
+
+
+def point_key(scene: Scene, options: PointOptions, family: Family | None) -> str:
     """Return what identifies a result: a hash of the scene, of files that it names, of options and of versions."""
     mesh = scene.mesh.file.read_bytes() if isinstance(scene, TankScene) and scene.mesh is not None else b""
-    content = [scene.model_dump(mode="json"), options.estimates, str(options.pictures or ""), versions()]
+    content = [scene.model_dump(mode="json"), options.estimates, str(options.pictures or "")]
+    content += [family and family.name, _versions()]
     return sha256(json.dumps(content, sort_keys=True).encode() + mesh).hexdigest()
 
 
-def solve_point(scene: Scene, options: PointOptions, name: str) -> SolvedPoint:
+def solve_point(scene: Scene, options: PointOptions, name: str, family: Family | None = None) -> SolvedPoint:
     """Solve one point (collective); what goes wrong is kept as its reason.
 
     Args:
         scene: of the point.
         options: what else is done.
         name: of its folder, if it has one.
+        family: points that share their liquid with this one, if there are any.
     """
     try:
         run = runner_of(scene)
-        outcome = run.solved(scene, estimates=options.estimates)
+        solve: Callable[..., Any] = run.solve if options.estimates else run.solve_alone or run.solve
+        outcome = run.solved(scene, solve=solve if family is None else partial(solve, liquids=liquids_of(family)))
         if options.pictures is not None:
             outcome = run.written(outcome, options.pictures / name, images=DEFAULT_PICTURES)
         modes = None

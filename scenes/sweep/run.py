@@ -17,6 +17,7 @@ from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.output.summary_variables import SummaryNames
 from hydroelastic.scenes.read import Scene, SceneSource, scene_source
 from hydroelastic.scenes.sweep.axes import Grid, point_text
+from hydroelastic.scenes.sweep.families import families
 from hydroelastic.scenes.sweep.journal import Journal, open_journal
 from hydroelastic.scenes.sweep.point import PointOptions, SolvedPoint, failed, point_key
 from hydroelastic.scenes.sweep.workers import Task, solved_tasks
@@ -101,6 +102,7 @@ class _Solver:
     ) -> None:
         self.source, self.grid, self.overrides = source, grid, tuple(overrides)
         self.journal, self.options = journal, options
+        self.families = families([self.scene(point) for point in grid.points])
         self.resumed = 0
 
     def scene(self, point: Point) -> Scene | SceneError:
@@ -113,15 +115,20 @@ class _Solver:
     def solved(self, points: Sequence[Point], of_points: PointOptions, report: Report) -> list[SolvedPoint]:
         """Solve points, each at once kept in the journal (collective)."""
         scenes = [self.scene(point) for point in points]
-        keys = [None if isinstance(scene, SceneError) else point_key(scene, of_points) for scene in scenes]
-        # Different values may give one scene.
-        tasks = {
-            key: Task(key=key, scene=scene, name=f"{number:04d}")
-            for number, (key, scene) in enumerate(zip(keys, scenes, strict=True), 1)
-            if key is not None and not isinstance(scene, SceneError) and key not in self.journal
-        }
+        keys, tasks = [], {}
+        for number, scene in enumerate(scenes, 1):
+            if isinstance(scene, SceneError):
+                keys.append(None)
+                continue
+            family = self.families.of(scene)
+            keys.append(point_key(scene, of_points, family))
+            # Different values may give one scene.
+            if keys[-1] not in self.journal:
+                tasks[keys[-1]] = Task(key=keys[-1], scene=scene, name=f"{number:04d}", family=family)
+        # Those of one family follow each other.
+        ordered = sorted(tasks.values(), key=lambda task: task.family.name if task.family is not None else "")
         self.resumed += sum(key in self.journal for key in keys if key is not None)
-        for number, (task, point) in enumerate(solved_tasks(list(tasks.values()), of_points, self.options.jobs), 1):
+        for number, (task, point) in enumerate(solved_tasks(ordered, of_points, self.options.jobs), 1):
             self.journal.add(task.key, point)
             report(f"{number} of {len(tasks)} points")
         return [

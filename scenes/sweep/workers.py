@@ -19,6 +19,7 @@ from typing import TypeVar
 
 from hydroelastic.scenes.errors import Problem, SceneError
 from hydroelastic.scenes.read import Scene
+from hydroelastic.scenes.sweep.families import Family
 from hydroelastic.scenes.sweep.point import PointOptions, SolvedPoint, solve_point
 
 _Result = TypeVar("_Result")
@@ -32,11 +33,13 @@ class Task:
         key: of the point in the journal.
         scene: of the point.
         name: of its folder, if it has one.
+        family: points that share their liquid with it, if there are any.
     """
 
     key: str
     scene: Scene
     name: str
+    family: Family | None
 
 
 def solved_tasks(tasks: Sequence[Task], options: PointOptions, jobs: int) -> Iterator[tuple[Task, SolvedPoint]]:
@@ -52,7 +55,7 @@ def solved_tasks(tasks: Sequence[Task], options: PointOptions, jobs: int) -> Ite
     """
     if jobs == 1 or len(tasks) < 2:
         for task in tasks:
-            yield task, solve_point(task.scene, options, task.name)
+            yield task, solve_point(task.scene, options, task.name, task.family)
         return
     if parent_process() is not None:
         raise SceneError(Problem(key="jobs", wrong="a process of a sweep cannot start another sweep with more"))
@@ -97,7 +100,7 @@ def _pooled(tasks: Sequence[Task], options: PointOptions, jobs: int) -> Iterator
         running: dict[Future[SolvedPoint], Task] = {}
         waiting = iter(tasks)
         for task in waiting:
-            running[pool.submit(solve_point, task.scene, options, task.name)] = task
+            running[pool.submit(solve_point, task.scene, options, task.name, task.family)] = task
             if len(running) > jobs:
                 yield from _finished(running)
         while running:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from base64 import b64decode, b64encode
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Self
 
@@ -36,14 +37,18 @@ class ModeVectors:
     participation: Array
     pressure_release: Array
 
+    def as_texts(self) -> dict[str, Any]:
+        """Return the arrays as texts of JSON, without loss."""
+        arrays = {name: value for name, value in vars(self).items() if name != "blocks"}
+        return {name: _text(value) for name, value in arrays.items()} | {
+            "blocks": {name: _text(value) for name, value in self.blocks.items()}
+        }
+
     @classmethod
-    def of_lists(cls, content: Mapping[str, Any]) -> Self:
-        """Return the vectors from their attributes as lists, in which ``None`` is NaN."""
-        arrays = {name: np.array(value, dtype=float) for name, value in content.items() if name != "blocks"}
-        modes = len(arrays["omega"])
-        arrays["participation"] = arrays["participation"].reshape(-1, modes)
-        blocks = {name: np.array(value, dtype=float).reshape(modes, -1) for name, value in content["blocks"].items()}
-        return cls(**arrays, blocks=blocks)
+    def of_texts(cls, content: Mapping[str, Any]) -> Self:
+        """Return the vectors of `as_texts`."""
+        arrays = {name: _array(value) for name, value in content.items() if name != "blocks"}
+        return cls(**arrays, blocks={name: _array(value) for name, value in content["blocks"].items()})
 
     def overlaps(self, other: ModeVectors) -> Array:
         """Return the K-inner product of each mode with each of another solution, shape (modes, other modes).
@@ -57,3 +62,12 @@ class ModeVectors:
             products += one[:, :shared] @ two[:, :shared].T
         opposite = self.symmetry[:, None] * other.symmetry < 0
         return np.where(opposite, 0.0, products)
+
+
+def _text(array: Array) -> list[Any]:
+    """Shape and bytes of an array."""
+    return [list(array.shape), b64encode(array.astype("<f8").tobytes()).decode()]
+
+
+def _array(text: Sequence[Any]) -> Array:
+    return np.frombuffer(b64decode(text[1]), dtype="<f8").reshape(text[0])

@@ -61,17 +61,18 @@ class SharedLiquids(Liquids):
     """Makes mesh and matrices once for all tanks of one `liquid_key`.
 
     Attributes:
-        of_field: the finest resolution of the first attempt that one of them needs; ``None`` takes that of each.
+        of_field: as fine as the first attempt must be for all of them; ``None`` takes that of each.
+        of_limit: the same for the infinite-frequency limit.
     """
 
     of_field: Resolution | None = None
+    of_limit: Resolution | None = None
     _meshes: dict[object, TankMesh] = field(default_factory=dict)
     _pencils: dict[object, PartPencils] = field(default_factory=dict)
 
     def start(self, resolution: Resolution, *, infinite_frequency: bool = False) -> Resolution:
         """See `Liquids.start`."""
-        # That of the limit hardly depends on the bodies: its elements are as long as the bodies.
-        least = None if infinite_frequency else self.of_field
+        least = self.of_limit if infinite_frequency else self.of_field
         return resolution if least is None else finest((resolution, least))
 
     def mesh(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import cache
 
 import numpy as np
 from scipy.interpolate import Akima1DInterpolator
@@ -31,9 +32,10 @@ def mode_vectors(solution: TankSolution) -> ModeVectors:
     blocks = dict(
         zip((f"body {n + 1}" for n in range(len(field.bodies))), np.split(entries, stops, axis=1), strict=False)
     )
-    for level in solution.tank.levels:
-        if level.moves and level.is_open:
-            blocks |= {name: values * scale for name, values in _waves(solution, level)}
+    levels = [level for level in solution.tank.levels if level.moves and level.is_open]
+    shapes = [modes.completed(place).displacement.array_r for place in range(count)] if levels else []
+    for level in levels:
+        blocks |= {name: values * scale for name, values in _waves(solution, level, shapes)}
     beams = solution.tank.elastic
     return ModeVectors(
         omega=np.array([solution.omega(value) for value in modes.eigenvalues]),
@@ -52,14 +54,14 @@ def mode_vectors(solution: TankSolution) -> ModeVectors:
     )
 
 
-def _waves(solution: TankSolution, level: StillLevel) -> Iterator[tuple[str, np.ndarray]]:
+def _waves(solution: TankSolution, level: StillLevel, shapes: list[np.ndarray]) -> Iterator[tuple[str, np.ndarray]]:
     """Name and √(Δρ g w) η of each free piece of a level, shape (modes, points).
 
     A piece is called by the bodies on its left, so that it has its name wherever they move, and whether or not there
     are other pieces.
     """
-    places, elevations = _elevations(solution, level)
-    at, weights = np.polynomial.legendre.leggauss(_POINTS)
+    places, elevations = _elevations(solution, level, shapes)
+    at, weights = _gauss_points()
     left: list[int] = []
     for piece in level.pieces:
         if piece.body is not None:
@@ -75,15 +77,21 @@ def _waves(solution: TankSolution, level: StillLevel) -> Iterator[tuple[str, np.
         yield f"{level.name} right of {left}", roots * values
 
 
-def _elevations(solution: TankSolution, level: StillLevel) -> tuple[np.ndarray, np.ndarray]:
+@cache
+def _gauss_points() -> tuple[np.ndarray, np.ndarray]:
+    """Points and weights on [−1, 1]."""
+    return np.polynomial.legendre.leggauss(_POINTS)
+
+
+def _elevations(solution: TankSolution, level: StillLevel, shapes: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
     """Abscissae of the unknowns of η on a level, ascending, and η there in all modes, at unit generalized mass of the
     whole tank."""
     field = solution.field
     rows, places = [], np.empty(0)
-    for place, (part, _) in enumerate(field.origins):
+    for shape, (part, _) in zip(shapes, field.origins, strict=True):
         pencil = field.parts[part].pencil
         number = next(n for n, one in enumerate(pencil.surfaces) if _is_on(one, level))
-        places, values = _on_surface(pencil, number, field.modes.completed(place).displacement.array_r)
+        places, values = _on_surface(pencil, number, shape)
         if field.half:
             sign = _SIGNS[field.parts[part].parity]
             places = np.concatenate([places, 1.0 - places[::-1]])

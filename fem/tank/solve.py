@@ -351,5 +351,9 @@ def shared_liquids(tanks: Sequence[Tank], *, tolerance: float, modes: int) -> Sh
         tolerance: as that of `solve_tank`.
         modes: the same.
     """
-    solved = [solve_tank(tank, tolerance=tolerance, modes=modes).resolution for tank in tanks]
-    return SharedLiquids(of_field=finest(solved))
+    solved = [solve_tank(tank, tolerance=tolerance, modes=modes) for tank in tanks]
+    limits = [
+        infinite_frequency_resolution(one.tank, workable_tolerance(tolerance, one.tank.depth), expected_tones(one.tank))
+        for one in solved
+    ]
+    return SharedLiquids(of_field=finest([one.resolution for one in solved]), of_limit=finest(limits))

@@ -49,10 +49,9 @@ class Journal:
 
     def add(self, key: str, point: SolvedPoint) -> None:
         """Keep a point; what is on disk outlives this process."""
-        # What is kept is what a restarted sweep would read.
-        line = json.dumps({"key": key, "point": point.as_json()}, ensure_ascii=False)
-        self._points[key] = SolvedPoint.from_json(json.loads(line)["point"])
+        self._points[key] = point
         if self._descriptor is not None:
+            line = json.dumps({"key": key, "point": point.as_json()}, ensure_ascii=False)
             os.write(self._descriptor, f"\n{line}".encode())
 
 

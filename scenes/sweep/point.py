@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
-from functools import cache, partial
+from dataclasses import dataclass
+from functools import partial
 from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -57,7 +57,7 @@ class SolvedPoint:
     def as_json(self) -> dict[str, Any]:
         """Return the point in types of JSON."""
         content = {"status": self.status, "reasons": self.reasons, "summary": self.summary}
-        return json_ready(content | {"modes": None if self.modes is None else asdict(self.modes)})
+        return content | {"modes": None if self.modes is None else self.modes.as_texts()}
 
     @classmethod
     def from_json(cls, content: dict[str, Any]) -> SolvedPoint:
@@ -69,20 +69,15 @@ class SolvedPoint:
             status=content["status"],
             reasons=tuple(content["reasons"]),
             summary=content["summary"],
-            modes=None if modes is None else ModeVectors.of_lists(modes),
+            modes=None if modes is None else ModeVectors.of_texts(modes),
         )
-
-
-@cache
-def _versions() -> dict[str, str]:
-    return versions()
 
 
 def point_key(scene: Scene, options: PointOptions, family: Family | None) -> str:
     """Return what identifies a result: a hash of the scene, of files that it names, of options and of versions."""
     mesh = scene.mesh.file.read_bytes() if isinstance(scene, TankScene) and scene.mesh is not None else b""
     content = [scene.model_dump(mode="json"), options.estimates, str(options.pictures or "")]
-    content += [family and family.name, _versions()]
+    content += [family and family.name, versions()]
     return sha256(json.dumps(content, sort_keys=True).encode() + mesh).hexdigest()
 
 

@@ -4,9 +4,14 @@ The source folder is the checkout, because pages link to tables and pictures of 
 """
 
 import importlib.metadata
+import re
 from typing import Any
 
+from docutils import nodes
+from docutils.utils.math import MathError
+from docutils.utils.math.latex2mathml import tex2mathml
 from sphinx.application import Sphinx
+from sphinx.util import logging
 
 project = "hydroelastic"
 version = release = importlib.metadata.version("hydroelastic")
@@ -29,18 +34,24 @@ html_theme = "furo"
 html_title = f"hydroelastic {version}"
 # The site is read from the disk as well: nothing of it comes from the net.
 html_static_path = ["site.css"]
+# index.html at the root of the site leads to that of the pages.
+html_extra_path = ["site_root"]
 html_css_files = ["site.css"]
 html_copy_source = False
 html_show_sphinx = False
 
 # Anchors of headings are those that a reader of the Markdown files sees.
 myst_heading_anchors = 4
+# Formulas as code-hosting sites show them: $…$ in a line, a fence labelled ``math`` on lines of its own.
+myst_enable_extensions = ["dollarmath"]
+myst_fence_as_directive = ["math"]
+html_math_renderer = "mathml"
 
 autodoc_typehints = "description"
 autodoc_typehints_description_target = "documented"
 autodoc_member_order = "bysource"
 # Said by their names, not by what they stand for.
-autodoc_type_aliases = {name: name for name in ("ArrayLike", "npt.ArrayLike", "FloatArray", "Force", "Scene", "Report")}
+autodoc_type_aliases = {name: name for name in ("ArrayLike", "npt.ArrayLike", "FloatArray", "Force", "Report")}
 # Names of code in single backticks.
 default_role = "code"
 napoleon_use_ivar = True
@@ -73,7 +84,24 @@ def _with_bars(line: str) -> str:
     return "``".join(parts)
 
 
+def _mathml(translator: Any, node: nodes.math | nodes.math_block) -> None:
+    """Write a formula as MathML, which browsers show without scripts and fonts; what is not understood is a warning."""
+    is_block = isinstance(node, nodes.math_block)
+    try:
+        shown = str(tex2mathml(node.astext(), as_block=is_block))
+        # Few devices have a font with the italics of mathematics, above all Greek ones: ordinary letters are slanted.
+        shown = re.sub(r"<mi>(\w)</mi>", r'<mi class="variable" mathvariant="normal">\1</mi>', shown)
+        shown = re.sub(r"<mi(?: class=.capital-greek.)?>(.)</mi>", r'<mi mathvariant="normal">\1</mi>', shown)
+        shown = re.sub(r"<mi>(\w+)</mi>", r'<mo lspace="0.17em" rspace="0.17em">\1</mo>', shown)
+    except MathError as error:
+        logging.getLogger(__name__).warning("%s: %s", error, node.astext(), location=node)
+        shown = translator.encode(node.astext())
+    translator.body.append(f'<div class="math">{shown}</div>' if is_block else shown)
+    raise nodes.SkipNode
+
+
 def setup(app: Sphinx) -> None:
     """Called by Sphinx."""
+    app.add_html_math_renderer("mathml", (_mathml, None), (_mathml, None))
     before_napoleon = 400
     app.connect("autodoc-process-docstring", _plain_text, priority=before_napoleon)

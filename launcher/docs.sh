@@ -19,7 +19,7 @@ build_docs() {
     may_be_replaced "$out" || fail "$out holds something else than the documentation; name an empty folder"
     inside python -m sphinx --builder html --fresh-env --fail-on-warning --keep-going --quiet \
         --conf-dir "$checkout/docs" --doctree-dir "$forms/doctrees/${overlay##*/}" "$checkout" "$out" || return
-    say "the documentation is $out/docs/index.html"
+    say "the documentation is $out/index.html"
 }
 
 # Whether a folder is empty, or not there, or holds what an earlier call has built.

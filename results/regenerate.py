@@ -20,13 +20,13 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
+from hydroelastic.output.folder import SUMMARY
+from hydroelastic.output.manifest import MANIFEST
+from hydroelastic.output.markdown import markdown_table, markdown_text
 from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.output.pictures.page import save
+from hydroelastic.output.provenance import Summary
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.output.folder import SUMMARY
-from hydroelastic.scenes.output.manifest import MANIFEST
-from hydroelastic.scenes.output.markdown import markdown_table, markdown_text
-from hydroelastic.scenes.output.provenance import Summary
 from hydroelastic.scenes.read import read_scene, shipped_scenes
 from hydroelastic.scenes.run import run_scene
 from hydroelastic.scenes.study.plan import FAMILIES, StudyPlan

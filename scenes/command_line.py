@@ -17,6 +17,8 @@ from typing import Any, NoReturn
 import click
 
 from hydroelastic.meshes.interrupts import end_on_interrupt
+from hydroelastic.output.folder import results_message
+from hydroelastic.output.manifest import read_manifest
 from hydroelastic.output.pictures.options import DEFAULT_PICTURES, CurveFormat
 from hydroelastic.scenes.command_options import (
     animate_option,
@@ -31,8 +33,6 @@ from hydroelastic.scenes.command_options import (
 from hydroelastic.scenes.command_parts import NOT_TO_TOLERANCE, folder_of_results, is_first_rank, title_of_scene
 from hydroelastic.scenes.errors import SceneError, UnsolvedError
 from hydroelastic.scenes.kinds import checker_of, comparer_of, runner_of
-from hydroelastic.scenes.output.folder import results_message
-from hydroelastic.scenes.output.manifest import read_manifest
 from hydroelastic.scenes.program import PROGRAM
 from hydroelastic.scenes.progress import progress
 from hydroelastic.scenes.read import closed_tank, read_scene, scene_path, shipped_scenes
@@ -275,7 +275,7 @@ def check(scene: str, overrides: tuple[str, ...]) -> None:
     checked = read_scene(scene, overrides)
     from rich.console import Console
 
-    from hydroelastic.scenes.output.check_text import print_check
+    from hydroelastic.output.check_text import print_check
 
     # Evaluated completely before printing: an error leaves no partial output.
     print_check(checked.title, tuple(checker_of(checked)(checked)), Console())

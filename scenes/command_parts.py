@@ -7,8 +7,8 @@ from pathlib import Path
 
 import click
 
-from hydroelastic.scenes.errors import Problem, SceneError
-from hydroelastic.scenes.output.folder import check_output
+from hydroelastic.output.folder import check_output
+from hydroelastic.scenes.errors import Problem, SceneError, folder_errors
 from hydroelastic.scenes.read import Scene, scene_path
 
 NOT_TO_TOLERANCE = 3
@@ -26,7 +26,8 @@ def folder_of_results(scene: str, out: Path | None, *, suffix: str = "") -> Path
     """
     file = Path(os.path.realpath(scene_path(scene)))
     folder = out if out is not None else Path("results") / f"{file.stem}{suffix}"
-    earlier = check_output(folder)
+    with folder_errors():
+        earlier = check_output(folder)
     other = earlier.scene_file(folder) if earlier is not None else None
     if other is None or other == file:
         return folder

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeAlias, get_args, get_origin
@@ -11,6 +12,7 @@ from typing import Annotated, Any, Literal, TypeAlias, get_args, get_origin
 from pydantic import BaseModel, BeforeValidator, ValidationError
 from pydantic.fields import FieldInfo
 
+from hydroelastic.output.folder import FolderError
 from hydroelastic.scenes.number_texts import how_to_write
 from hydroelastic.scenes.words import nearest, proposal
 
@@ -76,6 +78,20 @@ class SceneError(Exception):
             shown.append(f"… and {len(lines) - len(shown)} more")
         heading = f"{file}: {len(lines)} problems" if self.file is not None else f"{len(lines)} problems"
         return "\n  ".join([heading, *shown])
+
+
+@contextmanager
+def folder_errors() -> Iterator[None]:
+    """Turn the error of a result folder that cannot be written into a message of the same form as all others.
+
+    Raises:
+        SceneError: if a folder cannot be written within the block.
+    """
+    try:
+        yield
+    except FolderError as error:
+        key = "" if error.folder is None else f"output folder {error.folder}"
+        raise SceneError(Problem(key=key, wrong=error.wrong, remedy=error.remedy)) from error
 
 
 def printable(text: str) -> str:

@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
+from hydroelastic.output.outcome import Outcome
+from hydroelastic.output.sections import Section
 from hydroelastic.scenes.errors import Problem, SceneError, shown_value
 from hydroelastic.scenes.models.string import StringScene
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.thread import ThreadScene
-from hydroelastic.scenes.output.outcome import Outcome
-from hydroelastic.scenes.output.sections import Section
 from hydroelastic.scenes.read import Scene, closed_tank
 
 if TYPE_CHECKING:
-    from hydroelastic.scenes.output.staged_run import StagedRun
+    from hydroelastic.scenes.staged_run import StagedRun
 
 
 def runner_of(scene: Scene) -> StagedRun[Any, Any]:

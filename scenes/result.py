@@ -14,15 +14,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from hydroelastic.output.dataset import DATASET, read_dataset
+from hydroelastic.output.json_values import json_ready
+from hydroelastic.output.outcome import Outcome
 from hydroelastic.output.pictures.options import DEFAULT_PICTURES, PictureOptions
+from hydroelastic.output.provenance import Summary
+from hydroelastic.output.sections import Section, printed_sections, read_markdown_sections, title_of
+from hydroelastic.output.writer import TABLES
 from hydroelastic.scenes.errors import Problem, SceneError, shown_value
 from hydroelastic.scenes.kinds import runner_of
-from hydroelastic.scenes.output.dataset import DATASET, read_dataset
-from hydroelastic.scenes.output.json_values import json_ready
-from hydroelastic.scenes.output.outcome import Outcome
-from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.output.sections import Section, printed_sections, read_markdown_sections, title_of
-from hydroelastic.scenes.output.writer import TABLES
 from hydroelastic.scenes.read import Scene, read_scene
 from hydroelastic.scenes.report.captions import place_and_caption
 from hydroelastic.scenes.run import page_writer
@@ -118,7 +118,7 @@ class Result:
             problem = Problem(
                 key="picture",
                 value=shown_value(name),
-                wrong="there is no such picture of this result",
+                wrong="there is no such picture of this result" if self.pictures else "it was saved without pictures",
                 allowed=", ".join(self.pictures),
                 remedy=proposal(str(name), self.pictures),
             )

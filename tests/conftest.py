@@ -1,6 +1,7 @@
 """Fixtures of more than one test file, and the order of the files."""
 
 import csv
+import gc
 import os
 from fnmatch import fnmatchcase
 from pathlib import Path
@@ -17,9 +18,13 @@ SLOWEST = Path(__file__).parent / "slowest.csv"
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Mark as slow what `slow_but` leaves out, and `slow_on_ranks_but` under ranks; order the files by `slowest.csv`.
 
+    Without ranks `only_on_ranks` is left out.
     The files that take longest start first, so that the cores end at about the same time; before them those that the
     table does not know, which may be long.
     """
+    if not ON_RANKS:
+        config.hook.pytest_deselected(items=[item for item in items if item.get_closest_marker("only_on_ranks")])
+        items[:] = [item for item in items if not item.get_closest_marker("only_on_ranks")]
     kept: dict[str, bool] = {}
     markers = ("slow_but", "slow_on_ranks_but") if ON_RANKS else ("slow_but",)
     for item in items:
@@ -37,6 +42,12 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     with SLOWEST.open(encoding="utf-8", newline="") as file:
         seconds = {row["file"]: float(row["seconds"]) for row in csv.DictReader(file)}
     items.sort(key=lambda item: -seconds.get(item.path.name, float("inf")))
+
+
+def pytest_collection_finish() -> None:
+    """Keep the garbage collector from visiting all tests and modules each time it runs."""
+    gc.collect()
+    gc.freeze()
 
 
 @pytest.fixture(scope="session")

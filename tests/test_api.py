@@ -28,7 +28,7 @@ SCENES: dict[str, tuple[str, dict[str, Any], int]] = {
         0,
     ),
     "string": ("string_smooth", {"output.times": [0.5, 1.0]}, 10),
-    "thread": ("moored_buoy", {}, 13),
+    "thread": ("catenary", {"analysis": [{"kind": "modes", "count": 2}]}, 2),
     "roll": ("swell", {}, 0),
 }
 # What a run measures of itself.
@@ -36,7 +36,12 @@ MEASURED = ("timing", "stage", "memory_peak")
 BEAM = {"kind": "beam", "start": 3.0, "length": 4.0, "flexural_rigidity": 5e3, "mass_per_length": 50.0}
 
 
-@pytest.fixture(scope="module", params=SCENES)
+@pytest.fixture(
+    scope="module",
+    params=[
+        pytest.param(kind, marks=pytest.mark.slow) if kind in ("open water", "string") else kind for kind in SCENES
+    ],
+)
 def solved(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> tuple[str, he.Result, Path]:
     """The kind of a scene, its result, and where the result was saved."""
     name, changes, _ = SCENES[request.param]
@@ -126,6 +131,7 @@ def test_resonances_are_modes_with_complex_frequencies() -> None:
     assert np.all(modes.omega.imag < 0)
 
 
+@pytest.mark.slow
 def test_a_result_without_resonances_has_a_dataset() -> None:
     # A file of NetCDF 3 has no dimension of length 0.
     resonances = {"analysis": [{"kind": "resonance", "count": 1}], "accuracy.tolerance": 1e-2}
@@ -295,6 +301,7 @@ print(he.__file__, beam.__file__, len(he.solve("swell")._repr_html_()), sep="\\n
     assert int(files[2]) > 1000
 
 
+@pytest.mark.only_on_ranks
 @pytest.mark.mpi
 def test_all_processes_have_the_same_result(tmp_path_factory: pytest.TempPathFactory) -> None:
     from mpi4py import MPI

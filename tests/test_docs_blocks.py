@@ -7,7 +7,7 @@ A page is gone through as a reader would, in an empty folder with the files of t
 - ``sh`` holds a command a line, which runs. It ends with exit code 0, or what its comment tells: ``# exit code 2``.
 - ``python`` runs, in the same names as the blocks above it on the page.
 - ``text`` is what the ``sh`` or ``python`` block above it prints, or parts of that; with ``from FILE`` of a file.
-- a block without fences is a formula.
+- ``math`` is a formula, in the notation of LaTeX, which the build of the pages reads; a block without fences, a sketch.
 - braces around the language, ``{toctree}`` and the like, are directives for the build of the pages.
 
 Commands within the text are run too; those that name a SCENE or a script of the reader's, or nothing, are read.
@@ -53,6 +53,8 @@ NOT_RUN = {
     "./hydro study aquarium": "a quarter of a minute; results/regenerate.py keeps what it gives",
     "./hydro study float_parabola --families thinness": "half a minute; the page runs it with fewer widths",
     "HYDROELASTIC_SUITE=trixie ./hydro python requirements/lock.py": "from the network",
+    "./hydro exec python -m pip install jupyterlab": "from the network",
+    "./hydro exec jupyter lab": "is not part of the environment",
     "./hydro python tests/support/golden_corpus.py write before": MINUTES,
     "./hydro python tests/support/golden_corpus.py compare before after": MINUTES,
     "./hydro python results/start_up.py": MINUTES,
@@ -93,8 +95,7 @@ class Reader:
 
     def take(self, block: Block) -> None:
         """Do what a block says; an assertion fails where it is not true."""
-        if block.language == "indented" or block.language.startswith("{"):
-            assert "./hydro" not in block.text, f"{block.place}: a command belongs into a block of sh"
+        if block.language in ("math", "indented") or block.language.startswith("{"):
             return
         rules = {"toml": self._scene, "sh": self._commands, "python": self._python, "text": self._output}
         assert block.language in rules, f"{block.place}: no rule for a block of {block.info!r}"

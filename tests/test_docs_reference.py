@@ -2,6 +2,8 @@
 
 import pytest
 from pydantic import BaseModel
+from results_reference import KINDS
+from results_reference import page as results_page
 from scene_reference import FOLDER, UNIT, page, sections_of, value_type
 
 from hydroelastic.physics.profiles import DEFAULT_TAIL
@@ -27,8 +29,15 @@ def test_pages_are_those_of_the_models(kind: str) -> None:
     assert (FOLDER / f"{kind}.md").read_text(encoding="utf-8") == page(kind), REMEDY
 
 
+@pytest.mark.parametrize("kind", KINDS)
+def test_pages_of_results_are_those_of_the_quantities(kind: str) -> None:
+    written = (FOLDER / f"results_{kind}.md").read_text(encoding="utf-8")
+    assert written == results_page(KINDS[kind]), "write them anew: ./hydro python docs/results_reference.py"
+
+
 def test_there_is_a_page_of_each_kind_and_no_other() -> None:
-    assert {path.stem for path in FOLDER.glob("*.md")} == {*SCENE_MODELS, "index"}
+    of_results = {f"results_{kind}" for kind in KINDS}
+    assert {path.stem for path in FOLDER.glob("*.md")} == {*SCENE_MODELS, *of_results, "index"}
     index = (FOLDER / "index.md").read_text(encoding="utf-8")
     assert all(f'`"{kind}"`' in index and f"({kind}.md)" in index for kind in SCENE_MODELS)
 

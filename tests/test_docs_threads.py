@@ -8,16 +8,15 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 
+from hydroelastic.output.outcome import Outcome
+from hydroelastic.output.thread.quantities import THREAD
+from hydroelastic.output.variables import array_variables
 from hydroelastic.scenes.kinds import runner_of
 from hydroelastic.scenes.models.thread import ThreadScene
-from hydroelastic.scenes.output.outcome import Outcome
 from hydroelastic.scenes.read import read_scene, shipped_scenes
-from hydroelastic.scenes.thread.dataset import thread_dataset
 
 DOCS = Path(__file__).parent.parent / "docs"
 PAGE = (DOCS / "scenes_threads.md").read_text(encoding="utf-8")
-CONVENTIONS = (DOCS / "conventions.md").read_text(encoding="utf-8")
-SUMMARY = CONVENTIONS.split("## `summary.json` of flexible threads")[1].split("\n## ")[0]
 EXAMPLES = [block for block in re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL) if block.startswith("kind")]
 RESULTS = PAGE.split("## Results")[1].split("\n## ")[0]
 REFUSED = re.findall(r'^\| "(.*?)" \|', PAGE.split("## What is refused")[1].split("\n## ")[0], re.MULTILINE)
@@ -110,7 +109,9 @@ REFUSALS: list[tuple[dict[str, Any], dict[str, Any], str]] = [
 ]
 
 
-@pytest.fixture(scope="module", params=EXAMPLES, ids=["buoy", "hose"])
+@pytest.fixture(
+    scope="module", params=[EXAMPLES[0], pytest.param(EXAMPLES[1], marks=pytest.mark.slow)], ids=["buoy", "hose"]
+)
 def outcome(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Outcome:
     """An example of the page, with its result folder but for the pictures."""
     folder = tmp_path_factory.mktemp("thread")
@@ -126,27 +127,14 @@ def test_examples_run(outcome: Outcome) -> None:
     assert outcome.status == "ok"
 
 
-def test_all_keys_of_the_summary_are_told(outcome: Outcome) -> None:
-    told = set(re.findall(r"`(\w+)`", SUMMARY)) | {"scene", "versions", "timing"}
-    unsaid = _keys({key: value for key, value in outcome.summary.items() if key not in ("scene", "versions", "timing")})
-    assert {key.removesuffix("_at") for key in unsaid - told} <= told
-
-
-def _keys(value: Any) -> set[str]:
-    if isinstance(value, list):
-        return {key for part in value for key in _keys(part)}
-    if not isinstance(value, dict):
-        return set()
-    return set(value) | {key for part in value.values() for key in _keys(part)}
-
-
 def test_all_files_columns_and_variables_are_told(outcome: Outcome) -> None:
     assert outcome.folder is not None
     for file in outcome.folder.glob("*.csv"):
         row = next(line for line in RESULTS.splitlines() if line.startswith(f"| `{file.name}`"))
         assert f"`{file.read_text(encoding='utf-8').splitlines()[0].replace(',', ', ')}`" in row
-    arrays = thread_dataset(outcome.solution)
-    assert all(f"`{name}`" in RESULTS for name in [*arrays.data_vars, *arrays.dims])
+    arrays = array_variables(THREAD, outcome.solution)
+    names = {name for array in arrays for name in (array.name, *array.dimensions)}
+    assert {name for name in names if f"`{name}`" not in RESULTS} == set()
     assert all(f"`{file.name}`" in RESULTS for file in outcome.folder.iterdir() if file.is_file())
 
 

@@ -15,6 +15,9 @@ from shown_output import is_shown
 SCRIPT = ROOT / "docs" / "tutorial_mesh_study.py"
 PAGE = ROOT / "docs" / "tutorial_mesh_study.md"
 
+# The whole lesson runs for this; studies have tests of their own.
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def lesson(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
@@ -29,7 +32,6 @@ def lesson(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
     return {**names, "printed": printed.getvalue(), "written": folder / "results" / "mesh_study"}
 
 
-@pytest.mark.slow
 def test_orders_are_those_of_theory(lesson: dict[str, Any]) -> None:
     orders = lesson["orders"]
     # 2 for r ln r; of degree 1 it is that of h² ln h between h = 1/32 and 1/128: 2 − 1/ln(64) would be 1.76, and the

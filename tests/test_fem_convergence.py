@@ -41,6 +41,7 @@ def scaled_eigenvalues(omega: Any) -> np.ndarray:
     return np.asarray(omega) ** 2 * 10.0 / 9.81
 
 
+@pytest.mark.slow_but("2-*")
 @pytest.mark.parametrize(("degree", "last"), [(1, 1.25e-3), (2, 2.9e-5), (3, 6.8e-6)])
 def test_waves_beside_a_beam_converge_with_order_two_on_uniform_meshes(tanks: Any, degree: int, last: float) -> None:
     """ψ ~ r ln r at the tips: λ errs like h² ln h whatever the degree, and the logarithm bends the slope by 0.1.
@@ -55,6 +56,7 @@ def test_waves_beside_a_beam_converge_with_order_two_on_uniform_meshes(tanks: An
     assert errors[-1] == pytest.approx(last, rel=0.25)
 
 
+@pytest.mark.slow_but("2-0.1")
 @pytest.mark.parametrize(("degree", "size"), [(2, 0.1), (3, 0.2)])
 def test_pressure_release_converges_with_order_one_on_uniform_meshes(tanks: Any, degree: int, size: float) -> None:
     """ψ ~ r^{1/2} at the tips: λ errs like h, whatever the degree, once elements of few waves are left behind."""
@@ -64,6 +66,7 @@ def test_pressure_release_converges_with_order_one_on_uniform_meshes(tanks: Any,
     assert fitted_order(values[1:, 0] / exact - 1.0) == pytest.approx(1.0, abs=0.15)
 
 
+@pytest.mark.slow_but("2")
 @pytest.mark.parametrize("degree", [1, 2, 3])
 def test_smooth_waves_converge_with_twice_the_degree(tanks: Any, degree: int) -> None:
     """Without a body ψ is analytic: order 2p. The third mode has seven elements a wave at first, hence the margin."""
@@ -104,6 +107,7 @@ def test_errors_fall_exponentially_in_the_degree_on_graded_meshes(on_graded_mesh
         assert np.abs(start + slope * degrees - logarithms).max() < 0.5
 
 
+@pytest.mark.slow_but("1e-06")
 @pytest.mark.parametrize("tip_size", [1e-4, 1e-6, 1e-8])
 def test_refinement_never_makes_an_answer_worse_than_1e_9(on_graded_mesh: Any, tip_size: float) -> None:
     """Rounding must not grow with the degree or towards the tips. A tip of 1e-4 itself leaves less than 1e-9."""

@@ -102,6 +102,7 @@ def test_measures_of_surfaces_and_contours_are_exact() -> None:
         assert comm.allreduce(surface_load(pencil.liquid, (name,)).sum()) == pytest.approx(expected, rel=1e-11)
 
 
+@pytest.mark.slow_but("beside a circle-0.333-0.1", "alone-0.4123-*")
 @pytest.mark.slow_on_ranks_but("beside a circle-0.333-0.1")
 @pytest.mark.mpi
 @pytest.mark.parametrize(("position", "half_height"), [(0.333, 0.1), (0.4123, 0.0771), (0.29, 0.1234)])
@@ -241,7 +242,7 @@ def unbounded(shape: str, densities: tuple[float, ...], motions: str = "heave", 
     return found[1] + (found[1] - found[0]) / 3.0
 
 
-@pytest.mark.slow_but("1.0-1.0-one", "1.0-1.0-two")
+@pytest.mark.slow_but("2.0-1.0-two")
 @pytest.mark.parametrize("densities", [(1000.0,), (1000.0, 800.0), (1000.0, 999.0)], ids=["one", "two", "close"])
 @pytest.mark.parametrize(("half_width", "half_height"), [(1.0, 1.0), (2.0, 1.0), (0.1, 1.0)])
 def test_ellipses_have_their_added_mass_above_the_waves(
@@ -264,6 +265,7 @@ def test_ellipses_have_their_added_mass_above_the_waves(
     assert np.abs(added[0, 1:]).max() <= 1e-12 * added[0, 0]
 
 
+@pytest.mark.slow_but("wedge-one")
 @pytest.mark.parametrize("densities", [(1000.0,), (1000.0, 800.0)], ids=["one", "two"])
 @pytest.mark.parametrize("shape", ["rectangle", "wedge"])
 def test_sections_with_corners_have_their_added_mass_above_the_waves(shape: str, densities: tuple[float, ...]) -> None:
@@ -272,12 +274,14 @@ def test_sections_with_corners_have_their_added_mass_above_the_waves(shape: str,
     assert added[0, 0] == pytest.approx(exact, rel=1e-8)
 
 
+@pytest.mark.slow
 def test_a_thin_float_has_its_added_mass_above_the_waves() -> None:
     (public,) = [case["values"] for case in PUBLIC if case["id"] == "ab_parabola"]
     added = unbounded("parabola", (1000.0, 800.0), half_width=0.1, half_height=1.0, boundary="thin")
     assert added[0, 0] == pytest.approx(1800.0 * 0.01 * float(public["a_hat_inf"]), rel=1e-8)
 
 
+@pytest.mark.slow_but("two")
 @pytest.mark.parametrize("densities", [(1000.0,), (1000.0, 800.0)], ids=["one", "two"])
 def test_a_rigid_plate_has_its_added_mass_above_the_waves(densities: tuple[float, ...]) -> None:
     """π/8 ρl² of each liquid."""
@@ -294,6 +298,7 @@ def test_a_rigid_plate_has_its_added_mass_above_the_waves(densities: tuple[float
 
 
 @pytest.mark.slow_on_ranks_but("two")
+@pytest.mark.only_on_ranks
 @pytest.mark.mpi
 @pytest.mark.parametrize("densities", [(1000.0,), (1000.0, 800.0)], ids=["one", "two"])
 def test_processes_agree_on_the_added_mass_above_the_waves(densities: tuple[float, ...]) -> None:

@@ -371,7 +371,8 @@ PROCESSES: dict[str, TankScene] = {
 }
 
 
-@pytest.mark.slow_on_ranks_but("thin", "ship", "unstable", "float, slit and beam")
+@pytest.mark.slow_on_ranks_but("thin", "unstable")
+@pytest.mark.only_on_ranks
 @pytest.mark.mpi
 @pytest.mark.parametrize("name", PROCESSES)
 def test_two_processes_find_what_one_finds(name: str) -> None:

@@ -134,6 +134,7 @@ def test_what_comes_in_tells_what_leaves(damping: float) -> None:
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-5 * np.abs(expected).max())
 
 
+@pytest.mark.only_on_ranks
 @pytest.mark.mpi
 def test_two_processes_continue_the_same() -> None:
     omega = circle_omega(1.0) * (1.0 - 1.2j)

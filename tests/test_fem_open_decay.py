@@ -50,7 +50,8 @@ def _released(scene: TankScene, times: np.ndarray, **release: float) -> DecaySol
     return solve_decay(problem_of(scene), asked)
 
 
-@pytest.mark.parametrize("tolerance", [1e-4, pytest.param(1e-6, marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-6])
 def test_circle_in_deep_water(tolerance: float) -> None:
     times = np.array(STORED["t"]) / np.sqrt(G)
     found = _released(_scene(tolerance), times)
@@ -134,7 +135,7 @@ def test_thin_float_with_its_tail(densities: tuple[float, ...]) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("tolerance", [1e-3, pytest.param(1e-6, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-6])
 def test_long_exponential_between_two_liquids(tolerance: float) -> None:
     """Twenty decay lengths on either side: the basin is tall, and waves above those of the mesh count."""
     layers = TwoLayers(density_below=1000.0, density_above=800.0, depth_below=inf, gravity=G)
@@ -166,6 +167,7 @@ def test_no_such_tail_over_a_bed() -> None:
     assert found.table.tail is None
 
 
+@pytest.mark.slow
 def test_roll_dies_out_too() -> None:
     scene = _scene(1e-2, half_width=2.0, motions=("heave", "roll"), centre_of_mass=-0.2)
     found = _released(scene, np.array([0.0, 2.0, 40.0]), roll=0.05)

@@ -12,14 +12,13 @@ from open_cases import (
     DENSITY,
     DISPLACED,
     RADIUS,
-    SLOW,
     THIN_LIQUIDS,
     TOO_SMALL,
     circle,
     circle_omega,
     complex_of,
-    half_slow,
     hydrodynamic,
+    numbered,
     plate,
     radiation,
     section,
@@ -57,18 +56,9 @@ def exact_circle(row: dict[str, Any]) -> np.ndarray:
     return np.array([complex(row["heave_a"], row["heave_b"]), complex(row["sway_a"], row["sway_b"])])
 
 
-def circle_cases() -> list[Any]:
-    cases = []
-    for number, row in enumerate(CIRCLE):
-        for tolerance in (1e-4, 1e-6, 1e-8):
-            fast = number % 3 == (1 if tolerance == 1e-4 else 0) and tolerance > 1e-7
-            name = f"Ka={row['Ka']}-{tolerance:g}"
-            cases.append(pytest.param(row, tolerance, marks=[] if fast else [SLOW], id=name))
-    return cases
-
-
-@pytest.mark.slow_but("Ka=0.03-1e-06", "Ka=1*")
-@pytest.mark.parametrize(("row", "tolerance"), circle_cases())
+@pytest.mark.slow_but("Ka=1.8-1e-06")
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-6, 1e-8])
+@pytest.mark.parametrize("row", CIRCLE, ids=lambda row: f"Ka={row['Ka']}")
 def test_circle(row: dict[str, Any], tolerance: float) -> None:
     solution = radiation(circle(tolerance), circle_omega(row["Ka"]))
     found, exact = circle_matrix(solution)[0], exact_circle(row)
@@ -83,14 +73,8 @@ def test_circle(row: dict[str, Any], tolerance: float) -> None:
     assert abs(found[0, 1]) <= tolerance * np.abs(exact).max()
 
 
-@pytest.mark.slow_but("Ka=0.6")
-@pytest.mark.parametrize(
-    "row",
-    [
-        pytest.param(row, marks=[] if number % 5 == 0 else [SLOW], id=f"Ka={row['Ka']}")
-        for number, row in enumerate(PUBLISHED)
-    ],
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("row", PUBLISHED, ids=lambda row: f"Ka={row['Ka']}")
 def test_circle_as_published(row: dict[str, Any]) -> None:
     found = np.diag(circle_matrix(radiation(circle(1e-6), circle_omega(row["Ka"])))[0])
     # The rows are right to 1e-6, absolutely; added mass and damping of heave are up to 4.
@@ -136,9 +120,9 @@ def section_matrix(solution: RadiationSolution) -> tuple[np.ndarray, np.ndarray]
     return hydrodynamic(solution)[0][np.ix_(order, order)], solution.table.excitation_force[0, 0, 0][order]
 
 
-@pytest.mark.slow_but("1-1e-06", "5-1e-06")
-@pytest.mark.parametrize("tolerance", [1e-6, pytest.param(1e-8, marks=SLOW)])
-@pytest.mark.parametrize("row", half_slow(SECTIONS))
+@pytest.mark.slow_but("5-1e-06")
+@pytest.mark.parametrize("tolerance", [1e-6, 1e-8])
+@pytest.mark.parametrize("row", numbered(SECTIONS))
 def test_sections(row: dict[str, Any], tolerance: float) -> None:
     position = 4.0
     solution = radiation(section(row, tolerance, position), row["omega"])
@@ -179,8 +163,8 @@ def test_matrices_of_radiation(row: dict[str, Any]) -> None:
     )
 
 
-@pytest.mark.slow_but("1", "3")
-@pytest.mark.parametrize("row", half_slow(TWO_LIQUIDS))
+@pytest.mark.slow_but("1")
+@pytest.mark.parametrize("row", numbered(TWO_LIQUIDS))
 def test_rigid_plates_on_two_liquids(row: dict[str, Any]) -> None:
     table = radiation(two_liquids(row, 1e-6), row["omega"]).table
     assert table.dofs == ("heave", "pitch")
@@ -213,17 +197,9 @@ def test_short_plates_far_from_bed_and_top(depths: Any, level: str, omega: float
     assert solution.table.energy_residual[0] <= 3e-7
 
 
-def thin_cases() -> list[Any]:
-    fast = {("wedge", "water"), ("ellipse", "channel"), ("wedge", "bed")}
-    return [
-        pytest.param(shape, liquids, marks=[] if (shape, liquids) in fast else [SLOW])
-        for shape in ("wedge", "parabola", "ellipse")
-        for liquids in THIN_LIQUIDS
-    ]
-
-
-@pytest.mark.slow_but("wedge-water", "ellipse-channel")
-@pytest.mark.parametrize(("shape", "liquids"), thin_cases())
+@pytest.mark.slow_but("wedge-water")
+@pytest.mark.parametrize("liquids", THIN_LIQUIDS)
+@pytest.mark.parametrize("shape", ["wedge", "parabola", "ellipse"])
 def test_thin_floats(shape: Any, liquids: str) -> None:
     omegas = np.array([thin_omega(liquids, kappa) for kappa in (0.05, 0.5, 2.0)])
     scene = slender(shape, liquids, 1e-6)
@@ -267,6 +243,7 @@ def here_with_length(row: dict[str, Any], length: float) -> Any:
     return section(row, 1e-4).tank.model_copy(update={"length": length})
 
 
+@pytest.mark.slow
 def test_millimetres_are_as_good_as_metres() -> None:
     omega, part = circle_omega(0.7), 1e-3
     metres = radiation(circle(1e-6), omega)
@@ -285,23 +262,10 @@ INVARIANCES = {
 }
 
 
-def invariance_cases() -> list[Any]:
-    fast = {
-        ("circle", "margin"),
-        ("circle", "growth"),
-        ("circle", "more angle"),
-        ("plate between equals", "less angle"),
-    }
-    return [
-        pytest.param(name, change, tolerance, marks=[] if (name, change) in fast and tolerance > 1e-7 else [SLOW])
-        for name in INVARIANCES
-        for change in ("less angle", "more angle", "growth", "margin")
-        for tolerance in (1e-6, 1e-8)
-    ]
-
-
 @pytest.mark.slow
-@pytest.mark.parametrize(("name", "change", "tolerance"), invariance_cases())
+@pytest.mark.parametrize("tolerance", [1e-6, 1e-8])
+@pytest.mark.parametrize("change", ["less angle", "more angle", "growth", "margin"])
+@pytest.mark.parametrize("name", INVARIANCES)
 def test_how_the_sea_is_cut_changes_nothing(
     name: str, change: str, tolerance: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -323,7 +287,7 @@ def test_how_the_sea_is_cut_changes_nothing(
     assert np.abs(other - base).max() > 0.0
 
 
-@pytest.mark.slow_but("plate under a lid")
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["trapezium", "plate under a lid"])
 def test_ends_farther_away_change_nothing(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     # Far above the waves what decays by itself decays most slowly. With ends a quarter as far: 8e-4 and 2e-5.
@@ -341,6 +305,7 @@ def test_ends_farther_away_change_nothing(name: str, monkeypatch: pytest.MonkeyP
 
 
 @pytest.mark.slow_on_ranks_but("plate")
+@pytest.mark.only_on_ranks
 @pytest.mark.mpi
 @pytest.mark.parametrize("name", ["section", "plate"])
 def test_two_processes_find_what_one_finds(name: str) -> None:

@@ -12,7 +12,7 @@ from open_cases import (
     SLOW,
     beam,
     complex_of,
-    half_slow,
+    numbered,
     plate,
     problem_of,
     radiation,
@@ -36,21 +36,9 @@ PUBLISHED = stored("open_water.json")
 TOO_LARGE = 40.0
 
 
-def plate_cases() -> list[Any]:
-    return [
-        pytest.param(
-            row,
-            tolerance,
-            marks=[] if tolerance == 1e-6 and row["number"] % 3 == 1 else [SLOW],
-            id=f"{row['number']}-{tolerance:g}",
-        )
-        for row in PLATES
-        for tolerance in (1e-4, 1e-6, 1e-8)
-    ]
-
-
 @pytest.mark.slow_but("1-1e-06", "7-1e-06")
-@pytest.mark.parametrize(("row", "tolerance"), plate_cases())
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-6, 1e-8])
+@pytest.mark.parametrize("row", numbered(PLATES))
 def test_plates(row: dict[str, Any], tolerance: float) -> None:
     table = response(plate(row, tolerance), row["omega"]).table
     shape = table.plates[0].deflection[0, 0]
@@ -69,7 +57,7 @@ def test_plates(row: dict[str, Any], tolerance: float) -> None:
     assert table.energy_residual[0, 0] == pytest.approx(outgoing - 1.0, abs=1e-13)
 
 
-@pytest.mark.slow_but("Liu_flat60-0.6")
+@pytest.mark.slow
 @pytest.mark.parametrize("row", PUBLISHED["plates"]["rows"], ids=lambda row: f"{row['case']}-{row['omega_rad_s']}")
 def test_plates_as_published(row: dict[str, Any]) -> None:
     segment = {"length": row["L_m"], "rigidity": row["EI_Nm"], "mass": row["m_kg_m2"]}
@@ -81,13 +69,8 @@ def test_plates_as_published(row: dict[str, Any]) -> None:
     np.testing.assert_allclose(found, published, rtol=0, atol=row["diff_N40"] + 2e-6)
 
 
-@pytest.mark.parametrize(
-    "row",
-    [
-        pytest.param(row, marks=[SLOW] if row["xi"] else [], id=f"xi={row['xi']}")
-        for row in PUBLISHED["compound_plate"]["rows"]
-    ],
-)
+@SLOW
+@pytest.mark.parametrize("row", PUBLISHED["compound_plate"]["rows"], ids=lambda row: f"xi={row['xi']}")
 def test_compound_plate_as_published(row: dict[str, Any]) -> None:
     segments = [{"length": x, "rigidity": ei, "mass": 8.36} for x, ei in ((2.5, 47100.0), (10.0, 471.0))]
     given = {"depth": 1.1, "density": 1025.0, "segments": segments, "joints": [row["xi"] * 47100 / 12.5]}
@@ -109,9 +92,9 @@ def elevations_over_level(row: dict[str, Any]) -> np.ndarray:
     return np.array([1.0, internal] if row["level"] == "surface" else [1.0 / surface, 1.0])
 
 
-@pytest.mark.slow_but("1-1e-06", "5-1e-06")
-@pytest.mark.parametrize("tolerance", [1e-6, pytest.param(1e-8, marks=SLOW)])
-@pytest.mark.parametrize("row", half_slow(TWO_LIQUIDS))
+@pytest.mark.slow_but("1-1e-06")
+@pytest.mark.parametrize("tolerance", [1e-6, 1e-8])
+@pytest.mark.parametrize("row", numbered(TWO_LIQUIDS))
 def test_plates_on_two_liquids(row: dict[str, Any], tolerance: float) -> None:
     table = response(two_liquids(row, tolerance), row["omega"]).table
     order = np.argsort(table.wavenumbers[0])
@@ -138,16 +121,16 @@ def test_plates_on_two_liquids(row: dict[str, Any], tolerance: float) -> None:
 def test_transmission_is_the_same_from_either_side(number: int) -> None:
     row = PLATES[number - 1]
     start = 3.0
-    left, right = (response(plate(row, 1e-6, start), row["omega"], waves_from=side).table for side in ("left", "right"))
+    left, right = (response(plate(row, 1e-4, start), row["omega"], waves_from=side).table for side in ("left", "right"))
     # Phases are counted from x = 0: those of the transmitted wave are the same, those of the reflected ones are not.
     # By Green's theorem up to the quadrature of fluxes: measured 9e-10.
     assert left.transmission[0, 0, 0] == pytest.approx(right.transmission[0, 0, 0], abs=1e-8)
-    assert abs(left.reflection[0, 0, 0]) == pytest.approx(abs(right.reflection[0, 0, 0]), abs=2e-6)
+    assert abs(left.reflection[0, 0, 0]) == pytest.approx(abs(right.reflection[0, 0, 0]), abs=2e-4)
     # From the right is from the left for the plate that is turned.
-    turned = response(plate(row, 1e-6, turned=True), row["omega"]).table
+    turned = response(plate(row, 1e-4, turned=True), row["omega"]).table
     length = sum(segment["length"] for segment in row["segments"])
     phase = np.exp(-2j * left.wavenumbers[0, 0] * (start + length))
-    assert right.reflection[0, 0, 0] == pytest.approx(turned.reflection[0, 0, 0] * phase, abs=2e-6)
+    assert right.reflection[0, 0, 0] == pytest.approx(turned.reflection[0, 0, 0] * phase, abs=2e-4)
 
 
 def test_two_waves_are_reciprocal() -> None:
@@ -181,14 +164,14 @@ def test_place_of_the_plate_changes_phases_alone() -> None:
 
 def test_free_float_moves_as_its_coefficients_say() -> None:
     row = SECTIONS[6]
-    scene = section(row, 1e-6)
+    scene = section(row, 1e-4)
     moving, coefficients = response(scene, row["omega"]).table, radiation(scene, row["omega"]).table
     omega = row["omega"]
     inertia = coefficients.inertia + coefficients.added_mass[0] + 1j * coefficients.radiation_damping[0] / omega
     motions = np.linalg.solve(coefficients.stiffness - omega**2 * inertia, coefficients.excitation_force[0, 0, 0])
-    # Both keep 1e-6, and are on the same mesh up to the resolution that they end with.
-    np.testing.assert_allclose(moving.amplitudes[0, 0], motions, rtol=0, atol=3e-6 * np.abs(motions).max())
-    assert abs(moving.energy_residual[0, 0]) <= 1e-6
+    # Both keep 1e-4, and are on the same mesh up to the resolution that they end with.
+    np.testing.assert_allclose(moving.amplitudes[0, 0], motions, rtol=0, atol=3e-4 * np.abs(motions).max())
+    assert abs(moving.energy_residual[0, 0]) <= 1e-4
 
 
 @SLOW
@@ -223,6 +206,7 @@ def test_what_does_not_disturb_the_water_sends_no_waves() -> None:
     np.testing.assert_allclose(table.plates[0].deflection[0, 0], waves, rtol=0, atol=1e-3)
 
 
+@pytest.mark.only_on_ranks
 @pytest.mark.mpi
 def test_two_processes_find_what_one_finds() -> None:
     from hydroelastic.fem.open_water.requests import ResponseRequest

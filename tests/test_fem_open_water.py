@@ -201,6 +201,7 @@ def test_coordinates_turn_outwards_alone(rectangle: OpenModel) -> None:
     assert -1.0 < low[1] < 0.0
 
 
+@pytest.mark.only_on_ranks
 @pytest.mark.mpi
 def test_two_processes_assemble_the_same() -> None:
     row = TWO_LIQUIDS[1]

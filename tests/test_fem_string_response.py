@@ -24,20 +24,20 @@ def plain(damping: float) -> HangingString:
     return HangingString(length=1.0, linear_density=1.0, gravity=1.0, resistance=(damping, damping))
 
 
-@pytest.mark.slow_but("ramp-1.2*", "*-0.0")
+@pytest.mark.slow_but("0.001-ramp-1.2*", "0.001-step-0.0", "0.001-sine-9.0")
 @pytest.mark.parametrize("damping", [0.0, float(FREQUENCIES[0]), 9.0])
 @pytest.mark.parametrize("name", list(MOTIONS))
-def test_closed_forms_are_met_to_the_tolerance(name: str, damping: float) -> None:
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-5])
+def test_closed_forms_are_met_to_the_tolerance(tolerance: float, name: str, damping: float) -> None:
     motion = MOTIONS[name]
     exact = motion.answer(damping, POSITIONS, TIMES)
-    for tolerance in (1e-3, 1e-5):
-        solution = field_response(COMM, plain(damping), motion, POSITIONS, TIMES, tolerance=tolerance)
-        errors = np.abs(solution.values - exact)
-        assert solution.converged, solution.problem
-        assert errors.max() <= tolerance
-        worst = np.max(errors / (solution.errors + 1e-11 / 3.0))
-        assert worst <= 3.0
-        assert solution.errors.max() <= tolerance
+    solution = field_response(COMM, plain(damping), motion, POSITIONS, TIMES, tolerance=tolerance)
+    errors = np.abs(solution.values - exact)
+    assert solution.converged, solution.problem
+    assert errors.max() <= tolerance
+    worst = np.max(errors / (solution.errors + 1e-11 / 3.0))
+    assert worst <= 3.0
+    assert solution.errors.max() <= tolerance
 
 
 @pytest.mark.slow_on_ranks_but
@@ -57,6 +57,7 @@ def test_other_lengths_and_gravities() -> None:
     assert solution.values[0, 0] == pytest.approx(1.2385595747368938928, abs=1e-8)
 
 
+@pytest.mark.slow
 def test_what_hardly_moves_and_what_moves_long() -> None:
     # α = 200 1/s for 50 s, and a slow sine after 300 s: the steady parts of series of 20 digits.
     heavy = HangingString(length=1.0, linear_density=1.0, resistance=(200.0, 200.0))
@@ -68,16 +69,16 @@ def test_what_hardly_moves_and_what_moves_long() -> None:
     assert solution.sizes.steps < 10_000
 
 
-@pytest.mark.mpi
 def test_silence_before_the_front_but_for_ripples() -> None:
     times = np.array([0.2, 0.5, 0.9])
     for motion in (step(), ramp(), smooth(4.0)):
-        solution = field_response(COMM, plain(0.1), motion, [0.0, 0.1], times, tolerance=1e-6)
+        solution = field_response(COMM, plain(0.1), motion, [0.0, 0.1], times, tolerance=1e-4)
         # At 0.1 the front passes after 1.37.
-        assert np.all(np.abs(solution.values) <= 1e-6)
+        assert np.all(np.abs(solution.values) <= 1e-4)
         assert solution.converged
 
 
+@pytest.mark.slow
 def test_values_in_a_front_are_not_claimed() -> None:
     # At x = 0.25 the front of a step passes at t = 1: what is given is the mean of both sides, off by half of the jump.
     damping = 0.2
@@ -115,11 +116,11 @@ def test_steady_oscillation_with_all_options() -> None:
     positions = np.array([0.0, 0.3, 1.1, 1.8])
     # Free motions decay like e^{−0.9t} at the least, so that 1e-9 of them is left.
     times = np.array([24.0, 24.3])
-    solution = field_response(COMM, model, sine(omega), positions, times, tolerance=1e-6)
+    solution = field_response(COMM, model, sine(omega), positions, times, tolerance=1e-4)
     amplitude = steady(model, omega, positions)
     exact = np.imag(amplitude[:, None] * np.exp(1j * omega * times))
     assert solution.converged
-    np.testing.assert_allclose(solution.values, exact, atol=1e-6)
+    np.testing.assert_allclose(solution.values, exact, atol=1e-4)
     # Without the tip's inertia, or with its weight alone, it would be another motion.
     assert np.abs(amplitude - steady(model, omega, positions, tip=0.0)).max() > 0.05
 
@@ -185,6 +186,7 @@ def test_a_step_is_softened_with_its_jump() -> None:
         assert soft.curvature(time) == pytest.approx(bend * time, rel=1e-4)
 
 
+@pytest.mark.slow
 def test_tables_with_an_end() -> None:
     # A table of straight lines that ends with the last output time.
     knots, heights = np.array([0.0, 0.4, 1.0, 2.0]), np.array([0.0, 0.2, -0.1, 0.3])

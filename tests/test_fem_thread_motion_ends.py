@@ -249,6 +249,7 @@ def current_case() -> Thread:
     )
 
 
+@pytest.mark.slow
 def test_recovery_of_the_steady_state() -> None:
     """From a thread straight along its end force to the static one, at the rate of the slowest mode (case D06)."""
     model = current_case()

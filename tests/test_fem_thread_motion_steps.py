@@ -35,15 +35,13 @@ def away(motion: ThreadMotion) -> float:
 
 def test_steps_follow_their_errors() -> None:
     """A tolerance a tenth as large leaves a smaller error, with more steps, which end at the output times."""
-    motions = [
-        follow(chain(**liquid()), 10, swing(), TIMES, 0.1, degree=3, tolerance=size) for size in (1e-5, 1e-6, 1e-7)
-    ]
+    motions = [follow(chain(**liquid()), 10, swing(), TIMES, 0.1, degree=3, tolerance=size) for size in (1e-5, 1e-6)]
     # Each step adds an error: that of the end is many times the tolerance, and falls like its power 2/3.
     errors = np.array([away(motion) for motion in motions])
-    assert np.all(errors < [5e-4, 1e-4, 3e-5])
-    assert np.all(errors[1:] < 0.5 * errors[:-1])
+    assert np.all(errors < [5e-4, 1e-4])
+    assert errors[1] < 0.5 * errors[0]
     counts = [len(motion.history.solutions) for motion in motions]
-    assert counts[0] < counts[1] < counts[2] < 600
+    assert counts[0] < counts[1] < 300
     for motion in motions:
         assert np.abs(motion.times - TIMES).max() < 1e-12
         assert np.all(np.min(np.abs(motion.history.ends[:, None] - TIMES), axis=0) < 1e-12)
@@ -152,6 +150,7 @@ def test_shedding_must_be_finite() -> None:
         VortexShedding(lift=np.inf, wave_number=1.0)
 
 
+@pytest.mark.only_on_ranks
 @pytest.mark.mpi
 def test_shared_motion() -> None:
     """All processes get the numbers of one."""

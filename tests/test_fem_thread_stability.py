@@ -147,6 +147,18 @@ def test_branches_cross_and_pairs_split() -> None:
     np.testing.assert_allclose(np.sort(followed[-1, [2, 5]].real), [-abs(slow[-1]), abs(slow[-1])])
 
 
+@pytest.mark.parametrize("order", [(0, 1), (1, 0)])
+def test_a_pair_on_the_real_axis_continues_in_one_way(order: tuple[int, int]) -> None:
+    # Both real roots are equally far from both of the pair: the order in which they were found may not decide.
+    values = np.linspace(0.0, 1.0, 6)
+    slow = np.sqrt((values - 0.55) * 0.1 + 0j)
+    spectra: list[Any] = [
+        SimpleNamespace(value=x, with_conjugates=np.array([root, -root])[list(order) if x > 0.55 else [0, 1]])
+        for x, root in zip(values, slow, strict=True)
+    ]
+    np.testing.assert_array_equal(branches(spectra), np.column_stack([slow, -slow]))
+
+
 def test_values_must_ascend() -> None:
     with pytest.raises(ValueError, match="ascending"):
         sweep(string, [0.5, 0.4], tension=1.0)

@@ -59,6 +59,7 @@ def check(tanks: Any, scene: TankScene, omega: np.ndarray, bound: float) -> None
 DEPTHS = [((0.3, 0.2), 1e-10), ((1.0, 0.01), 1e-9), ((0.01, 1.0), 1e-9)]
 
 
+@pytest.mark.slow_but("alike-990.0-rigid", "alike-850.0-*", "1 to 100-999.9-free")
 @pytest.mark.slow_on_ranks_but("alike-850.0-free")
 @pytest.mark.mpi
 @pytest.mark.parametrize("top", TOPS)
@@ -259,6 +260,7 @@ LOADED = {
 }
 
 
+@pytest.mark.slow_but("loose beam-rigid", "slit-free", "float-pressure_release")
 @pytest.mark.slow_on_ranks_but("slit-free", "loose beam-rigid")
 @pytest.mark.mpi
 @pytest.mark.parametrize("top", TOPS)
@@ -271,6 +273,7 @@ def test_between_two_modes_the_inertia_counts_those_below(top: LayerTop, kind: s
         assert count_below(pencil, float(np.sqrt(lower * upper))) == number
 
 
+@pytest.mark.slow_but("waves-pressure_release", "beam-rigid", "loose beam-free", "float-free", "slit-pressure_release")
 @pytest.mark.parametrize("top", TOPS)
 @pytest.mark.parametrize("kind", LOADED)
 def test_modes_are_those_of_the_full_matrices(top: LayerTop, kind: str) -> None:
@@ -336,6 +339,7 @@ def test_momentum_is_the_coupling_times_the_density() -> None:
 
 
 @pytest.mark.slow_on_ranks_but("free")
+@pytest.mark.only_on_ranks
 @pytest.mark.mpi
 @pytest.mark.parametrize("top", TOPS)
 def test_two_processes_find_what_one_finds(top: LayerTop) -> None:

@@ -119,18 +119,18 @@ def complaint(scene: TankScene, reference: np.ndarray, rounding: np.ndarray | fl
     return ""
 
 
-ASKED = pytest.mark.parametrize(
+FAST = ("circle_all_motions", "ship", "two_floats", "two_liquids_wedge", "two_liquids_float_and_beam", "thin_wedge")
+
+
+@pytest.mark.slow_but(*(f"{name}-1e-03" for name in FAST), "circle_all_motions-1e-08", "thin_wedge-1e-08")
+@pytest.mark.parametrize(
     ("name", "tolerance"),
     [
-        pytest.param(name, tolerance, id=f"{name}-{tolerance:.0e}", marks=[] if fast else [pytest.mark.slow])
+        pytest.param(name, tolerance, id=f"{name}-{tolerance:.0e}")
         for name in CASES
-        for tolerance, fast in ((1e-3, True), (1e-4, False), (1e-6, False), (1e-8, True))
+        for tolerance in (1e-3, 1e-4, 1e-6, 1e-8)
     ],
 )
-
-
-@pytest.mark.slow_but("*-1e-03", "circle_all_motions-1e-08", "two_liquids_rectangle-1e-08", "thin_wedge-1e-08")
-@ASKED
 def test_each_frequency_keeps_the_tolerance(name: str, tolerance: float) -> None:
     case = CASES[name]
     scene = asked(case["scene"], tolerance, len(case["omega"]))
@@ -139,7 +139,7 @@ def test_each_frequency_keeps_the_tolerance(name: str, tolerance: float) -> None
     assert found(scene).attempts == 1
 
 
-@pytest.mark.slow_but("circle_all_motions", "two_liquids_rectangle", "thin_wedge")
+@pytest.mark.slow_but("circle_all_motions", "thin_wedge")
 @pytest.mark.parametrize("name", CASES)
 def test_motions_of_floats_have_their_modal_masses(name: str) -> None:
     """1/a² of each motion; a errs in parts of the largest by about the root of what the frequency does."""
@@ -153,6 +153,7 @@ def test_motions_of_floats_have_their_modal_masses(name: str) -> None:
         assert own[stored] == pytest.approx(expected[stored], rel=1e-5, abs=1e-6 * expected.max())
 
 
+@pytest.mark.slow
 def test_estimates_are_rarely_needlessly_large() -> None:
     """Over all modes of the catalogue and of the stored random tanks that are solved daily."""
     ratios = []
@@ -169,15 +170,8 @@ def _ratios(answer: Found, omega: np.ndarray, _name: str) -> list[float]:
     return list(answer.estimates[told] / np.maximum(errors[told], 1e-11))
 
 
-def random_tanks() -> list[Any]:
-    return [
-        pytest.param(entry, id=str(entry["number"]), marks=[] if place < 10 else [pytest.mark.slow])
-        for place, entry in enumerate(RANDOM)
-    ]
-
-
-@pytest.mark.slow_but("5", "7", "9", "11")
-@pytest.mark.parametrize("entry", random_tanks())
+@pytest.mark.slow_but("5", "9")
+@pytest.mark.parametrize("entry", RANDOM, ids=lambda entry: str(entry["number"]))
 def test_tanks_at_random_keep_their_tolerance(entry: dict[str, Any]) -> None:
     scene = TankScene.model_validate(entry["scene"])
     assert complaint(scene, np.array(entry["omega"]), entry["self_convergence"] + 1e-12) == ""

@@ -77,6 +77,7 @@ def points_on_curved_edges(mesh: TaggedMesh, fractions: NDArray[np.float64]) -> 
     return np.array(found)
 
 
+@pytest.mark.slow_but("2")
 @pytest.mark.parametrize("degree", [1, 2, 3])
 def test_areas_converge_with_twice_the_degree(degree: int) -> None:
     """Gauss-Lobatto points integrate the area over a chord: its error falls like h^{2k}."""
@@ -90,6 +91,7 @@ def test_areas_converge_with_twice_the_degree(degree: int) -> None:
     assert abs(errors[1]) < {1: 3e-4, 2: 3e-7, 3: 3e-10}[degree]
 
 
+@pytest.mark.slow_but("2-4")
 @pytest.mark.parametrize(("degree", "order"), [(1, 2), (2, 4), (3, 4), (4, 6)])
 def test_the_deviation_has_the_order_of_interpolation(degree: int, order: int) -> None:
     """k + 1, and one more for even k, since a circle is even over each chord; the normals lose one."""
@@ -98,6 +100,7 @@ def test_the_deviation_has_the_order_of_interpolation(degree: int, order: int) -
     assert fitted_order(meshes, [mesh.deviation.angle for mesh in meshes]) == pytest.approx(order - 1, abs=0.1)
 
 
+@pytest.mark.slow_but("3")
 @pytest.mark.parametrize("degree", [2, 3, 5])
 def test_the_deviation_is_that_of_the_curved_edges_from_the_circle(degree: int) -> None:
     circle = Circle()
@@ -108,6 +111,7 @@ def test_the_deviation_is_that_of_the_curved_edges_from_the_circle(degree: int) 
     assert mesh.deviation.distance == pytest.approx(np.abs(away).max(), rel=0.1)
 
 
+@pytest.mark.slow_but("3")
 @pytest.mark.parametrize("degree", [2, 3, 4, 5])
 def test_nodes_of_curved_edges_lie_on_the_curve_and_corners_stay(degree: int) -> None:
     """An ellipse's elements are not even: edges passed the wrong way would miss it."""
@@ -125,6 +129,7 @@ def test_nodes_of_curved_edges_lie_on_the_curve_and_corners_stay(degree: int) ->
     assert level == pytest.approx(np.ones(level.shape), abs=1e-13)
 
 
+@pytest.mark.slow_but("2-20", "5-160")
 @pytest.mark.parametrize("contact", [20, 60, 90, 120, 160])
 @pytest.mark.parametrize("degree", [2, 5])
 def test_curved_cells_are_turned_nowhere(contact: int, degree: int) -> None:
@@ -156,6 +161,7 @@ def stretched(half_width: float, half_height: float) -> Outline:
     return replace(outline, curves=tuple(curves))
 
 
+@pytest.mark.slow_but("0.01-0.2")
 @pytest.mark.parametrize(("half_width", "half_height"), [(0.1, 0.2), (0.01, 0.2), (0.2, 0.01)])
 def test_slender_ellipses_have_their_area(half_width: float, half_height: float) -> None:
     """Ends with a radius of curvature of b²/a, down to 0.0005."""
@@ -181,6 +187,7 @@ def test_how_a_path_is_passed_does_not_matter() -> None:
     assert area(second, LOWER) == pytest.approx(area(first, LOWER), rel=1e-9)
 
 
+@pytest.mark.slow_but("3")
 @pytest.mark.parametrize("degree", [2, 3, 4])
 def test_neighbours_agree_on_the_nodes_that_they_share(degree: int) -> None:
     mesh = build_mesh(circle_tank(Circle()), bulk_size=0.2, geometry_degree=degree)

@@ -241,6 +241,7 @@ def test_sectors_at_corners_are_the_fewest_of_at_most_60_degrees(point: Point, a
     assert fans == {270: [5], 90: [2], 180: [2, 2]}[angle]
 
 
+@pytest.mark.slow_but("False-20", "True-160")
 @pytest.mark.parametrize("contact", [20, 45, 70, 90, 120, 160])
 @pytest.mark.parametrize("half", [False, True])
 def test_a_float_with_any_contact_angle_is_meshed_with_its_areas(contact: int, half: bool) -> None:
@@ -274,6 +275,7 @@ def test_nodes_of_rings_on_an_arc_lie_on_it_at_their_distance_from_the_corner() 
         assert rings[1:] / rings[:-1] == pytest.approx(np.full(len(rings) - 1, 1.0 / RATIO), rel=1e-8)
 
 
+@pytest.mark.slow_but("lid-0.0001", "wall-0.01")
 @pytest.mark.parametrize("gap", [1e-2, 1e-3, 1e-4])
 @pytest.mark.parametrize("where", ["lid", "wall"])
 def test_a_float_close_to_a_wall_is_meshed(gap: float, where: str) -> None:

@@ -1,16 +1,19 @@
 """All estimates at once: bounds, invariances and hard cases."""
 
 import dataclasses
+import functools
 import math
 import time
 
 import pytest
 from base_beam import BASE
 
-from hydroelastic.modal.beam.estimates import all_estimates
+from hydroelastic.modal.beam.estimates import all_estimates as uncached_estimates
 from hydroelastic.modal.beam.floating_beam import FloatingBeam
 from hydroelastic.modal.beam.grammel_terms import term_tones
 from hydroelastic.modal.estimate import Estimate, frequency_from_added_mass
+
+all_estimates = functools.cache(uncached_estimates)
 
 NAMES = {
     "grammel_1",
@@ -57,6 +60,9 @@ HARD = {
 }
 
 
+@pytest.mark.slow_but(
+    "rigid*", "massless", "almost no rigidity", "tip on the left wall", "slit", "full cover, shallow", "deep"
+)
 @pytest.mark.parametrize("name", HARD)
 def test_hard_cases_never_raise(name: str) -> None:
     beam = HARD[name]

@@ -112,6 +112,7 @@ def test_participations_sum_to_one(shape: str, limit: float) -> None:
     assert 0 < rest + 1e-14 < limit
 
 
+@pytest.mark.slow_but("0.8-depths0-wedge*", "*-exponential-*")
 @pytest.mark.parametrize(
     ("shape", "keys", "order", "limit"),
     [
@@ -152,6 +153,7 @@ def _pencil_roots(body: FloatInTank, count: int) -> np.ndarray:
     return np.sqrt(eigh(stiffness, mass, eigvals_only=True))
 
 
+@pytest.mark.slow_but("0.8-depths0-parabola-*", "0.95-depths1-exponential-*", "0.95-depths1-wedge-*")
 @pytest.mark.parametrize(
     ("shape", "half_height", "order", "tolerance"),
     # Orders of the sum over the depth; after extrapolation 2e-10, 6e-10, 9e-7, 2e-11 of m was measured.

@@ -35,6 +35,7 @@ def test_without_quadratic_damping_it_is_the_closed_form(ratio: float, tolerance
     assert motion.acceleration == pytest.approx(exact.acceleration, abs=30 * tolerance * largest * max(1, ratio) * K)
 
 
+@pytest.mark.slow_but("0.0-0.5", "0.05-20.0")
 @pytest.mark.parametrize(("ratio", "d"), [(0.0, 0.5), (0.05, 0.5), (0.05, 20.0), (0.6, 3.0), (3.0, 5.0)])
 def test_another_integration(ratio: float, d: float) -> None:
     """By Radau, an implicit method of order 5, wave by wave and without regard to turns of φ'."""

@@ -60,6 +60,7 @@ def test_values_of_motions() -> None:
     assert table.breaks == pytest.approx([0.0, 1.0])
 
 
+@pytest.mark.slow_but("_sine*-0.5", "_step*-0.0", "_smooth*-3.7*")
 @pytest.mark.parametrize("damping", [0.0, 0.5, 3.766067388420842, 30.0])
 @pytest.mark.parametrize(
     ("function", "motion"),
@@ -106,12 +107,12 @@ def test_tables_converge(interpolation: str, order: int) -> None:
     positions, instants = random.random(40), END * random.random(40)
     exact = string_response(string, Sine(amplitude=1.0, omega=5.0), positions, instants).values
     errors = []
-    for rows in (101, 201, 401):
+    for rows in (101, 201):
         times = np.linspace(0, END, rows)
         table = tabulated(times, _sine(times), interpolation)  # type: ignore[arg-type]
         errors.append(np.median(np.abs(string_response(string, table, positions, instants).values - exact)))
     # That of the interpolation.
-    assert np.log2(np.divide(errors[:-1], errors[1:])) == pytest.approx([order, order], abs=0.2)
+    assert np.log2(errors[0] / errors[1]) == pytest.approx(order, abs=0.2)
 
 
 def test_superposition() -> None:

@@ -86,6 +86,7 @@ def _largest(values: list[paper.PrintedAndCorrected]) -> float:
 POINTS = [(x, t) for x in np.linspace(0.03, 0.95, 7) for t in np.linspace(0.01, 3, 40)]
 
 
+@pytest.mark.slow_but("0.5-*")
 @pytest.mark.parametrize(("damping", "difference"), [(0.05, 1.8e-3), (0.5, 1.3e-2), (1.5, 1.8e-2), (3.0, 8.8e-2)])
 def test_ramp(damping: float, difference: float) -> None:
     found = _largest([paper.ramp_motion(_string(damping), 1.0, x, t) for x, t in POINTS])
@@ -121,6 +122,7 @@ def test_resonance() -> None:
         paper.resonance_frequency(_string(5.0), 1)
 
 
+@pytest.mark.slow_but("0.3-*")
 @pytest.mark.parametrize(
     ("damping", "rate", "difference"),
     [(0.3, 4.0, 0.015), (1.0, 4.0, 0.078), (1.0, 1.2, 0.59), (2.0, 2.5, 25), (1.0, 0.7, None), (3.5, 3.0, None)],
@@ -150,6 +152,7 @@ def test_step_is_half_there_before_its_front() -> None:
     assert value == paper.PrintedAndCorrected(printed=0.5, corrected=0.0)
 
 
+@pytest.mark.slow_but("motion[03]-*")
 @pytest.mark.parametrize(
     ("motion", "damping", "terms", "error"),
     [

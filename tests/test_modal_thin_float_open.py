@@ -121,6 +121,7 @@ def test_other_shapes_have_one_pole_beside_the_axis(shape: FloatShape) -> None:
     assert np.all(wave_moment(profile, np.geomspace(1e-12, 1e6, 200)) > 0)
 
 
+@pytest.mark.slow_but("0.01-*")
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("slenderness", [1e-6, 1e-2, 1.0, 5.0])
 def test_beginning_tail_and_crossover(shape: FloatShape, slenderness: float) -> None:
@@ -165,6 +166,7 @@ def test_the_whole_motion_has_mean_zero(shape: FloatShape) -> None:
     assert weights @ free_motion(profile, theta).heave + rest == pytest.approx(0, abs=1e-7)
 
 
+@pytest.mark.slow_but("0.1")
 @pytest.mark.parametrize("coupling", [0.1, 0.7])
 def test_motion_against_the_volterra_equation(coupling: float) -> None:
     """The integro-differential equation in time, with its kernel in closed form: no transform at all."""
@@ -178,7 +180,7 @@ def test_motion_against_the_volterra_equation(coupling: float) -> None:
     assert free_motion(of_coupling(coupling), 20.0).heave == pytest.approx(fine, abs=2 * abs(fine - coarse))
 
 
-@pytest.mark.slow_but("2.0-*")
+@pytest.mark.slow_but("2.0-wedge")
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("slenderness", [1.0, 2.0, 5.0])
 def test_wide_floats_against_the_spectrum(shape: FloatShape, slenderness: float) -> None:

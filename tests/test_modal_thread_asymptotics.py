@@ -54,6 +54,7 @@ def test_tension_dominated_orders_of_a_known_case() -> None:
         assert found.forces[0] == pytest.approx(known["N_A"], rel=1e-12, abs=1e-12)
 
 
+@pytest.mark.slow_but("20.0")
 @pytest.mark.parametrize("axial_rigidity", [math.inf, 20.0])
 def test_tension_dominated_orders(axial_rigidity: float) -> None:
     errors: dict[int, list[float]] = {0: [], 1: [], 2: []}
@@ -146,6 +147,7 @@ def test_drag_dominated_orders_of_a_known_case() -> None:
         assert [*found, shape.s[-1]] == pytest.approx([known[key] for key in ("T", "f", "x", "s")], rel=1e-9)
 
 
+@pytest.mark.slow_but("length")
 @pytest.mark.parametrize("given", ["height", "length"])
 def test_drag_dominated_orders(given: str) -> None:
     errors: dict[int, list[float]] = {0: [], 1: []}
@@ -199,6 +201,7 @@ def test_towed_body_exponent() -> None:
     assert np.diff(np.log(off)) / np.diff(np.log(near.tensions)) == pytest.approx(exponent, rel=2e-3)
 
 
+@pytest.mark.slow_but("8.89")
 @pytest.mark.parametrize("weight", [8.89, -8.89])
 def test_nearly_uniform_stream_over_a_free_tail(weight: float) -> None:
     errors: dict[str, list[float]] = {"angle": [], "zero": [], "tension": [], "across": []}
@@ -222,6 +225,7 @@ def test_nearly_uniform_stream_over_a_free_tail(weight: float) -> None:
         assert order_of(HALVES, errors[name]) == pytest.approx(2.0, abs=0.15), name
 
 
+@pytest.mark.slow_but("force1")
 @pytest.mark.parametrize("force", [(-0.4, 0.0, 1.5), (0.3, 0.8, -0.2), (-1.0, 0.2, 0.0)])
 def test_weightless_thread_is_exact(force: tuple[float, float, float]) -> None:
     places = np.linspace(0, 1.5, 7)

@@ -39,6 +39,7 @@ TWO_LIQUIDS = stored("open_two_liquids.json")
 SECTIONS = stored("open_sections.json")
 
 
+@pytest.mark.slow_but("Ka=0.15", "Ka=2.5")
 @pytest.mark.parametrize("row", PUBLISHED["cylinder"]["rows"], ids=lambda row: f"Ka={row['Ka']}")
 def test_circle_as_published(row: dict[str, Any]) -> None:
     heave, sway = (open_circle.radiation(row["Ka"], motion, 80).impedance for motion in open_circle.MOTIONS)
@@ -49,6 +50,7 @@ def test_circle_as_published(row: dict[str, Any]) -> None:
     )
 
 
+@pytest.mark.slow_but("Ka=0.01", "Ka=1.1")
 @pytest.mark.parametrize("row", CIRCLE["radiation"], ids=lambda row: f"Ka={row['Ka']}")
 def test_stored_circle_is_made_anew(row: dict[str, Any]) -> None:
     assert row["error"] <= 3e-12
@@ -152,6 +154,7 @@ def test_plates_as_published(row: dict[str, Any]) -> None:
     assert np.sum(found[:2] ** 2) == pytest.approx(1.0, abs=1e-10)
 
 
+@pytest.mark.slow
 @pytest.mark.slow_but("xi=625")
 @pytest.mark.parametrize("row", PUBLISHED["compound_plate"]["rows"], ids=lambda row: f"xi={row['xi']}")
 def test_compound_plate_as_published(row: dict[str, Any]) -> None:

@@ -220,6 +220,7 @@ def test_larger_tensions_are_lighter_to_all_eyes(eyes: str):
     assert np.all(np.diff(lightness) > 2.3)
 
 
+@pytest.mark.slow
 def test_a_sheet_of_very_many_modes_is_drawn(tmp_path: Path) -> None:
     """Graphics end at 16384 pixels, beyond which a page was black."""
     picture = sloshing_picture(length=200.0, depth=1.0)

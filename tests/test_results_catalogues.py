@@ -11,7 +11,7 @@ import hard_cases
 import pytest
 import random_threads
 
-from hydroelastic.scenes.output.manifest import read_manifest
+from hydroelastic.output.manifest import read_manifest
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.study.plan import StudyPlan
 from hydroelastic.scenes.study.run import study_scene
@@ -116,14 +116,8 @@ def test_stages_of_the_start_are_those_of_a_run() -> None:
         assert sum(float(row[column]) for row in rows if row["stage"] in stages) <= total + rounding
 
 
-@pytest.mark.slow_but("sloshing")
-@pytest.mark.parametrize(
-    "name",
-    [
-        pytest.param(name, marks=[pytest.mark.slow] if name in ("float_ellipse", "interface_beam") else [])
-        for name in script("regenerate").STUDIED
-    ],
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("name", script("regenerate").STUDIED)
 def test_studies_are_those_of_the_scenes(name: str) -> None:
     """Rows of coarse meshes and few digits, which take a second."""
     stored = rows_of(f"shipped/{name}/study.csv")

@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from hydroelastic.output.sections import markdown_sections
 from hydroelastic.scenes.kinds import runner_of
-from hydroelastic.scenes.output.sections import markdown_sections
 from hydroelastic.scenes.read import read_scene, shipped_scenes
 from hydroelastic.scenes.run import run_scene
 from hydroelastic.scenes.tank.tables import mode_csv, tank_cost, tank_sections

@@ -31,7 +31,7 @@ def animations(folder: Path) -> list[str]:
 
 
 def test_tanks_are_animated_when_asked(tanks: Any, tmp_path: Path) -> None:
-    scene = tanks.scene(modes=3, tolerance=1e-3)
+    scene = tanks.scene(modes=2, tolerance=1e-3)
     outcome = run_scene(scene, out=tmp_path / "moving", images=ANIMATED)
     assert outcome.warnings == ()
     # The lowest two, both of a kind; one of them bends most.

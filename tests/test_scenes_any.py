@@ -13,11 +13,11 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
+from hydroelastic.output.sections import Section
 from hydroelastic.scenes.errors import MOST_PROBLEMS_SHOWN, SceneError, scene_error, shown_value
 from hydroelastic.scenes.kinds import checker_of
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.output.sections import Section
 from hydroelastic.scenes.read import SCENE_MODELS, SHIPPED_FOLDER, Scene, read_scene
 from hydroelastic.scenes.tank.check import modelled_tank
 
@@ -29,7 +29,7 @@ REPRODUCIBLE = settings(
     database=None,
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
 )
-QUICK = settings(REPRODUCIBLE, max_examples=80)
+QUICK = settings(REPRODUCIBLE, max_examples=40)
 MANY = settings(REPRODUCIBLE, max_examples=2500)
 
 # What Python and its libraries say of values and errors.

@@ -6,13 +6,13 @@ from typing import Any
 import pytest
 from rich.console import Console
 
+from hydroelastic.output.check_text import print_check
 from hydroelastic.physics.rigid_motions import zero_mode_count
 from hydroelastic.scenes.kinds import checker_of
 from hydroelastic.scenes.models.bodies import Beam, Float
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.tank_parts import Liquid, Tank
-from hydroelastic.scenes.output.check_text import print_check
 from hydroelastic.scenes.read import read_scene, shipped_scenes
 from hydroelastic.scenes.tank.check_hints import hints
 

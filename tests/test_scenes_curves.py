@@ -191,7 +191,12 @@ KINDS: dict[str, tuple[Callable[[Path], None], int]] = {
 }
 
 
-@pytest.fixture(scope="module", params=KINDS)
+FAST = ("threads", "open water")
+
+
+@pytest.fixture(
+    scope="module", params=[kind if kind in FAST else pytest.param(kind, marks=pytest.mark.slow) for kind in KINDS]
+)
 def figures(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> list[Figure]:
     """All figures of a kind as they are when they are saved; a thread is not rendered in space."""
     draw, count = KINDS[request.param]
@@ -292,6 +297,7 @@ def test_numbers_of_axes_are_apart(figures: list[Figure]) -> None:
                 assert apart, f"numbers of {axis.get_label().get_text()!r} of {figure.get_suptitle()!r}"
 
 
+@pytest.mark.slow
 def test_values_beside_fronts_make_no_spots(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """At the focus of a step U has no bound, and a sample there is a matter of chance."""
     found: list[Figure] = []

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import cache
 from math import inf, nan
 from pathlib import Path
 from typing import Any
@@ -15,13 +16,16 @@ from mpi4py import MPI
 from open_tables import ANALYSES, CIRCLE, DEEP, OIL, PLATE, arbitrary_solution, open_scene
 from scene_files import read_written
 
+from hydroelastic.output.dataset import complete_variables, global_attributes, read_dataset, write_dataset
+from hydroelastic.output.folder import SUMMARY, write_summary
+from hydroelastic.output.json_values import json_ready
+from hydroelastic.output.labelled import variables_of
+from hydroelastic.output.provenance import Summary
+from hydroelastic.output.summary_names import SummaryNames
+from hydroelastic.output.summary_variables import Naming
+from hydroelastic.output.variables import Variable
 from hydroelastic.scenes.open_water.dataset import OPEN_NAMES, open_dataset
 from hydroelastic.scenes.open_water.summary import summarize_open
-from hydroelastic.scenes.output.dataset import read_dataset, with_summary, write_dataset
-from hydroelastic.scenes.output.folder import SUMMARY, write_summary
-from hydroelastic.scenes.output.json_values import json_ready
-from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.output.summary_variables import SummaryNames
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.run import run_scene
 
@@ -75,21 +79,24 @@ SCENES: dict[str, tuple[str, ...]] = {
 }
 """Overrides that keep shipped scenes of each kind short."""
 ALL = [*SCENES, "floats", "open water"]
+FAST = ("aquarium", "string_sine", "swell", "released_chain", "floats", "open water")
 
 
 @pytest.fixture(scope="module")
-def folders(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
-    """Where results are, by name; each is made once."""
-    found: dict[str, Path] = {}
-    for name in ALL:
+def folder_of(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
+    """Returns where the results of that name are; each is made once, when it is asked for."""
+
+    @cache
+    def made(name: str) -> Path:
         folder = tmp_path_factory.mktemp("result")
-        found[name] = folder / "out"
         if name == "open water":
-            _write_open(found[name])
-            continue
-        scene = read_written(folder, FLOATS) if name == "floats" else read_scene(name, SCENES[name])
-        run_scene(scene, out=found[name], images=None)
-    return found
+            _write_open(folder / "out")
+        else:
+            scene = read_written(folder, FLOATS) if name == "floats" else read_scene(name, SCENES[name])
+            run_scene(scene, out=folder / "out", images=None)
+        return folder / "out"
+
+    return made
 
 
 def _write_open(folder: Path) -> None:
@@ -101,12 +108,12 @@ def _write_open(folder: Path) -> None:
     solution = arbitrary_solution(scene, reasons=("σ ≥ 1", "it is late"))
     summary = summarize_open(solution, MPI.COMM_WORLD, import_seconds=1.0)
     write_summary(summary, folder)
-    write_dataset(with_summary(open_dataset(solution), summary, OPEN_NAMES), folder / "dataset.nc")
+    _write(variables_of(open_dataset(solution)), summary, OPEN_NAMES, folder / "dataset.nc")
 
 
-@pytest.fixture(params=ALL)
-def folder(folders: dict[str, Path], request: pytest.FixtureRequest) -> Path:
-    return folders[request.param]
+@pytest.fixture(params=[name if name in FAST else pytest.param(name, marks=pytest.mark.slow) for name in ALL])
+def folder(folder_of: Callable[[str], Path], request: pytest.FixtureRequest) -> Path:
+    return folder_of(request.param)
 
 
 def test_the_summary_comes_back_as_it_is(folder: Path) -> None:
@@ -155,8 +162,8 @@ def test_every_variable_says_what_it_is(folder: Path) -> None:
         assert "units" in coordinate.attrs or coordinate.dtype.kind in "OUi", name
 
 
-def test_modes_of_a_tank_lie_along_a_dimension(folders: dict[str, Path]) -> None:
-    dataset, summary = read_dataset(folders["aquarium"] / "dataset.nc")
+def test_modes_of_a_tank_lie_along_a_dimension(folder_of: Callable[[str], Path]) -> None:
+    dataset, summary = read_dataset(folder_of("aquarium") / "dataset.nc")
     assert dataset.mode.values.tolist() == list(range(1, 11))
     for key in summary["modes"][0]:
         assert dataset[key].dims == ("mode",)
@@ -197,9 +204,9 @@ def test_waves_in_a_tank_are_cosines_of_known_height(tmp_path: Path) -> None:
     assert error < np.sqrt(2.0 * dataset.relative_error.max())
 
 
-def test_bodies_move_by_their_motions(folders: dict[str, Path]) -> None:
+def test_bodies_move_by_their_motions(folder_of: Callable[[str], Path]) -> None:
     """Each point of a float's contour moves by heave, sway and roll about the centre of mass."""
-    dataset, summary = read_dataset(folders["floats"] / "dataset.nc")
+    dataset, summary = read_dataset(folder_of("floats") / "dataset.nc")
     assert len(summary["growing"]) == 1
     assert dataset.growing_growth_rate.item() == summary["growing"][0]["growth_rate"]
     for prefix, modes in (("", 4), ("growing_", 1)):
@@ -223,8 +230,8 @@ def test_bodies_move_by_their_motions(folders: dict[str, Path]) -> None:
     assert {"elevation_of_free_surface_4", "growing_deflection_of_body_3"} <= set(dataset.data_vars)
 
 
-def test_the_matrices_of_floats_are_those_of_the_summary(folders: dict[str, Path]) -> None:
-    dataset, summary = read_dataset(folders["floats"] / "dataset.nc")
+def test_the_matrices_of_floats_are_those_of_the_summary(folder_of: Callable[[str], Path]) -> None:
+    dataset, summary = read_dataset(folder_of("floats") / "dataset.nc")
     for number, row in enumerate(summary["floats"], 1):
         dofs = [f"body_{number}__{motion.capitalize()}" for motion in row["motions"]]
         own = dataset.sel(influenced_dof=dofs, radiating_dof=dofs)
@@ -267,7 +274,7 @@ def test_odd_values_survive(tmp_path: Path) -> None:
         "pairs": [[[0.1, 0.2], [0.3, 0.4]]],
         "no words": [None, None],
     }
-    names = SummaryNames(dimensions={"table": ("row",)}, prefixes={"table": ""})
+    names = SummaryNames(by_place={"table": ("row",)}, prefixes={"table": ""})
     dataset, back = _there_and_back(summary, names, tmp_path / "dataset.nc")
     assert back == json_ready(summary)
     assert (dataset.yes.dtype, dataset.yes.item()) == (np.dtype(bool), True)
@@ -287,7 +294,7 @@ def test_odd_values_survive(tmp_path: Path) -> None:
 
 
 def test_what_arrays_tell_is_not_told_twice(tmp_path: Path) -> None:
-    names = SummaryNames(reported_by_arrays=frozenset({"modes.omega"}), dimensions={"modes": ("mode",)})
+    names = SummaryNames(reported_by_arrays=frozenset({"modes.omega"}), by_place={"modes": ("mode",)})
     summary: Summary = {
         "scene": {"title": ""},
         "status": "ok",
@@ -301,8 +308,12 @@ def test_what_arrays_tell_is_not_told_twice(tmp_path: Path) -> None:
 
 
 def _there_and_back(summary: Summary, names: SummaryNames, path: Path) -> tuple[xarray.Dataset, Summary]:
-    write_dataset(with_summary(xarray.Dataset(), summary, names), path)
+    _write([], summary, names, path)
     return read_dataset(path)
+
+
+def _write(arrays: list[Variable], summary: Summary, names: Naming, path: Path) -> None:
+    write_dataset(path, complete_variables(arrays, summary, names), global_attributes(summary))
 
 
 def test_the_same_run_writes_the_same_bytes(tmp_path: Path) -> None:
@@ -310,12 +321,12 @@ def test_the_same_run_writes_the_same_bytes(tmp_path: Path) -> None:
     solution = arbitrary_solution(open_scene())
     summary = summarize_open(solution, MPI.COMM_WORLD, import_seconds=1.0)
     for name in ("one.nc", "other.nc"):
-        write_dataset(with_summary(open_dataset(solution), summary, OPEN_NAMES), tmp_path / name)
+        _write(variables_of(open_dataset(solution)), summary, OPEN_NAMES, tmp_path / name)
     assert (tmp_path / "one.nc").read_bytes() == (tmp_path / "other.nc").read_bytes()
 
 
-def test_main_quantities_have_names_in_words(folders: dict[str, Path]) -> None:
-    dataset, _ = read_dataset(folders["aquarium"] / "dataset.nc")
+def test_main_quantities_have_names_in_words(folder_of: Callable[[str], Path]) -> None:
+    dataset, _ = read_dataset(folder_of("aquarium") / "dataset.nc")
     assert dataset.omega.attrs["long_name"] == "angular frequency of a mode"
 
 
@@ -331,13 +342,13 @@ def test_any_dataset_comes_back(tmp_path: Path) -> None:
         {"a": [1.0, 2.0, 3.0], "c": np.arange(50, dtype=np.int32)},
         {"title": "odd", "number": 3},
     )
-    write_dataset(given, tmp_path / "dataset.nc")
+    write_dataset(tmp_path / "dataset.nc", variables_of(given), given.attrs)
     with xarray.open_dataset(tmp_path / "dataset.nc") as opened:
         xarray.testing.assert_identical(opened.load(), given.assign(words=("a", given.words.values.astype(object))))
 
 
-def test_phases_of_forces_are_said(folders: dict[str, Path]) -> None:
-    dataset, _ = read_dataset(folders["open water"] / "dataset.nc")
+def test_phases_of_forces_are_said(folder_of: Callable[[str], Path]) -> None:
+    dataset, _ = read_dataset(folder_of("open water") / "dataset.nc")
     for name in ("excitation_force", "RAO", "transmission_coefficient"):
         assert "x = 0 of the scene" in dataset[name].attrs["phase"]
     assert "phase" not in dataset["added_mass"].attrs

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import cache
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -16,8 +18,8 @@ from hydroelastic.meshes.files import save_mesh
 from hydroelastic.meshes.geometry import tank_geometry
 from hydroelastic.meshes.grading import Grading
 from hydroelastic.meshes.tank import build_tank_mesh
-from hydroelastic.scenes.output.dataset import read_dataset
-from hydroelastic.scenes.output.provenance import Summary
+from hydroelastic.output.dataset import read_dataset
+from hydroelastic.output.provenance import Summary
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.run import run_scene
 
@@ -35,12 +37,16 @@ SCENES: dict[str, tuple[str, ...]] = {
 
 
 @pytest.fixture(scope="module")
-def folders(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
-    """Where results are, by scene."""
-    found = {name: tmp_path_factory.mktemp("fields") / name for name in SCENES}
-    for name, overrides in SCENES.items():
-        run_scene(read_scene(name, overrides), out=found[name], images=None)
-    return found
+def folder_of(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
+    """Returns where the results of a scene are; each is solved when it is asked for first."""
+
+    @cache
+    def made(name: str) -> Path:
+        folder = tmp_path_factory.mktemp("fields") / name
+        run_scene(read_scene(name, SCENES[name]), out=folder, images=None)
+        return folder
+
+    return made
 
 
 def both(file: Path) -> tuple[meshio.Mesh, Any]:
@@ -80,10 +86,10 @@ def results(folder: Path) -> tuple[xarray.Dataset, Summary]:
     return read_dataset(folder / "dataset.nc")
 
 
-def test_waves_on_the_surface_are_those_of_the_dataset(folders: dict[str, Path]) -> None:
+def test_waves_on_the_surface_are_those_of_the_dataset(folder_of: Callable[[str], Path]) -> None:
     """At y = 0 ψ is η g/ω², and ∂ψ/∂y is η."""
-    mesh, _ = both(folders["sloshing"] / "fields" / "modes.vtu")
-    dataset, summary = results(folders["sloshing"])
+    mesh, _ = both(folder_of("sloshing") / "fields" / "modes.vtu")
+    dataset, summary = results(folder_of("sloshing"))
     assert set(mesh.point_data) == {f"{what}_{n:03d}" for what in ("potential", "displacement") for n in (1, 2, 3)}
     assert set(np.concatenate(mesh.cell_data["liquid"])) == {1}
     top = np.abs(mesh.points[:, 1]) < 1e-12
@@ -104,20 +110,20 @@ def test_waves_on_the_surface_are_those_of_the_dataset(folders: dict[str, Path])
         assert not mesh.point_data[f"displacement_{number:03d}"][:, 2].any()
 
 
-def test_two_liquids_are_told_apart(folders: dict[str, Path]) -> None:
-    mesh, read = both(folders["float_in_two_liquids"] / "fields" / "modes.vtu")
-    dataset, _ = results(folders["float_in_two_liquids"])
+def test_two_liquids_are_told_apart(folder_of: Callable[[str], Path]) -> None:
+    mesh, read = both(folder_of("float_in_two_liquids") / "fields" / "modes.vtu")
+    dataset, _ = results(folder_of("float_in_two_liquids"))
     middle = read.cell_centers().points[:, 1]
     np.testing.assert_array_equal(read.cell_data["liquid"], np.where(middle < 0.0, 1, 2))
     assert read.bounds[:4] == pytest.approx((0.0, 10.0, -4.0, 4.0), rel=1e-14)
     assert {name[-3:] for name in mesh.point_data} == {f"{number:03d}" for number in dataset.mode.values}
 
 
-def test_bodies_move_as_the_dataset_says(folders: dict[str, Path]) -> None:
+def test_bodies_move_as_the_dataset_says(folder_of: Callable[[str], Path]) -> None:
     """Under the names that the liquid's displacements have, so that ParaView warps both by the same one."""
-    fields = folders["aquarium"] / "fields"
+    fields = folder_of("aquarium") / "fields"
     mesh, _ = both(fields / "bodies.vtu")
-    dataset, _ = results(folders["aquarium"])
+    dataset, _ = results(folder_of("aquarium"))
     assert set(mesh.point_data) == {name for name in meshio.read(fields / "modes.vtu").point_data if "disp" in name}
     parts = {1: ("free_surface_1", "free_surface_2"), 3: ("body_1",)}
     cells, kinds = mesh.cells_dict["line"], np.concatenate(mesh.cell_data["part"])
@@ -135,10 +141,10 @@ def test_bodies_move_as_the_dataset_says(folders: dict[str, Path]) -> None:
             assert not displacement[:, [0, 2]].any()
 
 
-def test_floats_are_polygons_that_move_as_bodies_do(folders: dict[str, Path]) -> None:
-    fields = folders["float_in_two_liquids"] / "fields"
+def test_floats_are_polygons_that_move_as_bodies_do(folder_of: Callable[[str], Path]) -> None:
+    fields = folder_of("float_in_two_liquids") / "fields"
     mesh, read = both(fields / "bodies.vtu")
-    dataset, _ = results(folders["float_in_two_liquids"])
+    dataset, _ = results(folder_of("float_in_two_liquids"))
     assert set(np.concatenate(mesh.cell_data["part"])) == {2, 4}
     ((*corners,),) = mesh.cells_dict["polygon"]
     np.testing.assert_array_equal(mesh.points[corners, :2], dataset.contour_of_body_1)
@@ -150,10 +156,11 @@ def test_floats_are_polygons_that_move_as_bodies_do(folders: dict[str, Path]) ->
         assert after == pytest.approx(before, rel=1e-9)
 
 
-def test_bodies_of_open_water_move_with_the_water(folders: dict[str, Path]) -> None:
-    mesh, _ = both(folders["open_plate"] / "fields" / "response_1_bodies.vtu")
-    liquid, _ = both(folders["open_plate"] / "fields" / "response_1.vtu")
-    dataset, _ = results(folders["open_plate"])
+@pytest.mark.slow
+def test_bodies_of_open_water_move_with_the_water(folder_of: Callable[[str], Path]) -> None:
+    mesh, _ = both(folder_of("open_plate") / "fields" / "response_1_bodies.vtu")
+    liquid, _ = both(folder_of("open_plate") / "fields" / "response_1.vtu")
+    dataset, _ = results(folder_of("open_plate"))
     assert set(mesh.point_data) == {name for name in liquid.point_data if name.startswith("displacement")}
     assert mesh.points[:, 0].min() == pytest.approx(liquid.points[:, 0].min(), abs=1e-12)
     assert mesh.points[:, 0].max() == pytest.approx(liquid.points[:, 0].max(), rel=1e-12)
@@ -165,10 +172,10 @@ def test_bodies_of_open_water_move_with_the_water(folders: dict[str, Path]) -> N
         assert mesh.point_data[f"displacement_{name}"][places, 1] == pytest.approx(expected, abs=np.sqrt(1e-3))
 
 
-def test_waves_of_open_water_are_those_of_the_dataset(folders: dict[str, Path]) -> None:
+def test_waves_of_open_water_are_those_of_the_dataset(folder_of: Callable[[str], Path]) -> None:
     """Far from the plate η = ω²ψ/g is T e^{ikx} behind it and e^{ikx} + R e^{−ikx} before it; on it, its deflection."""
-    mesh, _ = both(folders["open_plate"] / "fields" / "response_1.vtu")
-    dataset, summary = results(folders["open_plate"])
+    mesh, _ = both(folder_of("open_plate") / "fields" / "response_1.vtu")
+    dataset, summary = results(folder_of("open_plate"))
     parts = ("potential", "pressure", "displacement")
     assert set(mesh.point_data) == {f"{part}_{what}" for part in parts for what in ("real", "imaginary", "magnitude")}
     data = mesh.point_data
@@ -197,9 +204,9 @@ def test_waves_of_open_water_are_those_of_the_dataset(folders: dict[str, Path]) 
         assert data[f"displacement_{part}"][on_plate, 1] == pytest.approx(expected, abs=np.sqrt(1e-3))
 
 
-def test_paraview_plays_a_string(folders: dict[str, Path]) -> None:
-    dataset, _ = results(folders["string_table"])
-    played = _played(folders["string_table"] / "fields" / "string.pvd")
+def test_paraview_plays_a_string(folder_of: Callable[[str], Path]) -> None:
+    dataset, _ = results(folder_of("string_table"))
+    played = _played(folder_of("string_table") / "fields" / "string.pvd")
     assert [time for time, _ in played] == [0.0, 4.0, 8.0]
     for time, line in played:
         moved = dataset.displacement.sel(time=time)
@@ -209,8 +216,8 @@ def test_paraview_plays_a_string(folders: dict[str, Path]) -> None:
         np.testing.assert_array_equal(line.point_data["absolute_error"], dataset.absolute_error.sel(time=time))
 
 
-def test_paraview_plays_a_thread(folders: dict[str, Path]) -> None:
-    folder = folders["released_chain"]
+def test_paraview_plays_a_thread(folder_of: Callable[[str], Path]) -> None:
+    folder = folder_of("released_chain")
     dataset, summary = results(folder)
     played = _played(folder / "fields" / "motion.pvd")
     assert [time for time, _ in played] == [0.0, 0.5, 1.0]

@@ -125,6 +125,7 @@ def test_a_beam_that_is_no_mirror_image_is_solved_whole(tanks: Tanks) -> None:
     assert not tanks.solve(scene).field.half
 
 
+@pytest.mark.slow
 def test_a_mirrored_tank_has_the_same_frequencies(tanks: Tanks) -> None:
     left = stepped(SOFT, STIFF, start=1.0, joints=[joint(0.4), joint(1.0, 1e3)])
     right = stepped(STIFF, SOFT, start=7.0, joints=[joint(1.6), joint(1.0, 1e3)])

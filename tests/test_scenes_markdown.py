@@ -9,11 +9,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from markdown_it import MarkdownIt
 
+from hydroelastic.output.markdown import markdown_table, markdown_text
+from hydroelastic.output.sections import Section, markdown_sections, printed_sections
 from hydroelastic.scenes.models.bodies import Beam
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.tank_parts import Liquid, Tank
-from hydroelastic.scenes.output.markdown import markdown_table, markdown_text
-from hydroelastic.scenes.output.sections import Section, markdown_sections, printed_sections
 from hydroelastic.scenes.run import run_scene
 
 AS_TYPED = [

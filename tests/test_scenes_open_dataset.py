@@ -15,15 +15,18 @@ from open_tables import CIRCLE, DEEP, FROM_BOTH_SIDES, OIL, arbitrary_solution, 
 
 from hydroelastic.fem.open_water.radiation import solve_radiation
 from hydroelastic.fem.open_water.response import solve_response
+from hydroelastic.output.dataset import write_dataset
+from hydroelastic.output.labelled import variables_of
 from hydroelastic.scenes.models.open_analyses import Radiation, Response
-from hydroelastic.scenes.open_water.dataset import open_dataset
-from hydroelastic.scenes.output.dataset import write_dataset
+from hydroelastic.scenes.open_water.dataset import COMMENT, open_dataset
 
 
 @pytest.fixture
 def written(tmp_path: Path) -> xarray.Dataset:
     """The dataset of a circle in deep water, as a stranger opens it."""
-    write_dataset(open_dataset(arbitrary_solution(open_scene())), tmp_path / "dataset.nc")
+    write_dataset(
+        tmp_path / "dataset.nc", variables_of(open_dataset(arbitrary_solution(open_scene()))), {"comment": COMMENT}
+    )
     return xarray.load_dataset(tmp_path / "dataset.nc")
 
 
@@ -135,7 +138,7 @@ def test_what_capytaine_has_no_name_for_is_there(written: xarray.Dataset) -> Non
 
 def test_several_bodies_waves_and_sides_have_their_labels(tmp_path: Path) -> None:
     solution = two_bodies(FROM_BOTH_SIDES)
-    write_dataset(open_dataset(solution), tmp_path / "dataset.nc")
+    write_dataset(tmp_path / "dataset.nc", variables_of(open_dataset(solution)), {})
     found = xarray.load_dataset(tmp_path / "dataset.nc")
     radiation, (left, right) = solution.radiation[0], solution.response
     labels = ["body_1__Heave", "body_1__Sway", "body_2__Heave", "body_2__Pitch"]

@@ -14,12 +14,12 @@ from pydantic import ValidationError
 from rich.console import Console
 from scene_files import CIRCLE_IN_OPEN_WATER
 
+from hydroelastic.output.check_text import print_check
 from hydroelastic.scenes.errors import SceneError, scene_error
 from hydroelastic.scenes.models.open_analyses import Decay, Radiation, Release, Resonance, Response
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.check import check_open
-from hydroelastic.scenes.output.check_text import print_check
 from hydroelastic.scenes.read import read_scene
 
 WATER: dict[str, Any] = {"density": 1000.0, "depth": 2.0}

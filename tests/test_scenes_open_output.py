@@ -22,7 +22,11 @@ from mpi4py import MPI
 from open_tables import ANALYSES, FROM_BOTH_SIDES, arbitrary_solution, open_scene, two_bodies
 from scene_files import CIRCLE_IN_OPEN_WATER
 
+from hydroelastic.output.dataset import write_dataset
+from hydroelastic.output.labelled import variables_of
 from hydroelastic.output.pictures.options import PictureOptions
+from hydroelastic.output.provenance import Summary
+from hydroelastic.output.sections import markdown_sections, printed_sections
 from hydroelastic.scenes.command_line import main
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.models.tank import TankScene
@@ -32,9 +36,6 @@ from hydroelastic.scenes.open_water.figures import draw_open
 from hydroelastic.scenes.open_water.results import OpenSolution
 from hydroelastic.scenes.open_water.summary import json_ready, summarize_open
 from hydroelastic.scenes.open_water.tables import open_cost, open_sections
-from hydroelastic.scenes.output.dataset import write_dataset
-from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.output.sections import markdown_sections, printed_sections
 from hydroelastic.scenes.run import run_scene
 from hydroelastic.scenes.study.run import study_scene
 from hydroelastic.scenes.tank.run import compare_tank
@@ -47,7 +48,7 @@ def summary_of(solution: OpenSolution) -> Summary:
 @pytest.mark.parametrize("kind", range(4))
 def test_each_analysis_may_stand_alone(tmp_path: Path, kind: int) -> None:
     solution = arbitrary_solution(open_scene(analyses=[ANALYSES[kind]]))
-    write_dataset(open_dataset(solution), tmp_path / "dataset.nc")
+    write_dataset(tmp_path / "dataset.nc", variables_of(open_dataset(solution)), {})
     xarray.load_dataset(tmp_path / "dataset.nc")
     assert printed_open(solution, summary_of(solution))
     write_csv(solution, tmp_path)
@@ -145,6 +146,7 @@ def test_what_falls_short_is_said_loudly() -> None:
     assert counts == {7}
 
 
+@pytest.mark.slow
 def test_every_analysis_has_its_curves(tmp_path: Path) -> None:
     from PIL import Image
 

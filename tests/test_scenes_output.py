@@ -12,10 +12,9 @@ from pathlib import Path
 
 import pytest
 
-from hydroelastic.scenes.errors import SceneError
-from hydroelastic.scenes.output import exchange as exchange_module
-from hydroelastic.scenes.output import folder as output
-from hydroelastic.scenes.output.folder import check_output, result_folder, results_message
+from hydroelastic.output import exchange as exchange_module
+from hydroelastic.output import folder as output
+from hydroelastic.output.folder import FolderError, check_output, result_folder, results_message
 
 SUMMARY = json.dumps({"scene": {}, "status": "ok"})
 
@@ -166,7 +165,7 @@ def test_a_run_that_was_killed_amid_the_exchange_gives_its_old_results_back(tmp_
 def test_what_another_run_is_writing_is_left_alone(tmp_path: Path) -> None:
     target = tmp_path / "result"
     with result_folder(target) as folder:
-        program = f"from hydroelastic.scenes.output.folder import check_output; check_output({str(target)!r})"
+        program = f"from hydroelastic.output.folder import check_output; check_output({str(target)!r})"
         subprocess.run([sys.executable, "-c", program], check=True, timeout=60)
         assert folder.exists()
 
@@ -198,7 +197,7 @@ def test_nothing_is_left_when_the_work_fails(tmp_path: Path, error: type[BaseExc
 
 
 def test_a_full_disk_is_a_scene_error(tmp_path: Path) -> None:
-    with pytest.raises(SceneError, match="No space left"), result_folder(tmp_path / "result"):
+    with pytest.raises(FolderError, match="No space left"), result_folder(tmp_path / "result"):
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
     assert list(tmp_path.iterdir()) == []
 
@@ -220,7 +219,7 @@ def test_a_failed_move_keeps_the_previous_result(tmp_path: Path, monkeypatch: py
         return rename(self, to)
 
     monkeypatch.setattr(Path, "rename", rename_that_fails_to_move_in)
-    with pytest.raises(SceneError):
+    with pytest.raises(FolderError):
         write_result(target, "newer")
     assert [path.name for path in tmp_path.iterdir()] == ["result"]
     assert (target / "modes.csv").read_text(encoding="utf-8") == "new"
@@ -237,9 +236,9 @@ def test_foreign_folders_are_refused_and_kept(tmp_path: Path, listed: str | None
     (target / "summary.json").write_text(SUMMARY, encoding="utf-8")
     if listed is not None:
         (target / "manifest.json").write_text(listed, encoding="utf-8")
-    with pytest.raises(SceneError, match="not a result folder"):
+    with pytest.raises(FolderError, match="not a result folder"):
         check_output(target)
-    with pytest.raises(SceneError, match="not a result folder"):
+    with pytest.raises(FolderError, match="not a result folder"):
         write_result(target)
     assert (target / "thesis.tex").is_file()
 
@@ -252,7 +251,7 @@ def test_a_folder_that_became_foreign_meanwhile_is_kept(tmp_path: Path) -> None:
             target.mkdir()
             (target / "thesis.tex").touch()
 
-    with pytest.raises(SceneError, match="not a result folder"):
+    with pytest.raises(FolderError, match="not a result folder"):
         write_while_another_uses_the_name()
     assert [path.name for path in tmp_path.iterdir()] == ["result"]
 
@@ -263,7 +262,7 @@ def test_places_that_cannot_be_written_are_refused_beforehand(tmp_path: Path, mo
     file.touch()
     refused = [file, file / "below", Path(), tmp_path.parent, Path("/"), Path("/proc/result"), Path("n" * 300)]
     for path in refused:
-        with pytest.raises(SceneError, match="output folder"):
+        with pytest.raises(FolderError, match="output folder"):
             check_output(path)
     assert [path.name for path in tmp_path.iterdir()] == ["file"]
 
@@ -271,7 +270,7 @@ def test_places_that_cannot_be_written_are_refused_beforehand(tmp_path: Path, mo
 @pytest.mark.skipif(os.geteuid() == 0, reason="the superuser may write anywhere")
 def test_a_folder_without_permission_is_refused(tmp_path: Path) -> None:
     tmp_path.chmod(0o500)
-    with pytest.raises(SceneError, match="Permission denied"):
+    with pytest.raises(FolderError, match="Permission denied"):
         check_output(tmp_path / "result")
 
 
@@ -307,7 +306,7 @@ def test_handlers_of_the_caller_and_threads_are_respected(tmp_path: Path) -> Non
 def test_a_killed_process_cleans_up(tmp_path: Path, number: signal.Signals) -> None:
     program = f"""
         import signal, sys, time
-        from hydroelastic.scenes.output.folder import result_folder
+        from hydroelastic.output.folder import result_folder
         # A shell may start background jobs with these ignored.
         signal.signal(signal.SIGINT, signal.default_int_handler)
         signal.signal(signal.SIGHUP, signal.SIG_DFL)

@@ -120,6 +120,7 @@ def test_a_tank_says_which_option_it_has(tmp_path: Path) -> None:
     assert all("--image-width" in line for line in complaints)
 
 
+@pytest.mark.slow_but("catenary*")
 @pytest.mark.parametrize(
     ("name", "change", "words"),
     [
@@ -140,6 +141,7 @@ def test_what_an_animation_lacks_is_said(tmp_path: Path, name: str, change: str,
     assert not run_scene(scene, out=tmp_path / "still", images=DEFAULT_PICTURES).warnings
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("times", ["[2.0]", "[0.0, 1.0, 2.0]"])
 def test_a_string_at_few_times_is_animated_smoothly(tmp_path: Path, times: str) -> None:
     scene = read_scene("string_sine", (f"output.times={times}", "output.frames=0"))

@@ -5,6 +5,8 @@ import io
 import json
 import re
 import shutil
+from collections.abc import Callable
+from functools import cache
 from itertools import pairwise
 from pathlib import Path
 
@@ -16,9 +18,9 @@ from PIL import Image
 from reports import SCENES, Page, parsed
 from scene_files import read_written
 
+from hydroelastic.output.outcome import Outcome
+from hydroelastic.output.sections import Section
 from hydroelastic.scenes.command_line import main
-from hydroelastic.scenes.output.outcome import Outcome
-from hydroelastic.scenes.output.sections import Section
 from hydroelastic.scenes.read import SHIPPED_FOLDER, read_scene, shipped_scenes
 from hydroelastic.scenes.report import content, write
 from hydroelastic.scenes.report.answer import answer
@@ -33,20 +35,27 @@ PARTS = ["Answer", "Results", "Beside estimates and closed forms", "What was mod
 ALONE = {"open": "There is no comparison with older theories", "string": "This is the closed form"}
 
 
+Reports = Callable[[str], tuple[Outcome, str]]
+
+
 @pytest.fixture(scope="module")
-def reports(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[Outcome, str]]:
-    """The outcome and the page of every kind of scene, without pictures."""
-    found = {}
-    for kind, (name, overrides) in SCENES.items():
+def reports(tmp_path_factory: pytest.TempPathFactory) -> Reports:
+    """Returns the outcome and the page of a kind of scene, without pictures, made when it is asked for first."""
+
+    @cache
+    def made(kind: str) -> tuple[Outcome, str]:
+        name, overrides = SCENES[kind]
         folder = tmp_path_factory.mktemp("reports") / kind
         outcome = run_scene(read_scene(name, overrides), out=folder, images=None, page=True)
-        found[kind] = outcome, (folder / "report.html").read_text(encoding="utf-8")
-    return found
+        return outcome, (folder / "report.html").read_text(encoding="utf-8")
+
+    return made
 
 
+@pytest.mark.slow_but("tank", "string", "roll")
 @pytest.mark.parametrize("kind", SCENES)
-def test_a_page_is_whole(reports: dict[str, tuple[Outcome, str]], kind: str) -> None:
-    outcome, html = reports[kind]
+def test_a_page_is_whole(reports: Reports, kind: str) -> None:
+    outcome, html = reports(kind)
     page = parsed(html)
     assert page.headings[0] == (1, outcome.summary["scene"]["title"])
     found = [title for level, title in page.headings if level == 2]
@@ -104,9 +113,10 @@ def test_the_first_picture_belongs_to_the_answer(tmp_path: Path) -> None:
     assert '<h2 id="pictures"' not in html
 
 
+@pytest.mark.slow_but("tank", "string", "roll")
 @pytest.mark.parametrize("kind", SCENES)
-def test_a_page_is_accessible_and_needs_nothing_else(reports: dict[str, tuple[Outcome, str]], kind: str) -> None:
-    page = parsed(reports[kind][1])
+def test_a_page_is_accessible_and_needs_nothing_else(reports: Reports, kind: str) -> None:
+    page = parsed(reports(kind)[1])
     assert_self_contained(page)
     assert dict(page.tags)["html"] == {"lang": "en-GB"}
     levels = [level for level, _ in page.headings]
@@ -139,15 +149,16 @@ KNOWN = {
 }
 
 
+@pytest.mark.slow_but("tank", "string", "roll")
 @pytest.mark.parametrize("kind", SCENES)
-def test_a_page_says_what_is_known_of_the_scene(reports: dict[str, tuple[Outcome, str]], kind: str) -> None:
-    text = parsed(reports[kind][1]).text
+def test_a_page_says_what_is_known_of_the_scene(reports: Reports, kind: str) -> None:
+    text = parsed(reports(kind)[1]).text
     for words in KNOWN[kind]:
         assert words in text
 
 
-def test_theories_stand_apart_from_results(reports: dict[str, tuple[Outcome, str]]) -> None:
-    outcome, html = reports["tank"]
+def test_theories_stand_apart_from_results(reports: Reports) -> None:
+    outcome, html = reports("tank")
     results, theories, model = (html.index(f'<h2 id="{part}"') for part in ("results", "comparison", "model"))
     assert [section.compares for section in outcome.sections] == [False, True]
     assert results < html.index(outcome.sections[0].rows[0][1], results) < theories
@@ -175,9 +186,9 @@ def test_what_the_paper_does_not_treat_is_said(tmp_path: Path, change: str, reas
     assert reason in parsed((tmp_path / "out/report.html").read_text(encoding="utf-8")).text
 
 
-def test_slips_of_the_paper_cost_what_the_errata_say(reports: dict[str, tuple[Outcome, str]]) -> None:
+def test_slips_of_the_paper_cost_what_the_errata_say(reports: Reports) -> None:
     # Errata 1, 2 and 4: 0.2616, 1.0185 and 1.8826 of a slope of 1 (test_modal_roll_paper.py); here it is 0.1.
-    rows = dict(re.findall(r'<th scope="row">(.*?)</th>\s*<td.*?>(.*?)</td>', reports["roll"][1]))
+    rows = dict(re.findall(r'<th scope="row">(.*?)</th>\s*<td.*?>(.*?)</td>', reports("roll")[1]))
     assert float(rows["all formulas as printed"]) == pytest.approx(0.18826, abs=5e-4)
     assert float(rows["(2nω/k)² in the amplitude"]) == pytest.approx(0.02616, abs=5e-5)
     assert rows["all of them corrected"] == "rounding"
@@ -272,6 +283,7 @@ def test_a_page_that_fails_leaves_no_folder(tmp_path: Path, monkeypatch: pytest.
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.only_on_ranks
 @pytest.mark.mpi
 @pytest.mark.parametrize("kind", ["tank", "thread"])
 def test_one_process_writes_the_page(tmp_path: Path, kind: str) -> None:

@@ -5,8 +5,9 @@ import json
 import os
 import re
 import shutil
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +19,7 @@ from selenium.webdriver.chrome.options import Options
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
 
-from hydroelastic.scenes.output.outcome import Outcome
+from hydroelastic.output.outcome import Outcome
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.report.captions import place_and_caption
 from hydroelastic.scenes.run import run_scene
@@ -97,21 +98,28 @@ def in_own_root() -> bool:
     return environment is not None and not Path(environment).name.startswith("python")
 
 
+Reports = Callable[[str], tuple[Outcome, Path]]
+
+
 @pytest.fixture(scope="module")
-def reports(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[Outcome, Path]]:
-    """The outcome and the page of every kind of scene."""
-    found = {}
-    for kind, (name, overrides) in SCENES.items():
+def reports(tmp_path_factory: pytest.TempPathFactory) -> Reports:
+    """Returns the outcome and the page of a kind of scene, made when it is asked for first."""
+
+    @cache
+    def made(kind: str) -> tuple[Outcome, Path]:
+        name, overrides = SCENES[kind]
         folder = tmp_path_factory.mktemp("reports") / kind
         outcome = run_scene(read_scene(name, overrides), out=folder, page=True)
         # Away from all other files, which it does not need.
-        found[kind] = outcome, shutil.move(folder / "report.html", tmp_path_factory.mktemp("page") / "report.html")
-    return found
+        return outcome, shutil.move(folder / "report.html", tmp_path_factory.mktemp("page") / "report.html")
+
+    return made
 
 
+@pytest.mark.slow_but("tank", "roll")
 @pytest.mark.parametrize("kind", SCENES)
-def test_a_page_is_shown(browser: Browser, reports: dict[str, tuple[Outcome, Path]], kind: str) -> None:
-    outcome, file = reports[kind]
+def test_a_page_is_shown(browser: Browser, reports: Reports, kind: str) -> None:
+    outcome, file = reports(kind)
     complaints, asked = browser.show(file)
     assert complaints == []
     assert asked == []
@@ -125,9 +133,10 @@ def test_a_page_is_shown(browser: Browser, reports: dict[str, tuple[Outcome, Pat
     assert file.stat().st_size < 5e6
 
 
+@pytest.mark.slow_but("tank", "roll")
 @pytest.mark.parametrize("kind", SCENES)
-def test_every_picture_has_a_caption_of_its_own(reports: dict[str, tuple[Outcome, Path]], kind: str) -> None:
-    outcome, _ = reports[kind]
+def test_every_picture_has_a_caption_of_its_own(reports: Reports, kind: str) -> None:
+    outcome, _ = reports(kind)
     assert outcome.folder is not None
     (place_of_unknown, *_), _ = place_and_caption("unknown", {})
     found = [place_and_caption(file.stem, outcome.summary) for file in (outcome.folder / "images").glob("*.*")]
@@ -136,9 +145,10 @@ def test_every_picture_has_a_caption_of_its_own(reports: dict[str, tuple[Outcome
     assert len({caption for _, caption in found}) == len(found)
 
 
+@pytest.mark.slow_but("tank", "roll")
 @pytest.mark.parametrize("kind", SCENES)
-def test_nothing_sticks_out(browser: Browser, reports: dict[str, tuple[Outcome, Path]], kind: str) -> None:
-    browser.show(reports[kind][1])
+def test_nothing_sticks_out(browser: Browser, reports: Reports, kind: str) -> None:
+    browser.show(reports(kind)[1])
     for width in (400, 1200):
         wanted, given = browser.widths(width)
         assert wanted <= given
@@ -165,9 +175,10 @@ NUMBERS = {
 }
 
 
+@pytest.mark.slow_but("tank", "roll")
 @pytest.mark.parametrize("kind", SCENES)
-def test_numbers_are_read(browser: Browser, reports: dict[str, tuple[Outcome, Path]], kind: str) -> None:
-    outcome, file = reports[kind]
+def test_numbers_are_read(browser: Browser, reports: Reports, kind: str) -> None:
+    outcome, file = reports(kind)
     browser.show(file)
     read = [float(text) for text in re.findall(r"\d+\.\d*(?:e[+-]\d+)?", browser.value("document.body.innerText"))]
     numbers = NUMBERS[kind](outcome.summary)
@@ -177,8 +188,8 @@ def test_numbers_are_read(browser: Browser, reports: dict[str, tuple[Outcome, Pa
         assert min(abs(number - abs(value)) for number in read) <= 5.0 * min(max(error, 1e-13), 1e-4) * abs(value)
 
 
-def test_colours_follow_the_reader(browser: Browser, reports: dict[str, tuple[Outcome, Path]]) -> None:
-    browser.show(reports["tank"][1])
+def test_colours_follow_the_reader(browser: Browser, reports: Reports) -> None:
+    browser.show(reports("tank")[1])
     colours = []
     for dark in (False, True):
         browser.widths(1200, dark=dark)
@@ -195,8 +206,8 @@ def _brightness(colour: str) -> float:
 
 
 @pytest.mark.parametrize("kind", ["tank", "roll"])
-def test_a_page_can_be_printed(browser: Browser, reports: dict[str, tuple[Outcome, Path]], kind: str) -> None:
-    browser.show(reports[kind][1])
+def test_a_page_can_be_printed(browser: Browser, reports: Reports, kind: str) -> None:
+    browser.show(reports(kind)[1])
     printed = base64.b64decode(browser.driver.execute_cdp_cmd("Page.printToPDF", {"preferCSSPageSize": True})["data"])
     assert printed.startswith(b"%PDF")
     assert printed.count(b"/Type /Page\n") + printed.count(b"/Type /Page ") > 1

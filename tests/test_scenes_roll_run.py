@@ -238,7 +238,7 @@ def test_a_section_in_open_water_rolls_as_its_resonance_says() -> None:
         [
             "body.1={kind='float', shape='rectangle', position=30.0, half_width=6.0, half_height=3.0, "
             "radius_of_gyration=4.0, centre_of_mass=0.5, motions=['roll']}",
-            "accuracy.tolerance=1e-4",
+            "accuracy.tolerance=1e-3",
         ],
     )
     assert isinstance(scene, TankScene)
@@ -251,8 +251,8 @@ def test_a_section_in_open_water_rolls_as_its_resonance_says() -> None:
     assert ratio > 1e-3
     # Z is real at k and zero at the complex frequency: both differ by the square of the damping ratio, times what
     # added mass changes over the width of the resonance.
-    assert omega.real == pytest.approx(found.natural_frequency, rel=10 * ratio**2 + 1e-4)
-    assert -omega.imag == pytest.approx(found.damping, rel=10 * ratio + 1e-3)
+    assert omega.real == pytest.approx(found.natural_frequency, rel=10 * ratio**2 + 1e-3)
+    assert -omega.imag == pytest.approx(found.damping, rel=10 * ratio + 1e-2)
 
 
 def test_a_section_that_nothing_restores_is_refused_before_anything_is_solved(tmp_path: Path) -> None:

@@ -13,8 +13,8 @@ import pytest
 from click.testing import CliRunner, Result
 
 from hydroelastic.fem.tank.mode_shapes import ModeShapes, sample_shapes
+from hydroelastic.output.outcome import Outcome
 from hydroelastic.scenes.command_line import main
-from hydroelastic.scenes.output.outcome import Outcome
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.run import run_scene
 from hydroelastic.scenes.tank import shapes as shapes_module

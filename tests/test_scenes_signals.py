@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from hydroelastic.scenes.output.manifest import read_manifest
+from hydroelastic.output.manifest import read_manifest
 
 # Of a string: all that a run does, and little of it.
 RUN = ["run", "string_ramp", "--no-images", "--out", "result"]

@@ -145,6 +145,7 @@ def test_nothing_moves_before_the_front_in_a_field_either() -> None:
     assert np.all(solution.displacement[solution.positions < 0.6, 1] == 0.0)
 
 
+@pytest.mark.slow
 def test_values_beside_fronts_alone_are_judged() -> None:
     scene = scene_of(
         "string_step", "string.tip_mass=1.0", "output.positions=[1e-9]", "output.times=[2.0]", "accuracy.tolerance=1e-3"

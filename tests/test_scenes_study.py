@@ -31,7 +31,7 @@ BEAM = WATER.model_copy(
     update={"body": (Beam(start=0.7, length=0.6, flexural_rigidity=2.5, mass_per_length=7.5, hydrostatic=False),)}
 )
 RELEASED = BEAM.model_copy(update={"tank": Tank(length=2.0, top="pressure_release")})
-PLAN = StudyPlan(degrees=(1, 2, 3), geometric_degrees=(5, 6, 7, 8), tolerances=(1e-3, 1e-6, 1e-9), most_unknowns=16_000)
+PLAN = StudyPlan(degrees=(1, 2), geometric_degrees=(5, 6, 7), tolerances=(1e-3, 1e-6), most_unknowns=6000)
 MESHES: tuple[Family, ...] = ("uniform", "algebraic", "geometric")
 
 
@@ -47,7 +47,7 @@ def beam() -> Study:
 
 @pytest.fixture(scope="module")
 def graded() -> Study:
-    return study_scene(BEAM, StudyPlan(families=("algebraic",), degrees=(2, 3), most_unknowns=60_000))
+    return study_scene(BEAM, StudyPlan(families=("uniform", "algebraic"), degrees=(2, 3), most_unknowns=60_000))
 
 
 @pytest.fixture(scope="module")
@@ -62,9 +62,9 @@ def rates(study: Study, family: Family) -> dict[int, Rate]:
 def test_water_alone_converges_with_twice_the_degree(water: Study) -> None:
     assert water.reference.name.startswith("ω²")
     found = rates(water, "uniform")
-    assert {degree: rate.expected for degree, rate in found.items()} == {1: 2.0, 2: 4.0, 3: 6.0}
+    assert {degree: rate.expected for degree, rate in found.items()} == {1: 2.0, 2: 4.0}
     for rate in found.values():
-        # Exactly halved elements: measured 1.999, 3.98 and 5.92.
+        # Exactly halved elements: measured 1.997 and 3.98.
         assert rate.observed == pytest.approx(rate.expected, abs=0.1)
         assert len(rate.sizes) == 3
         assert rate.agrees
@@ -75,35 +75,41 @@ def test_water_alone_converges_with_twice_the_degree(water: Study) -> None:
 
 def test_a_beam_limits_uniform_meshes_to_order_two(beam: Study) -> None:
     found = rates(beam, "uniform")
-    assert {degree: rate.expected for degree, rate in found.items()} == {1: 2.0, 2: 2.0, 3: 2.0}
-    # r ln r at the tips. The logarithm bends the slope of degree 1: measured 1.87; the others 2.01 and 2.00.
+    assert {degree: rate.expected for degree, rate in found.items()} == {1: 2.0, 2: 2.0}
+    # r ln r at the tips. The logarithm bends the slope of degree 1: measured 1.88; of degree 2 2.09.
     assert found[1].observed == pytest.approx(2.0, abs=0.15)
-    assert found[2].observed == pytest.approx(2.0, abs=0.05)
-    assert found[3].observed == pytest.approx(2.0, abs=0.05)
+    assert found[2].observed == pytest.approx(2.0, abs=0.15)
 
 
-def test_algebraic_meshes_have_the_full_order(beam: Study, graded: Study) -> None:
-    found = {1: rates(beam, "algebraic")[1]} | rates(graded, "algebraic")
-    assert {degree: (rate.grading, rate.expected) for degree, rate in found.items()} == {
-        1: (2.0, 2.0),
-        2: (3.0, 4.0),
-        3: (4.0, 6.0),
-    }
-    # The first rings count less and less: measured 1.98 and 3.88 on elements of L/32 to L/128.
-    assert found[1].observed == pytest.approx(2.0, abs=0.1)
+def test_graded_meshes_of_degree_one_have_the_full_order(beam: Study) -> None:
+    rate = rates(beam, "algebraic")[1]
+    assert (rate.grading, rate.expected) == (2.0, 2.0)
+    # The first rings count less and less: measured 1.96 on elements of L/16 to L/64.
+    assert rate.observed == pytest.approx(2.0, abs=0.1)
+    assert rate.agrees
+
+
+@pytest.mark.slow
+def test_algebraic_meshes_have_the_full_order(graded: Study) -> None:
+    uniform, found = rates(graded, "uniform"), rates(graded, "algebraic")
+    assert {degree: rate.expected for degree, rate in uniform.items()} == {2: 2.0, 3: 2.0}
+    for rate in uniform.values():
+        assert rate.observed == pytest.approx(2.0, abs=0.05)
+    assert {degree: (rate.grading, rate.expected) for degree, rate in found.items()} == {2: (3.0, 4.0), 3: (4.0, 6.0)}
+    # Measured 3.88 on elements of L/32 to L/128.
     assert found[2].observed == pytest.approx(4.0, abs=0.2)
-    assert found[1].agrees
     assert found[2].agrees
     # Measured on L/16 to L/64, where the local order still rises: 4.9, 5.6, and 5.9 on the next mesh.
     assert found[3].observed == pytest.approx(5.3, abs=0.15)
     assert not found[3].agrees
     # On the same triangles of degree 3, elements of L/32: measured 11 times better than the uniform mesh.
-    one, other = (row for row in beam.rows if (row.degree, row.element_size, row.tolerance) == (3, 1 / 32, None))
+    one, other = (row for row in graded.rows if (row.degree, row.element_size) == (3, 1 / 32))
     assert (one.family, other.family) == ("uniform", "algebraic")
     assert one.unknowns == other.unknowns
     assert other.lowest_error < 0.2 * one.lowest_error
 
 
+@pytest.mark.slow
 def test_pressure_release_halves_the_exponent(released: Study) -> None:
     # r^{1/2}: order 1 on uniform meshes, and 2p = 4 with β = 2p + 1.
     uniform, algebraic = rates(released, "uniform")[2], rates(released, "algebraic")[2]
@@ -111,23 +117,24 @@ def test_pressure_release_halves_the_exponent(released: Study) -> None:
     # Measured 1.03 and 3.63; the last two meshes alone give 3.75.
     assert uniform.observed == pytest.approx(1.0, abs=0.1)
     assert algebraic.observed == pytest.approx(4.0, abs=0.4)
-
-
-def test_each_degree_gains_on_geometric_rings_what_their_triangles_allow(beam: Study, released: Study) -> None:
-    for study, expected in ((beam, 9.4), (released, 7.7)):
-        assert study.gain is not None
-        assert study.gain.along_a_ray == pytest.approx(11.71, abs=0.01)
-        # Computed for the degrees of the fit, which gmsh of another version may shift by one.
-        assert study.gain.expected == pytest.approx(expected, abs=0.6)
-        assert study.gain.agrees
     # Where the tips alone count the gain is theirs; measured 8.0 for 7.5 to 7.7.
     assert released.gain is not None
-    assert released.gain.expected is not None
+    assert released.gain.expected == pytest.approx(7.7, abs=0.6)
     assert released.gain.observed == pytest.approx(released.gain.expected, rel=0.15)
+    assert released.gain.agrees
+    assert all(min(row.errors) > -row.floor for row in released.rows)
 
 
-def test_errors_are_positive_until_they_are_rounding(water: Study, beam: Study, released: Study) -> None:
-    for study in (water, beam, released):
+def test_each_degree_gains_on_geometric_rings_what_their_triangles_allow(beam: Study) -> None:
+    assert beam.gain is not None
+    assert beam.gain.along_a_ray == pytest.approx(11.71, abs=0.01)
+    # Computed for the degrees of the fit, which gmsh of another version may shift by one.
+    assert beam.gain.expected == pytest.approx(9.7, abs=0.6)
+    assert beam.gain.agrees
+
+
+def test_errors_are_positive_until_they_are_rounding(water: Study, beam: Study) -> None:
+    for study in (water, beam):
         for row in study.rows:
             if row.family != "tolerance":
                 assert min(row.errors) > -row.floor
@@ -136,7 +143,7 @@ def test_errors_are_positive_until_they_are_rounding(water: Study, beam: Study, 
 def test_tolerances_are_kept_and_estimates_are_honest(water: Study, beam: Study) -> None:
     for study in (water, beam):
         rows = [row for row in study.rows if row.family == "tolerance"]
-        assert [row.tolerance for row in rows] == [1e-3, 1e-6, 1e-9]
+        assert [row.tolerance for row in rows] == [1e-3, 1e-6]
         for row in rows:
             assert row.estimate is not None
             assert row.tolerance is not None
@@ -162,7 +169,7 @@ def test_meshes_stay_within_the_unknowns_of_the_plan(beam: Study) -> None:
     nested = [row for row in beam.rows if row.family in ("uniform", "algebraic")]
     # The plan counts those of ψ in both halves; a row those of the surfaces and the beam's shapes besides.
     assert 0.5 * PLAN.most_unknowns < max(row.unknowns for row in nested) < 1.05 * PLAN.most_unknowns
-    assert [row.element_size for row in nested[:5]] == [0.125 / 2**k for k in range(5)]
+    assert [row.element_size for row in nested[:4]] == [0.125 / 2**k for k in range(4)]
 
 
 def test_a_tank_is_solved_as_halves_in_every_family_or_in_none(beam: Study) -> None:
@@ -216,8 +223,9 @@ def test_the_csv_holds_every_row_at_full_precision(beam: Study) -> None:
     assert {"mesh_seconds", "assemble_seconds", "solve_seconds", "errors_seconds"} <= set(rows[0])
 
 
-def test_larger_models_take_more_memory(beam: Study) -> None:
-    series = [row.memory for row in beam.rows if row.family == "uniform" and row.degree == 3]
+@pytest.mark.slow
+def test_larger_models_take_more_memory(graded: Study) -> None:
+    series = [row.memory for row in graded.rows if row.family == "uniform" and row.degree == 3]
     if None in series:
         pytest.skip("this system does not tell")
     memory = np.array(series, dtype=float)
@@ -236,13 +244,10 @@ def test_the_table_sets_observed_rates_beside_those_of_theory(beam: Study) -> No
     assert "Tolerances: all kept" in text
 
 
-def test_a_rate_that_differs_is_flagged() -> None:
-    # Degree 4 with n = 1, 2, 4: far from its order of 8.
-    plan = StudyPlan(families=("algebraic",), degrees=(4,), halvings=2)
-    study = study_scene(BEAM, plan)
-    (rate,) = study.rates
-    assert not rate.agrees
-    assert "not yet asymptotic" in study_table(study)
+def test_a_rate_that_differs_is_flagged(beam: Study) -> None:
+    # Degree 2 on coarse meshes: 3.0, far from its order of 4.
+    assert not rates(beam, "algebraic")[2].agrees
+    assert "not yet asymptotic" in study_table(beam)
 
 
 def test_write_study_leaves_a_result_folder(beam: Study, tmp_path: Path) -> None:

@@ -38,6 +38,7 @@ BOX = {
 }
 ELLIPSE = {"kind": "float", "shape": "ellipse", "position": 0.8, "half_width": 0.3, "half_height": 0.2}
 PLAN = StudyPlan(families=("uniform", "algebraic"), degrees=(1, 3), most_unknowns=40_000)
+COARSE = StudyPlan(families=("uniform",), degrees=(1,), most_unknowns=8000)
 
 
 def scene(
@@ -130,6 +131,7 @@ def test_orders_are_those_of_each_symmetry() -> None:
     assert expected_order(tank, 3, 7.0, "symmetric") == 6.0
 
 
+@pytest.mark.slow
 def test_a_beam_at_an_interface_limits_uniform_meshes_to_order_two(beam: Study) -> None:
     found = rates(beam, "uniform")
     assert {degree: rate.expected for degree, rate in found.items()} == {1: 2.0, 3: 2.0}
@@ -141,7 +143,19 @@ def test_a_beam_at_an_interface_limits_uniform_meshes_to_order_two(beam: Study) 
     assert graded[3].observed == pytest.approx(5.6, abs=0.5)
 
 
-def test_a_thin_float_in_the_middle_has_two_orders(thin: Study, graded: Study) -> None:
+def test_a_thin_float_in_the_middle_has_two_orders() -> None:
+    study = study_scene(scene(THIN), COARSE)
+    # Measured 1.99 and 1.04.
+    assert rates(study, "uniform", "symmetric")[1].observed == pytest.approx(2.0, abs=0.1)
+    assert rates(study, "uniform", "antisymmetric")[1].observed == pytest.approx(1.0, abs=0.1)
+    text = study_table(study)
+    assert "α = 1 (symmetric modes) or 0.5 (antisymmetric modes): the error of all follows the smaller." in text
+    assert max(map(len, text.splitlines())) <= 120
+    assert "antisym." in text
+
+
+@pytest.mark.slow
+def test_finer_meshes_of_a_thin_float_have_the_same_orders(thin: Study, graded: Study) -> None:
     symmetric, antisymmetric = (rates(thin, "uniform", parity) for parity in ("symmetric", "antisymmetric"))
     assert symmetric[3].expected == 2.0
     assert antisymmetric[3].expected == 1.0
@@ -153,12 +167,9 @@ def test_a_thin_float_in_the_middle_has_two_orders(thin: Study, graded: Study) -
         # On the way to 4: measured 3.9 and 3.6 on elements of L/32 to L/128.
         assert rates(graded, "algebraic", parity)[2].expected == 4.0
         assert rates(graded, "algebraic", parity)[2].observed == pytest.approx(3.8, abs=0.4)
-    text = study_table(thin)
-    assert "α = 1 (symmetric modes) or 0.5 (antisymmetric modes): the error of all follows the smaller." in text
-    assert max(map(len, text.splitlines())) <= 120
-    assert "antisym." in text
 
 
+@pytest.mark.slow
 def test_right_angles_of_a_float_limit_uniform_meshes_to_order_four_thirds(box: Study) -> None:
     assert "α =" not in study_table(box)
     found = rates(box, "uniform")[3]
@@ -170,6 +181,7 @@ def test_right_angles_of_a_float_limit_uniform_meshes_to_order_four_thirds(box: 
     assert graded[3].observed == pytest.approx(5.2, abs=0.8)
 
 
+@pytest.mark.slow
 def test_curved_contours_have_no_uniform_meshes_but_all_else() -> None:
     plan = StudyPlan(geometric_degrees=(4, 5, 6), degrees=(2,), tolerances=(1e-4,))
     study = study_scene(scene(ELLIPSE), plan)

@@ -11,14 +11,14 @@ from mpi4py import MPI
 from open_tables import CIRCLE, arbitrary_solution, open_scene
 
 from hydroelastic.fem.open_water.results import DecayTable
+from hydroelastic.output.digits import beyond_error
+from hydroelastic.output.sections import Section
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.scenes.models.roll import RollScene
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.open_water.results import OpenSolution
 from hydroelastic.scenes.open_water.summary import summarize_open
 from hydroelastic.scenes.open_water.tables import MOST_ROWS, open_sections
-from hydroelastic.scenes.output.digits import beyond_error
-from hydroelastic.scenes.output.sections import Section
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.roll.run import run_roll
 from hydroelastic.scenes.thread.run import run_thread

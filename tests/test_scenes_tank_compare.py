@@ -11,8 +11,8 @@ from mpi4py import MPI
 from scene_files import BEAM_IN_TANK
 
 from hydroelastic.modal.estimate import Estimate
+from hydroelastic.output.sections import markdown_sections
 from hydroelastic.scenes.command_line import main
-from hydroelastic.scenes.output.sections import markdown_sections
 from hydroelastic.scenes.tank.run import compare_tank
 from hydroelastic.scenes.tank.solve import EstimatedTank
 from hydroelastic.scenes.tank.summary import summarize

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from mpi4py import MPI
 
+from hydroelastic.output.provenance import complete_summary
 from hydroelastic.scenes.models.thread import ThreadScene
-from hydroelastic.scenes.output.provenance import complete_summary
 from hydroelastic.scenes.thread.results import ThreadSolutionOfScene
 from hydroelastic.scenes.thread.solve import solve_thread_scene
 

@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Sequence
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -10,10 +11,10 @@ from click.testing import CliRunner
 from mpi4py import MPI
 
 from hydroelastic.modal.thread.estimate import Inapplicable
+from hydroelastic.output.thread.comparison_tables import comparison_sections
 from hydroelastic.scenes.command_line import main
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.read import read_scene
-from hydroelastic.scenes.thread.comparison_tables import comparison_sections
 from hydroelastic.scenes.thread.differences import thread_differences
 from hydroelastic.scenes.thread.estimates import thread_estimates
 from hydroelastic.scenes.thread.solve import solve_thread_scene
@@ -74,9 +75,9 @@ def slope(found: Sequence[dict[str, Any]], name: str, quantity: str) -> float:
 SHEARED = {**STREAM, "velocity": [0.5, 0.0], "shear": [0.1, 0.0]}
 
 
-@pytest.fixture(scope="module")
-def families() -> dict[str, list[dict[str, Any]]]:
-    """Threads in each regime, three of each, what must be small growing twice by a factor 1.4 to 2."""
+@cache
+def family_of(name: str) -> list[dict[str, Any]]:
+    """Three threads in a regime, compared; what must be small grows twice by a factor 1.4 to 2."""
     slantwise = np.array([0.5, 0.0, 1.0])
     tight = (640.0, 1280.0, 2560.0)
     clamp = {"kind": "fixed", "clamp": [0.0, 0.0, 1.0]}
@@ -134,7 +135,7 @@ def families() -> dict[str, list[dict[str, Any]]]:
             for weight in (2.0, 4.0, 8.0)
         ],
     }
-    return {name: [compared(made(**scene)) for scene in scenes] for name, scenes in given.items()}
+    return [compared(made(**scene)) for scene in given[name]]
 
 
 IN_PLANE, OUT_OF_PLANE = (f"Irvine and Caughey's cable, {where} its plane" for where in ("in", "out of"))
@@ -168,9 +169,9 @@ OWN_DEPTH = "tension-dominated at the end's own depth, order 1"
     ],
 )
 def test_differences_fall_with_the_order_of_the_theory(
-    families: Any, family: str, name: str, quantity: str, expected: float, within: float
+    family: str, name: str, quantity: str, expected: float, within: float
 ) -> None:
-    assert slope(families[family], name, quantity) == pytest.approx(expected, abs=within)
+    assert slope(family_of(family), name, quantity) == pytest.approx(expected, abs=within)
 
 
 def test_a_thread_held_at_its_other_end_is_estimated_the_same() -> None:
@@ -319,6 +320,7 @@ def test_a_difference_that_no_error_explains_is_told() -> None:
     assert any(line.startswith("NO: larger than") for line in lines)
 
 
+@pytest.mark.slow
 def test_a_hose_flutters_at_the_speed_of_a_pipe() -> None:
     found = compared(
         scene_of("fluttering_hose", "analysis=[{kind='stability', factors=[9.0, 9.6]}, {kind='modes', count=3}]")

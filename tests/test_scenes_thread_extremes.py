@@ -5,13 +5,14 @@ import pytest
 from mpi4py import MPI
 
 from hydroelastic.fem.thread.motion_errors import MotionDifference, MotionWithErrors
+from hydroelastic.output.provenance import summarize
+from hydroelastic.output.thread.quantities import THREAD
+from hydroelastic.output.thread.tables import thread_sections
+from hydroelastic.output.variables import array_variables
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.read import read_scene
-from hydroelastic.scenes.thread.dataset import thread_dataset
 from hydroelastic.scenes.thread.results import ThreadSolutionOfScene
 from hydroelastic.scenes.thread.solve import solve_thread_scene
-from hydroelastic.scenes.thread.summary import summarize_thread
-from hydroelastic.scenes.thread.tables import thread_sections
 
 HEAVED = (
     'analysis=[{{kind = "motion", times = {times}, tolerance = 1e-3, '
@@ -46,17 +47,18 @@ def test_extremes_do_not_depend_on_the_output_times(sparse: ThreadSolutionOfScen
 
 def test_all_that_is_told_is_of_all_steps(sparse: ThreadSolutionOfScene) -> None:
     (motion,) = sparse.motions
-    summary = summarize_thread(sparse, MPI.COMM_WORLD, import_seconds=0.0)
+    summary = summarize(THREAD, sparse, MPI.COMM_WORLD, import_seconds=0.0)
     (told,) = summary["motion"]
     assert told["largest_tension"] == motion.extremes.highest.max()
     assert told["extreme_tension_error"] == motion.extremes.error
     time, place = told["largest_tension_at"]
     assert time in motion.step_ends
     assert place in motion.nodes
-    dataset = thread_dataset(sparse)
-    assert float(dataset["tension_range"].sel(extreme="highest").max()) == told["largest_tension"]
-    ranges = np.column_stack([dataset["end_tension"].min("step_end"), dataset["end_tension"].max("step_end")])
-    assert ranges.tolist() == told["end_tensions_range"]
+    arrays = {array.name: array.values for array in array_variables(THREAD, sparse)}
+    highest = arrays["extreme"].tolist().index("highest")
+    assert arrays["tension_range"][:, highest].max() == told["largest_tension"]
+    ends = arrays["end_tension"]
+    assert np.column_stack([ends.min(axis=0), ends.max(axis=0)]).tolist() == told["end_tensions_range"]
     rows = {row[0] for section in thread_sections(summary) for row in section.rows}
     assert {"largest tension over all steps, N", "estimated error of these tensions, N"} <= rows
 

@@ -59,7 +59,7 @@ def assert_sound(kind: str, number: int, *, truth: bool) -> None:
         assert true_error(ThreadScene.model_validate(data), solution) <= solution.errors.relative + INTEGRATION
 
 
-@pytest.mark.slow_but("free-[02]", "slack-[01]", "taut-0", "tail-1", "bodies-0", "bending-3")
+@pytest.mark.slow_but("free-0", "slack-1", "taut-0", "tail-1", "bending-3")
 @pytest.mark.parametrize(("kind", "number"), QUICK)
 def test_random_threads(kind: str, number: int) -> None:
     assert_sound(kind, number, truth=number == 0)
@@ -71,6 +71,7 @@ def test_all_random_threads() -> None:
         assert_sound(kind, number, truth=number % 8 == 0)
 
 
+@pytest.mark.slow_but("3.0")
 @pytest.mark.parametrize("length", [3.0, 30.0])
 def test_deep_sag(length: float) -> None:
     """A hanging thread of three and of thirty times the distance of its ends: T = H cosh, H from the length."""
@@ -225,6 +226,7 @@ def test_moving_load_beyond_the_tension() -> None:
         solved(data)
 
 
+@pytest.mark.only_on_ranks
 @pytest.mark.mpi
 def test_on_all_processes() -> None:
     found = solved(random_thread("slack", 2))

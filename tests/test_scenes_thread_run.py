@@ -216,6 +216,7 @@ def test_a_motion_of_unknown_tensions_is_said_to_be_so() -> None:
     assert "estimated error of tensions" in reason
 
 
+@pytest.mark.slow
 def test_stream_that_starts_ends_in_the_equilibrium() -> None:
     overrides = (
         'analysis=[{kind = "motion", start = "still_liquid", times = [0.0, 400.0], tolerance = 1e-2, step = 2.0}]',
@@ -305,6 +306,7 @@ def test_command_prints_the_table(tmp_path: Path) -> None:
     assert "258.611" in found.output
 
 
+@pytest.mark.only_on_ranks
 @pytest.mark.mpi
 def test_processes_agree() -> None:
     one = solve_thread_scene(scene_of("S14"), MPI.COMM_SELF, lambda _message: None).rest

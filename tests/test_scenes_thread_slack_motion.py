@@ -85,6 +85,7 @@ def test_a_motion_that_refinement_makes_worse_is_given_at_its_best(monkeypatch: 
     assert any("of positions" in reason for reason in solution.reasons)
 
 
+@pytest.mark.slow_but("0.1")
 @pytest.mark.parametrize("tolerance", [1e-1, 1e-4])
 def test_a_free_fall_is_converged(tolerance: float) -> None:
     solution = solve(falling(times=[0.0, 0.2], tolerance=tolerance))

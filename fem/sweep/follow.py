@@ -3,8 +3,8 @@
 Modes of one symmetry do not cross, but for those without any coupling: their frequencies approach each other, and the
 modes exchange their shapes. So the n-th mode of a symmetry continues the n-th one of the next point, and the K-inner
 products of their shapes must say so too, in the optimal assignment of one to the other. Where they do not, the step is
-too long, and points between are solved: where the two frequencies come closest, which `two_levels` foresees, else in the
-middle. If the frequencies of two modes are then equal within their errors, the modes cross.
+too long, and points between are solved: where the two frequencies come closest, which `two_levels` foresees, else in
+the middle. If the frequencies of two modes are then equal within their errors, the modes cross.
 """
 
 from __future__ import annotations

@@ -40,15 +40,15 @@ class ModeVectors:
     def as_texts(self) -> dict[str, Any]:
         """Return the arrays as texts of JSON, without loss."""
         arrays = {name: value for name, value in vars(self).items() if name != "blocks"}
-        return {name: _text(value) for name, value in arrays.items()} | {
-            "blocks": {name: _text(value) for name, value in self.blocks.items()}
+        return {name: array_text(value) for name, value in arrays.items()} | {
+            "blocks": {name: array_text(value) for name, value in self.blocks.items()}
         }
 
     @classmethod
     def of_texts(cls, content: Mapping[str, Any]) -> Self:
         """Return the vectors of `as_texts`."""
-        arrays = {name: _array(value) for name, value in content.items() if name != "blocks"}
-        return cls(**arrays, blocks={name: _array(value) for name, value in content["blocks"].items()})
+        arrays = {name: array_of_text(value) for name, value in content.items() if name != "blocks"}
+        return cls(**arrays, blocks={name: array_of_text(value) for name, value in content["blocks"].items()})
 
     def overlaps(self, other: ModeVectors) -> Array:
         """Return the K-inner product of each mode with each of another solution, shape (modes, other modes).
@@ -64,10 +64,14 @@ class ModeVectors:
         return np.where(opposite, 0.0, products)
 
 
-def _text(array: Array) -> list[Any]:
-    """Shape and bytes of an array."""
-    return [list(array.shape), b64encode(array.astype("<f8").tobytes()).decode()]
+def array_text(array: Array) -> list[Any]:
+    """Return type, shape and bytes of an array in types of JSON; texts as they are."""
+    if array.dtype.kind in "UO":
+        return ["", list(array.shape), array.ravel().tolist()]
+    return [array.dtype.str, list(array.shape), b64encode(array.tobytes()).decode()]
 
 
-def _array(text: Sequence[Any]) -> Array:
-    return np.frombuffer(b64decode(text[1]), dtype="<f8").reshape(text[0])
+def array_of_text(text: Sequence[Any]) -> Array:
+    """Return the array of `array_text`."""
+    kind, shape, content = text
+    return np.frombuffer(b64decode(content), dtype=kind).reshape(shape) if kind else np.array(content).reshape(shape)

@@ -5,8 +5,8 @@ Near an approach two modes exchange their shapes, and all others stay apart. Wit
     λ₂ − λ₁ = √(g² + s²(p − p₀)²),    tan 2φ = s (p − p₀)/g
 
 φ is the angle by which the two shapes are turned into each other. So (s(p − p₀), g) is a vector of length λ₂ − λ₁ that
-turns by 2φ, and its end runs along a straight line at the distance g from the origin. Two points of that line, which two
-solutions give, determine all of it. g = 0 is a crossing.
+turns by 2φ, and its end runs along a straight line at the distance g from the origin. Two points of that line, which
+two solutions give, determine all of it. g = 0 is a crossing.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """Meshes and liquids of tanks, made anew for each, or shared by tanks that differ in what does not touch the liquid.
 
 Stiffness, mass and hydrostatic restoring of beams, and gravity, which is a unit, enter K and M only. The loads C on the
-liquid, its operator A and the answer A⁺C stay the same as long as the shapes of the bodies do: those of a beam depend on
-the ratios of its flexural rigidities alone.
+liquid, its operator A and the answer A⁺C stay the same as long as the shapes of the bodies do: those of a beam depend
+on the ratios of its flexural rigidities alone.
 """
 
 from __future__ import annotations
@@ -108,11 +108,8 @@ class SharedLiquids(Liquids):
 
 
 def _bodies(tank: Tank, shapes: tuple[int, ...], parity: Parity | None) -> tuple[Body, ...]:
-    if parity is None:
-        bodies = whole_bodies(tank, shapes)
-    else:
-        bodies = half_bodies(tank, shapes_of_twins(tank, shapes), parity)
-    return tuple(body for body in bodies if body.size)
+    half = None if parity is None else half_bodies(tank, shapes_of_twins(tank, shapes), parity)
+    return tuple(body for body in (whole_bodies(tank, shapes) if half is None else half) if body.size)
 
 
 def liquid_key(tank: Tank) -> object:

@@ -87,7 +87,8 @@ def _elevations(solution: TankSolution, level: StillLevel, shapes: list[np.ndarr
     """Abscissae of the unknowns of η on a level, ascending, and η there in all modes, at unit generalized mass of the
     whole tank."""
     field = solution.field
-    rows, places = [], np.empty(0)
+    rows: list[np.ndarray] = []
+    places: np.ndarray = np.empty(0)
     for shape, (part, _) in zip(shapes, field.origins, strict=True):
         pencil = field.parts[part].pencil
         number = next(n for n, one in enumerate(pencil.surfaces) if _is_on(one, level))

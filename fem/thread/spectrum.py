@@ -23,6 +23,8 @@ EquilibriumAt = Callable[[float], Equilibrium]
 _GROWTH = 1e-6
 # Of the magnitude: roots that are closer are one, of both directions across a straight thread.
 _SAME = 1e-5
+# Of the distances between expected and found roots: a preference that decides between equal ones.
+_PREFERENCE = 1e-6
 
 
 class Spectrum:
@@ -115,8 +117,9 @@ def spectrum_at(equilibrium_at: EquilibriumAt, value: float, count: int) -> Spec
 def branches(spectra: list[Spectrum]) -> NDArray[np.complex128]:
     """Follow the roots of the first spectrum through all others.
 
-    Each spectrum is matched with the extrapolation of the last two by the least sum of distances; a pair that meets the
-    real axis continues as two real roots.
+    Each spectrum is matched with the extrapolation of the last two by the least sum of distances. A pair that meets the
+    real axis continues as two real roots, which are equally far from both: that of positive imaginary part continues as
+    the larger one, and the larger one as that of positive imaginary part.
 
     Args:
         spectra: by ascending values.
@@ -135,7 +138,8 @@ def branches(spectra: list[Spectrum]) -> NDArray[np.complex128]:
             expected = expected + slope * (here - last)
         alive = np.flatnonzero(~np.isnan(expected))
         roots = spectra[row].with_conjugates
-        distances = np.abs(expected[alive][:, None] - roots)
+        pairs = expected[alive][:, None] * roots
+        distances = np.abs(expected[alive][:, None] - roots) - _PREFERENCE * pairs.imag / np.abs(roots).max()
         rows, columns = linear_sum_assignment(distances)
         followed[row, alive[rows]] = roots[columns]
     return followed

@@ -14,11 +14,11 @@ import numpy as np
 import numpy.typing as npt
 
 from hydroelastic.fem.open_water.results import DIRECTIONS, DecayTable, RadiationTable, ResonanceTable, ResponseTable
+from hydroelastic.output.dof_units import INERTIA_UNITS, MOTION_UNITS, STIFFNESS_UNITS
+from hydroelastic.output.summary_names import SummaryNames
 from hydroelastic.physics.dofs import Dof, body_name
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.results import OpenSolution
-from hydroelastic.scenes.output.dof_units import INERTIA_UNITS, MOTION_UNITS, STIFFNESS_UNITS
-from hydroelastic.scenes.output.summary_variables import SummaryNames
 
 if TYPE_CHECKING:
     import xarray
@@ -81,9 +81,11 @@ _PHASED = (
     "shape_amplitude",
 )
 _PHASE = "beside an incident wave whose crest is at x = 0 of the scene at t = 0"
+COMMENT = "exp(-i omega t); per metre of width; x along the waves, heave upwards, roll anticlockwise"
+"""Signs and units of all arrays."""
 # Analyses are labelled arrays; only counts are taken from the summary.
 OPEN_NAMES = SummaryNames(
-    dimensions={
+    by_place={
         "radiation": ("radiation_analysis",),
         "response": ("response_analysis",),
         "response.missed_peaks": ("missed_peak",),
@@ -136,9 +138,7 @@ def open_dataset(solution: OpenSolution) -> xarray.Dataset:
         found[name].attrs |= _attributes(str(name), turning=turning)
         if name in _PHASED or str(name).startswith("deflection_of_body"):
             found[name].attrs["phase"] = _PHASE
-    return found.assign_attrs(
-        comment="exp(-i omega t); per metre of width; x along the waves, heave upwards, roll anticlockwise"
-    )
+    return found
 
 
 def _attributes(name: str, *, turning: bool) -> dict[str, str]:

@@ -12,9 +12,12 @@ from hydroelastic.fem.open_water.field_samples import SampledField, sample_field
 from hydroelastic.fem.open_water.fields import open_fields
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.meshes.tagged_mesh import MeshError
+from hydroelastic.output.dataset import LabelledResults
+from hydroelastic.output.labelled import variables_of
 from hydroelastic.output.pictures.options import OF_CURVES, OF_FIELDS, OF_MOTIONS, PictureOptions
+from hydroelastic.output.provenance import Summary
 from hydroelastic.scenes.open_water.csv import write_csv
-from hydroelastic.scenes.open_water.dataset import OPEN_NAMES, open_dataset
+from hydroelastic.scenes.open_water.dataset import COMMENT, OPEN_NAMES, open_dataset
 from hydroelastic.scenes.open_water.field_files import write_fields
 from hydroelastic.scenes.open_water.figures import draw_open
 from hydroelastic.scenes.open_water.physics import open_water_problem
@@ -22,9 +25,7 @@ from hydroelastic.scenes.open_water.results import OpenSolution
 from hydroelastic.scenes.open_water.solve import solve_open
 from hydroelastic.scenes.open_water.summary import summarize_open
 from hydroelastic.scenes.open_water.tables import open_cost, open_sections
-from hydroelastic.scenes.output.dataset import LabelledResults
-from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.output.staged_run import StagedRun
+from hydroelastic.scenes.staged_run import StagedRun
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,8 +64,6 @@ def _write(water: SampledWater, folder: Path) -> None:
 
 def _draw(water: SampledWater, folder: Path, options: PictureOptions, report: Report) -> None:
     # Who only wants the numbers does without what draws.
-
-    # Who only wants the numbers does without what draws.
     from hydroelastic.scenes.open_water.field_pictures import draw_fields
 
     report("pictures of curves")
@@ -81,7 +80,12 @@ run_open = StagedRun(
     sample=_sample,
     sampling_warnings=lambda water: water.missing,
     write=_write,
-    dataset=LabelledResults(arrays=lambda water: open_dataset(water.solution), names=OPEN_NAMES),
+    dataset=LabelledResults(
+        arrays=lambda water: variables_of(open_dataset(water.solution)),
+        names=OPEN_NAMES,
+        attributes={"comment": COMMENT},
+    ),
+    swept=lambda solution: variables_of(open_dataset(solution)),
     draw=_draw,
     used_options=OF_CURVES | OF_FIELDS | OF_MOTIONS,
 )

@@ -9,11 +9,11 @@ from mpi4py import MPI
 
 from hydroelastic.fem.open_water.results import DIRECTIONS, DecayTable, RadiationTable, ResonanceTable, ResponseTable
 from hydroelastic.fem.open_water.thin_float_theory import thin_float_comparisons
+from hydroelastic.output.json_values import json_ready
+from hydroelastic.output.provenance import Summary, complete_summary
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.open_water.estimates import infinite_draught_comparison
 from hydroelastic.scenes.open_water.results import OpenSolution, region_words
-from hydroelastic.scenes.output.json_values import json_ready
-from hydroelastic.scenes.output.provenance import Summary, complete_summary
 
 
 def summarize_open(solution: OpenSolution, comm: MPI.Comm, *, import_seconds: float) -> Summary:

@@ -16,13 +16,13 @@ from hydroelastic.fem.open_water.results import (
     ResponseTable,
     UnresolvedPeak,
 )
+from hydroelastic.output.digits import beyond_error, number, per_cent, with_certain_digits
+from hydroelastic.output.provenance import Summary
+from hydroelastic.output.sections import Row, Section
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.open_water.estimates import infinite_draught_comparison, infinite_draught_message
 from hydroelastic.scenes.open_water.results import OpenSolution, region_words
-from hydroelastic.scenes.output.digits import beyond_error, number, per_cent, with_certain_digits
-from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.output.sections import Row, Section
 from hydroelastic.scenes.tank.check_hints import draughts_left_out
 
 MOST_ROWS = 25

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from math import hypot, inf
 from typing import TypeAlias
 
+from hydroelastic.output.digits import with_certain_digits
+from hydroelastic.output.provenance import Summary
+from hydroelastic.output.sections import Row, Section
 from hydroelastic.physics.dofs import Dof
-from hydroelastic.scenes.output.digits import with_certain_digits
-from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.output.sections import Row, Section
 
 # Number of frequencies of one analysis; the others are in its table.
 _MOST_MODES = 3

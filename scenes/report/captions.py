@@ -6,8 +6,8 @@ import re
 from collections.abc import Callable
 from typing import TypeAlias
 
-from hydroelastic.scenes.output.digits import with_certain_digits
-from hydroelastic.scenes.output.provenance import Summary
+from hydroelastic.output.digits import with_certain_digits
+from hydroelastic.output.provenance import Summary
 
 _Caption: TypeAlias = str | Callable[[Summary, int], str]
 

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 from mpi4py import MPI
 
+from hydroelastic.output.outcome import Outcome
+from hydroelastic.output.sections import Section
 from hydroelastic.scenes.models.string import StringScene
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.thread import ThreadScene
-from hydroelastic.scenes.output.outcome import Outcome
-from hydroelastic.scenes.output.sections import Section
 from hydroelastic.scenes.read import Scene
 
 if TYPE_CHECKING:
@@ -64,7 +64,7 @@ def _string(scene: StringScene, outcome: Outcome) -> tuple[Section, ...] | str:
 
 
 def _thread(scene: ThreadScene, outcome: Outcome) -> Iterator[Section]:
-    from hydroelastic.scenes.thread.comparison_tables import comparison_sections
+    from hydroelastic.output.thread.comparison_tables import comparison_sections
     from hydroelastic.scenes.thread.differences import thread_differences
     from hydroelastic.scenes.thread.estimates import thread_estimates
 

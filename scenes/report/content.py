@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
+from hydroelastic.output.outcome import Outcome
+from hydroelastic.output.sections import title_of
 from hydroelastic.scenes.kinds import checker_of
-from hydroelastic.scenes.output.outcome import Outcome
-from hydroelastic.scenes.output.sections import title_of
 from hydroelastic.scenes.read import Scene
 from hydroelastic.scenes.report.answer import answer
 from hydroelastic.scenes.report.comparison import comparison_of

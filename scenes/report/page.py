@@ -6,8 +6,8 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.output.sections import Section
+from hydroelastic.output.provenance import Summary
+from hydroelastic.output.sections import Section
 
 _NUMBER = re.compile(r"[+\-−–≥≤]?\s*(\d[\d.]*(e[+-]?\d+)?( ?[+\-−]\d[\d.]*(e[+-]?\d+)?i)?|inf)?( %)?")
 # Lines such as "UNSTABLE: …" are highlighted.

@@ -7,7 +7,7 @@ from base64 import b64encode
 from collections.abc import Iterator
 from pathlib import Path
 
-from hydroelastic.scenes.output.provenance import Summary
+from hydroelastic.output.provenance import Summary
 from hydroelastic.scenes.report.captions import place_and_caption
 from hydroelastic.scenes.report.page import Picture
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.output.sections import Section
+from hydroelastic.output.provenance import Summary
+from hydroelastic.output.sections import Section
 
 
 def resolved(summary: Summary) -> Section:

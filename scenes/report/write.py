@@ -8,7 +8,7 @@ from typing import Any
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
-from hydroelastic.scenes.output.outcome import Outcome
+from hydroelastic.output.outcome import Outcome
 from hydroelastic.scenes.read import Scene
 from hydroelastic.scenes.report.content import report_page
 from hydroelastic.scenes.report.page import is_numeric, is_warning

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import pi
 
+from hydroelastic.output.digits import number
+from hydroelastic.output.roll.quantities import regime
+from hydroelastic.output.sections import Row, Section
 from hydroelastic.scenes.models.roll import RollScene
-from hydroelastic.scenes.output.digits import number
-from hydroelastic.scenes.output.sections import Row, Section
 from hydroelastic.scenes.roll.physics import rolling_ship
 from hydroelastic.scenes.roll.section_file import section_scene
-from hydroelastic.scenes.roll.summary import regime
 
 
 def check_roll(scene: RollScene) -> Iterator[Section]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hydroelastic.modal.roll.paper import ALL_ROLL_SLIPS, ROLL_SOURCE, RollSlip, paper_roll_angle
-from hydroelastic.scenes.output.sections import Section
+from hydroelastic.output.sections import Section
 from hydroelastic.scenes.roll.results import RollResult
 
 # Of the largest angle: rounding of the paper's corrected sums of sines.

@@ -30,6 +30,11 @@ class RollResult:
     seconds: dict[str, float]
 
     @property
+    def levels(self) -> tuple[float, ...]:
+        """Levels whose exceedances are counted, rad."""
+        return self.scene.output.levels
+
+    @property
     def reasons(self) -> tuple[str, ...]:
         """Reasons why the tolerance is not reached; empty if it is."""
         solution, tolerance = self.solution, self.scene.accuracy.tolerance

@@ -2,21 +2,28 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
+from hydroelastic.output.csv_files import write_csv
 from hydroelastic.output.pictures.options import OF_CURVES
-from hydroelastic.scenes.output.dataset import LabelledResults
-from hydroelastic.scenes.output.staged_run import StagedRun
-from hydroelastic.scenes.roll.dataset import ROLL_NAMES, roll_dataset
+from hydroelastic.output.roll.quantities import ROLL
+from hydroelastic.output.roll.tables import roll_cost, roll_sections
+from hydroelastic.output.variables import array_variables
 from hydroelastic.scenes.roll.figure import draw_roll
-from hydroelastic.scenes.roll.files import write_roll_files
+from hydroelastic.scenes.roll.results import RollResult
 from hydroelastic.scenes.roll.solve import solve_roll
-from hydroelastic.scenes.roll.summary import summarize_roll
-from hydroelastic.scenes.roll.tables import roll_cost, roll_sections
+from hydroelastic.scenes.staged_run import StagedRun, declared
+
+
+def _write(result: RollResult, folder: Path) -> None:
+    """Write ``response.csv``, one row for each time; SI units."""
+    write_csv(folder / "response.csv", {array.name: array.values for array in array_variables(ROLL, result)})
+
 
 run_roll = StagedRun(
     solve=solve_roll,
-    summarize=summarize_roll,
-    write=write_roll_files,
-    dataset=LabelledResults(arrays=roll_dataset, names=ROLL_NAMES),
+    **declared(ROLL),
+    write=_write,
     draw=lambda result, folder, options, _report: draw_roll(result, folder, options),
     used_options=OF_CURVES,
     sections=lambda _solution, summary: roll_sections(summary),

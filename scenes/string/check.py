@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from hydroelastic.output.digits import number
+from hydroelastic.output.sections import Row, Section
 from hydroelastic.scenes.models.string import StringScene
-from hydroelastic.scenes.output.digits import number
-from hydroelastic.scenes.output.sections import Row, Section
 
 _MOTIONS = {
     "ramp": "f = Vt",

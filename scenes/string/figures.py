@@ -8,10 +8,10 @@ from typing import Any, Literal
 import numpy as np
 
 from hydroelastic.modal.string.solution import Floats, StringSolution
+from hydroelastic.output.line_sequence import frame_numbers
 from hydroelastic.output.pictures.colours import diverging_colours
 from hydroelastic.output.pictures.curves import COLOURS, DASHES, GREY, Sheets, label_axes, sequence_colours
 from hydroelastic.output.pictures.options import PictureOptions
-from hydroelastic.scenes.output.line_sequence import frame_numbers
 from hydroelastic.scenes.string.drawn import columns_of, drawn_solution
 from hydroelastic.scenes.string.frames import HEIGHT, animate_string, draw_frames
 from hydroelastic.scenes.string.results import StringResult

@@ -7,39 +7,31 @@ from pathlib import Path
 
 import numpy as np
 
-from hydroelastic.modal.string.solution import FreeMotions, StringSolution
-from hydroelastic.scenes.output.line_sequence import Frame, frame_numbers, write_sequence
+from hydroelastic.modal.string.solution import StringSolution
+from hydroelastic.output.csv_files import write_csv
+from hydroelastic.output.line_sequence import Frame, frame_numbers, write_sequence
+from hydroelastic.output.string.quantities import HANGING_STRING
+from hydroelastic.output.variables import array_variables, grid_columns
 from hydroelastic.scenes.string.results import StringResult
-
-COLUMNS = ("time", "position", "displacement", "absolute_error")
 
 
 def write_string_files(result: StringResult, folder: Path) -> None:
     """Write ``response.csv``, ``modes.csv`` and ``fields/`` into an existing folder; SI units."""
-    _write_response(result.solution, folder / "response.csv")
-    _write_modes(result.solution.free_motions, folder / "modes.csv")
+    # One row for each time and position.
+    names = ("time", "position", "displacement", "absolute_error")
+    write_csv(folder / "response.csv", grid_columns(array_variables(HANGING_STRING, result), names, names[:2]))
+    motions = result.solution.free_motions
+    columns = {
+        "mode": np.arange(1, len(motions.roots) + 1),
+        "omega": motions.frequencies,
+        "real_part": motions.roots.real,
+        "imaginary_part": motions.roots.imag,
+        "relative_error": motions.relative_errors,
+    }
+    write_csv(folder / "modes.csv", columns)
     if result.scene.output.frames:
         (folder / "fields").mkdir()
         write_sequence(folder / "fields", "string", _frames(result.solution, result.scene.output.frames))
-
-
-def _write_response(solution: StringSolution, file: Path) -> None:
-    """One row for each time and position."""
-    times, positions = np.meshgrid(solution.times, solution.positions, indexing="ij")
-    values = (times, positions, solution.displacement.T, solution.absolute_error.T)
-    rows = np.column_stack([value.ravel() for value in values])
-    formats = ["%.12g", "%.12g", "%.17g", "%.3g"]
-    np.savetxt(file, rows, delimiter=",", fmt=formats, header=",".join(COLUMNS), comments="", encoding="utf-8")
-
-
-def _write_modes(motions: FreeMotions, file: Path) -> None:
-    relative = motions.relative_errors
-    rows = np.column_stack(
-        [np.arange(1, len(relative) + 1), motions.frequencies, motions.roots.real, motions.roots.imag, relative]
-    )
-    formats = ["%d", "%.17g", "%.17g", "%.17g", "%.3g"]
-    header = "mode,omega,real_part,imaginary_part,relative_error"
-    np.savetxt(file, rows, delimiter=",", fmt=formats, header=header, comments="", encoding="utf-8")
 
 
 def _frames(solution: StringSolution, count: int) -> Iterator[Frame]:

@@ -6,7 +6,9 @@ from dataclasses import dataclass
 
 from hydroelastic.fem.kept_tolerance import kept_tolerance
 from hydroelastic.modal.string.solution import StringSolution
+from hydroelastic.physics.string_motions import Motion
 from hydroelastic.scenes.models.string import StringScene
+from hydroelastic.scenes.string.physics import end_motion
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -20,6 +22,16 @@ class StringResult:
 
     scene: StringScene
     solution: StringSolution
+
+    @property
+    def method(self) -> str:
+        """The word "series", or "field"."""
+        return self.scene.method
+
+    @property
+    def motion(self) -> Motion:
+        """Motion of the upper end."""
+        return end_motion(self.scene)
 
     @property
     def seconds(self) -> dict[str, float]:

@@ -19,11 +19,12 @@ from hydroelastic.fem.study.reference import Reference
 from hydroelastic.fem.study.row import Family, StudyRow
 from hydroelastic.fem.study.singular_points import has_curved_contours, sharpest_of, symmetries_apart
 from hydroelastic.fem.study.thinness import fitted_thinness
+from hydroelastic.output.folder import SUMMARY, result_folder
 from hydroelastic.output.pictures.curves import Sheets
 from hydroelastic.output.pictures.options import DEFAULT_PICTURES, PictureOptions
 from hydroelastic.physics.symmetry import Parity
 from hydroelastic.physics.tank import Tank
-from hydroelastic.scenes.output.folder import SUMMARY, result_folder
+from hydroelastic.scenes.errors import folder_errors
 from hydroelastic.scenes.study.figure import draw_study
 from hydroelastic.scenes.study.plan import ERROR_FAMILIES
 from hydroelastic.scenes.study.run import Study
@@ -241,7 +242,7 @@ def write_study(
     Raises:
         SceneError: if the folder cannot be written.
     """
-    with result_folder(folder, scene_file=scene_file) as inside:
+    with folder_errors(), result_folder(folder, scene_file=scene_file) as inside:
         sheets = Sheets(folder=inside, title=study.scene.title, options=options)
         (inside / "study.txt").write_text(study_table(study) + "\n", encoding="utf-8")
         if study.reference is not None:

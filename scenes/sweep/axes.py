@@ -123,16 +123,16 @@ def _axis(text: str) -> Axis:
 def _range(text: str, parts: list[str]) -> list[float]:
     if len(parts) not in (3, 4) or (len(parts) == 4 and parts[3].strip() != "log"):
         raise SceneError(_refused(text, "a range is start:stop:number, or start:stop:number:log in equal ratios"))
-    ends = [_number(text, part) for part in parts[:2]]
+    start, stop = (_number(text, part) for part in parts[:2])
     count = parts[2].strip()
     if not (count.isascii() and count.isdigit() and 1 <= int(count) <= MOST_POINTS):
         wrong = f'the number of values, "{count}", is not a whole number from 1 to {MOST_POINTS}'
         raise SceneError(_refused(text, wrong))
     if len(parts) == 4:
-        if min(ends) <= 0.0:
+        if min(start, stop) <= 0.0:
             raise SceneError(_refused(text, "equal ratios need positive ends"))
-        return _rounded(np.geomspace(*ends, int(count)))
-    return _rounded(np.linspace(*ends, int(count)))
+        return _rounded(np.geomspace(start, stop, int(count)))
+    return _rounded(np.linspace(start, stop, int(count)))
 
 
 def _rounded(values: np.ndarray) -> list[float]:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import click
 
+from hydroelastic.output.manifest import read_manifest
 from hydroelastic.output.pictures.options import CurveFormat
 from hydroelastic.scenes.command_options import (
     dpi_option,
@@ -16,7 +17,6 @@ from hydroelastic.scenes.command_options import (
     set_option,
 )
 from hydroelastic.scenes.command_parts import NOT_TO_TOLERANCE, folder_of_results
-from hydroelastic.scenes.output.manifest import read_manifest
 from hydroelastic.scenes.progress import progress
 from hydroelastic.scenes.read import scene_source
 
@@ -29,7 +29,7 @@ from hydroelastic.scenes.read import scene_source
     multiple=True,
     required=True,
     metavar="KEY=VALUES",
-    help="Values of a key as start:stop:number, start:stop:number:log in equal ratios, or v1,v2,v3. Several make a grid.",
+    help="Values of a key: start:stop:number, start:stop:number:log in equal ratios, or v1,v2,v3. Several make a grid.",
 )
 @set_option
 @click.option("--out", type=click.Path(path_type=Path), help="Folder; default results/<scene name>_sweep.")
@@ -41,8 +41,7 @@ from hydroelastic.scenes.read import scene_source
 @click.option(
     "--refinements",
     type=click.IntRange(min=0),
-    default=200,
-    help="Points that may be added between others for following modes; default 200.",
+    help="Points that may be added between others for following modes; default four for each value.",
 )
 @click.option("--no-images", is_flag=True, help="Do not draw the sweep.")
 @format_option
@@ -60,7 +59,7 @@ def sweep(
     estimates: bool,
     pictures: bool,
     no_follow: bool,
-    refinements: int,
+    refinements: int | None,
     no_images: bool,
     formats: tuple[CurveFormat, ...],
     dpi: int | None,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -37,13 +37,13 @@ _WIDTHS = 0.9, 5.0
 _CURVES = 12
 
 
-def shown_columns(table: Any, show: tuple[str, ...]) -> tuple[str, ...]:
+def shown_columns(table: Mapping[str, Any], show: tuple[str, ...]) -> tuple[str, ...]:
     """Return the columns to show: those asked for, or else the main ones of the kind of scene.
 
     Raises:
         SceneError: if there is no such column, or it does not hold numbers.
     """
-    numbers = [name for name in table if np.issubdtype(table[name].dtype, np.number)]
+    numbers = [name for name in table if np.issubdtype(np.asarray(table[name]).dtype, np.number)]
     for name in show:
         if name.replace(".", "_") not in numbers:
             raise SceneError(
@@ -73,7 +73,7 @@ def draw_sweep(sweep: Sweep, folder: Path, options: PictureOptions, show: tuple[
     """
     solved = sweep.solved
     axes = solved.grid.axes
-    names = shown_columns(sweep.table, show)
+    names = shown_columns(sweep.columns, show)
     sheets = Sheets(folder=folder, title=solved.scene.title, options=options)
     heading = f"sweep over {' and '.join(axis.key for axis in axes)}"
     if len(axes) == 1 and solved.lines and not show:
@@ -134,11 +134,13 @@ def _draw_veerings(figure: Figure, sweep: Sweep, line: Line) -> None:
 
 def _draw_estimates(panel: Axes, sweep: Sweep) -> None:
     """The first elastic tone by older theories, where they were asked for."""
-    if "estimate_omega" not in sweep.dataset:
+    variables = {one.name: one for one in sweep.variables}
+    if "estimate_omega" not in variables:
         return
     (axis,) = sweep.solved.grid.axes
-    for number, name in enumerate(sweep.dataset["estimate"].values):
-        values = sweep.dataset["estimate_omega"].sel(estimate=name).values
+    for number, (name, values) in enumerate(
+        zip(variables["estimate"].values, variables["estimate_omega"].values.T, strict=True)
+    ):
         style = DASHES[1 + number % (len(DASHES) - 1)]
         panel.plot(axis.values, values, style, color=GREY, linewidth=0.7, label=str(name))
 
@@ -150,7 +152,7 @@ def _draw_curves(figure: Figure, sweep: Sweep, names: Sequence[str]) -> None:
     places = np.array(first.values) if first.is_number else np.array([str(value) for value in first.values])
     panels = figure.subplots(len(names), 1, sharex=True, squeeze=False)[:, 0]
     for panel, name in zip(panels, names, strict=True):
-        values = sweep.table[name].to_numpy(dtype=float).reshape(len(places), -1)
+        values = np.asarray(sweep.columns[name], dtype=float).reshape(len(places), -1)
         for number, column in enumerate(values.T):
             label = ", ".join(f"{axis.key} = {points[number][axis.key]}" for axis in others)
             plot_curve(panel, places, column, number, label)
@@ -166,7 +168,7 @@ def _draw_maps(figure: Figure, sweep: Sweep, names: Sequence[str]) -> None:
     across, up = sweep.solved.grid.axes
     panels = figure.subplots(len(names), 1, sharex=True, squeeze=False)[:, 0]
     for panel, name in zip(panels, names, strict=True):
-        values = np.ma.masked_invalid(sweep.table[name].to_numpy(dtype=float).reshape(sweep.solved.grid.shape))
+        values = np.ma.masked_invalid(np.asarray(sweep.columns[name], dtype=float).reshape(sweep.solved.grid.shape))
         colours = part_of_colours(SEQUENCE, 0.95, 0.05)
         drawn = panel.pcolormesh(across.values, up.values, values.T, cmap=colours, shading="nearest")
         figure.colorbar(drawn, ax=panel, label=_named(sweep, name))
@@ -179,6 +181,6 @@ def _draw_maps(figure: Figure, sweep: Sweep, names: Sequence[str]) -> None:
 
 def _named(sweep: Sweep, column: str) -> str:
     """A column with its unit."""
-    variables = [name for name in sweep.quantities if column == name or column.startswith(f"{name}_")]
-    unit = sweep.quantities[max(variables, key=len)].attrs.get("units", "1") if variables else "1"
+    found = [one for one in sweep.quantities if column == one.name or column.startswith(f"{one.name}_")]
+    unit = max(found, key=lambda one: len(one.name)).attributes.get("units", "1") if found else "1"
     return column if unit == "1" else f"{column}, {unit}"

@@ -7,13 +7,17 @@ from typing import TYPE_CHECKING, Any
 
 from mpi4py import MPI
 
+from hydroelastic.output.csv_files import write_csv
+from hydroelastic.output.dataset import DATASET, write_dataset
+from hydroelastic.output.folder import raise_on_all, result_folder, write_summary
+from hydroelastic.output.markdown import markdown_table, markdown_text
 from hydroelastic.output.pictures.options import PictureOptions
-from hydroelastic.scenes.output.dataset import DATASET, write_dataset
-from hydroelastic.scenes.output.folder import raise_on_all, result_folder, write_summary
-from hydroelastic.scenes.output.markdown import markdown_table, markdown_text
-from hydroelastic.scenes.output.provenance import versions
-from hydroelastic.scenes.output.writer import TABLES
+from hydroelastic.output.provenance import versions
+from hydroelastic.output.writer import TABLES
+from hydroelastic.scenes.errors import folder_errors
 from hydroelastic.scenes.sweep.axes import shown_number
+from hydroelastic.scenes.sweep.branches import branch_rows, encounter_rows
+from hydroelastic.scenes.sweep.dataset import sweep_attributes
 from hydroelastic.scenes.sweep.figure import draw_sweep, shown_columns
 from hydroelastic.scenes.sweep.run import SolvedSweep
 
@@ -34,12 +38,11 @@ def write_sweep(sweep: Sweep, folder: Path, show: tuple[str, ...], images: Pictu
     problem: BaseException | None = None
     if MPI.COMM_WORLD.rank == 0:
         try:
-            with result_folder(folder, scene_file=sweep.solved.file) as inside:
-                write_dataset(sweep.dataset, inside / DATASET)
-                sweep.table.to_csv(inside / TABLE, index=False, lineterminator="\n")
-                if sweep.solved.lines:
-                    sweep.branches.to_csv(inside / BRANCHES, index=False, lineterminator="\n")
-                    sweep.encounters.to_csv(inside / ENCOUNTERS, index=False, lineterminator="\n")
+            with folder_errors(), result_folder(folder, scene_file=sweep.solved.file) as inside:
+                write_dataset(inside / DATASET, sweep.variables, sweep_attributes(sweep.solved))
+                write_csv(inside / TABLE, sweep.columns)
+                _write_rows(inside / BRANCHES, branch_rows(sweep.solved))
+                _write_rows(inside / ENCOUNTERS, encounter_rows(sweep.solved))
                 write_summary(sweep_summary(sweep), inside)
                 (inside / TABLES).write_text(sweep_text(sweep, show), encoding="utf-8")
                 if images is not None:
@@ -47,7 +50,13 @@ def write_sweep(sweep: Sweep, folder: Path, show: tuple[str, ...], images: Pictu
         except BaseException as error:
             # Any exception must reach the other processes, which wait for it.
             problem = error
-    raise_on_all(problem, MPI.COMM_WORLD)
+    with folder_errors():
+        raise_on_all(problem, MPI.COMM_WORLD)
+
+
+def _write_rows(file: Path, rows: list[dict[str, Any]]) -> None:
+    if rows:
+        write_csv(file, {name: [row[name] for row in rows] for name in rows[0]})
 
 
 def sweep_summary(sweep: Sweep) -> dict[str, Any]:
@@ -87,8 +96,8 @@ def followed_lines_of_text(solved: SolvedSweep) -> list[str]:
     if found is None:
         return []
     lines = [
-        f"Modes followed along {solved.grid.axes[0].key}: {found['crossings']} crossings, {found['veerings']} veerings; "
-        f"{found['added_points']} points were added for that."
+        f"Modes followed along {solved.grid.axes[0].key}: {found['crossings']} crossings, {found['veerings']} "
+        f"veerings; {found['added_points']} points were added for that."
     ]
     if found["least_participation_sum"] is not None:
         lines.append(f"The modes hold {found['least_participation_sum']:.4f} or more of each first elastic tone.")
@@ -102,10 +111,9 @@ def followed_lines_of_text(solved: SolvedSweep) -> list[str]:
 
 def sweep_rows(sweep: Sweep, show: tuple[str, ...]) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
     """Return headings and rows of the main quantities of all points, or of those to show."""
-    table, keys = sweep.table, [axis.key for axis in sweep.solved.grid.axes]
+    table, keys = sweep.columns, [axis.key for axis in sweep.solved.grid.axes]
     headings = (*keys, "status", *shown_columns(table, show))
-    rows = [tuple(map(_cell, row)) for row in table[list(headings)].itertuples(index=False)]
-    return headings, rows
+    return headings, [tuple(map(_cell, row)) for row in zip(*(table[name] for name in headings), strict=True)]
 
 
 def _cell(value: Any) -> str:

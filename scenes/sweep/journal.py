@@ -1,4 +1,4 @@
-"""The journal of a sweep: each solved point is one line of a file, so that an interrupted sweep goes on where it was."""
+"""The journal of a sweep: each solved point is a line of a file, so that an interrupted sweep goes on where it was."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from pathlib import Path
 
 from mpi4py import MPI
 
-from hydroelastic.scenes.errors import Problem, SceneError
-from hydroelastic.scenes.output.folder import check_output
-from hydroelastic.scenes.output.manifest import read_manifest, write_manifest
+from hydroelastic.output.folder import check_output
+from hydroelastic.output.manifest import read_manifest, write_manifest
+from hydroelastic.scenes.errors import Problem, SceneError, folder_errors
 from hydroelastic.scenes.sweep.point import SolvedPoint
 
 JOURNAL = "sweep.journal"
@@ -69,7 +69,8 @@ def open_journal(folder: Path | None, *, scene_file: Path | None) -> Iterator[Jo
     if folder is None:
         yield Journal()
         return
-    check_output(folder)
+    with folder_errors():
+        check_output(folder)
     try:
         folder.mkdir(parents=True, exist_ok=True)
         if read_manifest(folder) is None:

@@ -16,6 +16,8 @@ from hydroelastic.scenes.sweep.point import SolvedPoint
 
 Point = dict[str, Any]
 
+# A few values are no curve, and following modes between them would take many more.
+_FEWEST = 4
 # Values that span more than this factor are followed by their logarithm.
 _WIDE = 10.0
 _DIGITS = 13
@@ -51,7 +53,7 @@ def followed_lines(
     count: int,
     most: int,
 ) -> tuple[Line, ...]:
-    """Follow the modes along each line of a grid.
+    """Follow the modes along each line of a grid, none with few values or with values that are no numbers.
 
     Args:
         grid: the varied keys, the first with numbers.
@@ -61,7 +63,7 @@ def followed_lines(
         most: number of points that may be added, on all lines together.
     """
     first = grid.axes[0]
-    if not first.is_number or len(first.values) < 2:
+    if not first.is_number or len(first.values) < _FEWEST:
         return ()
     logarithmic = is_logarithmic(first)
     across = len(grid) // len(first.values)

@@ -8,19 +8,18 @@ from dataclasses import dataclass
 from functools import partial
 from hashlib import sha256
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
+from hydroelastic.fem.sweep.mode_vectors import ModeVectors, array_of_text, array_text
+from hydroelastic.output.json_values import json_ready
 from hydroelastic.output.pictures.options import DEFAULT_PICTURES
+from hydroelastic.output.provenance import Summary, versions
+from hydroelastic.output.variables import Variable
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.kinds import runner_of
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.output.json_values import json_ready
-from hydroelastic.scenes.output.provenance import Summary, versions
 from hydroelastic.scenes.read import Scene
 from hydroelastic.scenes.sweep.families import Family, liquids_of
-
-if TYPE_CHECKING:
-    from hydroelastic.fem.sweep.mode_vectors import ModeVectors
 
 Status = Literal["ok", "unconverged", "failed"]
 
@@ -46,29 +45,34 @@ class SolvedPoint:
         status: "ok", "unconverged" (solved, but not to its tolerance), or "failed".
         reasons: why it is not "ok".
         summary: content of ``summary.json``; ``None`` if it failed.
+        arrays: variables that are no part of the summary, of open water.
         modes: of a closed tank, for following them.
     """
 
     status: Status
     reasons: tuple[str, ...]
     summary: Summary | None = None
+    arrays: tuple[Variable, ...] = ()
     modes: ModeVectors | None = None
 
     def as_json(self) -> dict[str, Any]:
         """Return the point in types of JSON."""
-        content = {"status": self.status, "reasons": self.reasons, "summary": self.summary}
+        content: dict[str, Any] = {"status": self.status, "reasons": self.reasons, "summary": self.summary}
+        content["arrays"] = [vars(one) | {"values": array_text(one.values)} for one in self.arrays]
         return content | {"modes": None if self.modes is None else self.modes.as_texts()}
 
     @classmethod
     def from_json(cls, content: dict[str, Any]) -> SolvedPoint:
         """Return the point of `as_json`."""
-        from hydroelastic.fem.sweep.mode_vectors import ModeVectors
-
         modes = content["modes"]
         return cls(
             status=content["status"],
             reasons=tuple(content["reasons"]),
             summary=content["summary"],
+            arrays=tuple(
+                Variable(**one | {"values": array_of_text(one["values"]), "dimensions": tuple(one["dimensions"])})
+                for one in content["arrays"]
+            ),
             modes=None if modes is None else ModeVectors.of_texts(modes),
         )
 
@@ -107,6 +111,7 @@ def solve_point(scene: Scene, options: PointOptions, name: str, family: Family |
         status="unconverged" if outcome.reasons else "ok",
         reasons=outcome.reasons,
         summary=json_ready(outcome.summary),
+        arrays=() if run.swept is None else tuple(run.swept(outcome.solution)),
         modes=modes,
     )
 

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 from rich.console import Console
 
-from hydroelastic.scenes.output.folder import results_message
-from hydroelastic.scenes.output.sections import rich_table
+from hydroelastic.output.folder import results_message
+from hydroelastic.output.sections import rich_table
 from hydroelastic.scenes.sweep.files import followed_lines_of_text, sweep_rows
 
 if TYPE_CHECKING:

@@ -12,10 +12,11 @@ from typing import TYPE_CHECKING, Any
 
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.output.pictures.options import DEFAULT_PICTURES, PictureOptions
+from hydroelastic.output.variables import Variable
 from hydroelastic.scenes.read import Scene
 from hydroelastic.scenes.sweep.axes import Vary, grid_from_values
 from hydroelastic.scenes.sweep.branches import branch_rows, encounter_rows
-from hydroelastic.scenes.sweep.dataset import sweep_dataset
+from hydroelastic.scenes.sweep.dataset import as_dataset, sweep_attributes, sweep_variables
 from hydroelastic.scenes.sweep.quantities import columns, quantities
 from hydroelastic.scenes.sweep.run import SolvedSweep, SweepOptions, solve_sweep
 
@@ -45,43 +46,47 @@ class Sweep:
         return self.solved.status
 
     @cached_property
-    def quantities(self) -> xarray.Dataset:
+    def quantities(self) -> list[Variable]:
         """All quantities, with the dimension "point"."""
-        return quantities([point.summary for point in self.solved.points], self.solved.names)
+        points = self.solved.points
+        return quantities([one.summary for one in points], [one.arrays for one in points], self.solved.names)
+
+    @cached_property
+    def variables(self) -> list[Variable]:
+        """The content of ``dataset.nc``."""
+        return sweep_variables(self.solved, self.quantities)
 
     @cached_property
     def dataset(self) -> xarray.Dataset:
-        """The content of ``dataset.nc``: all quantities with the varied keys as dimensions, NaN where a point failed."""
-        return sweep_dataset(self.solved, self.quantities)
+        """The content of ``dataset.nc``: all quantities with the varied keys as dimensions, NaN of failed points."""
+        return as_dataset(self.variables, sweep_attributes(self.solved))
 
     @cached_property
-    def table(self) -> Any:
-        """The content of ``sweep.csv`` as a data frame of pandas, one row for each point."""
-        # xarray needs pandas too; both take a while to import.
-        import pandas
-
+    def columns(self) -> dict[str, Any]:
+        """The columns of `table`."""
         grid, points = self.solved.grid, self.solved.points
         rows = grid.points
-        return pandas.DataFrame(
+        return (
             {axis.key: [row[axis.key] for row in rows] for axis in grid.axes}
             | {"status": [point.status for point in points], "reason": ["; ".join(point.reasons) for point in points]}
             | columns(self.quantities)
         )
 
     @cached_property
+    def table(self) -> Any:
+        """The content of ``sweep.csv`` as a data frame of pandas, one row for each point."""
+        return _frame(self.columns)
+
+    @cached_property
     def branches(self) -> Any:
         """The content of ``branches.csv``: ω and participations of each followed mode at each point, those that were
         added for following them among them."""
-        import pandas
-
-        return pandas.DataFrame(branch_rows(self.solved))
+        return _frame(branch_rows(self.solved))
 
     @cached_property
     def encounters(self) -> Any:
         """The content of ``encounters.csv``: where followed modes cross, veer, or could not be followed."""
-        import pandas
-
-        return pandas.DataFrame(encounter_rows(self.solved))
+        return _frame(encounter_rows(self.solved))
 
     def plot(self, *show: str) -> Image:
         """Return the picture of the sweep, or of some quantities; notebooks show it.
@@ -125,7 +130,7 @@ def sweep(
     jobs: int = 1,
     estimates: bool = False,
     follow: bool = True,
-    refinements: int = SweepOptions.refinements,
+    refinements: int | None = None,
     out: str | Path | None = None,
     report: Report = lambda _message: None,
 ) -> Sweep:
@@ -139,7 +144,7 @@ def sweep(
         jobs: number of processes.
         estimates: whether to make the estimates of older theories at each point too.
         follow: whether to follow the modes of closed tanks along the first key.
-        refinements: largest number of points that are added for that.
+        refinements: largest number of points that are added for that; by default four for each of the grid.
         out: folder for the journal, from which an interrupted sweep goes on; ``Sweep.save(out)`` writes the results.
         report: called with the number of points solved.
 
@@ -149,3 +154,10 @@ def sweep(
     options = SweepOptions(jobs=jobs, estimates=estimates, follow=follow, refinements=refinements)
     folder = None if out is None else Path(out)
     return Sweep(solved=solve_sweep(scene, grid_from_values(vary), options=options, out=folder, report=report))
+
+
+def _frame(content: Any) -> Any:
+    # It comes with xarray, and takes a while to import.
+    import pandas
+
+    return pandas.DataFrame(content)

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any
 from mpi4py import MPI
 
 from hydroelastic.fem.stopwatch import Report
+from hydroelastic.output.summary_variables import Naming
 from hydroelastic.scenes.errors import Problem, SceneError, shown_value
 from hydroelastic.scenes.kinds import runner_of
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.output.summary_variables import SummaryNames
 from hydroelastic.scenes.read import Scene, SceneSource, scene_source
 from hydroelastic.scenes.sweep.axes import Grid, point_text
 from hydroelastic.scenes.sweep.families import families
@@ -27,6 +27,9 @@ if TYPE_CHECKING:
 
 Point = Mapping[str, Any]
 
+# Points that may be added for following modes, for each point of the grid.
+_ADDED = 4
+
 
 @dataclass(frozen=True, kw_only=True)
 class SweepOptions:
@@ -37,14 +40,14 @@ class SweepOptions:
         estimates: whether the estimates of older theories are made at each point.
         pictures: whether each point has a result folder with its pictures.
         follow: whether the modes of closed tanks are followed along the first key.
-        refinements: largest number of points that are added for following them.
+        refinements: largest number of points that are added for following them; ``None`` is four for each of the grid.
     """
 
     jobs: int = 1
     estimates: bool = False
     pictures: bool = False
     follow: bool = True
-    refinements: int = 200
+    refinements: int | None = None
 
     def __post_init__(self) -> None:
         """Refuse what cannot be done."""
@@ -74,7 +77,7 @@ class SolvedSweep:
     file: Path | None
     grid: Grid
     points: tuple[SolvedPoint, ...]
-    names: SummaryNames
+    names: Naming
     lines: tuple[Line, ...]
     resumed: int
 
@@ -115,10 +118,11 @@ class _Solver:
     def solved(self, points: Sequence[Point], of_points: PointOptions, report: Report) -> list[SolvedPoint]:
         """Solve points, each at once kept in the journal (collective)."""
         scenes = [self.scene(point) for point in points]
-        keys, tasks = [], {}
+        keys: list[str] = []
+        tasks: dict[str, Task] = {}
         for number, scene in enumerate(scenes, 1):
             if isinstance(scene, SceneError):
-                keys.append(None)
+                keys.append("")
                 continue
             family = self.families.of(scene)
             keys.append(point_key(scene, of_points, family))
@@ -127,12 +131,12 @@ class _Solver:
                 tasks[keys[-1]] = Task(key=keys[-1], scene=scene, name=f"{number:04d}", family=family)
         # Those of one family follow each other.
         ordered = sorted(tasks.values(), key=lambda task: task.family.name if task.family is not None else "")
-        self.resumed += sum(key in self.journal for key in keys if key is not None)
+        self.resumed += sum(key in self.journal for key in keys)
         for number, (task, point) in enumerate(solved_tasks(ordered, of_points, self.options.jobs), 1):
             self.journal.add(task.key, point)
             report(f"{number} of {len(tasks)} points")
         return [
-            failed(scene) if isinstance(scene, SceneError) else self.journal[str(key)]
+            failed(scene) if isinstance(scene, SceneError) else self.journal[key]
             for scene, key in zip(scenes, keys, strict=True)
         ]
 
@@ -189,7 +193,8 @@ def _followed(first: Scene, solver: _Solver, points: list[SolvedPoint], report: 
 
     from hydroelastic.scenes.sweep.lines import followed_lines
 
-    most = solver.options.refinements
+    asked = solver.options.refinements
+    most = _ADDED * len(points) if asked is None else asked
     return followed_lines(solver.grid, points, solve, count=first.accuracy.modes, most=most)
 
 

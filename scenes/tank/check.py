@@ -12,11 +12,11 @@ from hydroelastic.fem.tank.resolution import (
     workable_tolerance,
 )
 from hydroelastic.meshes.tagged_mesh import TaggedMesh
+from hydroelastic.output.sections import Section
 from hydroelastic.physics.symmetry import is_mirror_image
 from hydroelastic.physics.tank import Tank
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.output.sections import Section
 from hydroelastic.scenes.tank.check_hints import hints
 from hydroelastic.scenes.tank.check_tables import boundary_table, group_table, hydrostatics_table, unknown_table
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import isinf
 
+from hydroelastic.output.sections import Row, Section
 from hydroelastic.physics.rigid_motions import heave_is_excluded
 from hydroelastic.physics.tank import Piece, StillLevel
 from hydroelastic.scenes.models.bodies import Float
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.output.sections import Row, Section
 from hydroelastic.scenes.tank.beam_words import BeamWords
 from hydroelastic.scenes.tank.body_words import BodyWords
 from hydroelastic.scenes.tank.float_words import FloatWords

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.linalg import block_diag
 
+from hydroelastic.output.dof_units import INERTIA_UNITS, MOTION_UNITS, STIFFNESS_UNITS
+from hydroelastic.output.labelled import Labelled, labelled
+from hydroelastic.output.summary_names import SummaryNames
 from hydroelastic.physics.dofs import Dof, body_name, dof_names
 from hydroelastic.physics.motions import MOTIONS
-from hydroelastic.scenes.output.dataset import Labelled, labelled
-from hydroelastic.scenes.output.dof_units import INERTIA_UNITS, MOTION_UNITS, STIFFNESS_UNITS
-from hydroelastic.scenes.output.summary_variables import SummaryNames
 
 if TYPE_CHECKING:
     import xarray
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from hydroelastic.fem.tank.solve import TankSolution
 
 TANK_NAMES = SummaryNames(
-    dimensions={
+    by_place={
         "modes": ("mode",),
         "first_elastic_by_body": ("elastic_body",),
         "floats": ("float",),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from hydroelastic.scenes.output.digits import number, per_cent, with_certain_digits
+from hydroelastic.output.digits import number, per_cent, with_certain_digits
 
 Summary = dict[str, Any]
 

@@ -14,15 +14,17 @@ from hydroelastic.fem.tank.liquids import ANEW, Liquids
 from hydroelastic.fem.tank.solve import TankSolution
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.modal.tank_estimates import tone_estimates
+from hydroelastic.output.dataset import LabelledResults
+from hydroelastic.output.labelled import variables_of
+from hydroelastic.output.outcome import Outcome
 from hydroelastic.output.pictures.options import OF_FIELDS, OF_MOTIONS, PictureOptions
+from hydroelastic.output.provenance import Summary
+from hydroelastic.output.variables import Variable
 from hydroelastic.scenes.errors import UnsolvedError
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.output.dataset import LabelledResults
-from hydroelastic.scenes.output.outcome import Outcome
-from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.output.staged_run import StagedRun
 from hydroelastic.scenes.read import closed_tank
+from hydroelastic.scenes.staged_run import StagedRun
 from hydroelastic.scenes.tank.check_hints import draughts_left_out
 from hydroelastic.scenes.tank.dataset import TANK_NAMES, tank_dataset
 from hydroelastic.scenes.tank.solve import EstimatedTank, solve_scene
@@ -31,8 +33,6 @@ from hydroelastic.scenes.tank.tables import compared_sections, mode_csv, tank_co
 from hydroelastic.scenes.tank.user_mesh import mesh_refused, user_mesh
 
 if TYPE_CHECKING:
-    import xarray
-
     from hydroelastic.fem.tank.mode_shapes import ModeShapes
 
 
@@ -100,9 +100,9 @@ def _write(tank: SampledTank, folder: Path) -> None:
     (folder / "modes.csv").write_text(mode_csv(tank.summary), encoding="utf-8")
 
 
-def _arrays(tank: SampledTank) -> xarray.Dataset:
+def _arrays(tank: SampledTank) -> list[Variable]:
     assert tank.shapes is not None
-    return tank_dataset(tank.solution, tank.shapes)
+    return variables_of(tank_dataset(tank.solution, tank.shapes))
 
 
 def _draw(tank: SampledTank, folder: Path, options: PictureOptions, report: Report) -> None:

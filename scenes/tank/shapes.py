@@ -11,7 +11,7 @@ from hydroelastic.fem.pictures.mode import ModePicture
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.tank.mode_shapes import ModeShapes
 from hydroelastic.output.pictures.options import PictureOptions
-from hydroelastic.scenes.output.provenance import Summary
+from hydroelastic.output.provenance import Summary
 from hydroelastic.scenes.tank.body_file import displacement_of, write_bodies
 
 # Number of lowest modes that are always shown.

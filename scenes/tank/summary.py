@@ -12,8 +12,8 @@ from hydroelastic.fem.tank.solve import TankSolution, ToneSolution
 from hydroelastic.modal.beam.beam_shapes import first_dry_eigenvalue
 from hydroelastic.modal.estimate import Estimate, difference
 from hydroelastic.modal.tank_estimates import exact_frequencies
+from hydroelastic.output.provenance import Summary, complete_summary
 from hydroelastic.physics.dofs import FIRST_ELASTIC
-from hydroelastic.scenes.output.provenance import Summary, complete_summary
 from hydroelastic.scenes.tank.solve import EstimatedTank
 
 

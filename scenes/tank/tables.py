@@ -6,9 +6,9 @@ import csv
 import io
 from collections.abc import Iterable, Iterator
 
-from hydroelastic.scenes.output.digits import counted, number, per_cent, with_certain_digits
-from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.output.sections import Section
+from hydroelastic.output.digits import counted, number, per_cent, with_certain_digits
+from hydroelastic.output.provenance import Summary
+from hydroelastic.output.sections import Section
 from hydroelastic.scenes.tank.float_tables import (
     FLOAT_ESTIMATE_HEADINGS,
     PRINTED_HEADINGS,

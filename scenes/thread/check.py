@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from hydroelastic.output.digits import number
+from hydroelastic.output.sections import Row, Section
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.models.thread_analyses import ThreadModes, ThreadMotion, ThreadStability
 from hydroelastic.scenes.models.thread_tables import FixedEnd, FreeEnd, SurfaceEnd
-from hydroelastic.scenes.output.digits import number
-from hydroelastic.scenes.output.sections import Row, Section
 from hydroelastic.scenes.thread.physics import frame_of
 
 

@@ -5,14 +5,15 @@ from __future__ import annotations
 from mpi4py import MPI
 
 from hydroelastic.fem.stopwatch import Report
+from hydroelastic.output.outcome import Outcome
+from hydroelastic.output.provenance import summarize
+from hydroelastic.output.thread.comparison_tables import comparison_sections
+from hydroelastic.output.thread.quantities import THREAD
+from hydroelastic.output.thread.tables import thread_cost
 from hydroelastic.scenes.models.thread import ThreadScene
-from hydroelastic.scenes.output.outcome import Outcome
-from hydroelastic.scenes.thread.comparison_tables import comparison_sections
 from hydroelastic.scenes.thread.differences import thread_differences
 from hydroelastic.scenes.thread.estimates import thread_estimates
 from hydroelastic.scenes.thread.solve import solve_thread_scene
-from hydroelastic.scenes.thread.summary import summarize_thread
-from hydroelastic.scenes.thread.tables import thread_cost
 
 
 def compare_thread(scene: ThreadScene, *, report: Report = lambda _message: None) -> Outcome:
@@ -30,7 +31,7 @@ def compare_thread(scene: ThreadScene, *, report: Report = lambda _message: None
     solution = solve_thread_scene(at_rest, comm, report)
     report("estimates")
     estimates = thread_estimates(at_rest, comm)
-    summary = summarize_thread(solution, comm, import_seconds=0.0)
+    summary = summarize(THREAD, solution, comm, import_seconds=0.0)
     summary["comparison"] = thread_differences(solution, estimates)
     sections = tuple(comparison_sections(summary["comparison"]))
     return Outcome(solution=solution, summary=summary, sections=sections, cost=thread_cost(summary), notes=True)

@@ -16,7 +16,7 @@ from hydroelastic.modal.thread.estimate import (
     ThreadEstimate,
     ValueEstimate,
 )
-from hydroelastic.scenes.output.provenance import Summary
+from hydroelastic.output.provenance import Summary
 from hydroelastic.scenes.thread.estimates import compared_places
 from hydroelastic.scenes.thread.results import ThreadSolutionOfScene
 

@@ -14,7 +14,7 @@ from hydroelastic.fem.thread.stability import Stability
 from hydroelastic.output.pictures.colours import BLUE, GREEN, VERMILLION
 from hydroelastic.output.pictures.curves import COLOURS, DASHES, GREY, Sheets, label_axes, sequence_colours
 from hydroelastic.output.pictures.options import PictureOptions
-from hydroelastic.scenes.thread.files import numbered
+from hydroelastic.output.variables import numbered
 from hydroelastic.scenes.thread.line_pictures import (
     animate_modes,
     animate_motion,

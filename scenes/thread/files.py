@@ -7,12 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
-from hydroelastic.fem.thread.modes import Roots
 from hydroelastic.fem.thread.motion_in_space import MotionInSpace
-from hydroelastic.scenes.output.line_sequence import Frame, frame_numbers, write_line, write_sequence
+from hydroelastic.output.csv_files import write_csv
+from hydroelastic.output.line_sequence import Frame, frame_numbers, write_line, write_sequence
+from hydroelastic.output.variables import numbered
 from hydroelastic.scenes.thread.results import Floats, ThreadSolutionOfScene
-
-SHAPE_COLUMNS = ("s", "x", "y", "z", "tension", "force_x", "force_y", "force_z", "curvature")
 
 
 def write_thread_files(solution: ThreadSolutionOfScene, folder: Path) -> None:
@@ -21,43 +20,38 @@ def write_thread_files(solution: ThreadSolutionOfScene, folder: Path) -> None:
     Several analyses of a kind are numbered: ``modes.csv``, ``modes_2.csv``.
     """
     rest = solution.rest
-    shape = np.column_stack([solution.s, rest.positions, rest.tensions, rest.forces, rest.curvatures])
-    _write_csv(folder / "shape.csv", SHAPE_COLUMNS, shape)
+    shape = _vector("", rest.positions) | {"tension": rest.tensions} | _vector("force_", rest.forces)
+    write_csv(folder / "shape.csv", {"s": solution.s} | shape | {"curvature": rest.curvatures})
     for number, modes in enumerate(solution.modes):
-        rows = np.vstack([_mode_rows(modes.oscillating, 1), _mode_rows(modes.aperiodic, 0)])
-        columns = ("oscillates", "real_part", "imaginary_part", "out_of_plane", "relative_error")
-        _write_csv(folder / numbered("modes", number, ".csv"), columns, rows)
+        roots = np.concatenate([modes.oscillating.values, modes.aperiodic.values])
+        columns = {
+            "oscillates": (np.arange(len(roots)) < len(modes.oscillating.values)).astype(int),
+            "real_part": roots.real,
+            "imaginary_part": roots.imag,
+            **{
+                name: np.concatenate([getattr(modes.oscillating, source), getattr(modes.aperiodic, source)])
+                for name, source in (("out_of_plane", "out_of_plane"), ("relative_error", "relative_errors"))
+            },
+        }
+        write_csv(folder / numbered("modes", number, ".csv"), columns)
     for number, sweep in enumerate(solution.stability):
-        rows = np.array(
-            [(t.value, t.kind == "flutter", t.frequency, *t.growing, t.error / t.value) for t in sweep.thresholds]
-        )
-        headings = ("factor", "flutter", "omega", "growing_below", "growing_above", "relative_error")
-        _write_csv(folder / numbered("stability", number, ".csv"), headings, rows.reshape(-1, len(headings)))
+        rows = [
+            (t.value, int(t.kind == "flutter"), t.frequency, *t.growing, t.error / t.value) for t in sweep.thresholds
+        ]
+        names = ("factor", "flutter", "omega", "growing_below", "growing_above", "relative_error")
+        columns = {name: [row[place] for row in rows] for place, name in enumerate(names)}
+        write_csv(folder / numbered("stability", number, ".csv"), columns)
     for number, motion in enumerate(solution.motions):
-        _write_csv(folder / numbered("motion", number, ".csv"), ("time", "s", "x", "y", "z", "tension"), _rows(motion))
+        # One row for each time and node.
+        times, s = np.meshgrid(motion.times, motion.nodes, indexing="ij")
+        moved = _vector("", motion.positions.reshape(-1, 3)) | {"tension": motion.tensions.ravel()}
+        write_csv(folder / numbered("motion", number, ".csv"), {"time": times.ravel(), "s": s.ravel()} | moved)
     _write_fields(solution, folder / "fields")
 
 
-def numbered(name: str, number: int, suffix: str = "") -> str:
-    """The name of a file of the first (0), second … analysis of a kind."""
-    return f"{name}{suffix}" if number == 0 else f"{name}_{number + 1}{suffix}"
-
-
-def _write_csv(file: Path, columns: tuple[str, ...], rows: Floats) -> None:
-    np.savetxt(file, rows, delimiter=",", fmt="%.12g", header=",".join(columns), comments="", encoding="utf-8")
-
-
-def _mode_rows(roots: Roots, oscillates: int) -> Floats:
-    values = roots.values
-    return np.column_stack(
-        [np.full(len(values), oscillates), values.real, values.imag, roots.out_of_plane, roots.relative_errors]
-    )
-
-
-def _rows(motion: MotionInSpace) -> Floats:
-    """One row for each time and node."""
-    times, s = np.meshgrid(motion.times, motion.nodes, indexing="ij")
-    return np.column_stack([times.ravel(), s.ravel(), motion.positions.reshape(-1, 3), motion.tensions.ravel()])
+def _vector(name: str, values: Floats) -> dict[str, Floats]:
+    """The components of vectors as columns."""
+    return {f"{name}{axis}": component for axis, component in zip("xyz", values.T, strict=True)}
 
 
 def _write_fields(solution: ThreadSolutionOfScene, folder: Path) -> None:

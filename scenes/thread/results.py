@@ -34,6 +34,18 @@ class ThreadSolutionOfScene(ThreadAnalyses):
         return np.array(self.scene.positions)
 
     @property
+    def derived(self) -> dict[str, float]:
+        """What follows from the scene alone: weight, drag and added mass, and the dimension of the model."""
+        scene = self.scene
+        return {
+            "weight": scene.weight,
+            "normal_drag": scene.normal_drag,
+            "tangential_drag": scene.tangential_drag,
+            "added_mass": scene.added_mass,
+            "dimension": self.frame.dimension,
+        }
+
+    @property
     def reasons(self) -> tuple[str, ...]:
         """Reasons why the results are not within the tolerances; empty if they are."""
         tolerance = self.scene.accuracy.tolerance

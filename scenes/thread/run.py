@@ -6,15 +6,13 @@ from pathlib import Path
 
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.output.pictures.options import OF_CURVES, OF_FIELDS, OF_MOTIONS, PictureOptions
-from hydroelastic.scenes.output.dataset import LabelledResults
-from hydroelastic.scenes.output.staged_run import StagedRun
+from hydroelastic.output.thread.quantities import THREAD
+from hydroelastic.output.thread.tables import thread_cost, thread_sections
+from hydroelastic.scenes.staged_run import StagedRun, declared
 from hydroelastic.scenes.thread.animation import animation_notes
-from hydroelastic.scenes.thread.dataset import THREAD_NAMES, thread_dataset
 from hydroelastic.scenes.thread.files import write_thread_files
 from hydroelastic.scenes.thread.results import ThreadSolutionOfScene
 from hydroelastic.scenes.thread.solve import solve_thread_scene
-from hydroelastic.scenes.thread.summary import summarize_thread
-from hydroelastic.scenes.thread.tables import thread_cost, thread_sections
 
 
 def _draw(solution: ThreadSolutionOfScene, folder: Path, options: PictureOptions, _report: Report) -> None:
@@ -26,9 +24,8 @@ def _draw(solution: ThreadSolutionOfScene, folder: Path, options: PictureOptions
 
 run_thread = StagedRun(
     solve=solve_thread_scene,
-    summarize=summarize_thread,
+    **declared(THREAD),
     write=write_thread_files,
-    dataset=LabelledResults(arrays=thread_dataset, names=THREAD_NAMES),
     draw=_draw,
     animation_warnings=animation_notes,
     used_options=OF_CURVES | OF_FIELDS | OF_MOTIONS,

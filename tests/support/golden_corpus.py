@@ -19,8 +19,8 @@ import click
 import numpy as np
 import xarray
 
+from hydroelastic.output.manifest import file_names
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.output.manifest import file_names
 from hydroelastic.scenes.read import Scene, read_scene, shipped_scenes
 from hydroelastic.scenes.run import run_scene
 

@@ -44,12 +44,9 @@ def complex_of(values: Any) -> np.ndarray:
     return np.asarray(array[..., 0] + 1j * array[..., 1])
 
 
-def half_slow(rows: list[dict[str, Any]]) -> list[Any]:
-    """Return rows as parameters of a test, every other one marked as slow."""
-    return [
-        pytest.param(row, marks=[] if number % 2 else [pytest.mark.slow], id=str(number))
-        for number, row in enumerate(rows, 1)
-    ]
+def numbered(rows: list[dict[str, Any]]) -> list[Any]:
+    """Return rows as parameters of a test, named by their numbers from 1."""
+    return [pytest.param(row, id=str(number)) for number, row in enumerate(rows, 1)]
 
 
 def problem_of(scene: TankScene, comm: MPI.Comm = MPI.COMM_WORLD) -> OpenWaterProblem:

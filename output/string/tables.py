@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from hydroelastic.scenes.output.digits import number, with_certain_digits
-from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.output.sections import Row, Section
+from hydroelastic.output.digits import number
+from hydroelastic.output.provenance import Summary
+from hydroelastic.output.quantity_tables import columns, headings, listed
+from hydroelastic.output.sections import Row, Section
+from hydroelastic.output.string.quantities import MODES, RESPONSE
 
 
 def string_sections(summary: Summary) -> Iterator[Section]:
@@ -16,20 +18,9 @@ def string_sections(summary: Summary) -> Iterator[Section]:
 
 
 def _modes(summary: Summary) -> Section:
-    rows = [
-        (
-            str(place),
-            with_certain_digits(mode["omega"], max(mode["relative_error"], 1e-12)),
-            f"{mode['frequency_hz']:.6g}",
-            number(mode["damped_omega"]),
-            number(mode["decay"]),
-            mode["kind"],
-            f"{mode['relative_error']:.1e}",
-        )
-        for place, mode in enumerate(summary["modes"], 1)
-    ]
-    headings = ("motion", "|p|, rad/s", "f, Hz", "Im p, rad/s", "−Re p, 1/s", "kind", "relative error")
-    return Section(title="Free motions", headings=headings, rows=rows, lines=tuple(_criterion(summary["string"])))
+    rows = [(str(number), *row) for number, row in enumerate(columns(MODES, summary["modes"]), 1)]
+    lines = tuple(_criterion(summary["string"]))
+    return Section(title="Free motions", headings=("motion", *headings(MODES)), rows=rows, lines=lines)
 
 
 def _criterion(string: Summary) -> Iterator[str]:
@@ -46,17 +37,7 @@ def _criterion(string: Summary) -> Iterator[str]:
 
 def _response(summary: Summary) -> Section:
     response = summary["response"]
-    error = max(response["relative_error"], 1e-13)
-    rows: list[Row] = [
-        (
-            "largest displacement at the heights and times asked, m",
-            with_certain_digits(response["largest_displacement"], error),
-        ),
-        ("at the height, m", number(response["at_position"])),
-        ("at, s", number(response["at_time"])),
-        ("values", str(response["points"])),
-        ("estimated error, of the largest", f"{response['relative_error']:.1e}"),
-    ]
+    rows = listed(RESPONSE, response)
     if summary["steady"] is not None:
         rows += _steady(summary["steady"])
     beside = response["beside_fronts"]

@@ -8,7 +8,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from hydroelastic.scenes.output.sections import Section
+from hydroelastic.output.sections import Section
 
 
 def print_check(title: str, sections: Iterable[Section], console: Console) -> None:

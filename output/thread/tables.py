@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from hydroelastic.scenes.output.digits import counted, number, with_certain_digits
-from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.output.sections import Row, Section
+from hydroelastic.output.digits import counted, number, with_certain_digits
+from hydroelastic.output.provenance import Summary
+from hydroelastic.output.sections import Row, Section
 
 # Words for names of starts; others are printed as they are.
 _STARTS = {

@@ -4,19 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any, Generic, Protocol, TypeVar
 
 from mpi4py import MPI
 
 from hydroelastic.fem.stopwatch import Report, Stopwatch
+from hydroelastic.output.dataset import LabelledResults, declared_results
+from hydroelastic.output.manifest import read_manifest
+from hydroelastic.output.outcome import Outcome
 from hydroelastic.output.pictures.options import DEFAULT_PICTURES, PictureOption, PictureOptions
-from hydroelastic.scenes.output.dataset import LabelledResults
-from hydroelastic.scenes.output.manifest import read_manifest
-from hydroelastic.scenes.output.outcome import Outcome
-from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.output.sections import Section, markdown_sections
-from hydroelastic.scenes.output.writer import write_results
+from hydroelastic.output.provenance import Summary, summarize
+from hydroelastic.output.quantities import Group
+from hydroelastic.output.sections import Section, markdown_sections
+from hydroelastic.output.variables import Variable
+from hydroelastic.output.writer import write_results
+from hydroelastic.scenes.errors import folder_errors
 
 _Scene = TypeVar("_Scene", contravariant=True)
 _Solution = TypeVar("_Solution", contravariant=True)
@@ -32,6 +36,11 @@ def _as_solved(solution: Any, _summary: Summary) -> Any:
 
 def _nothing(_solution: Any) -> tuple[str, ...]:
     return ()
+
+
+def declared(kind: Group) -> dict[str, Any]:
+    """Return the arguments `summarize` and `dataset` of a run whose quantities are all declared."""
+    return {"summarize": partial(summarize, kind), "dataset": declared_results(kind)}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,6 +59,7 @@ class StagedRun(Generic[_Scene, _Solution]):
         animation_warnings: returns limitations of an animation of the solution, and the key to set; none by default.
         sample: samples the solution for files and pictures (collective); the solution itself by default.
         sampling_warnings: returns what could not be sampled, and why; none by default.
+        swept: returns labelled arrays of a solution that a sweep keeps beside its summary; ``None`` for none.
         solve_alone: as `solve`, without the estimates of older theories; `solve` by default, which then makes none.
     """
 
@@ -64,6 +74,7 @@ class StagedRun(Generic[_Scene, _Solution]):
     animation_warnings: Callable[[_Solution], tuple[str, ...]] = _nothing
     sample: Callable[[_Solution, Summary], Any] = _as_solved
     sampling_warnings: Callable[[Any], tuple[str, ...]] = _nothing
+    swept: Callable[[_Solution], Iterable[Variable]] | None = None
     solve_alone: Callable[[_Scene, MPI.Comm, Report], _Solution] | None = None
 
     def __call__(
@@ -156,16 +167,17 @@ class StagedRun(Generic[_Scene, _Solution]):
                 replaces=replaces,
             )
 
-        warnings = write_results(
-            out,
-            summary,
-            scene_file=scene_file,
-            tables=lambda folder: self.write(sampled, folder),
-            arrays=lambda: self.dataset.arrays(sampled),
-            names=self.dataset.names,
-            pictures=None if images is None else (lambda folder: self.draw(sampled, folder, images, report)),
-            text=lambda content: markdown_sections(content, outcome.sections, self.cost(content)),
-            page=None if page is None else lambda folder, warnings: page(with_warnings(warnings), folder),
-            report=report,
-        )
+        with folder_errors():
+            warnings = write_results(
+                out,
+                summary,
+                scene_file=scene_file,
+                tables=lambda folder: self.write(sampled, folder),
+                arrays=lambda: self.dataset.arrays(sampled),
+                dataset=self.dataset,
+                pictures=None if images is None else (lambda folder: self.draw(sampled, folder, images, report)),
+                text=lambda content: markdown_sections(content, outcome.sections, self.cost(content)),
+                page=None if page is None else lambda folder, warnings: page(with_warnings(warnings), folder),
+                report=report,
+            )
         return with_warnings(warnings)

@@ -12,8 +12,8 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from hydroelastic.scenes.output.markdown import markdown_table, markdown_text, read_markdown_row, read_markdown_text
-from hydroelastic.scenes.output.provenance import Summary
+from hydroelastic.output.markdown import markdown_table, markdown_text, read_markdown_row, read_markdown_text
+from hydroelastic.output.provenance import Summary
 
 Row: TypeAlias = tuple[str, ...]
 

@@ -7,9 +7,9 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from hydroelastic.scenes.output.folder import results_message
-from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.output.sections import Section, printed_sections
+from hydroelastic.output.folder import results_message
+from hydroelastic.output.provenance import Summary
+from hydroelastic.output.sections import Section, printed_sections
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -16,16 +16,30 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from hydroelastic.meshes.interrupts import unfinished
-from hydroelastic.scenes.errors import Problem, SceneError
-from hydroelastic.scenes.output.exchange import exchange
-from hydroelastic.scenes.output.json_values import json_ready
-from hydroelastic.scenes.output.manifest import MANIFEST, Manifest, file_names, read_manifest, write_manifest
+from hydroelastic.output.exchange import exchange
+from hydroelastic.output.json_values import json_ready
+from hydroelastic.output.manifest import MANIFEST, Manifest, file_names, read_manifest, write_manifest
 
 if TYPE_CHECKING:
     from mpi4py import MPI
 
 SUMMARY = "summary.json"
 MOST_KEPT_NAMED = 3
+
+
+class FolderError(Exception):
+    """A result folder that cannot be written.
+
+    Args:
+        wrong: the error, a phrase that follows the name of the folder.
+        folder: the folder; ``None`` on a process that does not write.
+        remedy: what to do.
+    """
+
+    def __init__(self, wrong: str, folder: str | Path | None = None, remedy: str = "") -> None:
+        """Keep the parts of the message."""
+        super().__init__(wrong if folder is None else f"output folder {folder}: {wrong}. {remedy}.")
+        self.wrong, self.folder, self.remedy = wrong, folder, remedy
 
 
 def check_output(path: str | Path) -> Manifest | None:
@@ -41,7 +55,7 @@ def check_output(path: str | Path) -> Manifest | None:
         The list of the files of a previous run, if there are any.
 
     Raises:
-        SceneError: if the path is a file, a foreign folder or the current one, or nothing can be written there.
+        FolderError: if the path is a file, a foreign folder or the current one, or nothing can be written there.
     """
     try:
         target = Path(os.path.realpath(path))
@@ -76,7 +90,7 @@ def result_folder(path: str | Path, *, scene_file: Path | None = None) -> Iterat
         The folder to write into.
 
     Raises:
-        SceneError: as `check_output`, or if writing or moving fails (a full disk).
+        FolderError: as `check_output`, or if writing or moving fails (a full disk).
     """
     check_output(path)
     target = Path(os.path.realpath(path))
@@ -226,18 +240,18 @@ def raise_on_all(problem: BaseException | None, comm: MPI.Comm) -> None:
     """Raise an error of rank 0, which alone writes, on all processes (collective).
 
     Raises:
-        SceneError: on the other processes.
+        FolderError: on the other processes.
     """
     failed = comm.bcast(problem is not None, root=0)
     if problem is not None:
         raise problem
     if failed:
-        raise SceneError(Problem(wrong="the first process could not write the result folder"))
+        raise FolderError("the first process could not write the result folder")
 
 
-def _refused(target: str | Path, wrong: str, remedy: str) -> SceneError:
-    return SceneError(Problem(key=f"output folder {target}", wrong=wrong, remedy=remedy))
+def _refused(target: str | Path, wrong: str, remedy: str) -> FolderError:
+    return FolderError(wrong, target, remedy)
 
 
-def _unwritable(target: str | Path, error: OSError) -> SceneError:
+def _unwritable(target: str | Path, error: OSError) -> FolderError:
     return _refused(target, f"it cannot be written ({error.strerror or error})", "Name another folder with --out")

@@ -7,10 +7,26 @@ import resource
 from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
-from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
+from typing import Any, Protocol, TypeAlias
 
-if TYPE_CHECKING:
-    from mpi4py import MPI
+from mpi4py import MPI
+
+from hydroelastic.output.quantities import Group, Quantity
+
+OF_ALL_SCENES = Group(
+    "",
+    "in all summaries",
+    (
+        Quantity("reasons", "reasons why the tolerance is not reached", dimensions=("reason",)),
+        Quantity("timing", "wall-clock time of a stage", "s", dimensions=("stage",)),
+        Quantity("memory_peak", "largest memory of all processes together", "byte"),
+        Quantity("versions", "version of a package", dimensions=("package",)),
+    ),
+)
+"""Quantities that `complete_summary` adds."""
+
+PROCESSES = Quantity("processes", "number of processes", "1", value=lambda _: MPI.COMM_WORLD.size)
+"""A part of the size of all problems."""
 
 Summary: TypeAlias = dict[str, Any]
 """Content of ``summary.json``."""
@@ -81,3 +97,19 @@ def complete_summary(
         "memory_peak": memory_of_processes(comm),
         "versions": versions(),
     }
+
+
+def summarize(kind: Group, solution: Solved, comm: MPI.Comm, *, import_seconds: float) -> Summary:
+    """Return the summary of a solution whose quantities are all declared (collective: peak memory is summed).
+
+    Args:
+        kind: the declarations of the kind of scene, `size` among them.
+        solution: of the scene.
+        comm: the processes.
+        import_seconds: time spent importing libraries.
+
+    Returns:
+        The content of ``summary.json``.
+    """
+    content = kind.evaluated(solution)
+    return complete_summary(solution, content, content.pop("size"), comm, import_seconds)

@@ -3,21 +3,17 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from mpi4py import MPI
 
 from hydroelastic.fem.stopwatch import Report, Stopwatch
+from hydroelastic.output.dataset import DATASET, LabelledResults, complete_variables, global_attributes, write_dataset
+from hydroelastic.output.folder import raise_on_all, result_folder, write_summary
 from hydroelastic.output.pictures.rendering import NoRendererError
-from hydroelastic.scenes.output.dataset import DATASET, with_summary, write_dataset
-from hydroelastic.scenes.output.folder import raise_on_all, result_folder, write_summary
-from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.output.summary_variables import SummaryNames
-
-if TYPE_CHECKING:
-    import xarray
+from hydroelastic.output.provenance import Summary
+from hydroelastic.output.variables import Variable
 
 TABLES = "summary.md"
 
@@ -28,8 +24,8 @@ def write_results(
     *,
     scene_file: Path | None,
     tables: Callable[[Path], None],
-    arrays: Callable[[], xarray.Dataset],
-    names: SummaryNames,
+    arrays: Callable[[], Iterable[Variable]],
+    dataset: LabelledResults,
     pictures: Callable[[Path], None] | None,
     text: Callable[[Summary], str],
     page: Callable[[Path, tuple[str, ...]], None] | None,
@@ -43,7 +39,7 @@ def write_results(
         scene_file: where the scene was read; ``None`` if it was made in Python.
         tables: writes files of numbers into a folder.
         arrays: returns the labelled arrays of ``dataset.nc``.
-        names: names of the variables from the summary.
+        dataset: names and attributes of ``dataset.nc``.
         pictures: draws into a folder; ``None`` draws nothing.
         text: returns the content of ``summary.md``.
         page: writes a page about the results and warnings into the folder; ``None`` writes none.
@@ -53,7 +49,7 @@ def write_results(
         Warnings: pictures that could not be drawn, and why.
 
     Raises:
-        SceneError: if the folder cannot be written.
+        FolderError: if the folder cannot be written.
     """
     comm, watch = MPI.COMM_WORLD, Stopwatch()
     problem: BaseException | None = None
@@ -78,7 +74,8 @@ def write_results(
                 (folder / TABLES).write_text(text(summary), encoding="utf-8")
                 write_summary(summary, folder)
                 # The dataset contains the summary, which by now has the seconds of all stages except this one.
-                write_dataset(with_summary(labelled, summary, names), folder / DATASET)
+                variables = complete_variables(labelled, summary, dataset.names)
+                write_dataset(folder / DATASET, variables, {**global_attributes(summary), **dataset.attributes})
                 if page is not None:
                     report("page")
                     page(folder, tuple(warnings))

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from hydroelastic.scenes.output.digits import number
-from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.output.sections import Section
+from hydroelastic.output.digits import number
+from hydroelastic.output.provenance import Summary
+from hydroelastic.output.sections import Section
 
 _EXPLAINED = {True: "yes", False: "NO"}
 _NOT_EXPLAINED = (

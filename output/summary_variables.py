@@ -7,44 +7,64 @@ text "".
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, TypeAlias
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Any, Protocol, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hydroelastic.scenes.output.long_names import long_name_of
-from hydroelastic.scenes.output.provenance import Summary
-from hydroelastic.scenes.output.summary_units import unit_of
-
-if TYPE_CHECKING:
-    import xarray
+from hydroelastic.output.provenance import Summary
+from hydroelastic.output.quantities import Group, Quantity
+from hydroelastic.output.variables import Variable, attributes_of
 
 _Entries: TypeAlias = NDArray[Any]
 _INTEGERS = np.iinfo(np.int32)
 
 
-@dataclass(frozen=True, kw_only=True)
-class SummaryNames:
-    """Names of the tables in the summary of a kind of scene. A place is the keys that lead to it, joined by dots.
+class Naming(Protocol):
+    """Names and attributes of the variables of a summary, by place: the keys that lead to it, joined by dots."""
 
-    Attributes:
-        dimensions: of the list at a place, one for each level of lists within lists; of a dictionary whose keys are
-            labels, one. Those of other lists are named after their place.
-        prefixes: prefix that replaces a place in the names of the variables below it.
-        units: of numbers at a place, where the key does not determine it.
-        reported_by_arrays: places that are left out because the labelled arrays contain the same.
+    def dimensions(self, place: str) -> tuple[str, ...]:
+        """Return the dimensions of a list, one for each level of lists within lists, or of a dictionary by labels."""
+
+    def name(self, place: str, default: str) -> str | None:
+        """Return the name of the variable, or the prefix of those below; ``None`` where they are left out."""
+
+    def attributes(self, place: str) -> dict[str, Any]:
+        """Return ``long_name``, and ``units`` if there is one."""
+
+
+class DeclaredNames:
+    """The names that declared quantities have.
+
+    Args:
+        parts: the declared groups at the top of the summary, one after the other.
     """
 
-    dimensions: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
-    prefixes: Mapping[str, str] = field(default_factory=dict)
-    units: Mapping[str, str] = field(default_factory=dict)
-    reported_by_arrays: frozenset[str] = frozenset()
+    def __init__(self, *parts: Group) -> None:
+        """Collect all places."""
+        self._parts: dict[str, tuple[str, Quantity | Group]] = {
+            place: (name, part)
+            for group in parts
+            for place, name, _, part in group.places()
+            if isinstance(part, Group) or part.in_summary
+        }
 
+    def dimensions(self, place: str) -> tuple[str, ...]:
+        """Return those declared."""
+        part = self._parts[place][1]
+        return (part.dimension,) * bool(part.dimension) if isinstance(part, Group) else part.dimensions
 
-# Tables that all summaries have.
-_DIMENSIONS = {"timing": ("stage",), "versions": ("package",), "reasons": ("reason",)}
+    def name(self, place: str, default: str) -> str | None:
+        """Return the one declared."""
+        name, part = self._parts[place]
+        return name or None if isinstance(part, Quantity) else name
+
+    def attributes(self, place: str) -> dict[str, Any]:
+        """Return meaning and unit."""
+        part = self._parts[place][1]
+        return {"long_name": part.meaning} if isinstance(part, Group) else attributes_of(part)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,7 +73,7 @@ class _Column:
 
     Attributes:
         place: keys that lead to it.
-        name: of its variables.
+        name: of its variable, or prefix of those below.
         entries: values; `None` where there is none.
         dims: of the entries.
         labels: of the dimensions that have some.
@@ -89,43 +109,42 @@ class _Column:
             labels=self.labels | ({} if labels is None else {dimension: labels}),
         )
 
-    def below(self, key: str, prefix: str) -> _Column:
-        """The column of one key of its entries."""
+    def below(self, key: str, names: Naming) -> Iterator[_Column]:
+        """The columns below one key of its entries, none if it is left out."""
+        place = f"{self.place}.{key}".lstrip(".")
+        name = names.name(place, f"{self.name}_{key}".lstrip("_"))
+        if name is None:
+            return
         entries = np.empty(self.entries.shape, dtype=object)
         for index in np.ndindex(entries.shape):
             entries[index] = (self.entries[index] or {}).get(key)
-        return replace(
-            self, place=f"{self.place}.{key}".lstrip("."), name=f"{prefix}_{key}".lstrip("_"), entries=entries
-        )
+        yield from _leaves(replace(self, place=place, name=name, entries=entries), names)
 
 
-def summary_variables(summary: Summary, names: SummaryNames) -> xarray.Dataset:
-    """Return a summary as variables with units, without the places of `SummaryNames.reported_by_arrays`.
+def summary_variables(summary: Summary, names: Naming) -> Iterator[Variable]:
+    """Yield a summary as variables with units, and the labels of their dimensions.
 
     Args:
         summary: content of ``summary.json``, in types of JSON.
-        names: of its tables.
+        names: of its variables.
     """
-    # The import of xarray is slow.
-    import xarray
-
     whole = np.empty((), dtype=object)
     whole[()] = summary
-    parts = [
-        xarray.Dataset({column.name: (column.dims, *_typed(column, names))}, column.labels)
-        for column in _leaves(_Column(place="", name="", entries=whole, dims=(), labels={}), names)
-    ]
-    return xarray.merge(parts, join="exact", compat="no_conflicts")
+    top = _Column(place="", name="", entries=whole, dims=(), labels={})
+    for key in summary:
+        for column in top.below(key, names):
+            for dimension, labels in column.labels.items():
+                yield Variable(name=dimension, dimensions=(dimension,), values=np.asarray(labels))
+            values, attributes = _typed(column, names.attributes(column.place))
+            yield Variable(name=column.name, dimensions=column.dims, values=values, attributes=attributes)
 
 
-def _leaves(column: _Column, names: SummaryNames) -> Iterator[_Column]:
+def _leaves(column: _Column, names: Naming) -> Iterator[_Column]:
     """The columns of numbers, texts and truth values."""
-    if column.place in names.reported_by_arrays:
-        return
-    column = _unrolled(column, list(names.dimensions.get(column.place, _DIMENSIONS.get(column.place, ()))))
+    column = _unrolled(column, list(names.dimensions(column.place)))
     if isinstance(column.first, dict):
         for key in column.keys:
-            yield from _leaves(column.below(key, names.prefixes.get(column.place, column.name)), names)
+            yield from column.below(key, names)
     elif column.entries.size and not isinstance(column.first, list):
         yield column
 
@@ -147,22 +166,17 @@ def _unrolled(column: _Column, dimensions: list[str]) -> _Column:
     return column
 
 
-def _typed(column: _Column, names: SummaryNames) -> tuple[NDArray[Any], dict[str, str]]:
+def _typed(column: _Column, attributes: dict[str, Any]) -> tuple[NDArray[Any], dict[str, Any]]:
     """The values of a column in a type of NetCDF, with their attributes."""
-    unit = names.units.get(column.place, unit_of(column.place))
-    said = {"long_name": long_name_of(column.place)}
+    without_unit = {"long_name": attributes["long_name"]}
     known = [entry for entry in column.entries.flat if entry is not None]
     if not all(isinstance(entry, bool | int | float) or entry in ("inf", "-inf") for entry in known) or (
-        not known and unit is None
+        not known and "units" not in attributes
     ):
-        return np.where(column.entries == np.array(None), "", column.entries).astype(np.str_), said
+        return np.where(column.entries == np.array(None), "", column.entries).astype(np.str_), without_unit
     if len(known) == column.entries.size:
         if all(isinstance(entry, bool) for entry in known):
-            return column.entries.astype(np.bool_), said
+            return column.entries.astype(np.bool_), without_unit
         if all(isinstance(entry, int) and _INTEGERS.min <= entry <= _INTEGERS.max for entry in known):
-            return column.entries.astype(np.int32), said | _units(unit)
-    return column.entries.astype(np.float64), said | _units(unit)
-
-
-def _units(unit: str | None) -> dict[str, str]:
-    return {} if unit is None else {"units": unit}
+            return column.entries.astype(np.int32), attributes
+    return column.entries.astype(np.float64), attributes

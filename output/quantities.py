@@ -1,0 +1,210 @@
+"""Quantities of a solution, each declared once. Every file and table of numbers is made from the declarations.
+
+A kind of scene declares a tree: groups of quantities, each with a function that takes its value from a record of the
+solution. `Group.evaluated` gives the values as nested dictionaries and lists, which are ``summary.json``;
+`output.variables` makes labelled arrays of them, `output.quantity_tables` printed tables and the reference of all keys.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import KW_ONLY, dataclass
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from hydroelastic.output.digits import number, with_certain_digits
+
+Values: TypeAlias = dict[str, Any]
+"""Values of a group by key, as in ``summary.json``."""
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """One quantity.
+
+    Attributes:
+        key: in ``summary.json`` and, behind the prefix of its group, in ``dataset.nc``.
+        meaning: what it is, a phrase: the long name in ``dataset.nc``, the heading in tables.
+        unit: in names of UDUNITS, "1" of a number without dimension; ``None`` of texts, truth values and numbers
+            whose unit differs between entries.
+        symbol: in formulas.
+        value: returns the value of a record: a number, text, truth value, list, array, or a dictionary by labels of
+            its first dimension; by default the record's attribute of the name `key`.
+        error: key of its estimated error in the same group: relative if that has the unit "1", else absolute.
+        shown: format of a printed value, as ".1e"; by default the digits that are certain by the error.
+        digits: most digits printed.
+        printed: whether it is in printed tables.
+        note: for the reference of keys: when it is missing, what belongs to it.
+        dimensions: of an array or of lists within lists.
+        variable: name in ``dataset.nc``, if it is not the key behind the prefix; "" where other arrays contain it.
+        in_summary: whether it is in ``summary.json``; if not, it is an array of ``dataset.nc`` alone.
+    """
+
+    key: str
+    meaning: str
+    unit: str | None = None
+    symbol: str = ""
+    _: KW_ONLY
+    value: Callable[[Any], Any] | None = None
+    error: str = ""
+    shown: str = ""
+    digits: int = 13
+    printed: bool = True
+    note: str = ""
+    dimensions: tuple[str, ...] = ()
+    variable: str | None = None
+    in_summary: bool = True
+
+    def of(self, record: Any) -> Any:
+        """Return the value of a record."""
+        return _taken(self.key, self.value, record)
+
+    def is_missing(self, record: Any) -> bool:
+        """Return whether a record, a mapping, lacks the key."""
+        return self.value is None and isinstance(record, Mapping) and self.key not in record
+
+    @property
+    def unit_text(self) -> str:
+        """The unit as people write it, as "N·s²/m³"; "" without one."""
+        if self.unit in (None, "1"):
+            return ""
+        return self.unit.replace("degree", "degrees").replace(" ", "·").replace("^2", "²").replace("^3", "³")
+
+    @property
+    def label(self) -> str:
+        """Meaning, symbol and unit, as "natural frequency k, rad/s"."""
+        return ", ".join(filter(None, (f"{self.meaning} {self.symbol}".rstrip(), self.unit_text)))
+
+    @property
+    def heading(self) -> str:
+        """Heading of a column: the symbol, or without one the meaning, with the unit."""
+        return ", ".join(filter(None, (self.symbol or self.meaning, self.unit_text)))
+
+    def cell(self, values: Mapping[str, Any], group: Group) -> str:
+        """Return the value as it is printed.
+
+        Args:
+            values: of its group, by key.
+            group: which declares its error.
+        """
+        value = values[self.key]
+        if value is None or isinstance(value, str):
+            return value or "–"
+        if isinstance(value, bool):
+            return "yes" if value else "no"
+        if self.shown:
+            return format(value, self.shown)
+        if isinstance(value, int):
+            return str(value)
+        error = values[self.error] if self.error else None
+        if error is None:
+            return number(value)
+        if group[self.error].unit != "1":
+            if abs(value) <= error:
+                return "0"
+            error /= abs(value)
+        return with_certain_digits(value, max(error, 10.0**-self.digits))
+
+
+@dataclass(frozen=True)
+class Group:
+    """Quantities of one record of a solution, or of each record of a list.
+
+    Attributes:
+        key: in ``summary.json``; "" of the whole.
+        meaning: what its record is.
+        parts: quantities and groups.
+        record: returns the record, or the records, of the record of the group around it: by default its attribute of
+            the name `key`. ``None`` where there is no such record: then the value of the group is null.
+        dimension: along which a list of records lies in ``dataset.nc``; "" of a single record.
+        prefix: of the names of its variables in ``dataset.nc``; by default its key behind the prefix around it.
+        note: for the reference of keys.
+    """
+
+    key: str
+    meaning: str
+    parts: tuple[Quantity | Group, ...]
+    _: KW_ONLY
+    record: Callable[[Any], Any] | None = None
+    dimension: str = ""
+    prefix: str | None = None
+    note: str = ""
+
+    def __getitem__(self, key: str) -> Any:
+        """Return the part of a key.
+
+        Raises:
+            KeyError: if there is none.
+        """
+        for part in self.parts:
+            if part.key == key:
+                return part
+        raise KeyError(key)
+
+    @property
+    def arrays(self) -> tuple[Quantity, ...]:
+        """The quantities that are in ``dataset.nc`` alone."""
+        return tuple(part for part in self.parts if isinstance(part, Quantity) and not part.in_summary)
+
+    @property
+    def groups(self) -> tuple[Group, ...]:
+        """The groups within."""
+        return tuple(part for part in self.parts if isinstance(part, Group))
+
+    def is_missing(self, record: Any) -> bool:
+        """Return whether a record, a mapping, lacks the key."""
+        return self.record is None and isinstance(record, Mapping) and self.key not in record
+
+    def of(self, record: Any) -> Any:
+        """Return the record or records of the group, from the record of the group around it."""
+        return _taken(self.key, self.record, record)
+
+    def evaluated(self, record: Any) -> Values:
+        """Return the values of the quantities in ``summary.json``, by key.
+
+        Args:
+            record: one record of the group itself. What a mapping lacks is left out.
+        """
+        return {
+            part.key: _evaluated(part, record)
+            for part in self.parts
+            if (isinstance(part, Group) or part.in_summary) and not part.is_missing(record)
+        }
+
+    def places(
+        self, place: str = "", prefix: str = "", dimensions: tuple[str, ...] = ()
+    ) -> Iterator[tuple[str, str, tuple[str, ...], Quantity | Group]]:
+        """Yield each part within with its place.
+
+        Yields:
+            The keys that lead to it, joined by dots; the name of its variable, of a group the prefix of those below;
+            their dimensions; the part.
+        """
+        for part in self.parts:
+            inner, name = f"{place}.{part.key}".lstrip("."), f"{prefix}_{part.key}".lstrip("_")
+            if isinstance(part, Group):
+                name = name if part.prefix is None else part.prefix
+                along = (*dimensions, part.dimension) if part.dimension else dimensions
+                yield inner, name, along, part
+                yield from part.places(inner, name, along)
+            elif part.in_summary:
+                yield inner, name if part.variable is None else part.variable, (*dimensions, *part.dimensions), part
+            else:
+                yield inner, part.variable or part.key, part.dimensions, part
+
+
+def _taken(key: str, function: Callable[[Any], Any] | None, record: Any) -> Any:
+    if function is not None:
+        return function(record)
+    return record[key] if isinstance(record, Mapping) else getattr(record, key)
+
+
+def _evaluated(part: Quantity | Group, record: Any) -> Any:
+    found = part.of(record)
+    if isinstance(part, Quantity):
+        # Plain numbers and lists in place of arrays and NumPy's numbers.
+        return found.tolist() if isinstance(found, np.ndarray | np.generic) else found
+    if found is None:
+        return None
+    return [part.evaluated(one) for one in found] if part.dimension else part.evaluated(found)

@@ -1,0 +1,1 @@
+"""Ships that roll on a swell: their quantities."""

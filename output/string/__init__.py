@@ -1,0 +1,1 @@
+"""Hanging strings: their quantities."""

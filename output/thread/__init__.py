@@ -1,0 +1,1 @@
+"""Flexible threads: their quantities."""

@@ -1,1 +1,0 @@
-"""Output that all kinds of scenes share: tables, folders, curves, provenance."""

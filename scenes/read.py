@@ -157,7 +157,14 @@ def scene_source(scene: Scene | str | Path) -> SceneSource:
     if isinstance(scene, str | Path):
         file = scene_path(scene)
         return SceneSource(document=_parse(file), file=file)
-    return SceneSource(document=scene.model_dump(exclude_unset=True) | {"kind": scene.kind}, file=None)
+    return SceneSource(document=_as_read(scene.model_dump()), file=None)
+
+
+def _as_read(value: Any) -> Any:
+    """The values of a scene in the types that a file gives: lists in place of tuples, nothing in place of ``None``."""
+    if isinstance(value, dict):
+        return {key: _as_read(entry) for key, entry in value.items() if entry is not None}
+    return [_as_read(entry) for entry in value] if isinstance(value, list | tuple) else value
 
 
 def closed_tank(scene: Scene, because: str) -> TankScene:

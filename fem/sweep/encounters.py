@@ -61,7 +61,7 @@ def _crossings(followed: FollowedModes) -> Iterator[Encounter]:
     omega = followed.of_branches("omega")
     for place, (before, after) in enumerate(pairwise(omega)):
         step = followed.steps[place]
-        pairs = np.argwhere((before[:, None] < before) & (after[:, None] > after))
+        pairs = np.argwhere((before[:, None] < before) & (after[:, None] >= after))
         for low, high in pairs:
             row = followed.branches[place]
             modes = int(row[low]), int(row[high])
@@ -93,13 +93,19 @@ def _veerings(followed: FollowedModes) -> Iterator[Encounter]:
                 apart = symmetry[place, low] * symmetry[place, high] < 0
                 if not least or apart or not _are_neighbours(omega[place], symmetry[place], low, high):
                     continue
+                row = followed.branches[place]
+                doubtful = {*followed.steps[place - 1].doubtful, *followed.steps[place].doubtful}
+                error = error_of(followed.modes[place], [row[low], row[high]])
+                if omega[place, high] - omega[place, low] <= omega[place, high] * error or doubtful & {
+                    row[low],
+                    row[high],
+                }:
+                    continue
                 left, right = _sides(gaps, place)
                 if _exchanged(followed, (left, right), (low, high)):
                     around = slice(place - 1, place + 2)
                     meeting = nearest(followed.values[around], gaps[around])
                     mean = 0.5 * (omega[place, low] + omega[place, high])
-                    row = followed.branches[place]
-                    error = error_of(followed.modes[place], [row[low], row[high]])
                     yield Encounter(
                         kind="veering",
                         at=meeting.at,

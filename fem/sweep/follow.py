@@ -163,7 +163,7 @@ def step_between(one: ModeVectors, two: ModeVectors, count: int) -> Step:
         order = np.arange(size)
         for place in np.flatnonzero(best[:-1] == order[1:]):
             pair = slice(place, place + 2)
-            crosses = best[place + 1] == place and _are_equal(one, before[pair]) and _are_equal(two, after[pair])
+            crosses = best[place + 1] == place and (_are_equal(one, before[pair]) or _are_equal(two, after[pair]))
             if crosses and min(block[place, place + 1], block[place + 1, place]) > _KEPT:
                 order[pair] = order[pair][::-1]
                 swapped.append((int(before[place]), int(before[place + 1])))

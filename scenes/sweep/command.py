@@ -88,7 +88,7 @@ def sweep(
         from hydroelastic.scenes.sweep.run import SweepOptions, solve_sweep
 
         options = SweepOptions(
-            jobs=jobs, estimates=estimates, pictures=pictures, follow=not no_follow, refinements=refinements
+            jobs=jobs, estimates=estimates, pictures=pictures, follow=not no_follow, refinements=refinements, show=show
         )
         found = Sweep(solved=solve_sweep(scene, grid, overrides=overrides, options=options, out=folder, report=report))
         report("tables and pictures")

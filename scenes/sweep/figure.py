@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from hydroelastic.output.pictures.colours import BLUE, GREEN, SEQUENCE, VERMILLION, part_of_colours
 from hydroelastic.output.pictures.curves import DASHES, GREY, Sheets, label_axes, plot_curve
 from hydroelastic.output.pictures.options import PictureOptions
-from hydroelastic.scenes.errors import Problem, SceneError, shown_value
 from hydroelastic.scenes.sweep.lines import Line, is_logarithmic, place_of
-from hydroelastic.scenes.words import proposal
+from hydroelastic.scenes.sweep.quantities import shown_columns
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -23,42 +22,9 @@ if TYPE_CHECKING:
 
 PICTURE = "sweep"
 
-# The first of these whose first name a table has is shown where nothing is asked for.
-_MAIN = (
-    ("first_elastic_omega", "first_elastic_participation", "first_elastic_pressure_release_omega"),
-    ("omega_1", "omega_2", "omega_3"),
-    ("response_largest_displacement",),
-    ("equilibrium_largest_tension",),
-    ("response_largest_angle_degrees",),
-)
 _MARKS = {"crossing": ("x", GREEN), "veering": ("o", GREY), "unresolved": ("^", VERMILLION)}
 # Widths of curves without and with all of the first elastic tone, points.
 _WIDTHS = 0.9, 5.0
-_CURVES = 12
-
-
-def shown_columns(table: Mapping[str, Any], show: tuple[str, ...]) -> tuple[str, ...]:
-    """Return the columns to show: those asked for, or else the main ones of the kind of scene.
-
-    Raises:
-        SceneError: if there is no such column, or it does not hold numbers.
-    """
-    numbers = [name for name in table if np.issubdtype(np.asarray(table[name]).dtype, np.number)]
-    for name in show:
-        if name.replace(".", "_") not in numbers:
-            raise SceneError(
-                Problem(
-                    key="--show",
-                    value=shown_value(name),
-                    wrong="it holds no numbers" if name in table else "there is no such quantity",
-                    allowed="a column of sweep.csv with numbers",
-                    remedy=proposal(name, numbers) or f"There are {', '.join(numbers[:_CURVES])} …",
-                )
-            )
-    if show:
-        return tuple(name.replace(".", "_") for name in show)
-    found = next((names for names in _MAIN if names[0] in numbers), tuple(numbers[-1:]))
-    return tuple(name for name in found if name in numbers)
 
 
 def draw_sweep(sweep: Sweep, folder: Path, options: PictureOptions, show: tuple[str, ...]) -> None:

@@ -18,7 +18,8 @@ from hydroelastic.scenes.errors import folder_errors
 from hydroelastic.scenes.sweep.axes import shown_number
 from hydroelastic.scenes.sweep.branches import branch_rows, encounter_rows
 from hydroelastic.scenes.sweep.dataset import sweep_attributes
-from hydroelastic.scenes.sweep.figure import draw_sweep, shown_columns
+from hydroelastic.scenes.sweep.figure import draw_sweep
+from hydroelastic.scenes.sweep.quantities import shown_columns
 from hydroelastic.scenes.sweep.run import SolvedSweep
 
 if TYPE_CHECKING:

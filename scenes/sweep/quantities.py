@@ -5,7 +5,7 @@ This is the only place where a sweep asks what results there are.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -14,6 +14,8 @@ import numpy as np
 from hydroelastic.output.provenance import Summary
 from hydroelastic.output.summary_variables import Naming, summary_variables
 from hydroelastic.output.variables import Variable, merged
+from hydroelastic.scenes.errors import Problem, SceneError, shown_value
+from hydroelastic.scenes.words import proposal
 
 POINT = "point"
 """The dimension along which the points lie; of a variable that has it, it is the first."""
@@ -129,3 +131,38 @@ def columns(variables: Iterable[Variable], most: int = 100) -> dict[str, np.ndar
                 numbers = [index + 1 for index, size in zip(place, one.values.shape[1:], strict=True) if size > 1]
                 found["_".join(map(str, (one.name, *["abs"] * is_complex, *numbers)))] = column
     return found
+
+
+# The first of these whose first name a table has is shown where nothing is asked for.
+_MAIN = (
+    ("first_elastic_omega", "first_elastic_participation", "first_elastic_pressure_release_omega"),
+    ("omega_1", "omega_2", "omega_3"),
+    ("response_largest_displacement",),
+    ("equilibrium_largest_tension",),
+    ("response_largest_angle_degrees",),
+)
+_NAMED = 12
+
+
+def shown_columns(table: Mapping[str, Any], show: tuple[str, ...]) -> tuple[str, ...]:
+    """Return the columns to show: those asked for, or else the main ones of the kind of scene.
+
+    Raises:
+        SceneError: if there is no such column, or it does not hold numbers.
+    """
+    numbers = [name for name in table if np.issubdtype(np.asarray(table[name]).dtype, np.number)]
+    for name in show:
+        if name.replace(".", "_") not in numbers:
+            raise SceneError(
+                Problem(
+                    key="--show",
+                    value=shown_value(name),
+                    wrong="it holds no numbers" if name in table else "there is no such quantity",
+                    allowed="a column of sweep.csv with numbers",
+                    remedy=proposal(name, numbers) or f"There are {', '.join(numbers[:_NAMED])} …",
+                )
+            )
+    if show:
+        return tuple(name.replace(".", "_") for name in show)
+    found = next((names for names in _MAIN if names[0] in numbers), tuple(numbers[-1:]))
+    return tuple(name for name in found if name in numbers)

@@ -39,6 +39,6 @@ def sweep_report(sweep: Sweep, show: tuple[str, ...], folder: Path, *, replaces:
     for line in followed_lines_of_text(solved):
         console.print(line, markup=False)
     if solved.resumed:
-        console.print(f"{solved.resumed} of {len(rows)} points were solved before, and kept in the folder.")
+        console.print(f"{solved.resumed} points were solved before, and kept in the folder.")
     text: str = console.file.getvalue()  # type: ignore[attr-defined]
     return f"{text.rstrip()}\nResults written to {results_message(folder, replaces=replaces)}"

@@ -20,6 +20,7 @@ from hydroelastic.scenes.sweep.axes import Grid, point_text
 from hydroelastic.scenes.sweep.families import families
 from hydroelastic.scenes.sweep.journal import Journal, open_journal
 from hydroelastic.scenes.sweep.point import PointOptions, SolvedPoint, failed, point_key
+from hydroelastic.scenes.sweep.quantities import columns, quantities, shown_columns
 from hydroelastic.scenes.sweep.workers import Task, solved_tasks
 
 if TYPE_CHECKING:
@@ -41,6 +42,7 @@ class SweepOptions:
         pictures: whether each point has a result folder with its pictures.
         follow: whether the modes of closed tanks are followed along the first key.
         refinements: largest number of points that are added for following them; ``None`` is four for each of the grid.
+        show: quantities that are asked for; the first solved point must have them.
     """
 
     jobs: int = 1
@@ -48,6 +50,7 @@ class SweepOptions:
     pictures: bool = False
     follow: bool = True
     refinements: int | None = None
+    show: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         """Refuse what cannot be done."""
@@ -134,6 +137,9 @@ class _Solver:
         self.resumed += sum(key in self.journal for key in keys)
         for number, (task, point) in enumerate(solved_tasks(ordered, of_points, self.options.jobs), 1):
             self.journal.add(task.key, point)
+            if number == 1 and point.summary is not None:
+                names = runner_of(task.scene).dataset.names
+                shown_columns(columns(quantities([point.summary], [point.arrays], names)), self.options.show)
             report(f"{number} of {len(tasks)} points")
         return [
             failed(scene) if isinstance(scene, SceneError) else self.journal[key]

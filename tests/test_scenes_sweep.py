@@ -65,7 +65,6 @@ def test_points_that_share_their_liquid_are_those_of_single_solutions(centred: S
         ("tank.gravity", 3.7, True),
         ("body.1.start", 2.9, False),
         ("body.1.length", 3.9, False),
-        ("body.1.ends", "guided", False),
         ("liquid.1.depth", 4.0, False),
     ],
 )

@@ -26,6 +26,7 @@ from hydroelastic.output.markdown import markdown_table, markdown_text
 from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.output.pictures.page import save
 from hydroelastic.output.provenance import Summary
+from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.read import read_scene, shipped_scenes
 from hydroelastic.scenes.run import run_scene
@@ -61,24 +62,26 @@ def regenerate(name: str) -> str:
         shutil.rmtree(kept, ignore_errors=True)
         kept.mkdir(parents=True)
         pictures = outcome.folder / "images"
-        of_tank = isinstance(scene, TankScene) and not scene.is_open
+        in_section = isinstance(scene, TankScene) and not scene.is_open
+        of_tank = in_section or isinstance(scene, LevelTankScene)
         for table in TABLES if of_tank else OTHER_TABLES:
             shutil.copy(outcome.folder / table, kept)
         if of_tank:
-            _keep_picture(pictures / "overview.png", kept / "overview.png")
+            if in_section:
+                keep_picture(pictures / "overview.png", kept / "overview.png")
             for index, picture in shown_modes(outcome.summary).items():
-                _keep_picture(pictures / f"mode_{index:03d}.png", kept / picture)
+                keep_picture(pictures / f"mode_{index:03d}.png", kept / picture)
         else:
             # Frames of an animation lie in a folder of their own and stay out.
             for drawn in sorted(pictures.glob("*.png")):
-                _keep_picture(drawn, kept / drawn.name)
+                keep_picture(drawn, kept / drawn.name)
     if name in STUDIED:
         assert isinstance(scene, TankScene)
         with tempfile.TemporaryDirectory() as scratch:
             write_study(study_scene(scene, STUDIED[name]), Path(scratch) / name)
             for file in (Path(scratch) / name).iterdir():
                 if file.name not in (SUMMARY, MANIFEST):
-                    (_keep_picture if file.suffix == ".png" else shutil.copy)(file, kept / file.name)
+                    (keep_picture if file.suffix == ".png" else shutil.copy)(file, kept / file.name)
     return outcome.status
 
 
@@ -86,13 +89,13 @@ def shown_modes(summary: Summary) -> dict[int, str]:
     """The modes whose pictures are kept, by number: the first elastic tone, and that in which a float heaves most."""
     tone = summary["first_elastic"]
     found = {tone["index"]: "first_elastic.png"} if tone is not None else {}
-    for row in summary["floats"]:
+    for row in summary.get("floats", ()):
         found |= {mode["index"]: "heave.png" for mode in row["modes"] if mode["motion"] == "heave"}
     asked = len(summary["modes"])
     return {index: picture for index, picture in found.items() if index is not None and index <= asked}
 
 
-def _keep_picture(source: Path, target: Path) -> None:
+def keep_picture(source: Path, target: Path) -> None:
     """Store a picture with all its colours, its rows as they are or filtered, whichever takes fewer bytes."""
     filtered = BytesIO()
     with Image.open(source) as picture:

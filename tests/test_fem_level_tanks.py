@@ -140,8 +140,8 @@ def test_two_concentric_plates_and_an_inner_cylinder_are_solved() -> None:
     plates = tuple(Plate(outline=outline, flexural_rigidity=1e-6, mass_per_area=0.0) for outline in outlines)
     plan = Cylinder(radius=5.0, inner_radius=1.0)
     bare = LevelTank(plan=plan, depth=3.0, density=1000.0, gravity=9.81)
-    waves = solve_level_tank(bare, tolerance=1e-8, modes=4)
-    soft = solve_orders_of(replace(bare, plates=plates), 4)
+    waves = solve_level_tank(bare, tolerance=1e-8, modes=3)
+    soft = solve_orders_of(replace(bare, plates=plates), 3)
     # A plate without stiffness and mass is water, but its bending of D/(ρgL⁴) = 2e-13 is not none.
     assert soft == pytest.approx([one.mode.eigenvalue for one in waves.modes], rel=1e-6)
 
@@ -149,7 +149,7 @@ def test_two_concentric_plates_and_an_inner_cylinder_are_solved() -> None:
 def solve_orders_of(tank: LevelTank, count: int) -> np.ndarray:
     scaled, separation = tank.scaled(), separated(tank.scaled())
     assert separation is not None
-    orders = solve_orders(scaled, separation, line_resolution(scaled, separation, 1e-7, 4.0), count)
+    orders = solve_orders(scaled, separation, line_resolution(scaled, separation, 1e-5, 4.0), count)
     return np.sort(np.concatenate([one.modes.eigenvalues for one in orders]))[:count]
 
 
@@ -166,7 +166,7 @@ HARD = {
 }
 
 
-@pytest.mark.slow_but("soft", "small hole")
+@pytest.mark.slow_but("clamped")
 @pytest.mark.parametrize("case", HARD)
 def test_hard_tanks_keep_their_tolerance(case: str) -> None:
     base = reference_tank("disc_base_s0")

@@ -175,13 +175,13 @@ def _body(plate: Plate, index: int, line: Line, shapes: LineModes) -> Body:
     factor = line.separation.factor(line.order)
     # A rigid plate has rigid motions only, without bending.
     bending = factor * (plate.flexural_rigidity if plate.is_elastic else 0.0) * shapes.bending
-    parities: tuple[Parity, ...] = ("symmetric",) * shapes.count
+    even: Parity = "symmetric"
     return Body(
         surface=body_name(index + 1),
         shapes=partial(_shape_at, shapes),
         wavenumber=float(shapes.eigenvalues[-1] ** 0.25),
         dofs=_dofs(line, shapes),
-        parities=parities,
+        parities=(even,) * shapes.count,
         stiffness=bending + factor * float(plate.hydrostatic) * shapes.squares,
         bending_stiffness=bending,
         mass=np.diag(factor * plate.mass_per_area * shapes.squares),
@@ -201,8 +201,7 @@ def _dofs(line: Line, shapes: LineModes) -> tuple[Dof, ...]:
 def _shape_at(
     shapes: LineModes, points: NDArray[np.float64], _normals: NDArray[np.float64], number: int
 ) -> NDArray[np.float64]:
-    values: NDArray[np.float64] = shapes.values(points[0])[:, number]
-    return values
+    return np.asarray(shapes.values(points[0])[:, number], dtype=np.float64)
 
 
 def _loads(line: Line, elements: np.ndarray, shapes: LineModes) -> FloatArray:

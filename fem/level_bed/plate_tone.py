@@ -6,6 +6,7 @@ resolution of its own.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 from math import ceil
@@ -77,8 +78,7 @@ def plate_tone(tank: LevelTank, separation: Separation, plate: int, tolerance: f
     )
     solve = partial(_solved, tank, separation, plate, order, tolerance)
     if not has_waves(tank, separation):
-        held = tank.top == "pressure_release"
-        return _with_tone(found, solve(wave, FEW_MODES, exponent=0.5 if held else 1.0))
+        return _sought(tank, separation, found, FEW_MODES, wave, solve, None)
     release = solve(wave, _MODES_OF_A_PLATE, pressure_release=True)
     found = replace(
         found,
@@ -94,15 +94,30 @@ def plate_tone(tank: LevelTank, separation: Separation, plate: int, tolerance: f
         for left, right in zip(breakpoints(separation)[:-1], breakpoints(separation)[1:], strict=True)
     ]
     count = ceil(1.25 * modes_below(tuple(pieces), value)) + 4
-    search = line_resolution(tank, separation, _SEARCHED, value)
+    return _sought(tank, separation, found, count, value, solve, value)
+
+
+def _sought(
+    tank: LevelTank,
+    separation: Separation,
+    found: PlateTone,
+    count: int,
+    eigenvalue: float,
+    solve: Callable[..., AdaptiveSolution[_Found]],
+    release: float | None,
+) -> PlateTone:
+    """The tone among so many modes of its order, or among more."""
+    assert found.order is not None
+    exponent = 0.5 if tank.top == "pressure_release" else 1.0
+    search = line_resolution(tank, separation, _SEARCHED, eigenvalue, exponent=exponent)
     while count <= MOST_MODES_TO_TONE:
-        if _once(tank, separation, plate, order, search, count, release=value)[0].tone.certain:
-            tone = solve(value, count, release=value)
+        if _once(tank, separation, found.plate, found.order, search, count, release=release)[0].tone.certain:
+            tone = solve(eigenvalue, count, exponent=exponent, release=release)
             if tone.solution.tone.certain:
                 return _with_tone(found, tone)
         count = ceil(1.6 * count)
-    reason = f"it lies above more than {MOST_MODES_TO_TONE} modes of order {order}, or is spread over them"
-    return replace(found, reason=f"{reason}; see the pressure-release tone")
+    reason = f"it lies above more than {MOST_MODES_TO_TONE} modes of order {found.order}, or is spread over them"
+    return replace(found, reason=reason if release is None else f"{reason}; see the pressure-release tone")
 
 
 def _with_tone(found: PlateTone, tone: AdaptiveSolution[_Found]) -> PlateTone:

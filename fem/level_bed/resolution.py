@@ -104,7 +104,12 @@ def line_resolution(
         sizes.append(min(radians(degree, tolerance) / max(wavenumber, 1e-9), 0.5 * (right - left)))
         if plate is not None:
             half_waves = 0.5 * wavenumber * (right - left)
-            shapes[plate] = min(ceil(1.1 * half_waves - 1.2 * log10(tolerance)) + 6, MOST_SHAPES)
+            needed = ceil(1.1 * half_waves - 1.2 * log10(tolerance)) + 6
+            if separation.round and left > 0.0:
+                # Polynomials in r converge like (z + √(z² − 1))⁻ᴺ to what is singular on the axis.
+                z = (right + left) / (right - left)
+                needed = max(needed, ceil(half_waves - 0.5 * log(tolerance) / log(z + sqrt(z * z - 1.0))) + 6)
+            shapes[plate] = min(needed, MOST_SHAPES)
     # The error falls like the thickness of the innermost layer to the power 2α.
     layers = ceil(log((5.0 + 10.0 * exponent) * tolerance ** (0.5 / exponent)) / log(LAYER_RATIO))
     return LineResolution(degree=degree, sizes=tuple(sizes), layers=max(layers, 2), shapes=tuple(shapes))

@@ -85,6 +85,7 @@ run_open = StagedRun(
         names=OPEN_NAMES,
         attributes={"comment": COMMENT},
     ),
+    swept=lambda solution: variables_of(open_dataset(solution)),
     draw=_draw,
     used_options=OF_CURVES | OF_FIELDS | OF_MOTIONS,
 )

@@ -61,4 +61,4 @@ def test_two_plates_are_written_and_drawn(tmp_path: Path) -> None:
     summary = json.loads((folder / "summary.json").read_text())
     # Converged to 1e-7 by another refinement.
     assert [mode["omega"] for mode in summary["modes"][:2]] == pytest.approx([1.30905794, 2.00166244], rel=1e-6)
-    assert len(list((folder / "fields").iterdir())) >= 8
+    assert {path.name for path in (folder / "fields").iterdir()} == {"surface.vtu", "volume.vtu"}

@@ -11,14 +11,13 @@ import numpy as np
 from hydroelastic.output.pictures.colours import BLUE, GREEN, SEQUENCE, VERMILLION, part_of_colours
 from hydroelastic.output.pictures.curves import DASHES, GREY, Sheets, label_axes, plot_curve
 from hydroelastic.output.pictures.options import PictureOptions
+from hydroelastic.scenes.sweep.contents import SweepContents
 from hydroelastic.scenes.sweep.lines import Line, is_logarithmic, place_of
 from hydroelastic.scenes.sweep.quantities import shown_columns
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-
-    from hydroelastic.scenes.sweep.result import Sweep
 
 PICTURE = "sweep"
 
@@ -27,7 +26,7 @@ _MARKS = {"crossing": ("x", GREEN), "veering": ("o", GREY), "unresolved": ("^", 
 _WIDTHS = 0.9, 5.0
 
 
-def draw_sweep(sweep: Sweep, folder: Path, options: PictureOptions, show: tuple[str, ...]) -> None:
+def draw_sweep(sweep: SweepContents, folder: Path, options: PictureOptions, show: tuple[str, ...]) -> None:
     """Write ``sweep.png``, or other formats: a veering diagram, or curves, or maps over two keys.
 
     Args:
@@ -51,7 +50,7 @@ def draw_sweep(sweep: Sweep, folder: Path, options: PictureOptions, show: tuple[
         (_draw_maps if maps else _draw_curves)(figure, sweep, names)
 
 
-def _draw_veerings(figure: Figure, sweep: Sweep, line: Line) -> None:
+def _draw_veerings(figure: Figure, sweep: SweepContents, line: Line) -> None:
     """Frequencies of the followed modes; colour and width tell their part in the first elastic tone."""
     from matplotlib.collections import LineCollection
 
@@ -98,7 +97,7 @@ def _draw_veerings(figure: Figure, sweep: Sweep, line: Line) -> None:
     label_axes(panel, axis.key, "ω, rad/s")
 
 
-def _draw_estimates(panel: Axes, sweep: Sweep) -> None:
+def _draw_estimates(panel: Axes, sweep: SweepContents) -> None:
     """The first elastic tone by older theories, where they were asked for."""
     variables = {one.name: one for one in sweep.variables}
     if "estimate_omega" not in variables:
@@ -111,7 +110,7 @@ def _draw_estimates(panel: Axes, sweep: Sweep) -> None:
         panel.plot(axis.values, values, style, color=GREY, linewidth=0.7, label=str(name))
 
 
-def _draw_curves(figure: Figure, sweep: Sweep, names: Sequence[str]) -> None:
+def _draw_curves(figure: Figure, sweep: SweepContents, names: Sequence[str]) -> None:
     """Quantities against the first key, a curve for each combination of the others."""
     first, *others = sweep.solved.grid.axes
     points = sweep.solved.grid.points
@@ -129,7 +128,7 @@ def _draw_curves(figure: Figure, sweep: Sweep, names: Sequence[str]) -> None:
         )
 
 
-def _draw_maps(figure: Figure, sweep: Sweep, names: Sequence[str]) -> None:
+def _draw_maps(figure: Figure, sweep: SweepContents, names: Sequence[str]) -> None:
     """Quantities over two keys."""
     across, up = sweep.solved.grid.axes
     panels = figure.subplots(len(names), 1, sharex=True, squeeze=False)[:, 0]
@@ -145,7 +144,7 @@ def _draw_maps(figure: Figure, sweep: Sweep, names: Sequence[str]) -> None:
         label_axes(panel, across.key if panel is panels[-1] else "", up.key, legend="")
 
 
-def _named(sweep: Sweep, column: str) -> str:
+def _named(sweep: SweepContents, column: str) -> str:
     """A column with its unit."""
     found = [one for one in sweep.quantities if column == one.name or column.startswith(f"{one.name}_")]
     unit = max(found, key=lambda one: len(one.name)).attributes.get("units", "1") if found else "1"

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hydroelastic.output.pictures.colours import BLUE, GREEN, SEQUENCE, VERMILLION, part_of_colours
-from hydroelastic.output.pictures.curves import DASHES, GREY, Sheets, label_axes, plot_curve
+from hydroelastic.output.pictures.curves import COLOURS, DASHES, GREY, Sheets, label_axes, plot_curve
 from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.scenes.sweep.contents import SweepContents
 from hydroelastic.scenes.sweep.lines import Line, is_logarithmic, place_of
@@ -90,6 +90,9 @@ def _draw_veerings(figure: Figure, sweep: SweepContents, line: Line) -> None:
         if met:
             panel.plot(*np.array(met).T, marker, color=colour, fillstyle="none", markersize=7, label=kind)
     highest = max(modes.omega[min(followed.count, len(modes.omega)) - 1] for modes in followed.modes)
+    # Above the modes asked for there are others up to the first elastic tone, if it is not too high.
+    tones = np.concatenate([modes.pressure_release for modes in followed.modes])
+    highest = max(highest, *tones[tones < np.nanmax(omega)], 0.0)
     panel.set_ylim(0.0, 1.03 * highest)
     panel.set_xlim(x[0], x[-1])
     if is_logarithmic(axis):
@@ -106,8 +109,9 @@ def _draw_estimates(panel: Axes, sweep: SweepContents) -> None:
     for number, (name, values) in enumerate(
         zip(variables["estimate"].values, variables["estimate_omega"].values.T, strict=True)
     ):
-        style = DASHES[1 + number % (len(DASHES) - 1)]
-        panel.plot(axis.values, values, style, color=GREY, linewidth=0.7, label=str(name))
+        style = DASHES[1 + number // len(COLOURS) % (len(DASHES) - 1)]
+        colour = COLOURS[number % len(COLOURS)]
+        panel.plot(axis.values, values, style, color=colour, linewidth=0.8, label=str(name))
 
 
 def _draw_curves(figure: Figure, sweep: SweepContents, names: Sequence[str]) -> None:

@@ -109,9 +109,8 @@ def _view(sample: SampledModes, relative: NDArray[np.float64], size: tuple[int, 
     points = np.column_stack([sample.points, _RAISED * extent * relative])
     plotter = pyvista.Plotter(off_screen=True, window_size=list(size))
     plotter.set_background("white")
-    surface = _surface(points, sample.triangles, relative)
     for number in np.unique(sample.plate_of_triangles):
-        part = surface.extract_cells(sample.plate_of_triangles == number).extract_surface()
+        part = _surface(points, sample.triangles[sample.plate_of_triangles == number], relative)
         plotter.add_mesh(
             part,
             scalars="displacement",

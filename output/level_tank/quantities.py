@@ -186,7 +186,7 @@ MODES = Group(
     prefix="mode",
 )
 _TONE_PARTS = (
-    Quantity("body", "number of the plate", "1", "plate"),
+    Quantity("body", "number of the plate", "1"),
     Quantity("order", "order of its lowest elastic dry mode", "1", "n"),
     Quantity("omega", "frequency of the first elastic tone", "rad/s", "ω", error="relative_error"),
     Quantity("relative_error", "estimated relative error of the tone", "1", shown=".1e"),
@@ -238,9 +238,13 @@ ESTIMATES = Group(
         Quantity("name", "estimate"),
         Quantity("omega", "estimated frequency", "rad/s", "ω", shown=".6g"),
         Quantity("added_mass_per_area", "estimated added mass per area", "kg/m^2", "m_a", shown=".6g"),
-        Quantity("difference", "relative difference from the tone", "1", shown="+.2e"),
+        Quantity("difference", "relative difference from the tone", "1", "Δω/ω", shown="+.2e"),
         Quantity(
-            "difference_to_pressure_release", "relative difference from the pressure-release tone", "1", shown="+.2e"
+            "difference_to_pressure_release",
+            "relative difference from the pressure-release tone",
+            "1",
+            "Δω/ω₀",
+            shown="+.2e",
         ),
         Quantity("note", "what it is", printed=False),
     ),

@@ -5,6 +5,7 @@ Run it after a change of a quantity: ./hydro python docs/results_reference.py
 
 from pathlib import Path
 
+from hydroelastic.output.open_water.quantities import OPEN_WATER
 from hydroelastic.output.provenance import OF_ALL_SCENES
 from hydroelastic.output.quantities import Group
 from hydroelastic.output.quantity_tables import reference_table
@@ -13,7 +14,7 @@ from hydroelastic.output.string.quantities import HANGING_STRING
 from hydroelastic.output.thread.quantities import THREAD
 
 FOLDER = Path(__file__).parent / "reference"
-KINDS = {"string": HANGING_STRING, "thread": THREAD, "roll": ROLL}
+KINDS = {"open_water": OPEN_WATER, "string": HANGING_STRING, "thread": THREAD, "roll": ROLL}
 
 
 def page(kind: Group) -> str:

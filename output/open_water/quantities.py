@@ -89,6 +89,23 @@ def motions_of(*tables: Any) -> tuple[Dof, ...]:
     return max((table.dofs for table in tables), key=len, default=())
 
 
+def _phase_at_body(table: WavesAndMotions) -> Floats:
+    """Return θ, degrees, of the motion |a| cos(ωt − θ) of a body that the crest of the incident wave passes at t = 0.
+
+    The phase of a is beside the crest at x = 0, and waves e^{±ikx − iωt} are e^{±ikx_b} at the middle x_b of the
+    waterplane: θ = arg(a e^{∓ikx_b}), upper signs for waves from the left. NaN where |a| is not larger than its error,
+    which is relative to the largest of the displacements, or of the rotations.
+    """
+    centres = np.array([table.centres[(dof.body or 1) - 1] for dof in table.dofs])
+    towards = 1.0 if table.waves_from == "left" else -1.0
+    at_body = table.amplitudes * np.exp(-1j * towards * table.wavenumbers[:, :, None] * centres)
+    turns = np.array([dof.is_rotation for dof in table.dofs], dtype=bool)
+    sizes = np.where(turns[:, None] == turns, np.abs(table.amplitudes)[:, :, None, :], 0.0)
+    is_known = np.abs(table.amplitudes) > table.relative_error[:, None, None] * sizes.max(axis=-1, initial=0.0)
+    # No negative zero.
+    return np.where(is_known, np.degrees(np.angle(at_body)) + 0.0, np.nan)
+
+
 def _joined(key: str, meaning: str, dimensions: str, order: str = "", **more: Any) -> Quantity:
     """An array that all analyses of a kind have together, in another order of its dimensions if there is one."""
     names = tuple(dimensions.split())
@@ -304,6 +321,16 @@ RESPONSE = Group(
             variable="RAO",
             column="",
             **_PER_ELEVATION,
+        ),
+        _joined(
+            "phase_at_body",
+            "phase of the motion beside the crest of the incident wave at the middle of the body's waterplane",
+            *_AMPLITUDES,
+            unit="degree",
+            value=_phase_at_body,
+            shown=".1f",
+            variable="RAO_phase_at_body",
+            note="positive where it comes after the crest, `null` where the motion is not larger than its error",
         ),
         _array(
             "shape_amplitude",

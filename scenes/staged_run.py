@@ -18,6 +18,7 @@ from hydroelastic.output.pictures.options import DEFAULT_PICTURES, PictureOption
 from hydroelastic.output.provenance import Summary, summarize
 from hydroelastic.output.quantities import Group
 from hydroelastic.output.sections import Section, markdown_sections
+from hydroelastic.output.variables import Variable
 from hydroelastic.output.writer import write_results
 from hydroelastic.scenes.errors import folder_errors
 
@@ -58,6 +59,8 @@ class StagedRun(Generic[_Scene, _Solution]):
         animation_warnings: returns limitations of an animation of the solution, and the key to set; none by default.
         sample: samples the solution for files and pictures (collective); the solution itself by default.
         sampling_warnings: returns what could not be sampled, and why; none by default.
+        swept: returns labelled arrays of a solution that a sweep keeps beside its summary; ``None`` for none.
+        solve_alone: as `solve`, without the estimates of older theories; `solve` by default, which then makes none.
     """
 
     solve: Callable[[_Scene, MPI.Comm, Report], _Solution]
@@ -71,6 +74,8 @@ class StagedRun(Generic[_Scene, _Solution]):
     animation_warnings: Callable[[_Solution], tuple[str, ...]] = _nothing
     sample: Callable[[_Solution, Summary], Any] = _as_solved
     sampling_warnings: Callable[[Any], tuple[str, ...]] = _nothing
+    swept: Callable[[_Solution], Iterable[Variable]] | None = None
+    solve_alone: Callable[[_Scene, MPI.Comm, Report], _Solution] | None = None
 
     def __call__(
         self,
@@ -103,10 +108,21 @@ class StagedRun(Generic[_Scene, _Solution]):
             return outcome
         return self.written(outcome, out, scene_file=scene_file, images=images, page=page, report=report)
 
-    def solved(self, scene: _Scene, *, import_seconds: float = 0.0, report: Report = lambda _message: None) -> Outcome:
-        """Solve a scene; write nothing (collective). The arguments and errors are those of a call."""
+    def solved(
+        self,
+        scene: _Scene,
+        *,
+        solve: Callable[[_Scene, MPI.Comm, Report], _Solution] | None = None,
+        import_seconds: float = 0.0,
+        report: Report = lambda _message: None,
+    ) -> Outcome:
+        """Solve a scene; write nothing (collective). The other arguments and errors are those of a call.
+
+        Args:
+            solve: in place of that of the kind of scene, for example without estimates.
+        """
         comm = MPI.COMM_WORLD
-        solution = self.solve(scene, comm, report)
+        solution = (solve or self.solve)(scene, comm, report)
         summary = self.summarize(solution, comm, import_seconds=import_seconds)
         sections = tuple(self.sections(solution, summary))
         return Outcome(solution=solution, summary=summary, sections=sections, cost=self.cost(summary))

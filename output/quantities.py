@@ -27,7 +27,7 @@ class Quantity:
         meaning: what it is, a phrase: the long name in ``dataset.nc``, the heading in tables.
         unit: in names of UDUNITS, "1" of a number without dimension; ``None`` of texts, truth values and numbers
             whose unit differs between entries.
-        symbol: in formulas.
+        symbol: in formulas; or a short name, the heading of columns.
         value: returns the value of a record: a number, text, truth value, list, array, or a dictionary by labels of
             its first dimension; by default the record's attribute of the name `key`.
         error: key of its estimated error in the same group: relative if that has the unit "1", else absolute.
@@ -100,13 +100,16 @@ class Quantity:
         return ", ".join(filter(None, (self.symbol or self.meaning, self.unit_text)))
 
     def cell(self, values: Mapping[str, Any], group: Group) -> str:
-        """Return the value as it is printed.
+        """Return the value as it is printed, the entries of a list one after the other.
 
         Args:
             values: of its group, by key.
             group: which declares its error.
         """
         value = values[self.key]
+        if isinstance(value, list):
+            between = "; " if any(isinstance(entry, list) for entry in value) else ", "
+            return between.join(self.cell({**values, self.key: entry}, group) for entry in value)
         if value is None or isinstance(value, str):
             return value or "–"
         if isinstance(value, bool):

@@ -108,7 +108,7 @@ EQUILIBRIUM = Group(
         Quantity(
             "end_positions", "positions of the ends A and B", "m", dimensions=("end", "axis"), error="position_error"
         ),
-        Quantity("end_tensions", "tensions at the ends A and B", "N", "T", dimensions=("end",), error="tension_error"),
+        Quantity("end_tensions", "tensions at the ends A and B", "N", dimensions=("end",), error="tension_error"),
         Quantity(
             "reactions",
             "support forces on the thread at A and B",
@@ -126,7 +126,7 @@ EQUILIBRIUM = Group(
             variable="",
             error="moment_error",
         ),
-        Quantity("largest_tension", "largest tension of the whole thread", "N", error="tension_error"),
+        Quantity("largest_tension", "largest tension of the whole thread", "N", error="tension_error", printed=False),
         Quantity("smallest_tension", "smallest tension of the whole thread", "N", error="tension_error"),
         Quantity(
             "smallest_tension_at",
@@ -140,12 +140,21 @@ EQUILIBRIUM = Group(
             "1/m",
             "κ",
             value=lambda rest: np.max(rest.curvatures),
+            printed=False,
         ),
         Quantity(
-            "lowest_point", "lowest z at the positions asked", "m", value=lambda rest: np.min(rest.positions[:, 2])
+            "lowest_point",
+            "lowest z at the positions asked",
+            "m",
+            value=lambda rest: np.min(rest.positions[:, 2]),
+            printed=False,
         ),
         Quantity(
-            "highest_point", "highest z at the positions asked", "m", value=lambda rest: np.max(rest.positions[:, 2])
+            "highest_point",
+            "highest z at the positions asked",
+            "m",
+            value=lambda rest: np.max(rest.positions[:, 2]),
+            printed=False,
         ),
         Quantity("position_error", "estimated error of positions", "m", shown=".1e"),
         Quantity("tension_error", "estimated error of tensions", "N", shown=".1e"),
@@ -156,10 +165,13 @@ EQUILIBRIUM = Group(
             "largest of these errors, of the length, the largest force, the largest moment",
             "1",
             shown=".1e",
+            printed=False,
         ),
-        Quantity("start", "[start](../scenes_threads.md#how-a-start-is-chosen) of Newton's method"),
-        Quantity("newton_steps", "steps of Newton's method on each mesh", "1", dimensions=("newton_mesh",)),
-        Quantity("failed_starts", "why the starts before it failed", dimensions=("failed_start",)),
+        Quantity("start", "[start](../scenes_threads.md#how-a-start-is-chosen) of Newton's method", printed=False),
+        Quantity(
+            "newton_steps", "steps of Newton's method on each mesh", "1", dimensions=("newton_mesh",), printed=False
+        ),
+        Quantity("failed_starts", "why the starts before it failed", dimensions=("failed_start",), printed=False),
         _array(
             "position", "position at rest, z upwards", "m", "s axis", lambda it: it.positions, error="position_error"
         ),
@@ -179,18 +191,19 @@ EQUILIBRIUM = Group(
     record=lambda solution: solution.rest,
 )
 _OF_A_ROOT = (
-    Quantity("omega", "magnitude of the root of a free motion", "rad/s", "|λ|", error="relative_error", digits=12),
+    Quantity("omega", "magnitude of the root of a free motion", "rad/s", "|λ|", printed=False),
     Quantity("damped_omega", "angular frequency of a free motion", "rad/s", "Im λ", error="relative_error", digits=12),
     Quantity("frequency_hz", "frequency of a free motion", "Hz", "f", shown=".6g"),
     Quantity("decay", "rate at which a free motion decays", "1/s", "−Re λ"),
-    Quantity("damping_ratio", "damping ratio of a free motion", "1", "−Re λ/|λ|", shown=".4g"),
+    Quantity("damping_ratio", "damping ratio −Re λ/|λ| of a free motion", "1", "damping ratio", shown=".4g"),
     Quantity(
         "out_of_plane",
         "part of the kinetic energy across the plane of the equilibrium",
         "1",
+        "direction",
         note="0 to 1, `null` where the plane is not unique",
     ),
-    Quantity("relative_error", "estimated relative error of the root", "1", shown=".1e"),
+    Quantity("relative_error", "estimated relative error of the root", "1", "relative error", shown=".1e"),
 )
 MODES = Group(
     "modes",
@@ -235,9 +248,9 @@ THRESHOLDS = Group(
         Quantity("kind", "kind", note='`"divergence"`, K is singular, or `"flutter"`'),
         Quantity("factor", "factor of the stream", "1", "stream times", error="relative_error", digits=12),
         Quantity("omega", "angular frequency at the threshold", "rad/s", "ω"),
-        Quantity("growing_below", "number of growing motions below", "1"),
-        Quantity("growing_above", "number of growing motions above", "1"),
-        Quantity("relative_error", "estimated relative error of the factor", "1", shown=".1e"),
+        Quantity("growing_below", "number of growing motions below", "1", "growing below"),
+        Quantity("growing_above", "number of growing motions above", "1", "growing above"),
+        Quantity("relative_error", "estimated relative error of the factor", "1", "relative error", shown=".1e"),
     ),
     dimension="threshold",
     prefix="threshold",
@@ -271,9 +284,9 @@ MOTION = Group(
     "motion",
     "motion in time, by analysis; extremes are those over all steps, between the times asked too",
     (
-        Quantity("until", "last time", "s", value=lambda motion: motion.times[-1]),
-        Quantity("steps", "number of steps", "1"),
-        Quantity("nodes", "number of nodes", "1", value=lambda motion: len(motion.nodes)),
+        Quantity("until", "last time", "s", value=lambda motion: motion.times[-1], printed=False),
+        Quantity("steps", "number of steps", "1", printed=False),
+        Quantity("nodes", "number of nodes", "1", value=lambda motion: len(motion.nodes), printed=False),
         Quantity(
             "largest_tension",
             "largest tension over all steps",
@@ -284,7 +297,6 @@ MOTION = Group(
         Quantity(
             "largest_tension_at",
             "time, s, and place along the thread, m, of the largest tension",
-            "s and m",
             value=_largest_at,
             dimensions=("time_and_s",),
         ),
@@ -298,13 +310,12 @@ MOTION = Group(
         Quantity(
             "smallest_tension_at",
             "time, s, and place along the thread, m, of the smallest tension",
-            "s and m",
             value=_smallest_at,
             dimensions=("time_and_s",),
         ),
         Quantity(
             "end_tensions_range",
-            "smallest and largest tension at A and B",
+            "smallest and largest tension at A, at B over all steps",
             "N",
             value=lambda motion: [
                 [float(tensions.min()), float(tensions.max())] for tensions in motion.extremes.end_tensions.T

@@ -86,7 +86,7 @@ run_open = StagedRun(
         names=DeclaredNames(OPEN_WATER, OF_ALL_SCENES),
         attributes={"comment": COMMENT},
     ),
-    swept=lambda solution: variables_of(open_dataset(solution)),
+    swept=open_variables,
     draw=_draw,
     used_options=OF_CURVES | OF_FIELDS | OF_MOTIONS,
 )

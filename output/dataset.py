@@ -43,9 +43,14 @@ class LabelledResults:
     attributes: Mapping[str, str] = field(default_factory=dict)
 
 
-def declared_results(kind: Group) -> LabelledResults:
-    """Return what the datasets of a kind of scene hold whose quantities are all declared."""
-    return LabelledResults(arrays=partial(array_variables, kind), names=DeclaredNames(kind, OF_ALL_SCENES))
+def declared_results(kind: Group, arrays: Callable[[Any], Iterable[Variable]] | None = None) -> LabelledResults:
+    """Return what the datasets of a kind of scene hold whose quantities are all declared.
+
+    Args:
+        kind: the declarations.
+        arrays: returns the arrays that the summary does not have, where their names depend on the solution.
+    """
+    return LabelledResults(arrays=arrays or partial(array_variables, kind), names=DeclaredNames(kind, OF_ALL_SCENES))
 
 
 def complete_variables(arrays: Iterable[Variable], summary: Summary, names: Naming) -> list[Variable]:

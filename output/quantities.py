@@ -13,7 +13,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from hydroelastic.output.digits import number, with_certain_digits
+from hydroelastic.output.digits import number, per_cent, with_certain_digits
 
 Values: TypeAlias = dict[str, Any]
 """Values of a group by key, as in ``summary.json``."""
@@ -29,10 +29,12 @@ class Quantity:
         unit: in names of UDUNITS, "1" of a number without dimension; ``None`` of texts, truth values and numbers
             whose unit differs between entries.
         symbol: in formulas.
+        short: heading of its column; by default the symbol, or without one the meaning.
         value: returns the value of a record: a number, text, truth value, list, array, or a dictionary by labels of
             its first dimension; by default the record's attribute of the name `key`.
         error: key of its estimated error in the same group: relative if that has the unit "1", else absolute.
-        shown: format of a printed value, as ".1e"; by default the digits that are certain by the error.
+        shown: format of a printed value, as ".1e", or "%" of a relative difference; by default the digits that are
+            certain by the error.
         digits: most digits printed.
         printed: whether it is in printed tables.
         note: for the reference of keys: when it is missing, what belongs to it.
@@ -46,6 +48,7 @@ class Quantity:
     unit: str | None = None
     symbol: str = ""
     _: KW_ONLY
+    short: str = ""
     value: Callable[[Any], Any] | None = None
     error: str = ""
     shown: str = ""
@@ -69,7 +72,9 @@ class Quantity:
         """The unit as people write it, as "N·s²/m³"; "" without one."""
         if self.unit in (None, "1"):
             return ""
-        return self.unit.replace("degree", "degrees").replace(" ", "·").replace("^2", "²").replace("^3", "³")
+        written = self.unit.replace("degree", "degrees").replace("^2", "²").replace("^3", "³")
+        # With words between units a space separates these.
+        return written if "," in written else written.replace(" ", "·")
 
     @property
     def label(self) -> str:
@@ -78,8 +83,8 @@ class Quantity:
 
     @property
     def heading(self) -> str:
-        """Heading of a column: the symbol, or without one the meaning, with the unit."""
-        return ", ".join(filter(None, (self.symbol or self.meaning, self.unit_text)))
+        """Heading of a column, with the unit."""
+        return ", ".join(filter(None, (self.short or self.symbol or self.meaning, self.unit_text)))
 
     def cell(self, values: Mapping[str, Any], group: Group) -> str:
         """Return the value as it is printed.
@@ -94,7 +99,7 @@ class Quantity:
         if isinstance(value, bool):
             return "yes" if value else "no"
         if self.shown:
-            return format(value, self.shown)
+            return per_cent(value) if self.shown == "%" else format(value, self.shown)
         if isinstance(value, int):
             return str(value)
         error = values[self.error] if self.error else None
@@ -117,7 +122,8 @@ class Group:
         parts: quantities and groups.
         record: returns the record, or the records, of the record of the group around it: by default its attribute of
             the name `key`. ``None`` where there is no such record: then the value of the group is null.
-        dimension: along which a list of records lies in ``dataset.nc``; "" of a single record.
+        dimension: along which a list of records, or a dictionary of records by labels, lies in ``dataset.nc``; "" of
+            a single record.
         prefix: of the names of its variables in ``dataset.nc``; by default its key behind the prefix around it.
         note: for the reference of keys.
     """
@@ -151,6 +157,18 @@ class Group:
     def groups(self) -> tuple[Group, ...]:
         """The groups within."""
         return tuple(part for part in self.parts if isinstance(part, Group))
+
+    def cells(self, values: Mapping[str, Any]) -> dict[str, str]:
+        """Return the values of all quantities that are single numbers or texts as they are printed, by key."""
+        return {
+            part.key: part.cell(values, self)
+            for part in self.parts
+            if isinstance(part, Quantity) and part.in_summary and not part.dimensions
+        }
+
+    def with_nulls(self, values: Values) -> Values:
+        """Return values by key; those that are missing are ``None``."""
+        return {part.key: values.get(part.key) for part in self.parts}
 
     def is_missing(self, record: Any) -> bool:
         """Return whether a record, a mapping, lacks the key."""
@@ -207,4 +225,6 @@ def _evaluated(part: Quantity | Group, record: Any) -> Any:
         return found.tolist() if isinstance(found, np.ndarray | np.generic) else found
     if found is None:
         return None
+    if part.dimension and isinstance(found, Mapping):
+        return {label: part.evaluated(one) for label, one in found.items()}
     return [part.evaluated(one) for one in found] if part.dimension else part.evaluated(found)

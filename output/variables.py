@@ -31,9 +31,16 @@ class Variable:
     is_coordinate: bool = False
 
 
-def attributes_of(quantity: Quantity) -> dict[str, Any]:
-    """Return the long name and the unit of the variables of a quantity."""
-    return {"long_name": quantity.meaning} | ({} if quantity.unit is None else {"units": quantity.unit})
+def attributes_of(quantity: Quantity, *, turning: bool = True) -> dict[str, Any]:
+    """Return the long name and the unit of the variables of a quantity.
+
+    Args:
+        quantity: the unit of what belongs to motions of bodies is that of lengths, and after a comma those with a
+            rotation among the motions: "m, of roll rad".
+        turning: whether there is a rotation.
+    """
+    unit = quantity.unit if turning or quantity.unit is None else quantity.unit.partition(",")[0]
+    return {"long_name": quantity.meaning} | ({} if unit is None else {"units": unit})
 
 
 def array_variables(group: Group, record: Any) -> list[Variable]:
@@ -68,6 +75,8 @@ def _arrays(group: Group, record: Any, shared: frozenset[str], place: int) -> It
     )
     for inner in group.groups:
         found = inner.of(record)
+        if inner.dimension and isinstance(found, Mapping):
+            found = found.values()
         records = [] if found is None else found if inner.dimension else [found]
         for number, one in enumerate(records):
             yield from _arrays(inner, one, shared, number)

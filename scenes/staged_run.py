@@ -18,6 +18,7 @@ from hydroelastic.output.pictures.options import DEFAULT_PICTURES, PictureOption
 from hydroelastic.output.provenance import Summary, summarize
 from hydroelastic.output.quantities import Group
 from hydroelastic.output.sections import Section, markdown_sections
+from hydroelastic.output.variables import Variable
 from hydroelastic.output.writer import write_results
 from hydroelastic.scenes.errors import folder_errors
 
@@ -37,9 +38,9 @@ def _nothing(_solution: Any) -> tuple[str, ...]:
     return ()
 
 
-def declared(kind: Group) -> dict[str, Any]:
+def declared(kind: Group, arrays: Callable[[Any], Iterable[Variable]] | None = None) -> dict[str, Any]:
     """Return the arguments `summarize` and `dataset` of a run whose quantities are all declared."""
-    return {"summarize": partial(summarize, kind), "dataset": declared_results(kind)}
+    return {"summarize": partial(summarize, kind), "dataset": declared_results(kind, arrays)}
 
 
 @dataclass(frozen=True, kw_only=True)

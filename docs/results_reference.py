@@ -25,8 +25,9 @@ def page(kind: Group) -> str:
                 f"# Results of {kind.meaning}",
                 "",
                 "Written by `docs/results_reference.py` from the quantities declared in `output/`. Keys are those of "
-                "`summary.json`, a point before a key for each level of tables around it; a table along a dimension is a list, or a dictionary by names; rows without a key are "
-                "arrays that only `dataset.nc` has, with their dimensions. A key that is `null` has no value.",
+                "`summary.json`, a point before a key for each level of tables around it; a table along a dimension is "
+                "a list, or a dictionary by names; rows without a key are arrays that only `dataset.nc` has, with "
+                "their dimensions. A key that is `null` has no value.",
                 "",
                 reference_table(kind),
                 "",

@@ -212,6 +212,18 @@ class Group:
                 yield inner, part.variable or part.key, part.dimensions, part
 
 
+def array(
+    key: str,
+    meaning: str,
+    unit: str | None,
+    dimensions: str,
+    value: Callable[[Any], Any] | None = None,
+    **further: Any,
+) -> Quantity:
+    """Return an array that is in ``dataset.nc`` alone; its dimensions are separated by blanks."""
+    return Quantity(key, meaning, unit, value=value, dimensions=tuple(dimensions.split()), in_summary=False, **further)
+
+
 def _taken(key: str, function: Callable[[Any], Any] | None, record: Any) -> Any:
     if function is not None:
         return function(record)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.fem.tank.solve import TankSolution
-from hydroelastic.output.quantities import Quantity
+from hydroelastic.output.quantities import Quantity, array
 from hydroelastic.output.variables import Variable, attributes_of
 from hydroelastic.physics.dofs import body_name, dof_names
 from hydroelastic.physics.motions import MOTIONS
@@ -20,37 +20,28 @@ if TYPE_CHECKING:
     from hydroelastic.fem.tank.mode_shapes import ModeShapes
 
 
-def _array(key: str, meaning: str, unit: str | None, dimensions: str, note: str = "") -> Quantity:
-    return Quantity(key, meaning, unit, note=note, dimensions=tuple(dimensions.split()), in_summary=False)
-
-
-_MODE = _array(
-    "mode", "number of the mode", None, "mode", "`growing_mode`, of motions that grow, whose arrays begin so"
-)
-_PLACE = _array("position_on_{place}", "distance from the left wall", "m", "position_on_{place}")
-_SURFACE = _array(
-    "elevation_of_{place}",
-    "upward elevation of a free surface or interface",
-    "m",
-    "mode position_on_{place}",
-    "`free_surface_1`, `interface_1` …, numbered from the left; all shapes are "
-    "[normalised](../conventions.md#normalisation-and-names)",
-)
-_BEAM = _array(
-    "deflection_of_{place}", "upward deflection of a beam", "m", "mode position_on_{place}", "`body_1` …, its number"
-)
-_MOTION = _array("motion", "motion of the floats", "m, of roll rad", "mode dof", "heave, sway, roll")
-_CONTOUR = _array("contour_of_{place}", "contour of a float at rest", "m", "point_on_{place} axis")
-_MOVED = _array("displacement_of_{place}", "displacement of the contour of a float", "m", "mode point_on_{place} axis")
+# fmt: off
+# A table: as many arguments on a line as fit.
+_MODE = array("mode", "number of the mode", None, "mode",
+    note="`growing_mode`, of motions that grow, whose arrays begin so")
+_PLACE = array("position_on_{place}", "distance from the left wall", "m", "position_on_{place}")
+_SURFACE = array("elevation_of_{place}", "upward elevation of a free surface or interface", "m",
+    "mode position_on_{place}", note="`free_surface_1`, `interface_1` …, numbered from the left; all shapes are "
+    "[normalised](../conventions.md#normalisation-and-names)")
+_BEAM = array("deflection_of_{place}", "upward deflection of a beam", "m", "mode position_on_{place}",
+    note="`body_1` …, its number")
+_MOTION = array("motion", "motion of the floats", "m, of roll rad", "mode dof", note="heave, sway, roll")
+_CONTOUR = array("contour_of_{place}", "contour of a float at rest", "m", "point_on_{place} axis")
+_MOVED = array("displacement_of_{place}", "displacement of the contour of a float", "m", "mode point_on_{place} axis")
 _INERTIA = "kg/m, with a roll kg, of rolls kg m"
 _OF_MOTIONS = "influenced_dof radiating_dof"
-_MASSES = _array("inertia_matrix", "inertia of the floats", _INERTIA, _OF_MOTIONS)
-_STIFFNESS = _array(
-    "hydrostatic_stiffness", "hydrostatic stiffness of the floats", "N/m^2, with a roll N/m, of rolls N", _OF_MOTIONS
-)
-_ADDED = _array("infinite_frequency_added_mass", "added mass at infinite frequency", _INERTIA, _OF_MOTIONS)
+_MASSES = array("inertia_matrix", "inertia of the floats", _INERTIA, _OF_MOTIONS)
+_STIFFNESS = array("hydrostatic_stiffness", "hydrostatic stiffness of the floats", "N/m^2, with a roll N/m, of rolls N",
+    _OF_MOTIONS)
+_ADDED = array("infinite_frequency_added_mass", "added mass at infinite frequency", _INERTIA, _OF_MOTIONS)
 ARRAYS = (_MODE, _PLACE, _SURFACE, _BEAM, _MOTION, _CONTOUR, _MOVED, _MASSES, _STIFFNESS, _ADDED)
 """The declarations; a place is that of a piece of a surface, or a body."""
+# fmt: on
 
 
 def tank_arrays(solution: TankSolution, shapes: ModeShapes) -> Iterator[Variable]:

@@ -191,7 +191,7 @@ def as_points(points: NDArray[np.float64]) -> list[Point]:
 
 
 def enclosed_area(points: NDArray[np.float64]) -> float:
-    """Area within a closed polygon, positive if it turns counterclockwise."""
+    """Area, m², within a closed polygon of points, m, shape (n, 2); positive if it turns counterclockwise."""
     # Relative to one of its points, to avoid cancellation in polygons far from the origin.
     x, y = (points - points[0]).T
     return 0.5 * float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))

@@ -87,12 +87,12 @@ class TaggedMesh:
             raise MeshError("; ".join(problems))
 
     def facet_nodes(self, name: str) -> NDArray[np.float64]:
-        """Coordinates of the nodes of the edges of one group, shape (nodes, 2)."""
+        """Coordinates of the nodes of the edges of one group, shape (nodes, 2), in the unit of the mesh."""
         chosen = self.facets[self.facet_tags == self.facet_names[name]]
         return self.points[np.unique(chosen)]
 
     def facet_measure(self, name: str) -> float:
-        """Total length of the edges of one group."""
+        """Total length of the edges of one group, in the unit of the mesh."""
         chosen = self.points[self.facets[self.facet_tags == self.facet_names[name]]]
         return float(np.linalg.norm(chosen[:, 1] - chosen[:, 0], axis=1).sum())
 

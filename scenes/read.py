@@ -42,7 +42,13 @@ SHIPPED_FOLDER = Path(__file__).resolve().parent
 
 @dataclass(frozen=True, kw_only=True)
 class ShippedScene:
-    """A scene that comes with the package."""
+    """A scene that comes with the package.
+
+    Attributes:
+        name: the name by which it is read, such as ``aquarium``.
+        path: its TOML file.
+        title: its title.
+    """
 
     name: str
     path: Path
@@ -50,7 +56,7 @@ class ShippedScene:
 
 
 def shipped_scenes() -> tuple[ShippedScene, ...]:
-    """Return the scenes that come with the package, by name."""
+    """Return the scenes that come with the package, sorted by name; each has ``name``, ``path`` and ``title``."""
     return tuple(
         # Not validated: the sections of floats need SciPy, whose import is slow.
         ShippedScene(name=path.stem, path=path, title=_parse(path)["title"])

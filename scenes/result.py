@@ -179,6 +179,12 @@ def solve(scene: Scene | str | Path) -> Result:
 def load(folder: str | Path) -> Result:
     """Read a result folder of the command run or of `Result.save`.
 
+    Args:
+        folder: the folder, with ``dataset.nc`` and ``summary.md``; its pictures, if there are any, are read too.
+
+    Returns:
+        The result without its scene and solution: it has all numbers, and cannot be saved or drawn again.
+
     Raises:
         SceneError: if it is no such folder.
     """

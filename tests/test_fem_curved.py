@@ -76,6 +76,7 @@ def moments(pencil: CoupledPencil, values: Callable[[np.ndarray, np.ndarray], np
     return float(pencil.liquid.tank.mesh.comm.allreduce(shape_loads(pencil.liquid, body).sum()))
 
 
+@pytest.mark.slow_but("ship", "ellipse")
 @pytest.mark.slow_on_ranks_but("ship")
 @pytest.mark.mpi
 @pytest.mark.parametrize("name", SECTIONS)

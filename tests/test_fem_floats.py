@@ -118,7 +118,7 @@ def box_theory(scene: TankScene, count: int, *, volume_term: bool = True) -> Box
     return box_modes(floating, count, volume_term=volume_term)
 
 
-@pytest.mark.slow_but("ellipse-two", "*-one")
+@pytest.mark.slow_but("ellipse-two", "wedge-one")
 @pytest.mark.parametrize("densities", [(1000.0,), (1000.0, 800.0), (1000.0, 999.0)], ids=["one", "two", "close"])
 @pytest.mark.parametrize("shape", THIN)
 def test_thin_floats_of_all_shapes_have_their_exact_modes(tanks: Any, shape: str, densities: tuple[float, ...]) -> None:
@@ -318,8 +318,8 @@ SYMMETRIC: dict[str, TankScene] = {
 }
 
 
-@pytest.mark.slow_but("rectangle", "thin")
-@pytest.mark.slow_on_ranks_but("rectangle")
+@pytest.mark.slow_but("rectangle")
+@pytest.mark.slow_on_ranks_but
 @pytest.mark.mpi
 @pytest.mark.parametrize("name", SYMMETRIC)
 def test_halves_give_the_modes_of_the_whole_tank(tanks: Any, name: str) -> None:
@@ -339,6 +339,7 @@ def test_halves_give_the_modes_of_the_whole_tank(tanks: Any, name: str) -> None:
     assert matrices[0] == pytest.approx(matrices[1], abs=2e-8 * np.abs(matrices[1]).max())
 
 
+@pytest.mark.slow_but("ship-*")
 @pytest.mark.parametrize("infinite_frequency", [False, True])
 @pytest.mark.parametrize("name", FLOATS)
 def test_added_mass_is_symmetric_and_positive(name: str, infinite_frequency: bool) -> None:
@@ -371,7 +372,7 @@ PROCESSES: dict[str, TankScene] = {
 }
 
 
-@pytest.mark.slow_on_ranks_but("thin", "unstable")
+@pytest.mark.slow_on_ranks_but("unstable")
 @pytest.mark.only_on_ranks
 @pytest.mark.mpi
 @pytest.mark.parametrize("name", PROCESSES)

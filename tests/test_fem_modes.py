@@ -41,6 +41,7 @@ def parts_of(tanks: Any, kind: str) -> list[tuple[CoupledPencil, list[Mode]]]:
 KINDS = pytest.mark.parametrize("kind", ["one", "one, hydrostatic", "two", "lid", "pressure release", "water alone"])
 
 
+@pytest.mark.slow_but("one", "lid", "water alone")
 @pytest.mark.slow_on_ranks_but("one", "water alone")
 @pytest.mark.mpi
 @KINDS

@@ -91,6 +91,7 @@ def test_second_pole_of_the_exponential() -> None:
     assert_honest(found, profile)
 
 
+@pytest.mark.slow
 def test_search_and_count_agree_on_a_circle() -> None:
     # Its sway has resonances beside those of the water around a circle that is held, poles of H.
     found = damped(circle(1e-4, "heave", "sway"), count=4)
@@ -119,6 +120,7 @@ def continued(comm: MPI.Comm, omega: complex, tolerance: float) -> tuple[DampedS
     return DampedSolver(models[0], Stopwatch()), OpenSolver(models[1], Stopwatch())
 
 
+@pytest.mark.slow_but("0.2")
 @pytest.mark.parametrize("damping", [0.0, 0.2, 0.35])
 def test_what_comes_in_tells_what_leaves(damping: float) -> None:
     # A circle scatters waves, a slit none of the even ones.

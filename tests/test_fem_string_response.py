@@ -69,6 +69,7 @@ def test_what_hardly_moves_and_what_moves_long() -> None:
     assert solution.sizes.steps < 10_000
 
 
+@pytest.mark.slow
 def test_silence_before_the_front_but_for_ripples() -> None:
     times = np.array([0.2, 0.5, 0.9])
     for motion in (step(), ramp(), smooth(4.0)):
@@ -96,6 +97,7 @@ def test_values_in_a_front_are_not_claimed() -> None:
     assert abs(soft.values[0, 0]) <= soft.errors[0, 0]
 
 
+@pytest.mark.slow
 def test_the_upper_end_moves_as_it_is_told() -> None:
     solution = field_response(COMM, plain(0.1), step(), [0.5, 1.0], [0.7, 1.5], tolerance=1e-4)
     np.testing.assert_array_equal(solution.values[1], 1.0)

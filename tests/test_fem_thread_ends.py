@@ -94,6 +94,7 @@ def test_buoy_on_the_surface() -> None:
     np.testing.assert_allclose(reactions[1], [0.0, 0.0, 800.0], atol=1e-7 * 900.0)
 
 
+@pytest.mark.slow
 def test_profile_with_kinks() -> None:
     levels, speeds = (-100.0, -60.0, -30.0, -10.0, 0.0), (0.1, 0.3, 0.35, 1.0, 1.4)
     stream = TabulatedStream(levels, tuple((speed, 0.0, 0.0) for speed in speeds))

@@ -93,6 +93,7 @@ def test_second_order_in_time(dissipation: float | None) -> None:
         assert np.log2(changes[0] / changes[1]) == pytest.approx(2.0, abs=0.15)
 
 
+@pytest.mark.slow
 def test_independence_of_the_mesh() -> None:
     """Twice as many elements of lower degree move the tip by less than the step does."""
     fine, other = swing_in_liquid(0.0025), swing_in_liquid(0.0025, elements=20, degree=2)

@@ -75,12 +75,14 @@ def test_divergence_does_not_depend_on_the_share_and_grows_with_tension() -> Non
         assert list(found.growing) == [0, 1]
 
 
+@pytest.mark.slow
 def test_clamped_beam() -> None:
     found = sweep(lambda speed: in_axial_flow(speed, 0.3, "moving_load", clamped=(True, True)), [6.1, 6.4], count=2)
     assert len(found.thresholds) == 1
     assert_threshold(found.thresholds[0], "divergence", 2.0 * np.pi, 1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("share", [0.2, pytest.param(0.5, marks=pytest.mark.slow)])
 def test_cantilever_with_a_blunt_end(share: float) -> None:
     speed, frequency = results("M09")[f"beta={share}"]
@@ -122,6 +124,7 @@ def test_string_diverges_and_is_ill_posed_beyond(string_in_stream: Stability) ->
         sweep(string, [1.5, 1.6], tension=1.0)
 
 
+@pytest.mark.slow
 def test_roots_are_followed(string_in_stream: Stability) -> None:
     # ω_n = nπ (T − M U²)/√((m + M) T − m M U²), until they meet.
     speeds = string_in_stream.values[:3]

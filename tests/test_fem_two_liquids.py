@@ -134,7 +134,7 @@ THIN_AIR = {
 }
 
 
-@pytest.mark.slow_but("beam")
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", THIN_AIR)
 def test_a_lighter_and_lighter_upper_liquid_becomes_air(tanks: Any, kind: str) -> None:
     """ω is a smooth function of ρ₁ up to ρ₁ = 0; the least that is modelled is ρ₁ = 10⁻⁶ ρ₂."""
@@ -152,7 +152,7 @@ def test_a_lighter_and_lighter_upper_liquid_becomes_air(tanks: Any, kind: str) -
     assert 2.0 * once - twice == pytest.approx(air, rel=1e-9)
 
 
-@pytest.mark.slow_but("*free*")
+@pytest.mark.slow_but("free-beam", "free-circle")
 @pytest.mark.parametrize("kind", THIN_AIR)
 @pytest.mark.parametrize("top", TOPS)
 def test_an_upper_liquid_without_density_is_air(tanks: Any, kind: str, top: LayerTop) -> None:
@@ -215,6 +215,7 @@ def test_metres_millimetres_and_heavier_liquids_give_the_same_digits(tanks: Any,
     assert tanks.omega(scaled) * np.sqrt(size) == pytest.approx(tanks.omega(plain), rel=1e-10)
 
 
+@pytest.mark.slow_but("rigid")
 @pytest.mark.slow_on_ranks_but("rigid")
 @pytest.mark.mpi
 @pytest.mark.parametrize(
@@ -231,6 +232,7 @@ def test_one_volume_follows_from_the_other_in_a_closed_tank(
         assert pencil.laplace.comm.tompi4py().allreduce(len(pencil.free_constants)) == loose
 
 
+@pytest.mark.slow_but("free")
 @pytest.mark.slow_on_ranks_but("free")
 @pytest.mark.mpi
 @pytest.mark.parametrize("top", TOPS)

@@ -75,6 +75,7 @@ def test_a_float_that_turns_over_much_faster_than_waves_travel_is_found() -> Non
     assert values[0] == pytest.approx(growing.eigenvalue, rel=1e-9)
 
 
+@pytest.mark.slow_but("top-heavy", "upright between two liquids")
 @pytest.mark.slow_on_ranks_but("top-heavy")
 @pytest.mark.mpi
 @pytest.mark.parametrize("name", UNSTABLE)
@@ -97,6 +98,7 @@ def test_inertia_of_the_full_matrices_agrees_on_either_side_of_a_growing_motion(
     assert [int(np.sum(values < factor * growing.eigenvalue)) for factor in (1.01, 0.99, 0.01)] == [0, 1, 1]
 
 
+@pytest.mark.slow
 def test_growth_rates_keep_the_tolerance(tanks: Any) -> None:
     """Against the same float on finer meshes, in halves and in whole."""
     scene = UNSTABLE["upright"]

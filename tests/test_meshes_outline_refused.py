@@ -70,6 +70,7 @@ def test_outlines_that_are_no_domain_are_refused(outline: Callable[[], Outline],
         outline()
 
 
+@pytest.mark.slow_but("at the wall")
 @pytest.mark.parametrize(
     ("outline", "message"),
     [

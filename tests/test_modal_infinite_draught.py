@@ -22,6 +22,7 @@ CASES = {
 }
 
 
+@pytest.mark.slow_but("0.55-*")
 @pytest.mark.parametrize("tail", [1e-2, 1e-3, 1e-4, 1e-5, 1e-6])
 @pytest.mark.parametrize("slenderness", [0.1, 0.55, 1.0])
 def test_estimate_of_the_cut(slenderness: float, tail: float) -> None:

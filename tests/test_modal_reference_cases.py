@@ -124,6 +124,7 @@ def test_closed_form_added_masses(name: str) -> None:
     assert deep_open_added_mass(beam(name)) == pytest.approx(expected["deep_open"]["added_mass"], rel=1e-14)
 
 
+@pytest.mark.slow_but("base_s*", "offcentre_s0", "shallow_0.01_s0")
 @pytest.mark.parametrize("name", FREE_BEAMS)
 def test_rayleigh_with_the_free_surface(name: str) -> None:
     # 14-digit reference; measured 2e-14 … 1.4e-12, and 4e-10 where the depth sets the node count (H/L = 0.01).
@@ -202,6 +203,7 @@ def test_many_term_tones(name: str, terms: int) -> None:
         )
 
 
+@pytest.mark.slow_but("base_s0")
 @pytest.mark.parametrize("name", ["base_s0", "base_s1", "offcentre_s0", "paper_x1_0", "narrow_s0"])
 def test_many_term_tones_lie_above_the_exact_modes(name: str) -> None:
     # Ritz bound, index by index. The cut of the rank may cost a few 1e-9.
@@ -211,6 +213,7 @@ def test_many_term_tones_lie_above_the_exact_modes(name: str) -> None:
         assert np.all(omega > exact * (1 - 1e-8))
 
 
+@pytest.mark.slow_but("base_s0")
 @pytest.mark.parametrize("name", ["base_s0", "offcentre_s0", "narrow_s0"])
 def test_many_term_error_is_second_order(name: str) -> None:
     # Theory: the surface jumps at the tips, ψ_n ~ n⁻², error O(N⁻²). It wobbles with the position of the tips between

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import time
 from dataclasses import replace
 
 import numpy as np
@@ -138,15 +137,13 @@ def test_two_extremes_within_a_step_are_not_missed(depth: float) -> None:
     raise AssertionError("no dip was made")
 
 
+@pytest.mark.slow_but("0.05")
 @pytest.mark.parametrize("ratio", [0.0, 0.05, 2.0])
 def test_ten_thousand_waves(ratio: float) -> None:
     random = np.random.default_rng(2)
     train = WaveTrain(periods=random.uniform(5, 15, 10_000), slopes=random.uniform(0.01, 0.05, 10_000))
     path = roll_path(Ship(natural_frequency=K, damping=ratio * K), train)
-    begin = time.perf_counter()
     result = roll_statistics(path, float(train.starts[-1]))
-    # Measured: 0.5 s undamped to 0.8 s beyond critical damping, on a machine that does other things too: 0.3 s alone.
-    assert time.perf_counter() - begin < 3.0
     assert 15_000 < len(result.swing_times) <= len(result.extreme_times) + 1 < 25_000
 
 

@@ -115,6 +115,7 @@ def test_tables_converge(interpolation: str, order: int) -> None:
     assert np.log2(errors[0] / errors[1]) == pytest.approx(order, abs=0.2)
 
 
+@pytest.mark.slow
 def test_superposition() -> None:
     string = uniform_string(length=3.0, damping=0.4)
     times = np.linspace(0, END, 60)

@@ -64,6 +64,7 @@ def test_channel_motion_and_resonance_tend_to_those_of_deep_water() -> None:
     )
 
 
+@pytest.mark.slow
 def test_equal_depths_are_one_liquid_with_reduced_gravity() -> None:
     """Heave between equal layers is odd in y: density ρ₁ + ρ₂ and gravity g* under a free surface."""
     profile = thin("wedge", 0.1)

@@ -55,6 +55,7 @@ def test_each_format_is_what_it_says(tmp_path: Path) -> None:
     assert b"/Type3" not in pdf
 
 
+@pytest.mark.slow
 def test_the_same_curves_give_the_same_files(tmp_path: Path) -> None:
     draw(tmp_path / "one")
     draw(tmp_path / "two")

@@ -29,7 +29,7 @@ REPRODUCIBLE = settings(
     database=None,
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
 )
-QUICK = settings(REPRODUCIBLE, max_examples=40)
+QUICK = settings(REPRODUCIBLE, max_examples=25)
 MANY = settings(REPRODUCIBLE, max_examples=2500)
 
 # What Python and its libraries say of values and errors.
@@ -186,6 +186,7 @@ def test_ten_thousand_scenes_are_accepted_or_refused_in_words(kind: str, folder:
     check()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_what_is_drawn_reaches_every_key_of_the_models(kind: str) -> None:
     """Else the properties above would say nothing of a key that was added later."""

@@ -192,6 +192,7 @@ def test_help_has_an_example(command: list[str]) -> None:
     assert "hydroelastic " in result.stdout
 
 
+@pytest.mark.slow
 def test_the_program_has_the_name_that_the_launcher_says() -> None:
     for program, said in (("./hydro", {"HYDROELASTIC_PROGRAM": "./hydro"}), ("hydroelastic", {})):
         shown = process("run", "--help", **said).stdout

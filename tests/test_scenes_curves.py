@@ -191,7 +191,7 @@ KINDS: dict[str, tuple[Callable[[Path], None], int]] = {
 }
 
 
-FAST = ("threads", "open water")
+FAST = ("threads",)
 
 
 @pytest.fixture(

@@ -141,6 +141,23 @@ def test_bodies_move_as_the_dataset_says(folder_of: Callable[[str], Path]) -> No
             assert not displacement[:, [0, 2]].any()
 
 
+def test_the_liquid_moves_with_the_beam_on_it(folder_of: Callable[[str], Path]) -> None:
+    """∂ψ/∂y under a beam is its deflection, with its sign."""
+    mesh, _ = both(folder_of("aquarium") / "fields" / "modes.vtu")
+    dataset, _ = results(folder_of("aquarium"))
+    first, last = dataset.position_on_body_1.values[[0, -1]]
+    margin = 0.2 * (last - first)  # where the logarithm at the ends of the beam is resolved
+    x, y, _ = mesh.points.T
+    under = (np.abs(y) < 1e-12) & (x > first + margin) & (x < last - margin)
+    assert under.sum() > 3
+    for mode in dataset.mode.values:
+        deflection = dataset.deflection_of_body_1.sel(mode=mode)
+        upwards = mesh.point_data[f"displacement_{mode:03d}"][under, 1]
+        # Gradients err by the root of what the energy does, which is asked to 1e-4; measured 1e-4 of the largest.
+        expected = np.interp(x[under], dataset.position_on_body_1, deflection)
+        assert upwards == pytest.approx(expected, abs=1e-3 * float(abs(deflection).max()))
+
+
 def test_floats_are_polygons_that_move_as_bodies_do(folder_of: Callable[[str], Path]) -> None:
     fields = folder_of("float_in_two_liquids") / "fields"
     mesh, read = both(fields / "bodies.vtu")

@@ -52,6 +52,7 @@ def frequencies(tanks: Tanks, scene: TankScene, *, halves: bool = True) -> tuple
     return np.sqrt([mode.eigenvalue for mode in solution.asked]), solution
 
 
+@pytest.mark.slow
 def test_welds_change_nothing(tanks: Tanks) -> None:
     """A joint of 1e12 EI/l, and sections of equal properties, are the uniform beam; solved to 1e-9."""
     uniform, _ = frequencies(tanks, tanks.scene(tanks.beam(hydrostatic=True), tolerance=1e-9))

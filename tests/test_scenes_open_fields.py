@@ -183,6 +183,7 @@ def test_files_hold_both_parts(resonant: tuple[OpenSolution, list[SampledField]]
     assert not (tmp_path / "none").exists()
 
 
+@pytest.mark.slow
 def test_pictures_and_animations(radiated: tuple[OpenSolution, list[SampledField]], tmp_path: Path) -> None:
     try:
         draw_fields(radiated[1][:1], tmp_path, PictureOptions(width=800, animate=True))

@@ -203,6 +203,7 @@ def test_an_error_of_the_section_is_carried_to_the_angle() -> None:
     assert any("section" in reason for reason in result.reasons)
 
 
+@pytest.mark.slow
 def test_that_error_does_not_depend_on_the_times_of_the_output() -> None:
     given = ("roll={section = 'ship_section', damping_ratio = 0.01}", "accuracy.tolerance=1e-3")
     many = solve("swell", *given, "output.times={start=0, stop=60, number=601}")
@@ -222,7 +223,7 @@ def test_heavy_damping_keeps_the_default_tolerance() -> None:
     assert abs(result.solution.statistics.largest_angle) < 2e-6 * 0.1
 
 
-@pytest.mark.slow_on_ranks_but
+@pytest.mark.slow
 @pytest.mark.mpi
 def test_a_section_in_open_water_rolls_as_its_resonance_says() -> None:
     from hydroelastic.fem.open_water.requests import ResonanceRequest

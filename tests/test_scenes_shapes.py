@@ -70,6 +70,7 @@ def test_a_heaving_circle_moves_as_a_whole_by_its_amplitude(tanks: Any) -> None:
         assert section.displacement == pytest.approx(np.tile([0.0, amplitude], (len(section.contour), 1)), abs=1e-17)
 
 
+@pytest.mark.slow_but("True-exact", "False-thin")
 @pytest.mark.parametrize("boundary", ["exact", "thin"])
 @pytest.mark.parametrize("halves", [True, False])
 def test_the_interface_makes_room_for_the_float(tanks: Any, boundary: Any, halves: bool) -> None:
@@ -89,6 +90,7 @@ def test_the_interface_makes_room_for_the_float(tanks: Any, boundary: Any, halve
     assert moved == 2
 
 
+@pytest.mark.slow
 def test_halves_give_the_floats_and_surfaces_of_the_whole_tank(tanks: Any) -> None:
     asked = scene(Float(**BOX, **ALL, position=5.0), tolerance=1e-9)
     one, other = tanks.solve(asked), tanks.solve(asked, halves=False)
@@ -108,6 +110,7 @@ def test_halves_give_the_floats_and_surfaces_of_the_whole_tank(tanks: Any) -> No
             assert moments[0] == pytest.approx(moments[1], abs=1e-6 * size)
 
 
+@pytest.mark.slow_but("keel")
 @pytest.mark.parametrize("body", [BOX | ALL, KEEL], ids=["box", "keel"])
 def test_the_liquid_follows_the_side_of_a_float(tanks: Any, body: dict[str, Any]) -> None:
     """∂ψ/∂x is the float's displacement to the right on its upright side, in both liquids."""
@@ -136,6 +139,7 @@ def test_the_section_of_a_float_stays_rigid(tanks: Any) -> None:
         assert fitted == pytest.approx(moved, abs=1e-13 * np.abs(moved).max())
 
 
+@pytest.mark.slow
 def test_twin_floats_mirror_each_other(tanks: Any) -> None:
     twins = [Float(**BOX | ALL | {"half_width": 0.9}, position=position) for position in (2.5, 7.5)]
     solution = tanks.solve(scene(*twins))

@@ -46,6 +46,7 @@ def _in_an_empty_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None
     monkeypatch.chdir(tmp_path)
 
 
+@pytest.mark.slow_but("import-numpy", "open-dataset.nc")
 @pytest.mark.parametrize(("event", "name"), STARTED + WRITING)
 def test_ctrl_c_is_one_line_and_leaves_nothing(tmp_path: Path, event: str, name: str) -> None:
     ended = ended_at(event, name, signal.SIGINT)

@@ -27,7 +27,7 @@ def field(scene: StringScene) -> StringSolution:
     return solve_string_field(scene.model_copy(update={"accuracy": accuracy}), MPI.COMM_WORLD)
 
 
-@pytest.mark.slow_but("string_smooth-1e-05", "string_ramp-0.001")
+@pytest.mark.slow_but("string_ramp-0.001")
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-5])
 @pytest.mark.parametrize("name", ["string_smooth", "string_ramp", "string_sine"])
 def test_field_and_series_agree_within_the_estimate(name: str, tolerance: float) -> None:
@@ -50,6 +50,7 @@ def test_field_and_series_agree_on_long_responses(name: str) -> None:
     assert np.all(error <= 3.0 * solution.absolute_error[~solution.beside_fronts] + 1e-13)
 
 
+@pytest.mark.slow
 def test_smooth_motion_to_seven_digits() -> None:
     solution = field(scene_of("string_smooth", SHORT, "accuracy.tolerance=1e-7"))
     exact = solve_series(scene_of("string_smooth", SHORT, "accuracy.tolerance=1e-12"))
@@ -103,6 +104,7 @@ def test_a_heavy_load_swings_like_a_pendulum() -> None:
     assert found == pytest.approx(np.sqrt(9.81), rel=0.05 / 5000.0)
 
 
+@pytest.mark.slow
 def test_slightly_varied_resistance_is_first_order() -> None:
     # p₁ of λ = λ₀ + ε(x/l − ½)·2: dp = −p ∫(dλ/ρ)φ²/(p + α)∫φ² … ; twice the variation changes p twice as much.
     change = []
@@ -137,6 +139,7 @@ def test_compare_sets_both_side_by_side() -> None:
     assert "no series to compare with" in refused.output
 
 
+@pytest.mark.slow_on_ranks_but
 @pytest.mark.mpi
 def test_nothing_moves_before_the_front_in_a_field_either() -> None:
     solution = field(scene_of("string_ramp", "output.times=[0.0, 0.1]", "accuracy.tolerance=1e-3"))

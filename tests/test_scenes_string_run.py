@@ -90,6 +90,7 @@ def test_the_steady_amplitude_is_that_of_late_times() -> None:
     assert np.abs(late.displacement).max() == pytest.approx(summary["steady"]["amplitude"][0], rel=3e-6)
 
 
+@pytest.mark.slow
 def test_files_tell_one_motion(tmp_path: Path) -> None:
     scene = string_scene("string_table", "output.frames=5", "output.times={start=0, stop=8, number=33}")
     outcome = run_string(scene, out=tmp_path / "result")
@@ -132,6 +133,7 @@ def test_files_tell_one_motion(tmp_path: Path) -> None:
     assert len(sizes) == 1
 
 
+@pytest.mark.slow
 def test_a_single_place_and_time_are_enough(tmp_path: Path) -> None:
     scene = string_scene("string_ramp", "output.positions=[0.3]", "output.times=[0.9]")
     outcome = run_string(scene, out=tmp_path / "one")

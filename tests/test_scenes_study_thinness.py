@@ -49,6 +49,7 @@ def study() -> Study:
     return study_scene(scene(), PLAN)
 
 
+@pytest.mark.slow
 def test_differences_fall_as_theory_says(study: Study) -> None:
     assert [row.half_width for row in study.thinness] == [0.005, 0.0025, 0.00125]
     assert [row.thinness for row in study.thinness] == pytest.approx([0.005 / 0.3 / 2**k for k in range(3)])
@@ -63,6 +64,7 @@ def test_differences_fall_as_theory_says(study: Study) -> None:
         assert not found[quantity].shared
 
 
+@pytest.mark.slow
 def test_differences_are_those_of_the_boundary(study: Study) -> None:
     for row in study.thinness:
         for found in row.compared.values():
@@ -97,6 +99,7 @@ def test_heave_that_is_shared_with_waves_is_said_to_be() -> None:
     assert not found["added mass"].shared
 
 
+@pytest.mark.slow
 def test_table_csv_and_figure_tell_the_same(study: Study, tmp_path: Path) -> None:
     text = study_table(study)
     assert "Thin against exact boundary" in text

@@ -165,6 +165,7 @@ def clamped(axial_rigidity: float | None, **changes: Any) -> ThreadScene:
     return ThreadScene.model_validate_json(json.dumps(document))
 
 
+@pytest.mark.slow
 def test_clamps_leave_a_thread_its_stretch() -> None:
     stiff = solve(clamped(None)).rest.end_moments[0]
     rigidities = np.array([1e6, 1e7, 1e8])

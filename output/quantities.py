@@ -7,13 +7,12 @@ solution. `Group.evaluated` gives the values as nested dictionaries and lists, w
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import KW_ONLY, dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import KW_ONLY, dataclass, replace
 from typing import Any, TypeAlias
 
-import numpy as np
-
 from hydroelastic.output.digits import number, per_cent, with_certain_digits
+from hydroelastic.output.json_values import json_ready
 
 Values: TypeAlias = dict[str, Any]
 """Values of a group by key, as in ``summary.json``."""
@@ -41,6 +40,13 @@ class Quantity:
         dimensions: of an array or of lists within lists.
         variable: name in ``dataset.nc``, if it is not the key behind the prefix; "" where other arrays contain it.
         in_summary: whether it is in ``summary.json``; if not, it is an array of ``dataset.nc`` alone.
+        joined: dimensions in ``dataset.nc`` of an array that the records of a list have together, see
+            `output.joined_variables`; along those that `dimensions` lacks it has one place. This name, and the names of
+            its dimensions, may contain attributes of the record in braces, as "deflection_of_body_{.number}".
+        of_roll: units of the entries that belong to one rotation, and to two, where they differ from `unit`.
+        phase: what its phase is relative to, for ``dataset.nc``.
+        is_coordinate: whether it tells places of other arrays without being one of their dimensions.
+        column: name of its columns in CSV files, if it is not the key, before the labels of its further dimensions.
     """
 
     key: str
@@ -58,6 +64,11 @@ class Quantity:
     dimensions: tuple[str, ...] = ()
     variable: str | None = None
     in_summary: bool = True
+    joined: tuple[str, ...] | None = None
+    of_roll: tuple[str, ...] = ()
+    phase: str = ""
+    is_coordinate: bool = False
+    column: str | None = None
 
     def of(self, record: Any) -> Any:
         """Return the value of a record."""
@@ -68,13 +79,18 @@ class Quantity:
         return self.value is None and isinstance(record, Mapping) and self.key not in record
 
     @property
+    def unit_with_rolls(self) -> str | None:
+        """The unit, and those of entries that belong to rotations."""
+        return None if self.unit is None else _with_rolls(self.unit, *self.of_roll)
+
+    @property
     def unit_text(self) -> str:
         """The unit as people write it, as "N·s²/m³"; "" without one."""
-        if self.unit in (None, "1"):
-            return ""
-        written = self.unit.replace("degree", "degrees").replace("^2", "²").replace("^3", "³")
-        # With words between units a space separates these.
-        return written if "," in written else written.replace(" ", "·")
+        return "" if self.unit in (None, "1") else _with_rolls(*map(_as_written, (self.unit, *self.of_roll)))
+
+    def of_rotations(self, count: int) -> Quantity:
+        """Return the quantity with the unit of entries that belong to a number of rotations."""
+        return replace(self, unit=(self.unit, *self.of_roll)[count], of_roll=()) if self.of_roll else self
 
     @property
     def label(self) -> str:
@@ -103,7 +119,7 @@ class Quantity:
         if isinstance(value, int):
             return str(value)
         error = values[self.error] if self.error else None
-        if error is None:
+        if value == 0.0 or error is None or isinstance(error, str):
             return number(value)
         if group[self.error].unit != "1":
             if abs(value) <= error:
@@ -150,8 +166,10 @@ class Group:
 
     @property
     def arrays(self) -> tuple[Quantity, ...]:
-        """The quantities that are in ``dataset.nc`` alone."""
-        return tuple(part for part in self.parts if isinstance(part, Quantity) and not part.in_summary)
+        """The quantities that are in ``dataset.nc`` alone, of each record apart."""
+        return tuple(
+            part for part in self.parts if isinstance(part, Quantity) and not part.in_summary and part.joined is None
+        )
 
     @property
     def groups(self) -> tuple[Group, ...]:
@@ -177,6 +195,13 @@ class Group:
     def of(self, record: Any) -> Any:
         """Return the record or records of the group, from the record of the group around it."""
         return _taken(self.key, self.record, record)
+
+    def records(self, record: Any) -> Sequence[Any]:
+        """Return all records of the group, as a list, from the record of the group around it."""
+        found = self.of(record)
+        if self.dimension and isinstance(found, Mapping):
+            found = found.values()
+        return () if found is None else tuple(found) if self.dimension else (found,)
 
     def evaluated(self, record: Any) -> Values:
         """Return the values of the quantities in ``summary.json``, by key.
@@ -206,6 +231,8 @@ class Group:
                 along = (*dimensions, part.dimension) if part.dimension else dimensions
                 yield inner, name, along, part
                 yield from part.places(inner, name, along)
+            elif part.joined is not None:
+                yield inner, part.variable or part.key, part.joined, part
             elif part.in_summary:
                 yield inner, name if part.variable is None else part.variable, (*dimensions, *part.dimensions), part
             else:
@@ -230,11 +257,25 @@ def _taken(key: str, function: Callable[[Any], Any] | None, record: Any) -> Any:
     return record[key] if isinstance(record, Mapping) else getattr(record, key)
 
 
+def _with_rolls(unit: str, *of_roll: str) -> str:
+    match of_roll:
+        case (one,):
+            return f"{unit}, of roll {one}"
+        case (one, two):
+            return f"{unit}, with a roll {one}, of rolls {two}"
+    return unit
+
+
+def _as_written(unit: str) -> str:
+    written = unit.replace("degree", "degrees").replace("^2", "²").replace("^3", "³")
+    # With words between units a space separates these.
+    return written if "," in written else written.replace(" ", "·")
+
+
 def _evaluated(part: Quantity | Group, record: Any) -> Any:
     found = part.of(record)
     if isinstance(part, Quantity):
-        # Plain numbers and lists in place of arrays and NumPy's numbers.
-        return found.tolist() if isinstance(found, np.ndarray | np.generic) else found
+        return json_ready(found)
     if found is None:
         return None
     if part.dimension and isinstance(found, Mapping):

@@ -63,7 +63,10 @@ def reference_table(kind: Group) -> str:
             (key if part.in_summary else "", part.symbol, part.unit_text, _noted(part.meaning, part.note), variable)
         )
     headings = ("key of `summary.json`", "symbol", "unit", "meaning", "variable of `dataset.nc`")
-    return markdown_table(headings, [tuple(cell.replace("|", r"\|") for cell in row) for row in rows])
+    # Attributes of a record in a name are those of its entries.
+    return markdown_table(
+        headings, [tuple(cell.replace("|", r"\|").replace("{.", "{") for cell in row) for row in rows]
+    )
 
 
 def _noted(meaning: str, note: str) -> str:

@@ -57,9 +57,9 @@ class DeclaredNames:
         return (part.dimension,) * bool(part.dimension) if isinstance(part, Group) else part.dimensions
 
     def name(self, place: str, default: str) -> str | None:
-        """Return the one declared."""
+        """Return the one declared; ``None`` of arrays that records have together."""
         name, part = self._parts[place]
-        return name or None if isinstance(part, Quantity) else name
+        return name if isinstance(part, Group) else None if part.joined is not None else name or None
 
     def attributes(self, place: str) -> dict[str, Any]:
         """Return meaning and unit."""

@@ -20,12 +20,12 @@ from hydroelastic.output.dataset import complete_variables, global_attributes, r
 from hydroelastic.output.folder import SUMMARY, write_summary
 from hydroelastic.output.json_values import json_ready
 from hydroelastic.output.labelled import variables_of
+from hydroelastic.output.open_water.variables import open_variables
 from hydroelastic.output.provenance import Summary
 from hydroelastic.output.summary_names import SummaryNames
 from hydroelastic.output.summary_variables import Naming
 from hydroelastic.output.variables import Variable
-from hydroelastic.scenes.open_water.dataset import OPEN_NAMES, open_dataset
-from hydroelastic.scenes.open_water.summary import summarize_open
+from hydroelastic.scenes.open_water.run import run_open
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.run import run_scene
 
@@ -106,9 +106,9 @@ def _write_open(folder: Path) -> None:
     circle = CIRCLE | {"motions": ["heave", "roll"]}
     scene = open_scene(circle, PLATE, liquids=(DEEP, OIL), analyses=[*ANALYSES, *again])
     solution = arbitrary_solution(scene, reasons=("σ ≥ 1", "it is late"))
-    summary = summarize_open(solution, MPI.COMM_WORLD, import_seconds=1.0)
+    summary = run_open.summarize(solution, MPI.COMM_WORLD, import_seconds=1.0)
     write_summary(summary, folder)
-    _write(variables_of(open_dataset(solution)), summary, OPEN_NAMES, folder / "dataset.nc")
+    _write(open_variables(solution), summary, run_open.dataset.names, folder / "dataset.nc")
 
 
 @pytest.fixture(params=[name if name in FAST else pytest.param(name, marks=pytest.mark.slow) for name in ALL])
@@ -319,9 +319,9 @@ def _write(arrays: list[Variable], summary: Summary, names: Naming, path: Path) 
 def test_the_same_run_writes_the_same_bytes(tmp_path: Path) -> None:
     """Nothing in a dataset tells when it was written."""
     solution = arbitrary_solution(open_scene())
-    summary = summarize_open(solution, MPI.COMM_WORLD, import_seconds=1.0)
+    summary = run_open.summarize(solution, MPI.COMM_WORLD, import_seconds=1.0)
     for name in ("one.nc", "other.nc"):
-        _write(variables_of(open_dataset(solution)), summary, OPEN_NAMES, tmp_path / name)
+        _write(open_variables(solution), summary, run_open.dataset.names, tmp_path / name)
     assert (tmp_path / "one.nc").read_bytes() == (tmp_path / "other.nc").read_bytes()
 
 

@@ -12,13 +12,13 @@ from open_tables import CIRCLE, arbitrary_solution, open_scene
 
 from hydroelastic.fem.open_water.results import DecayTable
 from hydroelastic.output.digits import beyond_error
+from hydroelastic.output.open_water.tables import MOST_ROWS, open_sections
 from hydroelastic.output.sections import Section
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.scenes.models.roll import RollScene
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.open_water.results import OpenSolution
-from hydroelastic.scenes.open_water.summary import summarize_open
-from hydroelastic.scenes.open_water.tables import MOST_ROWS, open_sections
+from hydroelastic.scenes.open_water.run import run_open
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.roll.run import run_roll
 from hydroelastic.scenes.thread.run import run_thread
@@ -43,7 +43,7 @@ def test_numbers_are_as_long_as_they_are_certain(value: float, error: float, tex
 
 
 def tables(solution: OpenSolution) -> list[Section]:
-    return list(open_sections(solution, summarize_open(solution, MPI.COMM_WORLD, import_seconds=0.0)))
+    return list(open_sections(solution, run_open.summarize(solution, MPI.COMM_WORLD, import_seconds=0.0)))
 
 
 def decaying(count: int) -> Section:

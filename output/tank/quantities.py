@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from hydroelastic.output.provenance import PROCESSES
 from hydroelastic.output.quantities import Group, Quantity
-from hydroelastic.output.tank.arrays import ARRAYS
 from hydroelastic.output.tank.records import (
     compared,
     exact_modes,
@@ -17,6 +16,7 @@ from hydroelastic.output.tank.records import (
     growing_motions,
     natural_modes,
 )
+from hydroelastic.output.tank.variables import ARRAYS
 
 # fmt: off
 # A table: as many arguments on a line as fit.

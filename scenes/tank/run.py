@@ -18,9 +18,9 @@ from hydroelastic.output.csv_files import write_csv
 from hydroelastic.output.outcome import Outcome
 from hydroelastic.output.pictures.options import OF_FIELDS, OF_MOTIONS, PictureOptions
 from hydroelastic.output.provenance import Summary
-from hydroelastic.output.tank.arrays import tank_arrays
 from hydroelastic.output.tank.quantities import TANK
 from hydroelastic.output.tank.tables import compared_sections, mode_columns, tank_cost, tank_sections
+from hydroelastic.output.tank.variables import tank_variables
 from hydroelastic.output.variables import Variable
 from hydroelastic.scenes.errors import UnsolvedError
 from hydroelastic.scenes.models.physical import physical_tank
@@ -95,7 +95,7 @@ def _write(tank: SampledTank, folder: Path) -> None:
 
 def _arrays(tank: SampledTank) -> Iterator[Variable]:
     assert tank.shapes is not None
-    return tank_arrays(tank.solution, tank.shapes)
+    return tank_variables(tank.solution, tank.shapes)
 
 
 def _draw(tank: SampledTank, folder: Path, options: PictureOptions, report: Report) -> None:

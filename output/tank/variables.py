@@ -30,21 +30,21 @@ _SURFACE = array("elevation_of_{place}", "upward elevation of a free surface or 
     "[normalised](../conventions.md#normalisation-and-names)")
 _BEAM = array("deflection_of_{place}", "upward deflection of a beam", "m", "mode position_on_{place}",
     note="`body_1` …, its number")
-_MOTION = array("motion", "motion of the floats", "m, of roll rad", "mode dof", note="heave, sway, roll")
+_MOTION = array("motion", "motion of the floats", "m", "mode dof", of_roll=("rad",), note="heave, sway, roll")
 _CONTOUR = array("contour_of_{place}", "contour of a float at rest", "m", "point_on_{place} axis")
 _MOVED = array("displacement_of_{place}", "displacement of the contour of a float", "m", "mode point_on_{place} axis")
-_INERTIA = "kg/m, with a roll kg, of rolls kg m"
 _OF_MOTIONS = "influenced_dof radiating_dof"
-_MASSES = array("inertia_matrix", "inertia of the floats", _INERTIA, _OF_MOTIONS)
-_STIFFNESS = array("hydrostatic_stiffness", "hydrostatic stiffness of the floats", "N/m^2, with a roll N/m, of rolls N",
-    _OF_MOTIONS)
-_ADDED = array("infinite_frequency_added_mass", "added mass at infinite frequency", _INERTIA, _OF_MOTIONS)
+_MASSES = array("inertia_matrix", "inertia of the floats", "kg/m", _OF_MOTIONS, of_roll=("kg", "kg m"))
+_STIFFNESS = array("hydrostatic_stiffness", "hydrostatic stiffness of the floats", "N/m^2", _OF_MOTIONS,
+    of_roll=("N/m", "N"))
+_ADDED = array("infinite_frequency_added_mass", "added mass at infinite frequency", "kg/m", _OF_MOTIONS,
+    of_roll=("kg", "kg m"))
 ARRAYS = (_MODE, _PLACE, _SURFACE, _BEAM, _MOTION, _CONTOUR, _MOVED, _MASSES, _STIFFNESS, _ADDED)
 """The declarations; a place is that of a piece of a surface, or a body."""
 # fmt: on
 
 
-def tank_arrays(solution: TankSolution, shapes: ModeShapes) -> Iterator[Variable]:
+def tank_variables(solution: TankSolution, shapes: ModeShapes) -> Iterator[Variable]:
     """Yield the shapes of all modes, the growing ones apart, and the matrices of floats.
 
     Args:
@@ -85,7 +85,7 @@ def _variable(quantity: Quantity, values: Any, place: str = "", prefix: str = ""
         name=f"{prefix}{name}",
         dimensions=tuple(f"{prefix}mode" if one == "mode" else one for one in dimensions),
         values=np.asarray(values),
-        attributes=attributes_of(quantity, turning=turning),
+        attributes=attributes_of(quantity if turning else replace(quantity, of_roll=())),
     )
 
 

@@ -78,6 +78,14 @@ class Quantity:
         """Return whether a record, a mapping, lacks the key."""
         return self.value is None and isinstance(record, Mapping) and self.key not in record
 
+    def name_behind(self, prefix: str) -> str:
+        """Return the name of its variable; "" where other arrays contain it.
+
+        Args:
+            prefix: of the variables of its group.
+        """
+        return f"{prefix}_{self.key}".lstrip("_") if self.variable is None else self.variable
+
     @property
     def unit_with_rolls(self) -> str | None:
         """The unit, and those of entries that belong to rotations."""
@@ -188,6 +196,10 @@ class Group:
         """Return values by key; those that are missing are ``None``."""
         return {part.key: values.get(part.key) for part in self.parts}
 
+    def name_behind(self, prefix: str) -> str:
+        """Return the prefix of its variables, from that of the group around it."""
+        return f"{prefix}_{self.key}".lstrip("_") if self.prefix is None else self.prefix
+
     def is_missing(self, record: Any) -> bool:
         """Return whether a record, a mapping, lacks the key."""
         return self.record is None and isinstance(record, Mapping) and self.key not in record
@@ -225,16 +237,15 @@ class Group:
             their dimensions; the part.
         """
         for part in self.parts:
-            inner, name = f"{place}.{part.key}".lstrip("."), f"{prefix}_{part.key}".lstrip("_")
+            inner, name = f"{place}.{part.key}".lstrip("."), part.name_behind(prefix)
             if isinstance(part, Group):
-                name = name if part.prefix is None else part.prefix
                 along = (*dimensions, part.dimension) if part.dimension else dimensions
                 yield inner, name, along, part
                 yield from part.places(inner, name, along)
             elif part.joined is not None:
                 yield inner, part.variable or part.key, part.joined, part
             elif part.in_summary:
-                yield inner, name if part.variable is None else part.variable, (*dimensions, *part.dimensions), part
+                yield inner, name, (*dimensions, *part.dimensions), part
             else:
                 yield inner, part.variable or part.key, part.dimensions, part
 

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from mpi4py import MPI
 from tanks import Tanks
 
 from hydroelastic.fem.modes import solve_modes
@@ -212,7 +211,7 @@ def test_the_dry_frequency_is_that_of_the_whole_beam(tanks: Tanks) -> None:
     scene = tanks.scene(beam)
     solution = tanks.solve(scene)
     estimated = EstimatedTank(scene=scene, tank=solution, beam=tone_estimates(solution.physical))
-    summary = run_tank.summarize(estimated, MPI.COMM_WORLD, import_seconds=0.0)
+    summary = run_tank.summarized(scene, estimated)
     dry = jointed_modes(
         beams.Beam(
             sections=(

@@ -7,7 +7,6 @@ from typing import Any
 
 import pytest
 from click.testing import CliRunner
-from mpi4py import MPI
 from scene_files import BEAM_IN_TANK
 
 from hydroelastic.modal.estimate import Estimate
@@ -51,9 +50,7 @@ def test_a_broken_bound_is_said_loudly(tanks: Any) -> None:
     low = Estimate(
         omega=0.99 * lowest, added_mass_per_length=1.0, bound="above_mode_index", mode_index=1, note="made up"
     )
-    summary = run_tank.summarize(
-        EstimatedTank(scene=scene, tank=solution, beam={"low": low}), MPI.COMM_WORLD, import_seconds=0.0
-    )
+    summary = run_tank.summarized(scene, EstimatedTank(scene=scene, tank=solution, beam={"low": low}))
     assert summary["estimates"]["low"]["bound_holds"] is False
     assert "VIOLATED" in markdown_sections(summary, tank_sections(summary), "")
 

@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from mpi4py import MPI
 
 from hydroelastic.fem.tank.elastic_tone import ElasticTone, elastic_tone
 from hydroelastic.fem.tank.resolution import initial_resolution
@@ -79,9 +78,7 @@ def test_a_tone_that_is_no_single_modes_is_known(
 
 
 def test_a_tone_that_is_no_single_modes_is_said_so(unlike: TankSolution) -> None:
-    summary = run_tank.summarize(
-        EstimatedTank(scene=tank(LONG, SHORT), tank=unlike), MPI.COMM_WORLD, import_seconds=0.0
-    )
+    summary = run_tank.summarized(tank(LONG, SHORT), EstimatedTank(scene=tank(LONG, SHORT), tank=unlike))
     long, short = (" ".join(tone_lines(summary | {"first_elastic_by_body": [tone]})) for tone in _tones(summary))
     assert "no single mode; modes from 55 to 65 share it, most of it in mode 60, ω = " in long
     assert "; pressure-release tone (ψ = 0 on the water, the limit of infinite frequency): " in long

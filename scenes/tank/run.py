@@ -26,7 +26,7 @@ from hydroelastic.scenes.errors import UnsolvedError
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.read import closed_tank
-from hydroelastic.scenes.staged_run import StagedRun, declared
+from hydroelastic.scenes.staged_run import StagedRun
 from hydroelastic.scenes.tank.check_hints import draughts_left_out
 from hydroelastic.scenes.tank.solve import EstimatedTank, solve_scene
 from hydroelastic.scenes.tank.user_mesh import mesh_refused, user_mesh
@@ -107,7 +107,8 @@ def _draw(tank: SampledTank, folder: Path, options: PictureOptions, report: Repo
 
 run_tank = StagedRun(
     solve=solve_tank,
-    **declared(TANK, _arrays),
+    kind=TANK,
+    arrays=_arrays,
     sections=lambda estimated, summary: tank_sections(summary, draughts_left_out(estimated.scene)),
     cost=tank_cost,
     sample=_sample,

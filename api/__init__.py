@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from hydroelastic.scenes.read import read_scene as read
     from hydroelastic.scenes.read import shipped_scenes
     from hydroelastic.scenes.result import Result, load, solve
+    from hydroelastic.scenes.sweep.result import Sweep, sweep
 
 __all__ = [
     "Accuracy",
@@ -46,6 +47,7 @@ __all__ = [
     "RollScene",
     "SceneError",
     "StringScene",
+    "Sweep",
     "Tank",
     "TankScene",
     "ThreadScene",
@@ -54,11 +56,13 @@ __all__ = [
     "read",
     "shipped_scenes",
     "solve",
+    "sweep",
 ]
 
 _ELSEWHERE = {
     "PictureOptions": "output.pictures.options",
     **dict.fromkeys(("Result", "load", "solve"), "scenes.result"),
+    **dict.fromkeys(("Sweep", "sweep"), "scenes.sweep.result"),
     **dict.fromkeys(("SceneError", "UnsolvedError"), "scenes.errors"),
     **dict.fromkeys(("read", "shipped_scenes"), "scenes.read"),
 }

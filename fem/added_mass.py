@@ -6,21 +6,48 @@ import numpy as np
 from petsc4py import PETSc
 
 from hydroelastic.fem.direct import direct_solver
-from hydroelastic.fem.pencil import CoupledPencil
+from hydroelastic.fem.pencil import CoupledPencil, LiquidAnswer
+
+# A dense answer of the liquid that takes more memory is not kept, bytes.
+_MOST_MEMORY = 200e6
 
 
-def kinetic(pencil: CoupledPencil, displacement: PETSc.Vec, momentum: PETSc.Vec, potential: PETSc.Vec) -> None:
-    """``momentum`` ← (M + (ρC)ᵀ A⁺ C) ``displacement``; ``potential`` ← A⁺ C ``displacement``."""
+def kinetic(pencil: CoupledPencil, displacement: PETSc.Vec, momentum: PETSc.Vec, potential: PETSc.Vec | None) -> None:
+    """``momentum`` ← (M + (ρC)ᵀ A⁺ C) ``displacement``; ``potential`` ← A⁺ C ``displacement``, if it is there."""
     _liquid_momentum(pencil, displacement, momentum, potential)
     pencil.mass.multAdd(displacement, momentum, momentum)
 
 
-def _liquid_momentum(pencil: CoupledPencil, displacement: PETSc.Vec, momentum: PETSc.Vec, potential: PETSc.Vec) -> None:
-    """``momentum`` ← (ρC)ᵀ A⁺ C ``displacement``; ``potential`` ← A⁺ C ``displacement``."""
+def _liquid_momentum(
+    pencil: CoupledPencil, displacement: PETSc.Vec, momentum: PETSc.Vec, potential: PETSc.Vec | None
+) -> None:
+    """``momentum`` ← (ρC)ᵀ A⁺ C ``displacement``; ``potential`` ← A⁺ C ``displacement``, if it is there."""
+    if pencil.answer is not None:
+        momentum.array[:] = pencil.answer.added_mass @ displacement.array_r
+        if potential is not None:
+            potential.array[:] = pencil.answer.potentials @ displacement.array_r
+        return
+    potential = pencil.coupling.createVecLeft() if potential is None else potential
     load = pencil.coupling.createVecLeft()
     pencil.coupling.mult(displacement, load)
     pencil.solver.solve(load, potential)
     pencil.momentum.multTranspose(potential, momentum)
+
+
+def liquid_answer(pencil: CoupledPencil) -> LiquidAnswer | None:
+    """Return the answer of the liquid to all surface unknowns: n solutions of Laplace's equation, after which a
+    product with a matrix takes the place of each; ``None`` on several processes, or where it is too large."""
+    rows, columns = pencil.coupling.getSize()
+    if pencil.coupling.comm.size > 1 or 8.0 * rows * columns > _MOST_MEMORY:
+        return None
+    potentials, added_mass = np.empty((rows, columns), order="F"), np.empty((columns, columns))
+    unit, momentum = pencil.stiffness.createVecs()
+    potential = pencil.coupling.createVecLeft()
+    for column in range(columns):
+        _set_unit(unit, column)
+        _liquid_momentum(pencil, unit, momentum, potential)
+        potentials[:, column], added_mass[:, column] = potential.array_r, momentum.array_r
+    return LiquidAnswer(potentials=potentials, added_mass=added_mass)
 
 
 def body_added_mass(pencil: CoupledPencil) -> np.ndarray:
@@ -75,7 +102,8 @@ class CondensedKinetics:
         self.pencil = pencil
         self.free_rigid = pencil.free_rigid
         self.definite_stiffness = _definite(pencil)
-        self._potential = pencil.coupling.createVecLeft()
+        # A known answer of the liquid gives the momentum without it.
+        self._potential = pencil.coupling.createVecLeft() if pencil.answer is None else None
         self._projected, self._momentum = pencil.stiffness.createVecs()
         self._turn, with_rigid = pencil.rigid_constraints
         # Negative directions of K under the volume constraints: the number of growing modes.

@@ -285,6 +285,8 @@ def count_below(pencil: CoupledPencil, eigenvalue: float) -> int:
     Returns:
         The count, without zero modes; modes that grow have λ < 0 and count (collective).
     """
+    if pencil.answer is not None:
+        return _dense_count(pencil, pencil.answer.added_mass, eigenvalue)
     block = pencil.stiffness.copy()
     block.axpy(-eigenvalue, pencil.mass, structure=PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN)
     rows = _unconstrained(pencil)
@@ -314,6 +316,24 @@ def count_below(pencil: CoupledPencil, eigenvalue: float) -> int:
     if zero:
         raise EigenSolverError(f"the shift {eigenvalue:g} is an eigenvalue to working precision")
     return int(negative) - len(pencil.constraints) - pencil.zero_mode_count
+
+
+def _dense_count(pencil: CoupledPencil, added_mass: np.ndarray, eigenvalue: float) -> int:
+    """As `count_below`, from the eigenvalues of K − σ(M + M_a) bordered by the volume constraints."""
+    volumes = np.array([constraint.volume.array_r for constraint in pencil.constraints]).reshape(-1, pencil.size)
+    block = _dense(pencil.stiffness) - eigenvalue * (_dense(pencil.mass) + added_mass)
+    corner = np.zeros((len(volumes), len(volumes)))
+    values = np.linalg.eigvalsh(np.block([[0.5 * (block + block.T), volumes.T], [volumes, corner]]))
+    if np.abs(values).min() <= np.finfo(float).eps * np.abs(values).max():
+        raise EigenSolverError(f"the shift {eigenvalue:g} is an eigenvalue to working precision")
+    return int(np.sum(values < 0.0)) - len(pencil.constraints) - pencil.zero_mode_count
+
+
+def _dense(matrix: PETSc.Mat) -> np.ndarray:
+    # The array lives as long as the matrix.
+    full = matrix.convert("dense", PETSc.Mat())
+    values: np.ndarray = full.getDenseArray().copy()
+    return values
 
 
 def _unconstrained(pencil: CoupledPencil) -> PETSc.IS:

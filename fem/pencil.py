@@ -8,7 +8,7 @@ the potential's unknowns on the same surface.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -51,6 +51,19 @@ class VolumeConstraint:
 
 
 @dataclass(frozen=True, kw_only=True)
+class LiquidAnswer:
+    """The answer of the liquid to each surface unknown, on one process.
+
+    Attributes:
+        potentials: A⁺C, shape (N, n).
+        added_mass: M_a = (ρC)ᵀA⁺C, shape (n, n).
+    """
+
+    potentials: np.ndarray
+    added_mass: np.ndarray
+
+
+@dataclass(frozen=True, kw_only=True)
 class CoupledPencil:
     """Matrices of the coupled problem.
 
@@ -68,6 +81,7 @@ class CoupledPencil:
             it is left out: the constant of its ψ is then arbitrary.
         free_constants: owned unknowns of ψ, one for each layer whose constraint was left out.
         surface_sizes: number of own unknowns of each surface on this process; they follow those of the bodies.
+        answer: ψ and momentum of a unit of each surface unknown, where they were computed once for many solutions.
     """
 
     liquid: LiquidSpace
@@ -82,6 +96,7 @@ class CoupledPencil:
     constraints: tuple[VolumeConstraint, ...]
     free_constants: np.ndarray
     surface_sizes: tuple[int, ...]
+    answer: LiquidAnswer | None = None
 
     @property
     def body_size(self) -> int:
@@ -135,6 +150,8 @@ class CoupledPencil:
 
     def body_values(self, vector: PETSc.Vec) -> np.ndarray:
         """The body unknowns of a surface vector, on every process."""
+        if self.stiffness.comm.size == 1:
+            return np.array(vector.array_r[: self.body_size])
         comm = self.stiffness.comm.tompi4py()
         local = vector.array_r[: self.body_size].copy() if comm.rank == 0 else None
         return np.asarray(comm.bcast(local, root=0))
@@ -170,7 +187,7 @@ def build_pencil(
         coupling_block, stiffness_block = surface_blocks(liquid, surface, matrices.surface_mass)
         blocks.append(coupling_block)
         stiffness_blocks.append(stiffness_block)
-        mass_blocks.append(_zero_like(stiffness_block))
+        mass_blocks.append(_zeros(stiffness_block.getSizes(), stiffness_block.comm))
         sizes.append(stiffness_block.getLocalSize()[0])
     coupling = _joined([blocks])
     constraints, free_constants = _volume_constraints(liquid, coupling)
@@ -193,6 +210,23 @@ def build_pencil(
         free_constants=free_constants,
         surface_sizes=tuple(sizes),
     )
+
+
+def with_bodies(pencil: CoupledPencil, bodies: tuple[Body, ...]) -> CoupledPencil:
+    """Return the problem of other bodies of the same shapes: only K and M differ (collective)."""
+    if not bodies:
+        return pencil
+    diagonal = pencil.stiffness.getDiagonal()
+    if diagonal.comm.rank == 0:
+        diagonal.array[: pencil.body_size] = np.concatenate([body.stiffness for body in bodies])
+    stiffness = pencil.stiffness.copy()
+    stiffness.setDiagonal(diagonal)
+    stiffness.assemble()
+    surfaces = pencil.mass.getLocalSize()[0] - (pencil.body_size if diagonal.comm.rank == 0 else 0)
+    blocks = [_on_first(block_diag(*(body.mass for body in bodies)), diagonal.comm)]
+    if pencil.surfaces:
+        blocks.append(_zeros(((surfaces, PETSc.DETERMINE), (surfaces, PETSc.DETERMINE)), diagonal.comm))
+    return replace(pencil, bodies=bodies, stiffness=stiffness, mass=_joined(_block_diagonal(blocks)))
 
 
 def _body_coupling(liquid: LiquidSpace, bodies: tuple[Body, ...], laplace: PETSc.Mat) -> PETSc.Mat:
@@ -289,8 +323,8 @@ def _on_first(values: np.ndarray, comm: PETSc.Comm) -> PETSc.Mat:
     return matrix
 
 
-def _zero_like(matrix: PETSc.Mat) -> PETSc.Mat:
-    zero = PETSc.Mat().createAIJ(matrix.getSizes(), nnz=1, comm=matrix.comm)
+def _zeros(sizes: tuple[tuple[int, int], tuple[int, int]], comm: PETSc.Comm) -> PETSc.Mat:
+    zero = PETSc.Mat().createAIJ(sizes, nnz=1, comm=comm)
     zero.assemble()
     return zero
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import platform
 import resource
 from collections.abc import Mapping, Sequence
+from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any, Protocol, TypeAlias
 
@@ -33,6 +34,7 @@ Summary: TypeAlias = dict[str, Any]
 PACKAGES = ("hydroelastic", "fenics-dolfinx", "petsc4py", "slepc4py", "gmsh", "numpy", "scipy", "xarray")
 
 
+@cache
 def versions() -> dict[str, str]:
     """Return the versions of the packages behind a solution."""
     found = {"python": platform.python_version()}

@@ -65,20 +65,20 @@ def regenerate(name: str) -> str:
         for table in TABLES if of_tank else OTHER_TABLES:
             shutil.copy(outcome.folder / table, kept)
         if of_tank:
-            _keep_picture(pictures / "overview.png", kept / "overview.png")
+            keep_picture(pictures / "overview.png", kept / "overview.png")
             for index, picture in shown_modes(outcome.summary).items():
-                _keep_picture(pictures / f"mode_{index:03d}.png", kept / picture)
+                keep_picture(pictures / f"mode_{index:03d}.png", kept / picture)
         else:
             # Frames of an animation lie in a folder of their own and stay out.
             for drawn in sorted(pictures.glob("*.png")):
-                _keep_picture(drawn, kept / drawn.name)
+                keep_picture(drawn, kept / drawn.name)
     if name in STUDIED:
         assert isinstance(scene, TankScene)
         with tempfile.TemporaryDirectory() as scratch:
             write_study(study_scene(scene, STUDIED[name]), Path(scratch) / name)
             for file in (Path(scratch) / name).iterdir():
                 if file.name not in (SUMMARY, MANIFEST):
-                    (_keep_picture if file.suffix == ".png" else shutil.copy)(file, kept / file.name)
+                    (keep_picture if file.suffix == ".png" else shutil.copy)(file, kept / file.name)
     return outcome.status
 
 
@@ -92,7 +92,7 @@ def shown_modes(summary: Summary) -> dict[int, str]:
     return {index: picture for index, picture in found.items() if index is not None and index <= asked}
 
 
-def _keep_picture(source: Path, target: Path) -> None:
+def keep_picture(source: Path, target: Path) -> None:
     """Store a picture with all its colours, its rows as they are or filtered, whichever takes fewer bytes."""
     filtered = BytesIO()
     with Image.open(source) as picture:

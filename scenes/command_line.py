@@ -17,7 +17,7 @@ from typing import Any, NoReturn
 import click
 
 from hydroelastic.meshes.interrupts import end_on_interrupt
-from hydroelastic.output.folder import check_output, results_message
+from hydroelastic.output.folder import results_message
 from hydroelastic.output.manifest import read_manifest
 from hydroelastic.output.pictures.options import DEFAULT_PICTURES, CurveFormat
 from hydroelastic.scenes.command_options import (
@@ -30,20 +30,18 @@ from hydroelastic.scenes.command_options import (
     set_option,
     width_option,
 )
-from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError, folder_errors
+from hydroelastic.scenes.command_parts import NOT_TO_TOLERANCE, folder_of_results, is_first_rank, title_of_scene
+from hydroelastic.scenes.errors import SceneError, UnsolvedError
 from hydroelastic.scenes.kinds import checker_of, comparer_of, runner_of
 from hydroelastic.scenes.program import PROGRAM
 from hydroelastic.scenes.progress import progress
-from hydroelastic.scenes.read import Scene, closed_tank, read_scene, scene_path, shipped_scenes
+from hydroelastic.scenes.read import closed_tank, read_scene, scene_path, shipped_scenes
 from hydroelastic.scenes.run import page_writer
+from hydroelastic.scenes.sweep.command import sweep
 
 BAD_INPUT = 2
-NOT_TO_TOLERANCE = 3
 INTERRUPTED = 130
 _SECONDS_TO_END = 10
-
-RANK_VARIABLES = ("OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK")
-"""Where MPI launchers say which process this is; without one there is only one process."""
 
 
 class _BadInput(click.ClickException):
@@ -87,43 +85,9 @@ def _end_without_output(error: OSError) -> NoReturn:
     sys.exit(BAD_INPUT)
 
 
-def _folder_of_results(scene: str, out: Path | None, *, suffix: str = "") -> Path:
-    """Return the result folder of a scene, after a check that nothing in it would be lost.
-
-    Raises:
-        SceneError: if the folder cannot be written, or is the default one and has the results of another scene.
-    """
-    file = Path(os.path.realpath(scene_path(scene)))
-    folder = out if out is not None else Path("results") / f"{file.stem}{suffix}"
-    with folder_errors():
-        earlier = check_output(folder)
-    other = earlier.scene_file(folder) if earlier is not None else None
-    if other is None or other == file:
-        return folder
-    if out is None:
-        raise SceneError(
-            Problem(
-                key=f"output folder {folder}",
-                wrong=f"it has the results of another scene, {other}",
-                remedy=f"Name another folder with --out; --out {folder} replaces them",
-            ),
-            file=file,
-        )
-    click.echo(f"Note: the results of {other} in {folder}/ will be replaced.", err=True)
-    return folder
-
-
-def _title(scene: Scene) -> str:
-    return scene.title or "Untitled scene"
-
-
-def _is_first_rank() -> bool:
-    return all(os.environ.get(name, "0") == "0" for name in RANK_VARIABLES)
-
-
 @contextlib.contextmanager
 def _printing_on_one_rank() -> Iterator[None]:
-    if _is_first_rank():
+    if is_first_rank():
         yield
         return
     with (
@@ -200,8 +164,8 @@ def run(
     if no_images and options != DEFAULT_PICTURES:
         raise click.UsageError("--no-images excludes the other options of images: leave out one or the other.")
     checked = read_scene(scene, overrides)
-    folder = _folder_of_results(scene, out)
-    with progress(_title(checked), shown=not quiet and sys.stderr.isatty()) as report:
+    folder = folder_of_results(scene, out)
+    with progress(title_of_scene(checked), shown=not quiet and sys.stderr.isatty()) as report:
         start = time.perf_counter()
         run_kind = runner_of(checked)
         write_page = page_writer(checked) if page else None
@@ -237,7 +201,7 @@ def compare(context: click.Context, scene: str, overrides: tuple[str, ...]) -> N
       hydroelastic compare aquarium --set body.1.start=0
     """
     checked = read_scene(scene, overrides)
-    with progress(_title(checked), shown=sys.stderr.isatty()) as report:
+    with progress(title_of_scene(checked), shown=sys.stderr.isatty()) as report:
         compare_kind = comparer_of(checked)
         comparison = compare_kind(checked, report=report)
     click.echo(comparison.table())
@@ -285,14 +249,14 @@ def study(
     plan = plan_from_options(options)
     checked = read_scene(scene, overrides)
     tank = closed_tank(checked, "a study measures the errors of frequencies of closed tanks")
-    folder = _folder_of_results(scene, out, suffix="_study")
+    folder = folder_of_results(scene, out, suffix="_study")
     replaces = read_manifest(folder) is not None
-    with progress(_title(checked), shown=sys.stderr.isatty()) as report:
+    with progress(title_of_scene(checked), shown=sys.stderr.isatty()) as report:
         from hydroelastic.scenes.study.report import study_table, write_study
         from hydroelastic.scenes.study.run import study_scene
 
         measured = study_scene(tank, plan, report=report)
-        if _is_first_rank():
+        if is_first_rank():
             write_study(measured, folder, picture_options(formats, dpi=dpi), scene_file=scene_path(scene))
     click.echo(study_table(measured))
     click.echo(f"Written to {results_message(folder, replaces=replaces)}")
@@ -382,6 +346,8 @@ def bench(
         code = INTERRUPTED
     context.exit(code if code >= 0 else 128 - code)
 
+
+main.add_command(sweep)
 
 for _command in (main, *main.commands.values()):
     _command.help = (_command.help or "").replace("\n  hydroelastic ", f"\n  {PROGRAM} ")

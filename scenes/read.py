@@ -6,6 +6,7 @@ import contextlib
 import re
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping
+from copy import deepcopy
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -113,18 +114,63 @@ def read_scene(path: str | Path, overrides: Iterable[str] | Mapping[str, Any] = 
     Raises:
         SceneError: if the file, an override or a value is invalid; it lists all errors.
     """
-    file = scene_path(path)
-    document = _parse(file)
-    changes = tuple(_changes(overrides))
-    for change in changes:
-        _override(document, change)
-    label = f"{file} with {' '.join(f'{change.option} {change.text}' for change in changes)}" if changes else str(file)
-    model = _model_of(document, label)
-    try:
-        scene = model.model_validate(document, context={"folder": file.parent, "source": label})
-    except ValidationError as error:
-        raise scene_error(error, model, file=label) from error
-    return _with_mesh_beside(scene, file) if isinstance(scene, TankScene) else scene
+    return scene_source(path).scene(overrides)
+
+
+@dataclass(frozen=True, kw_only=True)
+class SceneSource:
+    """A scene before it is validated, in which values can be replaced.
+
+    Attributes:
+        document: its tables and values.
+        file: where it was read; ``None`` if it was made in Python.
+    """
+
+    document: Document
+    file: Path | None
+
+    def scene(self, *overrides: Iterable[str] | Mapping[str, Any]) -> Scene:
+        """Return the scene with replacements, see `read_scene`; later ones come after earlier ones.
+
+        Raises:
+            SceneError: if an override or a value is invalid.
+        """
+        document = deepcopy(self.document)
+        changes = tuple(change for some in overrides for change in _changes(some))
+        for change in changes:
+            _override(document, change)
+        label = str(self.file or "the scene")
+        if changes:
+            label += f" with {' '.join(f'{change.option} {change.text}' for change in changes)}"
+        model = _model_of(document, label)
+        context = {"folder": self.file.parent, "source": label} if self.file is not None else None
+        try:
+            scene = model.model_validate(document, context=context)
+        except ValidationError as error:
+            raise scene_error(error, model, file=label) from error
+        return _with_mesh_beside(scene, self.file) if self.file is not None and isinstance(scene, TankScene) else scene
+
+
+def scene_source(scene: Scene | str | Path) -> SceneSource:
+    """Return what a scene is made of.
+
+    Args:
+        scene: a scene, the name of a shipped one, or a TOML file.
+
+    Raises:
+        SceneError: if the file cannot be read.
+    """
+    if isinstance(scene, str | Path):
+        file = scene_path(scene)
+        return SceneSource(document=_parse(file), file=file)
+    return SceneSource(document=_as_read(scene.model_dump()), file=None)
+
+
+def _as_read(value: Any) -> Any:
+    """The values of a scene in the types that a file gives: lists in place of tuples, nothing in place of ``None``."""
+    if isinstance(value, dict):
+        return {key: _as_read(entry) for key, entry in value.items() if entry is not None}
+    return [_as_read(entry) for entry in value] if isinstance(value, list | tuple) else value
 
 
 def closed_tank(scene: Scene, because: str) -> TankScene:

@@ -50,6 +50,8 @@ class StagedRun(Generic[_Scene, _Solution]):
         sampling_warnings: returns what could not be sampled, and why; none by default.
         arrays: returns the arrays of ``dataset.nc`` alone, on rank 0; by default those declared in `kind`.
         attributes: of ``dataset.nc`` as a whole, further ones.
+        swept: returns labelled arrays of a solution that a sweep keeps beside its summary; ``None`` for none.
+        solve_alone: as `solve`, without the estimates of older theories; `solve` by default, which then makes none.
     """
 
     solve: Callable[[_Scene, MPI.Comm, Report], _Solution]
@@ -64,6 +66,8 @@ class StagedRun(Generic[_Scene, _Solution]):
     sampling_warnings: Callable[[Any], tuple[str, ...]] = _nothing
     arrays: Callable[[Any], Iterable[Variable]] | None = None
     attributes: Mapping[str, str] = field(default_factory=dict)
+    swept: Callable[[_Solution], Iterable[Variable]] | None = None
+    solve_alone: Callable[[_Scene, MPI.Comm, Report], _Solution] | None = None
 
     def __call__(
         self,
@@ -96,10 +100,21 @@ class StagedRun(Generic[_Scene, _Solution]):
             return outcome
         return self.written(outcome, out, scene_file=scene_file, images=images, page=page, report=report)
 
-    def solved(self, scene: _Scene, *, import_seconds: float = 0.0, report: Report = lambda _message: None) -> Outcome:
-        """Solve a scene; write nothing (collective). The arguments and errors are those of a call."""
+    def solved(
+        self,
+        scene: _Scene,
+        *,
+        solve: Callable[[_Scene, MPI.Comm, Report], _Solution] | None = None,
+        import_seconds: float = 0.0,
+        report: Report = lambda _message: None,
+    ) -> Outcome:
+        """Solve a scene; write nothing (collective). The other arguments and errors are those of a call.
+
+        Args:
+            solve: in place of that of the kind of scene, for example without estimates.
+        """
         comm = MPI.COMM_WORLD
-        solution = self.solve(scene, comm, report)
+        solution = (solve or self.solve)(scene, comm, report)
         summary = self.summarized(scene, solution, import_seconds)
         sections = tuple(self.sections(solution, summary))
         return Outcome(solution=solution, summary=summary, sections=sections, cost=self.cost(summary))

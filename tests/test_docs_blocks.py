@@ -61,6 +61,8 @@ NOT_RUN = {
     "./hydro python results/hard_cases.py": MINUTES,
     "./hydro python results/float_cases.py": MINUTES,
     "./hydro python results/thread_cases.py": MINUTES,
+    "./hydro python results/sweeps.py": MINUTES,
+    "./hydro sweep aquarium --vary body.1.start=0:6:41 --jobs 2": "results/sweeps.py keeps what it gives",
     "./hydro python results/regenerate.py": MINUTES,
     "./hydro python results/regenerate.py aquarium swell": MINUTES,
 }

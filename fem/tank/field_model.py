@@ -120,7 +120,7 @@ def moving_parities(tank: Tank, shapes: tuple[int, ...], *, infinite_frequency: 
     """Return the symmetries with unknowns: with a lid or at infinite frequency those of the shapes of bodies only."""
     if not infinite_frequency and tank.has_waves:
         return PARITIES
-    return tuple(parity for parity in PARITIES if any(body.size for body in _half_bodies(tank, shapes, parity)))
+    return tuple(parity for parity in PARITIES if any(body.size for body in half_bodies(tank, shapes, parity)))
 
 
 def _field_models(
@@ -146,7 +146,7 @@ def _field_models(
     pencils = []
     for parity in parities:
         plane = (SYMMETRY_PLANE,) if parity == "antisymmetric" else ()
-        bodies = whole_bodies(tank, shapes) if parity is None else _half_bodies(tank, shapes, parity)
+        bodies = whole_bodies(tank, shapes) if parity is None else half_bodies(tank, shapes, parity)
         part = replace(liquid, zero_potential=liquid.zero_potential + plane)
         # A float in the middle may have no motion of this parity, and a beam may be fixed.
         moving = tuple(body for body in bodies if body.size)
@@ -177,7 +177,8 @@ def whole_bodies(tank: Tank, shapes: tuple[int, ...]) -> tuple[Body, ...]:
     return tuple(body_model(tank, index).moving(count, None) for index, count in enumerate(shapes))
 
 
-def _half_bodies(tank: Tank, shapes: tuple[int, ...], parity: Parity) -> tuple[Body, ...]:
+def half_bodies(tank: Tank, shapes: tuple[int, ...], parity: Parity) -> tuple[Body, ...]:
+    """Return the bodies of the left half of a symmetric tank in their shapes of one symmetry, as `whole_bodies`."""
     return tuple(
         body_model(tank, index).moving(shapes[index], parity if twin_of(tank, index) == index else None)
         for index in left_bodies(tank)

@@ -5,6 +5,7 @@ Modes of the halves are sorted into one ascending list, with the amplitudes of t
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -102,6 +103,7 @@ def solve_field(
     watch: Stopwatch,
     *,
     half: bool,
+    models: Callable[..., PartPencils] | None = None,
 ) -> FieldSolution:
     """Assemble and solve for the lowest modes (collective).
 
@@ -112,6 +114,7 @@ def solve_field(
         count: number of modes; fewer are returned if the model has fewer.
         watch: records the time of compiling the form, of assembly and of solution.
         half: whether a symmetric tank is solved as two halves.
+        models: what assembles the problems, with the arguments of `part_models`, which is the default.
 
     Raises:
         EigenSolverError: if SLEPc stops before enough pairs have converged.
@@ -119,7 +122,7 @@ def solve_field(
     with watch.stage("forms"):
         compile_form(mesh, resolution.degree)
     with watch.stage("assemble"):
-        pencils = part_models(mesh, tank, resolution.degree, resolution.shapes, half=half)
+        pencils = (models or part_models)(mesh, tank, resolution.degree, resolution.shapes, half=half)
     with watch.stage("solve"):
         return solve_parts(mesh, tank, resolution.shapes, pencils, count)
 

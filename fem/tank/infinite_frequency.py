@@ -27,8 +27,9 @@ from hydroelastic.fem.tank.error_estimates import (
     frequency_errors,
     joined_errors,
 )
-from hydroelastic.fem.tank.field_model import build_mesh, whole_bodies
-from hydroelastic.fem.tank.field_solution import FieldSolution, PartPencils, extension, part_models, solve_parts
+from hydroelastic.fem.tank.field_model import whole_bodies
+from hydroelastic.fem.tank.field_solution import FieldSolution, PartPencils, extension, solve_parts
+from hydroelastic.fem.tank.liquids import ANEW, Liquids
 from hydroelastic.fem.tank.resolution import Resolution
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.physics.symmetry import Parity
@@ -102,6 +103,7 @@ def infinite_frequency_limit(
     *,
     half: bool,
     user_mesh: TankMesh | None = None,
+    liquids: Liquids = ANEW,
     report: Report = lambda _message: None,
 ) -> InfiniteFrequencyLimit:
     """Solve the limit to a tolerance, or return the best of a few attempts (collective).
@@ -114,6 +116,7 @@ def infinite_frequency_limit(
         watch: records the time by stage.
         half: whether a symmetric tank is solved as two halves.
         user_mesh: a user mesh instead of the built-in one.
+        liquids: makes mesh and matrices.
         report: receives messages on the progress.
 
     Returns:
@@ -130,12 +133,12 @@ def infinite_frequency_limit(
 
     def solve(resolution: Resolution) -> Attempt[InfiniteFrequencyLimit]:
         with watch.stage(stage):
-            mesh = user_mesh or build_mesh(comm, tank, resolution, half=half, infinite_frequency=True)
+            mesh = user_mesh or liquids.mesh(comm, tank, resolution, half=half, infinite_frequency=True)
         with watch.stage("forms"):
             compile_form(mesh, resolution.degree, continuous_pressure=tank.has_continuous_pressure)
         shapes = resolution.shapes if has_tones else (0,) * len(tank.bodies)
         with watch.stage(stage):
-            pencils = part_models(mesh, tank, resolution.degree, shapes, half=half, infinite_frequency=True)
+            pencils = liquids.pencils(mesh, tank, resolution.degree, shapes, half=half, infinite_frequency=True)
         limit, causes = InfiniteFrequencyLimit(), []
         if has_tones:
             with watch.stage("pressure release"):
@@ -152,7 +155,13 @@ def infinite_frequency_limit(
 
     remesh = user_mesh is None
     return best_attempt(
-        tank, tolerance, solve, first, rounds=_MOST_ATTEMPTS, infinite_frequency=True, remesh=remesh
+        tank,
+        tolerance,
+        solve,
+        liquids.start(first, infinite_frequency=True),
+        rounds=_MOST_ATTEMPTS,
+        infinite_frequency=True,
+        remesh=remesh,
     ).result
 
 

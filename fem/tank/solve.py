@@ -6,7 +6,7 @@ modes, and from rounding. Where the tolerance is exceeded, the largest contribut
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from itertools import count
@@ -22,7 +22,7 @@ from hydroelastic.fem.modes import Mode, ModeSet
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.fem.tank.elastic_tone import ElasticTone, elastic_tone
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors, frequency_errors, refined
-from hydroelastic.fem.tank.field_model import build_mesh, distributed_user_mesh
+from hydroelastic.fem.tank.field_model import distributed_user_mesh
 from hydroelastic.fem.tank.field_solution import FieldSolution, count_is_confirmed, solve_field
 from hydroelastic.fem.tank.float_modes import FloatMode, float_modes
 from hydroelastic.fem.tank.infinite_frequency import (
@@ -30,6 +30,7 @@ from hydroelastic.fem.tank.infinite_frequency import (
     InfiniteFrequencyLimit,
     infinite_frequency_limit,
 )
+from hydroelastic.fem.tank.liquids import ANEW, Liquids, SharedLiquids, finest
 from hydroelastic.fem.tank.resolution import (
     MOST_MODES_TO_TONE,
     Resolution,
@@ -140,6 +141,7 @@ def solve_tank(
     comm: MPI.Comm | None = None,
     mesh: TaggedMesh | None = None,
     halves: bool = True,
+    liquids: Liquids = ANEW,
     report: Report = lambda _message: None,
 ) -> TankSolution:
     """Solve a tank between walls (collective).
@@ -152,6 +154,7 @@ def solve_tank(
         mesh: a user mesh of the liquid in metres (on rank 0), instead of the built-in one. Its elements are kept, and
             only degree and dry modes are refined.
         halves: whether a symmetric tank is solved as two halves; ``False`` is for comparison.
+        liquids: makes mesh and matrices; several tanks may share them.
         report: receives messages on the progress.
 
     Returns:
@@ -183,20 +186,20 @@ def solve_tank(
     def limit() -> InfiniteFrequencyLimit:
         coarsest = infinite_frequency_resolution(tank, workable, tones) if user_mesh is None else first
         return infinite_frequency_limit(
-            comm, tank, coarsest, workable, watch, half=half, user_mesh=user_mesh, report=report
+            comm, tank, coarsest, workable, watch, half=half, user_mesh=user_mesh, liquids=liquids, report=report
         )
 
     def solve(resolution: Resolution) -> TankSolution:
         attempt = next(attempts)
         report(f"attempt {attempt}: degree {resolution.degree}, {resolution.modes} modes")
         with watch.stage("mesh"):
-            mesh = user_mesh or build_mesh(comm, tank, resolution, half=half)
+            mesh = user_mesh or liquids.mesh(comm, tank, resolution, half=half)
         beside = limit()
-        field = solve_field(mesh, tank, resolution, resolution.modes + 1, watch, half=half)
+        field = solve_field(mesh, tank, resolution, resolution.modes + 1, watch, half=half, models=liquids.pencils)
         return _judged(physical, tank, (tolerance, modes), resolution, field, beside, watch, attempt)
 
     found = adaptive_solve(
-        first,
+        liquids.start(first),
         solve,
         lambda solution: ErrorEstimate(discretization=solution.largest_error, missing=len(solution.reasons)),
         lambda _, solution: _next_resolution(solution, remesh=user_mesh is None),
@@ -338,3 +341,19 @@ def _modes_there(solution: TankSolution) -> float:
     """Number of modes of a tank: finite without waves and elastic bodies."""
     count = mode_count(solution.tank)
     return np.inf if count is None else count - len(solution.modes.growing)
+
+
+def shared_liquids(tanks: Sequence[Tank], *, tolerance: float, modes: int) -> SharedLiquids:
+    """Return liquids for all tanks of one `liquid_key`, at a resolution that suffices for some of them (collective).
+
+    Args:
+        tanks: some of them, in SI units.
+        tolerance: as that of `solve_tank`.
+        modes: the same.
+    """
+    solved = [solve_tank(tank, tolerance=tolerance, modes=modes) for tank in tanks]
+    limits = [
+        infinite_frequency_resolution(one.tank, workable_tolerance(tolerance, one.tank.depth), expected_tones(one.tank))
+        for one in solved
+    ]
+    return SharedLiquids(of_field=finest([one.resolution for one in solved]), of_limit=finest(limits))

@@ -80,6 +80,7 @@ run_open = StagedRun(
     write=_write,
     arrays=lambda water: open_variables(water.solution),
     attributes={"comment": COMMENT},
+    swept=open_variables,
     draw=_draw,
     used_options=OF_CURVES | OF_FIELDS | OF_MOTIONS,
 )

@@ -11,6 +11,7 @@ from mpi4py import MPI
 
 from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.stopwatch import Report, Stopwatch
+from hydroelastic.fem.tank.liquids import ANEW, Liquids
 from hydroelastic.fem.tank.solve import TankSolution
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.modal.tank_estimates import tone_estimates
@@ -50,8 +51,8 @@ class SampledTank:
     summary: Summary
 
 
-def solve_tank(scene: TankScene, comm: MPI.Comm, report: Report) -> EstimatedTank:
-    """Solve a closed tank and estimate it (collective).
+def solve_tank(scene: TankScene, comm: MPI.Comm, report: Report, liquids: Liquids = ANEW) -> EstimatedTank:
+    """Solve a closed tank and estimate it (collective); `liquids` makes its mesh and matrices.
 
     Raises:
         SceneError: if the scene's ends are open, or its mesh does not fit it.
@@ -69,13 +70,19 @@ def solve_tank(scene: TankScene, comm: MPI.Comm, report: Report) -> EstimatedTan
             from hydroelastic.modal.floats.tank_estimates import float_estimates
 
             of_floats = float_estimates(physical)
+    solved = solve_tank_alone(scene, comm, report, liquids)
+    return replace(solved, beam=estimates, floats=of_floats, estimating=watch.seconds)
+
+
+def solve_tank_alone(scene: TankScene, comm: MPI.Comm, report: Report, liquids: Liquids = ANEW) -> EstimatedTank:
+    """As `solve_tank`, without the estimates (collective)."""
     try:
-        solution = solve_scene(scene, comm=comm, mesh=user_mesh(scene, comm), report=report)
+        solution = solve_scene(scene, comm=comm, mesh=user_mesh(scene, comm), liquids=liquids, report=report)
     except MeshError as error:
         raise mesh_refused(scene, str(error)) from error
     except EigenSolverError as error:
         raise UnsolvedError(f"the eigen-solver failed: {error}") from error
-    return EstimatedTank(scene=scene, tank=solution, beam=estimates, floats=of_floats, estimating=watch.seconds)
+    return EstimatedTank(scene=scene, tank=solution)
 
 
 def _sample(estimated: EstimatedTank, summary: Summary) -> SampledTank:
@@ -109,6 +116,7 @@ run_tank = StagedRun(
     solve=solve_tank,
     kind=TANK,
     arrays=_arrays,
+    solve_alone=solve_tank_alone,
     sections=lambda estimated, summary: tank_sections(summary, draughts_left_out(estimated.scene)),
     cost=tank_cost,
     sample=_sample,

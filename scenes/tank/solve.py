@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from mpi4py import MPI
 
 from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.tank.liquids import ANEW, Liquids
 from hydroelastic.fem.tank.solve import TankSolution, solve_tank
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 from hydroelastic.modal.estimate import Estimate
@@ -53,6 +54,7 @@ def solve_scene(
     comm: MPI.Comm | None = None,
     mesh: TaggedMesh | None = None,
     halves: bool = True,
+    liquids: Liquids = ANEW,
     report: Report = lambda _message: None,
 ) -> TankSolution:
     """Solve a scene to its tolerance; see `fem.tank.solve.solve_tank` (collective).
@@ -71,5 +73,6 @@ def solve_scene(
         comm=comm,
         mesh=mesh,
         halves=halves,
+        liquids=liquids,
         report=report,
     )

@@ -1,0 +1,54 @@
+"""What several commands do alike: exit codes, result folders, which process prints."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import click
+
+from hydroelastic.output.folder import check_output
+from hydroelastic.scenes.errors import Problem, SceneError, folder_errors
+from hydroelastic.scenes.read import Scene, scene_path
+
+NOT_TO_TOLERANCE = 3
+"""Exit code where something was not solved to its tolerance."""
+
+RANK_VARIABLES = ("OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK")
+"""Where MPI launchers say which process this is; without one there is only one process."""
+
+
+def folder_of_results(scene: str, out: Path | None, *, suffix: str = "") -> Path:
+    """Return the result folder of a scene, after a check that nothing in it would be lost.
+
+    Raises:
+        SceneError: if the folder cannot be written, or is the default one and has the results of another scene.
+    """
+    file = Path(os.path.realpath(scene_path(scene)))
+    folder = out if out is not None else Path("results") / f"{file.stem}{suffix}"
+    with folder_errors():
+        earlier = check_output(folder)
+    other = earlier.scene_file(folder) if earlier is not None else None
+    if other is None or other == file:
+        return folder
+    if out is None:
+        raise SceneError(
+            Problem(
+                key=f"output folder {folder}",
+                wrong=f"it has the results of another scene, {other}",
+                remedy=f"Name another folder with --out; --out {folder} replaces them",
+            ),
+            file=file,
+        )
+    click.echo(f"Note: the results of {other} in {folder}/ will be replaced.", err=True)
+    return folder
+
+
+def title_of_scene(scene: Scene) -> str:
+    """Return the title of a scene for messages."""
+    return scene.title or "Untitled scene"
+
+
+def is_first_rank() -> bool:
+    """Return whether this process prints and writes."""
+    return all(os.environ.get(name, "0") == "0" for name in RANK_VARIABLES)

@@ -1,0 +1,2 @@
+"""Sweeps: one scene solved for many values of its keys, its results along them, its modes followed from point to
+point."""

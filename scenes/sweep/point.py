@@ -1,0 +1,123 @@
+"""One point of a sweep: solve a scene, and keep what its tables, pictures and neighbours need."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from hashlib import sha256
+from pathlib import Path
+from typing import Any, Literal
+
+from hydroelastic.fem.sweep.mode_vectors import ModeVectors, array_of_text, array_text
+from hydroelastic.output.json_values import json_ready
+from hydroelastic.output.pictures.options import DEFAULT_PICTURES
+from hydroelastic.output.provenance import Summary, versions
+from hydroelastic.output.variables import Variable
+from hydroelastic.scenes.errors import SceneError
+from hydroelastic.scenes.kinds import runner_of
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.read import Scene
+from hydroelastic.scenes.sweep.families import Family, liquids_of
+
+Status = Literal["ok", "unconverged", "failed"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class PointOptions:
+    """What is done at each point beside the solution.
+
+    Attributes:
+        estimates: whether the estimates of older theories are made too.
+        pictures: folder for a result folder of each point, with its pictures; ``None`` writes none.
+    """
+
+    estimates: bool = False
+    pictures: Path | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class SolvedPoint:
+    """The result of one point.
+
+    Attributes:
+        status: "ok", "unconverged" (solved, but not to its tolerance), or "failed".
+        reasons: why it is not "ok".
+        summary: content of ``summary.json``; ``None`` if it failed.
+        arrays: variables that are no part of the summary, of open water.
+        modes: of a closed tank, for following them.
+    """
+
+    status: Status
+    reasons: tuple[str, ...]
+    summary: Summary | None = None
+    arrays: tuple[Variable, ...] = ()
+    modes: ModeVectors | None = None
+
+    def as_json(self) -> dict[str, Any]:
+        """Return the point in types of JSON."""
+        content: dict[str, Any] = {"status": self.status, "reasons": self.reasons, "summary": self.summary}
+        content["arrays"] = [vars(one) | {"values": array_text(one.values)} for one in self.arrays]
+        return content | {"modes": None if self.modes is None else self.modes.as_texts()}
+
+    @classmethod
+    def from_json(cls, content: dict[str, Any]) -> SolvedPoint:
+        """Return the point of `as_json`."""
+        modes = content["modes"]
+        return cls(
+            status=content["status"],
+            reasons=tuple(content["reasons"]),
+            summary=content["summary"],
+            arrays=tuple(
+                Variable(**one | {"values": array_of_text(one["values"]), "dimensions": tuple(one["dimensions"])})
+                for one in content["arrays"]
+            ),
+            modes=None if modes is None else ModeVectors.of_texts(modes),
+        )
+
+
+def point_key(scene: Scene, options: PointOptions, family: Family | None) -> str:
+    """Return what identifies a result: a hash of the scene, of files that it names, of options and of versions."""
+    mesh = scene.mesh.file.read_bytes() if isinstance(scene, TankScene) and scene.mesh is not None else b""
+    content = [scene.model_dump(mode="json"), options.estimates, str(options.pictures or "")]
+    content += [family and family.name, versions()]
+    return sha256(json.dumps(content, sort_keys=True).encode() + mesh).hexdigest()
+
+
+def solve_point(scene: Scene, options: PointOptions, name: str, family: Family | None = None) -> SolvedPoint:
+    """Solve one point (collective); what goes wrong is kept as its reason.
+
+    Args:
+        scene: of the point.
+        options: what else is done.
+        name: of its folder, if it has one.
+        family: points that share their liquid with this one, if there are any.
+    """
+    try:
+        run = runner_of(scene)
+        solve: Callable[..., Any] = run.solve if options.estimates else run.solve_alone or run.solve
+        outcome = run.solved(scene, solve=solve if family is None else partial(solve, liquids=liquids_of(family)))
+        if options.pictures is not None:
+            outcome = run.written(outcome, options.pictures / name, images=DEFAULT_PICTURES)
+        modes = None
+        if isinstance(scene, TankScene) and not scene.is_open:
+            from hydroelastic.fem.tank.mode_vectors import mode_vectors
+
+            modes = mode_vectors(outcome.solution.tank)
+    except Exception as error:
+        return failed(error)
+    return SolvedPoint(
+        status="unconverged" if outcome.reasons else "ok",
+        reasons=outcome.reasons,
+        summary=json_ready(outcome.summary),
+        arrays=() if run.swept is None else tuple(run.swept(outcome.solution)),
+        modes=modes,
+    )
+
+
+def failed(error: BaseException) -> SolvedPoint:
+    """Return the point that an error prevented."""
+    said = str(error) or type(error).__name__
+    known = isinstance(error, SceneError) or not said
+    return SolvedPoint(status="failed", reasons=(said if known else f"{type(error).__name__}: {said}",))

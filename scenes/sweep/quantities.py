@@ -1,0 +1,143 @@
+"""The quantities of a sweep: all numbers, words and truth values of its points, as labelled variables.
+
+This is the only place where a sweep asks what results there are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from hydroelastic.output.provenance import Summary
+from hydroelastic.output.quantities import Group
+from hydroelastic.output.summary_variables import summary_variables
+from hydroelastic.output.variables import Variable, merged
+from hydroelastic.scenes.errors import Problem, SceneError, shown_value
+from hydroelastic.scenes.words import proposal
+
+POINT = "point"
+"""The dimension along which the points lie; of a variable that has it, it is the first."""
+
+# They tell of a single run, or stand elsewhere in the results of a sweep.
+_LEFT_OUT = frozenset(("scene", "status", "reasons", "timing", "memory_peak", "versions"))
+
+
+def quantities(
+    summaries: Sequence[Summary | None], arrays: Sequence[Sequence[Variable] | None], kind: Group
+) -> list[Variable]:
+    """Return the values of all points.
+
+    Args:
+        summaries: content of ``summary.json`` of each point; ``None`` where it failed, which gives NaN and "".
+        arrays: further variables of each point, which are no part of its summary; ``None`` where it failed.
+        kind: the declared quantities of this kind of scene.
+    """
+    told = [{key: value for key, value in (one or {}).items() if key not in _LEFT_OUT} for one in summaries]
+    points = Group(POINT, "the points", kind.parts, dimension=POINT, prefix="")
+    of_summaries = summary_variables({POINT: told}, Group("", "a sweep", (points,)))
+    return merged((one for one in of_summaries if one.name != POINT), joined(arrays))
+
+
+def joined(arrays: Sequence[Sequence[Variable] | None]) -> list[Variable]:
+    """Return the variables of all points, each with the dimension `POINT` first, NaN or "" where a point lacks it.
+
+    Along a dimension with places the places of all points are joined, ascending if they are numbers.
+    """
+    points = [{one.name: one for one in found or ()} for found in arrays]
+    everything = {name: one for found in points for name, one in found.items()}
+    places: dict[str, list[Any]] = {}
+    for name, one in everything.items():
+        if one.dimensions == (name,):
+            joint = dict.fromkeys(place for found in points if name in found for place in found[name].values.tolist())
+            places[name] = sorted(joint) if one.values.dtype.kind in "if" else list(joint)
+    variables = [replace(everything[name], values=np.array(along)) for name, along in places.items()]
+    for name, one in everything.items():
+        if name not in places:
+            there = [found.get(name) for found in points]
+            variables.append(_stacked(one, there, [dict(found) for found in points], places))
+    return variables
+
+
+def _stacked(
+    one: Variable, there: list[Variable | None], points: list[dict[str, Variable]], places: dict[str, list[Any]]
+) -> Variable:
+    """One variable of all points."""
+    shapes = [found.values.shape for found in there if found is not None]
+    sizes = [
+        len(places[name]) if name in places else max(shape[axis] for shape in shapes)
+        for axis, name in enumerate(one.dimensions)
+    ]
+    kind = one.values.dtype.kind
+    values = np.full((len(there), *sizes), "" if kind in "UO" else np.nan, dtype=_TYPES.get(kind, float))
+    for row, (found, labels) in enumerate(zip(there, points, strict=True)):
+        if found is not None:
+            index: list[Any] = [
+                [places[name].index(place) for place in labels[name].values.tolist()] if name in places else range(size)
+                for name, size in zip(one.dimensions, found.values.shape, strict=True)
+            ]
+            values[(row, *np.ix_(*index))] = found.values
+    return replace(one, dimensions=(POINT, *one.dimensions), values=values, is_coordinate=False)
+
+
+_TYPES: dict[str, Any] = {"c": complex, "U": object, "O": object}
+
+
+def columns(variables: Iterable[Variable], most: int = 100) -> dict[str, np.ndarray]:
+    """Return variables as columns of a table, one entry for each point, by name.
+
+    Entries along a further dimension are numbered from 1: ``omega_3`` is that of the third mode. Of complex numbers
+    there is the magnitude: ``RAO_abs_5``.
+
+    Args:
+        variables: from `quantities`.
+        most: entries of a variable; one with more is left out.
+    """
+    found = {}
+    for one in variables:
+        if one.dimensions[:1] != (POINT,):
+            continue
+        is_complex = one.values.dtype.kind == "c"
+        table = (np.abs(one.values) if is_complex else one.values).reshape(len(one.values), -1)
+        if table.shape[1] <= most:
+            for place, column in zip(np.ndindex(one.values.shape[1:]), table.T, strict=True):
+                numbers = [index + 1 for index, size in zip(place, one.values.shape[1:], strict=True) if size > 1]
+                found["_".join(map(str, (one.name, *["abs"] * is_complex, *numbers)))] = column
+    return found
+
+
+# The first of these whose first name a table has is shown where nothing is asked for.
+_MAIN = (
+    ("first_elastic_omega", "first_elastic_participation", "first_elastic_pressure_release_omega"),
+    ("omega_1", "omega_2", "omega_3"),
+    ("response_largest_displacement",),
+    ("equilibrium_largest_tension",),
+    ("response_largest_angle_degrees",),
+)
+_NAMED = 12
+
+
+def shown_columns(table: Mapping[str, Any], show: tuple[str, ...]) -> tuple[str, ...]:
+    """Return the columns to show: those asked for, or else the main ones of the kind of scene.
+
+    Raises:
+        SceneError: if there is no such column, or it does not hold numbers.
+    """
+    numbers = [name for name in table if np.issubdtype(np.asarray(table[name]).dtype, np.number)]
+    for name in show:
+        if name.replace(".", "_") not in numbers:
+            raise SceneError(
+                Problem(
+                    key="--show",
+                    value=shown_value(name),
+                    wrong="it holds no numbers" if name in table else "there is no such quantity",
+                    allowed="a column of sweep.csv with numbers",
+                    remedy=proposal(name, numbers) or f"There are {', '.join(numbers[:_NAMED])} …",
+                )
+            )
+    if show:
+        return tuple(name.replace(".", "_") for name in show)
+    found = next((names for names in _MAIN if names[0] in numbers), tuple(numbers[-1:]))
+    return tuple(name for name in found if name in numbers)

@@ -1,0 +1,44 @@
+"""A sweep as text, for the terminal."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rich.console import Console
+
+from hydroelastic.output.folder import results_message
+from hydroelastic.output.sections import rich_table
+from hydroelastic.scenes.sweep.files import followed_lines_of_text, sweep_rows
+
+if TYPE_CHECKING:
+    from hydroelastic.scenes.sweep.result import Sweep
+
+_MOST_ROWS = 60
+# Names of columns are not cut.
+_WIDTH = 200
+
+
+def sweep_report(sweep: Sweep, show: tuple[str, ...], folder: Path, *, replaces: bool) -> str:
+    """Return the main quantities of all points, and where the rest was written.
+
+    Args:
+        sweep: what was found.
+        show: names of the quantities; the main ones by default.
+        folder: the result folder.
+        replaces: whether it had files of an earlier run.
+    """
+    console = Console(file=io.StringIO(), width=_WIDTH, color_system=None, highlight=False, emoji=False)
+    solved = sweep.solved
+    headings, rows = sweep_rows(sweep, show)
+    console.print(solved.scene.title or "Untitled scene", markup=False)
+    console.print(rich_table(headings, rows[:_MOST_ROWS]))
+    if len(rows) > _MOST_ROWS:
+        console.print(f"and {len(rows) - _MOST_ROWS} more points, in sweep.csv")
+    for line in followed_lines_of_text(solved):
+        console.print(line, markup=False)
+    if solved.resumed:
+        console.print(f"{solved.resumed} points were solved before, and kept in the folder.")
+    text: str = console.file.getvalue()  # type: ignore[attr-defined]
+    return f"{text.rstrip()}\nResults written to {results_message(folder, replaces=replaces)}"

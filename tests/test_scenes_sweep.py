@@ -1,0 +1,243 @@
+"""Sweeps: points are those of single solutions, modes are followed, what fails is kept, what is done is not done
+again."""
+
+import csv
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner, Result
+from mpi4py import MPI
+from scene_files import BEAM_IN_TANK
+from tanks import Tanks
+
+import hydroelastic.scenes.sweep.workers as workers
+from hydroelastic.fem.tank.liquids import liquid_key
+from hydroelastic.scenes.command_line import main
+from hydroelastic.scenes.errors import SceneError
+from hydroelastic.scenes.models.physical import physical_tank
+from hydroelastic.scenes.read import closed_tank, read_scene
+from hydroelastic.scenes.result import solve
+from hydroelastic.scenes.sweep.axes import grid_from_texts
+from hydroelastic.scenes.sweep.journal import JOURNAL, open_journal
+from hydroelastic.scenes.sweep.result import Sweep, sweep
+
+RIGIDITY = "body.1.flexural_rigidity"
+RIGIDITIES = (500.0, 700.0, 900.0, 1100.0)
+# Half a digit below the errors that the solver estimates of itself.
+TOLERANCE = 1e-5
+
+
+def over_rigidity(tanks: Tanks, start: float) -> Sweep:
+    """A beam of the base case over flexural rigidities at which its tone meets the first antisymmetric wave."""
+    return sweep(tanks.scene(tanks.beam(start=start), modes=4, tolerance=TOLERANCE), {RIGIDITY: RIGIDITIES})
+
+
+@pytest.fixture(scope="module")
+def centred(tanks: Tanks) -> Sweep:
+    return over_rigidity(tanks, 3.0)
+
+
+@pytest.fixture(scope="module")
+def off_centre(tanks: Tanks) -> Sweep:
+    return over_rigidity(tanks, 3.001)
+
+
+def lowest(tanks: Tanks, start: float, rigidity: float, *, symmetry: str | None = None) -> np.ndarray:
+    """Frequencies of a single solution, whose liquid is its own, of one symmetry if that is given."""
+    modes = solve(tanks.scene(tanks.beam(start=start, flexural_rigidity=rigidity), modes=4, tolerance=TOLERANCE)).modes
+    return np.asarray(modes.omega if symmetry is None else modes.omega[modes.symmetry == symmetry])
+
+
+def test_points_that_share_their_liquid_are_those_of_single_solutions(centred: Sweep, tanks: Tanks) -> None:
+    for rigidity, row in zip(RIGIDITIES, centred.dataset["omega"].values, strict=True):
+        # Within the errors of both.
+        assert row == pytest.approx(lowest(tanks, 3.0, rigidity), rel=2 * TOLERANCE)
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "shared"),
+    [
+        ("body.1.flexural_rigidity", 1e4, True),
+        ("body.1.mass_per_length", 400.0, True),
+        ("body.1.hydrostatic", True, True),
+        ("tank.gravity", 3.7, True),
+        ("body.1.start", 2.9, False),
+        ("body.1.length", 3.9, False),
+        ("liquid.1.depth", 4.0, False),
+    ],
+)
+def test_only_what_does_not_touch_the_liquid_shares_it(key: str, value: float | str | bool, shared: bool) -> None:
+    one, other = (physical_tank(closed_tank(read_scene("aquarium", change), "")) for change in ({}, {key: value}))
+    assert (repr(liquid_key(one.scaled())) == repr(liquid_key(other.scaled()))) is shared
+
+
+def test_mass_gravity_and_restoring_are_those_of_the_point(tanks: Tanks) -> None:
+    scene = tanks.scene(tanks.beam(), modes=3, tolerance=TOLERANCE)
+    changes = {"body.1.mass_per_length": [20.0, 400.0], "tank.gravity": [3.7], "body.1.hydrostatic": [False, True]}
+    found = sweep(scene, changes)
+    heavy = tanks.scene(tanks.beam(mass_per_length=400.0, hydrostatic=True), gravity=3.7, modes=3, tolerance=TOLERANCE)
+    assert found.dataset["omega"].values[1, 0, 1] == pytest.approx(solve(heavy).modes.omega, rel=2 * TOLERANCE)
+
+
+def test_modes_of_opposite_symmetry_cross(centred: Sweep, tanks: Tanks) -> None:
+    (crossing,) = [row for row in centred.encounters.to_dict("records") if row["kind"] == "crossing"]
+    assert crossing["reason"] == "opposite symmetry"
+    # Independent of all that follows modes: where it says so, single solutions of both symmetries have one frequency.
+    second, first = (
+        lowest(tanks, 3.0, crossing[RIGIDITY], symmetry=symmetry)[place]
+        for symmetry, place in (("symmetric", 1), ("antisymmetric", 0))
+    )
+    assert second == pytest.approx(first, rel=2e-5)
+    assert crossing["omega"] == pytest.approx(first, rel=2e-5)
+
+
+def test_a_small_asymmetry_turns_the_crossing_into_a_narrow_veering(off_centre: Sweep, tanks: Tanks) -> None:
+    (veering,) = [row for row in off_centre.encounters.to_dict("records") if row["gap"] < 0.01]
+    assert veering["kind"] == "veering"
+    assert veering["gap"] > 3 * veering["gap_error"]
+    # The gap of single solutions, five of them across the veering, with no following.
+    gaps = [np.diff(lowest(tanks, 3.001, veering[RIGIDITY] + shift)[1:3])[0] for shift in (-0.4, -0.2, 0.0, 0.2, 0.4)]
+    # Between them it is up to 5 % smaller.
+    assert min(gaps) == pytest.approx(veering["gap"], rel=0.05)
+    assert int(np.argmin(gaps)) in (1, 2, 3)
+
+
+@pytest.mark.parametrize("name", ["centred", "off_centre"])
+def test_branches_are_continuous_and_hold_the_elastic_tone(name: str, request: pytest.FixtureRequest) -> None:
+    found: Sweep = request.getfixturevalue(name)
+    (line,) = found.solved.lines
+    assert not line.followed.exhausted
+    omega, values = line.followed.of_branches("omega")[:, :4], np.array(line.values)
+    slopes = np.gradient(omega, values, axis=0)
+    largest = np.maximum(np.abs(slopes[1:]), np.abs(slopes[:-1])) * np.diff(values)[:, None]
+    assert np.all(np.abs(np.diff(omega, axis=0)) <= 10.0 * largest)
+    # Participations of all modes add up to one; those kept are the lowest 13.
+    assert found.dataset["participation_sum"].values == pytest.approx(1.0, abs=0.02)
+
+
+@pytest.mark.mpi
+def test_ranks_solve_the_points_together(tanks: Tanks) -> None:
+    scene = tanks.scene(tanks.beam(), modes=2, tolerance=1e-4)
+    found = sweep(scene, {RIGIDITY: [5e3, 6e3, 7e3, 8e3]})
+    alone = solve(scene).modes.omega
+    assert found.dataset["omega"].values[0] == pytest.approx(alone, rel=2e-4)
+    assert MPI.COMM_WORLD.bcast(found.status) == found.status == "ok"
+
+
+def test_other_kinds_of_scenes_are_swept_over_several_keys() -> None:
+    found = sweep("swell", {"roll.damping_ratio": [0.2, 0.4], "roll.natural_period": [9.0, 12.0, 15.0]})
+    assert found.dataset["response_largest_angle"].sizes == {"roll_damping_ratio": 2, "roll_natural_period": 3}
+    alone = solve(read_scene("swell", {"roll.damping_ratio": 0.4, "roll.natural_period": 9.0}))
+    expected = alone.summary["response"]["largest_angle"]
+    assert found.dataset["response_largest_angle"].values[1, 0] == expected
+    assert found.table["response_largest_angle"].tolist()[3] == expected
+    assert found.plot("response_largest_angle").width > 500
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "scene.toml").write_text(BEAM_IN_TANK + "[accuracy]\ntolerance = 1e-3\nmodes = 2\n", encoding="utf-8")
+    return tmp_path / "found"
+
+
+def invoke(*arguments: str) -> Result:
+    return CliRunner().invoke(main, ["sweep", *arguments])
+
+
+def test_a_point_that_fails_is_a_row_with_its_reason(folder: Path) -> None:
+    found = invoke("scene.toml", "--vary", "body.1.start=1,2,9", "--out", str(folder), "--no-images")
+    assert found.exit_code == 3
+    assert "1 of 3 points are not ok" in found.stderr
+    with (folder / "sweep.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert [row["status"] for row in rows] == ["ok", "ok", "failed"]
+    assert "outside the tank" in rows[2]["reason"]
+    assert np.isnan(float(rows[2]["omega_1"]))
+    summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    assert summary["points"] == {"ok": 2, "unconverged": 0, "failed": 1}
+
+
+def test_an_interrupted_sweep_goes_on_and_gives_the_same_files(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    arguments = ("swell", "--vary", "roll.damping_ratio=0.2:0.6:3", "--out", str(folder), "--quiet")
+    assert invoke(*arguments).exit_code == 0
+    files = ("dataset.nc", "sweep.csv", "sweep.png", "summary.json", "summary.md")
+    whole = {name: (folder / name).read_bytes() for name in files}
+    journal = folder / JOURNAL
+    # The process was killed while it wrote the last point.
+    journal.write_bytes(journal.read_bytes()[:-200])
+    solved = []
+    alone = workers.solve_point
+    monkeypatch.setattr(workers, "solve_point", lambda *given: solved.append(given) or alone(*given))
+    assert invoke(*arguments).exit_code == 0
+    assert len(solved) == 1
+    assert {name: (folder / name).read_bytes() for name in files} == whole
+
+
+def test_two_sweeps_do_not_write_into_one_folder(folder: Path) -> None:
+    with (
+        open_journal(folder, scene_file=None),
+        pytest.raises(SceneError, match="another sweep is writing into it"),
+        open_journal(folder, scene_file=None),
+    ):
+        pass
+
+
+@pytest.mark.slow
+def test_processes_find_what_one_finds(folder: Path) -> None:
+    found = []
+    for jobs in ("1", "2"):
+        out = folder.with_name(jobs)
+        given = ("scene.toml", "--vary", "body.1.start=1:3:5", "--out", str(out), "--jobs", jobs, "--no-images")
+        assert invoke(*given).exit_code == 0
+        found.append(read_dataset_bytes(out))
+    assert found[0] == found[1]
+
+
+def read_dataset_bytes(folder: Path) -> dict[str, bytes]:
+    return {name: (folder / name).read_bytes() for name in ("dataset.nc", "sweep.csv", "branches.csv", "summary.md")}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("--vary", "body.1.strat=0:6:3"), 'Did you mean "start"?'),
+        (("--vary", "body.2.start=0:6:3"), '"2" is not an entry of the list'),
+        (("--vary", "body.1.start"), "it is not of the form KEY=start:stop:number"),
+        (("--vary", "body.1.start=0:6"), "a range is start:stop:number"),
+        (("--vary", "body.1.start=0:x:3"), '"x" is not a finite number'),
+        (("--vary", "body.1.start=0:6:0"), 'the number of values, "0", is not a whole number from 1'),
+        (("--vary", "body.1.start=0:6:3:log"), "equal ratios need positive ends"),
+        (("--vary", "body.1.start=1,,2"), "an entry is empty"),
+        (("--vary", "body.1.start=1", "--vary", "body.1.start=2"), "the key stands twice"),
+        (("--vary", "body.1.start=1,2", "--show", "first_elastic_omga"), 'Did you mean "first_elastic_omega"?'),
+        (("--vary", "body.1.start=1,2", "--show", "kind_1"), "it holds no numbers"),
+    ],
+)
+def test_bad_input_is_one_clear_message(folder: Path, arguments: tuple[str, ...], said: str) -> None:
+    found = invoke("scene.toml", *arguments, "--out", str(folder))
+    assert (found.exit_code, found.stderr.count("\n")) == (2, 1)
+    assert said in found.stderr
+
+
+def test_values_of_a_range_are_those_that_were_meant() -> None:
+    grid = grid_from_texts(["a.1.b=0:6:21", "c=1e2:1e4:3:log", 'd=1,"x",y'])
+    # 0.3 × 10 is 3 exactly, so that a beam in the middle is in the middle.
+    assert grid.axes[0].values[10] == 3.0
+    assert grid.axes[1].values == (100.0, 1000.0, 10000.0)
+    assert grid.axes[2].values == (1, "x", "y")
+    assert (len(grid), grid.points[1]) == (189, {"a.1.b": 0.0, "c": 100.0, "d": "x"})
+
+
+def test_the_dataset_is_read_as_it_was_made(folder: Path) -> None:
+    found = sweep("swell", {"roll.damping_ratio": [0.2, 0.4]})
+    found.save(folder, images=None)
+    import xarray
+
+    read = xarray.load_dataset(folder / "dataset.nc", engine="scipy")
+    assert read["ship_damping_ratio"].values.tolist() == [0.2, 0.4]
+    assert read["ship_damping_ratio"].attrs["units"] == "1"
+    assert set(read.data_vars) == set(found.dataset.data_vars)
+    assert read["roll_damping_ratio"].attrs["key"] == "roll.damping_ratio"

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, replace
 from typing import Any, TypeAlias
 
-from hydroelastic.output.digits import number, with_certain_digits
+from hydroelastic.output.digits import number, per_cent, with_certain_digits
 from hydroelastic.output.json_values import json_ready
 
 Values: TypeAlias = dict[str, Any]
@@ -27,11 +27,13 @@ class Quantity:
         meaning: what it is, a phrase: the long name in ``dataset.nc``, the heading in tables.
         unit: in names of UDUNITS, "1" of a number without dimension; ``None`` of texts, truth values and numbers
             whose unit differs between entries.
-        symbol: in formulas; or a short name, the heading of columns.
+        symbol: in formulas.
+        short: heading of its column; by default the symbol, or without one the meaning.
         value: returns the value of a record: a number, text, truth value, list, array, or a dictionary by labels of
             its first dimension; by default the record's attribute of the name `key`.
         error: key of its estimated error in the same group: relative if that has the unit "1", else absolute.
-        shown: format of a printed value, as ".1e"; by default the digits that are certain by the error.
+        shown: format of a printed value, as ".1e", or "%" of a relative difference; by default the digits that are
+            certain by the error.
         digits: most digits printed.
         printed: whether it is in printed tables.
         note: for the reference of keys: when it is missing, what belongs to it.
@@ -52,6 +54,7 @@ class Quantity:
     unit: str | None = None
     symbol: str = ""
     _: KW_ONLY
+    short: str = ""
     value: Callable[[Any], Any] | None = None
     error: str = ""
     shown: str = ""
@@ -75,6 +78,14 @@ class Quantity:
         """Return whether a record, a mapping, lacks the key."""
         return self.value is None and isinstance(record, Mapping) and self.key not in record
 
+    def name_behind(self, prefix: str) -> str:
+        """Return the name of its variable; "" where other arrays contain it.
+
+        Args:
+            prefix: of the variables of its group.
+        """
+        return f"{prefix}_{self.key}".lstrip("_") if self.variable is None else self.variable
+
     @property
     def unit_with_rolls(self) -> str | None:
         """The unit, and those of entries that belong to rotations."""
@@ -96,8 +107,8 @@ class Quantity:
 
     @property
     def heading(self) -> str:
-        """Heading of a column: the symbol, or without one the meaning, with the unit."""
-        return ", ".join(filter(None, (self.symbol or self.meaning, self.unit_text)))
+        """Heading of a column, with the unit."""
+        return ", ".join(filter(None, (self.short or self.symbol or self.meaning, self.unit_text)))
 
     def cell(self, values: Mapping[str, Any], group: Group) -> str:
         """Return the value as it is printed, the entries of a list one after the other.
@@ -115,7 +126,7 @@ class Quantity:
         if isinstance(value, bool):
             return "yes" if value else "no"
         if self.shown:
-            return format(value, self.shown)
+            return per_cent(value) if self.shown == "%" else format(value, self.shown)
         if isinstance(value, int):
             return str(value)
         error = values[self.error] if self.error else None
@@ -138,7 +149,8 @@ class Group:
         parts: quantities and groups.
         record: returns the record, or the records, of the record of the group around it: by default its attribute of
             the name `key`. ``None`` where there is no such record: then the value of the group is null.
-        dimension: along which a list of records lies in ``dataset.nc``; "" of a single record.
+        dimension: along which a list of records, or a dictionary of records by labels, lies in ``dataset.nc``; "" of
+            a single record.
         prefix: of the names of its variables in ``dataset.nc``; by default its key behind the prefix around it.
         note: for the reference of keys.
     """
@@ -175,6 +187,22 @@ class Group:
         """The groups within."""
         return tuple(part for part in self.parts if isinstance(part, Group))
 
+    def cells(self, values: Mapping[str, Any]) -> dict[str, str]:
+        """Return the values of all quantities that are single numbers or texts as they are printed, by key."""
+        return {
+            part.key: part.cell(values, self)
+            for part in self.parts
+            if isinstance(part, Quantity) and part.in_summary and not part.dimensions
+        }
+
+    def with_nulls(self, values: Values) -> Values:
+        """Return values by key; those that are missing are ``None``."""
+        return {part.key: values.get(part.key) for part in self.parts}
+
+    def name_behind(self, prefix: str) -> str:
+        """Return the prefix of its variables, from that of the group around it."""
+        return f"{prefix}_{self.key}".lstrip("_") if self.prefix is None else self.prefix
+
     def is_missing(self, record: Any) -> bool:
         """Return whether a record, a mapping, lacks the key."""
         return self.record is None and isinstance(record, Mapping) and self.key not in record
@@ -186,7 +214,9 @@ class Group:
     def records(self, record: Any) -> Sequence[Any]:
         """Return all records of the group, as a list, from the record of the group around it."""
         found = self.of(record)
-        return () if found is None else found if self.dimension else (found,)
+        if self.dimension and isinstance(found, Mapping):
+            found = found.values()
+        return () if found is None else tuple(found) if self.dimension else (found,)
 
     def evaluated(self, record: Any) -> Values:
         """Return the values of the quantities in ``summary.json``, by key.
@@ -210,18 +240,29 @@ class Group:
             their dimensions; the part.
         """
         for part in self.parts:
-            inner, name = f"{place}.{part.key}".lstrip("."), f"{prefix}_{part.key}".lstrip("_")
+            inner, name = f"{place}.{part.key}".lstrip("."), part.name_behind(prefix)
             if isinstance(part, Group):
-                name = name if part.prefix is None else part.prefix
                 along = (*dimensions, part.dimension) if part.dimension else dimensions
                 yield inner, name, along, part
                 yield from part.places(inner, name, along)
             elif part.joined is not None:
                 yield inner, part.variable or part.key, part.joined, part
             elif part.in_summary:
-                yield inner, name if part.variable is None else part.variable, (*dimensions, *part.dimensions), part
+                yield inner, name, (*dimensions, *part.dimensions), part
             else:
                 yield inner, part.variable or part.key, part.dimensions, part
+
+
+def array(
+    key: str,
+    meaning: str,
+    unit: str | None,
+    dimensions: str,
+    value: Callable[[Any], Any] | None = None,
+    **further: Any,
+) -> Quantity:
+    """Return an array that is in ``dataset.nc`` alone; its dimensions are separated by blanks."""
+    return Quantity(key, meaning, unit, value=value, dimensions=tuple(dimensions.split()), in_summary=False, **further)
 
 
 def _taken(key: str, function: Callable[[Any], Any] | None, record: Any) -> Any:
@@ -240,7 +281,9 @@ def _with_rolls(unit: str, *of_roll: str) -> str:
 
 
 def _as_written(unit: str) -> str:
-    return unit.replace("degree", "degrees").replace(" ", "·").replace("^2", "²").replace("^3", "³")
+    written = unit.replace("degree", "degrees").replace("^2", "²").replace("^3", "³")
+    # With words between units a space separates these.
+    return written if "," in written else written.replace(" ", "·")
 
 
 def _evaluated(part: Quantity | Group, record: Any) -> Any:
@@ -249,4 +292,6 @@ def _evaluated(part: Quantity | Group, record: Any) -> Any:
         return json_ready(found)
     if found is None:
         return None
+    if part.dimension and isinstance(found, Mapping):
+        return {label: part.evaluated(one) for label, one in found.items()}
     return [part.evaluated(one) for one in found] if part.dimension else part.evaluated(found)

@@ -74,7 +74,7 @@ def test_check_and_summary_compare_with_the_float_of_infinite_draught() -> None:
     # Against both closed forms, `test_modal_infinite_draught`: 0.0103.
     assert told.cut == pytest.approx(0.0116, rel=1e-2)
     assert infinite_draught_message(told) in list(open_requests(scene))
-    summary = run_open.summarize(OpenSolution(scene=scene, size={}, seconds={}), MPI.COMM_SELF, import_seconds=0.0)
+    summary = run_open.summarized(scene, OpenSolution(scene=scene, size={}, seconds={}))
     stored = summary["estimates"]["endless_float"]
     assert stored["cut"] == told.cut
     assert stored["residues"][1] == [told.residues[1].real, told.residues[1].imag]

@@ -42,7 +42,7 @@ from hydroelastic.scenes.tank.run import compare_tank
 
 
 def summary_of(solution: OpenSolution) -> Summary:
-    return run_open.summarize(solution, MPI.COMM_WORLD, import_seconds=1.0)
+    return run_open.summarized(solution.scene, solution)
 
 
 @pytest.mark.parametrize("kind", range(4))

@@ -7,7 +7,6 @@ from math import degrees
 
 import numpy as np
 import pytest
-from mpi4py import MPI
 from open_tables import CIRCLE, arbitrary_solution, open_scene
 
 from hydroelastic.fem.open_water.results import DecayTable
@@ -43,7 +42,7 @@ def test_numbers_are_as_long_as_they_are_certain(value: float, error: float, tex
 
 
 def tables(solution: OpenSolution) -> list[Section]:
-    return list(open_sections(solution, run_open.summarize(solution, MPI.COMM_WORLD, import_seconds=0.0)))
+    return list(open_sections(solution, run_open.summarized(solution.scene, solution)))
 
 
 def decaying(count: int) -> Section:

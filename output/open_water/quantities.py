@@ -129,7 +129,7 @@ def _inverse(name: str) -> Callable[[Any], Floats]:
 # A table: as many arguments on a line as fit.
 _OMEGA = _joined("omega", "angular frequency", "omega", unit="rad/s", symbol="ω", shown=".6g")
 _WAVES = (
-    _joined("waves", "branch of the dispersion relation", "wave", symbol="wave", variable="wave", column="wave",
+    _joined("waves", "branch of the dispersion relation", "wave", short="wave", variable="wave", column="wave",
         note="a dimension only where waves travel on two levels"),
     _joined("wavenumbers", "wavenumber", "omega wave", unit="1/m", symbol="k", shown=".6g", variable="wavenumber",
         column="wavenumber", is_coordinate=True),
@@ -164,7 +164,7 @@ RADIATION = Group("radiation", "radiated and incident waves, by analysis; matric
     _joined("diffraction_force", "force of the scattered waves per unit elevation", _FORCES, printed=False,
         **_FORCE),
     _joined("relative_error", "estimated relative error of added mass and damping", "omega", unit="1",
-        symbol="relative error", shown=".1e", variable="radiation_relative_error"),
+        short="relative error", shown=".1e", variable="radiation_relative_error"),
     _joined("energy_residual", "relative difference of damping and the radiated power", "omega", unit="1",
         printed=False, variable="radiation_energy_residual"),
     _joined("haskind_residual", "relative difference of the excitation and its value by Haskind's relation",
@@ -212,9 +212,9 @@ RESPONSE = Group("response", "motions and waves per unit elevation of the incide
         lambda it: it.amplitudes[:, :, it.further] if it.further else None, order="omega wave_direction wave shape",
         unit="1", phase=_CREST),
     _joined("energy_residual", "relative difference of incident and outgoing power", "omega wave",
-        "omega wave_direction wave", unit="1", symbol="energy", shown=".1e", variable="response_energy_residual"),
+        "omega wave_direction wave", unit="1", short="energy", shown=".1e", variable="response_energy_residual"),
     _joined("relative_error", "estimated relative error of the motions", "omega", "omega wave_direction", unit="1",
-        symbol="error/largest", shown=".1e", variable="response_relative_error"),
+        short="error/largest", shown=".1e", variable="response_relative_error"),
     PLATES,
     Group("missed_peaks", "resonances between two frequencies that the curve does not show", (
         Quantity("below", "frequency below", "rad/s"),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 
 from mpi4py import MPI
@@ -13,14 +12,12 @@ from hydroelastic.fem.open_water.field_samples import SampledField, sample_field
 from hydroelastic.fem.open_water.fields import open_fields
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.meshes.tagged_mesh import MeshError
-from hydroelastic.output.dataset import LabelledResults
 from hydroelastic.output.open_water.files import write_open_csv
 from hydroelastic.output.open_water.quantities import OPEN_WATER
 from hydroelastic.output.open_water.tables import open_cost, open_sections
 from hydroelastic.output.open_water.variables import COMMENT, open_variables
 from hydroelastic.output.pictures.options import OF_CURVES, OF_FIELDS, OF_MOTIONS, PictureOptions
-from hydroelastic.output.provenance import OF_ALL_SCENES, Summary, summarize
-from hydroelastic.output.summary_variables import DeclaredNames
+from hydroelastic.output.provenance import Summary
 from hydroelastic.scenes.open_water.field_files import write_fields
 from hydroelastic.scenes.open_water.figures import draw_open
 from hydroelastic.scenes.open_water.physics import open_water_problem
@@ -75,17 +72,14 @@ def _draw(water: SampledWater, folder: Path, options: PictureOptions, report: Re
 
 run_open = StagedRun(
     solve=solve_open,
-    summarize=partial(summarize, OPEN_WATER),
+    kind=OPEN_WATER,
     sections=open_sections,
     cost=open_cost,
     sample=_sample,
     sampling_warnings=lambda water: water.missing,
     write=_write,
-    dataset=LabelledResults(
-        arrays=lambda water: open_variables(water.solution),
-        names=DeclaredNames(OPEN_WATER, OF_ALL_SCENES),
-        attributes={"comment": COMMENT},
-    ),
+    arrays=lambda water: open_variables(water.solution),
+    attributes={"comment": COMMENT},
     swept=open_variables,
     draw=_draw,
     used_options=OF_CURVES | OF_FIELDS | OF_MOTIONS,

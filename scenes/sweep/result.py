@@ -49,7 +49,7 @@ class Sweep:
     def quantities(self) -> list[Variable]:
         """All quantities, with the dimension "point"."""
         points = self.solved.points
-        return quantities([one.summary for one in points], [one.arrays for one in points], self.solved.names)
+        return quantities([one.summary for one in points], [one.arrays for one in points], self.solved.kind)
 
     @cached_property
     def variables(self) -> list[Variable]:

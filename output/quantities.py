@@ -283,7 +283,7 @@ def _with_rolls(unit: str, *of_roll: str) -> str:
 def _as_written(unit: str) -> str:
     written = unit.replace("degree", "degrees").replace("^2", "²").replace("^3", "³")
     # With words between units a space separates these.
-    return written if "," in written else written.replace(" ", "·")
+    return written if "," in written or " and " in written else written.replace(" ", "·")
 
 
 def _evaluated(part: Quantity | Group, record: Any) -> Any:

@@ -30,8 +30,10 @@ def summary_variables(summary: Summary, *groups: Group) -> Iterator[Variable]:
     """
     whole = np.empty((), dtype=object)
     whole[()] = summary
-    for group in groups:
-        yield from _below(group, whole, (), "")
+    found = [one for group in groups for one in _below(group, whole, (), "")]
+    # What lies along a dimension may be left out.
+    used = {name for one in found for name in one.dimensions if name != one.name}
+    yield from (one for one in found if one.dimensions != (one.name,) or one.name in used)
 
 
 def _below(group: Group, records: _Entries, dimensions: tuple[str, ...], prefix: str) -> Iterator[Variable]:

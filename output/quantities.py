@@ -111,13 +111,16 @@ class Quantity:
         return ", ".join(filter(None, (self.short or self.symbol or self.meaning, self.unit_text)))
 
     def cell(self, values: Mapping[str, Any], group: Group) -> str:
-        """Return the value as it is printed.
+        """Return the value as it is printed, the entries of a list one after the other.
 
         Args:
             values: of its group, by key.
             group: which declares its error.
         """
         value = values[self.key]
+        if isinstance(value, list):
+            between = "; " if any(isinstance(entry, list) for entry in value) else ", "
+            return between.join(self.cell({**values, self.key: entry}, group) for entry in value)
         if value is None or isinstance(value, str):
             return value or "–"
         if isinstance(value, bool):

@@ -60,7 +60,7 @@ def test_all_that_is_told_is_of_all_steps(sparse: ThreadSolutionOfScene) -> None
     ends = arrays["end_tension"]
     assert np.column_stack([ends.min(axis=0), ends.max(axis=0)]).tolist() == told["end_tensions_range"]
     rows = {row[0] for section in thread_sections(summary) for row in section.rows}
-    assert {"largest tension over all steps, N", "estimated error of these tensions, N"} <= rows
+    assert {"largest tension over all steps, N", "estimated error of the extremes of tension, N"} <= rows
 
 
 def test_slack_is_judged_by_the_error_of_its_time() -> None:

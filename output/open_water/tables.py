@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from cmath import phase
 from collections.abc import Iterator
-from math import ceil, degrees, isfinite, pi
+from math import ceil, pi
 from typing import Any
 
 import numpy as np
 
 from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, ResonanceTable, UnresolvedPeak
 from hydroelastic.modal.floats.infinite_draught import InfiniteDraughtFloat
-from hydroelastic.output.columns import headings_of, rows_of
+from hydroelastic.output.columns import Column, headings_of, rows_of
 from hydroelastic.output.digits import beyond_error, number, per_cent, with_certain_digits
 from hydroelastic.output.open_water.files import open_columns
 from hydroelastic.output.open_water.quantities import (
@@ -134,35 +133,30 @@ def _response(table: WavesAndMotions) -> Iterator[Section]:
     places = max(MOST_ROWS // count, 2)
     shown, thinned = _shown(len(table.omega), "frequencies", "response.csv", places=places)
     rows = [place * count + wave for place in shown for wave in range(count)]
-    columns = {column.name: column for column in open_columns(RESPONSE, table)}
-    begin = ("omega", "wave") if count > 1 else ("omega",)
-    ratios = [
-        column
-        for column in columns.values()
-        if column.name in (*begin, "wavenumber")
-        or column.quantity.key in ("reflection", "transmission", "energy_residual", "relative_error")
-    ]
+    found: dict[str, list[Column]] = {}
+    for column in open_columns(RESPONSE, table):
+        found.setdefault(column.quantity.key, []).append(column)
+    first = [*found["omega"], *(found["waves"] if count > 1 else ())]
+    keys = ("wavenumbers", "reflection", "transmission", "energy_residual", "relative_error")
+    ratios = [*first, *(column for key in keys for column in found[key])]
     yield Section(
         title=f"Waves from the {table.waves_from}: ratios of elevations",
         headings=headings_of(ratios, "outgoing_wave" if count > 1 else ""),
         rows=rows_of(RESPONSE, ratios, rows),
         lines=thinned,
     )
-    motions = [column for column in columns.values() if column.quantity.key == "amplitudes"][:_MOST_MOTIONS]
-    first = [columns[name] for name in begin]
-    angles = [[_phase(motion.values[row]) for motion in motions] for row in rows]
+    motions, phases = (found.get(key, [])[:_MOST_MOTIONS] for key in ("amplitudes", "phase_at_body"))
+    shown_parts = (first, [*motions, *found["relative_error"]], phases)
     left_out = len(table.dofs) - len(motions)
     yield Section(
         title=f"Motions in waves from the {table.waves_from}, per unit elevation",
         headings=headings_of([*first, *motions], "radiating_dof"),
         rows=[
-            (*row[: len(first)], *(f"{size} ∠ {angle}" for size, angle in zip(row[len(first) : -1], of, strict=True)))
-            for row, of in zip(
-                rows_of(RESPONSE, [*first, *motions, columns["relative_error"]], rows), angles, strict=True
-            )
+            (*begin, *(f"{size} ∠ {angle}°" for size, angle in zip(sizes, angles, strict=False)))
+            for begin, sizes, angles in zip(*(rows_of(RESPONSE, part, rows) for part in shown_parts), strict=True)
         ],
         lines=(
-            "|a| ∠ θ is the motion |a| e^{i(θ − ωt)}; the crest of the wave is at x = 0 of the scene at t = 0.",
+            "|a| ∠ θ is the motion |a| cos(ωt − θ); at t = 0 the crest of the wave is at the middle of the body.",
             *((f"{left_out} more motions: response.csv.",) if left_out else ()),
             *(_missed(peak) for peak in table.missed_peaks),
         ),
@@ -249,11 +243,6 @@ def _shown(count: int, what: str, file: str, places: int = MOST_ROWS) -> tuple[l
     stride = next((step for step in range(least, ceil(1.5 * least)) if (count - 1) % step == 0), least)
     rows = sorted({*range(0, count, stride), count - 1})
     return rows, (f"{len(rows)} of {count} {what}; all of them are in {file}.",)
-
-
-def _phase(value: complex) -> str:
-    """The phase in degrees; none of zero."""
-    return f"{degrees(phase(value)) + 0.0:.1f}°" if value and isfinite(abs(value)) else "–"
 
 
 def _largest(values: np.ndarray) -> str:

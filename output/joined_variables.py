@@ -5,7 +5,8 @@ Two analyses of radiation, say, have one array of added mass over the frequencie
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -41,38 +42,62 @@ def record_variables(group: Group, record: Any, *, with_rolls: bool) -> Iterator
             )
 
 
+def numbered_along(dimension: str, part: Iterable[Variable], number: int) -> Iterator[Variable]:
+    """Yield the arrays of one of several parts, but for the labels of dimensions, along one more dimension.
+
+    Args:
+        dimension: whose label at this part is the number.
+        part: the arrays.
+        number: of the part.
+    """
+    yield Variable(name=dimension, dimensions=(dimension,), values=np.array([number]))
+    for one in part:
+        is_label = one.dimensions == (one.name,)
+        yield one if is_label else replace(one, dimensions=(dimension, *one.dimensions), values=one.values[None])
+
+
 def joined(parts: Sequence[Sequence[Variable]], labels: Mapping[str, Sequence[Any]]) -> list[Variable]:
     """Return the arrays of all parts over the labels of all, numbers that no part has NaN and texts "".
 
     Args:
-        parts: the arrays of each, the labels of their dimensions among them. Of values that several have, the first is
-            taken.
-        labels: of some dimensions, all that are kept, in order. Other labels that differ between parts are sorted.
+        parts: the arrays of each, the labels of their dimensions among them; along one without labels, places are
+            counted. Of values that several have, the first is taken.
+        labels: of some dimensions, all that are kept, in order. Other labels that differ between parts are ascending
+            if they are numbers, else in order of appearance.
     """
+    own = [{one.name: one.values for one in part if one.dimensions == (one.name,)} for part in parts]
     known: dict[str, NDArray[Any]] = {}
-    for one in (variable for part in parts for variable in part if variable.dimensions == (variable.name,)):
-        first = known.setdefault(one.name, one.values)
-        if not np.array_equal(first, one.values):
-            known[one.name] = np.union1d(first, one.values)
+    for part, told in zip(parts, own, strict=True):
+        for one in part:
+            for name, size in zip(one.dimensions, one.values.shape, strict=True):
+                there = told.setdefault(name, np.arange(size))
+                if not np.array_equal(known.setdefault(name, there), there):
+                    known[name] = _all_of(known[name], there)
     known |= {name: np.asarray(labels[name]) for name in labels if name in known}
     found: dict[str, Variable] = {}
-    for part in parts:
-        own = {variable.name: variable.values for variable in part}
+    for part, told in zip(parts, own, strict=True):
         for one in part:
-            is_text = one.values.dtype.kind == "U"
-            if one.name not in found:
-                shape = [len(known[name]) for name in one.dimensions]
-                kind = object if is_text else np.result_type(one.values, float)
-                values = known[one.name] if one.name in known else np.full(shape, "" if is_text else np.nan, kind)
-                found[one.name] = Variable(**{**vars(one), "values": values})
-            if one.name in known:
+            if one.dimensions == (one.name,):
+                found.setdefault(one.name, replace(one, values=known[one.name]))
                 continue
-            places = [_places(own[name], known[name]) for name in one.dimensions]
+            is_text = one.values.dtype.kind in "UO"
+            if one.name not in found:
+                empty = np.full([len(known[name]) for name in one.dimensions], "" if is_text else np.nan, object)
+                kind = object if is_text else np.result_type(one.values, float)
+                found[one.name] = replace(one, values=empty.astype(kind))
+            places = [_places(told[name], known[name]) for name in one.dimensions]
             source, target = (np.ix_(*(pair[side] for pair in places)) for side in (0, 1))
-            there = found[one.name].values[target]
-            missing = there == "" if is_text else np.isnan(there)
-            found[one.name].values[target] = np.where(missing, one.values[source], there)
+            before = found[one.name].values[target]
+            missing = before == "" if is_text else np.isnan(before)
+            found[one.name].values[target] = np.where(missing, one.values[source], before)
     return list(found.values())
+
+
+def _all_of(some: NDArray[Any], others: NDArray[Any]) -> NDArray[Any]:
+    """The labels of both."""
+    if some.dtype.kind in "if":
+        return np.union1d(some, others)
+    return np.array(list(dict.fromkeys((*some.tolist(), *others.tolist()))))
 
 
 def _places(own: NDArray[Any], labels: NDArray[Any]) -> tuple[list[int], list[int]]:

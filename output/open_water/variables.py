@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
-
-from hydroelastic.output.joined_variables import joined, record_variables
+from hydroelastic.output.joined_variables import joined, numbered_along, record_variables
 from hydroelastic.output.open_water.quantities import (
     DECAY,
     OPEN_WATER,
@@ -38,21 +35,12 @@ def open_variables(solution: Any) -> list[Variable]:
     }
     for kind in ("resonance", "decay"):
         if len(parts[kind]) > 1:
-            parts[kind] = [list(_numbered(part, number)) for number, part in enumerate(parts[kind], 1)]
+            parts[kind] = [list(numbered_along("analysis", part, number)) for number, part in enumerate(parts[kind], 1)]
     names, other_names = ([dof.capitalised for dof in dofs] for dofs in (motions, others))
     labels = {"radiating_dof": names, "influenced_dof": names, "dof": other_names}
     found = joined([part for kind in parts.values() for part in kind], labels)
     single = {one.name for one in found if one.name in ("wave", "outgoing_wave") and len(one.values) == 1}
     return [*(_without(one, single) for one in found), *array_variables(OPEN_WATER, solution)]
-
-
-def _numbered(part: Sequence[Variable], number: int) -> Iterator[Variable]:
-    """One of several analyses of a kind, along a dimension `analysis`."""
-    attributes = {"long_name": "number of the analysis"}
-    yield Variable(name="analysis", dimensions=("analysis",), values=np.array([number]), attributes=attributes)
-    for one in part:
-        is_label = one.dimensions == (one.name,)
-        yield one if is_label else replace(one, dimensions=("analysis", *one.dimensions), values=one.values[None])
 
 
 def _without(variable: Variable, single: set[str]) -> Variable:

@@ -13,6 +13,7 @@ import random_threads
 
 from hydroelastic.output.manifest import read_manifest
 from hydroelastic.scenes.read import read_scene
+from hydroelastic.scenes.result import solve
 from hydroelastic.scenes.study.plan import StudyPlan
 from hydroelastic.scenes.study.run import study_scene
 
@@ -151,3 +152,15 @@ def test_all_of_it_is_small() -> None:
 
 def test_the_list_of_scenes_is_that_of_their_results() -> None:
     assert (RESULTS / "shipped" / "README.md").read_text(encoding="utf-8") == script("regenerate").index()
+
+
+def test_a_veering_of_the_sweep_measured_anew() -> None:
+    stored = rows_of("sweeps/aquarium_position/encounters.csv")
+    assert {row["kind"] for row in stored} == {"veering"}
+    veering = min(stored, key=lambda row: float(row["omega"]))
+    # The tank has no symmetry but in the middle, so that branches are modes in their order.
+    low, high = (int(veering[f"{side}_branch"]) - 1 for side in ("lower", "upper"))
+    scene = read_scene("aquarium", {"body.1.start": float(veering["body.1.start"]), "accuracy.modes": high + 1})
+    omega = solve(scene).modes.omega
+    # The stored gap is that of a parabola through three points 0.15 m apart.
+    assert omega[high] - omega[low] == pytest.approx(float(veering["gap"]), rel=0.01)

@@ -8,12 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 from click.testing import CliRunner, Result
-from mpi4py import MPI
 from scene_files import BEAM_IN_TANK
 from tanks import Tanks
 
 import hydroelastic.scenes.sweep.workers as workers
 from hydroelastic.fem.tank.liquids import liquid_key
+from hydroelastic.fem.tank.mode_vectors import mode_vectors
 from hydroelastic.scenes.command_line import main
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.models.physical import physical_tank
@@ -79,6 +79,8 @@ def test_mass_gravity_and_restoring_are_those_of_the_point(tanks: Tanks) -> None
     found = sweep(scene, changes)
     heavy = tanks.scene(tanks.beam(mass_per_length=400.0, hydrostatic=True), gravity=3.7, modes=3, tolerance=TOLERANCE)
     assert found.dataset["omega"].values[1, 0, 1] == pytest.approx(solve(heavy).modes.omega, rel=2 * TOLERANCE)
+    # With the mass of another point the errors would be too large, and another attempt would follow.
+    assert np.all(found.dataset["solver_attempts"].values == 1)
 
 
 def test_modes_of_opposite_symmetry_cross(centred: Sweep, tanks: Tanks) -> None:
@@ -104,6 +106,14 @@ def test_a_small_asymmetry_turns_the_crossing_into_a_narrow_veering(off_centre: 
     assert int(np.argmin(gaps)) in (1, 2, 3)
 
 
+def test_modes_of_halves_are_those_of_the_whole_tank(tanks: Tanks) -> None:
+    scene = tanks.scene(tanks.beam(), modes=4, tolerance=TOLERANCE)
+    halves, whole = (mode_vectors(tanks.solve(scene, halves=halves)) for halves in (True, False))
+    products = halves.overlaps(whole)[:8, :8]
+    # K-orthonormal, up to the interpolation of the elevations between the unknowns of the two meshes.
+    assert products**2 == pytest.approx(np.eye(8), abs=1e-2)
+
+
 @pytest.mark.parametrize("name", ["centred", "off_centre"])
 def test_branches_are_continuous_and_hold_the_elastic_tone(name: str, request: pytest.FixtureRequest) -> None:
     found: Sweep = request.getfixturevalue(name)
@@ -119,11 +129,10 @@ def test_branches_are_continuous_and_hold_the_elastic_tone(name: str, request: p
 
 @pytest.mark.mpi
 def test_ranks_solve_the_points_together(tanks: Tanks) -> None:
-    scene = tanks.scene(tanks.beam(), modes=2, tolerance=1e-4)
-    found = sweep(scene, {RIGIDITY: [5e3, 6e3, 7e3, 8e3]})
-    alone = solve(scene).modes.omega
-    assert found.dataset["omega"].values[0] == pytest.approx(alone, rel=2e-4)
-    assert MPI.COMM_WORLD.bcast(found.status) == found.status == "ok"
+    scene = tanks.scene(tanks.beam(), modes=1, tolerance=1e-3)
+    found = sweep(scene, {RIGIDITY: [5e3, 5.5e3, 6e3, 6.5e3]})
+    assert found.dataset["omega"].values[0] == pytest.approx(solve(scene).modes.omega, rel=2e-3)
+    assert found.status == "ok"
 
 
 def test_other_kinds_of_scenes_are_swept_over_several_keys() -> None:

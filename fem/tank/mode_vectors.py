@@ -8,7 +8,6 @@ from functools import cache
 import numpy as np
 from scipy.interpolate import Akima1DInterpolator
 
-from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.surfaces import LiquidSurface
 from hydroelastic.fem.sweep.mode_vectors import ModeVectors
 from hydroelastic.fem.tank.elastic_tone import participations
@@ -87,31 +86,24 @@ def _elevations(solution: TankSolution, level: StillLevel, shapes: list[np.ndarr
     """Abscissae of the unknowns of η on a level, ascending, and η there in all modes, at unit generalized mass of the
     whole tank."""
     field = solution.field
-    rows: list[np.ndarray] = []
-    places: np.ndarray = np.empty(0)
+    # Both halves of a symmetric tank share mesh and space.
+    pencil = field.parts[0].pencil
+    number = next(place for place, one in enumerate(pencil.surfaces) if _is_on(one, level))
+    surface, liquid, comm = pencil.surfaces[number], pencil.liquid, pencil.liquid.tank.mesh.comm
+    dofs = liquid.surface_dofs((surface.surface,), surface.below)
+    x = np.concatenate(comm.allgather(liquid.space.tabulate_dof_coordinates()[dofs, 0]))
+    order = np.argsort(x, kind="stable")
+    behind = sum(pencil.surface_sizes[number:])
+    rows = []
     for shape, (part, _) in zip(shapes, field.origins, strict=True):
-        pencil = field.parts[part].pencil
-        number = next(n for n, one in enumerate(pencil.surfaces) if _is_on(one, level))
-        places, values = _on_surface(pencil, number, shape)
+        first = len(shape) - behind
+        values = np.concatenate(comm.allgather(shape[first : first + pencil.surface_sizes[number]]))[order]
         if field.half:
-            sign = _SIGNS[field.parts[part].parity]
-            places = np.concatenate([places, 1.0 - places[::-1]])
-            values = np.sqrt(0.5) * np.concatenate([values, sign * values[::-1]])
+            values = np.sqrt(0.5) * np.concatenate([values, _SIGNS[field.parts[part].parity] * values[::-1]])
         rows.append(values)
+    places = np.concatenate([x[order], 1.0 - x[order][::-1]]) if field.half else x[order]
     return places, np.array(rows).reshape(len(rows), len(places))
 
 
 def _is_on(surface: LiquidSurface, level: StillLevel) -> bool:
     return (surface.surface == INTERFACE) == (level.above is not None)
-
-
-def _on_surface(pencil: CoupledPencil, number: int, displacement: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Abscissae and η of one surface of all processes, from left to right (collective)."""
-    surface, liquid = pencil.surfaces[number], pencil.liquid
-    dofs = liquid.surface_dofs((surface.surface,), surface.below)
-    first = len(displacement) - sum(pencil.surface_sizes[number:])
-    own = displacement[first : first + pencil.surface_sizes[number]]
-    comm = liquid.tank.mesh.comm
-    x = np.concatenate(comm.allgather(liquid.space.tabulate_dof_coordinates()[dofs, 0]))
-    order = np.argsort(x, kind="stable")
-    return x[order], np.concatenate(comm.allgather(own))[order]

@@ -9,16 +9,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hydroelastic.output.pictures.colours import BLUE, GREEN, SEQUENCE, VERMILLION, part_of_colours
-from hydroelastic.output.pictures.curves import DASHES, GREY, Sheets, label_axes, plot_curve
+from hydroelastic.output.pictures.curves import COLOURS, DASHES, GREY, Sheets, label_axes, plot_curve
 from hydroelastic.output.pictures.options import PictureOptions
+from hydroelastic.scenes.sweep.contents import SweepContents
 from hydroelastic.scenes.sweep.lines import Line, is_logarithmic, place_of
 from hydroelastic.scenes.sweep.quantities import shown_columns
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-
-    from hydroelastic.scenes.sweep.result import Sweep
 
 PICTURE = "sweep"
 
@@ -27,7 +26,7 @@ _MARKS = {"crossing": ("x", GREEN), "veering": ("o", GREY), "unresolved": ("^", 
 _WIDTHS = 0.9, 5.0
 
 
-def draw_sweep(sweep: Sweep, folder: Path, options: PictureOptions, show: tuple[str, ...]) -> None:
+def draw_sweep(sweep: SweepContents, folder: Path, options: PictureOptions, show: tuple[str, ...]) -> None:
     """Write ``sweep.png``, or other formats: a veering diagram, or curves, or maps over two keys.
 
     Args:
@@ -51,7 +50,7 @@ def draw_sweep(sweep: Sweep, folder: Path, options: PictureOptions, show: tuple[
         (_draw_maps if maps else _draw_curves)(figure, sweep, names)
 
 
-def _draw_veerings(figure: Figure, sweep: Sweep, line: Line) -> None:
+def _draw_veerings(figure: Figure, sweep: SweepContents, line: Line) -> None:
     """Frequencies of the followed modes; colour and width tell their part in the first elastic tone."""
     from matplotlib.collections import LineCollection
 
@@ -91,6 +90,9 @@ def _draw_veerings(figure: Figure, sweep: Sweep, line: Line) -> None:
         if met:
             panel.plot(*np.array(met).T, marker, color=colour, fillstyle="none", markersize=7, label=kind)
     highest = max(modes.omega[min(followed.count, len(modes.omega)) - 1] for modes in followed.modes)
+    # Above the modes asked for there are others up to the first elastic tone, if it is not too high.
+    tones = np.concatenate([modes.pressure_release for modes in followed.modes])
+    highest = max(highest, *tones[tones < np.nanmax(omega)], 0.0)
     panel.set_ylim(0.0, 1.03 * highest)
     panel.set_xlim(x[0], x[-1])
     if is_logarithmic(axis):
@@ -98,7 +100,7 @@ def _draw_veerings(figure: Figure, sweep: Sweep, line: Line) -> None:
     label_axes(panel, axis.key, "ω, rad/s")
 
 
-def _draw_estimates(panel: Axes, sweep: Sweep) -> None:
+def _draw_estimates(panel: Axes, sweep: SweepContents) -> None:
     """The first elastic tone by older theories, where they were asked for."""
     variables = {one.name: one for one in sweep.variables}
     if "estimate_omega" not in variables:
@@ -107,11 +109,12 @@ def _draw_estimates(panel: Axes, sweep: Sweep) -> None:
     for number, (name, values) in enumerate(
         zip(variables["estimate"].values, variables["estimate_omega"].values.T, strict=True)
     ):
-        style = DASHES[1 + number % (len(DASHES) - 1)]
-        panel.plot(axis.values, values, style, color=GREY, linewidth=0.7, label=str(name))
+        style = DASHES[1 + number // len(COLOURS) % (len(DASHES) - 1)]
+        colour = COLOURS[number % len(COLOURS)]
+        panel.plot(axis.values, values, style, color=colour, linewidth=0.8, label=str(name))
 
 
-def _draw_curves(figure: Figure, sweep: Sweep, names: Sequence[str]) -> None:
+def _draw_curves(figure: Figure, sweep: SweepContents, names: Sequence[str]) -> None:
     """Quantities against the first key, a curve for each combination of the others."""
     first, *others = sweep.solved.grid.axes
     points = sweep.solved.grid.points
@@ -129,7 +132,7 @@ def _draw_curves(figure: Figure, sweep: Sweep, names: Sequence[str]) -> None:
         )
 
 
-def _draw_maps(figure: Figure, sweep: Sweep, names: Sequence[str]) -> None:
+def _draw_maps(figure: Figure, sweep: SweepContents, names: Sequence[str]) -> None:
     """Quantities over two keys."""
     across, up = sweep.solved.grid.axes
     panels = figure.subplots(len(names), 1, sharex=True, squeeze=False)[:, 0]
@@ -145,7 +148,7 @@ def _draw_maps(figure: Figure, sweep: Sweep, names: Sequence[str]) -> None:
         label_axes(panel, across.key if panel is panels[-1] else "", up.key, legend="")
 
 
-def _named(sweep: Sweep, column: str) -> str:
+def _named(sweep: SweepContents, column: str) -> str:
     """A column with its unit."""
     found = [one for one in sweep.quantities if column == one.name or column.startswith(f"{one.name}_")]
     unit = max(found, key=lambda one: len(one.name)).attributes.get("units", "1") if found else "1"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from mpi4py import MPI
 
@@ -17,20 +17,18 @@ from hydroelastic.output.writer import TABLES
 from hydroelastic.scenes.errors import folder_errors
 from hydroelastic.scenes.sweep.axes import shown_number
 from hydroelastic.scenes.sweep.branches import branch_rows, encounter_rows
+from hydroelastic.scenes.sweep.contents import SweepContents
 from hydroelastic.scenes.sweep.dataset import sweep_attributes
 from hydroelastic.scenes.sweep.figure import draw_sweep
 from hydroelastic.scenes.sweep.quantities import shown_columns
 from hydroelastic.scenes.sweep.run import SolvedSweep
-
-if TYPE_CHECKING:
-    from hydroelastic.scenes.sweep.result import Sweep
 
 TABLE = "sweep.csv"
 BRANCHES = "branches.csv"
 ENCOUNTERS = "encounters.csv"
 
 
-def write_sweep(sweep: Sweep, folder: Path, show: tuple[str, ...], images: PictureOptions | None) -> None:
+def write_sweep(sweep: SweepContents, folder: Path, show: tuple[str, ...], images: PictureOptions | None) -> None:
     """Write the result folder of a sweep on the first process (collective).
 
     Raises:
@@ -60,7 +58,7 @@ def _write_rows(file: Path, rows: list[dict[str, Any]]) -> None:
         write_csv(file, {name: [row[name] for row in rows] for name in rows[0]})
 
 
-def sweep_summary(sweep: Sweep) -> dict[str, Any]:
+def sweep_summary(sweep: SweepContents) -> dict[str, Any]:
     """Return the content of ``summary.json``."""
     solved = sweep.solved
     found = [point.status for point in solved.points]
@@ -110,7 +108,7 @@ def followed_lines_of_text(solved: SolvedSweep) -> list[str]:
     return lines
 
 
-def sweep_rows(sweep: Sweep, show: tuple[str, ...]) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+def sweep_rows(sweep: SweepContents, show: tuple[str, ...]) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
     """Return headings and rows of the main quantities of all points, or of those to show."""
     table, keys = sweep.columns, [axis.key for axis in sweep.solved.grid.axes]
     headings = (*keys, "status", *shown_columns(table, show))
@@ -121,7 +119,7 @@ def _cell(value: Any) -> str:
     return shown_number(float(value)) if isinstance(value, float) else str(value)
 
 
-def sweep_text(sweep: Sweep, show: tuple[str, ...]) -> str:
+def sweep_text(sweep: SweepContents, show: tuple[str, ...]) -> str:
     """Return the content of ``summary.md``."""
     solved = sweep.solved
     headings, rows = sweep_rows(sweep, show)

@@ -30,10 +30,12 @@ class PointOptions:
 
     Attributes:
         estimates: whether the estimates of older theories are made too.
+        follow: whether the modes of closed tanks are kept for following them.
         pictures: folder for a result folder of each point, with its pictures; ``None`` writes none.
     """
 
     estimates: bool = False
+    follow: bool = True
     pictures: Path | None = None
 
 
@@ -80,7 +82,7 @@ class SolvedPoint:
 def point_key(scene: Scene, options: PointOptions, family: Family | None) -> str:
     """Return what identifies a result: a hash of the scene, of files that it names, of options and of versions."""
     mesh = scene.mesh.file.read_bytes() if isinstance(scene, TankScene) and scene.mesh is not None else b""
-    content = [scene.model_dump(mode="json"), options.estimates, str(options.pictures or "")]
+    content = [scene.model_dump(mode="json"), options.estimates, options.follow, str(options.pictures or "")]
     content += [family and family.name, versions()]
     return sha256(json.dumps(content, sort_keys=True).encode() + mesh).hexdigest()
 
@@ -101,7 +103,7 @@ def solve_point(scene: Scene, options: PointOptions, name: str, family: Family |
         if options.pictures is not None:
             outcome = run.written(outcome, options.pictures / name, images=DEFAULT_PICTURES)
         modes = None
-        if isinstance(scene, TankScene) and not scene.is_open:
+        if options.follow and isinstance(scene, TankScene) and not scene.is_open:
             from hydroelastic.fem.tank.mode_vectors import mode_vectors
 
             modes = mode_vectors(outcome.solution.tank)

@@ -4,23 +4,20 @@ from __future__ import annotations
 
 import io
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from rich.console import Console
 
 from hydroelastic.output.folder import results_message
 from hydroelastic.output.sections import rich_table
+from hydroelastic.scenes.sweep.contents import SweepContents
 from hydroelastic.scenes.sweep.files import followed_lines_of_text, sweep_rows
-
-if TYPE_CHECKING:
-    from hydroelastic.scenes.sweep.result import Sweep
 
 _MOST_ROWS = 60
 # Names of columns are not cut.
 _WIDTH = 200
 
 
-def sweep_report(sweep: Sweep, show: tuple[str, ...], folder: Path, *, replaces: bool) -> str:
+def sweep_report(sweep: SweepContents, show: tuple[str, ...], folder: Path, *, replaces: bool) -> str:
     """Return the main quantities of all points, and where the rest was written.
 
     Args:

@@ -12,13 +12,14 @@ from typing import TYPE_CHECKING, Any
 
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.output.pictures.options import DEFAULT_PICTURES, PictureOptions
-from hydroelastic.output.variables import Variable
 from hydroelastic.scenes.read import Scene
 from hydroelastic.scenes.sweep.axes import Vary, grid_from_values
 from hydroelastic.scenes.sweep.branches import branch_rows, encounter_rows
-from hydroelastic.scenes.sweep.dataset import as_dataset, sweep_attributes, sweep_variables
-from hydroelastic.scenes.sweep.quantities import columns, quantities
-from hydroelastic.scenes.sweep.run import SolvedSweep, SweepOptions, solve_sweep
+from hydroelastic.scenes.sweep.contents import SweepContents
+from hydroelastic.scenes.sweep.dataset import as_dataset, sweep_attributes
+from hydroelastic.scenes.sweep.figure import draw_sweep
+from hydroelastic.scenes.sweep.files import write_sweep
+from hydroelastic.scenes.sweep.run import SweepOptions, solve_sweep
 
 if TYPE_CHECKING:
     import xarray
@@ -26,51 +27,18 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, kw_only=True, repr=False, eq=False)
-class Sweep:
-    """A scene solved for many values of its keys.
-
-    Attributes:
-        solved: all points.
-    """
-
-    solved: SolvedSweep
+class Sweep(SweepContents):
+    """A scene solved for many values of its keys."""
 
     def __repr__(self) -> str:
         """Return title, points and status in one line."""
         keys = " × ".join(axis.key for axis in self.solved.grid.axes)
         return f"<Sweep of {self.solved.scene.title!r} over {keys}, {len(self.solved.points)} points: {self.status}>"
 
-    @property
-    def status(self) -> str:
-        """The worst status of all points: "ok", "unconverged" or "failed"."""
-        return self.solved.status
-
-    @cached_property
-    def quantities(self) -> list[Variable]:
-        """All quantities, with the dimension "point"."""
-        points = self.solved.points
-        return quantities([one.summary for one in points], [one.arrays for one in points], self.solved.kind)
-
-    @cached_property
-    def variables(self) -> list[Variable]:
-        """The content of ``dataset.nc``."""
-        return sweep_variables(self.solved, self.quantities)
-
     @cached_property
     def dataset(self) -> xarray.Dataset:
         """The content of ``dataset.nc``: all quantities with the varied keys as dimensions, NaN of failed points."""
         return as_dataset(self.variables, sweep_attributes(self.solved))
-
-    @cached_property
-    def columns(self) -> dict[str, Any]:
-        """The columns of `table`."""
-        grid, points = self.solved.grid, self.solved.points
-        rows = grid.points
-        return (
-            {axis.key: [row[axis.key] for row in rows] for axis in grid.axes}
-            | {"status": [point.status for point in points], "reason": ["; ".join(point.reasons) for point in points]}
-            | columns(self.quantities)
-        )
 
     @cached_property
     def table(self) -> Any:
@@ -99,8 +67,6 @@ class Sweep:
         """
         from PIL import Image
 
-        from hydroelastic.scenes.sweep.figure import draw_sweep
-
         with TemporaryDirectory() as folder:
             draw_sweep(self, Path(folder), DEFAULT_PICTURES, show)
             return Image.open(io.BytesIO((Path(folder) / "sweep.png").read_bytes()))
@@ -118,8 +84,6 @@ class Sweep:
         Raises:
             SceneError: if the folder cannot be written, or a quantity cannot be drawn.
         """
-        from hydroelastic.scenes.sweep.files import write_sweep
-
         write_sweep(self, Path(folder), tuple(show), images)
 
 

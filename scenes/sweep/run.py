@@ -176,7 +176,9 @@ def solve_sweep(
         journal.share()
         solver = _Solver(source, grid, overrides, journal, options)
         folder = Path(os.path.realpath(out)) / "points" if options.pictures and out is not None else None
-        points = solver.solved(grid.points, PointOptions(estimates=options.estimates, pictures=folder), report)
+        points = solver.solved(
+            grid.points, PointOptions(estimates=options.estimates, follow=options.follow, pictures=folder), report
+        )
         lines = _followed(first, solver, points, report) if options.follow else ()
     return SolvedSweep(
         scene=first,

@@ -98,9 +98,11 @@ def _pooled(tasks: Sequence[Task], options: PointOptions, jobs: int) -> Iterator
                 )
             ) from error
         running: dict[Future[SolvedPoint], Task] = {}
-        waiting = iter(tasks)
-        for task in waiting:
-            running[pool.submit(solve_point, task.scene, options, task.name, task.family)] = task
+        for task in tasks:
+            try:
+                running[pool.submit(solve_point, task.scene, options, task.name, task.family)] = task
+            except BrokenProcessPool:
+                yield task, None
             if len(running) > jobs:
                 yield from _finished(running)
         while running:

@@ -6,15 +6,24 @@ Run it after a change of a quantity: ./hydro python docs/results_reference.py
 from pathlib import Path
 
 from hydroelastic.output.level_tank.quantities import LEVEL_TANK
+from hydroelastic.output.open_water.quantities import OPEN_WATER
 from hydroelastic.output.provenance import OF_ALL_SCENES
 from hydroelastic.output.quantities import Group
 from hydroelastic.output.quantity_tables import reference_table
 from hydroelastic.output.roll.quantities import ROLL
 from hydroelastic.output.string.quantities import HANGING_STRING
+from hydroelastic.output.tank.quantities import TANK
 from hydroelastic.output.thread.quantities import THREAD
 
 FOLDER = Path(__file__).parent / "reference"
-KINDS = {"level_tank": LEVEL_TANK, "string": HANGING_STRING, "thread": THREAD, "roll": ROLL}
+KINDS = {
+    "tank": TANK,
+    "level_tank": LEVEL_TANK,
+    "open_water": OPEN_WATER,
+    "string": HANGING_STRING,
+    "thread": THREAD,
+    "roll": ROLL,
+}
 
 
 def page(kind: Group) -> str:
@@ -25,8 +34,9 @@ def page(kind: Group) -> str:
                 f"# Results of {kind.meaning}",
                 "",
                 "Written by `docs/results_reference.py` from the quantities declared in `output/`. Keys are those of "
-                "`summary.json`, a point before a key for each level of tables around it; rows without a key are "
-                "arrays that only `dataset.nc` has, with their dimensions. A key that is `null` has no value.",
+                "`summary.json`, a point before a key for each level of tables around it; a table along a dimension is "
+                "a list, or a dictionary by names; rows without a key are arrays that only `dataset.nc` has, with "
+                "their dimensions. A key that is `null` has no value.",
                 "",
                 reference_table(kind),
                 "",

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
-from functools import partial
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,8 +12,8 @@ import numpy as np
 from hydroelastic.output.json_values import json_ready
 from hydroelastic.output.provenance import OF_ALL_SCENES, Summary
 from hydroelastic.output.quantities import Group
-from hydroelastic.output.summary_variables import DeclaredNames, Naming, summary_variables
-from hydroelastic.output.variables import PARTS, Variable, array_variables, merged, separate_parts
+from hydroelastic.output.summary_variables import summary_variables
+from hydroelastic.output.variables import PARTS, Variable, merged, separate_parts
 
 if TYPE_CHECKING:
     import xarray
@@ -24,47 +22,23 @@ DATASET = "dataset.nc"
 SUMMARY_TEXT = "summary"
 """The variable that holds the summary as the text of ``summary.json``."""
 
-# Keys of summaries that are no variables: the scene is in the text only, the status an attribute.
-_NO_VARIABLES = ("scene", "status")
 
-
-@dataclass(frozen=True, kw_only=True)
-class LabelledResults:
-    """The contents of the datasets of one kind of scene.
-
-    Attributes:
-        arrays: returns the labelled arrays of a solution that the summary does not have.
-        names: of the variables of the summary.
-        attributes: of the dataset as a whole.
-    """
-
-    arrays: Callable[[Any], Iterable[Variable]]
-    names: Naming
-    attributes: Mapping[str, str] = field(default_factory=dict)
-
-
-def declared_results(kind: Group) -> LabelledResults:
-    """Return what the datasets of a kind of scene hold whose quantities are all declared."""
-    return LabelledResults(arrays=partial(array_variables, kind), names=DeclaredNames(kind, OF_ALL_SCENES))
-
-
-def complete_variables(arrays: Iterable[Variable], summary: Summary, names: Naming) -> list[Variable]:
+def complete_variables(arrays: Iterable[Variable], summary: Summary, kind: Group) -> list[Variable]:
     """Return labelled arrays with the summary: its values as variables, and its whole text.
 
     Args:
         arrays: of the kind of scene.
         summary: content of ``summary.json``.
-        names: of the variables of the summary.
+        kind: the declared quantities of the kind of scene.
     """
     content = json_ready(summary)
-    told = {key: value for key, value in content.items() if key not in _NO_VARIABLES}
     text = Variable(
         name=SUMMARY_TEXT,
         dimensions=(),
         values=np.array(json.dumps(content, ensure_ascii=False)),
         attributes={"long_name": "content of summary.json"},
     )
-    return merged(arrays, summary_variables(told, names), [text])
+    return merged(arrays, summary_variables(content, kind, OF_ALL_SCENES), [text])
 
 
 def global_attributes(summary: Summary) -> dict[str, str]:

@@ -7,11 +7,12 @@ import resource
 from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
-from typing import Any, Protocol, TypeAlias
-
-from mpi4py import MPI
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 from hydroelastic.output.quantities import Group, Quantity
+
+if TYPE_CHECKING:
+    from mpi4py import MPI
 
 OF_ALL_SCENES = Group(
     "",
@@ -23,9 +24,9 @@ OF_ALL_SCENES = Group(
         Quantity("versions", "version of a package", dimensions=("package",)),
     ),
 )
-"""Quantities that `complete_summary` adds."""
+"""Quantities that `summarize` adds."""
 
-PROCESSES = Quantity("processes", "number of processes", "1", value=lambda _: MPI.COMM_WORLD.size)
+PROCESSES = Quantity("processes", "number of processes", "1", value=lambda _: _all_processes().size)
 """A part of the size of all problems."""
 
 Summary: TypeAlias = dict[str, Any]
@@ -46,6 +47,13 @@ def versions() -> dict[str, str]:
     return found
 
 
+def _all_processes() -> MPI.Comm:
+    # Commands that solve nothing do without MPI.
+    from mpi4py import MPI
+
+    return MPI.COMM_WORLD
+
+
 def memory_of_processes(comm: MPI.Comm) -> int:
     """Return the sum of the peak resident memory of all processes, bytes (collective)."""
     return int(comm.allreduce(memory_of_process()))
@@ -60,10 +68,6 @@ class Solved(Protocol):
     """Interface of the solution of any scene."""
 
     @property
-    def scene(self) -> Any:
-        """The scene."""
-
-    @property
     def reasons(self) -> Sequence[str]:
         """Reasons why the requested accuracy is not reached; empty if it is."""
 
@@ -72,44 +76,21 @@ class Solved(Protocol):
         """Time by stage."""
 
 
-def complete_summary(
-    solution: Solved, content: Summary, size: Mapping[str, Any], comm: MPI.Comm, import_seconds: float
-) -> Summary:
-    """Add the parts common to all summaries to the content of one (collective: peak memory is summed over processes).
+def summarize(kind: Group, solution: Solved, scene: Mapping[str, Any], import_seconds: float = 0.0) -> Summary:
+    """Return the content of ``summary.json`` (collective: peak memory is summed over processes).
 
     Args:
+        kind: the declared quantities of the kind of scene.
         solution: of the scene.
-        content: content specific to the kind of scene.
-        size: size of the problem.
-        comm: the processes.
+        scene: in types of JSON.
         import_seconds: time spent importing libraries.
-
-    Returns:
-        The content of ``summary.json``.
     """
     return {
-        "scene": solution.scene.model_dump(mode="json"),
+        "scene": scene,
         "status": "unconverged" if solution.reasons else "ok",
         "reasons": list(solution.reasons),
-        **content,
-        "size": {**size, "processes": comm.size},
+        **kind.evaluated(solution),
         "timing": {"import": import_seconds, **solution.seconds},
-        "memory_peak": memory_of_processes(comm),
+        "memory_peak": memory_of_processes(_all_processes()),
         "versions": versions(),
     }
-
-
-def summarize(kind: Group, solution: Solved, comm: MPI.Comm, *, import_seconds: float) -> Summary:
-    """Return the summary of a solution whose quantities are all declared (collective: peak memory is summed).
-
-    Args:
-        kind: the declarations of the kind of scene, `size` among them.
-        solution: of the scene.
-        comm: the processes.
-        import_seconds: time spent importing libraries.
-
-    Returns:
-        The content of ``summary.json``.
-    """
-    content = kind.evaluated(solution)
-    return complete_summary(solution, content, content.pop("size"), comm, import_seconds)

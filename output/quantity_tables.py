@@ -35,6 +35,15 @@ def columns(group: Group, entries: Sequence[Mapping[str, Any]]) -> list[Row]:
     return [tuple(quantity.cell(values, group) for quantity in _printed(group)) for values in entries]
 
 
+def labelled_columns(group: Group, entries: Sequence[Mapping[str, Any]] | Mapping[str, Mapping[str, Any]]) -> list[Row]:
+    """Return the rows of `columns`, in front of each the number of the entry, or its label in a dictionary."""
+    if isinstance(entries, Mapping):
+        labels, entries = list(entries), list(entries.values())
+    else:
+        labels = [str(number) for number in range(1, len(entries) + 1)]
+    return [(label, *row) for label, row in zip(labels, columns(group, entries), strict=True)]
+
+
 def _printed(group: Group) -> Iterator[Quantity]:
     return (part for part in group.parts if isinstance(part, Quantity) and part.in_summary and part.printed)
 
@@ -46,7 +55,7 @@ def reference_table(kind: Group) -> str:
         level = place.count(".")
         key = "· " * level + f"`{part.key}`"
         if isinstance(part, Group):
-            what = f"{part.meaning}; a list" if part.dimension else part.meaning
+            what = f"{part.meaning}; along `{part.dimension}`" if part.dimension else part.meaning
             rows.append((key, "", "", _noted(what, part.note), ""))
             continue
         variable = f"`{name}`" + (f" ({', '.join(dimensions)})" if dimensions else "") if name else ""
@@ -54,7 +63,10 @@ def reference_table(kind: Group) -> str:
             (key if part.in_summary else "", part.symbol, part.unit_text, _noted(part.meaning, part.note), variable)
         )
     headings = ("key of `summary.json`", "symbol", "unit", "meaning", "variable of `dataset.nc`")
-    return markdown_table(headings, [tuple(cell.replace("|", r"\|") for cell in row) for row in rows])
+    # Attributes of a record in a name are those of its entries.
+    return markdown_table(
+        headings, [tuple(cell.replace("|", r"\|").replace("{.", "{") for cell in row) for row in rows]
+    )
 
 
 def _noted(meaning: str, note: str) -> str:

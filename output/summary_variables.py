@@ -1,4 +1,4 @@
-"""A summary as labelled variables: every number, word and truth value under the keys that lead to it.
+"""A summary as labelled variables: every number, text and truth value under its declared name.
 
 `size: {cells: 83}` becomes the variable `size_cells`. The entries of a list lie along a dimension, so that a list of
 entries with keys of their own becomes a variable for each of the keys. Values missing from an entry are NaN, or the
@@ -8,8 +8,7 @@ text "".
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
-from typing import Any, Protocol, TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,161 +21,78 @@ _Entries: TypeAlias = NDArray[Any]
 _INTEGERS = np.iinfo(np.int32)
 
 
-class Naming(Protocol):
-    """Names and attributes of the variables of a summary, by place: the keys that lead to it, joined by dots."""
-
-    def dimensions(self, place: str) -> tuple[str, ...]:
-        """Return the dimensions of a list, one for each level of lists within lists, or of a dictionary by labels."""
-
-    def name(self, place: str, default: str) -> str | None:
-        """Return the name of the variable, or the prefix of those below; ``None`` where they are left out."""
-
-    def attributes(self, place: str) -> dict[str, Any]:
-        """Return ``long_name``, and ``units`` if there is one."""
-
-
-class DeclaredNames:
-    """The names that declared quantities have.
-
-    Args:
-        parts: the declared groups at the top of the summary, one after the other.
-    """
-
-    def __init__(self, *parts: Group) -> None:
-        """Collect all places."""
-        self._parts: dict[str, tuple[str, Quantity | Group]] = {
-            place: (name, part)
-            for group in parts
-            for place, name, _, part in group.places()
-            if isinstance(part, Group) or part.in_summary
-        }
-
-    def dimensions(self, place: str) -> tuple[str, ...]:
-        """Return those declared."""
-        part = self._parts[place][1]
-        return (part.dimension,) * bool(part.dimension) if isinstance(part, Group) else part.dimensions
-
-    def name(self, place: str, default: str) -> str | None:
-        """Return the one declared."""
-        name, part = self._parts[place]
-        return name or None if isinstance(part, Quantity) else name
-
-    def attributes(self, place: str) -> dict[str, Any]:
-        """Return meaning and unit."""
-        part = self._parts[place][1]
-        return {"long_name": part.meaning} if isinstance(part, Group) else attributes_of(part)
-
-
-@dataclass(frozen=True, kw_only=True)
-class _Column:
-    """The values at one place of a summary, one for each entry of the enclosing tables.
-
-    Attributes:
-        place: keys that lead to it.
-        name: of its variable, or prefix of those below.
-        entries: values; `None` where there is none.
-        dims: of the entries.
-        labels: of the dimensions that have some.
-    """
-
-    place: str
-    name: str
-    entries: _Entries
-    dims: tuple[str, ...]
-    labels: dict[str, Any]
-
-    @property
-    def first(self) -> Any:
-        """The first value that is not missing."""
-        return next((entry for entry in self.entries.flat if entry is not None), None)
-
-    @property
-    def keys(self) -> list[str]:
-        """Of all entries, which are dictionaries."""
-        return list({key: None for entry in self.entries.flat for key in entry or {}})
-
-    def along(self, dimension: str, labels: Any, parts: list[list[Any]]) -> _Column:
-        """The column whose entries are cut into parts, which lie along one more dimension."""
-        longest = max(map(len, parts))
-        entries = np.empty((len(parts), longest), dtype=object)
-        for row, pieces in enumerate(parts):
-            for place, piece in enumerate(pieces):
-                entries[row, place] = piece
-        return replace(
-            self,
-            entries=entries.reshape(*self.entries.shape, longest),
-            dims=(*self.dims, dimension),
-            labels=self.labels | ({} if labels is None else {dimension: labels}),
-        )
-
-    def below(self, key: str, names: Naming) -> Iterator[_Column]:
-        """The columns below one key of its entries, none if it is left out."""
-        place = f"{self.place}.{key}".lstrip(".")
-        name = names.name(place, f"{self.name}_{key}".lstrip("_"))
-        if name is None:
-            return
-        entries = np.empty(self.entries.shape, dtype=object)
-        for index in np.ndindex(entries.shape):
-            entries[index] = (self.entries[index] or {}).get(key)
-        yield from _leaves(replace(self, place=place, name=name, entries=entries), names)
-
-
-def summary_variables(summary: Summary, names: Naming) -> Iterator[Variable]:
+def summary_variables(summary: Summary, *groups: Group) -> Iterator[Variable]:
     """Yield a summary as variables with units, and the labels of their dimensions.
 
     Args:
         summary: content of ``summary.json``, in types of JSON.
-        names: of its variables.
+        groups: the declared groups at its top, one after the other.
     """
     whole = np.empty((), dtype=object)
     whole[()] = summary
-    top = _Column(place="", name="", entries=whole, dims=(), labels={})
-    for key in summary:
-        for column in top.below(key, names):
-            for dimension, labels in column.labels.items():
-                yield Variable(name=dimension, dimensions=(dimension,), values=np.asarray(labels))
-            values, attributes = _typed(column, names.attributes(column.place))
-            yield Variable(name=column.name, dimensions=column.dims, values=values, attributes=attributes)
+    found = [one for group in groups for one in _below(group, whole, (), "")]
+    # What lies along a dimension may be left out.
+    used = {name for one in found for name in one.dimensions if name != one.name}
+    yield from (one for one in found if one.dimensions != (one.name,) or one.name in used)
 
 
-def _leaves(column: _Column, names: Naming) -> Iterator[_Column]:
-    """The columns of numbers, texts and truth values."""
-    column = _unrolled(column, list(names.dimensions(column.place)))
-    if isinstance(column.first, dict):
-        for key in column.keys:
-            yield from column.below(key, names)
-    elif column.entries.size and not isinstance(column.first, list):
-        yield column
-
-
-def _unrolled(column: _Column, dimensions: list[str]) -> _Column:
-    """A column whose lists, and dictionaries by labels, lie along dimensions."""
-    level = 1
-    while isinstance(column.first, list) or (dimensions and isinstance(column.first, dict)):
-        dimension = dimensions.pop(0) if dimensions else f"{column.name}_entry" + (f"_{level}" if level > 1 else "")
-        level += 1
-        if isinstance(column.first, dict):
-            parts = [[(entry or {}).get(key) for key in column.keys] for entry in column.entries.flat]
-            column = column.along(dimension, column.keys, parts)
+def _below(group: Group, records: _Entries, dimensions: tuple[str, ...], prefix: str) -> Iterator[Variable]:
+    """The variables of a group, of whose records there is one at each place along the dimensions."""
+    for part in group.parts:
+        name = part.name_behind(prefix)
+        left_out = isinstance(part, Quantity) and (not part.in_summary or part.joined is not None or not name)
+        if left_out or not any(part.key in (record or {}) for record in records.flat):
             continue
-        column = column.along(dimension, None, [entry or [] for entry in column.entries.flat])
-        if isinstance(column.first, dict):
-            numbers = np.arange(1, column.entries.shape[-1] + 1, dtype=np.int32)
-            column = replace(column, labels=column.labels | {dimension: numbers})
-    return column
+        entries, along = np.empty(records.shape, dtype=object), dimensions
+        for index in np.ndindex(records.shape):
+            entries[index] = (records[index] or {}).get(part.key)
+        for dimension in part.dimensions if isinstance(part, Quantity) else filter(None, (part.dimension,)):
+            if _first(entries) is not None:
+                entries, labels = _unrolled(entries)
+                along = (*along, dimension)
+                if labels is not None and len(labels):
+                    yield Variable(name=dimension, dimensions=(dimension,), values=labels)
+        if isinstance(part, Group) and _first(entries) is not None:
+            yield from _below(part, entries, along, name)
+        elif entries.size:
+            attributes = attributes_of(part) if isinstance(part, Quantity) else {"long_name": part.meaning}
+            values, attributes = _typed(entries, attributes)
+            yield Variable(name=name, dimensions=along, values=values, attributes=attributes)
 
 
-def _typed(column: _Column, attributes: dict[str, Any]) -> tuple[NDArray[Any], dict[str, Any]]:
-    """The values of a column in a type of NetCDF, with their attributes."""
-    without_unit = {"long_name": attributes["long_name"]}
-    known = [entry for entry in column.entries.flat if entry is not None]
+def _first(entries: _Entries) -> Any:
+    """The first value that is not missing."""
+    return next((entry for entry in entries.flat if entry is not None), None)
+
+
+def _unrolled(entries: _Entries) -> tuple[_Entries, _Entries | None]:
+    """Lists, or dictionaries by labels, along one dimension more; its labels, of lists of records their numbers."""
+    if isinstance(_first(entries), dict):
+        keys = list({key: None for entry in entries.flat for key in entry or {}})
+        parts = [[(entry or {}).get(key) for key in keys] for entry in entries.flat]
+    else:
+        keys, parts = [], [entry or [] for entry in entries.flat]
+    longest = max(map(len, parts))
+    found: _Entries = np.empty((len(parts), longest), dtype=object)
+    for row, pieces in enumerate(parts):
+        for place, piece in enumerate(pieces):
+            found[row, place] = piece
+    found = found.reshape(*entries.shape, longest)
+    numbers = np.arange(1, longest + 1, dtype=np.int32) if isinstance(_first(found), dict) else None
+    return found, np.array(keys) if keys else numbers
+
+
+def _typed(entries: _Entries, attributes: dict[str, Any]) -> tuple[NDArray[Any], dict[str, Any]]:
+    """Values in a type of NetCDF, with their attributes."""
+    without_unit = {name: text for name, text in attributes.items() if name != "units"}
+    known = [entry for entry in entries.flat if entry is not None]
     if not all(isinstance(entry, bool | int | float) or entry in ("inf", "-inf") for entry in known) or (
         not known and "units" not in attributes
     ):
-        return np.where(column.entries == np.array(None), "", column.entries).astype(np.str_), without_unit
-    if len(known) == column.entries.size:
+        return np.where(entries == np.array(None), "", entries).astype(np.str_), without_unit
+    if len(known) == entries.size:
         if all(isinstance(entry, bool) for entry in known):
-            return column.entries.astype(np.bool_), without_unit
+            return entries.astype(np.bool_), without_unit
         if all(isinstance(entry, int) and _INTEGERS.min <= entry <= _INTEGERS.max for entry in known):
-            return column.entries.astype(np.int32), attributes
-    return column.entries.astype(np.float64), attributes
+            return entries.astype(np.int32), attributes
+    return entries.astype(np.float64), attributes

@@ -32,15 +32,17 @@ class Variable:
 
 
 def attributes_of(quantity: Quantity) -> dict[str, Any]:
-    """Return the long name and the unit of the variables of a quantity."""
-    return {"long_name": quantity.meaning} | ({} if quantity.unit is None else {"units": quantity.unit})
+    """Return the long name and the unit of the variables of a quantity, and what its phase is relative to."""
+    found = {"long_name": quantity.meaning, "units": quantity.unit_with_rolls, "phase": quantity.phase or None}
+    return {name: text for name, text in found.items() if text is not None}
 
 
 def array_variables(group: Group, record: Any) -> list[Variable]:
     """Return the arrays that only ``dataset.nc`` has, of a group and of all groups within.
 
     Of a list of records each has arrays of its own: from the second on, their names, and those of their dimensions
-    which the groups around do not declare, end in the number of the record. Labels of unused dimensions are left out.
+    which the groups around do not declare, end in the number of the record. Labels of unused dimensions are left out,
+    and so are arrays without a value.
 
     Args:
         group: of declared quantities.
@@ -56,20 +58,22 @@ def _arrays(group: Group, record: Any, shared: frozenset[str], place: int) -> It
         attributes = attributes_of(quantity)
         if quantity.error:
             attributes["absolute_error"] = float(group[quantity.error].of(record))
+        values = quantity.of(record)
+        if values is None:
+            continue
         yield Variable(
             name=numbered(quantity.variable or quantity.key, place),
             dimensions=tuple(name if name in shared else numbered(name, place) for name in quantity.dimensions),
-            values=np.asarray(quantity.of(record)),
+            values=np.asarray(values),
             attributes=attributes,
+            is_coordinate=quantity.is_coordinate,
         )
     # Names along dimensions that all records of the solution share.
     shared |= (
         {quantity.key for quantity in group.arrays if quantity.dimensions == (quantity.key,)} if not place else set()
     )
     for inner in group.groups:
-        found = inner.of(record)
-        records = [] if found is None else found if inner.dimension else [found]
-        for number, one in enumerate(records):
+        for number, one in enumerate(inner.records(record)):
             yield from _arrays(inner, one, shared, number)
 
 

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 
 from mpi4py import MPI
 
 from hydroelastic.fem.stopwatch import Report, Stopwatch
-from hydroelastic.output.dataset import DATASET, LabelledResults, complete_variables, global_attributes, write_dataset
+from hydroelastic.output.dataset import DATASET, complete_variables, global_attributes, write_dataset
 from hydroelastic.output.folder import raise_on_all, result_folder, write_summary
 from hydroelastic.output.pictures.rendering import NoRendererError
 from hydroelastic.output.provenance import Summary
+from hydroelastic.output.quantities import Group
 from hydroelastic.output.variables import Variable
 
 TABLES = "summary.md"
@@ -25,7 +26,8 @@ def write_results(
     scene_file: Path | None,
     tables: Callable[[Path], None],
     arrays: Callable[[], Iterable[Variable]],
-    dataset: LabelledResults,
+    kind: Group,
+    attributes: Mapping[str, str],
     pictures: Callable[[Path], None] | None,
     text: Callable[[Summary], str],
     page: Callable[[Path, tuple[str, ...]], None] | None,
@@ -39,7 +41,8 @@ def write_results(
         scene_file: where the scene was read; ``None`` if it was made in Python.
         tables: writes files of numbers into a folder.
         arrays: returns the labelled arrays of ``dataset.nc``.
-        dataset: names and attributes of ``dataset.nc``.
+        kind: the declared quantities of the kind of scene.
+        attributes: of ``dataset.nc`` as a whole, further ones.
         pictures: draws into a folder; ``None`` draws nothing.
         text: returns the content of ``summary.md``.
         page: writes a page about the results and warnings into the folder; ``None`` writes none.
@@ -74,8 +77,8 @@ def write_results(
                 (folder / TABLES).write_text(text(summary), encoding="utf-8")
                 write_summary(summary, folder)
                 # The dataset contains the summary, which by now has the seconds of all stages except this one.
-                variables = complete_variables(labelled, summary, dataset.names)
-                write_dataset(folder / DATASET, variables, {**global_attributes(summary), **dataset.attributes})
+                variables = complete_variables(labelled, summary, kind)
+                write_dataset(folder / DATASET, variables, {**global_attributes(summary), **attributes})
                 if page is not None:
                     report("page")
                     page(folder, tuple(warnings))

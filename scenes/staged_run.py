@@ -2,32 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
-from functools import partial
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, Generic, Protocol, TypeVar
+from typing import Any, Generic, TypeVar
 
 from mpi4py import MPI
+from pydantic import BaseModel
 
 from hydroelastic.fem.stopwatch import Report, Stopwatch
-from hydroelastic.output.dataset import LabelledResults, declared_results
 from hydroelastic.output.manifest import read_manifest
 from hydroelastic.output.outcome import Outcome
 from hydroelastic.output.pictures.options import DEFAULT_PICTURES, PictureOption, PictureOptions
-from hydroelastic.output.provenance import Summary, summarize
+from hydroelastic.output.provenance import Solved, Summary, summarize
 from hydroelastic.output.quantities import Group
 from hydroelastic.output.sections import Section, markdown_sections
-from hydroelastic.output.variables import Variable
+from hydroelastic.output.variables import Variable, array_variables
 from hydroelastic.output.writer import write_results
 from hydroelastic.scenes.errors import folder_errors
 
-_Scene = TypeVar("_Scene", contravariant=True)
-_Solution = TypeVar("_Solution", contravariant=True)
-
-
-class _Summarize(Protocol[_Solution]):
-    def __call__(self, solution: _Solution, comm: MPI.Comm, /, *, import_seconds: float) -> Summary: ...
+_Scene = TypeVar("_Scene", bound=BaseModel, contravariant=True)
+_Solution = TypeVar("_Solution", bound=Solved, contravariant=True)
 
 
 def _as_solved(solution: Any, _summary: Summary) -> Any:
@@ -38,42 +33,39 @@ def _nothing(_solution: Any) -> tuple[str, ...]:
     return ()
 
 
-def declared(kind: Group) -> dict[str, Any]:
-    """Return the arguments `summarize` and `dataset` of a run whose quantities are all declared."""
-    return {"summarize": partial(summarize, kind), "dataset": declared_results(kind)}
-
-
 @dataclass(frozen=True, kw_only=True)
 class StagedRun(Generic[_Scene, _Solution]):
     """Runs scenes of one kind.
 
     Attributes:
         solve: returns the solution of a scene (collective).
-        summarize: returns the content of ``summary.json`` (collective).
+        kind: the quantities of a solution, from which ``summary.json`` and ``dataset.nc`` are made.
         sections: returns the tables.
         cost: returns a line about size and time.
         write: writes files of numbers into a folder, on rank 0.
-        dataset: contents of `dataset.nc`.
         draw: draws into a folder, on rank 0, and reports each picture.
         used_options: the options that the pictures use; a run warns that others have no effect.
         animation_warnings: returns limitations of an animation of the solution, and the key to set; none by default.
         sample: samples the solution for files and pictures (collective); the solution itself by default.
         sampling_warnings: returns what could not be sampled, and why; none by default.
+        arrays: returns the arrays of ``dataset.nc`` alone, on rank 0; by default those declared in `kind`.
+        attributes: of ``dataset.nc`` as a whole, further ones.
         swept: returns labelled arrays of a solution that a sweep keeps beside its summary; ``None`` for none.
         solve_alone: as `solve`, without the estimates of older theories; `solve` by default, which then makes none.
     """
 
     solve: Callable[[_Scene, MPI.Comm, Report], _Solution]
-    summarize: _Summarize[_Solution]
+    kind: Group
     sections: Callable[[_Solution, Summary], Iterable[Section]]
     cost: Callable[[Summary], str]
     write: Callable[[Any, Path], None]
-    dataset: LabelledResults
     draw: Callable[[Any, Path, PictureOptions, Report], None]
     used_options: frozenset[PictureOption]
     animation_warnings: Callable[[_Solution], tuple[str, ...]] = _nothing
     sample: Callable[[_Solution, Summary], Any] = _as_solved
     sampling_warnings: Callable[[Any], tuple[str, ...]] = _nothing
+    arrays: Callable[[Any], Iterable[Variable]] | None = None
+    attributes: Mapping[str, str] = field(default_factory=dict)
     swept: Callable[[_Solution], Iterable[Variable]] | None = None
     solve_alone: Callable[[_Scene, MPI.Comm, Report], _Solution] | None = None
 
@@ -123,9 +115,13 @@ class StagedRun(Generic[_Scene, _Solution]):
         """
         comm = MPI.COMM_WORLD
         solution = (solve or self.solve)(scene, comm, report)
-        summary = self.summarize(solution, comm, import_seconds=import_seconds)
+        summary = self.summarized(scene, solution, import_seconds)
         sections = tuple(self.sections(solution, summary))
         return Outcome(solution=solution, summary=summary, sections=sections, cost=self.cost(summary))
+
+    def summarized(self, scene: _Scene, solution: _Solution, import_seconds: float = 0.0) -> Summary:
+        """Return the content of ``summary.json`` (collective)."""
+        return summarize(self.kind, solution, scene.model_dump(mode="json"), import_seconds)
 
     def written(
         self,
@@ -173,8 +169,9 @@ class StagedRun(Generic[_Scene, _Solution]):
                 summary,
                 scene_file=scene_file,
                 tables=lambda folder: self.write(sampled, folder),
-                arrays=lambda: self.dataset.arrays(sampled),
-                dataset=self.dataset,
+                arrays=lambda: array_variables(self.kind, sampled) if self.arrays is None else self.arrays(sampled),
+                kind=self.kind,
+                attributes=self.attributes,
                 pictures=None if images is None else (lambda folder: self.draw(sampled, folder, images, report)),
                 text=lambda content: markdown_sections(content, outcome.sections, self.cost(content)),
                 page=None if page is None else lambda folder, warnings: page(with_warnings(warnings), folder),

@@ -10,7 +10,7 @@ from hydroelastic.output.csv_files import write_csv
 from hydroelastic.output.dataset import write_dataset
 from hydroelastic.output.quantities import Group, Quantity
 from hydroelastic.output.quantity_tables import columns, headings, listed, reference_table
-from hydroelastic.output.summary_variables import DeclaredNames, summary_variables
+from hydroelastic.output.summary_variables import summary_variables
 from hydroelastic.output.variables import Variable, array_variables, grid_columns, merged
 
 MODES = Group(
@@ -59,13 +59,11 @@ def test_the_summary_has_the_declared_keys_in_plain_types() -> None:
 
 
 def test_variables_have_name_dimensions_unit_and_meaning() -> None:
-    found = {one.name: one for one in merged(summary_variables(KIND.evaluated(SOLUTION), DeclaredNames(KIND)))}
+    found = {one.name: one for one in merged(summary_variables(KIND.evaluated(SOLUTION), KIND))}
     assert set(found) == {"count", "none", "size_cells", "mode", "omega", "force", "relative_error", "force_error"}
     assert found["omega"].dimensions == ("mode",)
     assert found["omega"].attributes == {"long_name": "angular frequency", "units": "rad/s"}
     assert found["mode"].values.tolist() == [1, 2]
-    with pytest.raises(KeyError):
-        list(summary_variables({"undeclared": 1.0}, DeclaredNames(KIND)))
 
 
 def test_each_record_of_a_list_has_arrays_of_its_own() -> None:

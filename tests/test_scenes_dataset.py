@@ -12,20 +12,18 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray
-from mpi4py import MPI
 from open_tables import ANALYSES, CIRCLE, DEEP, OIL, PLATE, arbitrary_solution, open_scene
 from scene_files import read_written
 
 from hydroelastic.output.dataset import complete_variables, global_attributes, read_dataset, write_dataset
 from hydroelastic.output.folder import SUMMARY, write_summary
 from hydroelastic.output.json_values import json_ready
-from hydroelastic.output.labelled import variables_of
+from hydroelastic.output.open_water.quantities import OPEN_WATER
+from hydroelastic.output.open_water.variables import open_variables
 from hydroelastic.output.provenance import Summary
-from hydroelastic.output.summary_names import SummaryNames
-from hydroelastic.output.summary_variables import Naming
+from hydroelastic.output.quantities import Group, Quantity
 from hydroelastic.output.variables import Variable
-from hydroelastic.scenes.open_water.dataset import OPEN_NAMES, open_dataset
-from hydroelastic.scenes.open_water.summary import summarize_open
+from hydroelastic.scenes.open_water.run import run_open
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.run import run_scene
 
@@ -106,9 +104,9 @@ def _write_open(folder: Path) -> None:
     circle = CIRCLE | {"motions": ["heave", "roll"]}
     scene = open_scene(circle, PLATE, liquids=(DEEP, OIL), analyses=[*ANALYSES, *again])
     solution = arbitrary_solution(scene, reasons=("σ ≥ 1", "it is late"))
-    summary = summarize_open(solution, MPI.COMM_WORLD, import_seconds=1.0)
+    summary = run_open.summarized(solution.scene, solution)
     write_summary(summary, folder)
-    _write(variables_of(open_dataset(solution)), summary, OPEN_NAMES, folder / "dataset.nc")
+    _write(open_variables(solution), summary, OPEN_WATER, folder / "dataset.nc")
 
 
 @pytest.fixture(params=[name if name in FAST else pytest.param(name, marks=pytest.mark.slow) for name in ALL])
@@ -269,13 +267,34 @@ def test_odd_values_survive(tmp_path: Path) -> None:
         "third": 1.0 / 3.0,
         "table": [
             {"name": "a", "value": 1, "more": {"deep": [1.5]}},
-            {"name": None, "value": None, "more": None, "own": "β"},
+            {"name": None, "value": None, "more": None, "own": "β", "own_array": 7.0},
         ],
         "pairs": [[[0.1, 0.2], [0.3, 0.4]]],
         "no words": [None, None],
     }
-    names = SummaryNames(by_place={"table": ("row",)}, prefixes={"table": ""})
-    dataset, back = _there_and_back(summary, names, tmp_path / "dataset.nc")
+    dimensions = {"perhaps": 1, "infinite": 1, "ragged": 2, "empty": 1, "emptier": 2, "pairs": 3, "no words": 1}
+    single = ("nothing", "yes", "large", "small", "third")
+    row = (
+        Quantity("name", "name"),
+        Quantity("value", "value", "1"),
+        Group("more", "more", (Quantity("deep", "deep", "m", dimensions=("deep",)),)),
+        Quantity("own", "own"),
+        Quantity("own_array", "in other arrays", variable="", value=lambda _: 1.0),
+    )
+    kind = Group(
+        "",
+        "odd values",
+        (
+            *(Quantity(key, key, "1") for key in single),
+            *(
+                Quantity(key, key, "1", dimensions=tuple(f"{key}_{place}" for place in range(count)))
+                for key, count in dimensions.items()
+            ),
+            Group("table", "table", row, dimension="row", prefix=""),
+        ),
+    )
+    _write([], summary, kind, tmp_path / "dataset.nc")
+    dataset, back = read_dataset(tmp_path / "dataset.nc")
     assert back == json_ready(summary)
     assert (dataset.yes.dtype, dataset.yes.item()) == (np.dtype(bool), True)
     np.testing.assert_array_equal(dataset.perhaps, [1.0, nan, 0.0])
@@ -288,40 +307,21 @@ def test_odd_values_survive(tmp_path: Path) -> None:
     np.testing.assert_array_equal(dataset.value, [1.0, nan])
     np.testing.assert_array_equal(dataset.more_deep, [[1.5], [nan]])
     assert dataset.row.values.tolist() == [1, 2]
-    assert dataset.pairs.dims == ("pairs_entry", "pairs_entry_2", "pairs_entry_3")
+    assert dataset.pairs.dims == ("pairs_0", "pairs_1", "pairs_2")
     assert dataset.attrs["title"] == "Ψ – wave ∿ “quoted” \\ %"
-    assert not {"empty", "emptier", "scene_title", "status"} & set(dataset.variables)
+    assert not {"empty", "emptier", "scene_title", "status", "own_array"} & set(dataset.variables)
 
 
-def test_what_arrays_tell_is_not_told_twice(tmp_path: Path) -> None:
-    names = SummaryNames(reported_by_arrays=frozenset({"modes.omega"}), by_place={"modes": ("mode",)})
-    summary: Summary = {
-        "scene": {"title": ""},
-        "status": "ok",
-        "versions": {"hydroelastic": "0"},
-        "modes": [{"omega": 1.0, "residual": 2.0}],
-    }
-    dataset, back = _there_and_back(summary, names, tmp_path / "dataset.nc")
-    assert back == summary
-    assert "modes_omega" not in dataset
-    assert dataset.modes_residual.attrs["units"] == "1"
-
-
-def _there_and_back(summary: Summary, names: SummaryNames, path: Path) -> tuple[xarray.Dataset, Summary]:
-    _write([], summary, names, path)
-    return read_dataset(path)
-
-
-def _write(arrays: list[Variable], summary: Summary, names: Naming, path: Path) -> None:
-    write_dataset(path, complete_variables(arrays, summary, names), global_attributes(summary))
+def _write(arrays: list[Variable], summary: Summary, kind: Group, path: Path) -> None:
+    write_dataset(path, complete_variables(arrays, summary, kind), global_attributes(summary))
 
 
 def test_the_same_run_writes_the_same_bytes(tmp_path: Path) -> None:
     """Nothing in a dataset tells when it was written."""
     solution = arbitrary_solution(open_scene())
-    summary = summarize_open(solution, MPI.COMM_WORLD, import_seconds=1.0)
+    summary = run_open.summarized(solution.scene, solution)
     for name in ("one.nc", "other.nc"):
-        _write(variables_of(open_dataset(solution)), summary, OPEN_NAMES, tmp_path / name)
+        _write(open_variables(solution), summary, OPEN_WATER, tmp_path / name)
     assert (tmp_path / "one.nc").read_bytes() == (tmp_path / "other.nc").read_bytes()
 
 
@@ -342,7 +342,11 @@ def test_any_dataset_comes_back(tmp_path: Path) -> None:
         {"a": [1.0, 2.0, 3.0], "c": np.arange(50, dtype=np.int32)},
         {"title": "odd", "number": 3},
     )
-    write_dataset(tmp_path / "dataset.nc", variables_of(given), given.attrs)
+    variables = [
+        Variable(name=str(name), dimensions=tuple(map(str, one.dims)), values=one.values, attributes=one.attrs)
+        for name, one in given.variables.items()
+    ]
+    write_dataset(tmp_path / "dataset.nc", variables, given.attrs)
     with xarray.open_dataset(tmp_path / "dataset.nc") as opened:
         xarray.testing.assert_identical(opened.load(), given.assign(words=("a", given.words.values.astype(object))))
 

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from mpi4py import MPI
 from tanks import Tanks
 
 from hydroelastic.fem.modes import solve_modes
@@ -27,8 +26,8 @@ from hydroelastic.scenes.models import Accuracy, Beam, Liquid, Tank, TankScene
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.tank.check_tables import boundary_table, group_table, unknown_table
+from hydroelastic.scenes.tank.run import run_tank
 from hydroelastic.scenes.tank.solve import EstimatedTank
-from hydroelastic.scenes.tank.summary import summarize
 
 EI, MASS = 5e3, 50.0
 SOFT, STIFF = (1.0, EI, MASS), (1.0, 10.0 * EI, 2.0 * MASS)
@@ -212,7 +211,7 @@ def test_the_dry_frequency_is_that_of_the_whole_beam(tanks: Tanks) -> None:
     scene = tanks.scene(beam)
     solution = tanks.solve(scene)
     estimated = EstimatedTank(scene=scene, tank=solution, beam=tone_estimates(solution.physical))
-    summary = summarize(estimated, MPI.COMM_WORLD, import_seconds=0.0)
+    summary = run_tank.summarized(scene, estimated)
     dry = jointed_modes(
         beams.Beam(
             sections=(

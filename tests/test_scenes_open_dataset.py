@@ -11,22 +11,19 @@ import numpy as np
 import pytest
 import xarray
 from open_cases import problem_of
-from open_tables import CIRCLE, DEEP, FROM_BOTH_SIDES, OIL, arbitrary_solution, open_scene, two_bodies
+from open_tables import CIRCLE, DEEP, FROM_BOTH_SIDES, OIL, arbitrary_solution, open_dataset, open_scene, two_bodies
 
 from hydroelastic.fem.open_water.radiation import solve_radiation
 from hydroelastic.fem.open_water.response import solve_response
 from hydroelastic.output.dataset import write_dataset
-from hydroelastic.output.labelled import variables_of
+from hydroelastic.output.open_water.variables import COMMENT, open_variables
 from hydroelastic.scenes.models.open_analyses import Radiation, Response
-from hydroelastic.scenes.open_water.dataset import COMMENT, open_dataset
 
 
 @pytest.fixture
 def written(tmp_path: Path) -> xarray.Dataset:
     """The dataset of a circle in deep water, as a stranger opens it."""
-    write_dataset(
-        tmp_path / "dataset.nc", variables_of(open_dataset(arbitrary_solution(open_scene()))), {"comment": COMMENT}
-    )
+    write_dataset(tmp_path / "dataset.nc", open_variables(arbitrary_solution(open_scene())), {"comment": COMMENT})
     return xarray.load_dataset(tmp_path / "dataset.nc")
 
 
@@ -138,7 +135,7 @@ def test_what_capytaine_has_no_name_for_is_there(written: xarray.Dataset) -> Non
 
 def test_several_bodies_waves_and_sides_have_their_labels(tmp_path: Path) -> None:
     solution = two_bodies(FROM_BOTH_SIDES)
-    write_dataset(tmp_path / "dataset.nc", variables_of(open_dataset(solution)), {})
+    write_dataset(tmp_path / "dataset.nc", open_variables(solution), {})
     found = xarray.load_dataset(tmp_path / "dataset.nc")
     radiation, (left, right) = solution.radiation[0], solution.response
     labels = ["body_1__Heave", "body_1__Sway", "body_2__Heave", "body_2__Pitch"]

@@ -8,16 +8,17 @@ import pytest
 from mpi4py import MPI
 
 from hydroelastic.fem.open_water.thin_float_theory import Comparison, thin_float_comparisons
+from hydroelastic.output.open_water.tables import infinite_draught_message
 from hydroelastic.scenes.models.bodies import Beam, Float
 from hydroelastic.scenes.models.open_analyses import Decay, Radiation, Release, Resonance
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.tank_parts import Accuracy, Liquid, Tank
 from hydroelastic.scenes.open_water.check import open_requests
-from hydroelastic.scenes.open_water.estimates import infinite_draught_comparison, infinite_draught_message
+from hydroelastic.scenes.open_water.estimates import infinite_draught_comparison
 from hydroelastic.scenes.open_water.results import OpenSolution
+from hydroelastic.scenes.open_water.run import run_open
 from hydroelastic.scenes.open_water.solve import solve_open
-from hydroelastic.scenes.open_water.summary import summarize_open
 
 
 def _scene(**changes: object) -> TankScene:
@@ -73,7 +74,7 @@ def test_check_and_summary_compare_with_the_float_of_infinite_draught() -> None:
     # Against both closed forms, `test_modal_infinite_draught`: 0.0103.
     assert told.cut == pytest.approx(0.0116, rel=1e-2)
     assert infinite_draught_message(told) in list(open_requests(scene))
-    summary = summarize_open(OpenSolution(scene=scene, size={}, seconds={}), MPI.COMM_SELF, import_seconds=0.0)
+    summary = run_open.summarized(scene, OpenSolution(scene=scene, size={}, seconds={}))
     stored = summary["estimates"]["endless_float"]
     assert stored["cut"] == told.cut
     assert stored["residues"][1] == [told.residues[1].real, told.residues[1].imag]

@@ -23,35 +23,35 @@ from open_tables import ANALYSES, FROM_BOTH_SIDES, arbitrary_solution, open_scen
 from scene_files import CIRCLE_IN_OPEN_WATER
 
 from hydroelastic.output.dataset import write_dataset
-from hydroelastic.output.labelled import variables_of
+from hydroelastic.output.json_values import json_ready
+from hydroelastic.output.open_water.files import write_open_csv
+from hydroelastic.output.open_water.tables import open_cost, open_sections
+from hydroelastic.output.open_water.variables import open_variables
 from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.output.provenance import Summary
 from hydroelastic.output.sections import markdown_sections, printed_sections
 from hydroelastic.scenes.command_line import main
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.csv import write_csv
-from hydroelastic.scenes.open_water.dataset import open_dataset
 from hydroelastic.scenes.open_water.figures import draw_open
 from hydroelastic.scenes.open_water.results import OpenSolution
-from hydroelastic.scenes.open_water.summary import json_ready, summarize_open
-from hydroelastic.scenes.open_water.tables import open_cost, open_sections
+from hydroelastic.scenes.open_water.run import run_open
 from hydroelastic.scenes.run import run_scene
 from hydroelastic.scenes.study.run import study_scene
 from hydroelastic.scenes.tank.run import compare_tank
 
 
 def summary_of(solution: OpenSolution) -> Summary:
-    return summarize_open(solution, MPI.COMM_WORLD, import_seconds=1.0)
+    return run_open.summarized(solution.scene, solution)
 
 
 @pytest.mark.parametrize("kind", range(4))
 def test_each_analysis_may_stand_alone(tmp_path: Path, kind: int) -> None:
     solution = arbitrary_solution(open_scene(analyses=[ANALYSES[kind]]))
-    write_dataset(tmp_path / "dataset.nc", variables_of(open_dataset(solution)), {})
+    write_dataset(tmp_path / "dataset.nc", open_variables(solution), {})
     xarray.load_dataset(tmp_path / "dataset.nc")
     assert printed_open(solution, summary_of(solution))
-    write_csv(solution, tmp_path)
+    write_open_csv(solution, tmp_path)
     assert [path.stem for path in tmp_path.glob("*.csv")] == [ANALYSES[kind]["kind"]]
 
 
@@ -88,7 +88,7 @@ def rows_of(file: Path) -> list[dict[str, str]]:
 
 def test_csv_files_hold_all_numbers(tmp_path: Path) -> None:
     solution = two_bodies(FROM_BOTH_SIDES)
-    write_csv(solution, tmp_path)
+    write_open_csv(solution, tmp_path)
     radiation, response = solution.radiation[0], solution.response[1]
     rows = rows_of(tmp_path / "radiation.csv")
     assert [row["omega"] for row in rows] == ["0.0", "1.0", "2.0", "3.0", "inf"]

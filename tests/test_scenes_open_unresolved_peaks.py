@@ -9,13 +9,13 @@ from open_tables import open_scene
 
 from hydroelastic.fem.open_water.results import UnresolvedPeak
 from hydroelastic.output.json_values import json_ready
+from hydroelastic.output.open_water.quantities import OPEN_WATER
+from hydroelastic.output.open_water.tables import open_sections
 from hydroelastic.output.summary_variables import summary_variables
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.dataset import OPEN_NAMES
 from hydroelastic.scenes.open_water.results import OpenSolution
+from hydroelastic.scenes.open_water.run import run_open
 from hydroelastic.scenes.open_water.solve import solve_open
-from hydroelastic.scenes.open_water.summary import summarize_open
-from hydroelastic.scenes.open_water.tables import open_sections
 
 BARGE = {
     "kind": "float",
@@ -66,13 +66,13 @@ def test_a_resonance_between_the_frequencies_is_said(coarse: OpenSolution) -> No
 
 
 def test_tables_summary_and_dataset_have_it(coarse: OpenSolution) -> None:
-    summary = summarize_open(coarse, MPI.COMM_WORLD, import_seconds=0.0)
+    summary = run_open.summarized(coarse.scene, coarse)
     (told,) = summary["response"][0]["missed_peaks"]
     assert told["omega"] == peak_of(coarse).omega
     lines = [line for section in open_sections(coarse, summary) for line in section.lines]
     (line,) = (line for line in lines if "NOT SHOWN" in line)
     assert "between 0.7 and 0.8 rad/s roll changes" in line
-    variables = summary_variables(json_ready({"response": summary["response"]}), OPEN_NAMES)
+    variables = summary_variables(json_ready({"response": summary["response"]}), OPEN_WATER)
     (omega,) = (variable for variable in variables if variable.name == "missed_peak_omega")
     assert omega.values == pytest.approx(told["omega"])
     assert omega.attributes["units"] == "rad/s"

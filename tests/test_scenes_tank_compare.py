@@ -7,16 +7,14 @@ from typing import Any
 
 import pytest
 from click.testing import CliRunner
-from mpi4py import MPI
 from scene_files import BEAM_IN_TANK
 
 from hydroelastic.modal.estimate import Estimate
 from hydroelastic.output.sections import markdown_sections
+from hydroelastic.output.tank.tables import tank_sections
 from hydroelastic.scenes.command_line import main
-from hydroelastic.scenes.tank.run import compare_tank
+from hydroelastic.scenes.tank.run import compare_tank, run_tank
 from hydroelastic.scenes.tank.solve import EstimatedTank
-from hydroelastic.scenes.tank.summary import summarize
-from hydroelastic.scenes.tank.tables import tank_sections
 
 
 def test_compare_says_which_bounds_hold(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -52,9 +50,7 @@ def test_a_broken_bound_is_said_loudly(tanks: Any) -> None:
     low = Estimate(
         omega=0.99 * lowest, added_mass_per_length=1.0, bound="above_mode_index", mode_index=1, note="made up"
     )
-    summary = summarize(
-        EstimatedTank(scene=scene, tank=solution, beam={"low": low}), MPI.COMM_WORLD, import_seconds=0.0
-    )
+    summary = run_tank.summarized(scene, EstimatedTank(scene=scene, tank=solution, beam={"low": low}))
     assert summary["estimates"]["low"]["bound_holds"] is False
     assert "VIOLATED" in markdown_sections(summary, tank_sections(summary), "")
 

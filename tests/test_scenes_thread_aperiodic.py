@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from mpi4py import MPI
 
-from hydroelastic.output.provenance import complete_summary
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.thread.results import ThreadSolutionOfScene
+from hydroelastic.scenes.thread.run import run_thread
 from hydroelastic.scenes.thread.solve import solve_thread_scene
 
 TOLERANCE = 1e-6
@@ -58,4 +58,4 @@ def test_a_real_root_of_a_large_error_is_unconverged(solution: ThreadSolutionOfS
     rough = replace(solution, modes=(replace(modes, aperiodic=replace(modes.aperiodic, errors=errors)),))
     (reason,) = rough.reasons
     assert "root that does not oscillate is 6.1e-06" in reason
-    assert complete_summary(rough, {}, rough.size, MPI.COMM_WORLD, 0.0)["status"] == "unconverged"
+    assert run_thread.summarized(rough.scene, rough)["status"] == "unconverged"

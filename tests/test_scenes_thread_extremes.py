@@ -5,13 +5,13 @@ import pytest
 from mpi4py import MPI
 
 from hydroelastic.fem.thread.motion_errors import MotionDifference, MotionWithErrors
-from hydroelastic.output.provenance import summarize
 from hydroelastic.output.thread.quantities import THREAD
 from hydroelastic.output.thread.tables import thread_sections
 from hydroelastic.output.variables import array_variables
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.thread.results import ThreadSolutionOfScene
+from hydroelastic.scenes.thread.run import run_thread
 from hydroelastic.scenes.thread.solve import solve_thread_scene
 
 HEAVED = (
@@ -47,7 +47,7 @@ def test_extremes_do_not_depend_on_the_output_times(sparse: ThreadSolutionOfScen
 
 def test_all_that_is_told_is_of_all_steps(sparse: ThreadSolutionOfScene) -> None:
     (motion,) = sparse.motions
-    summary = summarize(THREAD, sparse, MPI.COMM_WORLD, import_seconds=0.0)
+    summary = run_thread.summarized(sparse.scene, sparse)
     (told,) = summary["motion"]
     assert told["largest_tension"] == motion.extremes.highest.max()
     assert told["extreme_tension_error"] == motion.extremes.error
@@ -60,7 +60,7 @@ def test_all_that_is_told_is_of_all_steps(sparse: ThreadSolutionOfScene) -> None
     ends = arrays["end_tension"]
     assert np.column_stack([ends.min(axis=0), ends.max(axis=0)]).tolist() == told["end_tensions_range"]
     rows = {row[0] for section in thread_sections(summary) for row in section.rows}
-    assert {"largest tension over all steps, N", "estimated error of these tensions, N"} <= rows
+    assert {"largest tension over all steps, N", "estimated error of the extremes of tension, N"} <= rows
 
 
 def test_slack_is_judged_by_the_error_of_its_time() -> None:

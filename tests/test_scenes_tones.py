@@ -6,19 +6,18 @@ from typing import Any
 
 import numpy as np
 import pytest
-from mpi4py import MPI
 
 from hydroelastic.fem.tank.elastic_tone import ElasticTone, elastic_tone
 from hydroelastic.fem.tank.resolution import initial_resolution
 from hydroelastic.fem.tank.solve import TankSolution
 from hydroelastic.modal.tank_estimates import floating_beam
+from hydroelastic.output.tank.tables import tone_lines
 from hydroelastic.physics.dofs import FIRST_ELASTIC
 from hydroelastic.scenes.models import Accuracy, Beam, Liquid, Tank, TankScene
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank_checks import MASS_GROUP, STIFFNESS_GROUP
+from hydroelastic.scenes.tank.run import run_tank
 from hydroelastic.scenes.tank.solve import EstimatedTank, solve_scene
-from hydroelastic.scenes.tank.summary import summarize
-from hydroelastic.scenes.tank.tables import tone_lines
 
 LONG = Beam(start=1.0, length=4.0, flexural_rigidity=5e3, mass_per_length=50.0, hydrostatic=False)
 SHORT = Beam(start=12.0, length=0.5, flexural_rigidity=5e3, mass_per_length=50.0, hydrostatic=False)
@@ -79,7 +78,7 @@ def test_a_tone_that_is_no_single_modes_is_known(
 
 
 def test_a_tone_that_is_no_single_modes_is_said_so(unlike: TankSolution) -> None:
-    summary = summarize(EstimatedTank(scene=tank(LONG, SHORT), tank=unlike), MPI.COMM_WORLD, import_seconds=0.0)
+    summary = run_tank.summarized(tank(LONG, SHORT), EstimatedTank(scene=tank(LONG, SHORT), tank=unlike))
     long, short = (" ".join(tone_lines(summary | {"first_elastic_by_body": [tone]})) for tone in _tones(summary))
     assert "no single mode; modes from 55 to 65 share it, most of it in mode 60, ω = " in long
     assert "; pressure-release tone (ψ = 0 on the water, the limit of infinite frequency): " in long

@@ -8,7 +8,6 @@ from math import pi
 from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hydroelastic.modal.string.closed_form import first_oscillating_mode, natural_frequency, steady_amplitude
 from hydroelastic.modal.string.resonance import nearest_resonance
@@ -47,10 +46,6 @@ def _free_motions(result: MovedString) -> Iterator[FreeMotion]:
     motions = result.solution.free_motions
     for root, size, error in zip(motions.roots, motions.frequencies, motions.relative_errors, strict=True):
         yield FreeMotion(root=complex(root), omega=float(size), relative_error=float(error))
-
-
-def _numbers(result: MovedString) -> NDArray[np.int64]:
-    return np.arange(1, len(result.solution.free_motions.roots) + 1)
 
 
 def _response(result: MovedString) -> Mapping[str, Any]:
@@ -97,171 +92,79 @@ def _finite(value: float) -> float | None:
     return float(value) if np.isfinite(value) else None
 
 
-STRING = Group(
-    "string",
-    "the string",
-    (
-        Quantity("travel_time", "time that a wave takes along the string", "s", "R"),
-        Quantity("damping", "mean damping", "1/s", "α"),
-        Quantity("apparent_gravity", "apparent gravity", "m/s^2", "g(ρ − ρ_d)/(ρ + m_a)"),
-        Quantity(
-            "first_oscillating_mode",
-            "first mode that oscillates",
-            "1",
-            value=lambda string: first_oscillating_mode(string) if string.has_closed_form else None,
-            note="of a string with a free end and a uniform resistance, else `null`",
-        ),
-        Quantity(
-            "critical_resistance",
-            "critical resistance of the first mode",
-            "kg/(m s)",
-            value=lambda string: natural_frequency(string, 1) * string.inertia if string.has_closed_form else None,
-            note="of a string with a free end and a uniform resistance, else `null`",
-        ),
-    ),
-    record=lambda result: result.solution.string,
+# fmt: off
+# A table: as many arguments on a line as fit.
+STRING = Group("string", "the string", (
+    Quantity("travel_time", "time that a wave takes along the string", "s", "R"),
+    Quantity("damping", "mean damping", "1/s", "α"),
+    Quantity("apparent_gravity", "apparent gravity", "m/s^2", "g(ρ − ρ_d)/(ρ + m_a)"),
+    Quantity("first_oscillating_mode", "first mode that oscillates", "1",
+        value=lambda string: first_oscillating_mode(string) if string.has_closed_form else None,
+        note="of a string with a free end and a uniform resistance, else `null`"),
+    Quantity("critical_resistance", "critical resistance of the first mode", "kg/(m s)",
+        value=lambda string: natural_frequency(string, 1) * string.inertia if string.has_closed_form else None,
+        note="of a string with a free end and a uniform resistance, else `null`"),
+), record=lambda result: result.solution.string)
+MODES = Group("modes", "free motions e^{pt} by ascending magnitude, one of each conjugate pair", (
+    Quantity("omega", "magnitude of the root of a free motion", "rad/s", "|p|", error="relative_error", digits=12,
+        variable="omega", note="the natural frequency Ω of a mode that oscillates with uniform damping"),
+    Quantity("frequency_hz", "frequency of a free motion", "Hz", "f", value=lambda mode: mode.root.imag / (2.0 * pi),
+        shown=".6g"),
+    Quantity("damped_omega", "angular frequency of a free motion", "rad/s", "Im p", value=lambda mode: mode.root.imag),
+    Quantity("decay", "rate at which a free motion decays", "1/s", "−Re p", value=lambda mode: -mode.root.real),
+    Quantity("kind", "kind", value=lambda mode: "oscillating" if mode.root.imag > 0.0 else "aperiodic",
+        note='`"oscillating"` or `"aperiodic"`'),
+    Quantity("relative_error", "relative error", "1", shown=".1e", note="estimated, of the root"),
+), record=_free_motions, dimension="mode", prefix="mode")
+BESIDE_FRONTS = Group("beside_fronts",
+    "values beside wave fronts, where the displacement or a derivative of it jumps", (
+    Quantity("within", "distance from a front up to which a value is beside it, in travel times", "1"),
+    Quantity("points", "number of values beside fronts", "1"),
+    Quantity("absolute_error", "estimated error beside fronts", "m"),
+))
+RESPONSE = Group("response", "displacements at the heights and times asked", (
+    Quantity("largest_displacement", "largest displacement at the heights and times asked", "m", error="relative_error",
+        note="of all values away from fronts, and of those beside fronts that meet the tolerance"),
+    Quantity("at_position", "height of the largest displacement", "m"),
+    Quantity("at_time", "time of the largest displacement", "s"),
+    Quantity("until", "last time", "s", printed=False),
+    Quantity("points", "values", "1"),
+    Quantity("absolute_error", "estimated error away from fronts", "m", printed=False),
+    Quantity("relative_error", "estimated error, of the largest", "1", shown=".1e", note="away from fronts"),
+    BESIDE_FRONTS,
+), record=_response)
+STEADY = Group("steady", "steady motion under a sine", (
+    Quantity("positions", "heights above the free end", "m", dimensions=("position",), variable=""),
+    Quantity("amplitude", "amplitude of the steady motion", "m", "A(x)", dimensions=("position",),
+        note="`null` if infinite"),
+    Group("nearest_resonance", "the nearest resonance of the free end", (
+        Quantity("mode", "mode near which the free end moves most", "1"),
+        Quantity("omega", "ω of the largest steady motion", "rad/s", note="`null` where drag leaves no peak"),
+        Quantity("amplitude", "largest steady amplitude of the free end", "m", note="`null` if infinite"),
+    )),
+), record=_steady, note="`null` for other motions, and without a closed form")
+_ARRAYS = (
+    array("position", "height above the free end at rest", "m", "position", lambda it: it.solution.positions),
+    array("time", "time", "s", "time", lambda it: it.solution.times),
+    array("mode", "number of the mode", None, "mode", lambda it: np.arange(1, len(it.solution.free_motions.roots) + 1)),
+    array("displacement", "displacement to the side", "m", "position time", lambda it: it.solution.displacement),
+    array("absolute_error", "estimated error of the displacement", "m", "position time",
+        lambda it: it.solution.absolute_error),
+    array("beside_front", "whether a wave front is near", None, "position time", lambda it: it.solution.beside_fronts),
+    array("root", "root p of a free motion e^{pt}", "1/s", "mode", lambda it: it.solution.free_motions.roots),
+    array("mode_shape", "shape of a free motion, its largest value 1", "1", "mode position",
+        lambda it: it.solution.free_motions.shapes),
 )
-MODES = Group(
-    "modes",
-    "free motions e^{pt} by ascending magnitude, one of each conjugate pair",
-    (
-        Quantity(
-            "omega",
-            "magnitude of the root of a free motion",
-            "rad/s",
-            "|p|",
-            error="relative_error",
-            digits=12,
-            variable="omega",
-            note="the natural frequency Ω of a mode that oscillates with uniform damping",
-        ),
-        Quantity(
-            "frequency_hz",
-            "frequency of a free motion",
-            "Hz",
-            "f",
-            value=lambda mode: mode.root.imag / (2.0 * pi),
-            shown=".6g",
-        ),
-        Quantity(
-            "damped_omega", "angular frequency of a free motion", "rad/s", "Im p", value=lambda mode: mode.root.imag
-        ),
-        Quantity("decay", "rate at which a free motion decays", "1/s", "−Re p", value=lambda mode: -mode.root.real),
-        Quantity(
-            "kind",
-            "kind",
-            value=lambda mode: "oscillating" if mode.root.imag > 0.0 else "aperiodic",
-            note='`"oscillating"` or `"aperiodic"`',
-        ),
-        Quantity("relative_error", "relative error", "1", shown=".1e", note="estimated, of the root"),
-    ),
-    record=_free_motions,
-    dimension="mode",
-    prefix="mode",
-)
-BESIDE_FRONTS = Group(
-    "beside_fronts",
-    "values beside wave fronts, where the displacement or a derivative of it jumps",
-    (
-        Quantity("within", "distance from a front up to which a value is beside it, in travel times", "1"),
-        Quantity("points", "number of values beside fronts", "1"),
-        Quantity("absolute_error", "estimated error beside fronts", "m"),
-    ),
-)
-RESPONSE = Group(
-    "response",
-    "displacements at the heights and times asked",
-    (
-        Quantity(
-            "largest_displacement",
-            "largest displacement at the heights and times asked",
-            "m",
-            error="relative_error",
-            note="of all values away from fronts, and of those beside fronts that meet the tolerance",
-        ),
-        Quantity("at_position", "height of the largest displacement", "m"),
-        Quantity("at_time", "time of the largest displacement", "s"),
-        Quantity("until", "last time", "s", printed=False),
-        Quantity("points", "values", "1"),
-        Quantity("absolute_error", "estimated error away from fronts", "m", printed=False),
-        Quantity("relative_error", "estimated error, of the largest", "1", shown=".1e", note="away from fronts"),
-        BESIDE_FRONTS,
-    ),
-    record=_response,
-)
-STEADY = Group(
-    "steady",
-    "steady motion under a sine",
-    (
-        Quantity("positions", "heights above the free end", "m", dimensions=("position",), variable=""),
-        Quantity(
-            "amplitude",
-            "amplitude of the steady motion",
-            "m",
-            "A(x)",
-            dimensions=("position",),
-            note="`null` if infinite",
-        ),
-        Group(
-            "nearest_resonance",
-            "the nearest resonance of the free end",
-            (
-                Quantity("mode", "mode near which the free end moves most", "1"),
-                Quantity("omega", "ω of the largest steady motion", "rad/s", note="`null` where drag leaves no peak"),
-                Quantity("amplitude", "largest steady amplitude of the free end", "m", note="`null` if infinite"),
-            ),
-        ),
-    ),
-    record=_steady,
-    note="`null` for other motions, and without a closed form",
-)
-HANGING_STRING = Group(
-    "",
-    "a hanging string whose upper end is moved",
-    (
-        Quantity("method", "method of solution", note='`"series"` or `"field"`'),
-        STRING,
-        MODES,
-        RESPONSE,
-        STEADY,
-        Group(
-            "size",
-            "size of the problem",
-            (
-                Quantity("terms", "largest number of terms of a series", "1"),
-                Quantity("cells", "number of cells of a field solution", "1"),
-                Quantity("degree", "degree of its polynomials", "1"),
-                Quantity("dofs", "number of its unknowns", "1"),
-                Quantity("steps", "number of its steps in time", "1"),
-                PROCESSES,
-            ),
-            record=lambda result: result.solution.size,
-        ),
-        array("position", "height above the free end at rest", "m", "position", lambda it: it.solution.positions),
-        array("time", "time", "s", "time", lambda it: it.solution.times),
-        array("mode", "number of the mode", None, "mode", _numbers),
-        array("displacement", "displacement to the side", "m", "position time", lambda it: it.solution.displacement),
-        array(
-            "absolute_error",
-            "estimated error of the displacement",
-            "m",
-            "position time",
-            lambda it: it.solution.absolute_error,
-        ),
-        array(
-            "beside_front",
-            "whether a wave front is near",
-            None,
-            "position time",
-            lambda it: it.solution.beside_fronts,
-        ),
-        array("root", "root p of a free motion e^{pt}", "1/s", "mode", lambda it: it.solution.free_motions.roots),
-        array(
-            "mode_shape",
-            "shape of a free motion, its largest value 1",
-            "1",
-            "mode position",
-            lambda it: it.solution.free_motions.shapes,
-        ),
-    ),
-)
+HANGING_STRING = Group("", "a hanging string whose upper end is moved", (
+    Quantity("method", "method of solution", note='`"series"` or `"field"`'),
+    STRING, MODES, RESPONSE, STEADY,
+    Group("size", "size of the problem", (
+        Quantity("terms", "largest number of terms of a series", "1"),
+        Quantity("cells", "number of cells of a field solution", "1"),
+        Quantity("degree", "degree of its polynomials", "1"),
+        Quantity("dofs", "number of its unknowns", "1"),
+        Quantity("steps", "number of its steps in time", "1"),
+        PROCESSES,
+    ), record=lambda result: result.solution.size),
+    *_ARRAYS,
+))

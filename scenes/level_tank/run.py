@@ -14,7 +14,7 @@ from hydroelastic.output.pictures.options import OF_FIELDS, OF_MOTIONS, PictureO
 from hydroelastic.output.provenance import Summary
 from hydroelastic.scenes.level_tank.solve import SolvedLevelTank, solve_level_scene
 from hydroelastic.scenes.models.level_tank import LevelTankScene
-from hydroelastic.scenes.staged_run import StagedRun, declared
+from hydroelastic.scenes.staged_run import StagedRun
 
 
 def _sample(solved: SolvedLevelTank, summary: Summary) -> SampledTank:
@@ -39,7 +39,7 @@ def _draw(tank: SampledTank, folder: Path, options: PictureOptions, report: Repo
 
 run_level_tank = StagedRun(
     solve=solve_level_scene,
-    **declared(LEVEL_TANK),
+    kind=LEVEL_TANK,
     sections=lambda _solved, summary: level_tank_sections(summary),
     cost=level_tank_cost,
     sample=_sample,

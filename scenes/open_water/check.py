@@ -7,11 +7,12 @@ from math import isfinite, pi
 
 from hydroelastic.modal.liquid.travelling_waves import travelling_waves
 from hydroelastic.modal.tank_estimates import two_layers
+from hydroelastic.output.open_water.tables import infinite_draught_message
 from hydroelastic.output.sections import Section
 from hydroelastic.scenes.models.open_analyses import Analysis, Decay, Radiation, Resonance, Response
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.estimates import infinite_draught_comparison, infinite_draught_message
+from hydroelastic.scenes.open_water.estimates import infinite_draught_comparison
 from hydroelastic.scenes.tank.check import modelled_tank
 
 

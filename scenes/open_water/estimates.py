@@ -25,12 +25,3 @@ def infinite_draught_comparison(scene: TankScene) -> InfiniteDraughtFloat | None
         return infinite_draught_float(profile, layers)
     except NoEstimateError:
         return None
-
-
-def infinite_draught_message(infinite: InfiniteDraughtFloat) -> str:
-    """Return a message on the difference from the float of infinite draught."""
-    return (
-        "The float ends at its tail. After a release it differs from the paper's float of infinite draught by "
-        f"up to about {infinite.cut:.1g} of the displacement at first, which no estimated error of the field solution "
-        "holds: that is of the float with its end. A smaller tail brings them together."
-    )

@@ -1,12 +1,18 @@
-"""The solution of a scene with open ends: the tables of its analyses, and their cost."""
+"""The solution of a scene with open ends: the tables of its analyses, and estimates by older theories."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
-from hydroelastic.fem.open_water.region import Region
 from hydroelastic.fem.open_water.solve import OpenWaterSolution
+from hydroelastic.fem.open_water.thin_float_theory import Comparison, thin_float_comparisons
+from hydroelastic.modal.floats.infinite_draught import InfiniteDraughtFloat
+from hydroelastic.physics.tank import Tank
+from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.open_water.estimates import infinite_draught_comparison
+from hydroelastic.scenes.tank.check_hints import draughts_left_out
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -19,9 +25,22 @@ class OpenSolution(OpenWaterSolution):
 
     scene: TankScene
 
+    @cached_property
+    def tank(self) -> Tank:
+        """The open water, in SI units."""
+        return physical_tank(self.scene)
 
-def region_words(region: Region | None) -> str:
-    """Return a description of the region of ω in which resonances were sought."""
-    if region is None:
-        return "any ω: the bodies have no restoring force"
-    return f"{region.lowest:.4g} < Re ω < {region.highest:.4g} rad/s, −Im ω < {region.damping:g} Re ω"
+    @cached_property
+    def thin_float(self) -> tuple[tuple[Comparison, ...], str]:
+        """The thin-float theory beside the solution, and a note."""
+        return thin_float_comparisons(self.tank, self)
+
+    @cached_property
+    def endless_float(self) -> InfiniteDraughtFloat | None:
+        """The float of infinite draught, if the float is one of it with an end."""
+        return infinite_draught_comparison(self.scene)
+
+    @property
+    def left_out(self) -> tuple[str, ...]:
+        """Messages on what the model leaves out."""
+        return tuple(draughts_left_out(self.scene))

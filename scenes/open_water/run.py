@@ -12,19 +12,17 @@ from hydroelastic.fem.open_water.field_samples import SampledField, sample_field
 from hydroelastic.fem.open_water.fields import open_fields
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.meshes.tagged_mesh import MeshError
-from hydroelastic.output.dataset import LabelledResults
-from hydroelastic.output.labelled import variables_of
+from hydroelastic.output.open_water.files import write_open_csv
+from hydroelastic.output.open_water.quantities import OPEN_WATER
+from hydroelastic.output.open_water.tables import open_cost, open_sections
+from hydroelastic.output.open_water.variables import COMMENT, open_variables
 from hydroelastic.output.pictures.options import OF_CURVES, OF_FIELDS, OF_MOTIONS, PictureOptions
 from hydroelastic.output.provenance import Summary
-from hydroelastic.scenes.open_water.csv import write_csv
-from hydroelastic.scenes.open_water.dataset import COMMENT, OPEN_NAMES, open_dataset
 from hydroelastic.scenes.open_water.field_files import write_fields
 from hydroelastic.scenes.open_water.figures import draw_open
 from hydroelastic.scenes.open_water.physics import open_water_problem
 from hydroelastic.scenes.open_water.results import OpenSolution
 from hydroelastic.scenes.open_water.solve import solve_open
-from hydroelastic.scenes.open_water.summary import summarize_open
-from hydroelastic.scenes.open_water.tables import open_cost, open_sections
 from hydroelastic.scenes.staged_run import StagedRun
 
 
@@ -58,7 +56,7 @@ def _sample(solution: OpenSolution, _summary: Summary) -> SampledWater:
 
 
 def _write(water: SampledWater, folder: Path) -> None:
-    write_csv(water.solution, folder)
+    write_open_csv(water.solution, folder)
     write_fields(water.fields, folder / "fields")
 
 
@@ -74,18 +72,15 @@ def _draw(water: SampledWater, folder: Path, options: PictureOptions, report: Re
 
 run_open = StagedRun(
     solve=solve_open,
-    summarize=summarize_open,
+    kind=OPEN_WATER,
     sections=open_sections,
     cost=open_cost,
     sample=_sample,
     sampling_warnings=lambda water: water.missing,
     write=_write,
-    dataset=LabelledResults(
-        arrays=lambda water: variables_of(open_dataset(water.solution)),
-        names=OPEN_NAMES,
-        attributes={"comment": COMMENT},
-    ),
-    swept=lambda solution: variables_of(open_dataset(solution)),
+    arrays=lambda water: open_variables(water.solution),
+    attributes={"comment": COMMENT},
+    swept=open_variables,
     draw=_draw,
     used_options=OF_CURVES | OF_FIELDS | OF_MOTIONS,
 )

@@ -12,7 +12,7 @@ from hydroelastic.output.variables import array_variables
 from hydroelastic.scenes.roll.figure import draw_roll
 from hydroelastic.scenes.roll.results import RollResult
 from hydroelastic.scenes.roll.solve import solve_roll
-from hydroelastic.scenes.staged_run import StagedRun, declared
+from hydroelastic.scenes.staged_run import StagedRun
 
 
 def _write(result: RollResult, folder: Path) -> None:
@@ -22,7 +22,7 @@ def _write(result: RollResult, folder: Path) -> None:
 
 run_roll = StagedRun(
     solve=solve_roll,
-    **declared(ROLL),
+    kind=ROLL,
     write=_write,
     draw=lambda result, folder, options, _report: draw_roll(result, folder, options),
     used_options=OF_CURVES,

@@ -11,13 +11,12 @@ from pydantic import ValidationError
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.modal.string.solution import StringSolution
 from hydroelastic.output.outcome import Outcome
-from hydroelastic.output.provenance import Summary, summarize
+from hydroelastic.output.provenance import Summary
 from hydroelastic.output.sections import Section
-from hydroelastic.output.string.quantities import HANGING_STRING
-from hydroelastic.output.string.tables import string_cost
 from hydroelastic.scenes.errors import Problem, SceneError, scene_error
 from hydroelastic.scenes.models.string import StringScene
 from hydroelastic.scenes.string.results import StringResult
+from hydroelastic.scenes.string.run import run_string
 from hydroelastic.scenes.string.solve import solve_series, solve_string_field
 
 
@@ -46,10 +45,10 @@ def compare_string(scene: StringScene, *, report: Report = lambda _message: None
     field = StringResult(scene=as_field, solution=solve_string_field(as_field, comm, report))
     report("series")
     series = solve_series(scene)
-    summary = summarize(HANGING_STRING, field, comm, import_seconds=0.0)
+    summary = run_string.summarized(as_field, field)
     summary["comparison"] = compared(field.solution, series)
     sections = (comparison_section(summary["comparison"]),)
-    return Outcome(solution=field, summary=summary, sections=sections, cost=string_cost(summary))
+    return Outcome(solution=field, summary=summary, sections=sections, cost=run_string.cost(summary))
 
 
 def _as_field(scene: StringScene) -> StringScene:

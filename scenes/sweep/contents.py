@@ -31,7 +31,7 @@ class SweepContents:
     def quantities(self) -> list[Variable]:
         """All quantities, with the dimension "point"."""
         points = self.solved.points
-        return quantities([one.summary for one in points], [one.arrays for one in points], self.solved.names)
+        return quantities([one.summary for one in points], [one.arrays for one in points], self.solved.kind)
 
     @cached_property
     def variables(self) -> list[Variable]:

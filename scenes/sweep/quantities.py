@@ -6,13 +6,15 @@ This is the only place where a sweep asks what results there are.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
+from hydroelastic.output.joined_variables import joined, numbered_along
 from hydroelastic.output.provenance import Summary
-from hydroelastic.output.summary_variables import Naming, summary_variables
+from hydroelastic.output.quantities import Group
+from hydroelastic.output.summary_variables import summary_variables
 from hydroelastic.output.variables import Variable, merged
 from hydroelastic.scenes.errors import Problem, SceneError, shown_value
 from hydroelastic.scenes.words import proposal
@@ -24,90 +26,23 @@ POINT = "point"
 _LEFT_OUT = frozenset(("scene", "status", "reasons", "timing", "memory_peak", "versions"))
 
 
-@dataclass(frozen=True, kw_only=True)
-class _NamesOfPoints:
-    """The names of the variables of a list of summaries.
-
-    Attributes:
-        names: those of a single one.
-    """
-
-    names: Naming
-
-    def dimensions(self, place: str) -> tuple[str, ...]:
-        """Return those of a single summary, without the list."""
-        return (POINT,) if place == POINT else self.names.dimensions(_within(place))
-
-    def name(self, place: str, default: str) -> str | None:
-        """Return the name in a single summary."""
-        return "" if place == POINT else self.names.name(_within(place), default)
-
-    def attributes(self, place: str) -> dict[str, Any]:
-        """Return those of a single summary."""
-        return self.names.attributes(_within(place))
-
-
-def _within(place: str) -> str:
-    return place.removeprefix(f"{POINT}.")
-
-
 def quantities(
-    summaries: Sequence[Summary | None], arrays: Sequence[Sequence[Variable] | None], names: Naming
+    summaries: Sequence[Summary | None], arrays: Sequence[Sequence[Variable] | None], kind: Group
 ) -> list[Variable]:
     """Return the values of all points.
 
     Args:
         summaries: content of ``summary.json`` of each point; ``None`` where it failed, which gives NaN and "".
         arrays: further variables of each point, which are no part of its summary; ``None`` where it failed.
-        names: of the variables of a summary.
+        kind: the declared quantities of this kind of scene.
     """
     told = [{key: value for key, value in (one or {}).items() if key not in _LEFT_OUT} for one in summaries]
-    of_summaries = summary_variables({POINT: told}, _NamesOfPoints(names=names))
-    return merged((one for one in of_summaries if one.name != POINT), joined(arrays))
-
-
-def joined(arrays: Sequence[Sequence[Variable] | None]) -> list[Variable]:
-    """Return the variables of all points, each with the dimension `POINT` first, NaN or "" where a point lacks it.
-
-    Along a dimension with places the places of all points are joined, ascending if they are numbers.
-    """
-    points = [{one.name: one for one in found or ()} for found in arrays]
-    everything = {name: one for found in points for name, one in found.items()}
-    places: dict[str, list[Any]] = {}
-    for name, one in everything.items():
-        if one.dimensions == (name,):
-            joint = dict.fromkeys(place for found in points if name in found for place in found[name].values.tolist())
-            places[name] = sorted(joint) if one.values.dtype.kind in "if" else list(joint)
-    variables = [replace(everything[name], values=np.array(along)) for name, along in places.items()]
-    for name, one in everything.items():
-        if name not in places:
-            there = [found.get(name) for found in points]
-            variables.append(_stacked(one, there, [dict(found) for found in points], places))
-    return variables
-
-
-def _stacked(
-    one: Variable, there: list[Variable | None], points: list[dict[str, Variable]], places: dict[str, list[Any]]
-) -> Variable:
-    """One variable of all points."""
-    shapes = [found.values.shape for found in there if found is not None]
-    sizes = [
-        len(places[name]) if name in places else max(shape[axis] for shape in shapes)
-        for axis, name in enumerate(one.dimensions)
-    ]
-    kind = one.values.dtype.kind
-    values = np.full((len(there), *sizes), "" if kind in "UO" else np.nan, dtype=_TYPES.get(kind, float))
-    for row, (found, labels) in enumerate(zip(there, points, strict=True)):
-        if found is not None:
-            index: list[Any] = [
-                [places[name].index(place) for place in labels[name].values.tolist()] if name in places else range(size)
-                for name, size in zip(one.dimensions, found.values.shape, strict=True)
-            ]
-            values[(row, *np.ix_(*index))] = found.values
-    return replace(one, dimensions=(POINT, *one.dimensions), values=values, is_coordinate=False)
-
-
-_TYPES: dict[str, Any] = {"c": complex, "U": object, "O": object}
+    points = Group(POINT, "the points", kind.parts, dimension=POINT, prefix="")
+    of_summaries = summary_variables({POINT: told}, Group("", "a sweep", (points,)))
+    parts = [list(numbered_along(POINT, part, number)) for number, part in enumerate(arrays, 1) if part]
+    found = joined(parts, {POINT: range(1, len(arrays) + 1)})
+    variables = (replace(one, is_coordinate=False) for one in found)
+    return merged(*([one for one in all_of if one.name != POINT] for all_of in (of_summaries, variables)))
 
 
 def columns(variables: Iterable[Variable], most: int = 100) -> dict[str, np.ndarray]:

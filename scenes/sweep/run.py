@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from mpi4py import MPI
 
 from hydroelastic.fem.stopwatch import Report
-from hydroelastic.output.summary_variables import Naming
+from hydroelastic.output.quantities import Group
 from hydroelastic.scenes.errors import Problem, SceneError, shown_value
 from hydroelastic.scenes.kinds import runner_of
 from hydroelastic.scenes.models.tank import TankScene
@@ -71,7 +71,7 @@ class SolvedSweep:
         file: the scene file; ``None`` if it was made in Python.
         grid: the varied keys.
         points: in the order of the grid.
-        names: of the quantities of this kind of scene.
+        kind: the declared quantities of this kind of scene.
         lines: followed modes along the first key, one for each combination of the values of the others.
         resumed: number of points that an earlier sweep had solved.
     """
@@ -80,7 +80,7 @@ class SolvedSweep:
     file: Path | None
     grid: Grid
     points: tuple[SolvedPoint, ...]
-    names: Naming
+    kind: Group
     lines: tuple[Line, ...]
     resumed: int
 
@@ -138,8 +138,8 @@ class _Solver:
         for number, (task, point) in enumerate(solved_tasks(ordered, of_points, self.options.jobs), 1):
             self.journal.add(task.key, point)
             if number == 1 and point.summary is not None:
-                names = runner_of(task.scene).dataset.names
-                shown_columns(columns(quantities([point.summary], [point.arrays], names)), self.options.show)
+                kind = runner_of(task.scene).kind
+                shown_columns(columns(quantities([point.summary], [point.arrays], kind)), self.options.show)
             report(f"{number} of {len(tasks)} points")
         return [
             failed(scene) if isinstance(scene, SceneError) else self.journal[key]
@@ -185,7 +185,7 @@ def solve_sweep(
         file=source.file,
         grid=grid,
         points=tuple(points),
-        names=runner_of(first).dataset.names,
+        kind=runner_of(first).kind,
         lines=lines,
         resumed=solver.resumed,
     )

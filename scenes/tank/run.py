@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -14,11 +15,13 @@ from hydroelastic.fem.tank.liquids import ANEW, Liquids
 from hydroelastic.fem.tank.solve import TankSolution
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.modal.tank_estimates import tone_estimates
-from hydroelastic.output.dataset import LabelledResults
-from hydroelastic.output.labelled import variables_of
+from hydroelastic.output.csv_files import write_csv
 from hydroelastic.output.outcome import Outcome
 from hydroelastic.output.pictures.options import OF_FIELDS, OF_MOTIONS, PictureOptions
 from hydroelastic.output.provenance import Summary
+from hydroelastic.output.tank.quantities import TANK
+from hydroelastic.output.tank.tables import compared_sections, mode_columns, tank_cost, tank_sections
+from hydroelastic.output.tank.variables import tank_variables
 from hydroelastic.output.variables import Variable
 from hydroelastic.scenes.errors import UnsolvedError
 from hydroelastic.scenes.models.physical import physical_tank
@@ -26,10 +29,7 @@ from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.read import closed_tank
 from hydroelastic.scenes.staged_run import StagedRun
 from hydroelastic.scenes.tank.check_hints import draughts_left_out
-from hydroelastic.scenes.tank.dataset import TANK_NAMES, tank_dataset
 from hydroelastic.scenes.tank.solve import EstimatedTank, solve_scene
-from hydroelastic.scenes.tank.summary import summarize
-from hydroelastic.scenes.tank.tables import compared_sections, mode_csv, tank_cost, tank_sections
 from hydroelastic.scenes.tank.user_mesh import mesh_refused, user_mesh
 
 if TYPE_CHECKING:
@@ -97,12 +97,12 @@ def _write(tank: SampledTank, folder: Path) -> None:
 
     assert tank.shapes is not None
     write_fields(tank.shapes, folder / "fields")
-    (folder / "modes.csv").write_text(mode_csv(tank.summary), encoding="utf-8")
+    write_csv(folder / "modes.csv", mode_columns(tank.summary))
 
 
-def _arrays(tank: SampledTank) -> list[Variable]:
+def _arrays(tank: SampledTank) -> Iterator[Variable]:
     assert tank.shapes is not None
-    return variables_of(tank_dataset(tank.solution, tank.shapes))
+    return tank_variables(tank.solution, tank.shapes)
 
 
 def _draw(tank: SampledTank, folder: Path, options: PictureOptions, report: Report) -> None:
@@ -114,13 +114,13 @@ def _draw(tank: SampledTank, folder: Path, options: PictureOptions, report: Repo
 
 run_tank = StagedRun(
     solve=solve_tank,
+    kind=TANK,
+    arrays=_arrays,
     solve_alone=solve_tank_alone,
-    summarize=summarize,
     sections=lambda estimated, summary: tank_sections(summary, draughts_left_out(estimated.scene)),
     cost=tank_cost,
     sample=_sample,
     write=_write,
-    dataset=LabelledResults(arrays=_arrays, names=TANK_NAMES),
     draw=_draw,
     used_options=OF_FIELDS | OF_MOTIONS,
 )

@@ -6,13 +6,11 @@ from mpi4py import MPI
 
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.output.outcome import Outcome
-from hydroelastic.output.provenance import summarize
 from hydroelastic.output.thread.comparison_tables import comparison_sections
-from hydroelastic.output.thread.quantities import THREAD
-from hydroelastic.output.thread.tables import thread_cost
 from hydroelastic.scenes.models.thread import ThreadScene
 from hydroelastic.scenes.thread.differences import thread_differences
 from hydroelastic.scenes.thread.estimates import thread_estimates
+from hydroelastic.scenes.thread.run import run_thread
 from hydroelastic.scenes.thread.solve import solve_thread_scene
 
 
@@ -31,7 +29,7 @@ def compare_thread(scene: ThreadScene, *, report: Report = lambda _message: None
     solution = solve_thread_scene(at_rest, comm, report)
     report("estimates")
     estimates = thread_estimates(at_rest, comm)
-    summary = summarize(THREAD, solution, comm, import_seconds=0.0)
+    summary = run_thread.summarized(at_rest, solution)
     summary["comparison"] = thread_differences(solution, estimates)
     sections = tuple(comparison_sections(summary["comparison"]))
-    return Outcome(solution=solution, summary=summary, sections=sections, cost=thread_cost(summary), notes=True)
+    return Outcome(solution=solution, summary=summary, sections=sections, cost=run_thread.cost(summary), notes=True)

@@ -8,7 +8,7 @@ from hydroelastic.fem.stopwatch import Report
 from hydroelastic.output.pictures.options import OF_CURVES, OF_FIELDS, OF_MOTIONS, PictureOptions
 from hydroelastic.output.thread.quantities import THREAD
 from hydroelastic.output.thread.tables import thread_cost, thread_sections
-from hydroelastic.scenes.staged_run import StagedRun, declared
+from hydroelastic.scenes.staged_run import StagedRun
 from hydroelastic.scenes.thread.animation import animation_notes
 from hydroelastic.scenes.thread.files import write_thread_files
 from hydroelastic.scenes.thread.results import ThreadSolutionOfScene
@@ -24,7 +24,7 @@ def _draw(solution: ThreadSolutionOfScene, folder: Path, options: PictureOptions
 
 run_thread = StagedRun(
     solve=solve_thread_scene,
-    **declared(THREAD),
+    kind=THREAD,
     write=write_thread_files,
     draw=_draw,
     animation_warnings=animation_notes,

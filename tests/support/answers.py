@@ -8,11 +8,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from mpi4py import MPI
 
 from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.tank.run import run_tank
 from hydroelastic.scenes.tank.solve import EstimatedTank, solve_scene
-from hydroelastic.scenes.tank.summary import summarize
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,7 +43,7 @@ def answer(scene: TankScene) -> Answer:
     start = time.perf_counter()
     solution = solve_scene(scene)
     seconds = time.perf_counter() - start
-    summary = summarize(EstimatedTank(scene=scene, tank=solution), MPI.COMM_WORLD, import_seconds=0.0)
+    summary = run_tank.summarized(scene, EstimatedTank(scene=scene, tank=solution))
     return Answer(
         omega=np.array([mode["omega"] for mode in summary["modes"]]),
         estimates=np.array([mode["relative_error"] for mode in summary["modes"]]),

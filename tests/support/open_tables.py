@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import xarray
 
 from hydroelastic.fem.open_water.region import Region
 from hydroelastic.fem.open_water.results import (
@@ -14,6 +15,7 @@ from hydroelastic.fem.open_water.results import (
     ResonanceTable,
     ResponseTable,
 )
+from hydroelastic.output.open_water.variables import open_variables
 from hydroelastic.physics.dofs import Dof, dof_names
 from hydroelastic.scenes.models.bodies import Beam
 from hydroelastic.scenes.models.open_analyses import Decay, Radiation, Resonance, Response
@@ -174,3 +176,10 @@ def _decay(scene: TankScene, analysis: Decay) -> DecayTable:
 def two_bodies(analyses: list[dict[str, Any]] = ANALYSES) -> OpenSolution:
     """A circle and a plate on two liquids with a free top: several dofs, two waves."""
     return arbitrary_solution(open_scene(CIRCLE, PLATE, liquids=(DEEP, OIL), analyses=analyses))
+
+
+def open_dataset(solution: OpenSolution) -> xarray.Dataset:
+    """Return the arrays of a solution as a dataset with complex numbers."""
+    found = open_variables(solution)
+    dataset = xarray.Dataset({one.name: (one.dimensions, one.values, one.attributes) for one in found})
+    return dataset.set_coords([one.name for one in found if one.is_coordinate])

@@ -1,29 +1,29 @@
-"""Tables of a scene with open ends, printed and written as Markdown."""
+"""Tables of open water, printed and written as Markdown."""
 
 from __future__ import annotations
 
-from cmath import phase
 from collections.abc import Iterator
-from itertools import product
-from math import ceil, degrees, inf, isfinite, pi
+from math import ceil, pi
+from typing import Any
 
 import numpy as np
 
-from hydroelastic.fem.open_water.results import (
-    DecayTable,
-    RadiationTable,
-    ResonanceTable,
-    ResponseTable,
-    UnresolvedPeak,
-)
+from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, ResonanceTable, UnresolvedPeak
+from hydroelastic.modal.floats.infinite_draught import InfiniteDraughtFloat
+from hydroelastic.output.columns import Column, headings_of, rows_of
 from hydroelastic.output.digits import beyond_error, number, per_cent, with_certain_digits
+from hydroelastic.output.open_water.files import open_columns
+from hydroelastic.output.open_water.quantities import (
+    DECAY,
+    RADIATION,
+    RESPONSE,
+    THIN_FLOAT_ROWS,
+    WavesAndMotions,
+    region_words,
+)
 from hydroelastic.output.provenance import Summary
 from hydroelastic.output.sections import Row, Section
 from hydroelastic.physics.dofs import Dof
-from hydroelastic.scenes.models.tank import TankScene
-from hydroelastic.scenes.open_water.estimates import infinite_draught_comparison, infinite_draught_message
-from hydroelastic.scenes.open_water.results import OpenSolution, region_words
-from hydroelastic.scenes.tank.check_hints import draughts_left_out
 
 MOST_ROWS = 25
 """Largest number of rows of a table; longer ones are shown at equal distances."""
@@ -31,7 +31,7 @@ MOST_ROWS = 25
 _MOST_MOTIONS = 4
 
 
-def open_sections(solution: OpenSolution, summary: Summary) -> Iterator[Section]:
+def open_sections(solution: Any, summary: Summary) -> Iterator[Section]:
     """Yield the tables by analysis, and the comparison with the thin-float theory.
 
     Args:
@@ -40,25 +40,24 @@ def open_sections(solution: OpenSolution, summary: Summary) -> Iterator[Section]
     """
     for radiation in solution.radiation:
         yield from _radiation(radiation)
-    for response in solution.response:
+    for response in RESPONSE.of(solution):
         yield from _response(response)
     for resonance in solution.resonance:
         yield _resonance(resonance)
     for decay in solution.decay:
         yield _decay(decay)
-    left_out = tuple(draughts_left_out(solution.scene))
-    if left_out:
-        yield Section(title="Left out of the model", lines=left_out)
-    yield from _estimates(solution.scene, summary)
+    if solution.left_out:
+        yield Section(title="Left out of the model", lines=solution.left_out)
+    yield from _estimates(solution.endless_float, summary)
 
 
-def _estimates(scene: TankScene, summary: Summary) -> Iterator[Section]:
+def _estimates(infinite: InfiniteDraughtFloat | None, summary: Summary) -> Iterator[Section]:
     """Comparison of the thin-float theory with the field solution."""
     estimate = summary["estimates"]["thin_float"]
     if estimate["rows"]:
         yield Section(
             title="The thin-float theory beside the field solution",
-            headings=("quantity", "theory", "field", "difference"),
+            headings=tuple(part.key for part in THIN_FLOAT_ROWS.parts),
             rows=[
                 (row["quantity"], number(row["theory"]), number(row["field"]), per_cent(row["difference"]))
                 for row in estimate["rows"]
@@ -69,7 +68,6 @@ def _estimates(scene: TankScene, summary: Summary) -> Iterator[Section]:
             ),
             compares=True,
         )
-    infinite = infinite_draught_comparison(scene)
     if infinite is not None:
         yield Section(
             title="The float of infinite draught of the paper, by its closed form",
@@ -82,6 +80,15 @@ def _estimates(scene: TankScene, summary: Summary) -> Iterator[Section]:
             ],
             lines=("After a release s/s₀ contains 2 Re(residue e^(−iωt)) of each.", infinite_draught_message(infinite)),
         )
+
+
+def infinite_draught_message(infinite: InfiniteDraughtFloat) -> str:
+    """Return a message on the difference from the float of infinite draught."""
+    return (
+        "The float ends at its tail. After a release it differs from the paper's float of infinite draught by "
+        f"up to about {infinite.cut:.1g} of the displacement at first, which no estimated error of the field solution "
+        "holds: that is of the float with its end. A smaller tail brings them together."
+    )
 
 
 def open_cost(summary: Summary) -> str:
@@ -103,92 +110,53 @@ def _radiation(table: RadiationTable) -> Iterator[Section]:
         "Coupling of motions, phases and waves from the right: radiation.csv and dataset.nc.",
         f"{worst} {table.factorizations} factorizations.",
     )
+    left_out = ("wavenumbers",) if several else ()
+    printed = [
+        column
+        for column in open_columns(RADIATION, table)
+        if column.quantity.printed and column.quantity.key not in left_out
+    ]
     for place, motion in enumerate(table.dofs):
-        mass, force = ("kg·m", "N/m") if motion.is_rotation else ("kg/m", "N/m²")
-        rows = []
-        for row in shown:
-            error = float(table.relative_error[row])
-            rows.append(
-                (
-                    f"{table.omega[row]:.6g}",
-                    *(() if several else (_number(table.wavenumbers[row, 0]),)),
-                    _certain(table.added_mass[row, place, place], error),
-                    _certain(table.radiation_damping[row, place, place], error),
-                    *(_certain(abs(force), error) for force in table.excitation_force[row, :, 0, place]),
-                    _error(error),
-                )
-            )
-        waves = [f" {wave}" if several else "" for wave in table.waves]
-        last = place == len(table.dofs) - 1
+        own = {"influenced_dof": place, "radiating_dof": place, "wave_direction": 0}
+        columns = [column for column in printed if all(own.get(name, at) == at for name, at in column.places.items())]
         yield Section(
             title=f"Radiation by {motion.words}",
-            headings=(
-                "ω, rad/s",
-                *(() if several else ("k, 1/m",)),
-                f"a, {mass}",
-                f"b, {mass}/s",
-                *(f"|f|{wave}, {force}" for wave in waves),
-                "relative error",
-            ),
-            rows=rows,
-            lines=(*thinned, *(further if last else ())),
+            headings=headings_of(columns, "wave" if several else ""),
+            rows=rows_of(RADIATION, columns, shown),
+            lines=(*thinned, *(further if place == len(table.dofs) - 1 else ())),
         )
 
 
-def _response(table: ResponseTable) -> Iterator[Section]:
+def _response(table: WavesAndMotions) -> Iterator[Section]:
     """Outgoing waves and motions of the bodies for each incident wave."""
-    several = len(table.waves) > 1
-    places = max(MOST_ROWS // len(table.waves), 2)
+    count = len(table.waves)
+    places = max(MOST_ROWS // count, 2)
     shown, thinned = _shown(len(table.omega), "frequencies", "response.csv", places=places)
-    motions = table.dofs[:_MOST_MOTIONS]
-    ratios, amplitudes = [], []
-    for row, (incident, wave) in product(shown, enumerate(table.waves)):
-        error = float(table.relative_error[row])
-        begin = (f"{table.omega[row]:.6g}", *((wave,) if several else ()))
-        ratios.append(
-            (
-                *begin,
-                _number(table.wavenumbers[row, incident]),
-                *(_certain(abs(ratio), error) for ratio in table.reflection[row, incident]),
-                *(_certain(abs(ratio), error) for ratio in table.transmission[row, incident]),
-                _error(float(table.energy_residual[row, incident])),
-                _error(error),
-            )
-        )
-        amplitudes.append(
-            (
-                *begin,
-                *(
-                    f"{_certain(abs(value), error)} ∠ {_phase(value)}"
-                    for value in table.amplitudes[row, incident, : len(motions)]
-                ),
-            )
-        )
-    outgoing = [f" {wave}" if several else "" for wave in table.waves]
-    headings = ("ω, rad/s", *(("wave",) if several else ()))
-    left_out = len(table.dofs) - len(motions)
+    rows = [place * count + wave for place in shown for wave in range(count)]
+    found: dict[str, list[Column]] = {}
+    for column in open_columns(RESPONSE, table):
+        found.setdefault(column.quantity.key, []).append(column)
+    first = [*found["omega"], *(found["waves"] if count > 1 else ())]
+    keys = ("wavenumbers", "reflection", "transmission", "energy_residual", "relative_error")
+    ratios = [*first, *(column for key in keys for column in found[key])]
     yield Section(
         title=f"Waves from the {table.waves_from}: ratios of elevations",
-        headings=(
-            *headings,
-            "k, 1/m",
-            *(f"|R|{wave}" for wave in outgoing),
-            *(f"|T|{wave}" for wave in outgoing),
-            "energy",
-            "error/largest",
-        ),
-        rows=ratios,
+        headings=headings_of(ratios, "outgoing_wave" if count > 1 else ""),
+        rows=rows_of(RESPONSE, ratios, rows),
         lines=thinned,
     )
+    motions, phases = (found.get(key, [])[:_MOST_MOTIONS] for key in ("amplitudes", "phase_at_body"))
+    shown_parts = (first, [*motions, *found["relative_error"]], phases)
+    left_out = len(table.dofs) - len(motions)
     yield Section(
         title=f"Motions in waves from the {table.waves_from}, per unit elevation",
-        headings=(
-            *headings,
-            *(f"{motion.words}, {'rad/m' if motion.is_rotation else 'm/m'}" for motion in motions),
-        ),
-        rows=amplitudes,
+        headings=headings_of([*first, *motions], "radiating_dof"),
+        rows=[
+            (*begin, *(f"{size} ∠ {angle}°" for size, angle in zip(sizes, angles, strict=False)))
+            for begin, sizes, angles in zip(*(rows_of(RESPONSE, part, rows) for part in shown_parts), strict=True)
+        ],
         lines=(
-            "|a| ∠ θ is the motion |a| e^{i(θ − ωt)}; the crest of the wave is at x = 0 of the scene at t = 0.",
+            "|a| ∠ θ is the motion |a| cos(ωt − θ); at t = 0 the crest of the wave is at the middle of the body.",
             *((f"{left_out} more motions: response.csv.",) if left_out else ()),
             *(_missed(peak) for peak in table.missed_peaks),
         ),
@@ -213,12 +181,12 @@ def _resonance(table: ResonanceTable) -> Section:
             (
                 str(place),
                 label.words,
-                _certain(omega.real, float(error)),
-                _certain(omega.imag, float(error) * abs(omega) / abs(omega.imag) if omega.imag else 1.0),
+                with_certain_digits(omega.real, float(error)) if omega.real else "0",
+                with_certain_digits(omega.imag, float(error) * abs(omega) / abs(omega.imag)) if omega.imag else "0",
                 f"{2.0 * pi / omega.real:.6g}" if omega.real else "–",
                 f"{-omega.imag / abs(omega):.4g}",
-                _error(float(error)),
-                _error(float(residual)),
+                f"{error:.1e}",
+                f"{residual:.1e}",
             )
         )
     return Section(
@@ -238,39 +206,29 @@ def _counted(table: ResonanceTable) -> str:
 
 def _decay(table: DecayTable) -> Section:
     shown, thinned = _shown(len(table.times), "times", "decay.csv")
+    columns = {column.name: column for column in open_columns(DECAY, table)}
+    time, error = columns.pop("time"), columns.pop("absolute_error")
     # Released motions are first.
-    columns = sorted(range(len(table.dofs)), key=lambda place: table.initial[place] == 0.0)[:_MOST_MOTIONS]
-    dofs = [table.dofs[place] for place in columns]
-    left_out = len(table.dofs) - len(dofs)
+    motions = sorted(columns.values(), key=lambda column: table.initial[column.places["dof"]] == 0.0)[:_MOST_MOTIONS]
+    left_out = len(table.dofs) - len(motions)
+    units = {"rad" if table.dofs[column.places["dof"]].is_rotation else "m" for column in motions}
     rows = [
         (
-            f"{table.times[row]:.6g}",
-            *(
-                beyond_error(float(value), float(table.absolute_error[row]))
-                for value in table.displacement[row, columns]
-            ),
-            f"{table.absolute_error[row]:.1e}",
+            f"{time.values[row]:.6g}",
+            *(beyond_error(float(column.values[row]), float(error.values[row])) for column in motions),
+            f"{error.values[row]:.1e}",
         )
         for row in shown
     ]
-    units = ["rad" if motion.is_rotation else "m" for motion in dofs]
-    tail = (
-        ()
-        if table.tail is None
-        else (f"The released motion decays asymptotically like {table.tail:.6g}/t², t in seconds.",)
-    )
+    tail = f"The released motion decays asymptotically like {table.tail or 0.0:.6g}/t², t in seconds."
     return Section(
         title="Motion after release",
-        headings=(
-            "t, s",
-            *(f"{motion.words}, {unit}" for motion, unit in zip(dofs, units, strict=True)),
-            f"error, {' or '.join(sorted(set(units)))}",
-        ),
+        headings=(*headings_of([time, *motions], "dof"), f"error, {' or '.join(sorted(units))}"),
         rows=rows,
         lines=(
             *thinned,
             *((f"{left_out} more motions: decay.csv.",) if left_out else ()),
-            *tail,
+            *((tail,) if table.tail is not None else ()),
             f"The estimated errors hold up to the last time, t = {table.certified_until:.6g} s.",
         ),
     )
@@ -285,28 +243,6 @@ def _shown(count: int, what: str, file: str, places: int = MOST_ROWS) -> tuple[l
     stride = next((step for step in range(least, ceil(1.5 * least)) if (count - 1) % step == 0), least)
     rows = sorted({*range(0, count, stride), count - 1})
     return rows, (f"{len(rows)} of {count} {what}; all of them are in {file}.",)
-
-
-def _certain(value: float, error: float) -> str:
-    """A number at its certain digits; small ones beside others keep four."""
-    if not isfinite(value):
-        return "–" if value != inf else "inf"
-    if value == 0.0:
-        return "0"
-    return with_certain_digits(float(value), error) if isfinite(error) and error < 1.0 else f"{value:.4g}"
-
-
-def _phase(value: complex) -> str:
-    """The phase in degrees; none of zero."""
-    return f"{degrees(phase(value)) + 0.0:.1f}°" if value and isfinite(abs(value)) else "–"
-
-
-def _number(value: float) -> str:
-    return f"{value:.6g}" if isfinite(value) else "inf" if value == inf else "–"
-
-
-def _error(value: float) -> str:
-    return f"{value:.1e}" if isfinite(value) else "–"
 
 
 def _largest(values: np.ndarray) -> str:

@@ -1,0 +1,1 @@
+"""Open water: its quantities, each declared once."""

@@ -1,0 +1,316 @@
+"""Quantities of open water, per metre of width, with the names and dimensions of Capytaine in ``dataset.nc``.
+
+Capytaine has the same time factor e^{−iωt} and incident waves e^{ik(x cos β) − iωt} of unit elevation. Names of motions
+are capitalised there: "Heave", "body_2__Heave". What it has no name for, here has one of its own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from hydroelastic.fem.open_water.region import Region
+from hydroelastic.fem.open_water.results import DIRECTIONS, Complexes, Floats, ResponseTable
+from hydroelastic.output.provenance import PROCESSES
+from hydroelastic.output.quantities import Group, Quantity
+from hydroelastic.physics.dofs import Dof, body_name
+
+_CREST = "beside an incident wave whose crest is at x = 0 of the scene at t = 0"
+_INERTIA: dict[str, Any] = {"unit": "kg/m", "of_roll": ("kg", "kg m")}
+_FORCE: dict[str, Any] = {"unit": "N/m^2", "of_roll": ("N/m",), "phase": _CREST}
+_MOTION: dict[str, Any] = {"unit": "m", "of_roll": ("rad",)}
+_PER_ELEVATION: dict[str, Any] = {"unit": "m/m", "of_roll": ("rad/m",), "phase": _CREST}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Deflection:
+    """The deflection of a beam in waves: `number` of the body, from 1, and `PlateDeflection` with the waves."""
+
+    number: int
+    omega: Floats
+    waves: tuple[str, ...]
+    positions: Floats
+    deflection: Complexes
+
+
+@dataclass(frozen=True, kw_only=True)
+class WavesAndMotions(ResponseTable):
+    """A response with the bodies.
+
+    Attributes:
+        centres: x of the middle of the waterplane of each body, m.
+        motions: those of the radiation analyses; of this response if there is none.
+    """
+
+    centres: tuple[float, ...]
+    motions: tuple[Dof, ...]
+
+    @property
+    def further(self) -> list[int]:
+        """Places of the motions that the radiation analyses lack: further shapes of beams."""
+        return [place for place, dof in enumerate(self.dofs) if dof not in self.motions]
+
+    @property
+    def direction(self) -> float:
+        """In which the incident waves travel, rad."""
+        return DIRECTIONS[0] if self.waves_from == "left" else DIRECTIONS[1]
+
+    @property
+    def deflections(self) -> Iterator[Deflection]:
+        """The deflection of each beam."""
+        for plate in self.plates:
+            yield Deflection(
+                number=plate.body + 1,
+                omega=self.omega,
+                waves=self.waves,
+                positions=plate.positions,
+                deflection=plate.deflection,
+            )
+
+
+def region_words(region: Region | None) -> str:
+    """Return a description of the region of ω in which resonances were sought."""
+    if region is None:
+        return "any ω: the bodies have no restoring force"
+    return f"{region.lowest:.4g} < Re ω < {region.highest:.4g} rad/s, −Im ω < {region.damping:g} Re ω"
+
+
+def _responses(solution: Any) -> list[WavesAndMotions]:
+    motions = motions_of(*solution.radiation) or motions_of(*solution.response)
+    centres = tuple(sum(body.waterplane) / 2.0 for body in solution.tank.bodies)
+    return [WavesAndMotions(**vars(table), centres=centres, motions=motions) for table in solution.response]
+
+
+def motions_of(*tables: Any) -> tuple[Dof, ...]:
+    """Return the motions of the table that has most."""
+    return max((table.dofs for table in tables), key=len, default=())
+
+
+def _phase_at_body(table: WavesAndMotions) -> Floats:
+    """Return θ, degrees, of the motion |a| cos(ωt − θ) of a body that the crest of the incident wave passes at t = 0.
+
+    The phase of a is beside the crest at x = 0, and waves e^{±ikx − iωt} are e^{±ikx_b} at the middle x_b of the
+    waterplane: θ = arg(a e^{∓ikx_b}), upper signs for waves from the left. NaN where |a| is not larger than its error,
+    which is relative to the largest of the displacements, or of the rotations.
+    """
+    centres = np.array([table.centres[(dof.body or 1) - 1] for dof in table.dofs])
+    towards = 1.0 if table.waves_from == "left" else -1.0
+    at_body = table.amplitudes * np.exp(-1j * towards * table.wavenumbers[:, :, None] * centres)
+    turns = np.array([dof.is_rotation for dof in table.dofs], dtype=bool)
+    sizes = np.where(turns[:, None] == turns, np.abs(table.amplitudes)[:, :, None, :], 0.0)
+    is_known = np.abs(table.amplitudes) > table.relative_error[:, None, None] * sizes.max(axis=-1, initial=0.0)
+    # No negative zero.
+    return np.where(is_known, np.degrees(np.angle(at_body)) + 0.0, np.nan)
+
+
+def _joined(key: str, meaning: str, dimensions: str, order: str = "", **more: Any) -> Quantity:
+    """An array that all analyses of a kind have together, in another order of its dimensions if there is one."""
+    names = tuple(dimensions.split())
+    return Quantity(key, meaning, dimensions=names, joined=tuple(order.split()) or names, **more)
+
+
+def _array(key: str, meaning: str, dimensions: str, value: Callable[[Any], Any], **more: Any) -> Quantity:
+    return _joined(key, meaning, dimensions, value=value, in_summary=False, **more)
+
+
+def _inverse(name: str) -> Callable[[Any], Floats]:
+    def found(table: Any) -> Floats:
+        # Infinite in the limit of long waves.
+        with np.errstate(divide="ignore"):
+            return np.asarray(2.0 * np.pi / getattr(table, name))
+
+    return found
+
+
+# fmt: off
+# A table: as many arguments on a line as fit.
+_OMEGA = _joined("omega", "angular frequency", "omega", unit="rad/s", symbol="ω", shown=".6g")
+_WAVES = (
+    _joined("waves", "branch of the dispersion relation", "wave", short="wave", variable="wave", column="wave",
+        note="a dimension only where waves travel on two levels"),
+    _joined("wavenumbers", "wavenumber", "omega wave", unit="1/m", symbol="k", shown=".6g", variable="wavenumber",
+        column="wavenumber", is_coordinate=True),
+    _array("wavelength", "wavelength", "omega wave", _inverse("wavenumbers"), unit="m", is_coordinate=True),
+    _array("period", "period", "omega", _inverse("omega"), unit="s", is_coordinate=True),
+)
+_DOFS = Quantity("dofs", "names of the motions", dimensions=("dof",), variable="")
+
+
+def _capitalised(name: str, meaning: str = "motion") -> Quantity:
+    return _array(name, meaning, name, lambda table: [dof.capitalised for dof in table.dofs])
+
+
+_MATRIX = "omega influenced_dof radiating_dof", "omega radiating_dof influenced_dof"  # Capytaine puts the motion first.
+_FORCES = "omega wave wave_direction influenced_dof"
+_OF_BODIES = "influenced_dof radiating_dof"
+RADIATION = Group("radiation", "radiated and incident waves, by analysis; matrices are force by motion", (
+    _OMEGA,
+    *_WAVES,
+    _DOFS,
+    _capitalised("radiating_dof", "motion that radiates"),
+    _capitalised("influenced_dof", "motion that a force excites"),
+    _joined("wave_direction", "direction in which incident waves travel", "wave_direction", unit="rad",
+        value=lambda _: DIRECTIONS, printed=False),
+    _joined("added_mass", "added mass", *_MATRIX, symbol="a", error="relative_error", **_INERTIA),
+    _joined("radiation_damping", "radiation damping", *_MATRIX, unit="kg/(m s)", of_roll=("kg/s", "kg m/s"),
+        symbol="b", error="relative_error"),
+    _joined("excitation_force", "excitation force per unit elevation", _FORCES, symbol="|f|",
+        error="relative_error", **_FORCE),
+    _joined("froude_krylov_force", "force of the incident wave per unit elevation", _FORCES,
+        variable="Froude_Krylov_force", printed=False, **_FORCE),
+    _joined("diffraction_force", "force of the scattered waves per unit elevation", _FORCES, printed=False,
+        **_FORCE),
+    _joined("relative_error", "estimated relative error of added mass and damping", "omega", unit="1",
+        short="relative error", shown=".1e", variable="radiation_relative_error"),
+    _joined("energy_residual", "relative difference of damping and the radiated power", "omega", unit="1",
+        printed=False, variable="radiation_energy_residual"),
+    _joined("haskind_residual", "relative difference of the excitation and its value by Haskind's relation",
+        "omega", unit="1", printed=False),
+    _joined("inertia", "inertia of the bodies", _OF_BODIES, variable="inertia_matrix", **_INERTIA),
+    _joined("stiffness", "stiffness of bodies and hydrostatics", _OF_BODIES, variable="hydrostatic_stiffness",
+        unit="N/m^2", of_roll=("N/m", "N")),
+    _joined("infinite_frequency_added_mass", "added mass at infinite frequency", _OF_BODIES,
+        note="`null` if it was not requested", **_INERTIA),
+    Quantity("factorizations", "number of factorizations", "1"),
+), dimension="radiation_analysis")
+_AMPLITUDES = "omega wave radiating_dof", "omega wave_direction wave radiating_dof"
+_RATIOS = "omega wave outgoing_wave", "omega wave_direction wave outgoing_wave"
+ALONG_BEAM = "position_on_body_{.number}"
+"""The dimension of the places along a beam."""
+PLATES = Group("plates", "the deflection of each beam", (
+    Quantity("body", "number of the body", "1", value=lambda it: it.number, variable="", column="body"),
+    _joined("positions", "position on body {.number}", ALONG_BEAM, unit="m", variable=ALONG_BEAM, column="x"),
+    _joined("deflection", "deflection of body {.number}", f"omega wave {ALONG_BEAM}",
+        f"omega wave_direction wave {ALONG_BEAM}", unit="m/m", variable="deflection_of_body_{.number}",
+        phase=_CREST),
+), record=lambda table: list(table.deflections), dimension="plate")
+RESPONSE = Group("response", "motions and waves per unit elevation of the incident wave, by analysis", (
+    _OMEGA,
+    Quantity("waves_from", 'side from which the waves come, `"left"` or `"right"`', variable="",
+        column="waves_from"),
+    *_WAVES,
+    _DOFS,
+    _capitalised("radiating_dof", "motion that radiates"),
+    _array("shape", "further shape", "shape", lambda it: [it.dofs[place].capitalised for place in it.further]),
+    _array("outgoing_wave", "branch of the outgoing wave", "outgoing_wave", lambda it: it.waves),
+    _array("wave_direction", "direction in which incident waves travel", "wave_direction",
+        lambda it: [it.direction], unit="rad"),
+    _joined("reflection", "elevation of the reflected wave over that of the incident one", *_RATIOS, unit="1",
+        symbol="|R|", error="relative_error", variable="reflection_coefficient", phase=_CREST),
+    _joined("transmission", "elevation of the transmitted wave over that of the incident one", *_RATIOS, unit="1",
+        symbol="|T|", error="relative_error", variable="transmission_coefficient", phase=_CREST),
+    _joined("amplitudes", "motion per unit elevation of the incident wave", *_AMPLITUDES, error="relative_error",
+        variable="RAO", column="", **_PER_ELEVATION),
+    _joined("phase_at_body",
+        "phase of the motion beside the crest of the incident wave at the middle of the body's waterplane",
+        *_AMPLITUDES, unit="degree", value=_phase_at_body, shown=".1f", variable="RAO_phase_at_body",
+        note="positive where it comes after the crest, `null` where the motion is not larger than its error"),
+    _array("shape_amplitude", "amplitude of a further shape per unit elevation", "omega wave shape",
+        lambda it: it.amplitudes[:, :, it.further] if it.further else None, order="omega wave_direction wave shape",
+        unit="1", phase=_CREST),
+    _array("shape_phase_at_body", "phase of a further shape, as `RAO_phase_at_body`", "omega wave shape",
+        lambda it: _phase_at_body(it)[:, :, it.further] if it.further else None,
+        order="omega wave_direction wave shape", unit="degree"),
+    _joined("energy_residual", "relative difference of incident and outgoing power", "omega wave",
+        "omega wave_direction wave", unit="1", short="energy", shown=".1e", variable="response_energy_residual"),
+    _joined("relative_error", "estimated relative error of the motions", "omega", "omega wave_direction", unit="1",
+        short="error/largest", shown=".1e", variable="response_relative_error"),
+    PLATES,
+    Group("missed_peaks", "resonances between two frequencies that the curve does not show", (
+        Quantity("below", "frequency below", "rad/s"),
+        Quantity("above", "frequency above", "rad/s"),
+        Quantity("omega", "frequency of the extreme", "rad/s"),
+        Quantity("quantity", "a motion, `|R|` or `|T|`"),
+        Quantity("value", "its magnitude there", "m/m", of_roll=("rad/m",)),
+        Quantity("drawn", "that of the straight line between the two", "m/m", of_roll=("rad/m",)),
+    ), dimension="missed_peak", prefix="missed_peak",
+        note="those that differ by a tenth of the largest or more, of sweeps of more than six frequencies"),
+), record=_responses, dimension="response_analysis")
+_NUMBERED = "several have one more dimension, `analysis`, in `dataset.nc`"
+RESONANCE = Group("resonance", "resonances e^{−iωt}, by analysis", (
+    _array("resonance", "number of the resonance", "resonance",
+        lambda table: np.arange(1, len(table.omega) + 1, dtype=np.int32), column="resonance"),
+    Quantity("labels", "dominant motion of a resonance", dimensions=("resonance",), variable="", column="label"),
+    _array("resonance_motion", "dominant motion of a resonance", "resonance",
+        lambda table: np.array([dof.capitalised for dof in table.labels], dtype=np.str_)),
+    _joined("omega", "complex frequency of a resonance", "resonance", unit="rad/s", symbol="ω",
+        variable="resonance_omega", note="with Im ω < 0"),
+    _DOFS,
+    _capitalised("dof"),
+    _joined("body_amplitudes", "motion in a resonance, the dominant one 1", "resonance dof", unit="1",
+        variable="resonance_amplitude", column=""),
+    _joined("relative_error", "estimated relative error of the frequency of a resonance", "resonance", unit="1",
+        shown=".1e", variable="resonance_relative_error"),
+    _joined("residuals", "relative residual of the equations", "resonance", unit="1", shown=".1e",
+        variable="resonance_residual", column="residual"),
+    Quantity("counted", "number of resonances in the region by an independent count", "1", note="`null` if not"),
+    Quantity("region", "region of ω in which they were counted", value=lambda table: region_words(table.region)),
+), dimension="resonance_analysis", note=_NUMBERED)
+DECAY = Group("decay", "motion after release, by analysis", (
+    _joined("times", "time after release", "time", unit="s", symbol="t", shown=".6g", variable="time",
+        column="time"),
+    _DOFS,
+    _capitalised("dof"),
+    _joined("displacement", "motion after release", "time dof", variable="decay_displacement", column="",
+        **_MOTION),
+    _joined("initial", "motion at release", "dof", variable="decay_initial", **_MOTION),
+    _joined("absolute_error", "estimated error of the motion after release", "time",
+        variable="decay_absolute_error", shown=".1e", **_MOTION),
+    _joined("tail", "asymptotic coefficient of 1/t^2", "", variable="decay_tail", unit="m s^2",
+        of_roll=("rad s^2",), note="`null` where no tail is known"),
+    _joined("certified_until", "time to which the error of the motion after release holds", "", unit="s",
+        variable="decay_certified_until"),
+), dimension="decay_analysis", note=_NUMBERED)
+THIN_FLOAT_ROWS = Group("rows", "values by the thin-float theory and by the field solution", (
+    Quantity("quantity", "quantity"),
+    Quantity("theory", "by the theory"),
+    Quantity("field", "by the field solution"),
+    Quantity("difference", "relative difference of the theory from the field solution", "1"),
+), dimension="thin_float_row", prefix="thin_float")
+
+
+def _poles(key: str, meaning: str, unit: str) -> Quantity:
+    name = f"endless_float_{key}_entry"
+    return Quantity(key, meaning, unit, dimensions=(name, f"{name}_2"))
+
+
+ESTIMATES = Group("estimates", "older theories beside the field solution", (
+    Group("thin_float", "the thin-float theory", (
+        THIN_FLOAT_ROWS,
+        Quantity("note", "what the theory neglects, or why it has no value"),
+    ), record=lambda solution: dict(zip(("rows", "note"), solution.thin_float, strict=True)),
+        note="of a lone float that heaves and whose shape is a half-width over height"),
+    Group("endless_float", "the float of infinite draught, by its closed form", (
+        Quantity("cut", "largest difference that the end of the float makes, of the displacement", "1"),
+        _poles("resonances", "complex frequencies of heave and of the second pole, parts", "rad/s"),
+        _poles("residues", "residues of both, parts", "1"),
+    ), note="`null` for other floats"),
+), record=lambda solution: solution, prefix="")
+
+
+def _of_scene(key: str, meaning: str, value: Callable[[Any], Any], unit: str | None = None) -> Quantity:
+    return Quantity(key, meaning, unit, value=lambda it: value(it.tank), in_summary=False, is_coordinate=True)
+
+
+OPEN_WATER = Group("", "open water", (
+    RADIATION, RESPONSE, RESONANCE, DECAY, ESTIMATES,
+    Group("size", "size of the largest problem", (
+        Quantity("cells", "number of cells", "1"),
+        Quantity("dofs", "number of unknowns of ψ", "1"),
+        Quantity("degree", "degree of the polynomials", "1"),
+        PROCESSES,
+    )),
+    _of_scene("g", "gravity", lambda tank: tank.gravity, "m/s^2"),
+    _of_scene("rho", "density of the lower liquid", lambda tank: tank.layers[0].density, "kg/m^3"),
+    _of_scene("water_depth", "depth of the lower liquid", lambda tank: tank.layers[0].depth, "m"),
+    _of_scene("rho_upper", "density of the upper liquid", lambda tank: _upper(tank, "density"), "kg/m^3"),
+    _of_scene("depth_upper", "depth of the upper liquid", lambda tank: _upper(tank, "depth"), "m"),
+    _of_scene("body_name", "bodies", lambda tank: "+".join(map(body_name, range(1, len(tank.bodies) + 1)))),
+))
+
+
+def _upper(tank: Any, name: str) -> float | None:
+    return getattr(tank.layers[1], name) if len(tank.layers) > 1 else None

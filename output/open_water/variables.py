@@ -1,0 +1,54 @@
+"""The arrays of open water in ``dataset.nc``."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from hydroelastic.output.joined_variables import joined, numbered_along, record_variables
+from hydroelastic.output.open_water.quantities import (
+    DECAY,
+    OPEN_WATER,
+    RADIATION,
+    RESONANCE,
+    RESPONSE,
+    motions_of,
+)
+from hydroelastic.output.variables import Variable, array_variables
+
+COMMENT = "exp(-i omega t); per metre of width; x along the waves, heave upwards, roll anticlockwise"
+"""Signs and units of all arrays."""
+
+
+def open_variables(solution: Any) -> list[Variable]:
+    """Return the arrays of a solution, several analyses of a kind joined by their frequencies and wave directions.
+
+    A dimension `wave` is there only where waves travel on two levels, `analysis` only with several resonance or decay
+    analyses.
+    """
+    motions = motions_of(*solution.radiation) or motions_of(*solution.response)
+    others = motions_of(*solution.resonance, *solution.decay)
+    with_rolls = any(dof.is_rotation for dof in (*motions, *others))
+    parts = {
+        group.key: [list(record_variables(group, one, with_rolls=with_rolls)) for one in group.of(solution)]
+        for group in (RADIATION, RESPONSE, RESONANCE, DECAY)
+    }
+    for kind in ("resonance", "decay"):
+        if len(parts[kind]) > 1:
+            parts[kind] = [list(numbered_along("analysis", part, number)) for number, part in enumerate(parts[kind], 1)]
+    names, other_names = ([dof.capitalised for dof in dofs] for dofs in (motions, others))
+    labels = {"radiating_dof": names, "influenced_dof": names, "dof": other_names}
+    found = joined([part for kind in parts.values() for part in kind], labels)
+    single = {one.name for one in found if one.name in ("wave", "outgoing_wave") and len(one.values) == 1}
+    return [*(_without(one, single) for one in found), *array_variables(OPEN_WATER, solution)]
+
+
+def _without(variable: Variable, single: set[str]) -> Variable:
+    """A variable without dimensions of one place."""
+    axes = tuple(axis for axis, name in enumerate(variable.dimensions) if name in single)
+    return replace(
+        variable,
+        dimensions=tuple(name for name in variable.dimensions if name not in single),
+        values=variable.values.squeeze(axes),
+        is_coordinate=variable.is_coordinate or variable.name in single,
+    )

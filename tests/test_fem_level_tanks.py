@@ -154,17 +154,6 @@ def solve_orders_of(tank: LevelTank, count: int) -> np.ndarray:
     return np.sort(np.concatenate([one.modes.eigenvalues for one in orders]))[:count]
 
 
-def test_pitch_of_a_stiff_cover_is_found_beyond_higher_modes_of_order_zero() -> None:
-    """It has no part of the bending that bounds orders from the second one on."""
-    base = reference_tank("disc_full_s0")
-    tank = replace(base, plates=(replace(base.plates[0], hydrostatic=True),)).scaled()
-    separation = separated(tank)
-    assert separation is not None
-    orders = solve_orders(tank, separation, line_resolution(tank, separation, 1e-5, 4.0), 1)
-    lowest = min(orders, key=lambda one: float(one.modes.eigenvalues[0]))
-    assert lowest.order == 1
-
-
 def test_pressure_release_tone_is_the_limit_of_thin_layers() -> None:
     tank = reference_tank("disc_base_s0").scaled()
     separation = separated(tank)

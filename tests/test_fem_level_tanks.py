@@ -11,6 +11,7 @@ from level_tanks import CASES, SEPARATED, reference_tank, solved
 
 from hydroelastic.fem.added_mass import body_added_mass
 from hydroelastic.fem.level_bed.orders import order_problem, solve_orders
+from hydroelastic.fem.level_bed.plate_tone import plate_tone
 from hydroelastic.fem.level_bed.resolution import line_resolution
 from hydroelastic.fem.level_bed.separation import separated
 from hydroelastic.fem.level_bed.solve import solve_level_tank
@@ -151,6 +152,18 @@ def solve_orders_of(tank: LevelTank, count: int) -> np.ndarray:
     assert separation is not None
     orders = solve_orders(scaled, separation, line_resolution(scaled, separation, 1e-5, 4.0), count)
     return np.sort(np.concatenate([one.modes.eigenvalues for one in orders]))[:count]
+
+
+def test_pressure_release_tone_is_the_limit_of_thin_layers() -> None:
+    tank = reference_tank("disc_base_s0").scaled()
+    separation = separated(tank)
+    assert separation is not None
+    coarse, fine = (plate_tone(tank, separation, 0, tolerance) for tolerance in (1e-4, 1e-8))
+    assert coarse.pressure_release_error is not None
+    assert fine.pressure_release_error is not None
+    # Without the limit three refinements leave 1e-6.
+    assert fine.pressure_release_error < 1e-8
+    assert coarse.pressure_release == pytest.approx(fine.pressure_release, rel=2.0 * coarse.pressure_release_error)
 
 
 HARD = {

@@ -7,11 +7,12 @@ import resource
 from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
-from typing import Any, Protocol, TypeAlias
-
-from mpi4py import MPI
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 from hydroelastic.output.quantities import Group, Quantity
+
+if TYPE_CHECKING:
+    from mpi4py import MPI
 
 OF_ALL_SCENES = Group(
     "",
@@ -25,7 +26,7 @@ OF_ALL_SCENES = Group(
 )
 """Quantities that `summarize` adds."""
 
-PROCESSES = Quantity("processes", "number of processes", "1", value=lambda _: MPI.COMM_WORLD.size)
+PROCESSES = Quantity("processes", "number of processes", "1", value=lambda _: _all_processes().size)
 """A part of the size of all problems."""
 
 Summary: TypeAlias = dict[str, Any]
@@ -35,6 +36,13 @@ PACKAGES = ("hydroelastic", "fenics-dolfinx", "petsc4py", "slepc4py", "gmsh", "n
 
 
 @cache
+def _all_processes() -> MPI.Comm:
+    # Importing MPI initializes it: only what solves needs it.
+    from mpi4py import MPI
+
+    return MPI.COMM_WORLD
+
+
 def versions() -> dict[str, str]:
     """Return the versions of the packages behind a solution."""
     found = {"python": platform.python_version()}
@@ -83,6 +91,6 @@ def summarize(kind: Group, solution: Solved, scene: Mapping[str, Any], import_se
         "reasons": list(solution.reasons),
         **kind.evaluated(solution),
         "timing": {"import": import_seconds, **solution.seconds},
-        "memory_peak": memory_of_processes(MPI.COMM_WORLD),
+        "memory_peak": memory_of_processes(_all_processes()),
         "versions": versions(),
     }

@@ -36,13 +36,6 @@ PACKAGES = ("hydroelastic", "fenics-dolfinx", "petsc4py", "slepc4py", "gmsh", "n
 
 
 @cache
-def _all_processes() -> MPI.Comm:
-    # Importing MPI initializes it: only what solves needs it.
-    from mpi4py import MPI
-
-    return MPI.COMM_WORLD
-
-
 def versions() -> dict[str, str]:
     """Return the versions of the packages behind a solution."""
     found = {"python": platform.python_version()}
@@ -52,6 +45,13 @@ def versions() -> dict[str, str]:
         except PackageNotFoundError:
             found[package] = "unknown"
     return found
+
+
+def _all_processes() -> MPI.Comm:
+    # Commands that solve nothing do without MPI.
+    from mpi4py import MPI
+
+    return MPI.COMM_WORLD
 
 
 def memory_of_processes(comm: MPI.Comm) -> int:

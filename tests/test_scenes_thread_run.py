@@ -303,7 +303,7 @@ def test_command_prints_the_table(tmp_path: Path) -> None:
     arguments = ["run", "catenary", "--set", "analysis=[]", "--out", str(tmp_path / "out"), "--no-images"]
     found = CliRunner().invoke(main, arguments)
     assert found.exit_code == 0, found.output
-    assert "tension at B, N" in found.output
+    assert "tensions at the ends A and B, N" in found.output
     assert "258.611" in found.output
 
 

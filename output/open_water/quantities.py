@@ -224,8 +224,8 @@ RESPONSE = Group("response", "motions and waves per unit elevation of the incide
         Quantity("above", "frequency above", "rad/s"),
         Quantity("omega", "frequency of the extreme", "rad/s"),
         Quantity("quantity", "a motion, `|R|` or `|T|`"),
-        Quantity("value", "its magnitude there", "m/m", of_roll=("rad/m",)),
-        Quantity("drawn", "that of the straight line between the two", "m/m", of_roll=("rad/m",)),
+        Quantity("value", "its magnitude there", "m/m or, of roll, rad/m"),
+        Quantity("drawn", "that of the straight line between the two", "m/m or, of roll, rad/m"),
     ), dimension="missed_peak", prefix="missed_peak",
         note="those that differ by a tenth of the largest or more, of sweeps of more than six frequencies"),
 ), record=_responses, dimension="response_analysis")

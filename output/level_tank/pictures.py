@@ -133,9 +133,7 @@ def _view(sample: SampledModes, relative: NDArray[np.float64], size: tuple[int, 
     return image
 
 
-def _look_at(
-    camera: pyvista.Camera, sample: SampledModes, raised: float, size: tuple[int, int]
-) -> None:
+def _look_at(camera: pyvista.Camera, sample: SampledModes, raised: float, size: tuple[int, int]) -> None:
     """Turn a camera so that the surface fills the view, raised or lowered by any part of the largest displacement."""
     forwards = -_FROM / np.linalg.norm(_FROM)
     rightwards = np.cross(forwards, [0.0, 0.0, 1.0])
@@ -176,6 +174,8 @@ def _contours(figure: Figure, sample: SampledModes, relative: NDArray[np.float64
     for edge in _edges(sample):
         axes.plot(*sample.points[edge].T, color=INK, linewidth=1.6)
     axes.set_aspect("equal")
+    # Points are a little inside the pieces of the plan.
+    axes.margins(1e-6)
     axes.tick_params(labelsize=17.0 * POINT)
     axes.set_xlabel("x, m", fontsize=18.0 * POINT)
     axes.set_ylabel("y, m", fontsize=18.0 * POINT)

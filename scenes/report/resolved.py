@@ -27,9 +27,7 @@ def resolved(summary: Summary) -> Section:
 def _tank(summary: Summary) -> Iterator[str]:
     size = summary["size"]
     half = " in half the tank, for the scene is its own mirror image" if size["halves"] else ""
-    yield from _modes(
-        summary, f"{size['cells']} cells of degree {size['degree']}{half}; {size['dofs']} unknowns of ψ."
-    )
+    yield from _modes(summary, f"{size['cells']} cells of degree {size['degree']}{half}; {size['dofs']} unknowns of ψ.")
 
 
 def _level_tank(summary: Summary) -> Iterator[str]:

@@ -6,8 +6,9 @@ and κ_n that of a plate's dry modes,
     K ≥ Σ_plates (D κ_n⁴ + sρg)‖w‖² + ρg‖η‖²,    M ≤ Σ_plates (m + ρ/(k_n tanh k_nH))‖w‖² + ρ/(k_n tanh k_nH) ‖η‖²
 
 so that λ is at least the smallest quotient of both, (D κ_n⁴ + sρg)/(m + ρ/(k_n tanh k_nH)) and g k_n tanh k_nH, for
-n ≥ 2, where no plate moves as a rigid body. Both rise with n. Slats keep their rigid motions in each order: κ_n = 0 with
-s = 1; with s = 0 these have no stiffness, other modes are orthogonal to them, and κ_n is that of the first elastic one.
+n ≥ 2, where no plate moves as a rigid body. Both rise with n. Slats keep their rigid motions in each order: κ_n = 0
+with s = 1; with s = 0 these have no stiffness, other modes are orthogonal to them, and κ_n is that of the first elastic
+one.
 """
 
 from __future__ import annotations

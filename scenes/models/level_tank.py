@@ -39,8 +39,7 @@ class LevelTankScene(LevelTankParts):
             problem_at(
                 ("body", index, "kind"),
                 body.get("kind", "plate"),
-                "in three dimensions bodies are plates, and uniform beams side by side; others are of tanks per metre of "
-                "width",
+                "in three dimensions bodies are plates or uniform beams; others are of tanks per metre of width",
                 allowed='"plate" or "beam"',
                 remedy=f"Leave out {' and '.join(keys)} of [tank] for a tank per metre of width"
                 if (keys := [key for key in PLAN_KEYS if key in given.get("tank", {})])

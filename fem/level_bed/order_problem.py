@@ -53,7 +53,7 @@ class LineLiquid:
     @property
     def owned_layer_of(self) -> np.ndarray:
         """0 for the unknowns at nodes, which carry the constant, and −1 for those inside elements."""
-        return np.where(np.arange(self.size) < self.line.node_count, 0, -1)
+        return np.where(np.arange(self.size) < self.line.hats, 0, -1)
 
     def zero_dofs(self) -> np.ndarray:
         """Unknowns at which ψ = 0 is prescribed."""
@@ -61,17 +61,15 @@ class LineLiquid:
 
     @cached_property
     def slopes(self) -> FloatArray:
-        """ψ_z/ψ = k tanh kH of each function of `Line.eigenpairs`, shape (N,)."""
-        wavenumbers = np.sqrt(np.maximum(self.line.eigenpairs[0], 0.0))
+        """ψ_z/ψ = k tanh kH of each function of `Line.waves`, shape (N,)."""
+        wavenumbers = np.sqrt(np.maximum(self.line.waves[0], 0.0))
         slopes: FloatArray = wavenumbers * np.tanh(wavenumbers * self.depth)
-        if self.holds_constant:
-            slopes[0] = 0.0
         return slopes
 
     @property
     def holds_constant(self) -> bool:
         """Whether the constant is among the functions: of order 0."""
-        return self.line.order == 0
+        return self.line.holds_constant
 
     @property
     def is_closed(self) -> bool:
@@ -136,14 +134,14 @@ def order_pencil(
         modes: shapes of the plates that move in it, by their index.
         pressure_release: whether ψ = 0 on the water, whatever the tank's top.
     """
-    covered = [line.within(*place) for place in line.separation.places]
-    water = np.setdiff1d(np.arange(len(line.nodes) - 1), covered_elements(line))
+    covered = [line.between(*place) for place in line.separation.places]
+    water = np.setdiff1d(line.cells, covered_elements(line))
     released = pressure_release or tank.top == "pressure_release"
     zeros = line.unknowns_of(water) if released else np.empty(0, dtype=np.int64)
     liquid = LineLiquid(line=line, depth=tank.depth, zeros=zeros)
     bodies = tuple(_body(tank.plates[index], index, line, shapes) for index, shapes in modes.items())
-    _, functions = line.eigenpairs
-    moments = line.mass(np.arange(len(line.nodes) - 1)) @ functions
+    _, functions = line.waves
+    moments = line.mass @ functions
     matrix = (moments * liquid.slopes) @ moments.T
     laplace = _matrix(0.5 * (matrix + matrix.T))
     operator: HeldOperator | SpectralOperator
@@ -168,7 +166,7 @@ def order_pencil(
 
 def covered_elements(line: Line) -> np.ndarray:
     """Return the numbers of the elements under plates."""
-    return np.concatenate([np.empty(0, np.int64), *(line.within(*place) for place in line.separation.places)])
+    return np.concatenate([np.empty(0, np.int64), *(line.between(*place) for place in line.separation.places)])
 
 
 def _body(plate: Plate, index: int, line: Line, shapes: LineModes) -> Body:
@@ -208,14 +206,14 @@ def _loads(line: Line, elements: np.ndarray, shapes: LineModes) -> FloatArray:
     """∫φᵢq over a plate: exact but for rounding, as it must be for frequencies to come from above."""
     degree = len(shapes.coefficients) + (int(shapes.plate.transverse) if shapes.plate.is_disc else 0)
     degree = 2 * degree if shapes.plate.is_disc else degree
-    places, weights, _ = line.quadrature(elements, (degree + line.degree) // 2 + _SPARE_POINTS)
+    places, weights = line.quadrature(elements, (degree + line.degree) // 2 + _SPARE_POINTS)
     values = shapes.values(places.ravel()).T.reshape(shapes.count, *places.shape)
-    return line.load(elements, places, values * weights)
+    return line.load(elements, values * weights)
 
 
 def _water(line: Line, elements: np.ndarray) -> SurfaceBlocks:
     unknowns = line.unknowns_of(elements)
-    mass = line.mass(elements)[:, unknowns]
+    mass = line.mass_on(elements)[:, unknowns]
     return SurfaceBlocks(coupling=_matrix(mass), stiffness=_matrix(mass[unknowns]))
 
 

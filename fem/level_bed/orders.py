@@ -72,11 +72,11 @@ class OrderSolution:
         angle = np.arctan2(y, x) * self.order if separation.round else turn * y
         across = np.sin(angle) if second else np.cos(angle)
         along = np.clip(along, separation.start, separation.end)
-        surface = np.zeros((line.size, 1))
+        surface = np.zeros(line.size)
         if self.pencil.surfaces:
-            water = line.unknowns_of(np.setdiff1d(np.arange(len(line.nodes) - 1), covered_elements(line)))
-            surface[water, 0] = mode.displacement.array_r[self.pencil.body_size :]
-        elevation = line.evaluated(surface, along)[:, 0]
+            water = line.unknowns_of(np.setdiff1d(line.cells, covered_elements(line)))
+            surface[water] = mode.displacement.array_r[self.pencil.body_size :]
+        elevation = line.table(along).T @ surface
         position = 0
         covered = np.zeros(len(along), dtype=bool)
         for index, (start, end) in enumerate(separation.places):
@@ -87,12 +87,12 @@ class OrderSolution:
                 amplitudes = mode.body_amplitudes[position : position + self.shapes[index].count]
                 position += len(amplitudes)
                 elevation[inside] = self.shapes[index].values(along[inside]) @ amplitudes
-        squares, functions = line.eigenpairs
-        parts = functions.T @ (line.mass(np.arange(len(line.nodes) - 1)) @ mode.potential.array_r)
+        squares, functions = line.waves
+        parts = functions.T @ (line.mass @ mode.potential.array_r)
         return SampledSurface(
             elevation=elevation * across,
             wavenumbers=np.sqrt(np.maximum(squares, 0.0)),
-            potentials=line.evaluated(functions * parts, along) * across[:, None],
+            potentials=line.table(along).T @ (functions * parts) * across[:, None],
         )
 
 

@@ -17,12 +17,13 @@ from numpy.typing import NDArray
 from petsc4py import PETSc
 from scipy import sparse
 
+from hydroelastic.fem.level_bed.interval import IntervalSpace
 from hydroelastic.fem.pencil import CoupledPencil, SurfaceBlocks, coupled_pencil
-from hydroelastic.fem.plan.interval import IntervalSpace
 from hydroelastic.fem.plan.rectangle_body import RectangleBody
 from hydroelastic.fem.surfaces import LiquidSurface
 from hydroelastic.meshes.geometry import FREE_SURFACE
 from hydroelastic.modal.liquid.vertical_poles import surface_response
+from hydroelastic.physics.arrays import FloatArray
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -178,9 +179,7 @@ def plate_loads(liquid: BoxLiquid, plate: RectangleBody) -> NDArray[np.float64]:
     return liquid.images * loads.reshape(len(loads), -1)
 
 
-def water_masses(
-    liquid: BoxLiquid, plates: tuple[RectangleBody, ...]
-) -> list[tuple[NDArray[np.float64], NDArray[np.float64]]]:
+def water_masses(liquid: BoxLiquid, plates: tuple[RectangleBody, ...]) -> list[tuple[FloatArray, FloatArray]]:
     """Return S = Σ M_x ⊗ M_y over the water and its images: pairs of matrices, none where plates cover all of it.
 
     It is summed over cells: the difference of the whole surface and the plates would leave rounding under the plates.

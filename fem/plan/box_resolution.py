@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from math import ceil, log10, pi, sqrt, tanh
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hydroelastic.fem.plan.interval import IntervalSpace, graded_nodes
+from hydroelastic.fem.level_bed.interval import IntervalSpace
 from hydroelastic.fem.plan.rectangle_body import rectangle_of
 from hydroelastic.fem.tank.resolution import radians
 from hydroelastic.physics.beam_parts import Section
@@ -128,3 +129,46 @@ def axis_space(resolution: BoxResolution, length: float, edges: tuple[float, ...
     places = tuple(place for place in edges if place <= end)
     nodes: NDArray[np.float64] = graded_nodes(0.0, end, places, largest=resolution.largest, layers=resolution.layers)
     return IntervalSpace(nodes=nodes, degree=resolution.degree, zero_at_end=parity == 1)
+
+
+def graded_nodes(
+    start: float,
+    end: float,
+    edges: tuple[float, ...],
+    *,
+    largest: float,
+    layers: int,
+    ratio: float = 0.2,
+) -> NDArray[np.float64]:
+    """Return nodes of an interval that are graded geometrically towards edges inside it.
+
+    Args:
+        start: its start.
+        end: its end; it may be one of the edges, and the layers are then on one side.
+        edges: places of the edges.
+        largest: size of the largest cell.
+        layers: number of layers beside each edge, on either side; 0 leaves the edge as a node.
+        ratio: ratio of the distances of successive nodes from an edge.
+    """
+    inside = sorted({place for place in edges if start < place < end} | {start, end})
+    graded = set(edges)
+    nodes = [start]
+    for left, right in pairwise(inside):
+        length = right - left
+        both = (left in graded) + (right in graded)
+        # The outermost layer is as large as its neighbours.
+        outermost = min(largest, length / (both + 1)) if both and layers else 0.0
+        distances = outermost * ratio ** np.arange(layers)[::-1] if layers else np.empty(0)
+        from_left = left + distances if left in graded else np.empty(0)
+        from_right = right - distances[::-1] if right in graded else np.empty(0)
+        low = from_left[-1] if len(from_left) else left
+        high = from_right[0] if len(from_right) else right
+        cells = max(1, int(np.ceil((high - low) / largest - 1e-9)))
+        nodes += [
+            *from_left,
+            *np.linspace(low, high, cells + 1)[1:-1],
+            *([high] if len(from_right) else []),
+            *from_right[1:],
+            right,
+        ]
+    return np.array(nodes)

@@ -1,0 +1,191 @@
+"""Continuous polynomials of one degree on the cells of an interval: hats and integrated Legendre functions.
+
+On [−1, 1] the functions of a cell are (1 ∓ ξ)/2 and (P_k − P_{k−2})/√(2(2k − 1)), k = 2 … p.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import ClassVar
+
+import numpy as np
+from scipy.linalg import eigh, solve
+
+from hydroelastic.modal.plate.legendre import gauss
+from hydroelastic.modal.plate.rectangle import polynomials_of
+from hydroelastic.physics.arrays import FloatArray
+
+
+@dataclass(frozen=True, kw_only=True)
+class IntervalSpace:
+    """A space on an interval; its unknowns are the nodes, from the left, then those inside the cells.
+
+    Attributes:
+        nodes: ends of the cells, ascending, shape (cells + 1,).
+        degree: p.
+        zero_at_end: whether the functions vanish at the last node, as odd ones do on the plane of symmetry.
+    """
+
+    nodes: FloatArray
+    degree: int
+    zero_at_end: bool = False
+    spare_points: ClassVar[int] = 1
+
+    @property
+    def zero_at_start(self) -> bool:
+        """Whether the functions vanish at the first node."""
+        return False
+
+    @property
+    def holds_constant(self) -> bool:
+        """Whether the constant is among the functions, and has no gradient."""
+        return not self.zero_at_end
+
+    def measure(self, places: FloatArray) -> FloatArray:
+        """Return the weight of integrals at places."""
+        return np.ones_like(places)
+
+    def transverse_squares(self, places: FloatArray) -> FloatArray:
+        """Return the square of the wavenumber in a second direction at places."""
+        return np.zeros_like(places)
+
+    @property
+    def hats(self) -> int:
+        """Number of functions at nodes; they come first, and with those that vanish at an end their sum is 1."""
+        return len(self.nodes) - int(self.zero_at_start) - int(self.zero_at_end)
+
+    @property
+    def size(self) -> int:
+        """Number of functions N."""
+        return self.hats + (len(self.nodes) - 1) * (self.degree - 1)
+
+    @property
+    def cells(self) -> np.ndarray:
+        """Numbers of all cells."""
+        return np.arange(len(self.nodes) - 1)
+
+    @cached_property
+    def unknowns(self) -> np.ndarray:
+        """Numbers of the functions of each cell, −1 of one that is left out, shape (cells, p + 1)."""
+        ends = self.cells[:, None] + np.array([0, 1]) - int(self.zero_at_start)
+        if self.zero_at_end:
+            ends[-1, 1] = -1
+        inner = self.hats + np.arange(len(ends) * (self.degree - 1))
+        return np.hstack([ends, inner.reshape(len(ends), self.degree - 1)])
+
+    def between(self, start: float, end: float) -> np.ndarray:
+        """Return the numbers of the cells between two nodes."""
+        middles = 0.5 * (self.nodes[1:] + self.nodes[:-1])
+        return np.flatnonzero((middles > start) & (middles < end))
+
+    def unknowns_of(self, cells: np.ndarray) -> np.ndarray:
+        """Return the unknowns that are not zero on some cells, ascending."""
+        numbers = np.unique(self.unknowns[cells])
+        return numbers[numbers >= 0]
+
+    def quadrature(self, cells: np.ndarray, points: int) -> tuple[FloatArray, FloatArray]:
+        """Return Gauss points on some cells, and their weights, each of shape (cells, points)."""
+        local, weights = gauss(points)
+        left, right = self.nodes[:-1][cells], self.nodes[1:][cells]
+        half = 0.5 * (right - left)
+        places = 0.5 * (left + right)[:, None] + half[:, None] * local
+        return places, half[:, None] * weights * self.measure(places)
+
+    def mass_on(self, cells: np.ndarray) -> FloatArray:
+        """Return ∫uv over some cells, by their numbers or a mask, shape (N, N)."""
+        points = self.degree + self.spare_points
+        _, weights = self.quadrature(cells, points)
+        table = _reference(self.degree, gauss(points)[0])
+        return self._assembled(cells, np.einsum("eq,iq,jq->eij", weights, table, table, optimize=True))
+
+    @cached_property
+    def mass(self) -> FloatArray:
+        """∫uv, shape (N, N)."""
+        return self.mass_on(self.cells)
+
+    @cached_property
+    def stiffness(self) -> FloatArray:
+        """∫∇u·∇v, with the second direction, shape (N, N)."""
+        points = self.degree + self.spare_points
+        places, weights = self.quadrature(self.cells, points)
+        table, slopes = (_reference(self.degree, gauss(points)[0], slope=slope) for slope in (False, True))
+        along = weights * (2.0 / np.diff(self.nodes)[:, None]) ** 2
+        blocks = np.einsum("eq,iq,jq->eij", along, slopes, slopes, optimize=True)
+        across = weights * self.transverse_squares(places)
+        return self._assembled(self.cells, blocks + np.einsum("eq,iq,jq->eij", across, table, table, optimize=True))
+
+    def _assembled(self, cells: np.ndarray, blocks: FloatArray) -> FloatArray:
+        whole = np.zeros((self.size + 1, self.size + 1))
+        numbers = self.unknowns[cells]
+        # A function that is left out has the number −1: the last row and column.
+        np.add.at(whole, (numbers[:, :, None], numbers[:, None, :]), blocks)
+        return whole[:-1, :-1]
+
+    def load(self, cells: np.ndarray, values: FloatArray) -> FloatArray:
+        """Return ∫φv of functions φ.
+
+        Args:
+            cells: those on which they are not zero.
+            values: φ at the points of `quadrature` times their weights, shape (functions, cells, points).
+
+        Returns:
+            Loads, shape (functions, N).
+        """
+        table = _reference(self.degree, gauss(values.shape[2])[0]).T
+        loads = np.zeros((self.size + 1, len(values)))
+        np.add.at(loads, self.unknowns[cells].ravel(), np.moveaxis(values @ table, 0, -1).reshape(-1, len(values)))
+        return loads[:-1].T
+
+    def moments(self, start: float, end: float, middle: float, side: float, count: int) -> FloatArray:
+        """Return ∫u p_m between two nodes, for the orthonormal Legendre polynomials of a side about its middle.
+
+        Returns:
+            Shape (N, count).
+        """
+        cells = self.between(start, end)
+        places, weights = self.quadrature(cells, self.degree + 1 + count // 2)
+        values = polynomials_of(count, places.ravel() - middle, side).reshape(count, *places.shape)
+        return self.load(cells, values * weights).T
+
+    def embedding(self, coarser: IntervalSpace) -> FloatArray:
+        """Return the matrix that gives functions of a space contained in this one, shape (N, coarser ones)."""
+        places, weights = self.quadrature(self.cells, self.degree + 1)
+        values = coarser.table(places.ravel()).reshape(coarser.size, *places.shape)
+        return np.asarray(solve(self.mass, self.load(self.cells, values * weights).T, assume_a="pos"))
+
+    def table(self, places: FloatArray) -> FloatArray:
+        """Return the functions at places, shape (N, places)."""
+        cells = np.clip(np.searchsorted(self.nodes, places, side="right") - 1, 0, len(self.nodes) - 2)
+        left, right = self.nodes[cells], self.nodes[cells + 1]
+        local = np.clip((2.0 * places - left - right) / (right - left), -1.0, 1.0)
+        table = np.zeros((self.size + 1, len(places)))
+        table[self.unknowns[cells].T, np.arange(len(places))] = _reference(self.degree, local)
+        return table[:-1]
+
+    @cached_property
+    def waves(self) -> tuple[FloatArray, FloatArray]:
+        """k² and V with ∫∇u·∇v = k² ∫uv and ∫v² = 1: the standing waves, ascending, shape (N,) and (N, N).
+
+        That of k = 0, if there is one, is exact. On graded cells the largest k² exceed the lowest by 10¹⁵: the inverse
+        problem keeps the digits of the latter, and norms of the vectors those of the former.
+        """
+        shift = 1.0 / (self.nodes[-1] - self.nodes[0]) ** 2
+        _, vectors = eigh(self.mass, self.stiffness + shift * self.mass)
+        vectors = vectors[:, ::-1]
+        norms = np.einsum("ij,ij->j", vectors, self.mass @ vectors)
+        squares = np.einsum("ij,ij->j", vectors, self.stiffness @ vectors) / norms
+        if self.holds_constant:
+            squares[0] = 0.0
+        return squares, vectors / np.sqrt(norms)
+
+
+def _reference(degree: int, points: FloatArray, *, slope: bool = False) -> FloatArray:
+    """The functions of a cell, or their slopes, at points of [−1, 1], shape (p + 1, points)."""
+    legendre = np.polynomial.legendre.legvander(points, degree).T
+    order = np.arange(2, degree + 1)[:, None]
+    if slope:
+        ones = np.full((1, len(points)), 0.5)
+        return np.concatenate([-ones, ones, np.sqrt(order - 0.5) * legendre[1:degree]])
+    inner = (legendre[2:] - legendre[:-2]) / np.sqrt(2.0 * (2.0 * order - 1.0))
+    return np.concatenate([[0.5 * (1.0 - points), 0.5 * (1.0 + points)], inner])

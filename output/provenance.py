@@ -36,6 +36,13 @@ PACKAGES = ("hydroelastic", "fenics-dolfinx", "petsc4py", "slepc4py", "gmsh", "n
 
 
 @cache
+def _all_processes() -> MPI.Comm:
+    # Importing MPI initializes it: only what solves needs it.
+    from mpi4py import MPI
+
+    return MPI.COMM_WORLD
+
+
 def versions() -> dict[str, str]:
     """Return the versions of the packages behind a solution."""
     found = {"python": platform.python_version()}

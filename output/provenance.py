@@ -54,13 +54,6 @@ def versions() -> dict[str, str]:
     return found
 
 
-def _all_processes() -> MPI.Comm:
-    # Commands that solve nothing do without MPI.
-    from mpi4py import MPI
-
-    return MPI.COMM_WORLD
-
-
 def memory_of_processes(comm: MPI.Comm) -> int:
     """Return the sum of the peak resident memory of all processes, bytes (collective)."""
     return int(comm.allreduce(memory_of_process()))

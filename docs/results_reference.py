@@ -5,6 +5,7 @@ Run it after a change of a quantity: ./hydro python docs/results_reference.py
 
 from pathlib import Path
 
+from hydroelastic.output.level_tank.quantities import LEVEL_TANK
 from hydroelastic.output.open_water.quantities import OPEN_WATER
 from hydroelastic.output.provenance import OF_ALL_SCENES
 from hydroelastic.output.quantities import Group
@@ -15,7 +16,14 @@ from hydroelastic.output.tank.quantities import TANK
 from hydroelastic.output.thread.quantities import THREAD
 
 FOLDER = Path(__file__).parent / "reference"
-KINDS = {"tank": TANK, "open_water": OPEN_WATER, "string": HANGING_STRING, "thread": THREAD, "roll": ROLL}
+KINDS = {
+    "tank": TANK,
+    "level_tank": LEVEL_TANK,
+    "open_water": OPEN_WATER,
+    "string": HANGING_STRING,
+    "thread": THREAD,
+    "roll": ROLL,
+}
 
 
 def page(kind: Group) -> str:

@@ -16,18 +16,23 @@ from pydantic import BaseModel, Discriminator, Tag
 from pydantic.fields import FieldInfo
 
 from hydroelastic.scenes.models.bodies import LARGEST, SMALLEST
+from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.models.values import OR_SWEEP, Sweep
 from hydroelastic.scenes.read import SCENE_MODELS
 
 FOLDER = Path(__file__).parent / "reference"
+PAGES = {**SCENE_MODELS, "level_tank": LevelTankScene}
+"""The model of each page; a tank in three dimensions has the kind of one in two."""
 TITLES = {
     "tank": "Keys of a tank or of open water",
+    "level_tank": "Keys of a tank in three dimensions",
     "string": "Keys of a hanging string",
     "thread": "Keys of a flexible thread",
     "roll": "Keys of a ship on a swell",
 }
 GUIDES = {
     "tank": "scenes.md",
+    "level_tank": "scenes_three_dimensions.md",
     "string": "scenes_strings_and_ships.md",
     "thread": "scenes_threads.md",
     "roll": "scenes_strings_and_ships.md",
@@ -75,7 +80,7 @@ class Section:
 
 def page(kind: str) -> str:
     """Return the page of a kind of scene as Markdown."""
-    root = SCENE_MODELS[kind]
+    root = PAGES[kind]
     sections = sections_of(root)
     lines = [
         f"# {TITLES[kind]}",
@@ -304,5 +309,5 @@ def _shown(value: Any) -> str:
 
 
 if __name__ == "__main__":
-    for kind in SCENE_MODELS:
+    for kind in PAGES:
         (FOLDER / f"{kind}.md").write_text(page(kind), encoding="utf-8")

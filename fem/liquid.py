@@ -26,6 +26,7 @@ from petsc4py import PETSc
 from hydroelastic.fem.cells import CURVED_QUADRATURE, is_straight, owned_cells
 from hydroelastic.fem.direct import direct_solver
 from hydroelastic.fem.kernels import compiled_form
+from hydroelastic.fem.liquid_operator import first_dof
 from hydroelastic.meshes.compat import coordinate_degree
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.meshes.geometry import LIQUID
@@ -79,9 +80,18 @@ class LiquidSpace:
         return int(self.space.dofmap.index_map.size_global)
 
     @property
+    def densities(self) -> tuple[float, ...]:
+        """Density ρ of each layer, from the bottom up."""
+        return tuple(layer.density for layer in self.layers)
+
+    @property
     def owned_layer_of(self) -> np.ndarray:
         """Layer of each unknown that this process owns."""
         return self.layer_of[: self.space.dofmap.index_map.size_local]
+
+    def zero_dofs(self) -> np.ndarray:
+        """Owned unknowns on the surfaces with ψ = 0, as local indices (collective)."""
+        return self.surface_dofs(self.zero_potential) if self.zero_potential else np.empty(0, dtype=np.int32)
 
     def energy_densities(self) -> np.ndarray:
         """Kinetic energy over ½ω²|∇ψ|² in each owned cell: ρ, or 1/ρ where ψ stands for the pressure."""
@@ -146,7 +156,7 @@ def closed_layers(liquid: LiquidSpace) -> tuple[int, ...]:
     layers = range(len(liquid.layers))
     if not liquid.zero_potential:
         return tuple(layers)
-    layers_of_zeros = liquid.owned_layer_of[liquid.surface_dofs(liquid.zero_potential)]
+    layers_of_zeros = liquid.owned_layer_of[liquid.zero_dofs()]
     counts = np.array([np.count_nonzero(layers_of_zeros == layer) for layer in layers])
     liquid.tank.mesh.comm.Allreduce(MPI.IN_PLACE, counts)
     return tuple(layer for layer in layers if counts[layer] == 0)
@@ -269,19 +279,10 @@ def assembled(form: fem.Form) -> PETSc.Mat:
 def constrained_dofs(liquid: LiquidSpace) -> np.ndarray:
     """Owned unknowns whose value is zero: those of the surfaces with ψ = 0, and one of each closed layer
     (collective)."""
-    surfaces = liquid.surface_dofs(liquid.zero_potential) if liquid.zero_potential else np.empty(0, dtype=np.int32)
-    return np.union1d(surfaces, [dof for layer in closed_layers(liquid) for dof in first_dof(liquid, layer)]).astype(
-        np.int32
-    )
-
-
-def first_dof(liquid: LiquidSpace, layer: int) -> np.ndarray:
-    """The first of all unknowns of a layer, as a local index, on the process that owns it; empty elsewhere
-    (collective)."""
-    own = np.flatnonzero(liquid.owned_layer_of == layer)[:1]
-    first, last = liquid.space.dofmap.index_map.local_range
-    lowest = liquid.tank.mesh.comm.allreduce(int(own[0]) + first if len(own) else np.iinfo(np.int64).max, op=MPI.MIN)
-    return np.array([lowest - first] if first <= lowest < last else [], dtype=np.int32)
+    index_map = liquid.space.dofmap.index_map
+    comm = liquid.tank.mesh.comm
+    held = [first_dof(liquid, layer, index_map.local_range, comm) for layer in closed_layers(liquid)]
+    return np.unique(np.concatenate([liquid.zero_dofs(), *held])).astype(np.int32)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -339,13 +339,12 @@ def _dense(matrix: PETSc.Mat) -> np.ndarray:
 def _unconstrained(pencil: CoupledPencil) -> PETSc.IS:
     """Unknowns of ψ off surfaces with ψ = 0, without one of each layer whose constant is arbitrary."""
     first, last = pencil.laplace.getOwnershipRange()
-    liquid = pencil.liquid
-    fixed = liquid.surface_dofs(liquid.zero_potential) if liquid.zero_potential else np.empty(0, dtype=np.int32)
-    free = np.setdiff1d(np.arange(last - first, dtype=np.int32), np.union1d(fixed, pencil.free_constants))
+    fixed = np.union1d(pencil.liquid.zero_dofs(), pencil.free_constants)
+    free = np.setdiff1d(np.arange(last - first, dtype=np.int32), fixed)
     return PETSc.IS().createGeneral((free + first).astype(PETSc.IntType), comm=pencil.laplace.comm)
 
 
 def _densities(pencil: CoupledPencil) -> np.ndarray:
     """ρ at each owned unknown of ψ."""
-    densities: np.ndarray = np.array([layer.density for layer in pencil.liquid.layers])[pencil.liquid.owned_layer_of]
+    densities: np.ndarray = np.array(pencil.liquid.densities)[pencil.liquid.owned_layer_of]
     return densities

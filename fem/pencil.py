@@ -8,25 +8,19 @@ the potential's unknowns on the same surface.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Generic, TypeVar
 
 import numpy as np
 from petsc4py import PETSc
 from scipy.linalg import block_diag
 
-from hydroelastic.fem.interface_coupling import surface_blocks
-from hydroelastic.fem.liquid import (
-    LiquidMatrices,
-    LiquidSolver,
-    LiquidSpace,
-    closed_layer,
-    closed_layers,
-    constrained_dofs,
-    first_dof,
-)
-from hydroelastic.fem.shape_loads import shape_loads, surface_load
+from hydroelastic.fem.liquid_operator import LiquidOperator, LiquidUnknowns, first_dof
 from hydroelastic.fem.surfaces import Body, LiquidSurface
+
+Unknowns = TypeVar("Unknowns", bound=LiquidUnknowns)
 
 # Relative volume below which a rigid motion counts as displacing none.
 _NO_VOLUME = 1e-10
@@ -64,11 +58,11 @@ class LiquidAnswer:
 
 
 @dataclass(frozen=True, kw_only=True)
-class CoupledPencil:
+class CoupledPencil(Generic[Unknowns]):
     """Matrices of the coupled problem.
 
     Attributes:
-        liquid: the space of ψ.
+        liquid: the unknowns of ψ: a space of polynomials in the volume, or on the surface alone.
         bodies: the bodies, in the order of their unknowns.
         surfaces: the surfaces of the liquids that move under gravity, in the order of their unknowns.
         stiffness: K, n × n, symmetric; zero on rigid motions without restoring force, negative on unstable ones.
@@ -84,7 +78,7 @@ class CoupledPencil:
         answer: ψ and momentum of a unit of each surface unknown, where they were computed once for many solutions.
     """
 
-    liquid: LiquidSpace
+    liquid: Unknowns
     bodies: tuple[Body, ...]
     surfaces: tuple[LiquidSurface, ...]
     stiffness: PETSc.Mat
@@ -92,7 +86,7 @@ class CoupledPencil:
     coupling: PETSc.Mat
     momentum: PETSc.Mat
     laplace: PETSc.Mat
-    solver: LiquidSolver
+    solver: LiquidOperator
     constraints: tuple[VolumeConstraint, ...]
     free_constants: np.ndarray
     surface_sizes: tuple[int, ...]
@@ -157,44 +151,54 @@ class CoupledPencil:
         return np.asarray(comm.bcast(local, root=0))
 
 
-def build_pencil(
-    liquid: LiquidSpace,
-    matrices: LiquidMatrices,
+@dataclass(frozen=True, kw_only=True)
+class SurfaceBlocks:
+    """The part of the pencil that one surface of the liquids brings.
+
+    Attributes:
+        coupling: load on ψ by a unit of each of its unknowns, N × unknowns.
+        stiffness: restoring by gravity, unknowns × unknowns.
+    """
+
+    coupling: PETSc.Mat
+    stiffness: PETSc.Mat
+
+
+def coupled_pencil(
+    liquid: Unknowns,
     *,
     bodies: tuple[Body, ...],
     surfaces: tuple[LiquidSurface, ...],
-) -> CoupledPencil:
-    """Assemble the coupled problem.
+    body_coupling: PETSc.Mat | None,
+    surface_blocks: list[SurfaceBlocks],
+    laplace: PETSc.Mat,
+    solver: LiquidOperator,
+    closed: tuple[int, ...],
+) -> CoupledPencil[Unknowns]:
+    """Join the blocks of bodies and surfaces (collective).
 
     Args:
-        liquid: space of the potential.
-        matrices: A and S on that space.
+        liquid: the unknowns of ψ.
         bodies: the floating bodies.
-        surfaces: those of the liquids that move under gravity: free surface and interface.
-
-    Returns:
-        The matrices, with the liquid factorized (collective).
+        surfaces: those of the liquids that move under gravity.
+        body_coupling: load on ψ by a unit of each body unknown, N × body unknowns, which lie on rank 0; ``None``
+            without bodies.
+        surface_blocks: the blocks of each surface.
+        laplace: A, N × N.
+        solver: A⁺.
+        closed: the layers on whose boundary ψ = 0 nowhere.
     """
-    laplace = matrices.laplace
     blocks, stiffness_blocks, mass_blocks = [], [], []
-    sizes = []
-    if bodies:
-        blocks.append(_body_coupling(liquid, bodies, laplace))
+    if body_coupling is not None:
+        blocks.append(body_coupling)
         stiffness_blocks.append(_diagonal(np.concatenate([body.stiffness for body in bodies]), laplace.comm))
         mass_blocks.append(_on_first(block_diag(*(body.mass for body in bodies)), laplace.comm))
-    for surface in surfaces:
-        assert matrices.surface_mass is not None
-        coupling_block, stiffness_block = surface_blocks(liquid, surface, matrices.surface_mass)
-        blocks.append(coupling_block)
-        stiffness_blocks.append(stiffness_block)
-        mass_blocks.append(_zeros(stiffness_block.getSizes(), stiffness_block.comm))
-        sizes.append(stiffness_block.getLocalSize()[0])
+    for surface in surface_blocks:
+        blocks.append(surface.coupling)
+        stiffness_blocks.append(surface.stiffness)
+        mass_blocks.append(_zeros(surface.stiffness.getSizes(), surface.stiffness.comm))
     coupling = _joined([blocks])
-    constraints, free_constants = _volume_constraints(liquid, coupling)
-    names = tuple(dict.fromkeys([*(body.surface for body in bodies), *(surface.surface for surface in surfaces)]))
-    layers = closed_layers(liquid)
-    load = surface_load(liquid, names) if layers else np.empty(0)
-    closed = (closed_layer(liquid, layer, load) for layer in layers)
+    constraints, free_constants = _volume_constraints(liquid, coupling, closed)
     return CoupledPencil(
         liquid=liquid,
         bodies=bodies,
@@ -204,11 +208,10 @@ def build_pencil(
         coupling=coupling,
         momentum=_weighed(liquid, coupling),
         laplace=laplace,
-        # A layer without moving surfaces has no flux to balance.
-        solver=LiquidSolver(laplace, constrained_dofs(liquid), tuple(layer for layer in closed if layer.measure > 0.0)),
+        solver=solver,
         constraints=constraints,
         free_constants=free_constants,
-        surface_sizes=tuple(sizes),
+        surface_sizes=tuple(block.stiffness.getLocalSize()[0] for block in surface_blocks),
     )
 
 
@@ -229,32 +232,32 @@ def with_bodies(pencil: CoupledPencil, bodies: tuple[Body, ...]) -> CoupledPenci
     return replace(pencil, bodies=bodies, stiffness=stiffness, mass=_joined(_block_diagonal(blocks)))
 
 
-def _body_coupling(liquid: LiquidSpace, bodies: tuple[Body, ...], laplace: PETSc.Mat) -> PETSc.Mat:
-    """Columns ∫φᵢ q over each body's wetted surface."""
-    comm = liquid.tank.mesh.comm
-    columns = sum(body.size for body in bodies)
+def loads_on_first(columns: Iterable[np.ndarray], count: int, laplace: PETSc.Mat) -> PETSc.Mat:
+    """Matrix of loads on ψ by body unknowns, which lie on rank 0 (collective).
+
+    Args:
+        columns: owned entries of each load.
+        count: number of loads.
+        laplace: A, whose rows it shares.
+    """
+    first_rank = laplace.comm.rank == 0
     rows = laplace.getLocalSize()[0]
-    matrix = PETSc.Mat().createAIJ(
-        ((rows, PETSc.DETERMINE), (columns if comm.rank == 0 else 0, columns)), comm=laplace.comm
-    )
+    matrix = PETSc.Mat().createAIJ(((rows, PETSc.DETERMINE), (count if first_rank else 0, count)), comm=laplace.comm)
     # Collective, and evaluated here: not all processes take part in later evaluations.
     matrix.setUp()
     first = laplace.getOwnershipRange()[0]
-    column = 0
-    for body in bodies:
-        for load in shape_loads(liquid, body):
-            (nonzero,) = np.nonzero(load)
-            matrix.setValues(
-                (nonzero + first).astype(PETSc.IntType), [column], load[nonzero], addv=PETSc.InsertMode.INSERT_VALUES
-            )
-            column += 1
+    for column, load in enumerate(columns):
+        (nonzero,) = np.nonzero(load)
+        matrix.setValues(
+            (nonzero + first).astype(PETSc.IntType), [column], load[nonzero], addv=PETSc.InsertMode.INSERT_VALUES
+        )
     matrix.assemble()
     return matrix
 
 
-def _weighed(liquid: LiquidSpace, coupling: PETSc.Mat) -> PETSc.Mat:
+def _weighed(liquid: LiquidUnknowns, coupling: PETSc.Mat) -> PETSc.Mat:
     """ρC; C itself where ρ = 1 everywhere."""
-    densities = np.array([layer.density for layer in liquid.layers])
+    densities = np.array(liquid.densities)
     if np.all(densities == 1.0):
         return coupling
     weights = coupling.createVecLeft()
@@ -264,7 +267,9 @@ def _weighed(liquid: LiquidSpace, coupling: PETSc.Mat) -> PETSc.Mat:
     return weighed
 
 
-def _volume_constraints(liquid: LiquidSpace, coupling: PETSc.Mat) -> tuple[tuple[VolumeConstraint, ...], np.ndarray]:
+def _volume_constraints(
+    liquid: LiquidUnknowns, coupling: PETSc.Mat, closed: tuple[int, ...]
+) -> tuple[tuple[VolumeConstraint, ...], np.ndarray]:
     """The independent constraints of the closed layers, and an unknown of ψ for each dependent one.
 
     A constraint may be trivial: with continuous pressure a beam displaces as much below as above.
@@ -273,14 +278,14 @@ def _volume_constraints(liquid: LiquidSpace, coupling: PETSc.Mat) -> tuple[tuple
     free = [np.empty(0, dtype=np.int32)]
     ones = coupling.createVecLeft()
     largest = coupling.norm(PETSc.NormType.NORM_1)
-    for layer in closed_layers(liquid):
+    for layer in closed:
         ones.array[:] = liquid.owned_layer_of == layer
         volume = coupling.createVecRight()
         coupling.multTranspose(ones, volume)
         if _is_new(volume, constraints, largest):
-            constraints.append(VolumeConstraint(layer=layer, density=liquid.layers[layer].density, volume=volume))
+            constraints.append(VolumeConstraint(layer=layer, density=liquid.densities[layer], volume=volume))
         else:
-            free.append(first_dof(liquid, layer))
+            free.append(first_dof(liquid, layer, coupling.getOwnershipRange(), coupling.comm.tompi4py()))
     return tuple(constraints), np.concatenate(free)
 
 

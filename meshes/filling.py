@@ -64,7 +64,7 @@ def fill(points: Iterable[NDArray[np.float64]], loops: Iterable[list[Line]], siz
     Raises:
         MeshError: if gmsh fails.
     """
-    with _gmsh_model():
+    with gmsh_model():
         drawing = _Drawing(points)
         surfaces = [drawing.surface(loop) for loop in loops]
         gmsh.model.geo.synchronize()
@@ -78,7 +78,7 @@ def fill(points: Iterable[NDArray[np.float64]], loops: Iterable[list[Line]], siz
 
 
 @contextmanager
-def _gmsh_model() -> Iterator[None]:
+def gmsh_model() -> Iterator[None]:
     """A new gmsh model without messages; gmsh is initialized once in a process, and its state is restored."""
     if not gmsh.isInitialized():
         # gmsh would otherwise take over Ctrl-C, and a long run could no longer be interrupted.

@@ -14,6 +14,14 @@ from hydroelastic.output.quantities import Group, Quantity
 if TYPE_CHECKING:
     from mpi4py import MPI
 
+
+def _all_processes() -> MPI.Comm:
+    # Importing MPI initializes it: only what solves needs it.
+    from mpi4py import MPI
+
+    return MPI.COMM_WORLD
+
+
 OF_ALL_SCENES = Group(
     "",
     "in all summaries",
@@ -36,13 +44,6 @@ PACKAGES = ("hydroelastic", "fenics-dolfinx", "petsc4py", "slepc4py", "gmsh", "n
 
 
 @cache
-def _all_processes() -> MPI.Comm:
-    # Importing MPI initializes it: only what solves needs it.
-    from mpi4py import MPI
-
-    return MPI.COMM_WORLD
-
-
 def versions() -> dict[str, str]:
     """Return the versions of the packages behind a solution."""
     found = {"python": platform.python_version()}

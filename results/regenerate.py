@@ -26,6 +26,7 @@ from hydroelastic.output.markdown import markdown_table, markdown_text
 from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.output.pictures.page import save
 from hydroelastic.output.provenance import Summary
+from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.read import read_scene, shipped_scenes
 from hydroelastic.scenes.run import run_scene
@@ -61,11 +62,13 @@ def regenerate(name: str) -> str:
         shutil.rmtree(kept, ignore_errors=True)
         kept.mkdir(parents=True)
         pictures = outcome.folder / "images"
-        of_tank = isinstance(scene, TankScene) and not scene.is_open
+        in_section = isinstance(scene, TankScene) and not scene.is_open
+        of_tank = in_section or isinstance(scene, LevelTankScene)
         for table in TABLES if of_tank else OTHER_TABLES:
             shutil.copy(outcome.folder / table, kept)
         if of_tank:
-            keep_picture(pictures / "overview.png", kept / "overview.png")
+            if in_section:
+                keep_picture(pictures / "overview.png", kept / "overview.png")
             for index, picture in shown_modes(outcome.summary).items():
                 keep_picture(pictures / f"mode_{index:03d}.png", kept / picture)
         else:
@@ -86,7 +89,7 @@ def shown_modes(summary: Summary) -> dict[int, str]:
     """The modes whose pictures are kept, by number: the first elastic tone, and that in which a float heaves most."""
     tone = summary["first_elastic"]
     found = {tone["index"]: "first_elastic.png"} if tone is not None else {}
-    for row in summary["floats"]:
+    for row in summary.get("floats", ()):
         found |= {mode["index"]: "heave.png" for mode in row["modes"] if mode["motion"] == "heave"}
     asked = len(summary["modes"])
     return {index: picture for index, picture in found.items() if index is not None and index <= asked}

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from hydroelastic.output.outcome import Outcome
 from hydroelastic.output.sections import Section
 from hydroelastic.scenes.errors import Problem, SceneError, shown_value
+from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.models.string import StringScene
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.thread import ThreadScene
@@ -27,6 +28,10 @@ def runner_of(scene: Scene) -> StagedRun[Any, Any]:
         from hydroelastic.scenes.tank.run import run_tank
 
         return run_tank
+    if isinstance(scene, LevelTankScene):
+        from hydroelastic.scenes.level_tank.run import run_level_tank
+
+        return run_level_tank
     if isinstance(scene, StringScene):
         from hydroelastic.scenes.string.run import run_string
 
@@ -51,6 +56,10 @@ def comparer_of(scene: Scene) -> Callable[..., Outcome]:
         from hydroelastic.scenes.tank.run import compare_tank
 
         return compare_tank
+    if isinstance(scene, LevelTankScene):
+        from hydroelastic.scenes.level_tank.run import compare_level_tank
+
+        return compare_level_tank
     if isinstance(scene, StringScene):
         from hydroelastic.scenes.string.compare import compare_string
 
@@ -80,6 +89,10 @@ def checker_of(scene: Scene) -> Callable[[Any], Iterator[Section]]:
         from hydroelastic.scenes.tank.check import check_tank
 
         return check_tank
+    if isinstance(scene, LevelTankScene):
+        from hydroelastic.scenes.level_tank.check import check_level_tank
+
+        return check_level_tank
     if isinstance(scene, StringScene):
         from hydroelastic.scenes.string.check import check_string
 

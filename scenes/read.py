@@ -14,6 +14,7 @@ from typing import Any, TypeAlias
 from pydantic import ValidationError
 
 from hydroelastic.scenes.errors import Problem, SceneError, scene_error, shown_value
+from hydroelastic.scenes.models.level_tank import LevelTankScene, is_level_tank
 from hydroelastic.scenes.models.plain import plain
 from hydroelastic.scenes.models.roll import RollScene
 from hydroelastic.scenes.models.string import StringScene
@@ -25,7 +26,7 @@ from hydroelastic.scenes.words import nearest, proposal
 
 Document: TypeAlias = dict[str, Any]
 
-Scene: TypeAlias = TankScene | StringScene | ThreadScene | RollScene
+Scene: TypeAlias = TankScene | LevelTankScene | StringScene | ThreadScene | RollScene
 
 SCENE_MODELS: dict[str, type[Scene]] = {
     "tank": TankScene,
@@ -183,6 +184,8 @@ def closed_tank(scene: Scene, because: str) -> TankScene:
     Raises:
         SceneError: if it is of another kind, or the ends of the tank are open.
     """
+    if isinstance(scene, LevelTankScene):
+        raise SceneError(Problem(key="[tank]", wrong=because, remedy="The command run takes three dimensions"))
     if not isinstance(scene, TankScene):
         raise SceneError(_misplaced('key "kind"', scene.kind, because, allowed='"tank"', what="this kind"))
     if scene.is_open:
@@ -258,7 +261,7 @@ def _model_of(document: Document, label: str) -> type[Scene]:
             remedy=proposal(str(kind), SCENE_MODELS),
         )
         raise SceneError(problem, file=label)
-    return SCENE_MODELS[kind]
+    return LevelTankScene if kind == "tank" and is_level_tank(document) else SCENE_MODELS[kind]
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -4,7 +4,7 @@ import pytest
 from pydantic import BaseModel
 from results_reference import KINDS
 from results_reference import page as results_page
-from scene_reference import FOLDER, UNIT, page, sections_of, value_type
+from scene_reference import FOLDER, PAGES, UNIT, page, sections_of, value_type
 
 from hydroelastic.physics.profiles import DEFAULT_TAIL
 from hydroelastic.scenes.models import Float
@@ -21,10 +21,10 @@ DIMENSIONLESS = {
 
 
 def models(kind: str) -> list[type[BaseModel]]:
-    return [SCENE_MODELS[kind], *(section.model for section in sections_of(SCENE_MODELS[kind]))]
+    return [PAGES[kind], *(section.model for section in sections_of(PAGES[kind]))]
 
 
-@pytest.mark.parametrize("kind", SCENE_MODELS)
+@pytest.mark.parametrize("kind", PAGES)
 def test_pages_are_those_of_the_models(kind: str) -> None:
     assert (FOLDER / f"{kind}.md").read_text(encoding="utf-8") == page(kind), REMEDY
 
@@ -37,12 +37,12 @@ def test_pages_of_results_are_those_of_the_quantities(kind: str) -> None:
 
 def test_there_is_a_page_of_each_kind_and_no_other() -> None:
     of_results = {f"results_{kind}" for kind in KINDS}
-    assert {path.stem for path in FOLDER.glob("*.md")} == {*SCENE_MODELS, *of_results, "index"}
+    assert {path.stem for path in FOLDER.glob("*.md")} == {*PAGES, *of_results, "index"}
     index = (FOLDER / "index.md").read_text(encoding="utf-8")
     assert all(f'`"{kind}"`' in index and f"({kind}.md)" in index for kind in SCENE_MODELS)
 
 
-@pytest.mark.parametrize("kind", SCENE_MODELS)
+@pytest.mark.parametrize("kind", PAGES)
 def test_every_key_tells_what_it_is_and_every_number_its_unit(kind: str) -> None:
     for model in models(kind):
         for key, field in model.model_fields.items():

@@ -10,6 +10,8 @@ from hydroelastic.output.csv_files import write_csv
 from hydroelastic.output.sections import markdown_sections
 from hydroelastic.output.tank.tables import mode_columns, tank_cost, tank_sections
 from hydroelastic.scenes.kinds import runner_of
+from hydroelastic.scenes.models.level_tank import LevelTankScene
+from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.read import read_scene, shipped_scenes
 from hydroelastic.scenes.run import run_scene
 
@@ -18,8 +20,10 @@ ALL_NAMES = [scene.name for scene in shipped_scenes()]
 OF_KIND = {
     kind: [name for name in ALL_NAMES if read_scene(name).kind == kind] for kind in ("tank", "string", "thread", "roll")
 }
-OPEN_NAMES = [name for name in OF_KIND["tank"] if read_scene(name).is_open]
-NAMES = [name for name in OF_KIND["tank"] if name not in OPEN_NAMES]
+LEVEL_NAMES = [name for name in OF_KIND["tank"] if isinstance(read_scene(name), LevelTankScene)]
+SECTIONS = [(name, scene) for name in OF_KIND["tank"] if isinstance(scene := read_scene(name), TankScene)]
+OPEN_NAMES = [name for name, scene in SECTIONS if scene.is_open]
+NAMES = [name for name, scene in SECTIONS if not scene.is_open]
 
 
 def test_every_shipped_scene_has_its_results_and_no_other() -> None:
@@ -60,6 +64,20 @@ def test_results_are_true(name: str) -> None:
         if old["omega"] is not None:
             # Closed forms and dense solutions: rounding alone may differ.
             assert old["omega"] == pytest.approx(new["omega"], rel=1e-8)
+
+
+@pytest.mark.slow_but("ring_pontoon")
+@pytest.mark.parametrize("name", LEVEL_NAMES)
+def test_results_in_three_dimensions_are_true(name: str) -> None:
+    stored = json.loads((SHIPPED / name / "summary.json").read_text(encoding="utf-8"))
+    summary = run_scene(read_scene(name)).summary
+    for old, new in zip(stored["modes"], summary["modes"], strict=True):
+        assert old["omega"] == pytest.approx(new["omega"], rel=old["relative_error"] + new["relative_error"])
+        assert (old["order"], old["multiplicity"], old["kind"]) == (new["order"], new["multiplicity"], new["kind"])
+    tone, again = stored["first_elastic"], summary["first_elastic"]
+    assert tone["added_mass_per_area"] == pytest.approx(
+        again["added_mass_per_area"], rel=tone["added_mass_relative_error"] + again["added_mass_relative_error"]
+    )
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -1,0 +1,1 @@
+"""Upright tanks with level beds, without a mesh of the volume: one problem on a line for each order."""

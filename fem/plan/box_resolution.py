@@ -1,0 +1,130 @@
+"""Resolution of a box with rectangular plates: cells, layers at edges, degree and polynomials of the plates."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import ceil, log10, pi, sqrt, tanh
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydroelastic.fem.plan.interval import IntervalSpace, graded_nodes
+from hydroelastic.fem.plan.rectangle_body import rectangle_of
+from hydroelastic.fem.tank.resolution import radians
+from hydroelastic.physics.beam_parts import Section
+from hydroelastic.physics.level_tank import Box, LevelTank
+from hydroelastic.physics.local_waves import LevelPiece
+from hydroelastic.physics.plate import Plate
+
+HIGHEST_DEGREE = 12
+MOST_POLYNOMIALS = 40
+MOST_LAYERS = 9
+# Largest cell, in parts of a box's side.
+_OF_SIDE = 0.3
+
+
+@dataclass(frozen=True, kw_only=True)
+class BoxResolution:
+    """Degree, cells and polynomials.
+
+    Attributes:
+        degree: of ψ along each axis.
+        largest: size of the largest cell, in tank lengths.
+        layers: layers beside each edge of a plate, each 0.2 times as thick as the one before.
+        polynomials: number of Legendre polynomials along each side of each plate.
+    """
+
+    degree: int
+    largest: float
+    layers: int
+    polynomials: tuple[int, ...]
+
+    def finer(self) -> BoxResolution:
+        """Return the resolution whose answer shows the error of this one: one layer and two degrees more."""
+        return replace(self, degree=self.degree + 2, layers=self.layers + 1)
+
+    def coarser(self) -> BoxResolution:
+        """Return the resolution that confirms the number of modes."""
+        return replace(
+            self,
+            degree=3,
+            layers=0,
+            polynomials=tuple(max(6, count - 6) for count in self.polynomials),
+        )
+
+    def refined(self, liquid: float, plates: float) -> BoxResolution | None:
+        """Return the next resolution by the errors over their parts of the tolerance; ``None`` where it ends."""
+        finer = self
+        if liquid > 1.0:
+            # A layer divides the error of an edge by 25, a degree that of the waves by five or more.
+            more = 1 + int(liquid > 30.0)
+            finer = replace(
+                finer,
+                degree=min(self.degree + more, HIGHEST_DEGREE),
+                layers=min(self.layers + more, MOST_LAYERS),
+                largest=self.largest * (0.7 if self.degree >= HIGHEST_DEGREE else 0.9),
+            )
+        if plates > 1.0:
+            factor = min(max(1.2 * plates ** (1.0 / 8.0), 1.2), 2.0)
+            finer = replace(
+                finer,
+                polynomials=tuple(min(ceil(factor * count), MOST_POLYNOMIALS) for count in self.polynomials),
+            )
+        return None if finer == self or (self.degree, self.layers) == (HIGHEST_DEGREE, MOST_LAYERS) else finer
+
+
+def box_resolution(tank: LevelTank, tolerance: float, count: int) -> BoxResolution:
+    """Return the resolution for some modes of a dimensionless tank."""
+    digits = -log10(tolerance)
+    degree = min(max(ceil(0.5 + 0.75 * digits), 4), HIGHEST_DEGREE - 2)
+    eigenvalue = expected_eigenvalue(tank, count)
+    wavenumbers = [plate_wavenumber(tank, plate, eigenvalue) for plate in tank.plates]
+    shortest = max([water_wavenumber(tank, eigenvalue), *wavenumbers])
+    polynomials = tuple(
+        min(ceil(1.1 * wavenumber * max(rectangle_of(plate.outline).size) / pi + 1.2 * digits) + 4, MOST_POLYNOMIALS)
+        for plate, wavenumber in zip(tank.plates, wavenumbers, strict=True)
+    )
+    assert isinstance(tank.plan, Box)
+    return BoxResolution(
+        degree=degree,
+        largest=min(radians(degree, tolerance) / shortest, _OF_SIDE * max(tank.plan.length, tank.plan.width)),
+        layers=min(max(ceil(digits / 1.4 - 1.9), 1), MOST_LAYERS - 2),
+        polynomials=polynomials,
+    )
+
+
+def expected_eigenvalue(tank: LevelTank, count: int) -> float:
+    """Return about the λ of the highest of some modes: that of open water with as many, by Weyl's law A k²/4π."""
+    wavenumber = sqrt(4.0 * pi * (count + 2) / tank.plan.area)
+    return wavenumber * tanh(wavenumber * tank.depth)
+
+
+def water_wavenumber(tank: LevelTank, eigenvalue: float) -> float:
+    """Return the wavenumber of waves of a λ on open water."""
+    return LevelPiece(length=1.0, beam=None, jump=1.0, restored=True, layers=((1.0, tank.depth),)).wavenumber(
+        eigenvalue
+    )
+
+
+def plate_wavenumber(tank: LevelTank, plate: Plate, eigenvalue: float) -> float:
+    """Return the wavenumber of waves of a λ in an elastic plate on water; 0 of a rigid one."""
+    if not plate.is_elastic:
+        return 0.0
+    section = Section(length=1.0, flexural_rigidity=plate.flexural_rigidity, mass_per_length=plate.mass_per_area)
+    piece = LevelPiece(length=1.0, beam=section, jump=1.0, restored=plate.hydrostatic, layers=((1.0, tank.depth),))
+    return piece.wavenumber(eigenvalue)
+
+
+def axis_space(resolution: BoxResolution, length: float, edges: tuple[float, ...], parity: int | None) -> IntervalSpace:
+    """Return the space along one axis, of half of it where it has a symmetry.
+
+    Args:
+        resolution: of the box.
+        length: of the axis.
+        edges: places of the edges of plates.
+        parity: 0 even, 1 odd about the middle, ``None`` without a symmetry.
+    """
+    end = length if parity is None else 0.5 * length
+    places = tuple(place for place in edges if place <= end)
+    nodes: NDArray[np.float64] = graded_nodes(0.0, end, places, largest=resolution.largest, layers=resolution.layers)
+    return IntervalSpace(nodes=nodes, degree=resolution.degree, zero_at_end=parity == 1)

@@ -1,0 +1,120 @@
+"""The lowest modes of a tank whose symmetries leave several problems, merged into one ascending list."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+
+from hydroelastic.fem.modes import HIDDEN, Mode, ModeSet, count_below, solve_modes
+from hydroelastic.fem.pencil import CoupledPencil
+from hydroelastic.fem.plan.rectangle_body import ClassParity
+
+
+@dataclass(frozen=True, kw_only=True)
+class SymmetryClass:
+    """The problem of one symmetry, with its modes.
+
+    Attributes:
+        parity: about the middle of the tank along x and y.
+        pencil: its problem, with energies of the whole tank.
+        modes: its lowest modes.
+    """
+
+    parity: ClassParity
+    pencil: CoupledPencil
+    modes: ModeSet
+
+    @property
+    def label(self) -> str:
+        """What the class is called: xS even and xA odd along x, "" without a symmetry."""
+        return "".join(f"{axis}{'SA'[own]}" for axis, own in zip("xy", self.parity, strict=True) if own is not None)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ClassModes:
+    """The modes of all classes.
+
+    Attributes:
+        classes: the problems.
+        eigenvalues: λ of the lowest modes of all, ascending, shape (modes,).
+        origins: index of the class, and index in it, of each mode.
+    """
+
+    classes: tuple[SymmetryClass, ...]
+    eigenvalues: np.ndarray
+    origins: tuple[tuple[int, int], ...]
+
+    def completed(self, index: int) -> Mode:
+        """Return a mode with its shape, at unit generalized mass."""
+        number, place = self.origins[index]
+        return self.classes[number].modes.completed(place)
+
+
+def solve_classes(pencils: dict[ClassParity, CoupledPencil], count: int) -> ClassModes:
+    """Solve each class for its share of the modes, and for more where the shares are not enough (collective).
+
+    Args:
+        pencils: the problem of each class that has unknowns.
+        count: number of modes; fewer are returned if the model has fewer.
+    """
+    if not pencils:
+        return ClassModes(classes=(), eigenvalues=np.empty(0), origins=())
+    share = count if len(pencils) == 1 else count // len(pencils) + 2
+    classes = [
+        SymmetryClass(parity=parity, pencil=pencil, modes=solve_modes(pencil, share, shapes=0))
+        for parity, pencil in pencils.items()
+    ]
+    shares = [share] * len(classes)
+    while True:
+        limit = min((float(one.modes.eigenvalues[0]) for one in classes if len(one.modes.eigenvalues)), default=np.inf)
+        limit /= HIDDEN
+        # A class that gives fewer than requested has no more above rounding.
+        reached = [
+            min(one.modes.eigenvalues[-1], limit) if len(one.modes.eigenvalues) == share else limit
+            for one, share in zip(classes, shares, strict=True)
+        ]
+        complete = sum(int(np.sum(one.modes.eigenvalues <= min(reached))) for one in classes)
+        if complete >= count or min(reached) >= limit:
+            break
+        short = int(np.argmin(reached))
+        shares[short] += max(4, count - complete)
+        classes[short] = replace(classes[short], modes=solve_modes(classes[short].pencil, shares[short], shapes=0))
+    ordered = sorted(
+        (float(value), number, place)
+        for number, one in enumerate(classes)
+        for place, value in enumerate(one.modes.eigenvalues)
+        if value <= limit
+    )[:count]
+    return ClassModes(
+        classes=tuple(classes),
+        eigenvalues=np.array([value for value, _, _ in ordered]),
+        origins=tuple((number, place) for _, number, place in ordered),
+    )
+
+
+def count_is_confirmed(solution: ClassModes, coarse: Callable[[ClassParity], CoupledPencil | None]) -> bool:
+    """Whether a coarser model of each class has as many modes below the widest of the last gaps (collective).
+
+    Ritz values of the coarser space are not below those of the finer: it has no more modes under any limit, and as many
+    where the gap is wider than its error. Its matrices give the number by their inertia, without an iteration.
+
+    Args:
+        solution: the modes.
+        coarse: makes the problem of a class in a coarser space, with its matrix A.
+    """
+    values = solution.eigenvalues
+    if len(values) < 2:
+        return True
+    gaps = [upper / lower for lower, upper in pairwise(values)]
+    first = max(0, len(gaps) - 4)
+    widest = first + int(np.argmax(gaps[first:]))
+    shift = float(np.sqrt(values[widest] * values[widest + 1]))
+    for one in solution.classes:
+        pencil = coarse(one.parity)
+        assert pencil is not None
+        if count_below(pencil, shift) != int(np.sum(one.modes.eigenvalues < shift)):
+            return False
+    return True

@@ -1,0 +1,234 @@
+"""Plates of any outline as bodies on a plan: rectangles, discs and rings, polygons."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+from math import ceil, pi
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydroelastic.fem.plan.plan_pencil import Deflection, PlanPlate
+from hydroelastic.fem.plan.rectangle_body import dofs_by_stiffness, rectangle_body
+from hydroelastic.fem.plan.truncation import geometric_tail, rectangle_energies
+from hydroelastic.fem.surfaces import Body
+from hydroelastic.modal.plate.line_modes import LineModes, PlateLine, dry_modes
+from hydroelastic.modal.plate.polygon import PolygonModes, polygon_modes
+from hydroelastic.physics.dofs import Dof, body_name
+from hydroelastic.physics.level_tank import Box, Cylinder, LevelTank
+from hydroelastic.physics.plate import Disc, Edge, Plate, Polygon, Rectangle
+from hydroelastic.physics.symmetry import Parity
+
+# Beyond this degree the polynomials of a polygon are no longer told apart in double precision.
+_HIGHEST_OF_POLYGON = 22
+_RIGID_MOTIONS = ("heave", "pitch", "roll")
+
+
+def plan_plate(tank: LevelTank, index: int, polynomials: int) -> PlanPlate:
+    """Return a plate of a dimensionless tank in all of its shapes.
+
+    Args:
+        tank: the tank.
+        index: index of the plate.
+        polynomials: number of polynomials along each direction.
+    """
+    plate = tank.plates[index]
+    outline = plate.outline
+    if isinstance(outline, Rectangle):
+        box = tank.plan if isinstance(tank.plan, Box) else _far_from_walls(outline)
+        found = rectangle_body(box, index, plate, polynomials, (None, None))
+        return PlanPlate(
+            body=found.body,
+            deflection=found.deflection,
+            wavenumber=1.5 * polynomials / min(outline.size),
+            missing_energy=partial(rectangle_energies, found),
+        )
+    if isinstance(outline, Disc):
+        return _disc(tank, index, outline, polynomials)
+    assert isinstance(outline, Polygon)
+    return _polygon(plate, index, outline, polynomials)
+
+
+def _far_from_walls(outline: Rectangle) -> Box:
+    """A box whose walls the rectangle does not touch."""
+    (x, y), (length, width) = outline.position, outline.size
+    return Box(length=abs(x) + 2.0 * length, width=abs(y) + 2.0 * width)
+
+
+def _body(
+    plate: Plate,
+    index: int,
+    deflection: Deflection,
+    dofs: tuple[Dof, ...],
+    bending: NDArray[np.float64],
+    squares: NDArray[np.float64],
+) -> Body:
+    parities: tuple[Parity, ...] = tuple("symmetric" for _ in squares)
+    return Body(
+        surface=body_name(index + 1),
+        shapes=lambda points, _normals, number: deflection(points[:2])[number],
+        wavenumber=0.0,
+        dofs=dofs,
+        parities=parities,
+        stiffness=bending + float(plate.hydrostatic) * squares,
+        bending_stiffness=bending,
+        mass=np.diag(plate.mass_per_area * squares),
+        motions=np.eye(len(squares)),
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class _DiscShapes:
+    """Shapes W(r) cos nθ and W(r) sin nθ of a disc or ring.
+
+    Attributes:
+        disc: the outline.
+        orders: n of each family, and +1 for cosines, −1 for sines.
+        families: its radial shapes.
+        factors: of each shape, shape (shapes,).
+    """
+
+    disc: Disc
+    orders: tuple[tuple[int, int], ...]
+    families: tuple[LineModes, ...]
+    factors: NDArray[np.float64]
+
+    def __call__(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the shapes at points, shape (shapes, points)."""
+        x, y = points - np.array(self.disc.position)[:, None]
+        radius = np.clip(np.hypot(x, y), self.disc.inner_radius, self.disc.radius)
+        angle = np.arctan2(y, x)
+        tables = [
+            modes.values(radius).T * (np.cos(order * angle) if sign > 0 else np.sin(order * angle))
+            for (order, sign), modes in zip(self.orders, self.families, strict=True)
+        ]
+        return np.concatenate(tables) * self.factors[:, None]
+
+
+def _disc(tank: LevelTank, index: int, disc: Disc, polynomials: int) -> PlanPlate:
+    plate = tank.plates[index]
+    edge = plate.edge if _covers(tank, disc) else "free"
+    edges: tuple[Edge, Edge] = ("free", edge)
+    orders, families = [], []
+    # Polynomials of degree up to twice their number: order n and 2 per radial function.
+    highest = polynomials
+    for order in range(highest + 1 if plate.is_elastic else 2):
+        line = PlateLine(
+            start=disc.inner_radius,
+            end=disc.radius,
+            round=True,
+            transverse=float(order),
+            poisson_ratio=plate.poisson_ratio,
+            edges=edges,
+        )
+        count = max(ceil(0.5 * (polynomials - 0.5 * order)) + 1, 5) if plate.is_elastic else line.rigid_count
+        count += 2 if disc.inner_radius and plate.is_elastic else 0
+        if count:
+            modes = dry_modes(line, count)
+            for sign in (1, -1) if order else (1,):
+                orders.append((order, sign))
+                families.append(modes)
+    factors, squares, bending, rigid = [], [], [], []
+    for (order, sign), modes in zip(orders, families, strict=True):
+        whole = 2.0 * pi if order == 0 else pi
+        for place in range(modes.count):
+            if place < modes.rigid:
+                # W is 1 of heave, r/a of pitch, r of roll.
+                edge_value = float(modes.values(np.array([disc.radius]))[0, place])
+                factor = (1.0 if order == 0 or sign > 0 else disc.radius) / edge_value
+                rigid.append(Dof("heave" if order == 0 else "pitch" if sign > 0 else "roll"))
+            else:
+                factor = 1.0
+            factors.append(factor)
+            squares.append(whole * modes.squares[place] * factor**2)
+            bending.append(whole * modes.bending[place] * factor**2)
+    shapes = _DiscShapes(disc=disc, orders=tuple(orders), families=tuple(families), factors=np.array(factors))
+    rigidity = plate.flexural_rigidity if plate.is_elastic else 0.0
+    names = dofs_by_stiffness(np.array(bending) / np.array(squares), rigid)
+    body = _body(plate, index, shapes, names, rigidity * np.array(bending), np.array(squares))
+    return PlanPlate(
+        body=body,
+        deflection=shapes,
+        wavenumber=0.8 * polynomials / disc.radius,
+        missing_energy=partial(_disc_tail, body, shapes),
+    )
+
+
+def _covers(tank: LevelTank, disc: Disc) -> bool:
+    return (
+        isinstance(tank.plan, Cylinder)
+        and disc.position == (0.0, 0.0)
+        and disc.radius >= tank.plan.radius * (1.0 - 1e-9)
+    )
+
+
+def _disc_tail(body: Body, shapes: _DiscShapes, amplitudes: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Energy of the orders and radial polynomials left out, from that of the last ones."""
+    energies = body.bending_stiffness * amplitudes**2
+    rigid_free = body.bending_stiffness > 0.0
+    of_order = np.zeros((len(amplitudes), max(order for order, _ in shapes.orders) + 1))
+    radial = np.zeros(len(amplitudes))
+    first = 0
+    for (order, _), modes in zip(shapes.orders, shapes.families, strict=True):
+        own = slice(first, first + modes.count)
+        of_order[:, order] += energies[:, own].sum(axis=1)
+        if rigid_free[own].any():
+            # From dry modes back to the polynomials, by ascending degree.
+            inverse = np.linalg.pinv(modes.coefficients)
+            parts = amplitudes[:, own] @ modes.coefficients.T
+            stiffness = (inverse.T * body.bending_stiffness[own]) @ inverse
+            last, before = (
+                ((parts[:, -kept:] @ stiffness[-kept:, -kept:]) * parts[:, -kept:]).sum(axis=1) for kept in (1, 2)
+            )
+            radial += geometric_tail(last, before - last)
+        first += modes.count
+    return radial + geometric_tail(of_order[:, -2:].sum(axis=1), of_order[:, -4:-2].sum(axis=1))
+
+
+def _polygon(plate: Plate, index: int, outline: Polygon, polynomials: int) -> PlanPlate:
+    corners = anticlockwise(np.array(outline.points))
+    modes = polygon_modes(corners, plate.poisson_ratio, min(polynomials, _HIGHEST_OF_POLYGON))
+    count = len(modes.stiffness) if plate.is_elastic else 3
+    root = float(np.sqrt(outline.area))
+    squares = np.full(count, outline.area)
+    rigidity = plate.flexural_rigidity if plate.is_elastic else 0.0
+
+    def deflection(points: NDArray[np.float64]) -> NDArray[np.float64]:
+        return modes.deflection(points)[:count] * root
+
+    names = tuple(Dof(_RIGID_MOTIONS[number]) if number < 3 else Dof.elastic(number - 2) for number in range(count))
+    bending = np.zeros(count)
+    if plate.is_elastic:
+        bending = rigidity * modes.stiffness[:count] * squares
+    return PlanPlate(
+        body=_body(plate, index, deflection, names, bending, squares),
+        deflection=deflection,
+        wavenumber=0.8 * modes.degree / float(modes.half.min()),
+        missing_energy=partial(_polygon_tail, modes, rigidity * outline.area),
+    )
+
+
+def _polygon_tail(modes: PolygonModes, factor: float, amplitudes: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Energy of the degrees left out, from that of the last two."""
+    if amplitudes.shape[1] == 3:
+        return np.zeros(len(amplitudes))
+    # Of orthonormal polynomials, those of the last degrees.
+    raw = amplitudes @ modes.coefficients
+    parts = np.linalg.solve(modes.orthonormal, raw.T).T
+
+    def beyond(dropped: int) -> NDArray[np.float64]:
+        kept = (modes.degree - dropped + 1) * (modes.degree - dropped + 2) // 2
+        rest = parts[:, kept:]
+        energy: NDArray[np.float64] = factor * ((rest @ modes.bending[kept:, kept:]) * rest).sum(axis=1)
+        return energy
+
+    last = beyond(2)
+    return 0.25 * geometric_tail(last, beyond(4) - last)
+
+
+def anticlockwise(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the corners of a polygon in anticlockwise order."""
+    ahead = np.roll(corners, -1, axis=0)
+    area = float((corners[:, 0] * ahead[:, 1] - corners[:, 1] * ahead[:, 0]).sum())
+    return corners if area > 0.0 else corners[::-1]

@@ -1,0 +1,198 @@
+"""Closed lines on a plan: walls and outlines of plates, their parallels, and the room between them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import ceil, pi
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+RATIO = 0.2
+"""Ratio of the thicknesses of successive layers beside an edge."""
+
+Grading: TypeAlias = NDArray[np.float64]
+"""Distances of nodes from a corner, ascending."""
+UNGRADED: Grading = np.zeros(0)
+"""No nodes but those of the cells' size."""
+
+# Corners of a wall that turn the other way by more than this are re-entrant, radians.
+_REENTRANT = 1e-3
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class PolygonLoop:
+    """A closed polygon; its interior is on the left of its sides.
+
+    Attributes:
+        corners: shape (corners, 2), anticlockwise.
+    """
+
+    corners: NDArray[np.float64]
+
+    def parallel(self, distance: float, places: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return points of the mitred parallel outside it (inside if negative).
+
+        Args:
+            distance: from the sides.
+            places: number of the side plus the part of it that is passed, shape (points,).
+        """
+        sides = np.roll(self.corners, -1, axis=0) - self.corners
+        tangents = sides / np.linalg.norm(sides, axis=1)[:, None]
+        before = np.roll(tangents, 1, axis=0)
+        normals = np.column_stack([tangents[:, 1], -tangents[:, 0]])
+        # The mitre of a corner: the sum of both normals over one plus the cosine between them.
+        sums = normals + np.roll(normals, 1, axis=0)
+        mitres = sums / (1.0 + (tangents * before).sum(axis=1))[:, None]
+        moved = self.corners + distance * mitres
+        number = np.floor(places).astype(int) % len(moved)
+        part = (places - np.floor(places))[:, None]
+        points: NDArray[np.float64] = (1.0 - part) * moved[number] + part * moved[(number + 1) % len(moved)]
+        return points
+
+    def places(self, size: float, towards: Grading, towards_reentrant: Grading) -> NDArray[np.float64]:
+        """Return where the nodes lie: cells of a size, smaller ones towards the corners.
+
+        Args:
+            size: of the largest cell.
+            towards: distances of nodes from a corner, ascending.
+            towards_reentrant: the same of corners with more than half a turn inside.
+        """
+        places = []
+        ahead = np.roll(self.corners, -1, axis=0) - self.corners
+        lengths = np.linalg.norm(ahead, axis=1)
+        graded = [towards_reentrant if reentrant else towards for reentrant in self._is_reentrant]
+        for number, length in enumerate(lengths):
+            start, end = (_fitting(one, length) for one in (graded[number], graded[(number + 1) % len(lengths)]))
+            low, high = start[-1] if len(start) else 0.0, 1.0 - (end[-1] if len(end) else 0.0)
+            count = max(ceil((high - low) * length / size), 1)
+            inner = np.linspace(low, high, count + 1)
+            inner = inner[int(len(start) > 0 or low == 0.0) : -1]
+            places.append(number + np.concatenate([[0.0], start, inner, 1.0 - end[::-1]]))
+        return np.concatenate(places)
+
+    def contains(self, point: NDArray[np.float64]) -> bool:
+        """Whether a point lies inside."""
+        x, y = (self.corners - point).T
+        u, v = np.roll(x, -1), np.roll(y, -1)
+        crossing = (y > 0.0) != (v > 0.0)
+        return bool(np.sum(crossing & ((x * v - u * y > 0.0) == (v > y))) % 2)
+
+    @property
+    def reentrant(self) -> NDArray[np.float64]:
+        """Corners with more than half a turn inside, shape (corners, 2)."""
+        return np.asarray(self.corners[self._is_reentrant])
+
+    @property
+    def _is_reentrant(self) -> NDArray[np.bool_]:
+        ahead = np.roll(self.corners, -1, axis=0) - self.corners
+        behind = np.roll(ahead, 1, axis=0)
+        turn = np.arctan2(behind[:, 0] * ahead[:, 1] - behind[:, 1] * ahead[:, 0], (behind * ahead).sum(axis=1))
+        return np.asarray(turn < -_REENTRANT)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class CircleLoop:
+    """A circle, anticlockwise.
+
+    Attributes:
+        centre: shape (2,).
+        radius: its radius.
+    """
+
+    centre: NDArray[np.float64]
+    radius: float
+
+    def parallel(self, distance: float, places: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return points of the concentric circle outside it, at parts of a turn."""
+        angles = 2.0 * pi * places
+        return self.centre + (self.radius + distance) * np.column_stack([np.cos(angles), np.sin(angles)])
+
+    def places(self, size: float, _towards: Grading, _towards_reentrant: Grading) -> NDArray[np.float64]:
+        """Return where the nodes lie, in parts of a turn; it has no corners."""
+        count = max(ceil(2.0 * pi * self.radius / size), 12)
+        return np.arange(count) / count
+
+    def contains(self, point: NDArray[np.float64]) -> bool:
+        """Whether a point lies inside."""
+        return bool(np.hypot(*(point - self.centre)) < self.radius)
+
+    @property
+    def reentrant(self) -> NDArray[np.float64]:
+        """It has no corners."""
+        return np.empty((0, 2))
+
+
+Loop = PolygonLoop | CircleLoop
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlanRegion:
+    """A region of a plan.
+
+    Attributes:
+        name: physical name of its cells.
+        outside: its outer loop.
+        inside: loops of its holes.
+    """
+
+    name: str
+    outside: Loop
+    inside: tuple[Loop, ...] = ()
+
+    @property
+    def loops(self) -> tuple[Loop, ...]:
+        """Its outer loop and those of its holes."""
+        return (self.outside, *self.inside)
+
+    def gap(self, other: PlanRegion) -> float:
+        """Return the distance of its loops from those of another region, as far as a few hundred points show it."""
+        return min(_gap(one, another) for one in self.loops for another in other.loops)
+
+
+def _fitting(grading: Grading, length: float) -> Grading:
+    """Distances in parts of a side, the largest of which is 0.3 of it at most."""
+    return grading * min(1.0 / length, 0.3 / grading[-1]) if len(grading) else grading
+
+
+def room_between(walls: tuple[Loop, ...], edges: tuple[Loop, ...]) -> float:
+    """Two fifths of the smallest distance between two loops, and a third of the smallest length along one."""
+    room = np.inf
+    for number, loop in enumerate(edges):
+        others = (*walls, *edges[:number])
+        room = min([room, *(0.4 * _gap(loop, other) for other in others)])
+        room = min(room, loop.radius / 3.0 if isinstance(loop, CircleLoop) else _inner_room(loop))
+    return room
+
+
+def _gap(one: Loop, other: Loop) -> float:
+    """Distance of two loops: of the points of one from the straight pieces between those of the other."""
+    first, second = (loop.parallel(0.0, loop.places(_extent(loop) / 60.0, UNGRADED, UNGRADED)) for loop in (one, other))
+    return min(_distance(first, second), _distance(second, first))
+
+
+def _distance(points: NDArray[np.float64], corners: NDArray[np.float64]) -> float:
+    sides = np.roll(corners, -1, axis=0) - corners
+    away = points[:, None] - corners
+    parts = np.clip((away * sides).sum(axis=2) / (sides**2).sum(axis=1), 0.0, 1.0)
+    return float(np.linalg.norm(away - parts[..., None] * sides, axis=2).min())
+
+
+def _extent(loop: Loop) -> float:
+    return float(np.ptp(loop.parallel(0.0, np.linspace(0.0, 1.0, 200) * _turns(loop)), axis=0).max())
+
+
+def _turns(loop: Loop) -> float:
+    return len(loop.corners) - 1e-9 if isinstance(loop, PolygonLoop) else 1.0
+
+
+def _inner_room(loop: PolygonLoop) -> float:
+    """The offset inwards at which a side of the polygon vanishes, a third of it."""
+    here = loop.parallel(0.0, np.arange(len(loop.corners), dtype=float))
+    there = loop.parallel(-1.0, np.arange(len(loop.corners), dtype=float))
+    lengths = np.linalg.norm(np.roll(here, -1, axis=0) - here, axis=1)
+    sides = (np.roll(here, -1, axis=0) - here) / lengths[:, None]
+    shrinking = ((np.roll(there, -1, axis=0) - there) * sides).sum(axis=1)
+    rate = np.abs(lengths - shrinking)
+    return float((lengths / np.maximum(rate, 1e-12)).min()) / 3.0

@@ -1,0 +1,1 @@
+"""Plates: dry modes, closed forms and estimates."""

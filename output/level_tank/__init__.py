@@ -1,0 +1,1 @@
+"""Results of tanks in three dimensions."""

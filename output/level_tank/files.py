@@ -1,0 +1,50 @@
+"""Mode shapes of a tank in three dimensions as files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import meshio
+import numpy as np
+
+from hydroelastic.output.csv_files import write_csv
+from hydroelastic.output.level_tank.quantities import MODES
+from hydroelastic.output.level_tank.sample import SampledModes, SampledTank
+from hydroelastic.output.quantities import Quantity
+
+
+def write_level_tank(tank: SampledTank, folder: Path) -> None:
+    """Write ``modes.csv`` and ``fields/`` into an existing folder; SI units."""
+    keys = [part.key for part in MODES.parts if isinstance(part, Quantity)]
+    modes = tank.summary["modes"]
+    columns = {key: ["" if mode[key] is None else mode[key] for mode in modes] for key in keys}
+    write_csv(folder / "modes.csv", {"mode": np.arange(1, len(modes) + 1), **columns})
+    (folder / "fields").mkdir()
+    write_surface(tank.sample, folder / "fields" / "surface.vtu")
+    write_volume(tank.sample, folder / "fields" / "volume.vtu")
+
+
+def write_surface(sample: SampledModes, file: Path) -> None:
+    """Write the still surface with the displacement of plates and water in each mode, for ParaView's Warp By Vector."""
+    upwards = np.zeros((len(sample.points), 3))
+    data = {}
+    for name, elevation in zip(sample.names, sample.elevations, strict=True):
+        upwards[:, 2] = elevation
+        data[f"displacement_{name}"] = upwards.copy()
+    points = np.column_stack([sample.points, np.zeros(len(sample.points))])
+    cells = [("triangle", sample.triangles)]
+    meshio.write(file, meshio.Mesh(points, cells, point_data=data, cell_data={"plate": [sample.plate_of_triangles]}))
+
+
+def write_volume(sample: SampledModes, file: Path) -> None:
+    """Write ψ of each mode in the liquid, on prisms below the triangles of the surface."""
+    count, levels = len(sample.points), len(sample.levels)
+    points = np.column_stack([np.tile(sample.points, (levels, 1)), np.repeat(sample.levels, count)])
+    prisms = [
+        np.hstack([sample.triangles + (level + 1) * count, sample.triangles + level * count])
+        for level in range(levels - 1)
+    ]
+    data = {
+        f"potential_{name}": potential.ravel() for name, potential in zip(sample.names, sample.potentials, strict=True)
+    }
+    meshio.write(file, meshio.Mesh(points, [("wedge", np.vstack(prisms))], point_data=data))

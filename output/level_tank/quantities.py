@@ -1,0 +1,368 @@
+"""Quantities of a tank in three dimensions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from math import pi
+from typing import Any, Protocol
+
+import numpy as np
+
+from hydroelastic.fem.level_bed.solution import LevelMode, LevelSolution, PlateTone
+from hydroelastic.fem.tank.elastic_tone import added_mass, bending_fraction, mode_kind
+from hydroelastic.modal.estimate import difference
+from hydroelastic.modal.plate.estimates import ExactMode, PlateEstimate
+from hydroelastic.output.provenance import PROCESSES
+from hydroelastic.output.quantities import Group, Quantity
+
+
+class EstimatedLevelTank(Protocol):
+    """What the quantities are taken from."""
+
+    @property
+    def tank(self) -> LevelSolution:
+        """The field solution."""
+
+    @property
+    def exact(self) -> Sequence[ExactMode]:
+        """Frequencies of a closed form."""
+
+    @property
+    def estimates(self) -> Mapping[str, PlateEstimate]:
+        """Estimates of the first elastic tone of the first plate."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShownMode:
+    """One mode in SI units."""
+
+    omega: float
+    one: LevelMode
+
+
+def _modes(result: EstimatedLevelTank) -> Iterator[ShownMode]:
+    return (ShownMode(omega=result.tank.omega(one.mode.eigenvalue), one=one) for one in result.tank.modes)
+
+
+def _tones(result: EstimatedLevelTank) -> Iterator[dict[str, Any]]:
+    return (_tone(result.tank, tone) for tone in result.tank.tones)
+
+
+def _tone(solution: LevelSolution, tone: PlateTone) -> dict[str, Any]:
+    massless = solution.tank.plates[tone.plate].mass_per_area == 0.0
+    found: dict[str, Any] = {
+        "body": tone.plate + 1,
+        "order": tone.order,
+        "dry_omega": None if massless else solution.omega(tone.dry),
+        "pressure_release_omega": None if tone.pressure_release is None else solution.omega(tone.pressure_release),
+        "pressure_release_relative_error": tone.pressure_release_error,
+        **dict.fromkeys(_OF_TONE),
+        "note": tone.reason,
+    }
+    if tone.tone is None or tone.eigenvalue is None or tone.relative_error is None:
+        return found
+    added, error = added_mass(tone.stiffness, tone.mass, tone.eigenvalue, tone.relative_error)
+    values = [
+        number
+        for number, one in enumerate(solution.modes, 1)
+        if one.problem.order == tone.order and abs(one.mode.eigenvalue / tone.eigenvalue - 1.0) < _SAME
+    ]
+    return found | {
+        "omega": solution.omega(tone.eigenvalue),
+        "relative_error": tone.relative_error,
+        "index": values[0] if values else None,
+        "index_in_order": tone.tone.index + 1,
+        "participation": tone.tone.participation,
+        "runner_up": tone.tone.runner_up,
+        "shared": tone.tone.is_shared,
+        "one_mode": tone.tone.is_of_one_mode,
+        "added_mass_per_area": added / tone.squares * solution.units.mass_per_length,
+        "added_mass_relative_error": error,
+        "note": "the tone is shared between hybrid modes; see the pressure-release tone" if tone.tone.is_shared else "",
+    }
+
+
+_OF_TONE = (
+    "omega",
+    "relative_error",
+    "index",
+    "index_in_order",
+    "participation",
+    "runner_up",
+    "shared",
+    "one_mode",
+    "added_mass_per_area",
+    "added_mass_relative_error",
+)
+# Modes of one order whose λ agree so well are one.
+_SAME = 1e-4
+
+
+def _first(result: EstimatedLevelTank) -> dict[str, Any] | None:
+    return next(_tones(result), None)
+
+
+def _estimates(result: EstimatedLevelTank) -> Iterator[dict[str, Any]]:
+    first = _first(result) or {}
+    for name, one in result.estimates.items():
+        yield {
+            "name": name,
+            "omega": one.omega,
+            "added_mass_per_area": one.added_mass_per_area,
+            "difference": difference(one.omega, first.get("omega")),
+            "difference_to_pressure_release": difference(one.omega, first.get("pressure_release_omega")),
+            "note": one.note,
+        }
+
+
+def _exact(result: EstimatedLevelTank) -> Iterator[dict[str, Any]]:
+    for one, exact in zip(_modes(result), result.exact, strict=False):
+        yield {
+            "formula": exact.formula,
+            "order": exact.order,
+            "omega": exact.omega,
+            "difference": one.omega / exact.omega - 1.0,
+        }
+
+
+MODES = Group(
+    "modes",
+    "natural modes by ascending frequency",
+    (
+        Quantity("omega", "natural frequency", "rad/s", "ω", error="relative_error", digits=12, variable="omega"),
+        Quantity(
+            "frequency_hz", "frequency of a mode", "Hz", "f", value=lambda mode: mode.omega / (2.0 * pi), shown=".6g"
+        ),
+        Quantity(
+            "relative_error", "estimated relative error", "1", value=lambda mode: mode.one.relative_error, shown=".1e"
+        ),
+        Quantity(
+            "order",
+            "order",
+            "1",
+            "n",
+            value=lambda mode: mode.one.problem.order,
+            note="of cos nθ about the axis, of cos nπy/B across a box; `null` where it is not separated",
+        ),
+        Quantity(
+            "symmetry",
+            "symmetry",
+            value=lambda mode: mode.one.problem.symmetry,
+            printed=False,
+            note='`""` where none is used',
+        ),
+        Quantity(
+            "multiplicity",
+            "multiplicity",
+            "1",
+            value=lambda mode: mode.one.problem.multiplicity,
+            note="2 of modes that may be turned about the axis, cos nθ and sin nθ",
+        ),
+        Quantity(
+            "kind",
+            "kind",
+            value=lambda mode: mode_kind(mode.one.mode, mode.one.bodies, mode.one.problem.pencil.surfaces),
+            note="what has most of the potential energy",
+        ),
+        Quantity(
+            "elastic_energy_fraction",
+            "bending energy over the potential energy",
+            "1",
+            "bending",
+            value=lambda mode: bending_fraction(mode.one.mode, mode.one.bodies),
+            shown=".3f",
+        ),
+        Quantity(
+            "residual",
+            "relative residual of the eigenpair",
+            "1",
+            value=lambda mode: mode.one.mode.residual,
+            printed=False,
+        ),
+    ),
+    record=_modes,
+    dimension="mode",
+    prefix="mode",
+)
+_TONE_PARTS = (
+    Quantity("body", "number of the plate", "1"),
+    Quantity("order", "order of its lowest elastic dry mode", "1", "n"),
+    Quantity("omega", "frequency of the first elastic tone", "rad/s", "ω", error="relative_error"),
+    Quantity("relative_error", "estimated relative error of the tone", "1", shown=".1e"),
+    Quantity("index", "number of the tone among the modes", "1", note="`null` if it lies above them"),
+    Quantity("index_in_order", "number of the tone among the modes of its order", "1"),
+    Quantity("participation", "participation of the first dry mode", "1", "p", shown=".3f"),
+    Quantity("runner_up", "next largest participation", "1", shown=".3f"),
+    Quantity("shared", "whether hybrid modes share the tone"),
+    Quantity("one_mode", "whether the tone is attributed to one mode", printed=False),
+    Quantity(
+        "added_mass_per_area",
+        "added mass per area of the first dry mode",
+        "kg/m^2",
+        "m_a",
+        error="added_mass_relative_error",
+        note="(stiffness/ω² − mass) over ∫W²",
+    ),
+    Quantity(
+        "added_mass_relative_error", "estimated relative error of the added mass", "1", shown=".1e", printed=False
+    ),
+    Quantity(
+        "dry_omega", "frequency of the dry mode with the hydrostatic restoring", "rad/s", note="`null` without mass"
+    ),
+    Quantity(
+        "pressure_release_omega",
+        "frequency with ψ = 0 on the water",
+        "rad/s",
+        error="pressure_release_relative_error",
+        note="`null` without open water",
+    ),
+    Quantity(
+        "pressure_release_relative_error", "estimated relative error of that frequency", "1", shown=".1e", printed=False
+    ),
+    Quantity("note", "remark", printed=False),
+)
+FIRST_ELASTIC = Group("first_elastic", "first elastic tone of the first elastic plate", _TONE_PARTS, record=_first)
+TONES = Group(
+    "first_elastic_by_body",
+    "first elastic tone of each elastic plate",
+    _TONE_PARTS,
+    record=_tones,
+    dimension="elastic_plate",
+    prefix="elastic_plate",
+)
+ESTIMATES = Group(
+    "estimates",
+    "estimates of the first elastic tone of a single plate",
+    (
+        Quantity("name", "estimate"),
+        Quantity("omega", "estimated frequency", "rad/s", "ω", shown=".6g"),
+        Quantity("added_mass_per_area", "estimated added mass per area", "kg/m^2", "m_a", shown=".6g"),
+        Quantity("difference", "relative difference from the tone", "1", "Δω/ω", shown="+.2e"),
+        Quantity(
+            "difference_to_pressure_release",
+            "relative difference from the pressure-release tone",
+            "1",
+            "Δω/ω₀",
+            shown="+.2e",
+        ),
+        Quantity("note", "what it is", printed=False),
+    ),
+    record=_estimates,
+    dimension="estimate",
+)
+EXACT = Group(
+    "exact",
+    "frequencies of a closed form",
+    (
+        Quantity("formula", "formula", printed=False),
+        Quantity("order", "order", "1", "n"),
+        Quantity("omega", "exact frequency", "rad/s", "ω", shown=".12g"),
+        Quantity("difference", "relative difference of the solution", "1", shown="+.1e"),
+    ),
+    record=_exact,
+    dimension="exact_mode",
+)
+SOLVER = Group(
+    "solver",
+    "how the modes were found",
+    (
+        Quantity("model", "how the plan is solved", value=lambda tank: tank.model),
+        Quantity("attempts", "resolutions that were solved", "1"),
+        Quantity(
+            "count_confirmed_by_inertia",
+            "whether an independent count confirms the modes",
+            value=lambda tank: tank.counted,
+        ),
+        Quantity("largest_residual", "largest residual of a mode", "1", value=lambda tank: tank.residual),
+        Quantity("laplace_solutions", "applications of the liquid's operator", "1", value=lambda tank: tank.solves),
+    ),
+    record=lambda result: result.tank,
+)
+SIZE = Group(
+    "size",
+    "size of the problem",
+    (
+        Quantity("problems", "orders or symmetry classes that were solved, each a problem of its own", "1"),
+        Quantity("degree", "polynomial degree of ψ", "1"),
+        Quantity("layers", "layers at each edge", "1"),
+        Quantity("poles", "poles of the depth; 0 where it is exact", "1"),
+        Quantity("dofs", "unknowns of all problems", "1"),
+        Quantity("surface_unknowns", "unknowns of plates and water", "1"),
+        Quantity("plate_shapes", "dry modes of the plates, of all problems", "1"),
+        PROCESSES,
+    ),
+    record=lambda result: result.tank.size,
+)
+
+
+def _sampled(result: Any) -> Any:
+    """The patches and elevations of a `output.level_tank.sample.SampledTank`."""
+    return result.sample
+
+
+_ARRAYS = (
+    Quantity(
+        "point",
+        "number of a place",
+        None,
+        value=lambda it: np.arange(len(_sampled(it).points), dtype=np.int32),
+        dimensions=("point",),
+        in_summary=False,
+    ),
+    Quantity(
+        "shape",
+        "mode, with the second one of a pair after the first",
+        None,
+        value=lambda it: np.array(_sampled(it).names),
+        dimensions=("shape",),
+        in_summary=False,
+    ),
+    Quantity(
+        "x",
+        "x of a place on the still surface",
+        "m",
+        value=lambda it: _sampled(it).points[:, 0],
+        dimensions=("point",),
+        in_summary=False,
+    ),
+    Quantity(
+        "y",
+        "y of a place on the still surface",
+        "m",
+        value=lambda it: _sampled(it).points[:, 1],
+        dimensions=("point",),
+        in_summary=False,
+    ),
+    Quantity(
+        "plate",
+        "number of the plate at a place, 0 for water",
+        None,
+        value=lambda it: _sampled(it).plate_of_points,
+        dimensions=("point",),
+        in_summary=False,
+    ),
+    Quantity(
+        "elevation",
+        "upward displacement of plate or water in a mode",
+        "m",
+        value=lambda it: _sampled(it).elevations,
+        dimensions=("shape", "point"),
+        in_summary=False,
+    ),
+)
+LEVEL_TANK = Group(
+    "",
+    "a tank in three dimensions",
+    (
+        MODES,
+        Quantity("zero_modes", "motions without stiffness", "1", value=lambda result: result.tank.zero_modes),
+        FIRST_ELASTIC,
+        TONES,
+        ESTIMATES,
+        EXACT,
+        SOLVER,
+        SIZE,
+        *_ARRAYS,
+    ),
+)

@@ -1,0 +1,66 @@
+"""The tables of a tank in three dimensions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from hydroelastic.output.level_tank.quantities import ESTIMATES, EXACT, FIRST_ELASTIC, MODES
+from hydroelastic.output.provenance import Summary
+from hydroelastic.output.quantity_tables import columns, headings, listed
+from hydroelastic.output.sections import Section
+
+
+def level_tank_sections(summary: Summary) -> Iterator[Section]:
+    """Yield the tables of modes, of first elastic tones, of estimates and of closed forms."""
+    yield _modes(summary)
+    for tone in summary["first_elastic_by_body"]:
+        rows = [row for row in listed(FIRST_ELASTIC, tone) if row[1] != "–"]
+        lines = (f"{tone['note'][:1].upper()}{tone['note'][1:]}.",) if tone["note"] else ()
+        yield Section(
+            title=f"First elastic tone of plate {tone['body']}", headings=("quantity", "value"), rows=rows, lines=lines
+        )
+    yield from compared_level_tank(summary)
+
+
+def compared_level_tank(summary: Summary) -> Iterator[Section]:
+    """Yield the tables that compare the solution with estimates and closed forms."""
+    if summary["estimates"]:
+        yield Section(
+            title="Estimates of the first elastic tone",
+            headings=headings(ESTIMATES),
+            rows=columns(ESTIMATES, summary["estimates"]),
+            notes=tuple(f"{one['name']}: {one['note']}." for one in summary["estimates"]),
+            compares=True,
+        )
+    if summary["exact"]:
+        rows = [(str(number), *row) for number, row in enumerate(columns(EXACT, summary["exact"]), 1)]
+        yield Section(
+            title=f"Closed form {summary['exact'][0]['formula']}",
+            headings=("mode", *headings(EXACT)),
+            rows=rows,
+            compares=True,
+        )
+
+
+def _modes(summary: Summary) -> Section:
+    rows = [(str(number), *row) for number, row in enumerate(columns(MODES, summary["modes"]), 1)]
+    zero = summary["zero_modes"]
+    lines = [summary["solver"]["model"][:1].upper() + summary["solver"]["model"][1:] + "."]
+    if any(mode["multiplicity"] == 2 for mode in summary["modes"]):
+        lines.append("Modes of multiplicity 2 are pairs, cos nθ and sin nθ, of one frequency.")
+    if zero:
+        lines.append(
+            f"{zero} motion{'s' * (zero > 1)} of plates without stiffness {'are' if zero > 1 else 'is'} not listed."
+        )
+    return Section(title="Natural modes", headings=("mode", *headings(MODES)), rows=rows, lines=tuple(lines))
+
+
+def level_tank_cost(summary: Summary) -> str:
+    """Return size and cost of the solution."""
+    size = summary["size"]
+    seconds = ", ".join(f"{stage} {value:.3f}" for stage, value in summary["timing"].items() if value >= 0.0005)
+    problems = f"{size['problems']} problem{'s' * (size['problems'] != 1)}"
+    return (
+        f"{problems}, degree {size['degree']}, {size['dofs']} unknowns; seconds: {seconds}; "
+        f"peak memory {summary['memory_peak'] / 2**20:.0f} MiB."
+    )

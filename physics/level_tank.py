@@ -1,0 +1,129 @@
+"""An upright tank with a level bed in three dimensions: its plan, the liquid, and plates on the still surface.
+
+z is upwards from the still surface; a box has its origin in a corner, a cylinder and a ring on their axis.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import pi
+from typing import TypeAlias
+
+import numpy as np
+
+from hydroelastic.physics.plate import Plate, Polygon, scaled_point
+from hydroelastic.physics.scales import Scales
+from hydroelastic.physics.tank import Top
+
+
+@dataclass(frozen=True, kw_only=True)
+class Box:
+    """A rectangular plan, 0 < x < length, 0 < y < width.
+
+    Attributes:
+        length: m.
+        width: m.
+    """
+
+    length: float
+    width: float
+
+    @property
+    def unit(self) -> float:
+        """The unit of length of the dimensionless tank, m; in units of a plan's own it is 1."""
+        return self.length
+
+    @property
+    def area(self) -> float:
+        """Its area, m²."""
+        return self.length * self.width
+
+    def scaled(self, length: float) -> Box:
+        """Return it in units of a length."""
+        return Box(length=self.length / length, width=self.width / length)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cylinder:
+    """A circular plan, or a ring about an inner cylinder.
+
+    Attributes:
+        radius: m.
+        inner_radius: m; 0 without an inner cylinder.
+    """
+
+    radius: float
+    inner_radius: float = 0.0
+
+    @property
+    def unit(self) -> float:
+        """The unit of length of the dimensionless tank, m."""
+        return self.radius
+
+    @property
+    def area(self) -> float:
+        """Its area, m²."""
+        return pi * (self.radius**2 - self.inner_radius**2)
+
+    def scaled(self, length: float) -> Cylinder:
+        """Return it in units of a length."""
+        return Cylinder(radius=self.radius / length, inner_radius=self.inner_radius / length)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PolygonPlan(Polygon):
+    """A plan with straight walls."""
+
+    @property
+    def unit(self) -> float:
+        """The unit of length of the dimensionless tank, m: the larger side of the box around it."""
+        return float(np.ptp(np.array(self.points), axis=0).max())
+
+    def scaled(self, length: float) -> PolygonPlan:
+        """Return it in units of a length."""
+        return PolygonPlan(points=tuple(scaled_point(point, length) for point in self.points))
+
+
+Plan: TypeAlias = Box | Cylinder | PolygonPlan
+"""The plan of an upright tank."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class LevelTank:
+    """One liquid in an upright tank with a level bed, with plates on its surface; in SI units, or in those of `scaled`.
+
+    Attributes:
+        plan: the inside of its walls.
+        depth: H, m.
+        density: ρ, kg/m³.
+        gravity: g, m/s².
+        top: boundary condition beside the plates.
+        plates: without overlap.
+    """
+
+    plan: Plan
+    depth: float
+    density: float
+    gravity: float
+    top: Top = "free"
+    plates: tuple[Plate, ...] = ()
+
+    @property
+    def units(self) -> Scales:
+        """The units in which the extent of the plan, gravity and density are 1: the scales of a tank in two dimensions.
+
+        The unit of mass per area is that of its mass per length and metre of width, and D has the unit of EI.
+        """
+        return Scales(length=self.plan.unit, density=self.density, gravity=self.gravity)
+
+    def scaled(self) -> LevelTank:
+        """Return the tank in these units."""
+        units = self.units
+        return replace(
+            self,
+            plan=self.plan.scaled(units.length),
+            depth=self.depth / units.length,
+            density=1.0,
+            gravity=1.0,
+            plates=tuple(plate.scaled(units) for plate in self.plates),
+        )

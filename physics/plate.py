@@ -1,0 +1,170 @@
+"""A thin elastic plate without draught on a still surface: its outline, stiffness and mass."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import inf, isfinite, pi
+from typing import Literal, TypeAlias
+
+from hydroelastic.physics.scales import Scales
+
+Edge: TypeAlias = Literal["free", "hinged", "clamped", "sliding"]
+"""What holds an edge that lies on a wall: nothing, w = 0, w = 0 and w_n = 0, or w_n = 0 alone."""
+
+Point: TypeAlias = tuple[float, float]
+"""x and y, m."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rectangle:
+    """A rectangle with sides along x and y.
+
+    Attributes:
+        position: x and y of its centre, m.
+        size: its lengths along x and along y, m.
+    """
+
+    position: Point
+    size: Point
+
+    @property
+    def area(self) -> float:
+        """Its area, m²."""
+        return self.size[0] * self.size[1]
+
+    def scaled(self, length: float) -> Rectangle:
+        """Return it in units of a length."""
+        return replace(self, position=scaled_point(self.position, length), size=scaled_point(self.size, length))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Strip:
+    """A strip over the whole width of a box; its side edges slide along the walls.
+
+    Attributes:
+        start: x of its left edge, m.
+        length: its length along x, m.
+        width: that of the box, m.
+    """
+
+    start: float
+    length: float
+    width: float
+
+    @property
+    def end(self) -> float:
+        """The x of its right edge, m."""
+        return self.start + self.length
+
+    @property
+    def area(self) -> float:
+        """Its area, m²."""
+        return self.length * self.width
+
+    def scaled(self, length: float) -> Strip:
+        """Return it in units of a length."""
+        return replace(self, start=self.start / length, length=self.length / length, width=self.width / length)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Disc:
+    """A disc, or a ring.
+
+    Attributes:
+        radius: outer radius, m.
+        position: x and y of its centre, m.
+        inner_radius: that of a ring, m; 0 of a disc.
+    """
+
+    radius: float
+    position: Point = (0.0, 0.0)
+    inner_radius: float = 0.0
+
+    @property
+    def area(self) -> float:
+        """Its area, m²."""
+        return pi * (self.radius**2 - self.inner_radius**2)
+
+    def scaled(self, length: float) -> Disc:
+        """Return it in units of a length."""
+        return replace(
+            self,
+            radius=self.radius / length,
+            position=scaled_point(self.position, length),
+            inner_radius=self.inner_radius / length,
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Polygon:
+    """A polygon.
+
+    Attributes:
+        points: its corners in order, without the first one repeated, m.
+    """
+
+    points: tuple[Point, ...]
+
+    @property
+    def area(self) -> float:
+        """Its area, m²."""
+        following = (*self.points[1:], self.points[0])
+        return 0.5 * abs(sum(x * v - u * y for (x, y), (u, v) in zip(self.points, following, strict=True)))
+
+    def scaled(self, length: float) -> Polygon:
+        """Return it in units of a length."""
+        return replace(self, points=tuple(scaled_point(point, length) for point in self.points))
+
+
+Outline: TypeAlias = Rectangle | Strip | Disc | Polygon
+"""The outline of a plate at rest; a ring is a disc with an inner radius."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Plate:
+    """A uniform Kirchhoff plate: D Δ²w + m ẅ + s ρ g w = pressure of the liquid.
+
+    Attributes:
+        outline: what it covers.
+        flexural_rigidity: D, N·m; infinite of a rigid plate.
+        poisson_ratio: ν.
+        mass_per_area: m, kg/m².
+        hydrostatic: whether the hydrostatic restoring ρ g w acts on it.
+        edge: what holds the edges that lie on walls; all others are free. The side edges of a strip always slide.
+
+    Raises:
+        ValueError: if the rigidity is not positive, the mass negative or not finite, or ν not in (−1, 1/2].
+    """
+
+    outline: Outline
+    flexural_rigidity: float
+    mass_per_area: float
+    poisson_ratio: float = 0.3
+    hydrostatic: bool = True
+    edge: Edge = "free"
+
+    def __post_init__(self) -> None:
+        """Check the numbers."""
+        if not (self.flexural_rigidity > 0.0 and isfinite(self.mass_per_area) and self.mass_per_area >= 0.0):
+            raise ValueError("a plate needs a positive flexural rigidity and a mass per area that is not negative")
+        if not -1.0 < self.poisson_ratio <= 0.5:
+            raise ValueError(f"Poisson's ratio is {self.poisson_ratio}; it lies above −1 and is 1/2 at most")
+
+    @property
+    def is_elastic(self) -> bool:
+        """Whether it bends."""
+        return self.flexural_rigidity < inf
+
+    def scaled(self, units: Scales) -> Plate:
+        """Return it in other units."""
+        return replace(
+            self,
+            outline=self.outline.scaled(units.length),
+            flexural_rigidity=self.flexural_rigidity / units.flexural_rigidity,
+            mass_per_area=self.mass_per_area / units.mass_per_length,
+        )
+
+
+def scaled_point(point: Point, length: float) -> Point:
+    """Return a point in units of a length."""
+    return point[0] / length, point[1] / length

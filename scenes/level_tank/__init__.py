@@ -1,0 +1,1 @@
+"""Scenes of tanks in three dimensions: solution, tables, files and pictures."""

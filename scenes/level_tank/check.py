@@ -1,0 +1,129 @@
+"""Description of the model of a tank in three dimensions, before anything is solved."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from hydroelastic.fem.level_bed.resolution import expected_eigenvalue, line_nodes, line_resolution, workable
+from hydroelastic.fem.level_bed.separation import separated
+from hydroelastic.output.digits import number
+from hydroelastic.output.sections import Row, Section
+from hydroelastic.physics.level_tank import Box, Cylinder, LevelTank
+from hydroelastic.scenes.level_tank.solve import require_treated
+from hydroelastic.scenes.models.level_tank import LevelTankScene
+from hydroelastic.scenes.models.level_tank_physics import physical_level_tank
+
+_TOPS = {
+    "free": "gψ_z = ω²ψ, a free surface with waves",
+    "rigid": "ψ_z = 0, a rigid lid",
+    "pressure_release": "ψ = 0, without gravity waves",
+}
+
+
+def check_level_tank(scene: LevelTankScene) -> Iterator[Section]:
+    """Yield what is asked, the boundaries, the unknowns, the plates' dimensionless groups, and the size.
+
+    Args:
+        scene: a validated scene; nothing is solved.
+
+    Raises:
+        SceneError: if no solver takes it.
+    """
+    require_treated(scene)
+    tank = physical_level_tank(scene)
+    asked = scene.accuracy
+    yield Section(
+        title="What is asked",
+        lines=(f"The lowest {asked.modes} modes to a relative error of {asked.tolerance:g} in frequency.",),
+    )
+    yield Section(title="Boundaries", headings=("boundary", "condition"), rows=tuple(_boundaries(tank)))
+    yield Section(title="Unknown fields", headings=("field", "where", "why"), rows=tuple(_unknowns(tank)))
+    if tank.plates:
+        yield Section(
+            title="Plates",
+            headings=("plate", "outline", "area, m²", "D/(ρ g A²)", "m/(ρ √A)", "hydrostatic", "edge at walls"),
+            rows=tuple(_plates(scene, tank)),
+        )
+    yield Section(title="Size", lines=tuple(_size(scene, tank)))
+
+
+def _boundaries(tank: LevelTank) -> Iterator[Row]:
+    plan = tank.plan
+    if isinstance(plan, Box):
+        yield f"four walls around {plan.length:g} m × {plan.width:g} m", "ψ_n = 0"
+    elif isinstance(plan, Cylinder):
+        yield f"wall of radius {plan.radius:g} m", "ψ_r = 0"
+        if plan.inner_radius:
+            yield f"inner wall of radius {plan.inner_radius:g} m", "ψ_r = 0"
+    yield f"level bed, {tank.depth:g} m deep", "ψ_z = 0"
+    yield "top beside the plates", _TOPS[tank.top]
+    for index, plate in enumerate(tank.plates, 1):
+        motion = "ψ_z = w, which bends" if plate.is_elastic else "ψ_z = w, heave and pitch"
+        yield f"plate {index}", motion
+
+
+def _unknowns(tank: LevelTank) -> Iterator[Row]:
+    yield "ψ", "on the surface", "over a level bed it follows below as cosh k(z + H)/cosh kH of each part"
+    if tank.top == "free":
+        yield "η", "water", "it keeps gravity waves"
+    for index, plate in enumerate(tank.plates, 1):
+        what = "dry modes of each order" if plate.is_elastic else "its rigid motions"
+        yield f"w of plate {index}", what, "smooth, so that a few functions are enough"
+
+
+def _plates(scene: LevelTankScene, tank: LevelTank) -> Iterator[Row]:
+    for index, (given, plate) in enumerate(zip(scene.body, tank.plates, strict=True), 1):
+        area = plate.outline.area
+        stiffness = plate.flexural_rigidity / (tank.density * tank.gravity * area**2)
+        yield (
+            str(index),
+            given.outline,
+            number(area),
+            f"{stiffness:.3g}" if plate.is_elastic else "rigid",
+            f"{plate.mass_per_area / (tank.density * area**0.5):.3g}",
+            "yes" if plate.hydrostatic else "no",
+            plate.edge,
+        )
+
+
+def _size(scene: LevelTankScene, tank: LevelTank) -> Iterator[str]:
+    scaled = tank.scaled()
+    separation = separated(scaled)
+    asked = scene.accuracy
+    if separation is None:
+        yield from _size_of_plan(scaled, asked.tolerance, asked.modes)
+        return
+    tolerance = workable(asked.tolerance)
+    resolution = line_resolution(scaled, separation, tolerance, expected_eigenvalue(scaled, separation, asked.modes))
+    elements = len(line_nodes(separation, resolution, scaled.depth)) - 1
+    along = "r, cos nθ and sin nθ about the axis" if separation.round else "x, cos nπy/B across"
+    yield f"Upright tank with a level bed: one problem for each order n along {along}, exact in depth; no volume mesh."
+    shapes = f", {' + '.join(map(str, resolution.shapes))} dry modes" if any(resolution.shapes) else ""
+    yield (
+        f"First attempt, each order: degree {resolution.degree}, {elements} elements, "
+        f"{elements * resolution.degree + 1} unknowns of ψ{shapes}."
+    )
+    yield "  Orders are added until none can have a lower frequency than the modes found."
+    yield "  Each is solved with one degree and one layer at the edges more too, from which its error follows."
+    if tolerance > asked.tolerance:
+        yield f"  Double precision cannot reach {asked.tolerance:g}: the tolerance is {tolerance:.0e} instead."
+
+
+def _size_of_plan(tank: LevelTank, tolerance: float, modes: int) -> Iterator[str]:
+    from hydroelastic.fem.plan.box_resolution import box_resolution
+    from hydroelastic.fem.plan.plan import plan_resolution
+    from hydroelastic.fem.plan.solve import MODEL_WORDS, level_model
+
+    model = level_model(tank)
+    words = MODEL_WORDS[model]
+    yield f"{words[0].upper()}{words[1:]}; no volume mesh."
+    resolution = box_resolution(tank, tolerance, modes) if model == "box" else plan_resolution(tank, tolerance, modes)
+    layers = f"{resolution.layers} layers on each side of an edge"
+    polynomials = " + ".join(map(str, resolution.polynomials))
+    shapes = f", {polynomials} polynomials along each direction of the plates" if polynomials else ""
+    yield f"First attempt: degree {resolution.degree}, {layers}{shapes}."
+    if model == "box":
+        yield "  Plates in the middle of both sides leave four problems of a quarter of the tank, of one side two."
+        yield "  The added mass in a finer space shows the error of each mode."
+    else:
+        yield "  The decay of ψ with the degree, and a bound for the poles, show the error of each mode."

@@ -1,0 +1,60 @@
+"""Run the scene of a tank in three dimensions: solve, tabulate, write and draw."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+from hydroelastic.fem.stopwatch import Report
+from hydroelastic.output.level_tank.quantities import LEVEL_TANK
+from hydroelastic.output.level_tank.sample import SampledTank, sample_modes
+from hydroelastic.output.level_tank.tables import compared_level_tank, level_tank_cost, level_tank_sections
+from hydroelastic.output.outcome import Outcome
+from hydroelastic.output.pictures.options import OF_FIELDS, OF_MOTIONS, PictureOptions
+from hydroelastic.output.provenance import Summary
+from hydroelastic.scenes.level_tank.solve import SolvedLevelTank, solve_level_scene
+from hydroelastic.scenes.models.level_tank import LevelTankScene
+from hydroelastic.scenes.staged_run import StagedRun
+
+
+def _sample(solved: SolvedLevelTank, summary: Summary) -> SampledTank:
+    from hydroelastic.fem.plan.patches import level_patches
+
+    return SampledTank(
+        solved=solved, sample=sample_modes(solved.tank, level_patches(solved.tank.tank)), summary=summary
+    )
+
+
+def _write(tank: SampledTank, folder: Path) -> None:
+    from hydroelastic.output.level_tank.files import write_level_tank
+
+    write_level_tank(tank, folder)
+
+
+def _draw(tank: SampledTank, folder: Path, options: PictureOptions, report: Report) -> None:
+    from hydroelastic.output.level_tank.pictures import draw_level_tank
+
+    draw_level_tank(tank, folder, options, report)
+
+
+run_level_tank = StagedRun(
+    solve=solve_level_scene,
+    kind=LEVEL_TANK,
+    sections=lambda _solved, summary: level_tank_sections(summary),
+    cost=level_tank_cost,
+    sample=_sample,
+    write=_write,
+    draw=_draw,
+    used_options=OF_FIELDS | OF_MOTIONS,
+)
+
+
+def compare_level_tank(scene: LevelTankScene, *, report: Report = lambda _message: None) -> Outcome:
+    """Solve a tank in three dimensions and compare it with closed forms and estimates; writes nothing (collective).
+
+    Raises:
+        SceneError: if no solver takes it.
+        UnsolvedError: if the eigen-solver fails.
+    """
+    outcome = run_level_tank(scene, report=report)
+    return replace(outcome, sections=tuple(compared_level_tank(outcome.summary)), notes=True)

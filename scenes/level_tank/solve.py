@@ -1,0 +1,95 @@
+"""The solution of the scene of a tank in three dimensions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from mpi4py import MPI
+
+from hydroelastic.fem.stopwatch import Report, Stopwatch
+from hydroelastic.modal.plate.estimates import exact_frequencies, plate_estimates
+from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
+from hydroelastic.scenes.models.level_tank import LevelTankScene
+from hydroelastic.scenes.models.level_tank_physics import physical_level_tank
+
+if TYPE_CHECKING:
+    from hydroelastic.fem.level_bed.solution import LevelSolution
+    from hydroelastic.modal.plate.estimates import ExactMode, PlateEstimate
+
+
+@dataclass(frozen=True, kw_only=True)
+class SolvedLevelTank:
+    """The field solution of a tank in three dimensions, and closed forms and estimates for comparison.
+
+    Attributes:
+        scene: the scene.
+        tank: its field solution.
+        exact: the frequencies of a closed form, if there is one, ascending.
+        estimates: those of the first elastic plate, by name.
+        estimating: the time that they took, by stage.
+    """
+
+    scene: LevelTankScene
+    tank: LevelSolution
+    exact: tuple[ExactMode, ...] = ()
+    estimates: dict[str, PlateEstimate] = field(default_factory=dict)
+    estimating: dict[str, float] = field(default_factory=dict)
+
+    @property
+    def reasons(self) -> tuple[str, ...]:
+        """Reasons why the tolerance is not kept; empty if it is."""
+        return self.tank.reasons
+
+    @property
+    def seconds(self) -> dict[str, float]:
+        """Time by stage, s."""
+        return self.tank.seconds | self.estimating
+
+
+def solve_level_scene(scene: LevelTankScene, comm: MPI.Comm, report: Report) -> SolvedLevelTank:
+    """Solve a tank in three dimensions and estimate it (collective).
+
+    Raises:
+        SceneError: if no solver takes its plan and plates.
+        UnsolvedError: if the eigen-solver fails.
+    """
+    require_treated(scene)
+    from hydroelastic.fem.modes import EigenSolverError
+    from hydroelastic.fem.plan.solve import solve_upright_tank
+    from hydroelastic.meshes.tagged_mesh import MeshError
+
+    physical = physical_level_tank(scene)
+    watch = Stopwatch()
+    with watch.stage("estimates"):
+        exact = exact_frequencies(physical, scene.accuracy.modes)
+        estimates = plate_estimates(physical)
+    try:
+        solution = solve_upright_tank(
+            physical, tolerance=scene.accuracy.tolerance, modes=scene.accuracy.modes, comm=comm, report=report
+        )
+    except (EigenSolverError, MeshError) as error:
+        raise UnsolvedError(f"the tank could not be solved: {error}") from error
+    return SolvedLevelTank(scene=scene, tank=solution, exact=exact, estimates=estimates, estimating=watch.seconds)
+
+
+def require_treated(scene: LevelTankScene) -> None:
+    """Refuse a tank that no solver takes.
+
+    Raises:
+        SceneError: if no model takes it.
+    """
+    from hydroelastic.fem.level_bed.solve import NotTreatedError
+    from hydroelastic.fem.plan.solve import level_model
+
+    try:
+        level_model(physical_level_tank(scene))
+    except NotTreatedError as error:
+        raise SceneError(Problem(key="[[body]]", wrong=str(error), allowed=TREATED), file=None) from error
+
+
+TREATED = (
+    "strips and rectangles in a box; discs and rings about the axis of a cylinder; rectangles, discs, rings and free "
+    "polygons that keep off the walls or cover the plan; tanks without plates"
+)
+"""Tanks that are solved."""

@@ -1,0 +1,236 @@
+"""The scene of an upright tank with a level bed in three dimensions: its model with all checks."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from itertools import combinations
+from math import hypot, isfinite
+from typing import Any, TypeAlias
+
+from pydantic import ValidationError, model_validator
+from pydantic_core import InitErrorDetails
+
+from hydroelastic.physics.level_tank import Box, Cylinder
+from hydroelastic.physics.plate import Disc, Outline, Rectangle, Strip
+from hydroelastic.physics.tank import ROUND_OFF
+from hydroelastic.scenes.models.level_tank_parts import PLAN_KEYS, LevelTankParts
+from hydroelastic.scenes.models.level_tank_physics import physical_outline, physical_plan
+from hydroelastic.scenes.models.problems import problem_at, require_fit
+from hydroelastic.scenes.models.tank_checks import DEPTH_TO_LENGTH, MASS_GROUP, SHORTEST_BEAM, STIFFNESS_GROUP
+
+LEAST_INNER_RADIUS = 1e-3
+"""Part of the outer radius: around a thinner column no fewer digits are lost than without it."""
+
+_Bounds: TypeAlias = tuple[tuple[float, float], tuple[float, float]]
+
+
+class LevelTankScene(LevelTankParts):
+    """An upright tank with a level bed, with plates on its surface or none (sloshing).
+
+    Raises:
+        SceneError: if a value is not allowed or the parts do not fit together.
+    """
+
+    @model_validator(mode="before")
+    @classmethod
+    def _bodies_are_plates(cls, given: Any) -> Any:
+        bodies = given.get("body", ()) if isinstance(given, dict) else ()
+        problems = [
+            problem_at(
+                ("body", index, "kind"),
+                body.get("kind", "plate"),
+                "in three dimensions bodies are plates; beams and floats are of tanks per metre of width",
+                allowed='"plate"',
+                remedy=f"Leave out {' and '.join(keys)} of [tank] for a tank per metre of width"
+                if (keys := [key for key in PLAN_KEYS if key in given.get("tank", {})])
+                else "",
+            )
+            for index, body in enumerate(bodies if isinstance(bodies, list | tuple) else ())
+            if isinstance(body, dict) and body.get("kind", "plate") != "plate"
+        ]
+        if problems:
+            raise ValidationError.from_exception_data(cls.__name__, problems)
+        return given
+
+    @model_validator(mode="after")
+    def _parts_fit(self) -> LevelTankScene:
+        require_fit(self, STAGES)
+        return self
+
+
+def is_level_tank(document: dict[str, Any]) -> bool:
+    """Return whether a document of the kind "tank" is of three dimensions: by a key of its plan, or a plate."""
+    tank, bodies = document.get("tank"), document.get("body")
+    of_plan = isinstance(tank, dict) and any(key in tank for key in PLAN_KEYS)
+    plates = isinstance(bodies, list) and any(isinstance(one, dict) and one.get("kind") == "plate" for one in bodies)
+    return of_plan or plates
+
+
+def _plan_is_complete(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
+    tank = scene.tank
+    given = [key for key in ("length", "width", "radius", "inner_radius", "plan") if getattr(tank, key) is not None]
+    box, round_ = {"length", "width"}, {"radius", "inner_radius"}
+    kinds = [bool(box & set(given)), bool(round_ & set(given)), "plan" in given]
+    allowed = "length and width of a box, radius (and inner_radius) of a cylinder, or plan"
+    if sum(kinds) != 1:
+        said = " and ".join(given)
+        wrong = f"{said} are of different plans" if given else "the plan of the tank is missing"
+        yield problem_at(("tank", given[-1] if given else "width"), None, wrong, allowed=allowed)
+        return
+    for keys, needed in ((box, ("length", "width")), (round_, ("radius",))):
+        for key in needed:
+            if keys & set(given) and key not in given:
+                yield problem_at(("tank", key), None, "it is missing", allowed=allowed)
+    if tank.radius is not None and tank.inner_radius is not None:
+        least = LEAST_INNER_RADIUS * tank.radius
+        if not least <= tank.inner_radius < tank.radius * (1.0 - LEAST_INNER_RADIUS):
+            yield problem_at(
+                ("tank", "inner_radius"),
+                tank.inner_radius,
+                "it leaves no ring that can be resolved beside radius",
+                allowed=f"{least:g} to {tank.radius * (1.0 - LEAST_INNER_RADIUS):g} m",
+            )
+
+
+def _outlines_fit_the_plan(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
+    for index, plate in enumerate(scene.body):
+        if plate.outline == "strip" and scene.tank.width is None:
+            yield problem_at(
+                ("body", index, "outline"),
+                plate.outline,
+                "a strip reaches from side to side of a box",
+                allowed='"disc" or "ring" in a cylinder',
+            )
+
+
+def _depth_fits_the_plan(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
+    unit, depth = physical_plan(scene.tank).unit, scene.liquid[0].depth
+    least, most = DEPTH_TO_LENGTH
+    if not least <= depth / unit <= most:
+        yield problem_at(
+            ("liquid", 0, "depth"),
+            depth,
+            f"it is {depth / unit:g} of the tank's extent, too {'thin' if depth < unit else 'deep'} to resolve",
+            allowed=f"{least * unit:g} to {most * unit:g} m",
+        )
+
+
+def _plates_lie_in_the_tank(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
+    plan = physical_plan(scene.tank)
+    reach = 1.0 + ROUND_OFF
+    for index, plate in enumerate(scene.body):
+        outline = physical_outline(scene.tank, plate)
+        if isinstance(plan, Box):
+            bounds = _bounds(outline)
+            sides = (plan.length, plan.width)
+            inside = all(
+                low >= -ROUND_OFF * side and high <= side * reach
+                for (low, high), side in zip(bounds, sides, strict=True)
+            )
+            said = f"{plan.length:g} m × {plan.width:g} m"
+        elif isinstance(plan, Cylinder) and isinstance(outline, Disc):
+            away = hypot(*outline.position)
+            inside = away + outline.radius <= plan.radius * reach
+            hole = outline.inner_radius if away == 0.0 else 0.0
+            inside = inside and hole >= plan.inner_radius * (1.0 - ROUND_OFF)
+            said = f"radius {plan.radius:g} m" + (
+                f" about a cylinder of {plan.inner_radius:g} m" * bool(plan.inner_radius)
+            )
+        else:
+            continue
+        if not inside:
+            key = {"strip": "length", "rectangle": "size"}.get(plate.outline, "radius")
+            yield problem_at(
+                ("body", index, key), getattr(plate, key), f"the plate does not lie inside the tank of {said}"
+            )
+
+
+def _plates_keep_apart(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
+    unit = physical_plan(scene.tank).unit
+    outlines = [physical_outline(scene.tank, plate) for plate in scene.body]
+    for (first, one), (second, other) in combinations(enumerate(outlines), 2):
+        if _touch(one, other, ROUND_OFF * unit):
+            yield problem_at(
+                ("body", second, "outline"),
+                scene.body[second].outline,
+                f"the plate overlaps or touches [[body]] number {first + 1}",
+                remedy="Leave a gap between them",
+            )
+
+
+def _touch(one: Outline, other: Outline, negligible: float) -> bool:
+    """Whether two outlines overlap; of polygons and of shapes of different kinds the boxes around them."""
+    if isinstance(one, Disc) and isinstance(other, Disc):
+        away = hypot(one.position[0] - other.position[0], one.position[1] - other.position[1])
+        if away == 0.0:
+            return min(one.radius, other.radius) + negligible >= max(one.inner_radius, other.inner_radius)
+        return away <= one.radius + other.radius + negligible
+    return all(
+        low <= upper + negligible and lower <= high + negligible
+        for (low, high), (lower, upper) in zip(_bounds(one), _bounds(other), strict=True)
+    )
+
+
+def _bounds(outline: Outline) -> _Bounds:
+    """Least and largest x and y of an outline."""
+    if isinstance(outline, Strip):
+        return (outline.start, outline.end), (0.0, outline.width)
+    if isinstance(outline, Rectangle):
+        (x, y), (length, width) = outline.position, outline.size
+        return (x - 0.5 * length, x + 0.5 * length), (y - 0.5 * width, y + 0.5 * width)
+    if isinstance(outline, Disc):
+        (x, y), radius = outline.position, outline.radius
+        return (x - radius, x + radius), (y - radius, y + radius)
+    along, across = zip(*outline.points, strict=True)
+    return (min(along), max(along)), (min(across), max(across))
+
+
+def _groups_are_in_range(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
+    (liquid,), gravity = scene.liquid, scene.tank.gravity
+    unit = physical_plan(scene.tank).unit
+    for index, plate in enumerate(scene.body):
+        (low, high), (lower, upper) = _bounds(physical_outline(scene.tank, plate))
+        extent = min(high - low, upper - lower)
+        if plate.inner_radius is not None and plate.radius is not None:
+            extent = plate.radius - plate.inner_radius
+        if extent < SHORTEST_BEAM * unit:
+            yield problem_at(
+                ("body", index, "outline"),
+                plate.outline,
+                "the plate is too narrow beside the tank to resolve both",
+                allowed=f"at least {SHORTEST_BEAM * unit:g} m",
+            )
+            continue
+        stiffness = plate.whole_rigidity / (liquid.density * gravity * extent**4)
+        if isfinite(stiffness) and not STIFFNESS_GROUP[0] <= stiffness <= STIFFNESS_GROUP[1]:
+            key = "flexural_rigidity" if plate.flexural_rigidity is not None else "youngs_modulus"
+            yield problem_at(
+                ("body", index, key),
+                getattr(plate, key),
+                f"D/(ρ g l⁴) = {stiffness:g} is beyond the resolution of double precision",
+                allowed=f"a group of {STIFFNESS_GROUP[0]:g} to {STIFFNESS_GROUP[1]:g}",
+            )
+        if plate.whole_mass > MASS_GROUP[1] * liquid.density * extent:
+            yield problem_at(
+                ("body", index, "mass_per_area"),
+                plate.whole_mass,
+                "the liquid is lost in the rounding of the plate",
+                allowed=f"up to {MASS_GROUP[1] * liquid.density * extent:.3g}",
+            )
+
+
+def _something_moves(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
+    if not scene.body and scene.tank.top != "free":
+        yield problem_at(
+            ("tank", "top"), scene.tank.top, "nothing moves: there are no plates and no waves", allowed='"free"'
+        )
+
+
+_Check: TypeAlias = Callable[[LevelTankParts], Iterator[InitErrorDetails]]
+STAGES: tuple[tuple[_Check, ...], ...] = (
+    (_plan_is_complete, _something_moves),
+    (_outlines_fit_the_plan, _depth_fits_the_plan),
+    (_plates_lie_in_the_tank,),
+    (_plates_keep_apart, _groups_are_in_range),
+)
+"""Each stage is made when those before found nothing, so that one wrong length is one message."""

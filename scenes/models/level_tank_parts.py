@@ -1,0 +1,216 @@
+"""The parts of the scene of a tank in three dimensions, as frozen values. SI units."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import inf
+from typing import Annotated, Any, Literal, TypeAlias
+
+from pydantic import Field, SerializerFunctionWrapHandler, Strict, ValidationError, model_serializer, model_validator
+from pydantic_core import InitErrorDetails
+
+from hydroelastic.physics import plate as physics
+from hydroelastic.scenes.models.bodies import (
+    LARGEST,
+    MOST_BODIES,
+    MOST_VERTICES,
+    AnyNumber,
+    Place,
+    PositiveNumber,
+    SceneModel,
+)
+from hydroelastic.scenes.models.problems import problem_at
+from hydroelastic.scenes.models.tank_parts import Accuracy
+from hydroelastic.scenes.models.title import Title
+
+PlanPoint: TypeAlias = tuple[AnyNumber, AnyNumber]
+OutlineName: TypeAlias = Literal["rectangle", "strip", "disc", "ring", "polygon"]
+
+PLAN_KEYS = ("width", "radius", "inner_radius", "plan")
+"""Keys of [tank] by which a tank is one in three dimensions."""
+
+KEYS_OF_OUTLINES: dict[OutlineName, tuple[tuple[str, ...], tuple[str, ...]]] = {
+    "rectangle": (("size",), ("position",)),
+    "strip": (("start", "length"), ()),
+    "disc": (("radius",), ("position",)),
+    "ring": (("radius", "inner_radius"), ("position",)),
+    "polygon": (("points",), ()),
+}
+"""Keys that each outline needs, and those that it may have."""
+
+_OUTLINE_KEYS = ("position", "size", "start", "length", "radius", "inner_radius", "points")
+
+
+class PlanTank(SceneModel):
+    """An upright tank with a level bed: a box, a cylinder or ring, or a plan of corners."""
+
+    length: PositiveNumber | None = Field(default=None, description="length of a box along x, m")
+    width: PositiveNumber | None = Field(default=None, description="width of a box along y, m")
+    radius: PositiveNumber | None = Field(default=None, description="radius of an upright cylinder, m")
+    inner_radius: PositiveNumber | None = Field(
+        default=None, description="radius of an inner cylinder, m, about which the liquid is a ring"
+    )
+    plan: tuple[PlanPoint, ...] | None = Field(
+        default=None,
+        min_length=3,
+        max_length=MOST_VERTICES,
+        description=f"3 to {MOST_VERTICES} corners [x, y] of the plan, m",
+    )
+    gravity: PositiveNumber = Field(default=9.81, description="acceleration of gravity, m/s²")
+    ends: Literal["walls"] = Field(default="walls", description="rigid vertical walls all around")
+    top: Literal["free", "rigid", "pressure_release"] = Field(
+        default="free",
+        description="the top beside the plates: free surface with waves, rigid lid, or ψ = 0 without gravity waves",
+    )
+
+    @model_serializer(mode="wrap")
+    def _without_idle_keys(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        return {key: value for key, value in write(self).items() if value is not None}
+
+
+class PlanLiquid(SceneModel):
+    """An ideal incompressible liquid."""
+
+    density: PositiveNumber = Field(description="density, kg/m³")
+    depth: PositiveNumber = Field(description="depth, m")
+
+
+class Plate(SceneModel):
+    """A thin elastic or rigid plate without draught that floats on the liquid.
+
+    Raises:
+        SceneError: if keys do not belong to the outline, or rigidity or mass are given twice or not at all.
+    """
+
+    kind: Literal["plate"] = Field(default="plate", description="kind of the body")
+    outline: OutlineName = Field(description="shape of the plate at rest")
+    position: PlanPoint | None = Field(
+        default=None, description="[x, y] of its centre, m; by default the middle of the tank"
+    )
+    size: tuple[PositiveNumber, PositiveNumber] | None = Field(
+        default=None, description="[along x, along y] of a rectangle, m"
+    )
+    start: Place | None = Field(default=None, description="distance of a strip's left edge from the left wall, m")
+    length: PositiveNumber | None = Field(
+        default=None, description="length of a strip along x, m; it reaches over the whole width"
+    )
+    radius: PositiveNumber | None = Field(default=None, description="radius of a disc, outer radius of a ring, m")
+    inner_radius: PositiveNumber | None = Field(default=None, description="inner radius of a ring, m")
+    points: tuple[PlanPoint, ...] | None = Field(
+        default=None,
+        min_length=3,
+        max_length=MOST_VERTICES,
+        description=f"3 to {MOST_VERTICES} corners [x, y] of a polygon, m",
+    )
+    flexural_rigidity: PositiveNumber | None = Field(default=None, description="D = E h³/(12(1 − ν²)), N·m")
+    youngs_modulus: PositiveNumber | None = Field(
+        default=None, description="Young's modulus E, N/m², with thickness instead of flexural_rigidity"
+    )
+    thickness: PositiveNumber | None = Field(default=None, description="h, m")
+    rigid: Annotated[bool, Strict()] = Field(default=False, description="whether the plate does not bend")
+    poisson_ratio: Annotated[float, Strict(), Field(ge=-0.99, le=0.5)] = Field(
+        default=0.3, description="Poisson's ratio ν"
+    )
+    mass_per_area: Annotated[float, Strict(), Field(ge=0, le=LARGEST)] | None = Field(
+        default=None, description="mass per area, kg/m²"
+    )
+    density: PositiveNumber | None = Field(
+        default=None, description="density of the plate, kg/m³, with thickness instead of mass_per_area"
+    )
+    hydrostatic: Annotated[bool, Strict()] = Field(
+        default=True, description="whether the hydrostatic restoring ρ g w acts on the plate"
+    )
+    edge: physics.Edge = Field(
+        default="free",
+        description="what holds edges that lie on walls: nothing, w = 0 (hinged), w = 0 and no slope (clamped), or no "
+        "slope alone (sliding); the side edges of a strip always slide",
+    )
+
+    @model_validator(mode="after")
+    def _keys_fit(self) -> Plate:
+        problems = [*_keys_of_the_outline(self), *_one_rigidity(self), *_one_mass(self)]
+        if problems:
+            raise ValidationError.from_exception_data(type(self).__name__, problems)
+        return self
+
+    @model_serializer(mode="wrap")
+    def _without_idle_keys(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        return {key: value for key, value in write(self).items() if value is not None}
+
+    @property
+    def whole_rigidity(self) -> float:
+        """D, N·m; infinite of a rigid plate."""
+        if self.rigid:
+            return inf
+        if self.flexural_rigidity is not None:
+            return self.flexural_rigidity
+        assert self.youngs_modulus is not None
+        assert self.thickness is not None
+        return self.youngs_modulus * self.thickness**3 / (12.0 * (1.0 - self.poisson_ratio**2))
+
+    @property
+    def whole_mass(self) -> float:
+        """Mass per area, kg/m²."""
+        if self.mass_per_area is not None:
+            return self.mass_per_area
+        assert self.density is not None
+        assert self.thickness is not None
+        return self.density * self.thickness
+
+
+def _keys_of_the_outline(plate: Plate) -> Iterator[InitErrorDetails]:
+    needed, further = KEYS_OF_OUTLINES[plate.outline]
+    for key in _OUTLINE_KEYS:
+        value = getattr(plate, key)
+        if key in needed and value is None:
+            description = Plate.model_fields[key].description
+            yield problem_at(
+                (key,), None, f'it is missing, and outline = "{plate.outline}" needs it', allowed=f"{description}"
+            )
+        elif value is not None and key not in (*needed, *further):
+            yield problem_at(
+                (key,),
+                value,
+                f'it does not belong to outline = "{plate.outline}", which takes {" and ".join((*needed, *further))}',
+                remedy="Leave it out",
+            )
+    if plate.outline == "ring" and plate.radius and plate.inner_radius and plate.inner_radius >= plate.radius:
+        yield problem_at(("inner_radius",), plate.inner_radius, "it is not less than radius", allowed="< radius")
+
+
+def _one_rigidity(plate: Plate) -> Iterator[InitErrorDetails]:
+    given = [key for key in ("flexural_rigidity", "youngs_modulus") if getattr(plate, key) is not None]
+    ways = "flexural_rigidity, or youngs_modulus with thickness, or rigid = true"
+    if len(given) + plate.rigid != 1:
+        wrong = "the stiffness of the plate is missing" if not given else "the stiffness of the plate is given twice"
+        yield problem_at((given[-1] if given else "flexural_rigidity",), None, wrong, allowed=f"one of {ways}")
+    elif plate.youngs_modulus is not None and plate.thickness is None:
+        yield problem_at(("thickness",), None, "it is missing beside youngs_modulus", allowed="thickness, m")
+
+
+def _one_mass(plate: Plate) -> Iterator[InitErrorDetails]:
+    if (plate.mass_per_area is None) == (plate.density is None):
+        wrong = "the mass of the plate is missing" if plate.density is None else "the mass of the plate is given twice"
+        yield problem_at(("mass_per_area",), None, wrong, allowed="mass_per_area, or density with thickness")
+    elif plate.density is not None and plate.thickness is None:
+        yield problem_at(("thickness",), None, "it is missing beside density", allowed="thickness, m")
+    elif plate.thickness is not None and plate.density is None and plate.youngs_modulus is None:
+        yield problem_at(
+            ("thickness",),
+            plate.thickness,
+            "nothing follows from it without youngs_modulus or density",
+            remedy="Leave it out",
+        )
+
+
+class LevelTankParts(SceneModel):
+    """The parts of the scene of a tank in three dimensions, each valid by itself."""
+
+    kind: Literal["tank"] = Field(default="tank", description="kind of the scene")
+    title: Title = Field(default="", description="title of tables and images")
+    tank: PlanTank = Field(description="the tank")
+    liquid: tuple[PlanLiquid, ...] = Field(min_length=1, max_length=1, description="the liquid")
+    body: tuple[Plate, ...] = Field(
+        default=(), max_length=MOST_BODIES, description=f"up to {MOST_BODIES} plates; none for sloshing alone"
+    )
+    accuracy: Accuracy = Field(default=Accuracy(), description="what is asked of the answer")

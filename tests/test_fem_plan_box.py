@@ -1,0 +1,129 @@
+"""Boxes with rectangular plates against references of two methods, closed forms and the orders of strips."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from plan_tanks import CASES, WATER, frequencies, reference_tank
+
+from hydroelastic.fem.modes import count_below
+from hydroelastic.fem.plan.box import BoxSolution, solve_box
+from hydroelastic.physics.level_tank import Box, LevelTank
+from hydroelastic.physics.plate import Plate, Rectangle
+
+RECTANGLES = [name for name, case in CASES.items() if case["family"] == "box_rectangle"]
+STRIPS = [name for name, case in CASES.items() if case["family"] == "box_strip" and case["inputs"]["kind"] == "plate"]
+
+
+@cache
+def _solved(tank: LevelTank, tolerance: float, count: int) -> tuple[BoxSolution, np.ndarray]:
+    solution = solve_box(tank.scaled(), tolerance=tolerance, count=count)
+    return solution, np.sqrt(solution.modes.eigenvalues[:count]) * tank.units.frequency
+
+
+def _assert_kept(name: str, tolerance: float, *, certain: float) -> None:
+    """True errors keep the tolerance and come from above; the largest estimate is 1 to 30 times the largest error."""
+    tank, exact = reference_tank(name), frequencies(name)[:12]
+    solution, omega = _solved(tank, tolerance, len(exact))
+    errors = omega / exact - 1.0
+    assert solution.counted
+    assert errors.max() < tolerance
+    # Ritz values come from above; references have their own digits.
+    assert errors.min() > -certain
+    estimate = solution.relative_errors[: len(exact)].max()
+    assert estimate < tolerance
+    assert estimate > errors.max() - certain
+    if errors.max() > certain:
+        assert estimate < 30.0 * errors.max()
+
+
+@pytest.mark.slow_but("rectangle_base_s0")
+@pytest.mark.parametrize("name", RECTANGLES)
+def test_rectangles_keep_a_tolerance_of_1e_6(name: str) -> None:
+    _assert_kept(name, 1e-6, certain=10.0 ** -CASES[name]["digits"])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", RECTANGLES)
+def test_rectangles_keep_a_tolerance_of_1e_8(name: str) -> None:
+    _assert_kept(name, 1e-8, certain=10.0 ** -CASES[name]["digits"])
+
+
+@pytest.mark.slow_but("strip_at_wall")
+@pytest.mark.parametrize("name", STRIPS)
+def test_strips_as_rectangles_have_the_modes_of_their_orders(name: str) -> None:
+    _assert_kept(name, 1e-6, certain=1e-10)
+
+
+def test_a_sliding_cover_has_its_closed_form() -> None:
+    tank = reference_tank("cover_box_s0", edge="sliding")
+    solution, omega = _solved(tank, 1e-8, 12)
+    # Rounding of a plate whose stiffest shape is 10⁹ times as stiff as its softest: measured 3e-11.
+    assert omega == pytest.approx(frequencies("cover_box_s0"), rel=1e-10)
+    assert np.all(np.abs(omega / frequencies("cover_box_s0") - 1.0) < solution.relative_errors[:12])
+
+
+def test_classes_are_those_of_the_modes() -> None:
+    tank = reference_tank("rectangle_base_s0")
+    solution, _ = _solved(tank, 1e-6, 12)
+    labels = [solution.modes.classes[number].label for number, _ in solution.modes.origins[:12]]
+    assert labels == CASES["rectangle_base_s0"]["label"]
+
+
+def test_a_tank_without_symmetry_has_the_same_modes() -> None:
+    tank = reference_tank("rectangle_base_s0")
+    plate = tank.plates[0]
+    outline = plate.outline
+    assert isinstance(outline, Rectangle)
+    moved = replace(tank, plates=(replace(plate, outline=replace(outline, position=(5.0 + 2e-8, 4.0 - 2e-8))),))
+    _, whole = _solved(moved, 1e-4, 6)
+    # Both within their tolerance; measured 1e-6.
+    assert whole == pytest.approx(frequencies("rectangle_base_s0")[:6], rel=2e-5)
+
+
+def test_the_inertia_of_a_dense_problem_counts_as_many_modes() -> None:
+    from hydroelastic.fem.plan.box import box_problem
+
+    tank = reference_tank("rectangle_soft_s1")
+    solution, _ = _solved(tank, 1e-4, 8)
+    one = solution.modes.classes[0]
+    pencil, _ = box_problem(tank.scaled(), solution.resolution.coarser(), one.parity, dense=True)
+    assert pencil is not None
+    for index in range(1, 3):
+        shift = float(np.sqrt(one.modes.eigenvalues[index] * one.modes.eigenvalues[index - 1]))
+        assert count_below(pencil, shift) == index
+
+
+def test_a_heavy_rigid_cover_does_not_move_and_leaves_no_mode() -> None:
+    # With the volume kept a rigid cover can only tilt; hydrostatic pressure restores it.
+    plate = Plate(
+        outline=Rectangle(position=(1.0, 0.5), size=(2.0, 1.0)),
+        flexural_rigidity=np.inf,
+        mass_per_area=100.0,
+    )
+    tank = LevelTank(plan=Box(length=2.0, width=1.0), depth=1.0, plates=(plate,), **WATER)
+    solution, omega = _solved(tank, 1e-8, 3)
+    # Heave would change the volume; pitch and roll are left, with ψ of w = x: Σ over odd cosines in closed form.
+    assert len(omega) == 2
+    expected = []
+    for length, width in ((2.0, 1.0), (1.0, 2.0)):
+        k = np.pi * np.arange(1, 40001, 2) / length
+        inertia = 1000.0 * width * (2.0 / length) * np.sum((2.0 / k**2) ** 2 / (k * np.tanh(k)))
+        moment = width * length**3 / 12.0
+        expected.append(np.sqrt(9810.0 * moment / (inertia + 100.0 * moment)))
+    assert omega == pytest.approx(sorted(expected), rel=1e-9)
+    assert solution.modes.classes[0].modes.zero_modes == 0
+
+
+@pytest.mark.slow
+def test_a_plate_a_millimetre_from_a_wall_keeps_its_tolerance() -> None:
+    plate = Plate(outline=Rectangle(position=(1.501, 3.0), size=(3.0, 2.0)), flexural_rigidity=5e3, mass_per_area=50.0)
+    tank = LevelTank(plan=Box(length=10.0, width=6.0), depth=2.0, plates=(plate,), **WATER)
+    _, fine = _solved(tank, 1e-9, 8)
+    coarse, omega = _solved(tank, 1e-6, 8)
+    errors = omega / fine - 1.0
+    # The largest one: of the lowest mode, 4e-10, the estimate shows a quarter.
+    assert errors.max() < coarse.relative_errors[:8].max() < 1e-6

@@ -1,0 +1,96 @@
+"""Meshes of plans: areas are exact, layers lie at the edges, regions are where they belong."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from mpi4py import MPI
+
+from hydroelastic.fem.cells import cell_jacobians, cell_positions
+from hydroelastic.meshes.distribute import TankMesh, distribute_mesh
+from hydroelastic.meshes.plan import plan_mesh
+from hydroelastic.meshes.plan_loops import CircleLoop, Loop, PlanRegion, PolygonLoop
+
+
+def _box(left: float, right: float, low: float, high: float) -> PolygonLoop:
+    return PolygonLoop(corners=np.array([[left, low], [right, low], [right, high], [left, high]]))
+
+
+def _circle(radius: float, x: float = 0.0, y: float = 0.0) -> CircleLoop:
+    return CircleLoop(centre=np.array([x, y]), radius=radius)
+
+
+def _meshed(wall: Loop, *plates: PlanRegion, layers: int = 3) -> TankMesh:
+    mesh = plan_mesh(
+        PlanRegion(name="water", outside=wall),
+        plates,
+        size=lambda _: 0.25,
+        layers=layers,
+        thickness=0.1,
+        geometry_degree=6,
+    )
+    return distribute_mesh(MPI.COMM_SELF, mesh)
+
+
+def _area(mesh: TankMesh, name: str) -> float:
+    import basix
+
+    reference, weights = basix.make_quadrature(basix.CellType.triangle, 14)
+    measures = np.linalg.det(cell_jacobians(mesh.mesh, mesh.cells(name), reference))
+    assert measures.min() > 0.0 or measures.max() < 0.0
+    if measures.shape[1] == 1:
+        measures = np.broadcast_to(measures, (len(measures), len(weights)))
+    return float(np.abs(measures @ weights).sum())
+
+
+def test_a_plate_between_walls_has_its_area_and_layers() -> None:
+    mesh = _meshed(_box(0.0, 1.0, 0.0, 0.8), PlanRegion(name="plate", outside=_box(0.3, 0.7, 0.25, 0.55)))
+    assert _area(mesh, "plate") == pytest.approx(0.12, rel=1e-13)
+    assert _area(mesh, "water") == pytest.approx(0.68, rel=1e-13)
+    corners = cell_positions(mesh.mesh, mesh.cells("water"), np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]))
+    left = (np.abs(corners[..., 1] - 0.4) < 0.151) & (corners[..., 0] < 0.3 + 1e-9)
+    beside = np.unique(np.round(0.3 - corners[..., 0][left], 9))
+    # Layers of ratio 0.2 left of the plate, the outermost one a sixth of its shorter side.
+    assert beside[:4] == pytest.approx([0.0, 0.002, 0.01, 0.05], abs=1e-9)
+
+
+def test_layers_thinner_than_the_sagitta_of_their_arcs_do_not_fold() -> None:
+    mesh = _meshed(_circle(1.0), PlanRegion(name="plate", outside=_circle(0.4)), layers=6)
+    # Arcs of geometry degree 6: measured 1e-13.
+    assert _area(mesh, "plate") == pytest.approx(0.16 * np.pi, rel=1e-11)
+    assert _area(mesh, "water") == pytest.approx(0.84 * np.pi, rel=1e-11)
+
+
+def test_the_hole_of_a_ring_is_water() -> None:
+    mesh = _meshed(_circle(1.0), PlanRegion(name="plate", outside=_circle(0.8), inside=(_circle(0.4),)))
+    assert _area(mesh, "plate") == pytest.approx(0.48 * np.pi, rel=1e-11)
+    assert _area(mesh, "water") == pytest.approx(0.52 * np.pi, rel=1e-11)
+
+
+def test_two_plates_of_different_outline_share_a_tank() -> None:
+    plates = (
+        PlanRegion(name="square", outside=_box(0.1, 0.4, 0.25, 0.55)),
+        PlanRegion(name="disc", outside=_circle(0.15, 0.7, 0.5)),
+    )
+    mesh = _meshed(_box(0.0, 1.0, 0.0, 0.8), *plates)
+    assert _area(mesh, "square") == pytest.approx(0.09, rel=1e-12)
+    assert _area(mesh, "disc") == pytest.approx(0.0225 * np.pi, rel=1e-9)
+    assert _area(mesh, "water") == pytest.approx(0.71 - 0.0225 * np.pi, rel=1e-9)
+
+
+def test_a_plate_that_covers_the_plan_leaves_no_water() -> None:
+    wall = _circle(1.0)
+    mesh = _meshed(wall, PlanRegion(name="plate", outside=wall))
+    assert "water" not in mesh.cell_names
+    assert _area(mesh, "plate") == pytest.approx(np.pi, rel=1e-11)
+
+
+def test_corners_of_more_than_half_a_turn_are_refined() -> None:
+    corner = PolygonLoop(corners=np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 0.5], [0.5, 0.5], [0.5, 1.0], [0.0, 1.0]]))
+    mesh = _meshed(corner)
+    corners = cell_positions(mesh.mesh, mesh.cells("water"), np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]))
+    sizes = np.linalg.norm(corners[:, 1] - corners[:, 0], axis=1)
+    near = np.linalg.norm(corners - [0.5, 0.5], axis=2).min(axis=1) < 1e-12
+    assert near.any()
+    assert _area(mesh, "water") == pytest.approx(0.75, rel=1e-13)
+    assert sizes[near].max() < 0.02

@@ -1,0 +1,80 @@
+"""Dry modes of rectangular and polygonal plates against closed forms and converged numbers."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from hydroelastic.modal.plate.polygon import polygon_modes, polygon_quadrature
+from hydroelastic.modal.plate.rectangle import bending_energies, rectangle_modes
+from hydroelastic.physics.plate import Edge
+
+SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+# Free square, ν = 0.3: Legendre–Ritz of growing degree, digits that no longer change.
+FREE_SQUARE = np.array([13.468198, 19.596137, 24.270201, 34.800891, 34.800891])
+
+
+def test_a_free_square_has_three_rigid_motions_and_the_known_modes() -> None:
+    values = np.concatenate(
+        [rectangle_modes((1.0, 1.0), 0.3, 20, parities=(x, y)).stiffness for x in (0, 1) for y in (0, 1)]
+    )
+    values = np.sort(values)
+    assert np.count_nonzero(values == 0.0) == 3
+    # From above; corners leave 3e-8 at 20 polynomials.
+    excess = np.sqrt(values[3:8]) / FREE_SQUARE - 1.0
+    assert excess.min() > -5e-8
+    assert excess.max() < 1e-7
+
+
+@pytest.mark.parametrize("parities", [(None, None), (0, 1)])
+def test_hinged_and_sliding_rectangles_are_products_of_sines_and_cosines(parities: Any) -> None:
+    size = (1.0, 1.5)
+    wanted: dict[Edge, int] = {"hinged": 1, "sliding": 0}
+    for edge, first in wanted.items():
+        modes = rectangle_modes(size, 0.3, 24, edges=((edge, edge), (edge, edge)), parities=parities)
+        numbers = [(m, n) for m in range(first, 7) for n in range(first, 7)]
+        if parities != (None, None):
+            # sin mπx/a is even about the middle for odd m, cos for even m.
+            numbers = [(m, n) for m, n in numbers if (m + first) % 2 == 0 and (n + first) % 2 == 1]
+        exact = np.sort([np.pi**4 * (m**2 / size[0] ** 2 + n**2 / size[1] ** 2) ** 2 for m, n in numbers])
+        # Rounding of a stiffness whose largest value is 10⁹ times the lowest.
+        assert modes.stiffness[:6] == pytest.approx(exact[:6], rel=1e-9)
+
+
+def test_a_plate_on_one_hinged_edge_turns_about_it() -> None:
+    modes = rectangle_modes((2.0, 1.0), 0.3, 12, edges=(("hinged", "free"), ("free", "free")))
+    assert np.count_nonzero(modes.stiffness == 0.0) == 1
+    turn = modes.deflection(np.array([-1.0, 0.0, 1.0]), np.array([0.1, 0.3, -0.2]))[0]
+    assert turn / turn[2] == pytest.approx([0.0, 0.5, 1.0], abs=1e-9)
+
+
+def test_the_energy_of_coefficients_is_that_of_the_modes() -> None:
+    modes = rectangle_modes((2.0, 1.0), 0.25, 10)
+    energies = bending_energies((2.0, 1.0), 0.25, modes.coefficients)
+    assert energies == pytest.approx(modes.stiffness, rel=1e-8, abs=1e-7)
+
+
+def test_a_square_is_a_polygon() -> None:
+    modes = polygon_modes(SQUARE, 0.3, 18)
+    assert np.sqrt(modes.stiffness[3:8]) == pytest.approx(FREE_SQUARE, rel=1e-6)
+    points, weights = polygon_quadrature(SQUARE, 30)
+    shapes = modes.deflection(points)[:20]
+    assert (shapes * weights) @ shapes.T == pytest.approx(np.eye(20), abs=1e-11)
+
+
+def test_a_turned_square_has_the_same_modes() -> None:
+    turn = np.array([[np.cos(0.4), np.sin(0.4)], [-np.sin(0.4), np.cos(0.4)]])
+    # The polynomials of a degree in x and y together are the same in any axes.
+    assert polygon_modes(SQUARE @ turn, 0.3, 12).stiffness[3:20] == pytest.approx(
+        polygon_modes(SQUARE, 0.3, 12).stiffness[3:20], rel=1e-9
+    )
+
+
+def test_a_concave_polygon_is_integrated_exactly() -> None:
+    corner = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]])
+    points, weights = polygon_quadrature(corner, 4)
+    # ∫x³y² over [0, 2]² less that over [1, 2]².
+    assert weights.sum() == pytest.approx(3.0, rel=1e-14)
+    assert (points[0] ** 3 * points[1] ** 2) @ weights == pytest.approx(4.0 * 8.0 / 3.0 - 3.75 * 7.0 / 3.0, rel=1e-13)

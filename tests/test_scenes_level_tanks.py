@@ -1,0 +1,126 @@
+"""Scenes of tanks in three dimensions: keys, messages, results."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+from typing import Any
+
+import meshio
+import numpy as np
+import pytest
+from level_tanks import CASES
+
+from hydroelastic.output.dataset import read_dataset
+from hydroelastic.scenes.errors import SceneError
+from hydroelastic.scenes.kinds import checker_of, runner_of
+from hydroelastic.scenes.models.level_tank import LevelTankScene
+from hydroelastic.scenes.models.level_tank_physics import physical_level_tank
+from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.read import read_scene
+
+DISC = {"outline": "disc", "radius": 2.0, "flexural_rigidity": 5e3, "mass_per_area": 50.0, "hydrostatic": False}
+LIQUID = [{"density": 1000.0, "depth": 3.0}]
+
+
+def scene(**changes: Any) -> LevelTankScene:
+    given: dict[str, Any] = {"tank": {"radius": 5.0}, "liquid": LIQUID, "body": [DISC]}
+    return LevelTankScene(**(given | changes))
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    out = tmp_path_factory.mktemp("level") / "disc"
+    asked = scene(accuracy={"tolerance": 1e-6, "modes": 3}, title="Disc")
+    runner_of(asked)(asked, out=out, images=None)
+    return out
+
+
+def test_summary_has_the_frequencies_with_order_and_multiplicity(folder: Path) -> None:
+    summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    case = CASES["disc_base_s0"]
+    modes = summary["modes"]
+    assert [mode["omega"] for mode in modes] == pytest.approx(case["omega"][:3], rel=1e-6)
+    assert [(f"n{mode['order']}", mode["multiplicity"]) for mode in modes] == list(
+        zip(case["label"][:3], case["multiplicity"][:3], strict=True)
+    )
+    # Pitch about x and about y has no stiffness, and heave displaces the water in the ring.
+    assert summary["zero_modes"] == 2
+    assert summary["status"] == "ok"
+    assert summary["first_elastic"]["order"] == 2
+
+
+def test_files_hold_the_shapes_of_both_modes_of_a_pair(folder: Path) -> None:
+    surface, volume = (meshio.read(folder / "fields" / f"{name}.vtu") for name in ("surface", "volume"))
+    assert set(surface.point_data) == {
+        f"displacement_{name}" for name in ("001", "002_cos", "002_sin", "003_cos", "003_sin")
+    }
+    even, odd = (surface.point_data[f"displacement_002_{name}"][:, 2] for name in ("cos", "sin"))
+    x, y = surface.points[:, 0], surface.points[:, 1]
+    # f(r) cos θ and f(r) sin θ; values are written with 16 digits.
+    assert even * y == pytest.approx(odd * x, abs=1e-12 * np.abs(even).max() * 5.0)
+    dataset, _ = read_dataset(folder / "dataset.nc")
+    assert dataset["elevation"].dims == ("shape", "point")
+    with (folder / "modes.csv").open(encoding="utf-8") as file:
+        assert [row["multiplicity"] for row in csv.DictReader(file)] == ["1", "2", "2"]
+    # On the water gη = ω²ψ, in the surface and in the volume.
+    water = dataset["plate"].values == 0
+    psi, eta = volume.point_data["potential_001"][: len(x)], surface.point_data["displacement_001"][:, 2]
+    omega = CASES["disc_base_s0"]["omega"][0]
+    assert 9.81 * eta[water] == pytest.approx(omega**2 * psi[water], rel=1e-4, abs=1e-4 * np.abs(eta).max() * 9.81)
+
+
+def test_keys_of_a_plan_make_a_scene_three_dimensional(tmp_path: Path) -> None:
+    assert isinstance(read_scene("floating_roof"), LevelTankScene)
+    assert isinstance(read_scene("aquarium"), TankScene)
+    text = 'kind = "tank"\n[tank]\nlength = 2.0\n[[liquid]]\ndensity = 1.0\ndepth = 1.0\n'
+    (tmp_path / "flat.toml").write_text(text, encoding="utf-8")
+    assert isinstance(read_scene(tmp_path / "flat.toml"), TankScene)
+    assert isinstance(read_scene(tmp_path / "flat.toml", {"tank.width": 1.0}), LevelTankScene)
+
+
+def test_rigidity_and_mass_follow_from_the_material() -> None:
+    material = {"youngs_modulus": 2.1e11, "thickness": 0.01, "density": 7850.0}
+    (plate,) = physical_level_tank(scene(body=[{"outline": "disc", "radius": 2.0, **material}])).plates
+    assert plate.flexural_rigidity == pytest.approx(2.1e11 * 1e-6 / (12.0 * 0.91), rel=1e-14)
+    assert plate.mass_per_area == pytest.approx(78.5, rel=1e-14)
+
+
+BAD: dict[str, tuple[dict[str, Any], str]] = {
+    "two plans": ({"tank": {"radius": 5.0, "width": 2.0}}, "different plans"),
+    "no plan": ({"tank": {"length": 5.0}}, 'key "width"'),
+    "beam": ({"body": [{"kind": "beam", "start": 0.0}]}, "bodies are plates"),
+    "outside": ({"body": [DISC | {"radius": 6.0}]}, "does not lie inside"),
+    "strip in a cylinder": (
+        {"body": [{"outline": "strip", "start": 1.0, "length": 2.0, "rigid": True, "mass_per_area": 1.0}]},
+        "side to side of a box",
+    ),
+    "overlap": ({"body": [DISC, DISC | {"radius": 1.0}]}, "overlaps or touches"),
+    "stiffness twice": ({"body": [DISC | {"rigid": True}]}, "given twice"),
+    "key of another outline": ({"body": [DISC | {"size": [1.0, 1.0]}]}, "does not belong to outline"),
+    "nothing moves": ({"body": [], "tank": {"radius": 5.0, "top": "rigid"}}, "nothing moves"),
+    "two liquids": ({"liquid": LIQUID * 2}, "liquid"),
+    "too thin": ({"liquid": [{"density": 1.0, "depth": 1e-5}]}, "too thin"),
+}
+
+
+@pytest.mark.parametrize("case", BAD)
+def test_what_does_not_fit_is_refused(case: str) -> None:
+    changes, said = BAD[case]
+    with pytest.raises(SceneError, match=said):
+        scene(**changes)
+
+
+def test_what_no_solver_takes_is_refused_by_check_and_run() -> None:
+    touching = scene(tank={"radius": 5.0}, body=[DISC | {"radius": 2.0, "position": [3.0, 0.0]}])
+    for use in (lambda: list(checker_of(touching)(touching)), lambda: runner_of(touching)(touching)):
+        with pytest.raises(SceneError, match="touches a wall"):
+            use()
+
+
+def test_check_tells_the_model_and_its_size() -> None:
+    asked = read_scene("ring_pontoon")
+    text = "\n".join(line for section in checker_of(asked)(asked) for line in section.lines)
+    assert "one problem for each order n" in text
+    assert "no volume mesh" in text

@@ -185,7 +185,8 @@ def closed_tank(scene: Scene, because: str) -> TankScene:
         SceneError: if it is of another kind, or the ends of the tank are open.
     """
     if isinstance(scene, LevelTankScene):
-        raise SceneError(Problem(key="[tank]", wrong=because, remedy="The command run takes three dimensions"))
+        remedy = "The command run takes three dimensions, with an error estimate at any accuracy.tolerance"
+        raise SceneError(Problem(key="[tank]", wrong=f"{because} per metre of width", remedy=remedy))
     if not isinstance(scene, TankScene):
         raise SceneError(_misplaced('key "kind"', scene.kind, because, allowed='"tank"', what="this kind"))
     if scene.is_open:

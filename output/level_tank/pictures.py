@@ -37,6 +37,9 @@ _VIEW, _HEIGHT, _ABOVE, _BELOW = 900, 620, 90, 80
 # The largest displacement, in extents of the plan.
 _RAISED = 0.12
 _CONTOURS = 21
+# From where the surface is seen, and the part of the view that it fills.
+_FROM = np.array([-1.0, -1.6, 1.1])
+_FILLED = 0.95
 # Number of lowest modes that are animated.
 _ANIMATED = 2
 
@@ -124,12 +127,27 @@ def _view(sample: SampledModes, relative: NDArray[np.float64], size: tuple[int, 
     if len(edges):
         lines = pyvista.PolyData(points, lines=np.column_stack([np.full(len(edges), 2), edges]).ravel())
         plotter.add_mesh(lines, color=INK, line_width=2.0)
-    x, y = sample.points.mean(axis=0)
-    plotter.camera_position = [(x - 1.0 * extent, y - 1.6 * extent, 1.1 * extent), (x, y, 0.0), (0.0, 0.0, 1.0)]
-    plotter.camera.zoom(1.15)
+    _look_at(plotter.camera, sample, _RAISED * extent, size)
     image = np.asarray(plotter.screenshot(return_img=True))
     plotter.close()
     return image
+
+
+def _look_at(camera: pyvista.Camera, sample: SampledModes, raised: float, size: tuple[int, int]) -> None:
+    """Turn a camera so that the surface fills the view, raised or lowered by any part of the largest displacement."""
+    forwards = -_FROM / np.linalg.norm(_FROM)
+    rightwards = np.cross(forwards, [0.0, 0.0, 1.0])
+    rightwards /= np.linalg.norm(rightwards)
+    upwards = np.cross(rightwards, forwards)
+    seen = np.array([sample.points @ axis[:2] for axis in (rightwards, upwards)])
+    low, high = seen.min(axis=1), seen.max(axis=1)
+    width, height = high - low + [0.0, 2.0 * raised * upwards[2]]
+    middle = rightwards * 0.5 * (low[0] + high[0]) + upwards * 0.5 * (low[1] + high[1])
+    camera.parallel_projection = True
+    camera.position, camera.focal_point = middle - 4.0 * np.hypot(width, height) * forwards, middle
+    camera.up = (0.0, 0.0, 1.0)
+    camera.parallel_scale = 0.5 * max(height, width * size[1] / size[0]) / _FILLED
+    camera.clipping_range = (1.0 * np.hypot(width, height), 7.0 * np.hypot(width, height))
 
 
 def _surface(
@@ -156,6 +174,8 @@ def _contours(figure: Figure, sample: SampledModes, relative: NDArray[np.float64
     for edge in _edges(sample):
         axes.plot(*sample.points[edge].T, color=INK, linewidth=1.6)
     axes.set_aspect("equal")
+    # Points are a little inside the pieces of the plan.
+    axes.margins(1e-6)
     axes.tick_params(labelsize=17.0 * POINT)
     axes.set_xlabel("x, m", fontsize=18.0 * POINT)
     axes.set_ylabel("y, m", fontsize=18.0 * POINT)

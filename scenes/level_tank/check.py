@@ -55,6 +55,8 @@ def _boundaries(tank: LevelTank) -> Iterator[Row]:
         yield f"wall of radius {plan.radius:g} m", "ψ_r = 0"
         if plan.inner_radius:
             yield f"inner wall of radius {plan.inner_radius:g} m", "ψ_r = 0"
+    else:
+        yield f"{len(plan.points)} walls around the plan", "ψ_n = 0"
     yield f"level bed, {tank.depth:g} m deep", "ψ_z = 0"
     yield "top beside the plates", _TOPS[tank.top]
     for index, plate in enumerate(tank.plates, 1):
@@ -67,7 +69,7 @@ def _unknowns(tank: LevelTank) -> Iterator[Row]:
     if tank.top == "free":
         yield "η", "water", "it keeps gravity waves"
     for index, plate in enumerate(tank.plates, 1):
-        what = "dry modes of each order" if plate.is_elastic else "its rigid motions"
+        what = "its dry modes" if plate.is_elastic else "its rigid motions"
         yield f"w of plate {index}", what, "smooth, so that a few functions are enough"
 
 

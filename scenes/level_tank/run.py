@@ -12,6 +12,7 @@ from hydroelastic.output.level_tank.tables import compared_level_tank, level_tan
 from hydroelastic.output.outcome import Outcome
 from hydroelastic.output.pictures.options import OF_FIELDS, OF_MOTIONS, PictureOptions
 from hydroelastic.output.provenance import Summary
+from hydroelastic.output.sections import Section
 from hydroelastic.scenes.level_tank.solve import SolvedLevelTank, solve_level_scene
 from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.staged_run import StagedRun
@@ -49,6 +50,12 @@ run_level_tank = StagedRun(
 )
 
 
+NOTHING_TO_COMPARE = (
+    "There is no comparison: estimates are of elastic plates with free edges, closed forms of waves alone in boxes and "
+    "cylinders, and of sliding plates that cover a box."
+)
+
+
 def compare_level_tank(scene: LevelTankScene, *, report: Report = lambda _message: None) -> Outcome:
     """Solve a tank in three dimensions and compare it with closed forms and estimates; writes nothing (collective).
 
@@ -57,4 +64,5 @@ def compare_level_tank(scene: LevelTankScene, *, report: Report = lambda _messag
         UnsolvedError: if the eigen-solver fails.
     """
     outcome = run_level_tank(scene, report=report)
-    return replace(outcome, sections=tuple(compared_level_tank(outcome.summary)), notes=True)
+    compared = tuple(compared_level_tank(outcome.summary)) or (Section(title="", lines=(NOTHING_TO_COMPARE,)),)
+    return replace(outcome, sections=compared, notes=True)

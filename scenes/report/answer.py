@@ -10,6 +10,7 @@ from hydroelastic.output.digits import with_certain_digits
 from hydroelastic.output.provenance import Summary
 from hydroelastic.output.sections import Row, Section
 from hydroelastic.physics.dofs import Dof
+from hydroelastic.scenes.models.level_tank import is_level_tank
 
 # Number of frequencies of one analysis; the others are in its table.
 _MOST_MODES = 3
@@ -28,6 +29,8 @@ def answer(summary: Summary) -> Section:
     rows = {"tank": _tank, "string": _string, "thread": _thread, "roll": _roll}[scene["kind"]]
     if scene["kind"] == "tank" and scene["tank"]["ends"] == "open":
         rows = _open_water
+    elif is_level_tank(scene):
+        rows = _level_tank
     return Section(title="", headings=("quantity", "value", "estimated relative error"), rows=list(rows(summary)))
 
 
@@ -51,19 +54,34 @@ def _tank(summary: Summary) -> Iterator[Row]:
     """Growing motions, the lowest frequencies, and those of the bodies."""
     for growing in summary["growing"][:1]:
         yield _row("fastest growth of an unstable motion, 1/s", growing["growth_rate"], growing["relative_error"])
-    for number, mode in enumerate(summary["modes"][:_MOST_MODES], 1):
-        yield _row(f"ω of mode {number} ({mode['kind']}), rad/s", mode["omega"], mode["relative_error"])
-    for elastic in summary["first_elastic_by_body"]:
-        if elastic["omega"] is None:
-            continue
-        name = f"ω of the first mode of beam {elastic['body']}, mode {elastic['index']}, rad/s"
-        yield _row(name, elastic["omega"], elastic["relative_error"])
+    yield from _modes(summary)
+    yield from _elastic(summary, "beam")
     for body in summary["floats"]:
         for mode in body["modes"]:
             if mode["omega"] is None:
                 continue
             name = f"ω of {mode['motion']} of float {body['body']}, mode {mode['index']}, rad/s"
             yield _row(name, mode["omega"], mode["relative_error"])
+
+
+def _level_tank(summary: Summary) -> Iterator[Row]:
+    """The lowest frequencies, and those of the plates."""
+    yield from _modes(summary)
+    yield from _elastic(summary, "plate")
+
+
+def _modes(summary: Summary) -> Iterator[Row]:
+    for number, mode in enumerate(summary["modes"][:_MOST_MODES], 1):
+        yield _row(f"ω of mode {number} ({mode['kind']}), rad/s", mode["omega"], mode["relative_error"])
+
+
+def _elastic(summary: Summary, what: str) -> Iterator[Row]:
+    for elastic in summary["first_elastic_by_body"]:
+        if elastic["omega"] is not None:
+            # Of plates the tone is sought in its own order too, above the modes that were asked for.
+            index = "" if elastic["index"] is None else f", mode {elastic['index']}"
+            name = f"ω of the first mode of {what} {elastic['body']}{index}, rad/s"
+            yield _row(name, elastic["omega"], elastic["relative_error"])
 
 
 def _open_water(summary: Summary) -> Iterator[Row]:

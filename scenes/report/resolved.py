@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from hydroelastic.output.provenance import Summary
 from hydroelastic.output.sections import Section
+from hydroelastic.scenes.models.level_tank import is_level_tank
 
 
 def resolved(summary: Summary) -> Section:
@@ -18,11 +19,31 @@ def resolved(summary: Summary) -> Section:
     lines = {"tank": _tank, "string": _string, "thread": _thread, "roll": _roll}[scene["kind"]]
     if scene["kind"] == "tank" and scene["tank"]["ends"] == "open":
         lines = _open_water
+    elif is_level_tank(scene):
+        lines = _level_tank
     return Section(title="How the answer was found", lines=tuple(lines(summary)))
 
 
 def _tank(summary: Summary) -> Iterator[str]:
-    solver, size = summary["solver"], summary["size"]
+    size = summary["size"]
+    half = " in half the tank, for the scene is its own mirror image" if size["halves"] else ""
+    yield from _modes(summary, f"{size['cells']} cells of degree {size['degree']}{half}; {size['dofs']} unknowns of ψ.")
+
+
+def _level_tank(summary: Summary) -> Iterator[str]:
+    size, model = summary["size"], summary["solver"]["model"]
+    yield f"{model[:1].upper()}{model[1:]}."
+    poles = f", {size['poles']} poles of the depth" if size["poles"] else ""
+    problems = f"{size['problems']} problem{'s' * (size['problems'] != 1)}"
+    yield from _modes(
+        summary,
+        f"{problems}: degree {size['degree']}, {size['layers']} layers at each edge{poles}; {size['dofs']} unknowns.",
+    )
+
+
+def _modes(summary: Summary, size: str) -> Iterator[str]:
+    """How often the modes were solved, the size of the last attempt, and what confirms them."""
+    solver = summary["solver"]
     attempts = solver["attempts"]
     if attempts == 1:
         yield (
@@ -30,8 +51,7 @@ def _tank(summary: Summary) -> Iterator[str]:
         )
     else:
         yield f"{attempts} attempts: after each one, what had the largest part in the estimated error was refined."
-    half = " in half the tank, for the scene is its own mirror image" if size["halves"] else ""
-    yield f"{size['cells']} cells of degree {size['degree']}{half}; {size['dofs']} unknowns of ψ."
+    yield size
     if solver["count_confirmed_by_inertia"]:
         yield "An independent count, by the inertia of the matrices, confirms that no mode is missing."
     yield f"Largest residual of the modes: {solver['largest_residual']:.1e}."

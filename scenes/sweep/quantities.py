@@ -99,5 +99,7 @@ def shown_columns(table: Mapping[str, Any], show: tuple[str, ...]) -> tuple[str,
             )
     if show:
         return tuple(name.replace(".", "_") for name in show)
-    found = next((names for names in _MAIN if names[0] in numbers), tuple(numbers[-1:]))
+    # A tone that lies above the modes of every point is not one to show.
+    filled = [name for name in numbers if not np.all(np.isnan(table[name]))]
+    found = next((names for known in (filled, numbers) for names in _MAIN if names[0] in known), tuple(numbers[-1:]))
     return tuple(name for name in found if name in numbers)

@@ -131,6 +131,7 @@ class Plate:
         mass_per_area: m, kg/m².
         hydrostatic: whether the hydrostatic restoring ρ g w acts on it.
         edge: what holds the edges that lie on walls; all others are free. The side edges of a strip always slide.
+        slats: whether a strip consists of beams side by side, without stiffness across: a(w, w) = ∫w_xx².
 
     Raises:
         ValueError: if the rigidity is not positive, the mass negative or not finite, or ν not in (−1, 1/2].
@@ -142,6 +143,7 @@ class Plate:
     poisson_ratio: float = 0.3
     hydrostatic: bool = True
     edge: Edge = "free"
+    slats: bool = False
 
     def __post_init__(self) -> None:
         """Check the numbers."""

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import inf, pi
+from math import inf, pi, tanh
 
 import numpy as np
 import pytest
 from level_tanks import CASES, SEPARATED, reference_tank, solved
 
 from hydroelastic.fem.added_mass import body_added_mass
-from hydroelastic.fem.level_bed.orders import order_problem, solve_orders
+from hydroelastic.fem.level_bed.orders import lower_bound, order_problem, solve_order, solve_orders
 from hydroelastic.fem.level_bed.plate_tone import plate_tone
 from hydroelastic.fem.level_bed.resolution import line_resolution
 from hydroelastic.fem.level_bed.separation import separated
@@ -44,7 +44,7 @@ def test_frequencies_keep_the_tolerance_and_its_estimate(name: str) -> None:
     assert found.min() >= -(10.0 ** (1 - CASES[name]["digits"]))
 
 
-@pytest.mark.slow_but("disc_heavy_s1", "strip_shallow")
+@pytest.mark.slow_but("disc_heavy_s1", "strip_shallow", "strip_slats_s1")
 @pytest.mark.parametrize("name", SEPARATED)
 def test_frequencies_keep_a_narrow_tolerance(name: str) -> None:
     tank = reference_tank(name).scaled()
@@ -80,10 +80,11 @@ def test_a_covered_cylinder_is_closed_for_order_zero() -> None:
     assert len(found) >= 2
 
 
-def test_a_strip_without_cross_waves_is_the_beam_of_the_section() -> None:
+@pytest.mark.parametrize("slats", [False, True])
+def test_a_strip_without_cross_waves_is_the_beam_of_the_section(slats: bool) -> None:
     stiffness, mass = 5e3, 50.0
     strip = Strip(start=3.0, length=4.0, width=0.5)
-    plate = Plate(outline=strip, flexural_rigidity=stiffness, mass_per_area=mass)
+    plate = Plate(outline=strip, flexural_rigidity=stiffness, mass_per_area=mass, slats=slats)
     tank = LevelTank(plan=Box(length=10.0, width=0.5), depth=5.0, density=1000.0, gravity=9.81, plates=(plate,))
     beam = {"start": 3.0, "length": 4.0, "flexural_rigidity": stiffness, "mass_per_length": mass}
     section = TankScene(
@@ -100,6 +101,30 @@ def test_a_strip_without_cross_waves_is_the_beam_of_the_section() -> None:
     strips = np.sqrt(order.modes.eigenvalues[:4]) * tank.units.frequency
     # Two discretizations with nothing in common but the eigenproblem: 1e-10, the tolerance of the section.
     assert strips == pytest.approx(sections, rel=1e-10)
+
+
+def test_the_search_over_orders_finds_a_rigid_plate_s_pitch_below_its_heave() -> None:
+    """λ = 0.46 of order 1 is below 0.58 of order 0, and that below the waves of order 1, k tanh kH ≥ tanh 1 = 0.76."""
+    plate = Plate(outline=Disc(radius=0.5), flexural_rigidity=inf, mass_per_area=2.0)
+    tank = LevelTank(plan=Cylinder(radius=1.0), depth=1.0, density=1.0, gravity=1.0, plates=(plate,))
+    (heave, *_), (pitch, *_) = (solve_orders_of(tank, 1, order) for order in (0, 1))
+    assert pitch < heave < tanh(1.0)
+    assert solve_orders_of(tank, 1) == pytest.approx([pitch], rel=1e-12)
+
+
+@pytest.mark.parametrize("hydrostatic", [False, True])
+def test_slats_have_no_mode_below_the_bound_of_an_order(hydrostatic: bool) -> None:
+    """Without hydrostatic restoring heave and pitch of each slat have no stiffness, in each order."""
+    strip = Strip(start=0.3, length=0.4, width=0.4)
+    plate = Plate(outline=strip, flexural_rigidity=5e-5, mass_per_area=5e-3, slats=True, hydrostatic=hydrostatic)
+    tank = LevelTank(plan=Box(length=1.0, width=0.4), depth=0.5, density=1.0, gravity=1.0, plates=(plate,))
+    separation = separated(tank)
+    assert separation is not None
+    bounds = [lower_bound(tank, separation, order) for order in range(2, 6)]
+    lowest = [solve_orders_of(tank, 1, order)[0] for order in range(2, 6)]
+    assert np.all(np.diff(bounds) > 0.0)
+    # Measured: 0.71 to 0.92.
+    assert all(0.6 * value < bound <= value for bound, value in zip(bounds, lowest, strict=True))
 
 
 @pytest.mark.parametrize(("order", "limit"), [(0, 4.0 / 3.0), (1, 8.0 / 45.0)])
@@ -147,10 +172,15 @@ def test_two_concentric_plates_and_an_inner_cylinder_are_solved() -> None:
     assert soft == pytest.approx([one.mode.eigenvalue for one in waves.modes], rel=1e-6)
 
 
-def solve_orders_of(tank: LevelTank, count: int) -> np.ndarray:
+def solve_orders_of(tank: LevelTank, count: int, order: int | None = None) -> np.ndarray:
+    """The lowest λ of all orders, or of one."""
     scaled, separation = tank.scaled(), separated(tank.scaled())
     assert separation is not None
-    orders = solve_orders(scaled, separation, line_resolution(scaled, separation, 1e-5, 4.0), count)
+    resolution = line_resolution(scaled, separation, 1e-5, 4.0)
+    if order is None:
+        orders = solve_orders(scaled, separation, resolution, count)
+    else:
+        orders = tuple(filter(None, [solve_order(scaled, separation, resolution, order, count)]))
     return np.sort(np.concatenate([one.modes.eigenvalues for one in orders]))[:count]
 
 

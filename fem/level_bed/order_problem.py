@@ -180,7 +180,7 @@ def _body(plate: Plate, index: int, line: Line, shapes: LineModes) -> Body:
         surface=body_name(index + 1),
         shapes=partial(_shape_at, shapes),
         wavenumber=float(shapes.eigenvalues[-1] ** 0.25),
-        dofs=_dofs(line, shapes),
+        dofs=_dofs(shapes),
         parities=(even,) * shapes.count,
         stiffness=bending + factor * float(plate.hydrostatic) * shapes.squares,
         bending_stiffness=bending,
@@ -189,11 +189,11 @@ def _body(plate: Plate, index: int, line: Line, shapes: LineModes) -> Body:
     )
 
 
-def _dofs(line: Line, shapes: LineModes) -> tuple[Dof, ...]:
+def _dofs(shapes: LineModes) -> tuple[Dof, ...]:
     """Heave and pitch in the plane of x or of cos nθ, then elastic ones; a hinged edge leaves pitch alone."""
     plate = shapes.plate
     held = any(derivative == 0 for _, derivative in plate.conditions)
-    motions = ("pitch",) if (line.order or held) else ("heave", "pitch")
+    motions = ("heave", "pitch") if plate.transverse_is_zero and not held else ("pitch",)
     elastic = (Dof.elastic(number + 1) for number in range(shapes.count - shapes.rigid))
     return (*map(Dof, motions[: shapes.rigid]), *elastic)
 

@@ -6,7 +6,9 @@ and κ_n that of a plate's dry modes,
     K ≥ Σ_plates (D κ_n⁴ + sρg)‖w‖² + ρg‖η‖²,    M ≤ Σ_plates (m + ρ/(k_n tanh k_nH))‖w‖² + ρ/(k_n tanh k_nH) ‖η‖²
 
 so that λ is at least the smallest quotient of both, (D κ_n⁴ + sρg)/(m + ρ/(k_n tanh k_nH)) and g k_n tanh k_nH, for
-n ≥ 2, where no plate moves as a rigid body. Both rise with n.
+n ≥ 2, where no plate moves as a rigid body. Both rise with n. Slats keep their rigid motions in each order: κ_n = 0
+with s = 1; with s = 0 these have no stiffness, other modes are orthogonal to them, and κ_n is that of the first elastic
+one.
 """
 
 from __future__ import annotations
@@ -106,7 +108,7 @@ def plate_line(tank: LevelTank, separation: Separation, index: int, order: int) 
         start=start,
         end=end,
         round=separation.round,
-        transverse=separation.transverse(order),
+        transverse=0.0 if plate.slats else separation.transverse(order),
         poisson_ratio=plate.poisson_ratio,
         edges=(held(start), held(end)),
     )
@@ -132,7 +134,9 @@ def lower_bound(tank: LevelTank, separation: Separation, order: int) -> float:
     bounds = [1.0 / water] if has_waves(tank, separation) else []
     for index, plate in enumerate(tank.plates):
         if plate.is_elastic:
-            dry = dry_modes(plate_line(tank, separation, index, order), FEW_MODES).eigenvalues[0]
+            modes = dry_modes(plate_line(tank, separation, index, order), FEW_MODES)
+            # Motions of slats without any stiffness are no modes: those are orthogonal to them.
+            dry = modes.eigenvalues[0 if plate.hydrostatic else modes.rigid]
             stiffness = plate.flexural_rigidity * float(dry) + float(plate.hydrostatic)
             bounds.append(stiffness / (plate.mass_per_area + water))
     return min(bounds, default=inf)

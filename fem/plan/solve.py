@@ -45,6 +45,8 @@ def level_model(physical: LevelTank) -> LevelModel:
     tank = physical.scaled()
     if separated(tank) is not None:
         return "orders"
+    if any(plate.slats for plate in tank.plates):
+        raise NotTreatedError("beams side by side go with other such covers and strips of plate only")
     if tank.top == "pressure_release" and tank.plates:
         raise NotTreatedError("ψ = 0 on the water is for strips in a box, and discs and rings about a cylinder's axis")
     if isinstance(tank.plan, Box) and all(isinstance(plate.outline, Rectangle | Strip) for plate in tank.plates):

@@ -111,7 +111,7 @@ def plate_estimates(tank: LevelTank) -> dict[str, PlateEstimate]:
             start=outline.inner_radius if isinstance(outline, Disc) else 0.0,
             end=outline.radius if isinstance(outline, Disc) else outline.length,
             round=round_,
-            transverse=float(order) if isinstance(outline, Disc) else order * pi / outline.width,
+            transverse=float(order) if isinstance(outline, Disc) else order * pi / outline.width * (not plate.slats),
             poisson_ratio=plate.poisson_ratio,
             edges=("free", "free"),
         )

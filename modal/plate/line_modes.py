@@ -209,10 +209,11 @@ def lowest_dry(line: Callable[[int], PlateLine]) -> tuple[int, float]:
     """Return the order of the lowest elastic dry mode of a plate, and its κ⁴.
 
     Args:
-        line: returns the plate on the line of an order. Its lowest mode rises with the order from the second one on.
+        line: returns the plate on the line of an order. Its lowest mode rises with the order from the second one on;
+            that of slats is the same in all.
     """
     found: list[float] = []
-    while len(found) < _ORDERS or found[-1] <= min(found):
+    while len(found) < _ORDERS or found[-1] < min(found[:-1]):
         modes = dry_modes(line(len(found)), FEW_MODES)
         found.append(float(modes.eigenvalues[modes.rigid]))
     return found.index(min(found)), min(found)

@@ -175,6 +175,7 @@ def _contours(figure: Figure, sample: SampledModes, relative: NDArray[np.float64
         axes.plot(*sample.points[edge].T, color=INK, linewidth=1.6)
     axes.set_aspect("equal")
     # Points are a little inside the pieces of the plan.
+    axes.use_sticky_edges = False
     axes.margins(1e-6)
     axes.tick_params(labelsize=17.0 * POINT)
     axes.set_xlabel("x, m", fontsize=18.0 * POINT)

@@ -39,14 +39,14 @@ class LevelTankScene(LevelTankParts):
             problem_at(
                 ("body", index, "kind"),
                 body.get("kind", "plate"),
-                "in three dimensions bodies are plates; beams and floats are of tanks per metre of width",
-                allowed='"plate"',
+                "in three dimensions bodies are plates or uniform beams; others are of tanks per metre of width",
+                allowed='"plate" or "beam"',
                 remedy=f"Leave out {' and '.join(keys)} of [tank] for a tank per metre of width"
                 if (keys := [key for key in PLAN_KEYS if key in given.get("tank", {})])
                 else "",
             )
             for index, body in enumerate(bodies if isinstance(bodies, list | tuple) else ())
-            if isinstance(body, dict) and body.get("kind", "plate") != "plate"
+            if isinstance(body, dict) and body.get("kind", "plate") not in ("plate", "beam")
         ]
         if problems:
             raise ValidationError.from_exception_data(cls.__name__, problems)
@@ -96,9 +96,9 @@ def _outlines_fit_the_plan(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
     for index, plate in enumerate(scene.body):
         if plate.outline == "strip" and scene.tank.width is None:
             yield problem_at(
-                ("body", index, "outline"),
-                plate.outline,
-                "a strip reaches from side to side of a box",
+                ("body", index, plate.shape_key),
+                getattr(plate, plate.shape_key),
+                "a strip of plate or beams reaches from side to side of a box",
                 allowed='"disc" or "ring" in a cylinder',
             )
 
@@ -151,8 +151,8 @@ def _plates_keep_apart(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
     for (first, one), (second, other) in combinations(enumerate(outlines), 2):
         if _touch(one, other, ROUND_OFF * unit):
             yield problem_at(
-                ("body", second, "outline"),
-                scene.body[second].outline,
+                ("body", second, scene.body[second].shape_key),
+                getattr(scene.body[second], scene.body[second].shape_key),
                 f"the plate overlaps or touches [[body]] number {first + 1}",
                 remedy="Leave a gap between them",
             )
@@ -189,14 +189,15 @@ def _groups_are_in_range(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
     (liquid,), gravity = scene.liquid, scene.tank.gravity
     unit = physical_plan(scene.tank).unit
     for index, plate in enumerate(scene.body):
-        (low, high), (lower, upper) = _bounds(physical_outline(scene.tank, plate))
+        outline = physical_outline(scene.tank, plate)
+        (low, high), (lower, upper) = _bounds(outline)
         extent = min(high - low, upper - lower)
-        if plate.inner_radius is not None and plate.radius is not None:
-            extent = plate.radius - plate.inner_radius
+        if isinstance(outline, Disc) and outline.inner_radius:
+            extent = outline.radius - outline.inner_radius
         if extent < SHORTEST_BEAM * unit:
             yield problem_at(
-                ("body", index, "outline"),
-                plate.outline,
+                ("body", index, plate.shape_key),
+                getattr(plate, plate.shape_key),
                 "the plate is too narrow beside the tank to resolve both",
                 allowed=f"at least {SHORTEST_BEAM * unit:g} m",
             )
@@ -212,7 +213,7 @@ def _groups_are_in_range(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
             )
         if plate.whole_mass > MASS_GROUP[1] * liquid.density * extent:
             yield problem_at(
-                ("body", index, "mass_per_area"),
+                ("body", index, plate.mass_key),
                 plate.whole_mass,
                 "the liquid is lost in the rounding of the plate",
                 allowed=f"up to {MASS_GROUP[1] * liquid.density * extent:.3g}",

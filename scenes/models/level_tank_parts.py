@@ -4,9 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from math import inf
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Any, ClassVar, Literal, TypeAlias
 
-from pydantic import Field, SerializerFunctionWrapHandler, Strict, ValidationError, model_serializer, model_validator
+from pydantic import (
+    Discriminator,
+    Field,
+    SerializerFunctionWrapHandler,
+    Strict,
+    Tag,
+    ValidationError,
+    model_serializer,
+    model_validator,
+)
 from pydantic_core import InitErrorDetails
 
 from hydroelastic.physics import plate as physics
@@ -81,6 +90,9 @@ class Plate(SceneModel):
     Raises:
         SceneError: if keys do not belong to the outline, or rigidity or mass are given twice or not at all.
     """
+
+    shape_key: ClassVar[str] = "outline"
+    mass_key: ClassVar[str] = "mass_per_area"
 
     kind: Literal["plate"] = Field(default="plate", description="kind of the body")
     outline: OutlineName = Field(description="shape of the plate at rest")
@@ -158,6 +170,43 @@ class Plate(SceneModel):
         return self.density * self.thickness
 
 
+class Slats(SceneModel):
+    """Beams side by side over the whole width of a box: a cover that bends along x alone."""
+
+    kind: Literal["beam"] = Field(default="beam", description="kind of the body")
+    start: Place = Field(description="distance of the left ends from the left wall, m")
+    length: PositiveNumber = Field(description="length along x, m")
+    flexural_rigidity: PositiveNumber = Field(description="EI per metre of width, N·m")
+    mass_per_length: PositiveNumber = Field(description="mass per length and metre of width, kg/m²")
+    hydrostatic: Annotated[bool, Strict()] = Field(
+        default=True, description="whether the hydrostatic restoring ρ g w acts on the beams"
+    )
+    ends: Literal["free"] = Field(default="free", description="free ends: no moment, no shear force")
+
+    shape_key: ClassVar[str] = "start"
+    mass_key: ClassVar[str] = "mass_per_length"
+    outline: ClassVar[str] = "strip"
+    edge: ClassVar[physics.Edge] = "free"
+    poisson_ratio: ClassVar[float] = 0.0
+
+    @property
+    def whole_rigidity(self) -> float:
+        """EI per metre of width, N·m."""
+        return self.flexural_rigidity
+
+    @property
+    def whole_mass(self) -> float:
+        """Mass per area, kg/m²."""
+        return self.mass_per_length
+
+
+def _kind_of(body: Any) -> str:
+    return str(body.get("kind", "plate") if isinstance(body, dict) else getattr(body, "kind", "plate"))
+
+
+PlanBody: TypeAlias = Plate | Slats
+
+
 def _keys_of_the_outline(plate: Plate) -> Iterator[InitErrorDetails]:
     needed, further = KEYS_OF_OUTLINES[plate.outline]
     for key in _OUTLINE_KEYS:
@@ -210,7 +259,11 @@ class LevelTankParts(SceneModel):
     title: Title = Field(default="", description="title of tables and images")
     tank: PlanTank = Field(description="the tank")
     liquid: tuple[PlanLiquid, ...] = Field(min_length=1, max_length=1, description="the liquid")
-    body: tuple[Plate, ...] = Field(
-        default=(), max_length=MOST_BODIES, description=f"up to {MOST_BODIES} plates; none for sloshing alone"
+    body: tuple[
+        Annotated[Annotated[Plate, Tag("plate")] | Annotated[Slats, Tag("beam")], Discriminator(_kind_of)], ...
+    ] = Field(
+        default=(),
+        max_length=MOST_BODIES,
+        description=f"up to {MOST_BODIES} plates, and beams side by side; none for sloshing alone",
     )
     accuracy: Accuracy = Field(default=Accuracy(), description="what is asked of the answer")

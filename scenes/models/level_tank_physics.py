@@ -24,6 +24,7 @@ def physical_level_tank(scene: parts.LevelTankParts) -> LevelTank:
                 poisson_ratio=plate.poisson_ratio,
                 hydrostatic=plate.hydrostatic,
                 edge=plate.edge,
+                slats=plate.kind == "beam",
             )
             for plate in scene.body
         ),
@@ -51,9 +52,12 @@ def middle_of(plan: Plan) -> Point:
     return 0.5 * (min(x) + max(x)), 0.5 * (min(y) + max(y))
 
 
-def physical_outline(tank: parts.PlanTank, plate: parts.Plate) -> Outline:
+def physical_outline(tank: parts.PlanTank, plate: parts.PlanBody) -> Outline:
     """Return the outline of a plate in a tank."""
     plan = physical_plan(tank)
+    if isinstance(plate, parts.Slats):
+        assert isinstance(plan, Box)
+        return Strip(start=plate.start, length=plate.length, width=plan.width)
     position = plate.position if plate.position is not None else middle_of(plan)
     if plate.outline == "rectangle":
         assert plate.size is not None

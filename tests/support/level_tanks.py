@@ -14,12 +14,8 @@ from hydroelastic.physics.plate import Disc, Plate, Strip
 
 FILE = Path(__file__).parents[1] / "reference" / "three_dimensions.json"
 CASES: dict[str, dict[str, Any]] = {case["id"]: case for case in json.loads(FILE.read_text(encoding="utf-8"))["cases"]}
-SEPARATED = [
-    name
-    for name, case in CASES.items()
-    if case["family"] == "cylinder_plate" or (case["family"] == "box_strip" and case["inputs"]["kind"] == "plate")
-]
-"""Cases of concentric plates in cylinders and of strips in boxes."""
+SEPARATED = [name for name, case in CASES.items() if case["family"] in ("cylinder_plate", "box_strip")]
+"""Cases of concentric plates in cylinders, and of strips of plate or slats in boxes."""
 
 
 def reference_tank(name: str) -> LevelTank:
@@ -38,6 +34,7 @@ def reference_tank(name: str) -> LevelTank:
                 mass_per_area=given["m"],
                 poisson_ratio=given.get("nu", 0.3),
                 hydrostatic=bool(given["s"]),
+                slats=given.get("kind") == "slats",
                 edge="sliding" if name.startswith("cover") else "free",
             ),
         )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from math import inf, pi, tanh
 
 import numpy as np
@@ -10,12 +11,14 @@ import pytest
 from level_tanks import CASES, SEPARATED, reference_tank, solved
 
 from hydroelastic.fem.added_mass import body_added_mass
-from hydroelastic.fem.level_bed.orders import lower_bound, order_problem, solve_order, solve_orders
+from hydroelastic.fem.level_bed.orders import lower_bound, order_problem, plate_line, solve_order, solve_orders
 from hydroelastic.fem.level_bed.plate_tone import plate_tone
 from hydroelastic.fem.level_bed.resolution import line_resolution
 from hydroelastic.fem.level_bed.separation import separated
 from hydroelastic.fem.level_bed.solve import solve_level_tank
-from hydroelastic.modal.plate.estimates import exact_frequencies
+from hydroelastic.modal.plate.closed_forms import exact_frequencies
+from hydroelastic.modal.plate.estimates import plate_estimates
+from hydroelastic.modal.plate.line_modes import lowest_dry
 from hydroelastic.physics.level_tank import Box, Cylinder, LevelTank
 from hydroelastic.physics.plate import Disc, Plate, Strip
 from hydroelastic.scenes.models.tank import TankScene
@@ -144,6 +147,45 @@ def test_added_mass_of_a_rigid_disc_on_deep_wide_water_is_lamb_s(order: int, lim
     added = body_added_mass(pencil)[0, 0] / amplitude**2
     # The walls change heave by about (a/R)³, measured 2e-5; the discretization 1e-5.
     assert added / a ** (3 + 2 * order) == pytest.approx(limit, rel=1e-4)
+
+
+@pytest.mark.parametrize(("order", "motion", "name"), [(0, "heave", "rigid_heave"), (1, "pitch", "rigid_pitch")])
+def test_a_rigid_strip_or_disc_on_deep_wide_water_has_the_estimated_frequency(
+    order: int, motion: str, name: str
+) -> None:
+    """With ψ = 0 beside them; of a strip both motions are of order 0."""
+    disc, strip = Disc(radius=0.02), Strip(start=0.49, length=0.02, width=0.1)
+    for outline, plan in ((disc, Cylinder(radius=1.0)), (strip, Box(length=1.0, width=0.1))):
+        plate = Plate(outline=outline, flexural_rigidity=inf, mass_per_area=1e-3)
+        tank = LevelTank(plan=plan, depth=1.0, density=1.0, gravity=1.0, top="pressure_release", plates=(plate,))
+        (estimate,) = [one for one in plate_estimates(tank) if one.name == name]
+        separation = separated(tank)
+        assert separation is not None
+        resolution = line_resolution(tank, separation, 1e-5, 100.0, exponent=0.5)
+        solved_order = solve_order(tank, separation, resolution, order if outline is disc else 0, 2)
+        assert solved_order is not None
+        assert estimate.motion == motion
+        # Walls and bed change the added mass by about (a/R)³ of a disc and (l/L)² of a strip, 4e-4 at most.
+        distances = np.abs(np.sqrt(solved_order.modes.eigenvalues) / estimate.omega - 1.0)
+        assert distances.min() < 2e-4
+
+
+@pytest.mark.parametrize("name", ["disc_heavy_s1", "strip_base_s1"])
+def test_rayleigh_s_estimate_is_the_quotient_of_the_field_with_level_water(name: str) -> None:
+    tank = reference_tank(name)
+    (estimate,) = [one for one in plate_estimates(tank) if one.name == "rayleigh_lid"]
+    scaled, separation = tank.scaled(), separated(tank.scaled())
+    assert separation is not None
+    order, _ = lowest_dry(partial(plate_line, scaled, separation, 0))
+    problem = order_problem(scaled, separation, line_resolution(scaled, separation, 1e-5, 5.0), order)
+    assert problem is not None
+    pencil, shapes = problem
+    (body,) = pencil.bodies
+    first = shapes[0].rigid
+    added = body_added_mass(pencil)[first, first]
+    quotient = body.stiffness[first] / (body.mass[first, first] + added)
+    # 400 standing waves leave about 1e-5 of the added mass.
+    assert estimate.omega == pytest.approx(np.sqrt(quotient) * tank.units.frequency, rel=2e-5)
 
 
 def test_frequencies_do_not_depend_on_units() -> None:

@@ -1,136 +1,182 @@
-"""Closed forms of upright tanks, and simple estimates of the first elastic tone of a plate.
+"""Estimates by older theories of the first elastic tone of a plate, and of heave and pitch of a rigid one.
 
-Waves on open water and under a plate with sliding edges that covers all of it separate:
+An added mass per area m_a, the mean over the plate with the square of its shape as weight, gives
 
-    ω² = (D k⁴ + sρg)/(m + ρ/(k tanh kH)),    D = m = 0, s = 1 without a plate
-
-with k² = (iπ/L)² + (jπ/B)² in a box, J_n'(kR) = 0 in a cylinder. A covered cylinder has no such form: w_r = 0 on a
-curved edge leaves a shear force for n ≥ 1.
+    ω² = (D κ⁴ + sρg)/(m + m_a),    κ⁴ of the first dry mode, D κ⁴ = 0 of rigid motions
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from math import pi, sqrt, tanh
+from typing import Literal, TypeAlias
 
 import numpy as np
-from scipy.special import jnp_zeros
+from scipy.special import jnp_zeros, jv
 
-from hydroelastic.modal.plate.line_modes import PlateLine, lowest_dry
+from hydroelastic.modal.plate.line_modes import FEW_MODES, PlateLine, dry_modes, lowest_dry
+from hydroelastic.modal.plate.rectangle import rectangle_modes
+from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.level_tank import Box, Cylinder, LevelTank
-from hydroelastic.physics.plate import Disc, Plate, Strip
-from hydroelastic.physics.tank import ROUND_OFF
+from hydroelastic.physics.plate import Disc, Plate, Polygon, Rectangle, Strip
 
+EstimatedMotion: TypeAlias = Literal["elastic", "heave", "pitch"]
 
-@dataclass(frozen=True, kw_only=True)
-class ExactMode:
-    """A mode of a closed form.
-
-    Attributes:
-        formula: what it is.
-        order: order of the second direction.
-        omega: ω, rad/s.
-    """
-
-    formula: str
-    order: int
-    omega: float
+# Standing waves of the tank in Rayleigh's quotient: their sum is then exact to about 1e-5.
+_WAVES = 400
+# Pieces of a plate, and Gauss points in each, that resolve these waves.
+_PIECES, _POINTS = 50, 16
+_RIGID_DISC: tuple[tuple[str, EstimatedMotion, float, str], ...] = (
+    ("rigid_heave", "heave", 4.0 / (3.0 * pi), "4/3 ρa³, {limit}"),
+    ("rigid_pitch", "pitch", 32.0 / (45.0 * pi), "8/45 ρa⁵, {limit}"),
+    ("strip_heave", "heave", 2.0 / 3.0, "2π/3 ρa³: each slice as if it were endless, {limit}"),
+    ("strip_pitch", "pitch", 8.0 / 15.0, "2π/15 ρa⁵: each slice as if it were endless, {limit}"),
+)
+_RIGID_STRIP: tuple[tuple[str, EstimatedMotion, float, str], ...] = (
+    ("rigid_heave", "heave", pi / 4.0, "π/2 ρ(l/2)² per metre of width, {limit}"),
+    ("rigid_pitch", "pitch", 3.0 * pi / 32.0, "π/16 ρ(l/2)⁴ per metre of width, {limit}"),
+)
+_LIMIT = "the limit of infinite frequency in deep water without walls: neglects waves, walls and the bed"
 
 
 @dataclass(frozen=True, kw_only=True)
 class PlateEstimate:
-    """An estimate of the first elastic tone of the first plate.
+    """An estimate of one motion of a plate.
 
     Attributes:
+        name: of the estimate.
+        plate: index of the plate.
+        motion: the first elastic tone, or a rigid motion.
         omega: ω, rad/s.
-        added_mass_per_area: mean added mass per area, kg/m².
+        added_mass_per_area: m_a, kg/m².
         note: what it neglects.
     """
 
+    name: str
+    plate: int
+    motion: EstimatedMotion
     omega: float
     added_mass_per_area: float
     note: str
 
 
-def exact_frequencies(tank: LevelTank, count: int) -> tuple[ExactMode, ...]:
-    """Return the lowest frequencies of tanks with a closed form; none of others."""
-    plate = _cover(tank)
-    if tank.top != "free" or (tank.plates and plate is None):
-        return ()
-    stiffness = plate.flexural_rigidity if plate is not None else 0.0
-    mass = plate.mass_per_area if plate is not None else 0.0
-    restoring = tank.density * tank.gravity if plate is None or plate.hydrostatic else 0.0
-    cover = "(D k⁴ + s ρ g)/(m + ρ/(k tanh kH))" if plate is not None else "g k tanh kH"
-
-    def omega(k: float) -> float:
-        return sqrt((stiffness * k**4 + restoring) / (mass + tank.density / (k * tanh(k * tank.depth))))
-
-    if isinstance(tank.plan, Box):
-        sides = (tank.plan.length, tank.plan.width)
-        formula = f"ω² = {cover}, k² = (iπ/L)² + (jπ/B)²"
-        waves = _box_waves(sides, count)
-    elif isinstance(tank.plan, Cylinder) and not tank.plan.inner_radius and plate is None:
-        formula = f"ω² = {cover}, J_n'(kR) = 0"
-        # The lowest root of order n is above n, so that orders up to the number of modes hold the lowest ones.
-        roots = [(float(root), n) for n in range(count + 1) for root in jnp_zeros(n, count)]
-        waves = [(root / tank.plan.radius, n) for root, n in sorted(roots)]
-    else:
-        return ()
-    return tuple(ExactMode(formula=formula, order=order, omega=omega(k)) for k, order in waves[:count])
+def plate_estimates(tank: LevelTank) -> tuple[PlateEstimate, ...]:
+    """Return the estimates of all plates with free edges, but polygons."""
+    found: list[PlateEstimate] = []
+    for index, plate in enumerate(tank.plates):
+        if plate.edge == "free" and not isinstance(plate.outline, Polygon):
+            found += _elastic(tank, index, plate) if plate.is_elastic else _rigid(tank, index, plate)
+    return tuple(found)
 
 
-def _box_waves(sides: tuple[float, float], count: int) -> list[tuple[float, int]]:
-    """The lowest wavenumbers of a box, with their order across, ascending."""
-    numbers = np.arange(count + 1)
-    squares = (numbers[:, None] * pi / sides[0]) ** 2 + (numbers * pi / sides[1]) ** 2
-    pairs = sorted((float(sqrt(squares[i, j])), int(j)) for i in numbers for j in numbers if i or j)
-    return pairs[:count]
-
-
-def _cover(tank: LevelTank) -> Plate | None:
-    """The plate with sliding edges that covers a box, if there is one."""
-    if len(tank.plates) != 1 or not isinstance(tank.plan, Box):
-        return None
-    (plate,) = tank.plates
-    covers = isinstance(plate.outline, Strip) and plate.outline.length >= tank.plan.length * (1.0 - ROUND_OFF)
-    return plate if covers and plate.edge == "sliding" and plate.is_elastic else None
-
-
-def plate_estimates(tank: LevelTank) -> dict[str, PlateEstimate]:
-    """Return estimates of the first elastic tone of a single elastic strip, disc or ring with free edges, by name."""
-    if len(tank.plates) != 1 or not tank.plates[0].is_elastic or tank.plates[0].edge != "free":
-        return {}
-    (plate,) = tank.plates
+def _rigid(tank: LevelTank, index: int, plate: Plate) -> Iterator[PlateEstimate]:
+    """Heave and pitch of a rigid disc or strip, which need hydrostatic restoring."""
     outline = plate.outline
-    if not isinstance(outline, Strip | Disc):
-        return {}
+    if isinstance(outline, Strip):
+        table, half = _RIGID_STRIP, 0.5 * outline.length
+    elif isinstance(outline, Disc) and not outline.inner_radius:
+        table, half = _RIGID_DISC, outline.radius
+    else:
+        return
+    if not plate.hydrostatic:
+        return
+    for name, motion, factor, note in table:
+        yield _estimate(tank, index, 0.0, name, factor * half, note.format(limit=_LIMIT), motion)
 
-    def line(order: int) -> PlateLine:
-        round_ = isinstance(outline, Disc)
-        return PlateLine(
-            start=outline.inner_radius if isinstance(outline, Disc) else 0.0,
-            end=outline.radius if isinstance(outline, Disc) else outline.length,
-            round=round_,
-            transverse=float(order) if isinstance(outline, Disc) else order * pi / outline.width * (not plate.slats),
-            poisson_ratio=plate.poisson_ratio,
-            edges=("free", "free"),
-        )
 
-    order, eigenvalue = lowest_dry(line)
-    stiffness = plate.flexural_rigidity * eigenvalue + float(plate.hydrostatic) * tank.density * tank.gravity
+def _elastic(tank: LevelTank, index: int, plate: Plate) -> Iterator[PlateEstimate]:
+    outline = plate.outline
+    if isinstance(outline, Rectangle):
+        values = rectangle_modes(outline.size, plate.poisson_ratio, FEW_MODES).stiffness
+        eigenvalue, of_order = float(values[values > 0.0].min()), ""
+    else:
+        assert isinstance(outline, Strip | Disc)
+        line = _line(plate, outline)
+        order, eigenvalue = lowest_dry(line)
+        of_order = f", of order {order}"
+        length = _rayleigh(tank, outline, line(order), order)
+        if length is not None:
+            note = (
+                f"Rayleigh's quotient of the first dry mode{of_order}, in the tank: neglects waves on the water, which "
+                "stays level as under a lid, and other shapes; above the lowest mode of its order"
+            )
+            yield _estimate(tank, index, eigenvalue, "rayleigh_lid", length, note)
     wavenumber = eigenvalue**0.25
-    lengths = {
-        "wave_in_depth": (
+    note = f"the first dry mode alone{of_order}; "
+    for name, length, more in (
+        (
+            "wave_in_depth",
             1.0 / (wavenumber * tanh(wavenumber * tank.depth)),
-            "added mass ρ/(κ tanh κH) of a wave with the wavenumber κ of the dry mode, without edges",
+            "added mass ρ/(κ tanh κH) of an endless wave with the wavenumber κ of the dry mode: neglects edges",
         ),
-        "wave_deep": (1.0 / wavenumber, "the same in deep water, ρ/κ"),
-    }
-    return {
-        name: PlateEstimate(
-            omega=sqrt(stiffness / (plate.mass_per_area + tank.density * length)),
-            added_mass_per_area=tank.density * length,
-            note=f"the first dry mode alone, of order {order}; {note}",
-        )
-        for name, (length, note) in lengths.items()
-    }
+        ("wave_deep", 1.0 / wavenumber, "the same in deep water, ρ/κ: neglects edges and the bed"),
+    ):
+        yield _estimate(tank, index, eigenvalue, name, length, note + more)
+
+
+def _estimate(
+    tank: LevelTank,
+    index: int,
+    eigenvalue: float,
+    name: str,
+    length: float,
+    note: str,
+    motion: EstimatedMotion = "elastic",
+) -> PlateEstimate:
+    """The estimate by an added mass per area of ρ times a length."""
+    plate = tank.plates[index]
+    bending = plate.flexural_rigidity * eigenvalue if eigenvalue else 0.0
+    stiffness = bending + float(plate.hydrostatic) * tank.density * tank.gravity
+    return PlateEstimate(
+        name=name,
+        plate=index,
+        motion=motion,
+        omega=sqrt(stiffness / (plate.mass_per_area + tank.density * length)),
+        added_mass_per_area=tank.density * length,
+        note=note,
+    )
+
+
+def _line(plate: Plate, outline: Strip | Disc) -> Callable[[int], PlateLine]:
+    """The plate on the line of an order, in the coordinates of the tank."""
+    if isinstance(outline, Disc):
+        start, end, across = outline.inner_radius, outline.radius, 1.0
+    else:
+        start, end, across = outline.start, outline.end, 0.0 if plate.slats else pi / outline.width
+    return lambda order: PlateLine(
+        start=start,
+        end=end,
+        round=isinstance(outline, Disc),
+        transverse=order * across,
+        poisson_ratio=plate.poisson_ratio,
+        edges=("free", "free"),
+    )
+
+
+def _rayleigh(tank: LevelTank, outline: Strip | Disc, line: PlateLine, order: int) -> float | None:
+    """m_a/ρ of the first dry mode: Σ (∫Wφ)²/(k tanh kH) over ∫W², φ the tank's standing waves; m.
+
+    ``None`` where these are no cosines and no Bessel functions of the first kind.
+    """
+    local, weights = np.polynomial.legendre.leggauss(_POINTS)
+    ends = np.linspace(line.start, line.end, _PIECES + 1)
+    half = 0.5 * (ends[1] - ends[0])
+    places = (ends[:-1, None] + half * (1.0 + local)).ravel()
+    measure = np.tile(half * weights, _PIECES) * (places if line.round else 1.0)
+    if isinstance(tank.plan, Box) and isinstance(outline, Strip):
+        along = np.arange(0 if order else 1, _WAVES) * pi / tank.plan.length
+        k = np.hypot(along, order * pi / tank.plan.width)
+        norms = tank.plan.length * np.where(along > 0.0, 0.5, 1.0)
+        waves = np.cos(along[:, None] * places)
+    elif isinstance(tank.plan, Cylinder) and not tank.plan.inner_radius and outline.position == (0.0, 0.0):
+        roots = jnp_zeros(order, _WAVES)
+        k = roots / tank.plan.radius
+        norms = 0.5 * tank.plan.radius**2 * (1.0 - (order / roots) ** 2) * jv(order, roots) ** 2
+        waves = jv(order, k[:, None] * places)
+    else:
+        return None
+    modes = dry_modes(line, FEW_MODES)
+    shape: FloatArray = modes.values(places)[:, modes.rigid]
+    parts = (waves @ (measure * shape)) ** 2 / norms
+    return float(np.sum(parts / (k * np.tanh(k * tank.depth))) / np.sum(measure * shape**2))

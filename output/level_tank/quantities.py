@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import pi
 from typing import Any, Protocol
@@ -12,7 +12,8 @@ import numpy as np
 from hydroelastic.fem.level_bed.solution import LevelMode, LevelSolution, PlateTone
 from hydroelastic.fem.tank.elastic_tone import added_mass, bending_fraction, mode_kind
 from hydroelastic.modal.estimate import difference
-from hydroelastic.modal.plate.estimates import ExactMode, PlateEstimate
+from hydroelastic.modal.plate.closed_forms import ExactMode
+from hydroelastic.modal.plate.estimates import PlateEstimate
 from hydroelastic.output.provenance import PROCESSES
 from hydroelastic.output.quantities import Group, Quantity
 
@@ -29,8 +30,8 @@ class EstimatedLevelTank(Protocol):
         """Frequencies of a closed form."""
 
     @property
-    def estimates(self) -> Mapping[str, PlateEstimate]:
-        """Estimates of the first elastic tone of the first plate."""
+    def estimates(self) -> Sequence[PlateEstimate]:
+        """Estimates of motions of the plates."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,6 +44,10 @@ class ShownMode:
 
 def _modes(result: EstimatedLevelTank) -> Iterator[ShownMode]:
     return (ShownMode(omega=result.tank.omega(one.mode.eigenvalue), one=one) for one in result.tank.modes)
+
+
+def _kind(mode: ShownMode) -> str:
+    return mode_kind(mode.one.mode, mode.one.bodies, mode.one.problem.pencil.surfaces)
 
 
 def _tones(result: EstimatedLevelTank) -> Iterator[dict[str, Any]]:
@@ -104,14 +109,20 @@ def _first(result: EstimatedLevelTank) -> dict[str, Any] | None:
 
 
 def _estimates(result: EstimatedLevelTank) -> Iterator[dict[str, Any]]:
-    first = _first(result) or {}
-    for name, one in result.estimates.items():
+    tones = {tone["body"]: tone for tone in _tones(result)}
+    # Of several plates a mode does not tell which one heaves.
+    single = len(result.tank.tank.plates) == 1
+    rigid = {_kind(shown): shown.omega for shown in reversed(list(_modes(result)))} if single else {}
+    for one in result.estimates:
+        tone = tones.get(one.plate + 1, {}) if one.motion == "elastic" else {"omega": rigid.get(one.motion)}
         yield {
-            "name": name,
+            "name": one.name,
+            "body": one.plate + 1,
+            "motion": one.motion,
             "omega": one.omega,
             "added_mass_per_area": one.added_mass_per_area,
-            "difference": difference(one.omega, first.get("omega")),
-            "difference_to_pressure_release": difference(one.omega, first.get("pressure_release_omega")),
+            "difference": difference(one.omega, tone.get("omega")),
+            "difference_to_pressure_release": difference(one.omega, tone.get("pressure_release_omega")),
             "note": one.note,
         }
 
@@ -162,7 +173,7 @@ MODES = Group(
         Quantity(
             "kind",
             "kind",
-            value=lambda mode: mode_kind(mode.one.mode, mode.one.bodies, mode.one.problem.pencil.surfaces),
+            value=_kind,
             note="what has most of the potential energy",
         ),
         Quantity(
@@ -233,12 +244,14 @@ TONES = Group(
 )
 ESTIMATES = Group(
     "estimates",
-    "estimates of the first elastic tone of a single plate",
+    "estimates of the first elastic tone of plates, and of heave and pitch of rigid ones",
     (
         Quantity("name", "estimate"),
+        Quantity("body", "number of the plate", "1", short="plate"),
+        Quantity("motion", "motion that is estimated", short="motion"),
         Quantity("omega", "estimated frequency", "rad/s", "ω", shown=".6g"),
         Quantity("added_mass_per_area", "estimated added mass per area", "kg/m^2", "m_a", shown=".6g"),
-        Quantity("difference", "relative difference from the tone", "1", "Δω/ω", shown="+.2e"),
+        Quantity("difference", "relative difference from the tone or the mode", "1", "Δω/ω", shown="+.2e"),
         Quantity(
             "difference_to_pressure_release",
             "relative difference from the pressure-release tone",

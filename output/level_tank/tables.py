@@ -26,7 +26,7 @@ def compared_level_tank(summary: Summary) -> Iterator[Section]:
     """Yield the tables that compare the solution with estimates and closed forms."""
     if summary["estimates"]:
         yield Section(
-            title="Estimates of the first elastic tone",
+            title="Estimates of motions of the plates",
             headings=headings(ESTIMATES),
             rows=columns(ESTIMATES, summary["estimates"]),
             notes=tuple(f"{one['name']}: {one['note']}." for one in summary["estimates"]),

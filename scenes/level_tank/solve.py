@@ -8,14 +8,16 @@ from typing import TYPE_CHECKING
 from mpi4py import MPI
 
 from hydroelastic.fem.stopwatch import Report, Stopwatch
-from hydroelastic.modal.plate.estimates import exact_frequencies, plate_estimates
+from hydroelastic.modal.plate.closed_forms import exact_frequencies
+from hydroelastic.modal.plate.estimates import plate_estimates
 from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
 from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.models.level_tank_physics import physical_level_tank
 
 if TYPE_CHECKING:
     from hydroelastic.fem.level_bed.solution import LevelSolution
-    from hydroelastic.modal.plate.estimates import ExactMode, PlateEstimate
+    from hydroelastic.modal.plate.closed_forms import ExactMode
+    from hydroelastic.modal.plate.estimates import PlateEstimate
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,14 +28,14 @@ class SolvedLevelTank:
         scene: the scene.
         tank: its field solution.
         exact: the frequencies of a closed form, if there is one, ascending.
-        estimates: those of the first elastic plate, by name.
+        estimates: those of the plates.
         estimating: the time that they took, by stage.
     """
 
     scene: LevelTankScene
     tank: LevelSolution
     exact: tuple[ExactMode, ...] = ()
-    estimates: dict[str, PlateEstimate] = field(default_factory=dict)
+    estimates: tuple[PlateEstimate, ...] = ()
     estimating: dict[str, float] = field(default_factory=dict)
 
     @property

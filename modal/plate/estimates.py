@@ -169,7 +169,12 @@ def _rayleigh(tank: LevelTank, outline: Strip | Disc, line: PlateLine, order: in
         k = np.hypot(along, order * pi / tank.plan.width)
         norms = tank.plan.length * np.where(along > 0.0, 0.5, 1.0)
         waves = np.cos(along[:, None] * places)
-    elif isinstance(tank.plan, Cylinder) and not tank.plan.inner_radius and outline.position == (0.0, 0.0):
+    elif (
+        isinstance(tank.plan, Cylinder)
+        and not tank.plan.inner_radius
+        and isinstance(outline, Disc)
+        and outline.position == (0.0, 0.0)
+    ):
         roots = jnp_zeros(order, _WAVES)
         k = roots / tank.plan.radius
         norms = 0.5 * tank.plan.radius**2 * (1.0 - (order / roots) ** 2) * jv(order, roots) ** 2

@@ -14,6 +14,14 @@ from hydroelastic.output.quantities import Group, Quantity
 if TYPE_CHECKING:
     from mpi4py import MPI
 
+
+def _all_processes() -> MPI.Comm:
+    # Importing MPI initializes it: only what solves needs it.
+    from mpi4py import MPI
+
+    return MPI.COMM_WORLD
+
+
 OF_ALL_SCENES = Group(
     "",
     "in all summaries",
@@ -45,13 +53,6 @@ def versions() -> dict[str, str]:
         except PackageNotFoundError:
             found[package] = "unknown"
     return found
-
-
-def _all_processes() -> MPI.Comm:
-    # Commands that solve nothing do without MPI.
-    from mpi4py import MPI
-
-    return MPI.COMM_WORLD
 
 
 def memory_of_processes(comm: MPI.Comm) -> int:

@@ -261,7 +261,16 @@ def array(
     value: Callable[[Any], Any] | None = None,
     **further: Any,
 ) -> Quantity:
-    """Return an array that is in ``dataset.nc`` alone; its dimensions are separated by blanks."""
+    """Return an array of ``dataset.nc`` alone.
+
+    Args:
+        key: name in its group, and of its variable if no other is given.
+        meaning: what it is.
+        unit: in names of UDUNITS.
+        dimensions: names, separated by blanks; places along a dimension have its name and that dimension alone.
+        value: returns it from a record; by default the attribute of the name `key`.
+        further: other attributes of the quantity.
+    """
     return Quantity(key, meaning, unit, value=value, dimensions=tuple(dimensions.split()), in_summary=False, **further)
 
 

@@ -81,6 +81,7 @@ def test_circle_as_published(row: dict[str, Any]) -> None:
     np.testing.assert_allclose(found, exact_circle(row), rtol=1e-6, atol=2e-6)
 
 
+@pytest.mark.slow
 def test_circle_in_the_limits() -> None:
     table = radiation(circle(1e-6), 0.0, math.inf, circle_omega(1.0)).table
     heave, sway = (table.dofs.index(motion) for motion in ("heave", "sway"))

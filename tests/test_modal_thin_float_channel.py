@@ -126,6 +126,7 @@ def test_channel_resonance_of_wide_floats() -> None:
     assert "wide" in estimate.note
 
 
+@pytest.mark.slow
 def test_refusals() -> None:
     blunt = float_profile("rectangle", 0.1, 1.0)
     for refused in (

@@ -180,7 +180,7 @@ def test_motion_against_the_volterra_equation(coupling: float) -> None:
     assert free_motion(of_coupling(coupling), 20.0).heave == pytest.approx(fine, abs=2 * abs(fine - coarse))
 
 
-@pytest.mark.slow_but("2.0-wedge")
+@pytest.mark.slow
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("slenderness", [1.0, 2.0, 5.0])
 def test_wide_floats_against_the_spectrum(shape: FloatShape, slenderness: float) -> None:

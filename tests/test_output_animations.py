@@ -52,6 +52,7 @@ def test_a_period_repeats_itself_and_is_small(sloshing: tuple[Path, list[np.ndar
         assert gif.info["duration"] == 80
 
 
+@pytest.mark.slow
 def test_the_motion_goes_on_without_a_jump(sloshing: tuple[Path, list[np.ndarray]]) -> None:
     pages = [tank_part(page) for page in sloshing[1]]
     steps = [np.abs(one - other).mean() for one, other in zip(pages, [*pages[1:], pages[0]], strict=True)]

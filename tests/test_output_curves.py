@@ -64,6 +64,7 @@ def test_the_same_curves_give_the_same_files(tmp_path: Path) -> None:
         assert first == second
 
 
+@pytest.mark.slow
 def test_the_readers_own_settings_change_nothing(tmp_path: Path) -> None:
     draw(tmp_path / "one")
     with mpl.rc_context({"font.size": 30.0, "axes.grid": False, "savefig.dpi": 10, "savefig.bbox": "tight"}):

@@ -30,6 +30,7 @@ def animations(folder: Path) -> list[str]:
     return sorted(path.name for path in (folder / "images").glob("*.gif"))
 
 
+@pytest.mark.slow
 def test_tanks_are_animated_when_asked(tanks: Any, tmp_path: Path) -> None:
     scene = tanks.scene(modes=2, tolerance=1e-3)
     outcome = run_scene(scene, out=tmp_path / "moving", images=ANIMATED)

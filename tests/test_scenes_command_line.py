@@ -304,6 +304,7 @@ def test_an_output_that_is_full_is_one_line(arguments: list[str]) -> None:
         (["run", "missing.toml"], set()),
         # What solves draws only when asked, and draws with pyvista.
         (["run", "aquarium", "--no-images", *COARSE], HEAVY - DRAWING - READING),
+        (["run", "open_circle", "--no-images", "--set", "accuracy.tolerance=1e-2"], HEAVY - DRAWING - READING),
         (["compare", "aquarium", *COARSE], HEAVY - DRAWING - READING),
         (["run", "aquarium", *COARSE], HEAVY - READING),
     ],

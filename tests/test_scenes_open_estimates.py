@@ -40,6 +40,7 @@ def _compared(solution: OpenSolution) -> tuple[tuple[Comparison, ...], str]:
     return thin_float_comparisons(physical_tank(solution.scene), solution)
 
 
+@pytest.mark.slow
 def test_thin_boundary_is_what_the_theory_solves() -> None:
     rows, note = _compared(solve_open(_scene(), MPI.COMM_SELF, lambda _message: None))
     assert [row.quantity.split()[0] for row in rows] == ["Re", "γ", "a", "b", "heave"]

@@ -59,6 +59,7 @@ def rates(study: Study, family: Family) -> dict[int, Rate]:
     return {rate.degree: rate for rate in study.rates if rate.family == family}
 
 
+@pytest.mark.slow
 def test_water_alone_converges_with_twice_the_degree(water: Study) -> None:
     assert water.reference.name.startswith("ω²")
     found = rates(water, "uniform")

@@ -108,15 +108,16 @@ def _first(result: EstimatedLevelTank) -> dict[str, Any] | None:
     return next(_tones(result), None)
 
 
-def _estimates(result: EstimatedLevelTank) -> Iterator[dict[str, Any]]:
+def _estimates(result: EstimatedLevelTank) -> dict[str, dict[str, Any]]:
+    """The estimates by name; those of the second and further plates have its number behind the name."""
     tones = {tone["body"]: tone for tone in _tones(result)}
     # Of several plates a mode does not tell which one heaves.
     single = len(result.tank.tank.plates) == 1
     rigid = {_kind(shown): shown.omega for shown in reversed(list(_modes(result)))} if single else {}
+    found = {}
     for one in result.estimates:
         tone = tones.get(one.plate + 1, {}) if one.motion == "elastic" else {"omega": rigid.get(one.motion)}
-        yield {
-            "name": one.name,
+        found[one.name if one.plate == 0 else f"{one.name}_{one.plate + 1}"] = {
             "body": one.plate + 1,
             "motion": one.motion,
             "omega": one.omega,
@@ -125,6 +126,7 @@ def _estimates(result: EstimatedLevelTank) -> Iterator[dict[str, Any]]:
             "difference_to_pressure_release": difference(one.omega, tone.get("pressure_release_omega")),
             "note": one.note,
         }
+    return found
 
 
 def _exact(result: EstimatedLevelTank) -> Iterator[dict[str, Any]]:
@@ -246,7 +248,6 @@ ESTIMATES = Group(
     "estimates",
     "estimates of the first elastic tone of plates, and of heave and pitch of rigid ones",
     (
-        Quantity("name", "estimate"),
         Quantity("body", "number of the plate", "1", short="plate"),
         Quantity("motion", "motion that is estimated", short="motion"),
         Quantity("omega", "estimated frequency", "rad/s", "ω", shown=".6g"),

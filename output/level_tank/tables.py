@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from hydroelastic.output.level_tank.quantities import ESTIMATES, EXACT, FIRST_ELASTIC, MODES
 from hydroelastic.output.provenance import Summary
-from hydroelastic.output.quantity_tables import columns, headings, listed
+from hydroelastic.output.quantity_tables import headings, labelled_columns, listed
 from hydroelastic.output.sections import Section
 
 
@@ -27,23 +27,21 @@ def compared_level_tank(summary: Summary) -> Iterator[Section]:
     if summary["estimates"]:
         yield Section(
             title="Estimates of motions of the plates",
-            headings=headings(ESTIMATES),
-            rows=columns(ESTIMATES, summary["estimates"]),
-            notes=tuple(f"{one['name']}: {one['note']}." for one in summary["estimates"]),
+            headings=("estimate", *headings(ESTIMATES)),
+            rows=labelled_columns(ESTIMATES, summary["estimates"]),
+            notes=tuple(f"{name}: {one['note']}." for name, one in summary["estimates"].items()),
             compares=True,
         )
     if summary["exact"]:
-        rows = [(str(number), *row) for number, row in enumerate(columns(EXACT, summary["exact"]), 1)]
         yield Section(
             title=f"Closed form {summary['exact'][0]['formula']}",
             headings=("mode", *headings(EXACT)),
-            rows=rows,
+            rows=labelled_columns(EXACT, summary["exact"]),
             compares=True,
         )
 
 
 def _modes(summary: Summary) -> Section:
-    rows = [(str(number), *row) for number, row in enumerate(columns(MODES, summary["modes"]), 1)]
     zero = summary["zero_modes"]
     lines = [summary["solver"]["model"][:1].upper() + summary["solver"]["model"][1:] + "."]
     if any(mode["multiplicity"] == 2 for mode in summary["modes"]):
@@ -52,7 +50,12 @@ def _modes(summary: Summary) -> Section:
         lines.append(
             f"{zero} motion{'s' * (zero > 1)} of plates without stiffness {'are' if zero > 1 else 'is'} not listed."
         )
-    return Section(title="Natural modes", headings=("mode", *headings(MODES)), rows=rows, lines=tuple(lines))
+    return Section(
+        title="Natural modes",
+        headings=("mode", *headings(MODES)),
+        rows=labelled_columns(MODES, summary["modes"]),
+        lines=tuple(lines),
+    )
 
 
 def level_tank_cost(summary: Summary) -> str:

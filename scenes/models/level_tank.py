@@ -34,20 +34,38 @@ class LevelTankScene(LevelTankParts):
     @model_validator(mode="before")
     @classmethod
     def _bodies_are_plates(cls, given: Any) -> Any:
-        bodies = given.get("body", ()) if isinstance(given, dict) else ()
-        problems = [
-            problem_at(
-                ("body", index, "kind"),
-                body.get("kind", "plate"),
-                "in three dimensions bodies are plates or uniform beams; others are of tanks per metre of width",
-                allowed='"plate" or "beam"',
-                remedy=f"Leave out {' and '.join(keys)} of [tank] for a tank per metre of width"
-                if (keys := [key for key in PLAN_KEYS if key in given.get("tank", {})])
-                else "",
-            )
+        parts = given if isinstance(given, dict) else {}
+        bodies, tank = parts.get("body", ()), parts.get("tank", {})
+        keys = [key for key in PLAN_KEYS if isinstance(tank, dict) and key in tank]
+        kinds = [
+            (index, body.get("kind", "plate"))
             for index, body in enumerate(bodies if isinstance(bodies, list | tuple) else ())
-            if isinstance(body, dict) and body.get("kind", "plate") not in ("plate", "beam")
+            if isinstance(body, dict)
         ]
+        if keys or not isinstance(tank, dict):
+            problems = [
+                problem_at(
+                    ("body", index, "kind"),
+                    kind,
+                    "in three dimensions bodies are plates or uniform beams; others are of tanks per metre of width",
+                    allowed='"plate" or "beam"',
+                    remedy=f"Leave out {' and '.join(keys)} of [tank] for a tank per metre of width" if keys else "",
+                )
+                for index, kind in kinds
+                if kind not in ("plate", "beam")
+            ]
+        else:
+            problems = [
+                problem_at(
+                    ("body", index, "kind"),
+                    kind,
+                    "a plate is of a tank in three dimensions, and [tank] has no plan",
+                    remedy='Did you mean "beam"? Otherwise give [tank] the width of a box, the radius of a cylinder, '
+                    "or plan",
+                )
+                for index, kind in kinds
+                if kind == "plate"
+            ]
         if problems:
             raise ValidationError.from_exception_data(cls.__name__, problems)
         return given

@@ -10,6 +10,7 @@ from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.linalg import eigh, solve
 
 from hydroelastic.modal.plate.legendre import gauss
@@ -92,7 +93,7 @@ class IntervalSpace:
         places = 0.5 * (left + right)[:, None] + half[:, None] * local
         return places, half[:, None] * weights * self.measure(places)
 
-    def mass_on(self, cells: np.ndarray) -> FloatArray:
+    def mass_on(self, cells: np.ndarray) -> NDArray[np.float64]:
         """Return ∫uv over some cells, by their numbers or a mask, shape (N, N)."""
         points = self.degree + self.spare_points
         _, weights = self.quadrature(cells, points)
@@ -115,7 +116,7 @@ class IntervalSpace:
         across = weights * self.transverse_squares(places)
         return self._assembled(self.cells, blocks + np.einsum("eq,iq,jq->eij", across, table, table, optimize=True))
 
-    def _assembled(self, cells: np.ndarray, blocks: FloatArray) -> FloatArray:
+    def _assembled(self, cells: np.ndarray, blocks: FloatArray) -> NDArray[np.float64]:
         whole = np.zeros((self.size + 1, self.size + 1))
         numbers = self.unknowns[cells]
         # A function that is left out has the number −1: the last row and column.

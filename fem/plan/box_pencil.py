@@ -23,7 +23,6 @@ from hydroelastic.fem.plan.rectangle_body import RectangleBody
 from hydroelastic.fem.surfaces import LiquidSurface
 from hydroelastic.meshes.geometry import FREE_SURFACE
 from hydroelastic.modal.liquid.vertical_poles import surface_response
-from hydroelastic.physics.arrays import FloatArray
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -179,7 +178,9 @@ def plate_loads(liquid: BoxLiquid, plate: RectangleBody) -> NDArray[np.float64]:
     return liquid.images * loads.reshape(len(loads), -1)
 
 
-def water_masses(liquid: BoxLiquid, plates: tuple[RectangleBody, ...]) -> list[tuple[FloatArray, FloatArray]]:
+def water_masses(
+    liquid: BoxLiquid, plates: tuple[RectangleBody, ...]
+) -> list[tuple[NDArray[np.float64], NDArray[np.float64]]]:
     """Return S = Σ M_x ⊗ M_y over the water and its images: pairs of matrices, none where plates cover all of it.
 
     It is summed over cells: the difference of the whole surface and the plates would leave rounding under the plates.

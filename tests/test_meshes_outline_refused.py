@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from math import pi, radians
 
+import gmsh
 import numpy as np
 import pytest
 from outlines import (
@@ -88,6 +89,10 @@ def test_curves_that_cross_or_touch_are_refused(outline: Outline, message: str) 
         build_mesh(outline, bulk_size=0.2)
 
 
+@pytest.mark.skipif(
+    tuple(map(int, gmsh.__version__.split(".")[:2])) >= (4, 14),
+    reason="later versions of gmsh do not end on lines that cross; outlines that cross are refused before gmsh",
+)
 def test_gmsh_works_on_after_it_failed() -> None:
     bow_tie = np.array([[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0], [0.0, 0.0]])
     line = Line(key=0, points=bow_tie, forward=True, divided=True)

@@ -63,7 +63,7 @@ def compiled(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return cache
 
 
-@pytest.mark.slow_but("damage_truncated")
+@pytest.mark.slow
 @pytest.mark.parametrize("damage", [damage_unfinished, damage_truncated, damage_emptied, damage_lost])
 def test_a_damaged_kernel_is_compiled_anew_with_one_line_of_notice(compiled: Path, damage) -> None:
     damage(next(compiled.glob("fenics/*.c")))

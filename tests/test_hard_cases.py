@@ -271,7 +271,7 @@ def test_neither_degree_nor_smaller_tips_make_an_answer_worse(tanks: Any, name: 
     assert errors[-1, -1].max() <= 1e-9
 
 
-@pytest.mark.slow_but("1e-13")
+@pytest.mark.slow
 @pytest.mark.parametrize("tolerance", [1e-12, 1e-13])
 def test_a_tolerance_beyond_rounding_is_refused_honestly(tolerance: float) -> None:
     # A scene may not ask for 1e-13: the solver itself must know what it cannot keep, and say what it can.

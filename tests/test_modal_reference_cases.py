@@ -185,6 +185,7 @@ def test_one_term_roots(name: str) -> None:
         assert one_term_root(beam(name), int(number)) == pytest.approx(root, rel=3e-11)
 
 
+@pytest.mark.slow_but("*base_s0", "*offcentre_s0", "*narrow_s0")
 @pytest.mark.parametrize("name", FREE_BEAMS)
 @pytest.mark.parametrize("terms", [8, 32])
 def test_many_term_tones(name: str, terms: int) -> None:
@@ -251,6 +252,7 @@ def test_quotients_are_ordered_and_end_at_the_references(name: str) -> None:
         assert result.grammel < result.rayleigh
 
 
+@pytest.mark.slow_but("*base_s0", "*offcentre_s0", "*narrow_s0")
 @pytest.mark.parametrize("name", [name for name in FREE_BEAMS if name != "steel_plate_s0"])
 def test_stated_bounds_hold(name: str) -> None:
     exact = CASES[name]["omega"]

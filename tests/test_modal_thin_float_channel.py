@@ -22,7 +22,7 @@ from hydroelastic.modal.liquid.two_layer import TwoLayers
 from hydroelastic.physics.profiles import FloatShape, float_profile
 
 
-@pytest.mark.slow_but("parabola")
+@pytest.mark.slow
 @pytest.mark.parametrize("shape", SHAPES)
 def test_motion_in_a_channel_is_that_in_a_long_box_before_waves_return(shape: FloatShape) -> None:
     """Modes of a closed box of length L: no wave is back before L/c₀, and up to then box and channel cannot differ."""

@@ -227,6 +227,7 @@ def test_light_upper_liquid_is_one_liquid() -> None:
     np.testing.assert_allclose(found, expected, rtol=1e-7, atol=1e-5)
 
 
+@pytest.mark.slow
 def test_two_equal_symmetric_layers_are_one_liquid() -> None:
     # Equal depths under a lid: ψ is odd in y, the interface is a surface of density ρ₁ + ρ₂ and gravity Δρ g/(ρ₁ + ρ₂).
     both = TwoLiquids(densities=(1000.0, 900.0), depths=(0.8, 0.8), lid=True).interface(1.0)

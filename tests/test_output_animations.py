@@ -64,6 +64,7 @@ def test_the_motion_goes_on_without_a_jump(sloshing: tuple[Path, list[np.ndarray
         assert np.abs(pages[place] - pages[-place]).mean() < 0.1
 
 
+@pytest.mark.slow
 def test_half_a_period_later_the_body_is_on_the_other_side(tmp_path: Path) -> None:
     picture = heave_picture(1.0)
     rows = [np.nonzero(has_colour(tank_part(page), BODY))[0].mean() for page in animated(picture, tmp_path)]

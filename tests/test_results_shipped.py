@@ -97,7 +97,7 @@ def test_tables_and_pictures_are_there(name: str) -> None:
     assert all((SHIPPED / name / file).stat().st_size > 100 for file in files)
 
 
-@pytest.mark.slow_but("open_plate")
+@pytest.mark.slow
 @pytest.mark.parametrize("name", OPEN_NAMES)
 def test_results_of_open_water_are_true(name: str) -> None:
     stored = json.loads((SHIPPED / name / "summary.json").read_text(encoding="utf-8"))

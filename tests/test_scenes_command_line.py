@@ -245,6 +245,7 @@ def test_the_exit_code_tells_whether_the_tolerance_was_met(
     assert (asked["images"], asked["out"]) == (None, Path("elsewhere"))
 
 
+@pytest.mark.slow
 def test_a_terminal_is_told_the_scene_and_what_is_done() -> None:
     said, written = pty.openpty()
     command = [sys.executable, "-m", "hydroelastic.scenes", "run", "swell", "--no-images"]

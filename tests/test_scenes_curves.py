@@ -218,6 +218,7 @@ def shown_axes(figure: Figure) -> list[Axes]:
     return [axes for axes in figure.axes if axes.get_visible() and axes.axison]
 
 
+@pytest.mark.slow
 def test_axes_are_named_with_units(figures: list[Figure]) -> None:
     for figure in figures:
         for axes in shown_axes(figure):

@@ -143,6 +143,7 @@ def test_radiated_waves_carry_the_power_of_damping(radiated: tuple[OpenSolution,
         assert outwards == pytest.approx(normals[:, 1 - motion], abs=SLOPES)
 
 
+@pytest.mark.slow
 def test_a_resonance_sends_out_waves_that_were_larger_once(resonant: tuple[OpenSolution, list[SampledField]]) -> None:
     solution, (field, *_) = resonant
     omega = complex(solution.resonance[0].omega[0])

@@ -116,7 +116,7 @@ def reports(tmp_path_factory: pytest.TempPathFactory) -> Reports:
     return made
 
 
-@pytest.mark.slow_but("roll")
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", SCENES)
 def test_a_page_is_shown(browser: Browser, reports: Reports, kind: str) -> None:
     outcome, file = reports(kind)

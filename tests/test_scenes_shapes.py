@@ -197,6 +197,7 @@ def unstable(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.mark.slow
 def test_the_file_tells_the_liquids_apart(unstable: Path) -> None:
     grid = meshio.read(unstable / "fields" / "modes.vtu")
     (cells,), (liquid,) = grid.cells, grid.cell_data["liquid"]

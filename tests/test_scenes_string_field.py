@@ -127,6 +127,7 @@ def test_resistance_below_counts_more_than_above() -> None:
     assert below.free_motions.roots[0].real < 1.5 * above.free_motions.roots[0].real
 
 
+@pytest.mark.slow
 def test_compare_sets_both_side_by_side() -> None:
     asked = ["compare", "string_smooth", "--set", SHORT, "--set", "accuracy.tolerance=1e-4"]
     ran = CliRunner().invoke(main, asked)

@@ -74,6 +74,7 @@ def test_water_alone_converges_with_twice_the_degree(water: Study) -> None:
     assert water.gain is None or water.gain.expected is None
 
 
+@pytest.mark.slow
 def test_a_beam_limits_uniform_meshes_to_order_two(beam: Study) -> None:
     found = rates(beam, "uniform")
     assert {degree: rate.expected for degree, rate in found.items()} == {1: 2.0, 2: 2.0}
@@ -134,6 +135,7 @@ def test_each_degree_gains_on_geometric_rings_what_their_triangles_allow(beam: S
     assert beam.gain.agrees
 
 
+@pytest.mark.slow
 def test_errors_are_positive_until_they_are_rounding(water: Study, beam: Study) -> None:
     for study in (water, beam):
         for row in study.rows:

@@ -143,6 +143,7 @@ def test_a_beam_at_an_interface_limits_uniform_meshes_to_order_two(beam: Study) 
     assert graded[3].observed == pytest.approx(5.6, abs=0.5)
 
 
+@pytest.mark.slow
 def test_a_thin_float_in_the_middle_has_two_orders() -> None:
     study = study_scene(scene(THIN), COARSE)
     # Measured 1.99 and 1.04.

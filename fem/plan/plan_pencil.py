@@ -158,18 +158,8 @@ class PlanLiquid:
 
 
 @dataclass(frozen=True, kw_only=True)
-class PoleStack:
-    """The unknowns ψ_j of all poles, one after the other, ψ = Σ c_j ψ_j; see `LiquidUnknowns`.
-
-    Attributes:
-        space: the plan.
-        poles: of the depth.
-        densities: see there.
-    """
-
-    space: PlanSpace
-    poles: VerticalPoles
-    densities: tuple[float, ...] = (1.0,)
+class PoleStack(PlanLiquid):
+    """The unknowns ψ_j of all poles, one after the other, ψ = Σ c_j ψ_j; see `LiquidUnknowns`."""
 
     @property
     def size(self) -> int:
@@ -180,10 +170,6 @@ class PoleStack:
     def owned_layer_of(self) -> np.ndarray:
         """0 for the unknowns of d₀ = 0, which carry the constant, −1 for all others."""
         return np.where(np.arange(self.size) < self.space.size, 0, -1)
-
-    def zero_dofs(self) -> np.ndarray:
-        """There are none."""
-        return np.empty(0, dtype=np.int32)
 
 
 @dataclass(kw_only=True)

@@ -15,7 +15,7 @@ from hydroelastic.modal.estimate import difference
 from hydroelastic.modal.plate.closed_forms import ExactMode
 from hydroelastic.modal.plate.estimates import PlateEstimate
 from hydroelastic.output.provenance import PROCESSES
-from hydroelastic.output.quantities import Group, Quantity
+from hydroelastic.output.quantities import Group, Quantity, array
 
 
 class EstimatedLevelTank(Protocol):
@@ -310,59 +310,25 @@ SIZE = Group(
 )
 
 
-def _sampled(result: Any) -> Any:
-    """The patches and elevations of a `output.level_tank.sample.SampledTank`."""
-    return result.sample
-
-
+# Of the patches and elevations, a `output.level_tank.sample.SampledModes`.
 _ARRAYS = (
-    Quantity(
-        "point",
-        "number of a place",
-        None,
-        value=lambda it: np.arange(len(_sampled(it).points), dtype=np.int32),
-        dimensions=("point",),
-        in_summary=False,
-    ),
-    Quantity(
+    array("point", "number of a place", None, "point", lambda it: np.arange(len(it.sample.points), dtype=np.int32)),
+    array(
         "shape",
         "mode, with the second one of a pair after the first",
         None,
-        value=lambda it: np.array(_sampled(it).names),
-        dimensions=("shape",),
-        in_summary=False,
+        "shape",
+        lambda it: np.array(it.sample.names),
     ),
-    Quantity(
-        "x",
-        "x of a place on the still surface",
-        "m",
-        value=lambda it: _sampled(it).points[:, 0],
-        dimensions=("point",),
-        in_summary=False,
-    ),
-    Quantity(
-        "y",
-        "y of a place on the still surface",
-        "m",
-        value=lambda it: _sampled(it).points[:, 1],
-        dimensions=("point",),
-        in_summary=False,
-    ),
-    Quantity(
-        "plate",
-        "number of the plate at a place, 0 for water",
-        None,
-        value=lambda it: _sampled(it).plate_of_points,
-        dimensions=("point",),
-        in_summary=False,
-    ),
-    Quantity(
+    array("x", "x of a place on the still surface", "m", "point", lambda it: it.sample.points[:, 0]),
+    array("y", "y of a place on the still surface", "m", "point", lambda it: it.sample.points[:, 1]),
+    array("plate", "number of the plate at a place, 0 for water", None, "point", lambda it: it.sample.plate_of_points),
+    array(
         "elevation",
         "upward displacement of plate or water in a mode",
         "m",
-        value=lambda it: _sampled(it).elevations,
-        dimensions=("shape", "point"),
-        in_summary=False,
+        "shape point",
+        lambda it: it.sample.elevations,
     ),
 )
 LEVEL_TANK = Group(

@@ -2,6 +2,7 @@
 
     ∫∇ψ·∇q = ∫ζ q        walls are natural boundaries
 
+in a section, and in the half-plane of a solid of revolution or an extruded section the form of `physics.geometry`.
 Each layer of liquid has its own ψ: on the interface of two layers their meshes touch, and share no node. A layer on
 whose boundary ψ = 0 nowhere fixes ψ up to a constant and keeps its volume. One unknown of it is then set to zero, which
 is exact for loads of zero total flux; loads and solutions are projected so that the solution operator
@@ -23,13 +24,14 @@ from dolfinx.mesh import Mesh, meshtags
 from mpi4py import MPI
 from petsc4py import PETSc
 
-from hydroelastic.fem.cells import CURVED_QUADRATURE, is_straight, owned_cells
+from hydroelastic.fem.cells import CURVED_QUADRATURE, cell_corners, is_straight, owned_cells
 from hydroelastic.fem.direct import direct_solver
 from hydroelastic.fem.kernels import compiled_form
 from hydroelastic.fem.liquid_operator import first_dof
 from hydroelastic.meshes.compat import coordinate_degree
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.meshes.geometry import LIQUID
+from hydroelastic.physics.geometry import PLANE, Geometry
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,6 +66,7 @@ class LiquidSpace:
         continuous_pressure: the liquids, where the pressure ρψ is continuous across their interface, as it is at
             infinite frequency. ψ then stands for it, and there is one layer of unit density for all that takes ψ; in it
             A = ∫(1/ρ)∇ψ·∇q.
+        geometry: what the plane of the mesh stands for.
     """
 
     tank: TankMesh
@@ -73,6 +76,7 @@ class LiquidSpace:
     layers: tuple[Layer, ...]
     layer_of: np.ndarray
     continuous_pressure: tuple[Layer, ...] = ()
+    geometry: Geometry = PLANE
 
     @property
     def size(self) -> int:
@@ -94,13 +98,16 @@ class LiquidSpace:
         return self.surface_dofs(self.zero_potential) if self.zero_potential else np.empty(0, dtype=np.int32)
 
     def energy_densities(self) -> np.ndarray:
-        """Kinetic energy over ½ω²|∇ψ|² in each owned cell: ρ, or 1/ρ where ψ stands for the pressure."""
+        """Kinetic energy over ½ω²|∇ψ|² in each owned cell: ρ, or 1/ρ where ψ stands for the pressure, times the weight
+        of the geometry at the cell's middle."""
         densities = np.full(len(owned_cells(self.tank.mesh)), self.layers[0].density)
         for layer in self.continuous_pressure or self.layers[1:]:
             cells = self.tank.cells(layer.name)
             densities[cells[cells < len(densities)]] = (
                 1.0 / layer.density if self.continuous_pressure else layer.density
             )
+        if self.geometry.is_revolved:
+            densities *= cell_corners(self.tank.mesh, owned_cells(self.tank.mesh))[..., 0].mean(axis=1)
         return densities
 
     def facet_dofs(self, place: int) -> np.ndarray:
@@ -125,6 +132,7 @@ def liquid_space(
     layers: tuple[Layer, ...] = ONE_LIQUID,
     *,
     continuous_pressure: bool = False,
+    geometry: Geometry = PLANE,
 ) -> LiquidSpace:
     """Space of ψ of the given degree; its degree does not depend on the mesh's (collective).
 
@@ -134,6 +142,7 @@ def liquid_space(
         zero_potential: names of the surfaces on which ψ = 0.
         layers: the liquids, from the bottom up.
         continuous_pressure: whether the pressure is continuous across their interface; the mesh is then not cut there.
+        geometry: what the plane of the mesh stands for.
     """
     space = fem.functionspace(tank.mesh, ("Lagrange", degree))
     index_map = space.dofmap.index_map
@@ -148,6 +157,7 @@ def liquid_space(
         layers=ONE_LIQUID if continuous_pressure else layers,
         layer_of=layer_of,
         continuous_pressure=layers if continuous_pressure else (),
+        geometry=geometry,
     )
 
 
@@ -198,26 +208,30 @@ def as_functions(liquid: LiquidSpace, potentials: list[PETSc.Vec]) -> list[fem.F
 
 
 # Kernels that this process has compiled or loaded: a look-up by dolfinx takes a millisecond or two.
-_compiled: set[tuple[str, int, int, bool]] = set()
+_compiled: set[tuple[str, int, int, bool, str]] = set()
 
 
-def compile_form(tank: TankMesh, degree: int, *, continuous_pressure: bool = False) -> None:
+def compile_form(
+    tank: TankMesh, degree: int, *, continuous_pressure: bool = False, geometry: Geometry = PLANE
+) -> None:
     """Compile the form of a degree on rank 0, unless the cache of dolfinx has it (collective).
 
     Assembly would compile it as well; called before, it separates the time of compilation.
     """
-    kernel = tank.mesh.topology.cell_name(), coordinate_degree(tank.mesh), degree, continuous_pressure
+    kernel = tank.mesh.topology.cell_name(), coordinate_degree(tank.mesh), degree, continuous_pressure, geometry.kind
     # Collective decision: one process may have solved on its own before.
     if tank.mesh.comm.allreduce(kernel not in _compiled, op=MPI.LOR):
         weight = fem.Function(fem.functionspace(tank.mesh, ("DG", 0))) if continuous_pressure else None
-        _form(fem.functionspace(tank.mesh, ("Lagrange", degree)), cells=NO_ENTITIES, facets=NO_ENTITIES, weight=weight)
+        space = fem.functionspace(tank.mesh, ("Lagrange", degree))
+        _form(space, geometry, cells=NO_ENTITIES, facets=NO_ENTITIES, weight=weight)
         _compiled.add(kernel)
 
 
 def laplace_matrix(liquid: LiquidSpace) -> PETSc.Mat:
     """Assemble A = ∫∇ψ·∇q, or ∫(1/ρ)∇ψ·∇q of a continuous pressure, every unknown included."""
     weight = _inverse_density(liquid) if liquid.continuous_pressure else None
-    return assembled(_form(liquid.space, cells=owned_cells(liquid.tank.mesh), facets=NO_ENTITIES, weight=weight))
+    cells = owned_cells(liquid.tank.mesh)
+    return assembled(_form(liquid.space, liquid.geometry, cells=cells, facets=NO_ENTITIES, weight=weight))
 
 
 def _inverse_density(liquid: LiquidSpace) -> fem.Function:
@@ -230,17 +244,27 @@ def _inverse_density(liquid: LiquidSpace) -> fem.Function:
 def surface_mass_matrix(liquid: LiquidSpace, names: tuple[str, ...]) -> PETSc.Mat:
     """Assemble S = ∫ψ q over named surfaces, every unknown included."""
     facets = np.unique(np.concatenate([liquid.tank.facets(name) for name in names]))
-    return assembled(_form(liquid.space, cells=NO_ENTITIES, facets=facets))
+    return assembled(_form(liquid.space, liquid.geometry, cells=NO_ENTITIES, facets=facets))
 
+
+TRANSVERSE_QUADRATURE = 4
+"""The term m² ψq has two degrees more than ∇ψ·∇q, and 1/r is no polynomial; beside the axis ψq/r is one."""
 
 NO_ENTITIES = np.empty(0, dtype=np.int32)
 """No cells, or no facets."""
 
 
 def _form(
-    space: fem.FunctionSpace, *, cells: np.ndarray, facets: np.ndarray, weight: fem.Function | None = None
+    space: fem.FunctionSpace,
+    geometry: Geometry,
+    *,
+    cells: np.ndarray,
+    facets: np.ndarray,
+    weight: fem.Function | None = None,
 ) -> fem.Form:
     """∫w ∇ψ·∇q over some cells + ∫ψ q over some facets of the boundary; w = 1 unless it is given.
+
+    Of other geometries than the plane, ∇ψ·∇q has the term m² ψq added, and both integrals the weight r of revolution.
 
     A and S are this one form, each without the other's part. To compile it takes hardly longer than to compile one of
     them, for most of the time goes into starting the C compiler, reading Python's headers and linking. Which cells and
@@ -250,11 +274,15 @@ def _form(
     potential, test = ufl.TrialFunction(space), ufl.TestFunction(space)
     degree = space.element.basix_element.degree
     more = 0 if is_straight(mesh) else CURVED_QUADRATURE
+    more += 0 if geometry.kind == "plane" else TRANSVERSE_QUADRATURE
     dx = chosen_measure("dx", mesh, mesh.topology.dim, cells, 2 * degree - 2 + more)
     ds = chosen_measure("ds", mesh, mesh.topology.dim - 1, facets, 2 * degree + more)
-    energy = ufl.inner(ufl.grad(potential), ufl.grad(test))
-    form = (energy if weight is None else weight * energy) * dx + ufl.inner(potential, test) * ds
-    return compiled_form(form)
+    energy, trace = ufl.inner(ufl.grad(potential), ufl.grad(test)), ufl.inner(potential, test)
+    if geometry.kind != "plane":
+        radius = ufl.SpatialCoordinate(mesh)[0] if geometry.is_revolved else 1.0
+        transverse = fem.Constant(mesh, geometry.transverse)
+        energy, trace = radius * energy + transverse / radius * trace, radius * trace
+    return compiled_form((energy if weight is None else weight * energy) * dx + trace * ds)
 
 
 def chosen_measure(kind: str, mesh: Mesh, dim: int, entities: np.ndarray, quadrature_degree: int) -> ufl.Measure:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from hydroelastic.physics.beams import Beam
 from hydroelastic.physics.bodies import Body
+from hydroelastic.physics.geometry import PLANE, Geometry
 from hydroelastic.physics.motions import Level
 from hydroelastic.physics.scales import Scales
 
@@ -122,15 +123,16 @@ class StillLevel:
 
 @dataclass(frozen=True, kw_only=True)
 class Tank:
-    """Liquids at rest with floating bodies, per metre of width; in SI units, or in those of `scaled`.
+    """Liquids at rest with floating bodies, per metre of width or of revolution; in SI units, or in those of `scaled`.
 
     Attributes:
-        length: between the walls, or of the stretch of open water that is of interest, m.
+        length: between the walls, or of the stretch of open water that is of interest, m; of revolution the radius.
         gravity: g, m/s².
         is_open: whether waves leave to both sides, instead of being reflected by walls.
         layers: from the bottom up.
         levels: the upper sides of the layers, from the bottom up.
         bodies: beams and floats.
+        geometry: what the section stands for; of revolution, x is the distance from the axis.
     """
 
     length: float
@@ -139,11 +141,29 @@ class Tank:
     layers: tuple[Layer, ...]
     levels: tuple[StillLevel, ...]
     bodies: tuple[Body, ...]
+    geometry: Geometry = PLANE
 
     @property
     def units(self) -> Scales:
         """The units in which length, gravity and the density of the lowest layer are 1."""
-        return Scales(length=self.length, density=self.layers[0].density, gravity=self.gravity)
+        dimensions = 3 if self.geometry.is_whole else 2
+        return Scales(
+            length=self.length, density=self.layers[0].density, gravity=self.gravity, dimensions=dimensions
+        )
+
+    @property
+    def orders(self) -> tuple[int, ...]:
+        """Azimuthal orders of the bodies' motions, ascending; a section has one, 0."""
+        if not self.geometry.is_revolved:
+            return (0,)
+        return tuple(sorted({order for body in self.bodies for order in body.orders}))
+
+    def of_order(self, order: int) -> Tank:
+        """Return the problem of one azimuthal order, in which bodies have the motions of that order alone."""
+        if not self.geometry.is_revolved:
+            return self
+        bodies = tuple(body.of_order(order) for body in self.bodies)
+        return replace(self, bodies=bodies, geometry=replace(self.geometry, order=order))
 
     def scaled(self) -> Tank:
         """Return the tank in these units."""
@@ -272,6 +292,7 @@ def tank(
     liquids: tuple[tuple[float, float], ...],
     top: Top,
     bodies: tuple[Body, ...],
+    geometry: Geometry = PLANE,
 ) -> Tank:
     """Cut the still levels of a tank into pieces.
 
@@ -282,12 +303,16 @@ def tank(
         liquids: density, kg/m³, and depth, m, from the bottom up; the second lies on y = 0.
         top: boundary condition of the uppermost liquid beside the bodies.
         bodies: in any order, each at its level, without overlap.
+        geometry: what the section stands for.
     """
     floors = [-liquids[0][1], 0.0]
     layers = tuple(
         Layer(density=density, floor=floor, depth=depth)
         for (density, depth), floor in zip(liquids, floors, strict=False)
     )
+    ends = (-inf, inf) if is_open else (0.0, length)
+    if geometry.is_revolved:
+        ends = (0.0, ends[1])
     names: tuple[Level, ...] = ("surface",) if len(layers) == 1 else ("interface", "surface")
     levels = []
     for number, name in enumerate(names):
@@ -299,26 +324,35 @@ def tank(
                 above=above,
                 kind=top if above is None else "interface",
                 jump=density_jump(layers, number),
-                pieces=tuple(_pieces(bodies, name, length, is_open=is_open)),
+                pieces=tuple(_pieces(bodies, name, ends, 0.0 if is_open else ROUND_OFF * length)),
             )
         )
-    return Tank(length=length, gravity=gravity, is_open=is_open, layers=layers, levels=tuple(levels), bodies=bodies)
+    return Tank(
+        length=length,
+        gravity=gravity,
+        is_open=is_open,
+        layers=layers,
+        levels=tuple(levels),
+        bodies=bodies,
+        geometry=geometry,
+    )
 
 
-def _pieces(bodies: tuple[Body, ...], name: Level, length: float, *, is_open: bool) -> Iterator[Piece]:
-    """A still level from wall to wall, or from −∞ to ∞ in open water, without gaps.
+def _pieces(
+    bodies: tuple[Body, ...], name: Level, ends: tuple[float, float], negligible: float
+) -> Iterator[Piece]:
+    """A still level from end to end, which are infinite in open water, without gaps.
 
-    A body takes up its waterplane. One whose end is within `ROUND_OFF` of a wall ends exactly there.
+    A body takes up its waterplane. One whose end is within a negligible distance of an end ends exactly there, and one
+    on the axis of revolution begins there.
     """
-    left, right = (-inf, inf) if is_open else (0.0, length)
-    negligible = 0.0 if is_open else ROUND_OFF * length
+    left, right = ends
     places = []
     for index, body in enumerate(bodies):
         if body.level != name:
             continue
         start, end = body.waterplane
-        start = start if is_open or start > negligible else 0.0
-        places.append((start, end if is_open or end < length - negligible else length, index))
+        places.append((start if start > left + negligible else left, end if end < right - negligible else right, index))
     reached = left
     for start, end, index in sorted(places):
         if start > reached:

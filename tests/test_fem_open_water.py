@@ -134,7 +134,7 @@ def test_derivatives_by_the_angle(name: str, request: pytest.FixtureRequest) -> 
 def test_fluxes_of_waves_by_themselves(name: str, request: pytest.FixtureRequest) -> None:
     model = request.getfixturevalue(name)
     omega = (SECTION_ROWS[6] if name == "rectangle" else TWO_LIQUIDS[1])["omega"]
-    waves = planes(model.basin.waves(omega / model.basin.units.frequency))
+    waves = incident_waves(model.basin.waves(omega / model.basin.units.frequency), PLANE)
     met = incidence(model, waves)
     count = len(waves) // 2
     # A wave is no source within the bodies: ∫ρ(φ∂φ'/∂n − φ'∂φ/∂n) vanishes around each.

@@ -114,10 +114,11 @@ class OpenResponse:
             - incidence.own[:, self.incident]
             - self.model.pencil.products(incidence.fluxes, self.scattered)
         )
-        return incidence.amplitudes(fluxes) + np.eye(len(incidence.planes))[:, self.incident]
+        return incidence.amplitudes(fluxes) + incidence.incoming * np.eye(len(incidence.planes))[:, self.incident]
 
     def energy_residual(self) -> np.ndarray:
         """Outgoing power over incident power, less one, shape (incident,) (collective)."""
-        powers = self.incidence.powers
-        residual: np.ndarray = powers @ np.abs(self.outgoing()) ** 2 / powers[self.incident] - 1.0
+        powers, incoming = self.incidence.powers, self.incidence.incoming
+        ratio = powers @ np.abs(self.outgoing()) ** 2 / (powers[self.incident] * incoming**2)
+        residual: np.ndarray = ratio - 1.0
         return residual

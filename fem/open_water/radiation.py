@@ -202,13 +202,11 @@ class _Row:
 def _row(omega: float, found: OpenFrequency, error: float, in_full: bool) -> _Row:
     model, waves = found.model, found.incidence
     masses = model.scale.masses(found.hydrodynamic)
-    shift = np.exp(-1j * waves.phases_at_origin(model.basin))
-    count = len(waves.planes) // 2
+    count = len(waves.planes) // waves.directions
 
     def forces(values: np.ndarray) -> np.ndarray:
-        per_metre = model.scale.forces(values * (shift / waves.elevations)[:, None])
         # From (direction, wave) to (wave, direction).
-        moved: np.ndarray = per_metre.reshape(len(DIRECTIONS), count, -1).swapaxes(0, 1)
+        moved: np.ndarray = model.scale.forces(waves.plane_forces(model.basin, values)).swapaxes(0, 1)
         return moved
 
     return _Row(

@@ -8,7 +8,7 @@ from scipy.linalg import eigvals
 from hydroelastic.fem.open_water.complex_direct import ShiftedSolver
 from hydroelastic.fem.open_water.field_model import OpenModel
 from hydroelastic.fem.open_water.frequency import OpenFrequency, OpenResponse
-from hydroelastic.fem.open_water.incident_waves import Incidence, incidence, planes
+from hydroelastic.fem.open_water.incident_waves import Incidence, incidence, incident_waves
 from hydroelastic.fem.open_water.reduced_pencil import ReducedPencil
 from hydroelastic.fem.stopwatch import Stopwatch
 
@@ -47,8 +47,11 @@ class OpenSolver:
         """Return the travelling waves at ω in rad/s (collective)."""
         if omega not in self._waves:
             with self._watch.stage("waves"):
-                scaled = omega / self.model.basin.units.frequency
-                self._waves[omega] = incidence(self.model, planes(self.model.basin.waves(scaled)))
+                basin = self.model.basin
+                scaled = omega / basin.units.frequency
+                self._waves[omega] = incidence(
+                    self.model, incident_waves(basin.waves(scaled), basin.tank.geometry)
+                )
         return self._waves[omega]
 
     def radiation(self, squared: complex) -> np.ndarray:

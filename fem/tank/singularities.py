@@ -14,12 +14,12 @@ from math import atan2, dist, inf, pi
 import numpy as np
 
 from hydroelastic.fem.tank.outline import Sizes, tank_outline, zero_potential_surfaces
-from hydroelastic.meshes.geometry import LEFT_WALL, RIGHT_WALL, SYMMETRY_PLANE
+from hydroelastic.meshes.geometry import AXIS, LEFT_WALL, RIGHT_WALL, SYMMETRY_PLANE
 from hydroelastic.meshes.outline import Outline, Point
 from hydroelastic.physics.dofs import body_number
 from hydroelastic.physics.tank import Tank
 
-_MIRRORS = (LEFT_WALL, RIGHT_WALL, SYMMETRY_PLANE)
+_MIRRORS = (AXIS, LEFT_WALL, RIGHT_WALL, SYMMETRY_PLANE)
 
 # Largest change of direction at a joint of arcs that counts as smooth, rad.
 _SMOOTH = 1e-6
@@ -136,7 +136,7 @@ def _exponent(sector: _Sector, zero_potential: tuple[str, ...], continuous_press
         return inf
     # A wall is a mirror: the sector continues as its image.
     angle = sector.angle * (2.0 if any(name in _MIRRORS for name in sector.names) else 1.0)
-    if (len(set(sector.names)) == 1 or SYMMETRY_PLANE in sector.names) and abs(angle - pi) < _SMOOTH:
+    if (len(set(sector.names)) == 1 or {AXIS, SYMMETRY_PLANE} & {*sector.names}) and abs(angle - pi) < _SMOOTH:
         # Where two liquids meet a smooth body the slope of ψ jumps.
         return _JUMP if continuous_pressure and sector.crossed else inf
     return (0.5 if any(name in zero_potential for name in sector.names) else 1.0) * pi / angle

@@ -22,7 +22,7 @@ from pydantic_core import InitErrorDetails
 
 from hydroelastic.physics import beams
 from hydroelastic.physics.beam_parts import Joint, Section
-from hydroelastic.physics.motions import Level, Motion
+from hydroelastic.physics.motions import Level, SectionMotion
 from hydroelastic.scenes.errors import scene_error
 from hydroelastic.scenes.models.plain import plain
 from hydroelastic.scenes.models.problems import problem_at
@@ -271,7 +271,7 @@ class Float(SceneModel):
         default=None,
         description="radius of gyration about the centre of mass, m; by default that of the homogeneous section",
     )
-    motions: tuple[Motion, ...] = Field(
+    motions: tuple[SectionMotion, ...] = Field(
         default=("heave",), min_length=1, max_length=3, description="its free motions, each once"
     )
     boundary: Literal["exact", "thin"] = Field(

@@ -18,6 +18,7 @@ from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.reduced_pencil import ReducedPencil
 from hydroelastic.fem.open_water.solver import OpenSolver
 from hydroelastic.fem.stopwatch import Stopwatch
+from hydroelastic.physics.geometry import PLANE
 from hydroelastic.scenes.models.tank import TankScene
 
 SECTION_ROWS = stored("open_sections.json")["cases"]

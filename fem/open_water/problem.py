@@ -32,6 +32,10 @@ class OpenWaterProblem:
     tolerance: float
     watch: Stopwatch
 
+    def of_order(self, order: int) -> OpenWaterProblem:
+        """Return the problem of one azimuthal order; a section is its own."""
+        return replace(self, tank=self.tank.of_order(order))
+
     def rough(self) -> OpenWaterProblem:
         """Return the same problem with a coarse tolerance, for initial values."""
         return replace(self, tolerance=_ROUGH)

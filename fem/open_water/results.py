@@ -1,5 +1,7 @@
 """Results of the analyses of open water, per metre of width in SI units, with the time factor e^{−iωt}.
 
+Those of solids of revolution are whole, and their units have one metre more.
+
 Bodies move in their degrees of freedom `dofs`. Waves are the branches of the dispersion relation, "surface" and
 "internal".
 """
@@ -111,12 +113,14 @@ class ResponseTable:
         dofs: m degrees of freedom.
         waves_from: the side from which the waves are incident.
         amplitudes: (n, w, m) of the motions, m/m or rad/m.
-        reflection: (n, w in, w out) ratio of elevations.
-        transmission: (n, w in, w out) ratio of elevations.
+        reflection: (n, w in, w out) ratio of elevations; ``None`` about an axis.
+        transmission: (n, w in, w out) ratio of elevations; ``None`` about an axis.
         energy_residual: (n, w) relative difference of incident and outgoing power.
         relative_error: (n,) estimated relative error of the amplitudes.
         plates: one for each beam.
         missed_peaks: peaks that curves over ω do not show, found on a reduced basis.
+        partial_waves: (n, w in, w out, orders) aⱼ of the elevation εⱼ iʲ [Jⱼ(kr) + aⱼ Hⱼ(kr)] cos jθ of each azimuthal
+            order j about an axis, j = 0, 1 …; ``None`` of a section.
     """
 
     omega: Floats
@@ -125,12 +129,13 @@ class ResponseTable:
     dofs: tuple[Dof, ...]
     waves_from: Literal["left", "right"]
     amplitudes: Complexes
-    reflection: Complexes
-    transmission: Complexes
+    reflection: Complexes | None
+    transmission: Complexes | None
     energy_residual: Floats
     relative_error: Floats
     plates: tuple[PlateDeflection, ...]
     missed_peaks: tuple[UnresolvedPeak, ...] = ()
+    partial_waves: Complexes | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -98,6 +98,10 @@ def solve_open_water(
 
 
 def _solved(problem: OpenWaterProblem, request: Request) -> _Solution:
+    if problem.tank.geometry.is_revolved:
+        from hydroelastic.fem.open_water.orders import solve_by_order
+
+        return solve_by_order(problem, request)
     match request:
         case RadiationRequest():
             return solve_radiation(problem, request)

@@ -131,6 +131,8 @@ class Tank:
         layers: from the bottom up.
         levels: the upper sides of the layers, from the bottom up.
         bodies: beams and floats.
+        start: abscissa of the left wall, or of the left end of that stretch, m.
+        phase_at: abscissa at which the crest of an incident wave is at t = 0, m.
     """
 
     length: float
@@ -139,6 +141,8 @@ class Tank:
     layers: tuple[Layer, ...]
     levels: tuple[StillLevel, ...]
     bodies: tuple[Body, ...]
+    start: float = 0.0
+    phase_at: float = 0.0
 
     @property
     def units(self) -> Scales:

@@ -132,6 +132,8 @@ class Tank:
         layers: from the bottom up.
         levels: the upper sides of the layers, from the bottom up.
         bodies: beams and floats.
+        start: abscissa of the left wall, or of the left end of that stretch, m.
+        phase_at: abscissa at which the crest of an incident wave is at t = 0, m.
         geometry: what the section stands for; of revolution, x is the distance from the axis.
     """
 
@@ -141,6 +143,8 @@ class Tank:
     layers: tuple[Layer, ...]
     levels: tuple[StillLevel, ...]
     bodies: tuple[Body, ...]
+    start: float = 0.0
+    phase_at: float = 0.0
     geometry: Geometry = PLANE
 
     @property

@@ -112,10 +112,11 @@ class Circular:
         """P, by which Im H = P |C|²."""
         return 2.0 / pi * self.geometry.measure * self.wave.energy
 
-    def part(self, direction: int) -> complex:
-        """Return εₙ iⁿ of a plane wave towards +x (1), or of one towards −x (−1)."""
-        order = self.geometry.order
-        return (1.0 if order == 0 else 2.0) * (direction * 1j) ** order
+    def part(self, direction: int, basin: OpenBasin) -> complex:
+        """Return εₙ iⁿ of a plane wave towards +x (1), or of one towards −x (−1), with its phase at `phase_at`."""
+        order, origin = self.geometry.order, basin.phase_at / basin.units.length
+        phase = np.exp(-1j * direction * self.wave.wavenumber * origin)
+        return complex((1.0 if order == 0 else 2.0) * (direction * 1j) ** order * phase)
 
 
 Wave: TypeAlias = Plane | Circular
@@ -176,15 +177,16 @@ class Incidence:
         return np.array([plane.elevation for plane in self.planes])
 
     def phases_at_origin(self, basin: OpenBasin) -> np.ndarray:
-        """Return the negative phase, rad, that each wave of zero phase at x = 0 of the open water has at the left side
-        of the basin, shape (waves,).
+        """Return the negative phase, rad, that each wave of zero phase at `OpenBasin.phase_at` has at the left side of
+        the basin, shape (waves,).
 
-        A wave e^{±ikx} of the open water is e^{±ikx₀} times that of the basin, whose x begins at x₀.
+        A wave e^{±ik(x − xₚ)} of the open water is e^{±ik(x₀ − xₚ)} times that of the basin, whose x begins at x₀.
         """
-        origin = basin.origin / basin.units.length
-        return np.array(
-            [-plane.direction * plane.wave.wavenumber * origin if isinstance(plane, Plane) else 0.0 for plane in self.planes]
-        )
+        origin = (basin.origin - basin.phase_at) / basin.units.length
+        directions = [plane.direction if isinstance(plane, Plane) else 0 for plane in self.planes]
+        wavenumbers = np.array([plane.wave.wavenumber for plane in self.planes])
+        phases: np.ndarray = -np.array(directions) * wavenumbers * origin
+        return phases
 
     def plane_forces(self, basin: OpenBasin, values: np.ndarray) -> np.ndarray:
         """Forces per elevation of plane waves with phase 0 at x = 0 of the open water.
@@ -199,7 +201,10 @@ class Incidence:
         scaled = values * (np.exp(-1j * self.phases_at_origin(basin)) / self.elevations)[:, None]
         if self.directions == 2:
             return scaled.reshape(2, len(scaled) // 2, -1)
-        parts = [[plane.part(way) for plane in self.planes if isinstance(plane, Circular)] for way in (1, -1)]
+        parts = [
+            [plane.part(way, basin) for plane in self.planes if isinstance(plane, Circular)]
+            for way in (RIGHTWARD, LEFTWARD)
+        ]
         forces: np.ndarray = np.array(parts)[..., None] * scaled
         return forces
 

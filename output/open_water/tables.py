@@ -12,6 +12,7 @@ from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, Reso
 from hydroelastic.modal.floats.infinite_draught import InfiniteDraughtFloat
 from hydroelastic.output.columns import Column, headings_of, rows_of
 from hydroelastic.output.digits import beyond_error, number, per_cent, with_certain_digits
+from hydroelastic.output.open_water.bodies import bodies_section
 from hydroelastic.output.open_water.files import open_columns
 from hydroelastic.output.open_water.quantities import (
     DECAY,
@@ -32,12 +33,13 @@ _MOST_MOTIONS = 4
 
 
 def open_sections(solution: Any, summary: Summary) -> Iterator[Section]:
-    """Yield the tables by analysis, and the comparison with the thin-float theory.
+    """Yield the bodies at rest, the tables by analysis, and the comparison with the thin-float theory.
 
     Args:
         solution: the solution.
         summary: content of ``summary.json``.
     """
+    yield bodies_section(solution)
     for radiation in solution.radiation:
         yield from _radiation(radiation)
     for response in RESPONSE.of(solution):

@@ -56,11 +56,13 @@ def open_water_is_complete(scene: TankParts) -> Iterator[InitErrorDetails]:
         )
     if len(scene.layers) == 1 and scene.top != "free":
         yield problem_at(
-            ("tank", "top"),
+            (scene.kind, "top"),
             scene.top,
             "without a free surface or an interface there are no waves",
             allowed='"free"',
-            remedy='Set ends = "walls", or add a second [[liquid]]',
+            remedy="Add a second [[liquid]]"
+            if scene.kind == "sea"
+            else 'Set ends = "walls", or add a second [[liquid]]',
         )
     # A default that is written out, as in summaries, is accepted.
     if scene.accuracy.modes != type(scene.accuracy).model_fields["modes"].default:
@@ -87,7 +89,7 @@ def frequencies_and_times_can_be_resolved(scene: TankParts) -> Iterator[InitErro
                 yield problem_at(
                     ("analysis", index, key),
                     wrong[0],
-                    "its waves are too long or too short relative to the drawn length for one mesh to resolve both",
+                    f"its waves are too long or too short relative to {_drawn(scene)} for one mesh to resolve both",
                     allowed=f"{slowest:.3g} to {fastest:.3g} rad/s",
                 )
         late = [time for time in getattr(analysis, "times", ()) if time * slowest > 1.0]
@@ -95,9 +97,13 @@ def frequencies_and_times_can_be_resolved(scene: TankParts) -> Iterator[InitErro
             yield problem_at(
                 ("analysis", index, "times"),
                 late[0],
-                "the waves at such late times are too long relative to the drawn length",
+                f"the waves at such late times are too long relative to {_drawn(scene)}",
                 allowed=f"0 to {1.0 / slowest:.3g} s",
             )
+
+
+def _drawn(scene: TankParts) -> str:
+    return "the bodies" if scene.kind == "sea" else "the drawn length"
 
 
 def resonance_regions_are_covered_by_theory(scene: TankParts) -> Iterator[InitErrorDetails]:
@@ -119,7 +125,7 @@ def _nothing_lies_above_an_infinite_liquid(scene: TankParts) -> Iterator[InitErr
         return
     if scene.tank.top != "free":
         yield problem_at(
-            ("tank", "top"),
+            (scene.kind, "top"),
             scene.tank.top,
             "the upper liquid is infinitely deep, so this has no effect",
             remedy="Leave it out, or give the upper liquid a finite depth",

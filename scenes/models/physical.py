@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from hydroelastic.physics.beams import Beam
@@ -19,7 +20,7 @@ def physical_tank(scene: TankParts) -> Tank:
     Raises:
         ValueError: if a float cannot float at its level.
     """
-    return tank(
+    found = tank(
         length=scene.tank.length,
         gravity=scene.tank.gravity,
         is_open=scene.is_open,
@@ -27,6 +28,7 @@ def physical_tank(scene: TankParts) -> Tank:
         top=scene.top,
         bodies=tuple(_body(scene, index) for index in range(len(scene.body))),
     )
+    return replace(found, start=scene.stretch[0], phase_at=scene.phase_at)
 
 
 def _body(scene: TankParts, index: int) -> Beam | RigidFloat:

@@ -211,9 +211,7 @@ def as_functions(liquid: LiquidSpace, potentials: list[PETSc.Vec]) -> list[fem.F
 _compiled: set[tuple[str, int, int, bool, str]] = set()
 
 
-def compile_form(
-    tank: TankMesh, degree: int, *, continuous_pressure: bool = False, geometry: Geometry = PLANE
-) -> None:
+def compile_form(tank: TankMesh, degree: int, *, continuous_pressure: bool = False, geometry: Geometry = PLANE) -> None:
     """Compile the form of a degree on rank 0, unless the cache of dolfinx has it (collective).
 
     Assembly would compile it as well; called before, it separates the time of compilation.

@@ -44,6 +44,8 @@ def columns_of(
 ) -> Iterator[Column]:
     """Yield the columns of a record: of all arrays along the rows, and of single values that have a column declared.
 
+    What the record does not have has none.
+
     Columns of successive quantities with the same one further dimension alternate.
 
     Args:
@@ -53,11 +55,12 @@ def columns_of(
         labels: of further dimensions.
     """
     arrays = {
-        part: np.asarray(part.of(record))
+        part: np.asarray(value)
         for part in group.parts
         if isinstance(part, Quantity)
         and (part.in_summary or part.column is not None)
         and (part.column is not None if not part.dimensions else set(part.dimensions) & set(rows))
+        and (value := part.of(record)) is not None
     }
     sizes = {name: size for part in arrays for name, size in zip(part.dimensions, arrays[part].shape, strict=True)}
     shape = [sizes[name] for name in rows]

@@ -47,6 +47,10 @@ class SolidOfRevolution:
         """Whether the axis lies outside the solid."""
         return self.bounds[0] > 0.0
 
+    def moved(self, shift: Point) -> SolidOfRevolution:
+        """Return the solid displaced along its axis, by (0, z)."""
+        return SolidOfRevolution(self.contour.moved(shift))
+
     def below(self, level: float) -> tuple[Arc, ...]:
         """See `Contour.below`."""
         return self.contour.below(level)

@@ -151,9 +151,7 @@ class Tank:
     def units(self) -> Scales:
         """The units in which length, gravity and the density of the lowest layer are 1."""
         dimensions = 3 if self.geometry.is_whole else 2
-        return Scales(
-            length=self.length, density=self.layers[0].density, gravity=self.gravity, dimensions=dimensions
-        )
+        return Scales(length=self.length, density=self.layers[0].density, gravity=self.gravity, dimensions=dimensions)
 
     @property
     def orders(self) -> tuple[int, ...]:
@@ -342,9 +340,7 @@ def tank(
     )
 
 
-def _pieces(
-    bodies: tuple[Body, ...], name: Level, ends: tuple[float, float], negligible: float
-) -> Iterator[Piece]:
+def _pieces(bodies: tuple[Body, ...], name: Level, ends: tuple[float, float], negligible: float) -> Iterator[Piece]:
     """A still level from end to end, which are infinite in open water, without gaps.
 
     A body takes up its waterplane. One whose end is within a negligible distance of an end ends exactly there, and one

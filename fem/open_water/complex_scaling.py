@@ -121,7 +121,9 @@ def _densities(liquid: LiquidSpace) -> np.ndarray:
 def _both_parts(
     liquid: LiquidSpace, cells: np.ndarray, terms: np.ndarray, surface: np.ndarray, facets: np.ndarray
 ) -> ComplexMatrix:
-    parts = (assembled(_weighted_form(liquid, cells, facets, part(terms), part(surface))) for part in (np.real, np.imag))
+    parts = (
+        assembled(_weighted_form(liquid, cells, facets, part(terms), part(surface))) for part in (np.real, np.imag)
+    )
     real, imaginary = parts
     return ComplexMatrix(real=real, imaginary=imaginary)
 

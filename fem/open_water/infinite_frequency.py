@@ -107,7 +107,9 @@ def infinite_frequency_added_mass(problem: OpenWaterProblem, shapes: tuple[int, 
                 problem.comm, lambda: open_mesh(basin, resolution, absorbing_layer, infinite_frequency=True)
             )
         with watch.stage("forms"):
-            compile_form(mesh, resolution.degree, continuous_pressure=tank.has_continuous_pressure, geometry=tank.geometry)
+            compile_form(
+                mesh, resolution.degree, continuous_pressure=tank.has_continuous_pressure, geometry=tank.geometry
+            )
         with watch.stage("added mass"):
             pencil = build_field_model(mesh, tank, degree=resolution.degree, shapes=shapes, infinite_frequency=True)
             matrix, potentials = body_responses(pencil)

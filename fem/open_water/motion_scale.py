@@ -37,12 +37,16 @@ class MotionScale:
     def unknown_masses(self, masses: np.ndarray) -> np.ndarray:
         """Convert masses in SI units, shape (m, m), to those of the dimensionless body unknowns."""
         forth = self.turn * self.lengths[:, None]
-        unknowns: np.ndarray = forth.T @ masses @ forth / (self.units.density * self.units.volume * self.units.length**2)
+        unknowns: np.ndarray = (
+            forth.T @ masses @ forth / (self.units.density * self.units.volume * self.units.length**2)
+        )
         return unknowns
 
     def stiffnesses(self, matrix: np.ndarray) -> np.ndarray:
         """Convert a matrix of stiffnesses, shape (m, m), to N/m², to N/m for roll with heave, to N for roll."""
-        return self.units.density * self.units.gravity * self.units.volume * self.units.length * self._in_motions(matrix)
+        return (
+            self.units.density * self.units.gravity * self.units.volume * self.units.length * self._in_motions(matrix)
+        )
 
     def forces(self, forces: np.ndarray) -> np.ndarray:
         """Convert forces per dimensionless elevation, shape (…, body unknowns), to N/m², of moments to N/m, per

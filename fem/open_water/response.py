@@ -190,7 +190,12 @@ def _motions(solution: OpenResponse, towards: int) -> np.ndarray:
     waves towards +x (1) or −x (−1)."""
     incidence = solution.incidence
     phases = np.exp(1j * incidence.phases_at_origin(solution.model.basin))
-    parts = np.array([plane.part(towards, solution.model.basin) if isinstance(plane, Circular) else 1.0 for plane in incidence.planes])
+    parts = np.array(
+        [
+            plane.part(towards, solution.model.basin) if isinstance(plane, Circular) else 1.0
+            for plane in incidence.planes
+        ]
+    )
     motions: np.ndarray = solution.motions * (parts / (incidence.elevations * phases))[solution.incident][:, None]
     return motions
 

@@ -49,9 +49,7 @@ class OpenSolver:
             with self._watch.stage("waves"):
                 basin = self.model.basin
                 scaled = omega / basin.units.frequency
-                self._waves[omega] = incidence(
-                    self.model, incident_waves(basin.waves(scaled), basin.tank.geometry)
-                )
+                self._waves[omega] = incidence(self.model, incident_waves(basin.waves(scaled), basin.tank.geometry))
         return self._waves[omega]
 
     def radiation(self, squared: complex) -> np.ndarray:

@@ -8,6 +8,7 @@ from typing import Any
 
 from hydroelastic.output.quantities import Group, Quantity
 from hydroelastic.output.sections import Section
+from hydroelastic.output.whole_units import of_whole_solids
 from hydroelastic.physics.tank import Tank
 
 # Part of the width of the waterplane.
@@ -16,7 +17,7 @@ _ROUNDING = 1e-12
 
 @dataclass(frozen=True, kw_only=True)
 class BodyAtRest:
-    """A body at rest, SI units per metre of width; ``None`` where a body has no such value.
+    """A body at rest, SI units per metre of width or of a whole solid; ``None`` where a body has no such value.
 
     Attributes:
         number: of the body, from 1.
@@ -117,9 +118,11 @@ BODIES = Group("bodies", "bodies at rest", (
 def bodies_section(solution: Any) -> Section:
     """Return the table of the bodies at rest."""
     found = [BODIES.evaluated(one) for one in bodies_at_rest(solution.tank)]
-    heads = [part for part in BODIES.parts if isinstance(part, Quantity)][1:]
+    whole = solution.tank.geometry.is_whole
+    group = of_whole_solids(BODIES) if whole else BODIES
+    heads = [part for part in group.parts if isinstance(part, Quantity)][1:]
     return Section(
-        title="Bodies at rest, per metre of width",
+        title="Bodies at rest" if whole else "Bodies at rest, per metre of width",
         headings=("quantity", *(f"{values['kind']} {values['number']}" for values in found)),
         rows=[
             (part.label, *(part.cell(values, BODIES) for values in found))

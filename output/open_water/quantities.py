@@ -107,6 +107,15 @@ def _phase_at_body(table: WavesAndMotions) -> Floats:
     return np.where(is_known, np.degrees(np.angle(at_body)) + 0.0, np.nan)
 
 
+def _scattering_width(table: WavesAndMotions) -> Floats | None:
+    """σ = (4/k) Σ εₙ |aₙ|², shape (frequencies, 1)."""
+    if table.partial_waves is None or len(table.waves) > 1:
+        return None
+    sizes = np.abs(table.partial_waves[:, :, 0]) ** 2
+    factors = np.where(np.arange(sizes.shape[-1]) == 0, 1.0, 2.0)
+    return np.asarray(4.0 / table.wavenumbers * (sizes @ factors))
+
+
 def _joined(key: str, meaning: str, dimensions: str, order: str = "", **more: Any) -> Quantity:
     """An array that all analyses of a kind have together, in another order of its dimensions if there is one."""
     names = tuple(dimensions.split())
@@ -200,11 +209,20 @@ RESPONSE = Group("response", "motions and waves per unit elevation of the incide
     _array("wave_direction", "direction in which incident waves travel", "wave_direction",
         lambda it: [it.direction], unit="rad"),
     _joined("reflection", "elevation of the reflected wave over that of the incident one", *_RATIOS, unit="1",
-        symbol="|R|", error="relative_error", variable="reflection_coefficient", phase=_CREST),
+        symbol="|R|", error="relative_error", variable="reflection_coefficient", phase=_CREST,
+        note="`null` of solids of revolution"),
     _joined("transmission", "elevation of the transmitted wave over that of the incident one", *_RATIOS, unit="1",
-        symbol="|T|", error="relative_error", variable="transmission_coefficient", phase=_CREST),
+        symbol="|T|", error="relative_error", variable="transmission_coefficient", phase=_CREST,
+        note="`null` of solids of revolution"),
     _joined("amplitudes", "motion per unit elevation of the incident wave", *_AMPLITUDES, error="relative_error",
         variable="RAO", column="", **_PER_ELEVATION),
+    _joined("partial_waves",
+        "a_n of the elevation eps_n i^n [J_n(kr) + a_n H_n(kr)] cos(n theta) of each azimuthal order n",
+        "omega wave outgoing_wave azimuthal_order", "omega wave_direction wave outgoing_wave azimuthal_order", unit="1",
+        printed=False, column="partial_wave", note="about the axis of solids of revolution; `null` of sections"),
+    _joined("scattering_width", "power of the scattered waves over that of the incident wave per metre of its crest",
+        "omega wave", "omega wave_direction wave", unit="m", symbol="σ", error="relative_error",
+        value=_scattering_width, note="of solids of revolution, in waves on one level; `null` of sections"),
     _joined("phase_at_body",
         "phase of the motion beside the crest of the incident wave at the middle of the body's waterplane",
         *_AMPLITUDES, unit="degree", value=_phase_at_body, shown=".1f", variable="RAO_phase_at_body",

@@ -23,7 +23,9 @@ from hydroelastic.output.open_water.quantities import (
     region_words,
 )
 from hydroelastic.output.provenance import Summary
+from hydroelastic.output.quantities import Group
 from hydroelastic.output.sections import Row, Section
+from hydroelastic.output.whole_units import of_whole_solids
 from hydroelastic.physics.dofs import Dof
 
 MOST_ROWS = 25
@@ -40,8 +42,9 @@ def open_sections(solution: Any, summary: Summary) -> Iterator[Section]:
         summary: content of ``summary.json``.
     """
     yield bodies_section(solution)
+    whole = solution.tank.geometry.is_whole
     for radiation in solution.radiation:
-        yield from _radiation(radiation)
+        yield from _radiation(radiation, of_whole_solids(RADIATION) if whole else RADIATION)
     for response in RESPONSE.of(solution):
         yield from _response(response)
     for resonance in solution.resonance:
@@ -103,7 +106,7 @@ def open_cost(summary: Summary) -> str:
     )
 
 
-def _radiation(table: RadiationTable) -> Iterator[Section]:
+def _radiation(table: RadiationTable, group: Group) -> Iterator[Section]:
     """One table for each motion: the diagonals of a and b, and the excitation by waves from the left."""
     several = len(table.waves) > 1
     shown, thinned = _shown(len(table.omega), "frequencies", "radiation.csv")
@@ -115,7 +118,7 @@ def _radiation(table: RadiationTable) -> Iterator[Section]:
     left_out = ("wavenumbers",) if several else ()
     printed = [
         column
-        for column in open_columns(RADIATION, table)
+        for column in open_columns(group, table)
         if column.quantity.printed and column.quantity.key not in left_out
     ]
     for place, motion in enumerate(table.dofs):
@@ -124,7 +127,7 @@ def _radiation(table: RadiationTable) -> Iterator[Section]:
         yield Section(
             title=f"Radiation by {motion.words}",
             headings=headings_of(columns, "wave" if several else ""),
-            rows=rows_of(RADIATION, columns, shown),
+            rows=rows_of(group, columns, shown),
             lines=(*thinned, *(further if place == len(table.dofs) - 1 else ())),
         )
 
@@ -139,10 +142,11 @@ def _response(table: WavesAndMotions) -> Iterator[Section]:
     for column in open_columns(RESPONSE, table):
         found.setdefault(column.quantity.key, []).append(column)
     first = [*found["omega"], *(found["waves"] if count > 1 else ())]
-    keys = ("wavenumbers", "reflection", "transmission", "energy_residual", "relative_error")
-    ratios = [*first, *(column for key in keys for column in found[key])]
+    keys = ("wavenumbers", "reflection", "transmission", "scattering_width", "energy_residual", "relative_error")
+    ratios = [*first, *(column for key in keys for column in found.get(key, []))]
+    what = "ratios of elevations" if table.partial_waves is None else "scattered waves"
     yield Section(
-        title=f"Waves from the {table.waves_from}: ratios of elevations",
+        title=f"Waves from the {table.waves_from}: {what}",
         headings=headings_of(ratios, "outgoing_wave" if count > 1 else ""),
         rows=rows_of(RESPONSE, ratios, rows),
         lines=thinned,

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from pydantic_core import InitErrorDetails
 
-from hydroelastic.scenes.models.bodies import SUBSTITUTES, THIN_SHAPES, Float
-from hydroelastic.scenes.models.body_kinds import AnyBeam
+from hydroelastic.scenes.models.bodies import SUBSTITUTES, THIN_SHAPES
+from hydroelastic.scenes.models.body_kinds import AnyBeam, AnyFloat
 from hydroelastic.scenes.models.open_checks import length_scale_of_bodies
 from hydroelastic.scenes.models.problems import problem_at
 
@@ -50,7 +50,7 @@ def floats_are_in_equilibrium(scene: TankParts) -> Iterator[InitErrorDetails]:
             yield found
 
 
-def _problems_of(scene: TankParts, index: int, body: Float) -> Iterator[InitErrorDetails]:
+def _problems_of(scene: TankParts, index: int, body: AnyFloat) -> Iterator[InitErrorDetails]:
     from hydroelastic.scenes.models.floats import float_contour, level_at_rest, placed_float
 
     if body.vertices is not None:
@@ -121,7 +121,7 @@ def _section_is_simple(location: tuple[str | int, ...], contour: Contour) -> Ite
         )
 
 
-def _sizes_fit(scene: TankParts, index: int, body: Float, contour: Contour) -> Iterator[InitErrorDetails]:
+def _sizes_fit(scene: TankParts, index: int, body: AnyFloat, contour: Contour) -> Iterator[InitErrorDetails]:
     width, height = _extents(contour.bounds)
     least, most = SLENDERNESS[body.boundary]
     if not least <= width / height <= most:
@@ -146,11 +146,11 @@ def _sizes_fit(scene: TankParts, index: int, body: Float, contour: Contour) -> I
         )
 
 
-def _other_models(body: Float) -> str:
+def _other_models(body: AnyFloat) -> str:
     return 'boundary = "thin" takes it' if body.boundary == "exact" and body.shape in THIN_SHAPES else ""
 
 
-def _floats_elsewhere(index: int, body: Float, area: float, densities: tuple[float, float]) -> InitErrorDetails:
+def _floats_elsewhere(index: int, body: AnyFloat, area: float, densities: tuple[float, float]) -> InitErrorDetails:
     below, above = densities
     heavy = (body.mass or 0.0) >= below * area
     return problem_at(
@@ -162,7 +162,7 @@ def _floats_elsewhere(index: int, body: Float, area: float, densities: tuple[flo
     )
 
 
-def _parts_on_both_sides(index: int, body: Float, contour: Contour, level: float) -> Iterator[InitErrorDetails]:
+def _parts_on_both_sides(index: int, body: AnyFloat, contour: Contour, level: float) -> Iterator[InitErrorDetails]:
     _, _, low, high = contour.bounds
     least = SMALLEST_PART * (high - low)
     if body.mass is None and body.draught is not None and not level <= high - least:
@@ -182,7 +182,7 @@ def _parts_on_both_sides(index: int, body: Float, contour: Contour, level: float
         )
 
 
-def _keys_agree(index: int, body: Float, placed: RigidFloat) -> Iterator[InitErrorDetails]:
+def _keys_agree(index: int, body: AnyFloat, placed: RigidFloat) -> Iterator[InitErrorDetails]:
     """Yield values at rest that contradict those in whose place they may stand."""
     rest, (_, _, low, high) = placed.hydrostatics, placed.hull.bounds
     found = {
@@ -201,7 +201,7 @@ def _keys_agree(index: int, body: Float, placed: RigidFloat) -> Iterator[InitErr
             )
 
 
-def _has_room(scene: TankParts, index: int, body: Float, bounds: _Box) -> Iterator[InitErrorDetails]:
+def _has_room(scene: TankParts, index: int, body: AnyFloat, bounds: _Box) -> Iterator[InitErrorDetails]:
     left, right, low, high = bounds
     gap = SMALLEST_GAP * max(_extents(bounds))
     length = scene.tank.length
@@ -241,7 +241,7 @@ def _has_room(scene: TankParts, index: int, body: Float, bounds: _Box) -> Iterat
         )
 
 
-def _lies_in_the_stretch(scene: TankParts, index: int, body: Float) -> Iterator[InitErrorDetails]:
+def _lies_in_the_stretch(scene: TankParts, index: int, body: AnyFloat) -> Iterator[InitErrorDetails]:
     """Floats in open water of a drawn length lie within it."""
     if scene.kind == "tank" and body.position > scene.tank.length:
         yield problem_at(
@@ -252,14 +252,14 @@ def _lies_in_the_stretch(scene: TankParts, index: int, body: Float) -> Iterator[
         )
 
 
-def _limits(scene: TankParts, body: Float) -> tuple[float, float | None]:
+def _limits(scene: TankParts, body: AnyFloat) -> tuple[float, float | None]:
     """Ordinates between which a float must stay, m: the layers on either side of its level, air included."""
     if len(scene.layers) == 2 and scene.level_of(body) == "surface":
         return 0.0, None
     return -scene.liquid[0].depth, scene.liquid[1].depth if len(scene.liquid) == 2 else None
 
 
-def _arms_fit(index: int, body: Float, bounds: _Box) -> Iterator[InitErrorDetails]:
+def _arms_fit(index: int, body: AnyFloat, bounds: _Box) -> Iterator[InitErrorDetails]:
     longest = LONGEST_ARM * max(_extents(bounds))
     for key, least in (("centre_of_mass", 0.0), ("radius_of_gyration", longest * 1e-9)):
         value = getattr(body, key)
@@ -305,11 +305,11 @@ def _neighbours(scene: TankParts, boxes: list[_Box]) -> list[tuple[int, int]]:
 
 
 def _is_float(scene: TankParts, index: int) -> bool:
-    return isinstance(scene.body[index], Float)
+    return isinstance(scene.body[index], AnyFloat)
 
 
-def _box(scene: TankParts, index: int, body: AnyBeam | Float) -> _Box:
-    if not isinstance(body, Float):
+def _box(scene: TankParts, index: int, body: AnyBeam | AnyFloat) -> _Box:
+    if not isinstance(body, AnyFloat):
         height = scene.height_of(scene.level_of(body))
         return body.start, body.end, height, height
     from hydroelastic.scenes.models.floats import placed_float
@@ -335,7 +335,7 @@ def _floats_are_stable(scene: TankParts) -> Iterator[InitErrorDetails]:
 
         placed = placed_float(scene, index)
         at_rest, stiffness = placed.hydrostatics, placed.roll_stiffness
-        if "roll" not in body.motions or body.unstable == "solve" or stiffness >= 0.0:
+        if not {"roll", "pitch"} & {*body.motions} or body.unstable == "solve" or stiffness >= 0.0:
             continue
         # Height of the centre of mass at which the roll stiffness is zero.
         arm = stiffness / (at_rest.mass * scene.tank.gravity)
@@ -349,7 +349,7 @@ def _floats_are_stable(scene: TankParts) -> Iterator[InitErrorDetails]:
             f"the float capsizes: its centre of mass lies {height:g} m above its reference level, and the metacentre "
             f"{height - metacentre:.3g} m lower",
             allowed=f"a centre_of_mass of at most {metacentre:g} m",
-            remedy='Leave roll out of the motions, or set unstable = "solve"',
+            remedy=f'Leave {"roll" if "roll" in body.motions else "pitch"} out of the motions, or set unstable = "solve"',
         )
 
 

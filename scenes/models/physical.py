@@ -6,8 +6,9 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from hydroelastic.physics.beams import Beam
+from hydroelastic.physics.geometry import PLANE, Geometry
 from hydroelastic.physics.tank import Tank, tank
-from hydroelastic.scenes.models.bodies import Float
+from hydroelastic.scenes.models.body_kinds import AnyFloat
 from hydroelastic.scenes.models.tank_parts import TankParts
 
 if TYPE_CHECKING:
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def physical_tank(scene: TankParts) -> Tank:
-    """Return the tank, or the open water, of a scene; SI units, per metre of width.
+    """Return the tank, or the open water, of a scene; SI units, per metre of width or of revolution.
 
     Raises:
         ValueError: if a float cannot float at its level.
@@ -27,13 +28,14 @@ def physical_tank(scene: TankParts) -> Tank:
         liquids=tuple((layer.density, layer.depth) for layer in scene.layers),
         top=scene.top,
         bodies=tuple(_body(scene, index) for index in range(len(scene.body))),
+        geometry=Geometry(kind="revolved") if scene.is_revolved else PLANE,
     )
     return replace(found, start=scene.stretch[0], phase_at=scene.phase_at)
 
 
 def _body(scene: TankParts, index: int) -> Beam | RigidFloat:
     body = scene.body[index]
-    if isinstance(body, Float):
+    if isinstance(body, AnyFloat):
         # Contours need SciPy's root finders, whose import is slow.
         from hydroelastic.scenes.models.floats import placed_float
 

@@ -19,15 +19,15 @@ from hydroelastic.meshes.formats import FORMATS
 from hydroelastic.scenes.models.bodies import (
     LARGEST,
     SMALLEST,
-    Float,
     Level,
     PositiveNumber,
     SceneModel,
 )
-from hydroelastic.scenes.models.body_kinds import AnyBeam
+from hydroelastic.scenes.models.body_kinds import AnyBeam, AnyFloat
 from hydroelastic.scenes.models.infinity import PositiveOrInfinite
 from hydroelastic.scenes.models.open_analyses import Analysis, Resonance
 from hydroelastic.scenes.models.problems import problem
+from hydroelastic.scenes.models.solids import SolidFloat
 
 
 class Tank(SceneModel):
@@ -126,7 +126,7 @@ class TankParts(SceneModel):
             """The liquids, from the bottom up."""
 
         @property
-        def body(self) -> tuple[AnyBeam | Float, ...]:
+        def body(self) -> tuple[AnyBeam | AnyFloat, ...]:
             """The bodies."""
 
         @property
@@ -194,6 +194,11 @@ class TankParts(SceneModel):
         return self.tank.ends == "open"
 
     @property
+    def is_revolved(self) -> bool:
+        """Whether it is a sea of revolution: its bodies are solids on one vertical axis, not sections."""
+        return any(isinstance(body, SolidFloat) for body in self.body)
+
+    @property
     def analyses(self) -> tuple[Analysis, ...]:
         """Analyses of open water; empty for a closed tank, whose modes are computed."""
         return (self.analysis or (Resonance(),)) if self.is_open else ()
@@ -201,14 +206,14 @@ class TankParts(SceneModel):
     @property
     def beams(self) -> tuple[tuple[int, AnyBeam], ...]:
         """The beams, each with its index among the bodies."""
-        return tuple((index, body) for index, body in enumerate(self.body) if not isinstance(body, Float))
+        return tuple((index, body) for index, body in enumerate(self.body) if not isinstance(body, AnyFloat))
 
     @property
-    def floats(self) -> tuple[tuple[int, Float], ...]:
+    def floats(self) -> tuple[tuple[int, AnyFloat], ...]:
         """The floats, each with its index among the bodies."""
-        return tuple((index, body) for index, body in enumerate(self.body) if isinstance(body, Float))
+        return tuple((index, body) for index, body in enumerate(self.body) if isinstance(body, AnyFloat))
 
-    def level_of(self, body: AnyBeam | Float) -> Level:
+    def level_of(self, body: AnyBeam | AnyFloat) -> Level:
         """Return the level at which a body floats; with one modelled liquid it is the surface."""
         if len(self.layers) == 1:
             return "surface"

@@ -128,6 +128,8 @@ def _plot_waves(axes: Axes, table: ResponseTable, order: np.ndarray) -> None:
         for outgoing, other in enumerate(table.waves):
             which = f", {wave} to {other}" if len(table.waves) > 1 else ""
             for ratio, label in ((table.reflection, "reflection |R|"), (table.transmission, "transmission |T|")):
+                if ratio is None:
+                    continue
                 plot_curve(axes, table.omega[order], np.abs(ratio[order, incident, outgoing]), number, label + which)
                 number += 1
     label_axes(axes, _FREQUENCY, "size of elevation, m/m")

@@ -44,7 +44,10 @@ class SampledWater:
 def _sample(solution: OpenSolution, _summary: Summary) -> SampledWater:
     sampled, missing = [], []
     problem = open_water_problem(solution.scene, MPI.COMM_WORLD, Stopwatch())
-    for name, fields in open_fields(problem, solution):
+    is_round = solution.scene.is_revolved
+    if is_round:
+        missing.append("no fields around solids of revolution are sampled")
+    for name, fields in () if is_round else open_fields(problem, solution):
         try:
             # One field after the other: each comes with a mesh and matrices of its own.
             sampled += [sample_field(field) for field in fields]

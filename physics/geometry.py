@@ -1,4 +1,4 @@
-"""What the plane of a mesh stands for: a section per metre of width, a half-plane of revolution, or an extruded section.
+"""What the plane of a mesh stands for: a section per metre of width, a half-plane of revolution, an extruded section.
 
 With the displacement potential ψ(x, y) of a section, ψ(r, z) cos nθ of a solid of revolution with r = x ≥ 0, z = y, or
 ψ(x, y) cos kz of a section that is extruded along z, Laplace's equation in three dimensions is one form in the plane,

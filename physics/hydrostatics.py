@@ -115,9 +115,8 @@ def still_level(contour: Contour | SolidOfRevolution, mass: float | None, densit
     below, above = densities
     area = contour.moments().area
     if not above * area < mass < below * area:
-        raise ValueError(
-            f"a mass between {above * area:g} and {below * area:g} kg{'' if isinstance(contour, SolidOfRevolution) else '/m'} floats at this level"
-        )
+        unit = "kg" if isinstance(contour, SolidOfRevolution) else "kg/m"
+        raise ValueError(f"a mass between {above * area:g} and {below * area:g} {unit} floats at this level")
     _, _, low, high = contour.bounds
     immersed = (mass - above * area) / (below - above)
     level = root(lambda y: contour.moments(y).area - immersed, low, high)

@@ -56,7 +56,9 @@ class SolidOfRevolution:
         return self.contour.below(level)
 
     def moments(self, level: float | None = None, *, side: Literal["below", "above"] = "below") -> AreaMoments:
-        """Volume and its moments, whole or below or above a level; in `AreaMoments` the first of each pair is that of x.
+        """Volume and its moments, of the whole solid or of its part below or above a level.
+
+        In `AreaMoments` the first of each pair is that of x.
 
         Args:
             level: z of the level; None takes the whole solid.

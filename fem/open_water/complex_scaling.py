@@ -7,8 +7,8 @@ the basin nothing changes. With s_i the factor of the axis i in a cell (s where 
     A = ∫ρ [Σᵢ (det/sᵢ²) ∂ᵢψ ∂ᵢq + det m² ψq] w,    S = ∫(det/s_n) ψ q w over surfaces of normal n,    det = Πsᵢ
 
 are complex symmetric and do not depend on the frequency. The weight w and m² are those of `physics.geometry`: in a
-half-plane of revolution w = r̃ and m² = n²/r̃² vary within the cells. Source: B. Simon, Phys. Lett. A 71 (1979) 211; for water waves
-C. Hazard and M. Lenoir, SIAM J. Math. Anal. 24 (1993) 1458.
+half-plane of revolution w = r̃ and m² = n²/r̃² vary within the cells. Source: B. Simon, Phys. Lett. A 71 (1979) 211;
+for water waves C. Hazard and M. Lenoir, SIAM J. Math. Anal. 24 (1993) 1458.
 """
 
 from __future__ import annotations

@@ -19,6 +19,7 @@ from hydroelastic.fem.open_water.requests import RadiationRequest
 from hydroelastic.fem.open_water.results import DIRECTIONS, RadiationTable
 from hydroelastic.fem.open_water.solver import OpenSolver
 from hydroelastic.fem.open_water.sweep import Problem, Swept, sweep
+from hydroelastic.fem.open_water.zero_frequency import zero_frequency_added_mass
 from hydroelastic.fem.tank.attempts import Attempt
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors, joined_errors
 from hydroelastic.fem.tank.field_model import whole_bodies
@@ -241,6 +242,9 @@ def _limit_row(omega: float, added_mass: np.ndarray, waves: int, error: float) -
 
 def _slow_row(problem: OpenWaterProblem, shapes: tuple[int, ...], waves: int) -> _Row:
     """Return the row of ω = 0; entries of the added mass that grow like −ln ω, as in deep water, are infinite."""
+    if problem.tank.geometry.is_revolved:
+        matrix, error = zero_frequency_added_mass(problem)
+        return replace(_limit_row(0.0, matrix, waves, error), wavenumbers=np.zeros(waves))
     unit = open_basin(problem.tank, 0.0).units.frequency
     omegas = np.array([factor * unit for factor in _SLOW])
     attempt = _swept(problem, omegas, shapes)

@@ -167,7 +167,9 @@ def _table(
         amplitudes=model.scale.amplitudes(motions),
         reflection=None if is_round else waves[:, :, back],
         transmission=None if is_round else waves[:, :, forward],
-        partial_waves=waves[..., None] - first.incidence.incoming * np.eye(count)[..., None] if is_round else None,
+        partial_waves=(waves - first.incidence.incoming * np.eye(count))[..., None].astype(complex)
+        if is_round
+        else None,
         energy_residual=np.array([solution.energy_residual() for solution in solutions]),
         relative_error=errors,
         plates=tuple(_plates(request, model, motions)),

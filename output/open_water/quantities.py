@@ -81,7 +81,9 @@ def region_words(region: Region | None) -> str:
 
 def _responses(solution: Any) -> list[WavesAndMotions]:
     motions = motions_of(*solution.radiation) or motions_of(*solution.response)
-    centres = tuple(sum(body.waterplane) / 2.0 - solution.tank.phase_at for body in solution.tank.bodies)
+    tank = solution.tank
+    middles = [0.0 if tank.geometry.is_revolved else sum(body.waterplane) / 2.0 for body in tank.bodies]
+    centres = tuple(middle - tank.phase_at for middle in middles)
     return [WavesAndMotions(**vars(table), centres=centres, motions=motions) for table in solution.response]
 
 
@@ -94,8 +96,9 @@ def _phase_at_body(table: WavesAndMotions) -> Floats:
     """Return θ, degrees, of the motion |a| cos(ωt − θ) of a body that the crest of the incident wave passes at t = 0.
 
     The phase of a is beside the crest at x_p, and waves e^{±ik(x − x_p) − iωt} are e^{±ik(x_b − x_p)} at the middle
-    x_b of the waterplane, from which `centres` are counted: θ = arg(a e^{∓ikx_b}), upper signs for waves from the left. NaN where |a| is not larger than its error,
-    which is relative to the largest of the displacements, or of the rotations.
+    x_b of the waterplane, from which `centres` are counted: θ = arg(a e^{∓ikx_b}), upper signs for waves from the left.
+    NaN where |a| is not larger than its error, which is relative to the largest of the displacements, or of the
+    rotations.
     """
     centres = np.array([table.centres[(dof.body or 1) - 1] for dof in table.dofs])
     towards = 1.0 if table.waves_from == "left" else -1.0

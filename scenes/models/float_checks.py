@@ -16,6 +16,7 @@ from hydroelastic.scenes.models.problems import problem_at
 if TYPE_CHECKING:
     from hydroelastic.physics.contours import Contour
     from hydroelastic.physics.floats import RigidFloat
+    from hydroelastic.physics.revolution import SolidOfRevolution
     from hydroelastic.scenes.models.tank_parts import TankParts
 
 SLENDERNESS = {"exact": (1e-3, 1e3), "thin": (1e-9, 1e3)}
@@ -54,7 +55,7 @@ def _problems_of(scene: TankParts, index: int, body: AnyFloat) -> Iterator[InitE
     from hydroelastic.scenes.models.floats import float_contour, level_at_rest, placed_float
 
     if body.vertices is not None:
-        yield from _vertices_make_a_polygon(index, body.vertices)
+        yield from _vertices_make_a_polygon(index, body.shape_key, body.vertices)
     shape = ("body", index, body.shape_key)
     try:
         contour = float_contour(body, scene.folder)
@@ -91,10 +92,12 @@ def _problems_of(scene: TankParts, index: int, body: AnyFloat) -> Iterator[InitE
     yield from _arms_fit(index, body, placed.hull.bounds)
 
 
-def _vertices_make_a_polygon(index: int, vertices: tuple[tuple[float, float], ...]) -> Iterator[InitErrorDetails]:
+def _vertices_make_a_polygon(
+    index: int, body_key: str, vertices: tuple[tuple[float, float], ...]
+) -> Iterator[InitErrorDetails]:
     from hydroelastic.physics.point_contours import shortest_side
 
-    location = ("body", index, "vertices")
+    location = ("body", index, body_key)
     length, size, number = shortest_side(vertices)
     if length <= SHORTEST_SIDE * size:
         yield problem_at(
@@ -105,12 +108,15 @@ def _vertices_make_a_polygon(index: int, vertices: tuple[tuple[float, float], ..
         )
 
 
-def _section_is_simple(location: tuple[str | int, ...], contour: Contour) -> Iterator[InitErrorDetails]:
+def _section_is_simple(
+    location: tuple[str | int, ...], contour: Contour | SolidOfRevolution
+) -> Iterator[InitErrorDetails]:
+    from hydroelastic.physics.contours import Contour
     from hydroelastic.physics.point_contours import self_crossing
 
-    if location[-1] not in ("vertices", "file"):
+    if location[-1] not in ("vertices", "file", "outline"):
         return
-    crossing = self_crossing(contour)
+    crossing = self_crossing(contour if isinstance(contour, Contour) else contour.contour)
     if crossing is not None:
         x, y = crossing
         yield problem_at(
@@ -121,7 +127,9 @@ def _section_is_simple(location: tuple[str | int, ...], contour: Contour) -> Ite
         )
 
 
-def _sizes_fit(scene: TankParts, index: int, body: AnyFloat, contour: Contour) -> Iterator[InitErrorDetails]:
+def _sizes_fit(
+    scene: TankParts, index: int, body: AnyFloat, contour: Contour | SolidOfRevolution
+) -> Iterator[InitErrorDetails]:
     width, height = _extents(contour.bounds)
     least, most = SLENDERNESS[body.boundary]
     if not least <= width / height <= most:
@@ -162,7 +170,9 @@ def _floats_elsewhere(index: int, body: AnyFloat, area: float, densities: tuple[
     )
 
 
-def _parts_on_both_sides(index: int, body: AnyFloat, contour: Contour, level: float) -> Iterator[InitErrorDetails]:
+def _parts_on_both_sides(
+    index: int, body: AnyFloat, contour: Contour | SolidOfRevolution, level: float
+) -> Iterator[InitErrorDetails]:
     _, _, low, high = contour.bounds
     least = SMALLEST_PART * (high - low)
     if body.mass is None and body.draught is not None and not level <= high - least:
@@ -335,7 +345,8 @@ def _floats_are_stable(scene: TankParts) -> Iterator[InitErrorDetails]:
 
         placed = placed_float(scene, index)
         at_rest, stiffness = placed.hydrostatics, placed.roll_stiffness
-        if not {"roll", "pitch"} & {*body.motions} or body.unstable == "solve" or stiffness >= 0.0:
+        found = {"roll", "pitch"} & {*body.motions}
+        if not found or body.unstable == "solve" or stiffness >= 0.0:
             continue
         # Height of the centre of mass at which the roll stiffness is zero.
         arm = stiffness / (at_rest.mass * scene.tank.gravity)
@@ -349,7 +360,7 @@ def _floats_are_stable(scene: TankParts) -> Iterator[InitErrorDetails]:
             f"the float capsizes: its centre of mass lies {height:g} m above its reference level, and the metacentre "
             f"{height - metacentre:.3g} m lower",
             allowed=f"a centre_of_mass of at most {metacentre:g} m",
-            remedy=f'Leave {"roll" if "roll" in body.motions else "pitch"} out of the motions, or set unstable = "solve"',
+            remedy=f'Leave {found.pop()} out of the motions, or set unstable = "solve"',
         )
 
 

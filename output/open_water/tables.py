@@ -139,7 +139,8 @@ def _response(table: WavesAndMotions) -> Iterator[Section]:
     for column in open_columns(RESPONSE, table):
         found.setdefault(column.quantity.key, []).append(column)
     first = [*found["omega"], *(found["waves"] if count > 1 else ())]
-    keys = ("wavenumbers", "reflection", "transmission", "energy_residual", "relative_error")
+    absorbed = ("absorption",) if table.absorption.any() else ()
+    keys = ("wavenumbers", "reflection", "transmission", *absorbed, "energy_residual", "relative_error")
     ratios = [*first, *(column for key in keys for column in found[key])]
     yield Section(
         title=f"Waves from the {table.waves_from}: ratios of elevations",

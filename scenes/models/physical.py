@@ -28,7 +28,12 @@ def physical_tank(scene: TankParts) -> Tank:
         top=scene.top,
         bodies=tuple(_body(scene, index) for index in range(len(scene.body))),
     )
-    return replace(found, start=scene.stretch[0], phase_at=scene.phase_at)
+    return replace(
+        found,
+        start=scene.stretch[0],
+        phase_at=scene.phase_at,
+        attachments=tuple(one.physical(scene) for one in scene.attachment),
+    )
 
 
 def _body(scene: TankParts, index: int) -> Beam | RigidFloat:

@@ -8,6 +8,7 @@ from functools import cached_property
 from math import inf
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
+from hydroelastic.physics.attachments import Attachment
 from hydroelastic.physics.beams import Beam
 from hydroelastic.physics.bodies import Body
 from hydroelastic.physics.geometry import PLANE, Geometry
@@ -134,6 +135,7 @@ class Tank:
         bodies: beams and floats.
         start: abscissa of the left wall, or of the left end of that stretch, m.
         phase_at: abscissa at which the crest of an incident wave is at t = 0, m.
+        attachments: springs and dampers that hold the bodies, in SI units.
         geometry: what the section stands for; of revolution, x is the distance from the axis.
     """
 
@@ -145,6 +147,7 @@ class Tank:
     bodies: tuple[Body, ...]
     start: float = 0.0
     phase_at: float = 0.0
+    attachments: tuple[Attachment, ...] = ()
     geometry: Geometry = PLANE
 
     @property

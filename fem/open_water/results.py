@@ -115,7 +115,9 @@ class ResponseTable:
         amplitudes: (n, w, m) of the motions, m/m or rad/m.
         reflection: (n, w in, w out) ratio of elevations; ``None`` about an axis.
         transmission: (n, w in, w out) ratio of elevations; ``None`` about an axis.
-        energy_residual: (n, w) relative difference of incident and outgoing power.
+        absorption: (n, w) power that damping from outside takes, over incident power; about an axis over that of its
+            order.
+        energy_residual: (n, w) relative difference of incident power and outgoing and absorbed power.
         relative_error: (n,) estimated relative error of the amplitudes.
         plates: one for each beam.
         missed_peaks: peaks that curves over ω do not show, found on a reduced basis.
@@ -131,6 +133,7 @@ class ResponseTable:
     amplitudes: Complexes
     reflection: Complexes | None
     transmission: Complexes | None
+    absorption: Floats
     energy_residual: Floats
     relative_error: Floats
     plates: tuple[PlateDeflection, ...]

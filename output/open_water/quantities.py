@@ -95,10 +95,9 @@ def motions_of(*tables: Any) -> tuple[Dof, ...]:
 def _phase_at_body(table: WavesAndMotions) -> Floats:
     """Return θ, degrees, of the motion |a| cos(ωt − θ) of a body that the crest of the incident wave passes at t = 0.
 
-    The phase of a is beside the crest at x_p, and waves e^{±ik(x − x_p) − iωt} are e^{±ik(x_b − x_p)} at the middle
-    x_b of the waterplane, from which `centres` are counted: θ = arg(a e^{∓ikx_b}), upper signs for waves from the left.
-    NaN where |a| is not larger than its error, which is relative to the largest of the displacements, or of the
-    rotations.
+    The phase of a is beside the crest at x_p, and waves e^{±ik(x − x_p) − iωt} are e^{±ikx_b} at the middle of the
+    waterplane, x_b from there: θ = arg(a e^{∓ikx_b}), upper signs for waves from the left. NaN where |a| is not larger
+    than its error, which is relative to the largest of the displacements, or of the rotations.
     """
     centres = np.array([table.centres[(dof.body or 1) - 1] for dof in table.dofs])
     towards = 1.0 if table.waves_from == "left" else -1.0
@@ -236,7 +235,10 @@ RESPONSE = Group("response", "motions and waves per unit elevation of the incide
     _array("shape_phase_at_body", "phase of a further shape, as `RAO_phase_at_body`", "omega wave shape",
         lambda it: _phase_at_body(it)[:, :, it.further] if it.further else None,
         order="omega wave_direction wave shape", unit="degree"),
-    _joined("energy_residual", "relative difference of incident and outgoing power", "omega wave",
+    _joined("absorption", "power that damping from outside takes, over that of the incident wave", "omega wave",
+        "omega wave_direction wave", unit="1", short="absorbed", shown=".4g",
+        variable="absorbed_power_fraction"),
+    _joined("energy_residual", "relative difference of incident power, and outgoing and absorbed power", "omega wave",
         "omega wave_direction wave", unit="1", short="energy", shown=".1e", variable="response_energy_residual"),
     _joined("relative_error", "estimated relative error of the motions", "omega", "omega wave_direction", unit="1",
         short="error/largest", shown=".1e", variable="response_relative_error"),

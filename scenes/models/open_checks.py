@@ -9,7 +9,7 @@ from pydantic_core import InitErrorDetails
 
 from hydroelastic.fem.open_water.region import MOST_DAMPING_ANYWHERE
 from hydroelastic.scenes.models.body_kinds import AnyFloat
-from hydroelastic.scenes.models.open_analyses import Decay, Resonance
+from hydroelastic.scenes.models.open_analyses import Decay, Resonance, Response
 from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.solids import SOLID_SHAPES, SolidFloat
 from hydroelastic.scenes.models.tank_parts import TankParts
@@ -200,6 +200,27 @@ def decaying_bodies_are_floats(scene: TankParts) -> Iterator[InitErrorDetails]:
                     f"[[body]] number {analysis.body} does not move so: its motions are {', '.join(body.motions)}",
                     remedy=f'Add "{motion}" to its motions, or release it from another displacement',
                 )
+
+
+def drag_is_heeded(scene: TankParts) -> Iterator[InitErrorDetails]:
+    """Yield analyses whose motion has no known amplitude, on which quadratic damping depends."""
+    if not any(any(one.quadratic_damping) for one in scene.attachment):
+        return
+    for index, analysis in enumerate(scene.analyses):
+        if isinstance(analysis, Response) and analysis.wave_amplitude is None:
+            yield problem_at(
+                ("analysis", index, "wave_amplitude"),
+                None,
+                "it is missing, and quadratic damping depends on it",
+                allowed="the amplitude of the waves, m",
+            )
+        elif isinstance(analysis, Decay | Resonance):
+            yield problem_at(
+                ("analysis", index, "kind") if scene.analysis else ("analysis",),
+                analysis.kind,
+                "a free motion with quadratic damping is not a sum of exponentials",
+                remedy="Leave out quadratic_damping, or ask for a response or a spectrum",
+            )
 
 
 def length_scale_of_bodies(scene: TankParts) -> float:

@@ -30,7 +30,12 @@ def physical_tank(scene: TankParts) -> Tank:
         bodies=tuple(_body(scene, index) for index in range(len(scene.body))),
         geometry=Geometry(kind="revolved") if scene.is_revolved else PLANE,
     )
-    return replace(found, start=scene.stretch[0], phase_at=scene.phase_at)
+    return replace(
+        found,
+        start=scene.stretch[0],
+        phase_at=scene.phase_at,
+        attachments=tuple(one.physical(scene) for one in scene.attachment),
+    )
 
 
 def _body(scene: TankParts, index: int) -> Beam | RigidFloat:

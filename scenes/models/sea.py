@@ -7,9 +7,11 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, SerializerFunctionWrapHandler, Tag, model_serializer, model_validator
 
+from hydroelastic.scenes.models.attachments import Attachment, attachments_hold_bodies
 from hydroelastic.scenes.models.bodies import MOST_BODIES, AnyNumber, Beam, Float, PositiveNumber, SceneModel
 from hydroelastic.scenes.models.body_kinds import AnyFloat, kind_of_sea_body
 from hydroelastic.scenes.models.open_analyses import Analysis
+from hydroelastic.scenes.models.open_checks import drag_is_heeded
 from hydroelastic.scenes.models.problems import problem, require_fit
 from hydroelastic.scenes.models.solids import SolidFloat
 from hydroelastic.scenes.models.tank_checks import STAGES
@@ -88,6 +90,9 @@ class SeaScene(TankParts):
     body: tuple[SeaBody, ...] = Field(
         default=(), max_length=MOST_BODIES, description=f"1 to {MOST_BODIES} bodies, in any order"
     )
+    attachment: tuple[Attachment, ...] = Field(
+        default=(), max_length=MOST_BODIES, description=f"up to {MOST_BODIES} springs and dampers that hold the bodies"
+    )
     analysis: tuple[Analysis, ...] = Field(default=(), description="what is asked; one resonance analysis if empty")
     accuracy: Accuracy = Field(default=Accuracy(), description="what is asked of the answer")
 
@@ -117,7 +122,7 @@ class SeaScene(TankParts):
 
     @model_validator(mode="after")
     def _parts_fit(self) -> SeaScene:
-        require_fit(self, STAGES)
+        require_fit(self, (*STAGES, (attachments_hold_bodies, drag_is_heeded)))
         return self
 
 

@@ -37,6 +37,11 @@ class TankScene(TankParts):
     accuracy: Accuracy = Field(default=Accuracy(), description="what is asked of the answer")
     mesh: MeshFile | None = Field(default=None, description="a mesh of your own")
 
+    @property
+    def attachment(self) -> tuple[()]:
+        """None: springs and dampers hold bodies in the sea."""
+        return ()
+
     @model_validator(mode="after")
     def _parts_fit(self) -> TankScene:
         require_fit(self, STAGES)

@@ -29,6 +29,9 @@ from hydroelastic.scenes.models.open_analyses import Analysis, Resonance
 from hydroelastic.scenes.models.problems import problem
 from hydroelastic.scenes.models.solids import SolidFloat
 
+if TYPE_CHECKING:
+    from hydroelastic.scenes.models.attachments import Attachment
+
 
 class Tank(SceneModel):
     """The rectangular tank and the boundary condition of its top beside the bodies."""
@@ -128,6 +131,10 @@ class TankParts(SceneModel):
         @property
         def body(self) -> tuple[AnyBeam | AnyFloat, ...]:
             """The bodies."""
+
+        @property
+        def attachment(self) -> tuple[Attachment, ...]:
+            """Springs and dampers that hold the bodies."""
 
         @property
         def analysis(self) -> tuple[Analysis, ...]:

@@ -97,7 +97,9 @@ def _solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Resp
     found: list[ResponseSolution] = []
     last = max(problem.tank.orders)
     while not found or len(found) <= last or _scatters(problem, found[-1].table):
-        found.append(solve_response(problem.of_order(len(found)), request))
+        own = problem.of_order(len(found))
+        # No other analysis asks for the orders in which nothing moves: their solvers need not be kept.
+        found.append(solve_response(own if len(found) <= last else replace(own, solvers={}), request))
     return replace(_largest(found), table=_response(problem, [one.table for one in found]), error=_error(found))
 
 
@@ -115,6 +117,7 @@ def _response(problem: OpenWaterProblem, tables: list[ResponseTable]) -> Respons
         dofs=dofs,
         amplitudes=_by_dof(dofs, [(table.dofs, table.amplitudes) for table in tables]),
         partial_waves=np.concatenate(waves, axis=-1),
+        absorption=sum(table.absorption * (1.0 if order == 0 else 2.0) for order, table in enumerate(tables)),
         energy_residual=np.max([np.abs(table.energy_residual) for table in tables], axis=0),
         relative_error=np.max([table.relative_error for table in tables], axis=0),
         missed_peaks=tuple(peaks),

@@ -115,8 +115,8 @@ class ResponseTable:
         amplitudes: (n, w, m) of the motions, m/m or rad/m.
         reflection: (n, w in, w out) ratio of elevations; ``None`` about an axis.
         transmission: (n, w in, w out) ratio of elevations; ``None`` about an axis.
-        absorption: (n, w) power that damping from outside takes, over incident power; about an axis over that of its
-            order.
+        absorption: (n, w) power that damping from outside takes, over incident power; about an axis over that of 1/k of
+            the crest.
         energy_residual: (n, w) relative difference of incident power and outgoing and absorbed power.
         relative_error: (n,) estimated relative error of the amplitudes.
         plates: one for each beam.

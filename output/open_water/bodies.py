@@ -73,7 +73,9 @@ def _float(tank: Tank, index: int) -> BodyAtRest:
 
     def above_level(point: tuple[float, float]) -> tuple[float, float]:
         # A number that is zero but for rounding is shown as zero.
-        return point[0] if abs(point[0]) > _ROUNDING * (right - left) else 0.0, point[1] - rest.level
+        x, y = point[0], point[1] - rest.level
+        least = _ROUNDING * (right - left)
+        return x if abs(x) > least else 0.0, y if abs(y) > least else 0.0
 
     return BodyAtRest(
         number=index + 1,

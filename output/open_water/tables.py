@@ -142,7 +142,7 @@ def _response(table: WavesAndMotions) -> Iterator[Section]:
     for column in open_columns(RESPONSE, table):
         found.setdefault(column.quantity.key, []).append(column)
     first = [*found["omega"], *(found["waves"] if count > 1 else ())]
-    absorbed = ("absorption",) if table.absorption.any() else ()
+    absorbed = ("absorption", "capture_width") if table.absorption.any() else ()
     scattered = ("reflection", "transmission", "scattering_width")
     keys = ("wavenumbers", *scattered, *absorbed, "energy_residual", "relative_error")
     ratios = [*first, *(column for key in keys for column in found.get(key, []))]

@@ -52,7 +52,7 @@ class SolidFloat(SceneModel):
         default=None,
         min_length=3,
         max_length=MOST_VERTICES,
-        description=f"3 to {MOST_VERTICES} corners [r, z] of a revolved outline, m: from the axis, r = 0, back to it; "
+        description=f"3 to {MOST_VERTICES} corners [r, z] of a revolved outline, m, from the axis, r = 0, back to it; "
         "of a ring all around its section, with no r = 0",
     )
     mass: PositiveNumber | None = Field(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.physics.tank import Tank
@@ -11,10 +11,6 @@ from hydroelastic.physics.tank import Tank
 if TYPE_CHECKING:
     # A scene is checked without starting MPI.
     from mpi4py import MPI
-
-    from hydroelastic.fem.open_water.field_model import Band
-    from hydroelastic.fem.open_water.solver import OpenSolver
-    from hydroelastic.fem.tank.resolution import Resolution
 
 # Tolerance of solutions that give initial values only.
 _ROUGH = 1e-3
@@ -37,9 +33,7 @@ class OpenWaterProblem:
     tank: Tank
     tolerance: float
     watch: Stopwatch
-    solvers: dict[int, tuple[tuple[Band, Resolution], OpenSolver]] = field(
-        default_factory=dict, compare=False, repr=False
-    )
+    solvers: dict[int, Any] = field(default_factory=dict, compare=False, repr=False)
 
     def of_order(self, order: int) -> OpenWaterProblem:
         """Return the problem of one azimuthal order; a section is its own."""

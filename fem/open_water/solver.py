@@ -23,7 +23,7 @@ def shared_solver(problem: OpenWaterProblem, band: Band, resolution: Resolution)
     """Return the solver of a band and a resolution, with its basis: that of the last analysis if it is the same
     (collective)."""
     order = problem.tank.geometry.order
-    known = problem.solvers.get(order)
+    known: tuple[tuple[Band, Resolution], OpenSolver] | None = problem.solvers.get(order)
     if known is None or known[0] != (band, resolution):
         problem.solvers.pop(order, None)
         release_memory()

@@ -137,6 +137,7 @@ class Tank:
         phase_at: abscissa at which the crest of an incident wave is at t = 0, m.
         attachments: springs and dampers that hold the bodies, in SI units.
         geometry: what the section stands for; of revolution, x is the distance from the axis.
+        bed: corners (x, y) of the bed from the left to the right wall, m; ``None`` where it is level.
     """
 
     length: float
@@ -149,6 +150,7 @@ class Tank:
     phase_at: float = 0.0
     attachments: tuple[Attachment, ...] = ()
     geometry: Geometry = PLANE
+    bed: tuple[tuple[float, float], ...] | None = None
 
     @property
     def units(self) -> Scales:
@@ -189,6 +191,7 @@ class Tank:
             gravity=1.0,
             layers=layers,
             levels=levels,
+            bed=None if self.bed is None else tuple((x / units.length, y / units.length) for x, y in self.bed),
             bodies=tuple(
                 body.scaled(units, places[index].start, places[index].end) for index, body in enumerate(self.bodies)
             ),

@@ -117,7 +117,9 @@ def _response(problem: OpenWaterProblem, tables: list[ResponseTable]) -> Respons
         dofs=dofs,
         amplitudes=_by_dof(dofs, [(table.dofs, table.amplitudes) for table in tables]),
         partial_waves=np.concatenate(waves, axis=-1),
-        absorption=sum(table.absorption * (1.0 if order == 0 else 2.0) for order, table in enumerate(tables)),
+        absorption=np.sum(
+            [table.absorption * (1.0 if order == 0 else 2.0) for order, table in enumerate(tables)], axis=0
+        ),
         energy_residual=np.max([np.abs(table.energy_residual) for table in tables], axis=0),
         relative_error=np.max([table.relative_error for table in tables], axis=0),
         missed_peaks=tuple(peaks),

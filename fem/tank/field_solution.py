@@ -120,7 +120,7 @@ def solve_field(
         EigenSolverError: if SLEPc stops before enough pairs have converged.
     """
     with watch.stage("forms"):
-        compile_form(mesh, resolution.degree)
+        compile_form(mesh, resolution.degree, geometry=tank.geometry)
     with watch.stage("assemble"):
         pencils = (models or part_models)(mesh, tank, resolution.degree, resolution.shapes, half=half)
     with watch.stage("solve"):

@@ -122,7 +122,9 @@ def infinite_frequency_limit(
     Returns:
         The results; empty where there is no such limit.
     """
-    has_tones, has_added_mass = tank.elastic and tank.has_waves, tank.rigid and tank.has_infinite_frequency_limit
+    # About an axis nothing moves in some orders.
+    moving = [index for index in tank.rigid if tank.bodies[index].rigid_motions]
+    has_tones, has_added_mass = tank.elastic and tank.has_waves, moving and tank.has_infinite_frequency_limit
     if not has_tones and not has_added_mass:
         return InfiniteFrequencyLimit()
     if has_tones:
@@ -135,7 +137,12 @@ def infinite_frequency_limit(
         with watch.stage(stage):
             mesh = user_mesh or liquids.mesh(comm, tank, resolution, half=half, infinite_frequency=True)
         with watch.stage("forms"):
-            compile_form(mesh, resolution.degree, continuous_pressure=tank.has_continuous_pressure)
+            compile_form(
+                mesh,
+                resolution.degree,
+                continuous_pressure=tank.has_continuous_pressure,
+                geometry=tank.geometry,
+            )
         shapes = resolution.shapes if has_tones else (0,) * len(tank.bodies)
         with watch.stage(stage):
             pencils = liquids.pencils(mesh, tank, resolution.degree, shapes, half=half, infinite_frequency=True)

@@ -125,6 +125,8 @@ class _Builder:
         """The lower side of a layer from left to right."""
         if number > 0:
             return self._level(self.tank.levels[number - 1], marks, upper_side=True)
+        if self.tank.bed is not None:
+            return [(self._curve(BOTTOM, *ends), True) for ends in pairwise(self.tank.bed)]
         y = self.tank.layers[0].floor
         stops = [0.0, *(x for x in marks if x < self.right), self.right]
         return [(self._curve(BOTTOM, (start, y), (end, y)), True) for start, end in pairwise(stops)]
@@ -204,6 +206,8 @@ class _Builder:
             pieces += [(start, first, name)] if hangs else []
             pieces += [(*ends, body_name(index + 1)) for ends in pairwise(stops)]
             pieces += [] if hangs else [(last, end, name)]
+        # A shaped bed may rise to the level, and leave no wall.
+        pieces = [piece for piece in pieces if piece[0] != piece[1]]
         return [
             (
                 self._curve(

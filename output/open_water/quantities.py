@@ -109,8 +109,8 @@ def _phase_at_body(table: WavesAndMotions) -> Floats:
     return np.where(is_known, np.degrees(np.angle(at_body)) + 0.0, np.nan)
 
 
-def _scattering_width(table: WavesAndMotions) -> Floats | None:
-    """σ = (4/k) Σ εₙ |aₙ|², shape (frequencies, 1)."""
+def scattering_width(table: ResponseTable) -> Floats | None:
+    """Return σ = (4/k) Σ εₙ |aₙ|², m, shape (frequencies, 1); of solids of revolution in waves on one level."""
     if table.partial_waves is None or len(table.waves) > 1:
         return None
     sizes = np.abs(table.partial_waves[:, :, 0]) ** 2
@@ -224,7 +224,7 @@ RESPONSE = Group("response", "motions and waves per unit elevation of the incide
         printed=False, column="partial_wave", note="about the axis of solids of revolution; `null` of sections"),
     _joined("scattering_width", "power of the scattered waves over that of the incident wave per metre of its crest",
         "omega wave", "omega wave_direction wave", unit="m", symbol="σ", error="relative_error",
-        value=_scattering_width, note="of solids of revolution, in waves on one level; `null` of sections"),
+        value=scattering_width, note="of solids of revolution, in waves on one level; `null` of sections"),
     _joined("phase_at_body",
         "phase of the motion beside the crest of the incident wave at the middle of the body's waterplane",
         *_AMPLITUDES, unit="degree", value=_phase_at_body, shown=".1f", variable="RAO_phase_at_body",

@@ -2,7 +2,7 @@
 
 At a distance r and an angle θ from the direction in which the waves travel, per unit elevation of these,
 
-    η = Σₙ εₙ iⁿ [Jₙ(kr) + λψₙ(r)/η̂] cos nθ,
+    η = e^{ikx} + Σₙ εₙ iⁿ λψₙ(r)/η̂ cos nθ,
 
 with the scattered ψₙ of each order, solved for once more in a basin as wide as the picture, and the elevation η̂ of the
 wave Jₙ Z of which it is scattered.
@@ -14,7 +14,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.special import jv
 
 from hydroelastic.fem.facets import facet_groups
 from hydroelastic.fem.liquid import as_functions
@@ -41,7 +40,9 @@ class PlanWaves:
         title: one line of text.
         omega: ω, rad/s.
         radii: r, m, ascending, shape (points,); between free surfaces there are bodies.
-        orders: the part of each azimuthal order, complex, shape (orders, points).
+        wavenumber: k, 1/m.
+        phase_at: x at which the crest of the incident wave is at t = 0, m.
+        orders: the scattered and radiated waves of each azimuthal order, complex, shape (orders, points).
         waterplanes: inner and outer radius of each body in the water, m.
     """
 
@@ -49,13 +50,15 @@ class PlanWaves:
     title: str
     omega: float
     radii: np.ndarray
+    wavenumber: float
+    phase_at: float
     orders: np.ndarray
     waterplanes: tuple[tuple[float, float], ...]
 
     def elevation(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Return the complex elevation at places, NaN in bodies and beyond the largest radius; shape of x."""
         r, angle = np.hypot(x, y), np.arctan2(y, x)
-        total = np.zeros(r.shape, dtype=complex)
+        total = np.exp(1j * self.wavenumber * (x - self.phase_at))
         for order, part in enumerate(self.orders):
             total += np.interp(r, self.radii, part) * np.cos(order * angle)
         dry = r > self.radii[-1]
@@ -91,8 +94,7 @@ def plan_waves(problem: OpenWaterProblem, table: ResponseTable, number: int) -> 
         wave = found.incidence.planes[0]
         assert isinstance(wave, Circular)
         r, scattered = _along_the_surface(model, found.squared * found.scattered[0] / wave.elevation)
-        whole = jv(order, wave.wave.wavenumber * r) + scattered
-        parts.append((r * model.basin.units.length, wave.part(RIGHTWARD, model.basin) * whole))
+        parts.append((r * model.basin.units.length, wave.part(RIGHTWARD, model.basin) * scattered))
     if problem.comm.rank:
         return
     radii = parts[0][0]
@@ -102,6 +104,8 @@ def plan_waves(problem: OpenWaterProblem, table: ResponseTable, number: int) -> 
         title=f"Waves from the left around the bodies at ω = {omega:.5g} rad/s, where a motion is largest",
         omega=omega,
         radii=radii,
+        wavenumber=band.wavenumbers(problem.tank)[1],
+        phase_at=problem.tank.phase_at,
         orders=np.array([np.interp(radii, r, values) for r, values in parts]),
         waterplanes=tuple((max(left, 0.0), right) for left, right in bodies),
     )

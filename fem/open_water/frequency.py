@@ -95,6 +95,25 @@ class OpenFrequency:
 
 
 @dataclass(frozen=True, kw_only=True)
+class BodyEquations:
+    """Equations of motion of the bodies at one λ, from which a response to waves follows with any further damping.
+
+    Shapes: m body unknowns, w waves.
+
+    Attributes:
+        dynamic: K − iωB − λ(M_b + H), shape (m, m).
+        forces: X of each wave, shape (w, m).
+        radiated: gᵀψ of a unit of each unknown, shape (w, m).
+        diffracted: gᵀφ_D of each wave, shape (w, w).
+    """
+
+    dynamic: np.ndarray
+    forces: np.ndarray
+    radiated: np.ndarray
+    diffracted: np.ndarray
+
+
+@dataclass(frozen=True, kw_only=True)
 class OpenResponse:
     """Bodies that move freely in waves, at one λ.
 
@@ -107,6 +126,7 @@ class OpenResponse:
         potentials: returns ψ of these waves, shape (incident, free unknowns).
         motions: body unknowns, shape (incident, body unknowns).
         absorbed: power that damping from outside takes, over ½ω³, shape (incident,).
+        equations: from which the motions follow, without drag.
     """
 
     model: OpenModel
@@ -117,6 +137,7 @@ class OpenResponse:
     potentials: Callable[[], np.ndarray]
     motions: np.ndarray
     absorbed: np.ndarray
+    equations: BodyEquations
 
     @cached_property
     def scattered(self) -> np.ndarray:

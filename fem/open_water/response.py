@@ -62,17 +62,17 @@ def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Respo
 
     def solve(resolution: Resolution) -> Attempt[_Sweep]:
         solver = shared_solver(problem, band, resolution)
-        solver.elevation = request.elevation
+        solver.elevation, solver.damping = request.elevation, np.zeros_like(solver.model.mass)
         incident = _incident(solver.model, request)
         frequencies = Problem(
             full=lambda omega: solver.response(omega.real, incident),
             reduced=lambda omega: solver.response_between(omega.real, incident),
-            difference=lambda one, other: relative_difference(_outcome(one), _outcome(other)),
+            difference=lambda one, other: relative_difference(outcome(one), outcome(other)),
         )
         swept = sweep(frequencies, omegas, problem.tolerance)
         with problem.watch.stage("errors"):
             places = estimated_places(omegas)
-            causes = [_errors(swept.solutions[place]) for place in places]
+            causes = [response_errors(swept.solutions[place]) for place in places]
         errors = between(omegas, places, np.array([cause.total.max() for cause in causes])) + swept.errors
         return Attempt(
             result=_Sweep(solver=solver, swept=swept, errors=errors),
@@ -106,8 +106,8 @@ def _incident(model: OpenModel, request: ResponseRequest) -> list[int]:
     return list(range(count)) if request.waves_from == "left" else list(range(count, 2 * count))
 
 
-def _outcome(solution: OpenResponse) -> np.ndarray:
-    """The quantities whose error is kept below the tolerance: elevations of the outgoing waves, and motions, per
+def outcome(solution: OpenResponse) -> np.ndarray:
+    """Return the quantities whose error is kept below the tolerance: elevations of the outgoing waves, and motions, per
     incident elevation."""
     elevations = solution.incidence.elevations
     incident = elevations[solution.incident]
@@ -115,8 +115,8 @@ def _outcome(solution: OpenResponse) -> np.ndarray:
     return np.vstack([waves, (solution.motions / incident[:, None]).T])
 
 
-def _errors(solution: OpenResponse) -> FrequencyErrors:
-    """Errors relative to the incident wave: the energy error of the scattered field over the power of that wave,
+def response_errors(solution: OpenResponse) -> FrequencyErrors:
+    """Return errors relative to the incident wave: the energy error of the scattered field over the power of that wave,
     and omitted dry modes over the largest deflection (collective)."""
     model, powers = solution.model, solution.incidence.powers[solution.incident]
     away, tips = model.energies_missed(solution.scattered)

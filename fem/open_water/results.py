@@ -181,3 +181,90 @@ class DecayTable:
     absolute_error: Floats
     tail: float | None
     certified_until: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class IrregularResponse:
+    """Statistics of one response to irregular waves; amplitudes have its unit.
+
+    Attributes:
+        quantity: which.
+        unit: m, rad or m/s².
+        significant_amplitude: mean of the highest third of the amplitudes.
+        largest_amplitude: most probable largest amplitude in the duration.
+        zero_crossing_period: s.
+        relative_error: estimated relative error of the significant amplitude by all causes.
+        sampling_error: by the sampling of the transfer function.
+        truncation_error: by waves beyond the frequencies.
+        transfer_error: by the errors of the transfer function.
+    """
+
+    quantity: str
+    unit: str
+    significant_amplitude: float
+    largest_amplitude: float
+    zero_crossing_period: float
+    relative_error: float
+    sampling_error: float
+    truncation_error: float
+    transfer_error: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlateStatistics:
+    """Statistics along a beam in irregular waves, per metre of width. Each is of shape (p,).
+
+    Attributes:
+        body: its index among the bodies.
+        positions: abscissas, m.
+        significant_deflection: m.
+        significant_bending_moment: N.
+        largest_bending_moment: most probable largest in the duration, N.
+        significant_shear_force: N/m.
+        largest_stress: most probable largest stress at its faces, N/m²; ``None`` without a thickness.
+    """
+
+    body: int
+    positions: Floats
+    significant_deflection: Floats
+    significant_bending_moment: Floats
+    largest_bending_moment: Floats
+    significant_shear_force: Floats
+    largest_stress: Floats | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class SpectrumTable:
+    """Responses to irregular waves. Shapes: n frequencies, q quantities, m motions.
+
+    Attributes:
+        waves: description of the waves.
+        waves_from: the side from which they come.
+        significant_height: Hs, m.
+        duration: of the sea state, s.
+        omega: (n,) frequencies chosen by the solver, rad/s.
+        density: (n,) spectrum of the waves, m² s/rad.
+        quantities: q names.
+        transfer: (n, q) responses per unit elevation.
+        response_density: (n, q) spectra of the responses.
+        relative_error: (n,) estimated relative error of the transfer functions.
+        responses: statistics of each quantity.
+        dofs: m degrees of freedom.
+        equivalent_damping: (m, m) linear damping in place of drag, kg/(m s), kg/s, kg m/s.
+        plates: one for each beam.
+    """
+
+    waves: str
+    waves_from: Literal["left", "right"]
+    significant_height: float
+    duration: float
+    omega: Floats
+    density: Floats
+    quantities: tuple[str, ...]
+    transfer: Complexes
+    response_density: Floats
+    relative_error: Floats
+    responses: tuple[IrregularResponse, ...]
+    dofs: tuple[Dof, ...]
+    equivalent_damping: Floats
+    plates: tuple[PlateStatistics, ...]

@@ -8,10 +8,13 @@ from typing import Any
 
 from hydroelastic.output.columns import Column, columns_of, csv_columns
 from hydroelastic.output.csv_files import write_csv
-from hydroelastic.output.open_water.quantities import ALONG_BEAM, DECAY, PLATES, RADIATION, RESONANCE, RESPONSE
+from hydroelastic.output.open_water.quantities import ALONG_BEAM, DECAY, PLATES, RADIATION, RESONANCE, RESPONSE, SPECTRUM
 from hydroelastic.output.quantities import Group
 
-ROWS = {"radiation": ("omega",), "response": ("omega", "wave"), "resonance": ("resonance",), "decay": ("time",)}
+ROWS = {
+    "radiation": ("omega",), "response": ("omega", "wave"), "resonance": ("resonance",), "decay": ("time",),
+    "spectrum": ("spectrum_omega",),
+}
 """Dimensions whose places are the rows of the tables of an analysis."""
 _DEFLECTION = Group(
     "deflection",
@@ -24,12 +27,14 @@ def open_columns(group: Group, table: Any) -> Iterator[Column]:
     """Yield the columns of the table of an analysis."""
     motions = dict.fromkeys(("influenced_dof", "radiating_dof", "dof"), table.dofs)
     waves = dict.fromkeys(("wave", "outgoing_wave"), getattr(table, "waves", ()))
+    motions["spectrum_quantity"] = getattr(table, "quantities", ())
     labels = {**motions, **waves, "wave_direction": ("from_left", "from_right")}
     return columns_of(group, table, ROWS[group.key], labels)
 
 
 def write_open_csv(solution: Any, folder: Path) -> None:
-    """Write ``radiation.csv``, ``response.csv``, ``deflection.csv``, ``resonance.csv`` and ``decay.csv``.
+    """Write ``radiation.csv``, ``response.csv``, ``deflection.csv``, ``resonance.csv``, ``decay.csv`` and
+    ``spectrum.csv``.
 
     Those without rows are left out. The column ``analysis`` counts analyses of a kind from 1; ``re_`` and ``im_`` are
     the parts of a complex number; of a matrix, the first name is the force and the second the motion, or the wave that
@@ -40,7 +45,7 @@ def write_open_csv(solution: Any, folder: Path) -> None:
         solution: the solution.
         folder: an existing folder.
     """
-    groups = (RADIATION, RESPONSE, RESONANCE, DECAY)
+    groups = (RADIATION, RESPONSE, RESONANCE, DECAY, SPECTRUM)
     files = {
         group.key: csv_columns((number, open_columns(group, one)) for number, one in enumerate(group.of(solution), 1))
         for group in groups

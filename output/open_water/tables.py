@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, ResonanceTable, UnresolvedPeak
+from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, ResonanceTable, SpectrumTable, UnresolvedPeak
 from hydroelastic.modal.floats.infinite_draught import InfiniteDraughtFloat
 from hydroelastic.output.columns import Column, headings_of, rows_of
 from hydroelastic.output.digits import beyond_error, number, per_cent, with_certain_digits
@@ -18,6 +18,7 @@ from hydroelastic.output.open_water.quantities import (
     DECAY,
     RADIATION,
     RESPONSE,
+    SPECTRUM,
     THIN_FLOAT_ROWS,
     WavesAndMotions,
     region_words,
@@ -48,6 +49,8 @@ def open_sections(solution: Any, summary: Summary) -> Iterator[Section]:
         yield _resonance(resonance)
     for decay in solution.decay:
         yield _decay(decay)
+    for spectrum in SPECTRUM.of(solution):
+        yield from _spectrum(spectrum)
     if solution.left_out:
         yield Section(title="Left out of the model", lines=solution.left_out)
     yield from _estimates(solution.endless_float, summary)
@@ -235,6 +238,29 @@ def _decay(table: DecayTable) -> Section:
             f"The estimated errors hold up to the last time, t = {table.certified_until:.6g} s.",
         ),
     )
+
+
+def _spectrum(table: SpectrumTable) -> Iterator[Section]:
+    """Statistics of the responses to irregular waves, and of loads along beams."""
+    responses, plates = SPECTRUM["responses"], SPECTRUM["plates"]
+    about = (
+        f"{table.waves}; {table.duration:g} s from the {table.waves_from}. Amplitudes are half of heights.",
+        f"{len(table.omega)} frequencies from {table.omega[0]:.4g} to {table.omega[-1]:.4g} rad/s, chosen so that no "
+        "peak lies between them: spectrum.csv.",
+    )
+    for group, title, lines in (
+        (responses, "Responses to irregular waves", about),
+        (plates, "Largest loads along beams in irregular waves, per metre of width", ()),
+    ):
+        found = [group.evaluated(one) for one in group.records(table)]
+        parts = [part for part in group.parts if any(one[part.key] is not None for one in found)]
+        if found:
+            yield Section(
+                title=title,
+                headings=tuple(part.heading for part in parts),
+                rows=[tuple(part.cell(one, group) for part in parts) for one in found],
+                lines=lines,
+            )
 
 
 def _shown(count: int, what: str, file: str, places: int = MOST_ROWS) -> tuple[list[int], tuple[str, ...]]:

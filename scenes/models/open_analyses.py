@@ -19,6 +19,7 @@ from hydroelastic.fem.open_water.requests import DecayRequest, RadiationRequest,
 from hydroelastic.scenes.models.bodies import AnyNumber, PositiveNumber, SceneModel
 from hydroelastic.scenes.models.infinity import ZeroOrMoreOrInfinite
 from hydroelastic.scenes.models.problems import problem
+from hydroelastic.scenes.models.sea_states import Spectrum
 from hydroelastic.scenes.models.values import DISTINCT, MOST_VALUES, OR_SWEEP, NumberFromZero, kind_of
 
 
@@ -130,7 +131,8 @@ Analysis: TypeAlias = Annotated[
     Annotated[Radiation, Tag("radiation")]
     | Annotated[Response, Tag("response")]
     | Annotated[Resonance, Tag("resonance")]
-    | Annotated[Decay, Tag("decay")],
+    | Annotated[Decay, Tag("decay")]
+    | Annotated[Spectrum, Tag("spectrum")],
     Discriminator(kind_of),
 ]
 """Any analysis: the key ``kind`` tells which."""

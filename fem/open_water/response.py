@@ -17,10 +17,10 @@ from hydroelastic.fem.open_water.results import PlateDeflection, ResponseTable, 
 from hydroelastic.fem.open_water.solver import OpenSolver, shared_solver
 from hydroelastic.fem.open_water.sweep import FEW, Problem, Swept, sweep
 from hydroelastic.fem.open_water.unresolved_peaks import unresolved_peaks
-from hydroelastic.fem.surfaces import Body
 from hydroelastic.fem.tank.attempts import Attempt
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors, boundary_error, joined_errors
 from hydroelastic.fem.tank.resolution import Resolution, rounding_error
+from hydroelastic.modal.beam.beam_shapes import beam_shapes
 
 # Deflection of all omitted dry modes, per mode in use, over the last two amplitudes: at the tips they add like Σ n⁻⁵.
 _TAIL = 0.25
@@ -163,6 +163,7 @@ def _table(
         reflection=waves[:, :, back],
         transmission=waves[:, :, forward],
         absorption=np.array([solution.absorption for solution in solutions]),
+        drift_force=drift_forces(solutions),
         energy_residual=np.array([solution.energy_residual() for solution in solutions]),
         relative_error=errors,
         plates=tuple(_plates(request, model, motions)),
@@ -180,6 +181,13 @@ def _waves(solution: OpenResponse) -> np.ndarray:
     return ratios
 
 
+def drift_forces(solutions: list[OpenResponse]) -> np.ndarray:
+    """Return the mean force along x per square of the elevation of each incident wave, N/m³, shape (n, incident)."""
+    units = solutions[0].model.basin.units
+    forces = [one.drift_force() / one.incidence.elevations[one.incident] ** 2 for one in solutions]
+    return units.density * units.gravity * np.array(forces)
+
+
 def _motions(solution: OpenResponse) -> np.ndarray:
     """Body unknowns per elevation of a unit of length with its phase at x = 0, shape (incident, body unknowns)."""
     incidence = solution.incidence
@@ -195,18 +203,34 @@ def _plates(request: ResponseRequest, model: OpenModel, motions: np.ndarray) -> 
         first += body.size
         if model.basin.tank.bodies[index].is_elastic:
             piece, length = model.basin.tank.piece_of(index), model.basin.units.length
-            x = np.linspace(piece.start, piece.end, request.positions)
+            x: np.ndarray = np.linspace(0.0, piece.length, request.positions)
+            deflections, moments, shears = along_beam(model, index, body.size, x)
             plates.append(
                 PlateDeflection(
                     body=index,
-                    positions=model.basin.origin + length * x,
-                    deflection=own @ _shapes(body, x),
+                    positions=model.basin.origin + length * (piece.start + x),
+                    deflection=own @ deflections,
+                    bending_moment=own @ moments,
+                    shear_force=own @ shears,
                 )
             )
     return plates
 
 
-def _shapes(body: Body, x: np.ndarray) -> np.ndarray:
-    """Deflections of a beam in each of its shapes, shape (shapes, points)."""
-    points, upwards = np.vstack([x, np.zeros_like(x)]), np.vstack([np.zeros_like(x), np.ones_like(x)])
-    return np.array([body.shapes(points, upwards, number) for number in range(body.size)])
+def along_beam(model: OpenModel, index: int, count: int, x: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Return deflection, bending moment and shear force of a beam by a unit of each of its unknowns per dimensionless
+    elevation: per metre of elevation in m, N and N/m, each of shape (unknowns, points).
+
+    Args:
+        model: the problem.
+        index: of the beam among the bodies.
+        count: number of its unknowns.
+        x: distances from its left end, dimensionless, shape (points,).
+    """
+    units, shapes = model.basin.units, beam_shapes(model.basin.tank.beams[index], count)
+    weight = units.density * units.gravity * units.length
+    return (
+        shapes.tabulated(x, 0),
+        np.multiply(weight * units.length, shapes.moments(x)),
+        np.multiply(weight, shapes.shears(x)),
+    )

@@ -72,11 +72,15 @@ class PlateDeflection:
         body: its index among the bodies.
         positions: (p,) abscissas, m.
         deflection: (n, w, p) upwards, per unit elevation of the incident wave.
+        bending_moment: (n, w, p) EI w″ per metre of elevation, N/m.
+        shear_force: (n, w, p) (EI w″)′ per metre of elevation, N/m².
     """
 
     body: int
     positions: Floats
     deflection: Complexes
+    bending_moment: Complexes
+    shear_force: Complexes
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -114,6 +118,7 @@ class ResponseTable:
         reflection: (n, w in, w out) ratio of elevations.
         transmission: (n, w in, w out) ratio of elevations.
         absorption: (n, w) power that damping from outside takes, over incident power.
+        drift_force: (n, w) mean force on the bodies along x, per square of the amplitude of the waves, N/m³.
         energy_residual: (n, w) relative difference of incident power and outgoing and absorbed power.
         relative_error: (n,) estimated relative error of the amplitudes.
         plates: one for each beam.
@@ -129,6 +134,7 @@ class ResponseTable:
     reflection: Complexes
     transmission: Complexes
     absorption: Floats
+    drift_force: Floats
     energy_residual: Floats
     relative_error: Floats
     plates: tuple[PlateDeflection, ...]
@@ -250,6 +256,7 @@ class SpectrumTable:
         relative_error: (n,) estimated relative error of the transfer functions.
         responses: statistics of each quantity.
         dofs: m degrees of freedom.
+        mean_drift_force: mean force on the bodies along x, N/m.
         equivalent_damping: (m, m) linear damping in place of drag, kg/(m s), kg/s, kg m/s.
         plates: one for each beam.
     """
@@ -266,5 +273,6 @@ class SpectrumTable:
     relative_error: Floats
     responses: tuple[IrregularResponse, ...]
     dofs: tuple[Dof, ...]
+    mean_drift_force: float
     equivalent_damping: Floats
     plates: tuple[PlateStatistics, ...]

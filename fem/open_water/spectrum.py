@@ -21,14 +21,13 @@ from hydroelastic.fem.open_water.outside import displacement_at
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import between, estimated_places, relative_difference
 from hydroelastic.fem.open_water.requests import SpectrumRequest
-from hydroelastic.fem.open_water.response import outcome, response_errors
+from hydroelastic.fem.open_water.response import along_beam, outcome, response_errors
 from hydroelastic.fem.open_water.results import IrregularResponse, PlateStatistics, SpectrumTable
 from hydroelastic.fem.open_water.solver import OpenSolver, shared_solver
 from hydroelastic.fem.open_water.sweep import Problem, Swept, sweep
 from hydroelastic.fem.tank.attempts import Attempt
 from hydroelastic.fem.tank.error_estimates import joined_errors
 from hydroelastic.fem.tank.resolution import Resolution
-from hydroelastic.modal.beam.beam_shapes import beam_shapes
 from hydroelastic.physics.attachments import IRREGULAR
 from hydroelastic.physics.irregular_waves import moments, statistics
 
@@ -201,6 +200,7 @@ def _table(request: SpectrumRequest, curves: _Curves) -> SpectrumTable:
             for place, row in enumerate(rows)
         ),
         dofs=model.scale.dofs,
+        mean_drift_force=_mean_drift(request, curves, motions),
         equivalent_damping=back.T @ damping @ back * (unit / model.basin.units.frequency),
         plates=tuple(_plates(model, request, curves, motions)),
     )
@@ -228,6 +228,25 @@ def _with_drag(request: SpectrumRequest, curves: _Curves) -> tuple[np.ndarray, n
 
     damping = outside.equivalent_damping(speeds, IRREGULAR) if len(outside.drag) else np.zeros_like(model.mass)
     return damping, moved(damping)
+
+
+def _mean_drift(request: SpectrumRequest, curves: _Curves, motions: np.ndarray) -> float:
+    """Mean of the drift force along x, 2 ∫ (F/A²) S dω, N/m.
+
+    Args:
+        request: the request.
+        curves: the transfer functions.
+        motions: per elevation, with the damping in place of drag, shape (n, unknowns).
+    """
+    units = curves.solver.model.basin.units
+    forces = [
+        float(one.drift_force((_elevation(one) * motion)[None])[0]) / abs(_elevation(one)) ** 2
+        for one, motion in zip(curves.responses, motions, strict=True)
+    ]
+    # F/A² is the square of a transfer function: it is along the waves, for no more waves pass than come.
+    roots = np.sqrt(np.abs(forces))[:, None]
+    mean = 2.0 * units.density * units.gravity * float(moments(request.spectrum, curves.omegas, roots, (0,))[0, 0])
+    return mean if request.waves_from == "left" else -mean
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -283,14 +302,8 @@ def _plates(
         if not model.basin.tank.bodies[index].is_elastic:
             continue
         piece = model.basin.tank.piece_of(index)
-        x = np.linspace(0.0, piece.length, request.positions)
-        shapes = beam_shapes(model.basin.tank.beams[index], body.size)
-        weight = units.density * units.gravity * units.length
-        tables: tuple[np.ndarray, ...] = (
-            shapes.tabulated(x, 0),
-            np.multiply(weight * units.length, shapes.moments(x)),
-            np.multiply(weight, shapes.shears(x)),
-        )
+        x: np.ndarray = np.linspace(0.0, piece.length, request.positions)
+        tables = along_beam(model, index, body.size, x)
         # Of a tip or an end, moment and shear are zero but for the dry modes that are left out.
         deflection, moment, shear = (
             statistics(

@@ -19,7 +19,8 @@ ROWS = {
 _DEFLECTION = Group(
     "deflection",
     "deflection of a beam",
-    (PLATES["body"], RESPONSE["omega"], RESPONSE["waves"], PLATES["positions"], PLATES["deflection"]),
+    (PLATES["body"], RESPONSE["omega"], RESPONSE["waves"], PLATES["positions"], PLATES["deflection"],
+     PLATES["bending_moment"], PLATES["shear_force"]),
 )
 
 

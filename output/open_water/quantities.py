@@ -35,6 +35,8 @@ class Deflection:
     waves: tuple[str, ...]
     positions: Floats
     deflection: Complexes
+    bending_moment: Complexes
+    shear_force: Complexes
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -69,6 +71,8 @@ class WavesAndMotions(ResponseTable):
                 waves=self.waves,
                 positions=plate.positions,
                 deflection=plate.deflection,
+                bending_moment=plate.bending_moment,
+                shear_force=plate.shear_force,
             )
 
 
@@ -187,6 +191,12 @@ PLATES = Group("plates", "the deflection of each beam", (
     _joined("deflection", "deflection of body {.number}", f"omega wave {ALONG_BEAM}",
         f"omega wave_direction wave {ALONG_BEAM}", unit="m/m", variable="deflection_of_body_{.number}",
         phase=_CREST),
+    _joined("bending_moment", "bending moment of body {.number} per metre of width", f"omega wave {ALONG_BEAM}",
+        f"omega wave_direction wave {ALONG_BEAM}", unit="N/m", variable="bending_moment_of_body_{.number}",
+        phase=_CREST),
+    _joined("shear_force", "shear force of body {.number} per metre of width", f"omega wave {ALONG_BEAM}",
+        f"omega wave_direction wave {ALONG_BEAM}", unit="N/m^2", variable="shear_force_of_body_{.number}",
+        phase=_CREST),
 ), record=lambda table: list(table.deflections), dimension="plate")
 RESPONSE = Group("response", "motions and waves per unit elevation of the incident wave, by analysis", (
     _OMEGA,
@@ -218,6 +228,8 @@ RESPONSE = Group("response", "motions and waves per unit elevation of the incide
     _joined("absorption", "power that damping from outside takes, over that of the incident wave", "omega wave",
         "omega wave_direction wave", unit="1", short="absorbed", shown=".4g",
         variable="absorbed_power_fraction"),
+    _joined("drift_force", "mean force along x over the square of the amplitude of the waves", "omega wave",
+        "omega wave_direction wave", unit="N/m^3", short="drift/A²", error="relative_error"),
     _joined("energy_residual", "relative difference of incident power, and outgoing and absorbed power", "omega wave",
         "omega wave_direction wave", unit="1", short="energy", shown=".1e", variable="response_energy_residual"),
     _joined("relative_error", "estimated relative error of the motions", "omega", "omega wave_direction", unit="1",
@@ -302,6 +314,7 @@ SPECTRUM = Group("spectrum", "responses to irregular waves, by analysis", (
         Quantity("transfer_error", "part of it by errors of the transfer function", "1", shown=".1e",
             short="by solution"),
     ), dimension="irregular_response", prefix="irregular_response"),
+    _joined("mean_drift_force", "mean force on the bodies along x", "", unit="N/m"),
     _DOFS,
     _joined("equivalent_damping", "linear damping in place of quadratic damping", _OF_BODIES, unit="kg/(m s)",
         of_roll=("kg/s", "kg m/s")),

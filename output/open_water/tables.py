@@ -143,7 +143,7 @@ def _response(table: WavesAndMotions) -> Iterator[Section]:
         found.setdefault(column.quantity.key, []).append(column)
     first = [*found["omega"], *(found["waves"] if count > 1 else ())]
     absorbed = ("absorption",) if table.absorption.any() else ()
-    keys = ("wavenumbers", "reflection", "transmission", *absorbed, "energy_residual", "relative_error")
+    keys = ("wavenumbers", "reflection", "transmission", *absorbed, "drift_force", "energy_residual", "relative_error")
     ratios = [*first, *(column for key in keys for column in found[key])]
     yield Section(
         title=f"Waves from the {table.waves_from}: ratios of elevations",
@@ -244,6 +244,7 @@ def _spectrum(table: SpectrumTable) -> Iterator[Section]:
     """Statistics of the responses to irregular waves, and of loads along beams."""
     responses, plates = SPECTRUM["responses"], SPECTRUM["plates"]
     about = (
+        f"Mean drift force along x: {table.mean_drift_force:.4g} N/m.",
         f"{table.waves}; {table.duration:g} s from the {table.waves_from}. Amplitudes are half of heights.",
         f"{len(table.omega)} frequencies from {table.omega[0]:.4g} to {table.omega[-1]:.4g} rad/s, chosen so that no "
         "peak lies between them: spectrum.csv.",

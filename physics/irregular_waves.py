@@ -63,7 +63,9 @@ class Statistics:
         return total
 
 
-def moments(spectrum: WaveSpectrum, omegas: np.ndarray, transfer: np.ndarray, orders: tuple[int, ...] = _ORDERS) -> Floats:
+def moments(
+    spectrum: WaveSpectrum, omegas: np.ndarray, transfer: np.ndarray, orders: tuple[int, ...] = _ORDERS
+) -> Floats:
     """Return ∫ |T|² S ωⁿ dω between the first and the last frequency, shape (orders, q).
 
     Args:

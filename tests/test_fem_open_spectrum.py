@@ -86,7 +86,9 @@ def test_loads_along_a_plate() -> None:
     (table,) = solved(plate, [WAVES | {"thickness": 1.0, "positions": 31, "highest_omega": 1.3}]).spectrum
     (loads,) = table.plates
     # Free ends.
-    assert loads.significant_bending_moment[[0, -1]] == pytest.approx(0.0, abs=1e-6 * loads.largest_bending_moment.max())
+    assert loads.significant_bending_moment[[0, -1]] == pytest.approx(
+        0.0, abs=1e-6 * loads.largest_bending_moment.max()
+    )
     middle = 0.5 * (loads.significant_bending_moment[1:] + loads.significant_bending_moment[:-1])
     assert middle.max() > 0.0
     assert loads.largest_stress == pytest.approx(6.0 * loads.largest_bending_moment)

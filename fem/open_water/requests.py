@@ -33,6 +33,8 @@ class ResponseRequest:
         waves_from: the side from which the waves are incident.
         positions: number of points along each beam at which its deflection is reported.
         elevation: amplitude of the incident waves, m, on which the damping by drag depends.
+        hull_pressures: whether pressures along hulls are reported, and the drift force by them.
+        fields_at: frequencies at which fields are written and drawn, rad/s; empty for that of the largest motion.
     """
 
     kind: ClassVar = "response"
@@ -40,6 +42,8 @@ class ResponseRequest:
     waves_from: Literal["left", "right"] = "left"
     positions: int = 101
     elevation: float = 0.0
+    hull_pressures: bool = False
+    fields_at: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)

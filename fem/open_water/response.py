@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from math import nan
+from typing import Any
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from hydroelastic.fem.open_water.frequency import OpenResponse
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import between, estimated_places, relative_difference
 from hydroelastic.fem.open_water.requests import ResponseRequest
-from hydroelastic.fem.open_water.results import PlateDeflection, ResponseTable, UnresolvedPeak
+from hydroelastic.fem.open_water.results import HullPressure, PlateDeflection, ResponseTable, UnresolvedPeak
 from hydroelastic.fem.open_water.solver import OpenSolver, shared_solver
 from hydroelastic.fem.open_water.sweep import FEW, Problem, Swept, sweep
 from hydroelastic.fem.open_water.unresolved_peaks import unresolved_peaks
@@ -84,9 +85,31 @@ def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Respo
     found = attempt.result
     model = found.solver.model
     table = _table(request, model, omegas, found.swept.solutions, found.errors)
+    if request.hull_pressures:
+        table = replace(table, **_on_hulls(found.swept.solutions))
     if len(omegas) > FEW:
         table = replace(table, missed_peaks=_unresolved(request, found.solver, table))
     return ResponseSolution(table=table, model=model, error=attempt.error)
+
+
+def _on_hulls(solutions: list[OpenResponse]) -> dict[str, Any]:
+    """Pressures along hulls, and the drift force by them (collective)."""
+    from hydroelastic.fem.open_water.hull import hull_pressures, near_field_drift
+
+    tank = solutions[0].model.basin.tank
+    hulls = [(index, *hull_pressures(solutions, index)) for index, hull in tank.hulls.items() if not hull.is_thin]
+    found: dict[str, Any] = {
+        "hulls": tuple(HullPressure(body=index, points=points, pressure=values) for index, points, values in hulls)
+    }
+    if len(hulls) == len(tank.bodies) == len(tank.layers) == 1:
+        units = solutions[0].model.basin.units
+        forces = [
+            [near_field_drift(one, 0, place) for place in range(len(one.incident))]
+            / one.incidence.elevations[one.incident] ** 2
+            for one in solutions
+        ]
+        found["near_field_drift"] = units.density * units.gravity * np.array(forces)
+    return found
 
 
 def _unresolved(request: ResponseRequest, solver: OpenSolver, table: ResponseTable) -> tuple[UnresolvedPeak, ...]:
@@ -167,6 +190,7 @@ def _table(
         energy_residual=np.array([solution.energy_residual() for solution in solutions]),
         relative_error=errors,
         plates=tuple(_plates(request, model, motions)),
+        fields_at=request.fields_at,
     )
 
 

@@ -84,6 +84,21 @@ class PlateDeflection:
 
 
 @dataclass(frozen=True, kw_only=True)
+class HullPressure:
+    """The pressure of all waves along the hull of a float, at points that do not move.
+
+    Attributes:
+        body: its index among the bodies.
+        points: (p, 2) x and y from the left end of the waterplane around the hull, m.
+        pressure: (n, w, p) complex amplitudes per metre of elevation, Pa/m.
+    """
+
+    body: int
+    points: Floats
+    pressure: Complexes
+
+
+@dataclass(frozen=True, kw_only=True)
 class UnresolvedPeak:
     """A peak or a dip between two frequencies of a response, that its curve does not show.
 
@@ -122,6 +137,10 @@ class ResponseTable:
         energy_residual: (n, w) relative difference of incident power and outgoing and absorbed power.
         relative_error: (n,) estimated relative error of the amplitudes.
         plates: one for each beam.
+        hulls: one for each float, if pressures were requested.
+        near_field_drift: (n, w) the drift force by the pressures on the hull, N/m³; of a lone float in one liquid, if
+            pressures were requested.
+        fields_at: frequencies at which fields are wanted, rad/s; empty for that of the largest motion.
         missed_peaks: peaks that curves over ω do not show, found on a reduced basis.
     """
 
@@ -138,6 +157,9 @@ class ResponseTable:
     energy_residual: Floats
     relative_error: Floats
     plates: tuple[PlateDeflection, ...]
+    hulls: tuple[HullPressure, ...] = ()
+    near_field_drift: Floats | None = None
+    fields_at: tuple[float, ...] = ()
     missed_peaks: tuple[UnresolvedPeak, ...] = ()
 
 

@@ -245,9 +245,7 @@ class OpenSolver:
             diffracted=fluxes[1],
         )
 
-    def _motions(
-        self, squared: complex, waves: Incidence, equations: BodyEquations
-    ) -> tuple[np.ndarray, np.ndarray]:
+    def _motions(self, squared: complex, waves: Incidence, equations: BodyEquations) -> tuple[np.ndarray, np.ndarray]:
         """Return the motions in each wave, shape (waves, body unknowns), and aᴴBa/ω, the power that B takes over ½ω³,
         shape (waves,)."""
         outside, omega = self.model.outside, float(np.sqrt(squared).real)

@@ -40,6 +40,18 @@ class Deflection:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Pressure:
+    """The pressure along a hull in waves: `number` of the body, from 1, and `HullPressure` with the waves."""
+
+    number: int
+    omega: Floats
+    waves: tuple[str, ...]
+    x: Floats
+    y: Floats
+    pressure: Complexes
+
+
+@dataclass(frozen=True, kw_only=True)
 class WavesAndMotions(ResponseTable):
     """A response with the bodies.
 
@@ -74,6 +86,13 @@ class WavesAndMotions(ResponseTable):
                 bending_moment=plate.bending_moment,
                 shear_force=plate.shear_force,
             )
+
+    @property
+    def pressures(self) -> Iterator[Pressure]:
+        """The pressure along each hull."""
+        for hull in self.hulls:
+            x, y = hull.points.T
+            yield Pressure(number=hull.body + 1, omega=self.omega, waves=self.waves, x=x, y=y, pressure=hull.pressure)
 
 
 def region_words(region: Region | None) -> str:
@@ -198,6 +217,17 @@ PLATES = Group("plates", "the deflection of each beam", (
         f"omega wave_direction wave {ALONG_BEAM}", unit="N/m^2", variable="shear_force_of_body_{.number}",
         phase=_CREST),
 ), record=lambda table: list(table.deflections), dimension="plate")
+ALONG_HULL = "point_on_body_{.number}"
+HULLS = Group("hulls", "the pressure along the hull of each float", (
+    Quantity("body", "number of the body", "1", value=lambda it: it.number, variable="", column="body"),
+    _array("x", "x of points along the hull of body {.number}", ALONG_HULL, lambda it: it.x, unit="m",
+        variable="x_of_points_on_body_{.number}", column="x"),
+    _array("y", "y of points along the hull of body {.number}", ALONG_HULL, lambda it: it.y, unit="m",
+        variable="y_of_points_on_body_{.number}", column="y"),
+    _array("pressure", "pressure along the hull of body {.number}, by all waves, at points that do not move",
+        f"omega wave {ALONG_HULL}", lambda it: it.pressure, order=f"omega wave_direction wave {ALONG_HULL}",
+        unit="Pa/m", variable="pressure_on_body_{.number}", column="pressure", phase=_CREST),
+), record=lambda table: list(table.pressures), dimension="hull", note="if `hull_pressures`")
 RESPONSE = Group("response", "motions and waves per unit elevation of the incident wave, by analysis", (
     _OMEGA,
     Quantity("waves_from", 'side from which the waves come, `"left"` or `"right"`', variable="",
@@ -230,11 +260,14 @@ RESPONSE = Group("response", "motions and waves per unit elevation of the incide
         variable="absorbed_power_fraction"),
     _joined("drift_force", "mean force along x over the square of the amplitude of the waves", "omega wave",
         "omega wave_direction wave", unit="N/m^3", short="drift/A²", error="relative_error"),
+    _joined("near_field_drift", "the same by pressures on the hull, as a check", "omega wave",
+        "omega wave_direction wave", unit="N/m^3", note="`null` unless `hull_pressures`, of a lone float in one liquid"),
     _joined("energy_residual", "relative difference of incident power, and outgoing and absorbed power", "omega wave",
         "omega wave_direction wave", unit="1", short="energy", shown=".1e", variable="response_energy_residual"),
     _joined("relative_error", "estimated relative error of the motions", "omega", "omega wave_direction", unit="1",
         short="error/largest", shown=".1e", variable="response_relative_error"),
     PLATES,
+    HULLS,
     Group("missed_peaks", "resonances between two frequencies that the curve does not show", (
         Quantity("below", "frequency below", "rad/s"),
         Quantity("above", "frequency above", "rad/s"),

@@ -8,7 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, ResonanceTable, SpectrumTable, UnresolvedPeak
+from hydroelastic.fem.open_water.results import (
+    DecayTable,
+    RadiationTable,
+    ResonanceTable,
+    SpectrumTable,
+    UnresolvedPeak,
+)
 from hydroelastic.modal.floats.infinite_draught import InfiniteDraughtFloat
 from hydroelastic.output.columns import Column, headings_of, rows_of
 from hydroelastic.output.digits import beyond_error, number, per_cent, with_certain_digits

@@ -23,6 +23,10 @@ from hydroelastic.scenes.models.sea_states import Spectrum
 from hydroelastic.scenes.models.values import DISTINCT, MOST_VALUES, OR_SWEEP, NumberFromZero, kind_of
 
 
+MOST_FIELDS = 20
+"""Frequencies of one analysis whose fields are written and drawn."""
+
+
 class Radiation(SceneModel):
     """Added mass, radiation damping and excitation forces."""
 
@@ -53,6 +57,13 @@ class Response(SceneModel):
         default=None,
         description="amplitude of the waves, m; needed where attachments have quadratic damping, without effect elsewhere",
     )
+    hull_pressures: Annotated[bool, Strict()] = Field(
+        default=False, description="whether pressures along the hulls of floats are reported, and the drift by them"
+    )
+    fields_at: Annotated[tuple[PositiveNumber, ...], Field(max_length=MOST_FIELDS)] = Field(
+        default=(),
+        description="frequencies, rad/s, at which fields are written and drawn; by default where a motion is largest",
+    )
 
     @property
     def request(self) -> ResponseRequest:
@@ -62,12 +73,15 @@ class Response(SceneModel):
             waves_from=self.waves_from,
             positions=self.positions,
             elevation=self.wave_amplitude or 0.0,
+            hull_pressures=self.hull_pressures,
+            fields_at=self.fields_at,
         )
 
     @model_serializer(mode="wrap")
     def _as_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        """Serialize without an amplitude that is not given."""
-        return {key: value for key, value in write(self).items() if key != "wave_amplitude" or value is not None}
+        """Serialize without further keys that are not given."""
+        idle = {"wave_amplitude": None, "hull_pressures": False, "fields_at": ()}
+        return {key: value for key, value in write(self).items() if key not in idle or value != idle[key]}
 
 
 class Resonance(SceneModel):

@@ -119,7 +119,9 @@ def _problems_of(sea: Spectrum) -> Iterator[InitErrorDetails]:
     for key in needed:
         if not getattr(sea, key):
             description = Spectrum.model_fields[key].description
-            yield problem_at((key,), None, f'it is missing, and waves = "{sea.waves}" need it', allowed=f"{description}")
+            yield problem_at(
+                (key,), None, f'it is missing, and waves = "{sea.waves}" need it', allowed=f"{description}"
+            )
     for key in idle:
         if getattr(sea, key):
             yield problem_at((key,), None, f'it does not belong to waves = "{sea.waves}"', remedy="Leave it out")

@@ -13,6 +13,7 @@ _WHOLE = {
     "kg/(m s)": "kg/s",
     "kg/s": "kg m/s",
     "kg m/s": "kg m^2/s",
+    "N/m^3": "N/m^2",
     "N/m^2": "N/m",
     "N/m": "N",
     "N": "N m",

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from mpi4py import MPI
 from open_cases import TOO_SMALL, complex_of, stored
+from scipy.special import h1vp, jvp
 
 from hydroelastic.fem.open_water.requests import RadiationRequest, ResonanceRequest, ResponseRequest
 from hydroelastic.fem.open_water.solve import OpenWaterSolution, solve_open_water
@@ -203,3 +204,27 @@ def test_a_floating_cylinder_heaves_at_its_resonance() -> None:
     assert table.labels == ("pitch", "heave")
     assert abs(table.omega[1] - complex_of(CASES[name]["values"]["omega"])) < 1e-5 * abs(table.omega[1])
     assert table.counted == 2
+
+
+def test_a_deep_cylinder_scatters_as_one_that_stands_on_the_bed() -> None:
+    """aₙ = −Jₙ′(ka)/Hₙ′(ka) of MacCamy and Fuchs up to e^{−kd} = 6e-6: a factor n in place of n² shows from n = 2 on.
+
+    The drift force is that of the momentum of these waves; for ka → ∞ it would be (2/3) ρgA²a.
+    """
+    wavenumber, radius = 2.0, 1.0
+    omega = math.sqrt(GRAVITY * wavenumber)
+    (table,) = solved(
+        [{"shape": "cylinder", "radius": radius, "draught": 6.0}],
+        math.inf,
+        1e-4,
+        ResponseRequest(omega=(omega,)),
+        motions=("heave",),
+    ).response
+    assert table.partial_waves is not None
+    found = table.partial_waves[0, 0, 0]
+    orders = np.arange(len(found))
+    known = -jvp(orders, wavenumber * radius) / h1vp(orders, wavenumber * radius)
+    assert len(found) >= 5
+    np.testing.assert_allclose(found, known, atol=1e-4)
+    # ½ρgA² (c_g/c) times the width in which the waves lose their momentum.
+    assert table.drift_force[0, 0] == pytest.approx(0.6271746654 * DENSITY * GRAVITY * radius, rel=1e-4)

@@ -25,6 +25,8 @@ from hydroelastic.fem.open_water.requests import (
 from hydroelastic.fem.open_water.resonance import ResonanceSolution, solve_resonance
 from hydroelastic.fem.open_water.response import ResponseSolution, solve_response
 from hydroelastic.fem.open_water.results import RadiationTable, ResonanceTable, ResponseTable
+from hydroelastic.modal.liquid.travelling_waves import travelling_waves
+from hydroelastic.modal.tank_estimates import two_layers
 from hydroelastic.physics.dofs import Dof, dof_names
 
 Solution = TypeVar("Solution", RadiationSolution, ResponseSolution, ResonanceSolution, DecaySolution)
@@ -41,8 +43,10 @@ def solve_by_order(
             return _solve_response(problem, request)
         case DecayRequest():
             return _solve_decay(problem, request)
-        case _:
+        case ResonanceRequest():
             return _solve_resonance(problem, request)
+        case _:
+            raise TypeError(f"{request.kind} is not solved for solids of revolution")
 
 
 def _solve_radiation(problem: OpenWaterProblem, request: RadiationRequest) -> RadiationSolution:
@@ -110,13 +114,14 @@ def _scatters(problem: OpenWaterProblem, table: ResponseTable) -> bool:
 
 def _response(problem: OpenWaterProblem, tables: list[ResponseTable]) -> ResponseTable:
     dofs = _dofs(problem)
-    waves = [table.partial_waves for table in tables if table.partial_waves is not None]
+    waves = np.concatenate([table.partial_waves for table in tables if table.partial_waves is not None], axis=-1)
     peaks = [peak for table in tables for peak in table.missed_peaks]
     return replace(
         tables[0],
         dofs=dofs,
         amplitudes=_by_dof(dofs, [(table.dofs, table.amplitudes) for table in tables]),
-        partial_waves=np.concatenate(waves, axis=-1),
+        partial_waves=waves,
+        drift_force=_drift_force(problem, tables[0], waves),
         absorption=np.sum(
             [table.absorption * (1.0 if order == 0 else 2.0) for order, table in enumerate(tables)], axis=0
         ),
@@ -124,6 +129,24 @@ def _response(problem: OpenWaterProblem, tables: list[ResponseTable]) -> Respons
         relative_error=np.max([table.relative_error for table in tables], axis=0),
         missed_peaks=tuple(peaks),
     )
+
+
+def _drift_force(problem: OpenWaterProblem, table: ResponseTable, waves: np.ndarray) -> np.ndarray:
+    """Mean force along x per square of the amplitude, N/m²; NaN in waves on two levels.
+
+    The momentum that the scattered waves leave is F = −(4/k) E (c_g/c) Re Σ_{n≥0} [aₙ + aₙ₊₁ + 2aₙāₙ₊₁] of waves to the
+    right, E = ½ρgA² (Maruo 1960), with E c_g/c = ½ω²k²N/η̂² of a wave of unit elevation.
+    """
+    if len(table.waves) > 1:
+        return np.full(table.energy_residual.shape, np.nan)
+    layers, towards = two_layers(problem.tank), 1.0 if table.waves_from == "left" else -1.0
+    own, following = waves[:, 0, 0, :-1], waves[:, 0, 0, 1:]
+    widths = -4.0 / table.wavenumbers[:, 0] * (own + following + 2.0 * own * following.conj()).real.sum(axis=-1)
+    momenta = []
+    for omega in table.omega:
+        (wave,) = travelling_waves(layers, float(omega))
+        momenta.append(0.5 * omega**2 * wave.wavenumber**2 * wave.energy / wave.elevation**2)
+    return np.asarray(towards * np.array(momenta) * widths)[:, None]
 
 
 def _solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> ResonanceSolution:

@@ -8,7 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, ResonanceTable, UnresolvedPeak
+from hydroelastic.fem.open_water.results import (
+    DecayTable,
+    RadiationTable,
+    ResonanceTable,
+    SpectrumTable,
+    UnresolvedPeak,
+)
 from hydroelastic.modal.floats.infinite_draught import InfiniteDraughtFloat
 from hydroelastic.output.columns import Column, headings_of, rows_of
 from hydroelastic.output.digits import beyond_error, number, per_cent, with_certain_digits
@@ -18,6 +24,7 @@ from hydroelastic.output.open_water.quantities import (
     DECAY,
     RADIATION,
     RESPONSE,
+    SPECTRUM,
     THIN_FLOAT_ROWS,
     WavesAndMotions,
     region_words,
@@ -46,11 +53,13 @@ def open_sections(solution: Any, summary: Summary) -> Iterator[Section]:
     for radiation in solution.radiation:
         yield from _radiation(radiation, of_whole_solids(RADIATION) if whole else RADIATION)
     for response in RESPONSE.of(solution):
-        yield from _response(response)
+        yield from _response(response, of_whole_solids(RESPONSE) if whole else RESPONSE)
     for resonance in solution.resonance:
         yield _resonance(resonance)
     for decay in solution.decay:
         yield _decay(decay)
+    for spectrum in SPECTRUM.of(solution):
+        yield from _spectrum(spectrum)
     if solution.left_out:
         yield Section(title="Left out of the model", lines=solution.left_out)
     yield from _estimates(solution.endless_float, summary)
@@ -132,25 +141,25 @@ def _radiation(table: RadiationTable, group: Group) -> Iterator[Section]:
         )
 
 
-def _response(table: WavesAndMotions) -> Iterator[Section]:
+def _response(table: WavesAndMotions, group: Group) -> Iterator[Section]:
     """Outgoing waves and motions of the bodies for each incident wave."""
     count = len(table.waves)
     places = max(MOST_ROWS // count, 2)
     shown, thinned = _shown(len(table.omega), "frequencies", "response.csv", places=places)
     rows = [place * count + wave for place in shown for wave in range(count)]
     found: dict[str, list[Column]] = {}
-    for column in open_columns(RESPONSE, table):
+    for column in open_columns(group, table):
         found.setdefault(column.quantity.key, []).append(column)
     first = [*found["omega"], *(found["waves"] if count > 1 else ())]
     absorbed = ("absorption", "capture_width") if table.absorption.any() else ()
     scattered = ("reflection", "transmission", "scattering_width")
-    keys = ("wavenumbers", *scattered, *absorbed, "energy_residual", "relative_error")
+    keys = ("wavenumbers", *scattered, *absorbed, "drift_force", "energy_residual", "relative_error")
     ratios = [*first, *(column for key in keys for column in found.get(key, []))]
     what = "ratios of elevations" if table.partial_waves is None else "scattered waves"
     yield Section(
         title=f"Waves from the {table.waves_from}: {what}",
         headings=headings_of(ratios, "outgoing_wave" if count > 1 else ""),
-        rows=rows_of(RESPONSE, ratios, rows),
+        rows=rows_of(group, ratios, rows),
         lines=thinned,
     )
     motions, phases = (found.get(key, [])[:_MOST_MOTIONS] for key in ("amplitudes", "phase_at_body"))
@@ -161,7 +170,7 @@ def _response(table: WavesAndMotions) -> Iterator[Section]:
         headings=headings_of([*first, *motions], "radiating_dof"),
         rows=[
             (*begin, *(f"{size} ∠ {angle}°" for size, angle in zip(sizes, angles, strict=False)))
-            for begin, sizes, angles in zip(*(rows_of(RESPONSE, part, rows) for part in shown_parts), strict=True)
+            for begin, sizes, angles in zip(*(rows_of(group, part, rows) for part in shown_parts), strict=True)
         ],
         lines=(
             "|a| ∠ θ is the motion |a| cos(ωt − θ); at t = 0 the crest of the wave is at the middle of the body.",
@@ -240,6 +249,30 @@ def _decay(table: DecayTable) -> Section:
             f"The estimated errors hold up to the last time, t = {table.certified_until:.6g} s.",
         ),
     )
+
+
+def _spectrum(table: SpectrumTable) -> Iterator[Section]:
+    """Statistics of the responses to irregular waves, and of loads along beams."""
+    responses, plates = SPECTRUM["responses"], SPECTRUM["plates"]
+    about = (
+        f"Mean drift force along x: {table.mean_drift_force:.4g} N/m.",
+        f"{table.waves}; {table.duration:g} s from the {table.waves_from}. Amplitudes are half of heights.",
+        f"{len(table.omega)} frequencies from {table.omega[0]:.4g} to {table.omega[-1]:.4g} rad/s, chosen so that no "
+        "peak lies between them: spectrum.csv.",
+    )
+    for group, title, lines in (
+        (responses, "Responses to irregular waves", about),
+        (plates, "Largest loads along beams in irregular waves, per metre of width", ()),
+    ):
+        found = [group.evaluated(one) for one in group.records(table)]
+        parts = [part for part in group.parts if any(one[part.key] is not None for one in found)]
+        if found:
+            yield Section(
+                title=title,
+                headings=tuple(part.heading for part in parts),
+                rows=[tuple(part.cell(one, group) for part in parts) for one in found],
+                lines=lines,
+            )
 
 
 def _shown(count: int, what: str, file: str, places: int = MOST_ROWS) -> tuple[list[int], tuple[str, ...]]:

@@ -11,6 +11,7 @@ from hydroelastic.output.open_water.tables import infinite_draught_message
 from hydroelastic.output.sections import Section
 from hydroelastic.scenes.models.open_analyses import Analysis, Decay, Radiation, Resonance, Response
 from hydroelastic.scenes.models.physical import physical_tank
+from hydroelastic.scenes.models.sea_states import Spectrum
 from hydroelastic.scenes.models.tank_parts import TankParts
 from hydroelastic.scenes.open_water.estimates import infinite_draught_comparison
 from hydroelastic.scenes.tank.check import modelled_tank
@@ -72,6 +73,11 @@ def _request(scene: TankParts, analysis: Analysis) -> str:
             if value
         ]
         return f"decay: float {analysis.body} is released at {' and '.join(motions)}; {_span(analysis.times, 'time')} s"
+    if isinstance(analysis, Spectrum):
+        return (
+            f"spectrum: statistics of the responses in {analysis.duration:g} s of irregular waves from the "
+            f"{analysis.waves_from}, {analysis.words}"
+        )
     return _resonances(analysis)
 
 

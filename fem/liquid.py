@@ -164,6 +164,9 @@ def liquid_space(
 def closed_layers(liquid: LiquidSpace) -> tuple[int, ...]:
     """The layers on whose boundary ψ = 0 nowhere, so that ∫ζ = 0 over their surfaces (collective)."""
     layers = range(len(liquid.layers))
+    if liquid.geometry.transverse:
+        # A constant across the section is none along it.
+        return ()
     if not liquid.zero_potential:
         return tuple(layers)
     layers_of_zeros = liquid.owned_layer_of[liquid.zero_dofs()]

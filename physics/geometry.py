@@ -5,13 +5,13 @@ With the displacement potential ψ(x, y) of a section, ψ(r, z) cos nθ of a sol
 
     c ∫ρ (∂ₓψ ∂ₓq + ∂ᵧψ ∂ᵧq + m² ψ q) w dx dy,
 
-    | kind     | weight w | m²    | c                            |
-    |----------|----------|-------|------------------------------|
-    | plane    | 1        | 0     | 1, per metre of width        |
-    | revolved | r        | n²/r² | 2π for n = 0, else π         |
-    | extruded | 1        | k²    | B for k = 0, else B/2        |
+    | kind     | weight w | m²    | c                                         |
+    |----------|----------|-------|-------------------------------------------|
+    | plane    | 1        | 0     | 1, per metre of width                     |
+    | revolved | r        | n²/r² | 2π for n = 0, else π                      |
+    | extruded | 1        | k²    | 1 for k = 0, else 1/2, per metre of width |
 
-with the width B between two walls across the section, k = jπ/B. The weight is also that of surfaces and of loads.
+with k = jπ/B, B the width between two walls across the section. The weight is also that of surfaces and of loads.
 """
 
 from __future__ import annotations
@@ -46,12 +46,12 @@ class Geometry:
     @property
     def is_whole(self) -> bool:
         """Whether masses and forces are those of a whole solid, instead of a metre of its width."""
-        return self.kind != "plane"
+        return self.is_revolved
 
     @property
     def measure(self) -> float:
-        """c, the integral of cos² over the direction that is left out."""
-        whole = {"plane": 1.0, "revolved": 2.0 * pi, "extruded": self.width}[self.kind]
+        """c, the integral of cos² over the direction that is left out, or its mean."""
+        whole = 2.0 * pi if self.is_revolved else 1.0
         return whole if self.order == 0 else 0.5 * whole
 
     @property

@@ -28,6 +28,9 @@ ROUND_OFF = 1e-9
 MIDDLE = 0.5
 """Abscissa of the mirror plane of a symmetric tank, in tank lengths."""
 
+# An order in which no rigid body moves.
+_NO_MOTION = 2
+
 ROUNDING = 1e-14
 """Lengths that decimal input means to be equal differ by a few units of the last place."""
 
@@ -166,10 +169,17 @@ class Tank:
         return tuple(sorted({order for body in self.bodies for order in body.orders}))
 
     def of_order(self, order: int) -> Tank:
-        """Return the problem of one azimuthal order, in which bodies have the motions of that order alone."""
-        if not self.geometry.is_revolved:
+        """Return the problem of one azimuthal order, or of one number of half waves across an extruded section.
+
+        Rigid bodies have the motions of that order alone; across the whole width they move in order 0 only.
+        """
+        if self.geometry.kind == "plane":
             return self
-        bodies = tuple(body.of_order(order) for body in self.bodies)
+        is_fixed = order > 0 and not self.geometry.is_revolved
+        bodies = tuple(
+            body.of_order(_NO_MOTION if is_fixed else order) if self.geometry.is_revolved or is_fixed else body
+            for body in self.bodies
+        )
         return replace(self, bodies=bodies, geometry=replace(self.geometry, order=order))
 
     def scaled(self) -> Tank:
@@ -191,6 +201,7 @@ class Tank:
             gravity=1.0,
             layers=layers,
             levels=levels,
+            geometry=replace(self.geometry, width=self.geometry.width / units.length),
             bed=None if self.bed is None else tuple((x / units.length, y / units.length) for x, y in self.bed),
             bodies=tuple(
                 body.scaled(units, places[index].start, places[index].end) for index, body in enumerate(self.bodies)

@@ -10,9 +10,10 @@ import pytest
 from open_cases import stored
 from scipy.special import jnp_zeros
 
-from hydroelastic.fem.tank.orders import RoundTankSolution, solve_round_tank
+from hydroelastic.fem.tank.orders import OrderedSolution, solve_by_order
+from hydroelastic.fem.tank.solve import solve_tank
 from hydroelastic.physics.floats import RigidFloat
-from hydroelastic.physics.geometry import Geometry
+from hydroelastic.physics.geometry import PLANE, Geometry
 from hydroelastic.physics.hulls import Hull
 from hydroelastic.physics.hydrostatics import hydrostatics
 from hydroelastic.physics.solids import solid_of_revolution
@@ -58,7 +59,7 @@ def cylinder(radius: float, draught: float, centre_of_mass: float) -> RigidFloat
     return RigidFloat(hull=hull, hydrostatics=rest, level="surface", motions=("heave", "surge", "pitch"))
 
 
-def of_order(solution: RoundTankSolution, order: int) -> np.ndarray:
+def of_order(solution: OrderedSolution, order: int) -> np.ndarray:
     """Return ω of the modes of an order."""
     return np.array([mode.omega for mode in solution.modes if mode.order == order])
 
@@ -67,7 +68,7 @@ def of_order(solution: RoundTankSolution, order: int) -> np.ndarray:
 def test_sloshing_of_every_order_in_a_cylinder() -> None:
     """ω² = gk tanh kH with Jₙ′(kR) = 0; a factor n in place of n² shows from order 2 on."""
     radius, depth = 5.0, 3.0
-    solution = solve_round_tank(round_tank(radius, depth), tolerance=1e-6, modes=8)
+    solution = solve_by_order(round_tank(radius, depth), tolerance=1e-6, modes=8)
     assert [mode.order for mode in solution.modes] == [1, 2, 0, 3, 4, 1, 5, 2]
     assert not solution.reasons
     for mode in solution.modes:
@@ -81,7 +82,7 @@ def test_a_cone_of_45_degrees() -> None:
     """Order 1 sways as a whole, ψ = xz from the apex, ω² = g/H; the others are known to ten digits."""
     depth = 2.0
     cone = replace(round_tank(depth, depth), bed=((0.0, -depth), (depth, 0.0)))
-    solution = solve_round_tank(cone, tolerance=1e-8, modes=8)
+    solution = solve_by_order(cone, tolerance=1e-8, modes=8)
     assert of_order(solution, 1)[0] == pytest.approx(np.sqrt(GRAVITY / depth), rel=1e-11)
     assert of_order(solution, 0)[0] == pytest.approx(3.788779183, rel=3e-10)
     assert of_order(solution, 1)[1] == pytest.approx(4.68926499, rel=2e-9)
@@ -94,7 +95,7 @@ def test_a_floating_cylinder_in_a_round_tank(case: dict[str, Any]) -> None:
     if given["inertia"] or given["mass"] or not given["s"]:
         pytest.skip("it does not float by its own displacement")
     body = cylinder(given["a"], given["T"], given["zg"])
-    solution = solve_round_tank(round_tank(given["R"], given["H"], body), tolerance=1e-6, modes=10)
+    solution = solve_by_order(round_tank(given["R"], given["H"], body), tolerance=1e-6, modes=10)
     assert not solution.reasons
     for order in (0, 1):
         found, known = of_order(solution, order), np.array(case["by_class"][f"n{order}"])
@@ -105,3 +106,48 @@ def test_a_floating_cylinder_in_a_round_tank(case: dict[str, Any]) -> None:
     kinds = {(mode.order, mode.kind) for mode in solution.modes}
     assert {(0, "heave"), (1, "pitch")} <= kinds
     assert solution.orders[1].modes.zero_modes == 1
+
+
+def test_a_v_canal_of_45_degrees() -> None:
+    """ω² = (gk/√2) tanh(kH/√2) with ψ = cosh(kx/√2) cosh(kz/√2) cos ky of Kelvin, and without waves across g/H."""
+    depth, width = 2.0, 7.0
+    canal = replace(
+        tank(
+            length=2.0 * depth,
+            gravity=GRAVITY,
+            is_open=False,
+            liquids=((1000.0, depth),),
+            top="free",
+            bodies=(),
+            geometry=Geometry(kind="extruded", width=width),
+        ),
+        bed=((0.0, 0.0), (depth, -depth), (2.0 * depth, 0.0)),
+    )
+    solution = solve_by_order(canal, tolerance=1e-6, modes=10)
+    assert of_order(solution, 0)[0] == pytest.approx(np.sqrt(GRAVITY / depth), rel=1e-9)
+    for order in (1, 2, 3):
+        k = order * np.pi / width / np.sqrt(2.0)
+        assert of_order(solution, order)[0] == pytest.approx(np.sqrt(GRAVITY * k * np.tanh(k * depth)), rel=1e-9)
+    assert all(mode.multiplicity == 1 for mode in solution.modes)
+
+
+def test_a_box_of_finite_width() -> None:
+    """Without waves across it is the section per metre of width; with them k² = (mπ/L)² + (jπ/B)²."""
+    length, width = 4.0, 3.0
+    section = tank(
+        length=length,
+        gravity=GRAVITY,
+        is_open=False,
+        liquids=((1000.0, 1.0),),
+        top="free",
+        bodies=(),
+        geometry=Geometry(kind="extruded", width=width),
+    )
+    solution = solve_by_order(section, tolerance=1e-6, modes=6)
+    plane = solve_tank(replace(section, geometry=PLANE), tolerance=1e-6, modes=3)
+    count = len(of_order(solution, 0))
+    np.testing.assert_allclose(of_order(solution, 0), [plane.omega(one.eigenvalue) for one in plane.asked][:count])
+    along, across = np.pi / length, np.pi / width
+    k = np.hypot(along, across)
+    assert of_order(solution, 1)[0] == pytest.approx(np.sqrt(GRAVITY * across * np.tanh(across)), rel=1e-9)
+    assert of_order(solution, 1)[1] == pytest.approx(np.sqrt(GRAVITY * k * np.tanh(k)), rel=1e-9)

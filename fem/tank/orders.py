@@ -1,6 +1,7 @@
-"""Tanks of revolution between walls, order by order: the modes of the half-plane (r, z) for each azimuthal order.
+"""Tanks of revolution or of an extruded section between walls, order by order.
 
-Modes of order n ≥ 1 come in pairs, cos nθ and sin nθ. The lowest frequency of an order grows with n, since n² is added
+Of each order the modes of the half-plane (r, z), or of the section, are solved for. Those of order n ≥ 1 about an axis
+come in pairs, cos nθ and sin nθ. The lowest frequency of an order grows with n, since n² is added
 to a positive form: orders are added until it exceeds all frequencies that are asked for.
 """
 
@@ -18,10 +19,11 @@ from hydroelastic.physics.tank import Tank
 
 @dataclass(frozen=True, kw_only=True)
 class OrderedMode:
-    """A mode of a tank of revolution.
+    """A mode.
 
     Attributes:
-        order: azimuthal order n.
+        order: azimuthal order n, or number of half waves across an extruded section.
+        multiplicity: number of modes of this frequency that differ by a turn about the axis.
         index: of the mode among those of its order.
         omega: ω, rad/s.
         relative_error: estimated, of ω.
@@ -33,16 +35,12 @@ class OrderedMode:
     omega: float
     relative_error: float
     kind: str
-
-    @property
-    def multiplicity(self) -> int:
-        """Number of modes of this frequency that differ by a turn about the axis."""
-        return 1 if self.order == 0 else 2
+    multiplicity: int
 
 
 @dataclass(frozen=True, kw_only=True)
-class RoundTankSolution:
-    """The modes of a tank of revolution.
+class OrderedSolution:
+    """The modes of a tank of revolution, or of an extruded section.
 
     Attributes:
         orders: the solutions of the orders 0, 1 …
@@ -55,15 +53,17 @@ class RoundTankSolution:
     reasons: tuple[str, ...]
 
 
-def solve_round_tank(
+def solve_by_order(
     physical: Tank,
     *,
     tolerance: float,
     modes: int,
     comm: MPI.Comm | None = None,
     report: Report = lambda _message: None,
-) -> RoundTankSolution:
-    """Solve a tank of revolution (collective); see `solve_tank`.
+) -> OrderedSolution:
+    """Solve a tank of revolution, or of an extruded section with rigid floats across its width (collective).
+
+    See `solve_tank`.
 
     Args:
         physical: the tank in SI units, of any order.
@@ -71,7 +71,12 @@ def solve_round_tank(
         modes: number of modes, from the lowest.
         comm: MPI communicator; all processes by default.
         report: receives messages on the progress.
+
+    Raises:
+        ValueError: if there are beams.
     """
+    if physical.elastic:
+        raise ValueError("only rigid floats move in tanks that are solved by order")
     orders: list[TankSolution] = []
     found: list[OrderedMode] = []
     while True:
@@ -85,7 +90,7 @@ def solve_round_tank(
         if order > 0 and (not own or (len(found) == modes and own[0].omega > found[-1].omega)):
             break
     reasons = [f"order {order}: {reason}" for order, one in enumerate(orders) for reason in one.reasons]
-    return RoundTankSolution(orders=tuple(orders), modes=tuple(found), reasons=tuple(reasons))
+    return OrderedSolution(orders=tuple(orders), modes=tuple(found), reasons=tuple(reasons))
 
 
 def _modes(solution: TankSolution, order: int) -> list[OrderedMode]:
@@ -97,6 +102,7 @@ def _modes(solution: TankSolution, order: int) -> list[OrderedMode]:
             omega=solution.omega(mode.eigenvalue),
             relative_error=float(solution.relative_errors[index]),
             kind=mode_kind(mode, field.bodies, field.surfaces),
+            multiplicity=2 if order and solution.tank.geometry.is_revolved else 1,
         )
         for index, mode in enumerate(solution.asked)
     ]

@@ -15,20 +15,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from hydroelastic.fem.facets import facet_groups
-from hydroelastic.fem.liquid import as_functions
-from hydroelastic.fem.open_water.field_model import Band, OpenModel, first_resolution, open_model
+from hydroelastic.fem.open_water.field_model import Band, first_resolution, open_model
 from hydroelastic.fem.open_water.incident_waves import RIGHTWARD, Circular
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.results import ResponseTable
 from hydroelastic.fem.open_water.solver import OpenSolver
-from hydroelastic.fem.shape_loads import potential_basis
-from hydroelastic.meshes.geometry import FREE_SURFACE
+from hydroelastic.fem.surface_line import along_the_surface
 
 # Distance from the bodies to the edge of a picture in radians of the wave.
 _RADIANS = 13.0
-# Points along each facet.
-_ALONG = np.linspace(0.0, 1.0, 9)[:, None]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -93,7 +88,10 @@ def plan_waves(problem: OpenWaterProblem, table: ResponseTable, number: int) -> 
         found = OpenSolver(model, problem.watch).response(omega, [0])
         wave = found.incidence.planes[0]
         assert isinstance(wave, Circular)
-        r, scattered = _along_the_surface(model, found.squared * found.scattered[0] / wave.elevation)
+        psi = found.squared * found.scattered[0] / wave.elevation
+        vectors = [model.pencil.vector(part) for part in (psi.real, psi.imag)]
+        r, (real, imaginary) = along_the_surface(model.pencil.liquid, vectors, model.basin.bounds[1][0])
+        scattered = real + 1j * imaginary
         parts.append((r * model.basin.units.length, wave.part(RIGHTWARD, model.basin) * scattered))
     if problem.comm.rank:
         return
@@ -109,22 +107,3 @@ def plan_waves(problem: OpenWaterProblem, table: ResponseTable, number: int) -> 
         orders=np.array([np.interp(radii, r, values) for r, values in parts]),
         waterplanes=tuple((max(left, 0.0), right) for left, right in bodies),
     )
-
-
-def _along_the_surface(model: OpenModel, potential: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return r, ascending, and ψ on the free surface of the basin, shapes (points,), on every process (collective)."""
-    pencil, liquid = model.pencil, model.pencil.liquid
-    parts = as_functions(liquid, [pencil.vector(part) for part in (potential.real, potential.imag)])
-    values = parts[0].x.array + 1j * parts[1].x.array
-    places, found = [np.zeros(0)], [np.zeros(0, dtype=complex)]
-    for group in facet_groups(liquid, FREE_SURFACE):
-        reference = group.reference_points(_ALONG)
-        r = group.physical_points(reference)[..., 0]
-        inside = r.max(axis=1) <= model.basin.bounds[1][0] + 1e-9
-        local = values[liquid.space.dofmap.list[group.cells]] @ potential_basis(liquid, reference).T
-        places.append(r[inside].ravel())
-        found.append(local[inside].ravel())
-    gathered = pencil.comm.allgather((np.concatenate(places), np.concatenate(found)))
-    r, psi = (np.concatenate(each) for each in zip(*gathered, strict=True))
-    order = np.argsort(r, kind="stable")
-    return r[order], psi[order]

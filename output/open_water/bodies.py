@@ -119,8 +119,13 @@ BODIES = Group("bodies", "bodies at rest", (
 
 def bodies_section(solution: Any) -> Section:
     """Return the table of the bodies at rest."""
-    found = [BODIES.evaluated(one) for one in bodies_at_rest(solution.tank)]
-    whole = solution.tank.geometry.is_whole
+    return bodies_at_rest_section(solution.tank)
+
+
+def bodies_at_rest_section(tank: Tank) -> Section:
+    """Return the table of the bodies of a tank or of open water at rest, in SI units."""
+    found = [BODIES.evaluated(one) for one in bodies_at_rest(tank)]
+    whole = tank.geometry.is_whole
     group = of_whole_solids(BODIES) if whole else BODIES
     heads = [part for part in group.parts if isinstance(part, Quantity)][1:]
     return Section(

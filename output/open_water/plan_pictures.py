@@ -11,8 +11,8 @@ from hydroelastic.output.pictures.colours import BODY, BODY_EDGE, SEQUENCE, dive
 from hydroelastic.output.pictures.curves import Sheets
 from hydroelastic.output.pictures.options import PictureOptions
 
-# Points across a picture.
-_POINTS = 401
+# Points across a picture, and shades of its colours.
+_POINTS, _SHADES = 401, 20
 
 
 def draw_plan_waves(waves: PlanWaves, title: str, folder: Path, options: PictureOptions) -> None:
@@ -37,7 +37,7 @@ def draw_plan_waves(waves: PlanWaves, title: str, folder: Path, options: Picture
             (np.abs(elevation), "amplitude of the elevation, m/m", SEQUENCE, (np.nanmin(np.abs(elevation)), size)),
         )
         for axes, (values, label, colours, (low, high)) in zip(figure.subplots(1, 2), panels, strict=True):
-            image = axes.pcolormesh(x, x, values, cmap=colours, vmin=low, vmax=high, shading="gouraud", rasterized=True)
+            image = axes.contourf(x, x, values, np.linspace(low, high, _SHADES + 1), cmap=colours)
             for inner, outer in waves.waterplanes:
                 shape = Annulus((0.0, 0.0), outer, outer - inner) if inner else Circle((0.0, 0.0), outer)
                 shape.set(facecolor=BODY, edgecolor=BODY_EDGE, zorder=3)

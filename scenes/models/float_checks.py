@@ -217,6 +217,14 @@ def _has_room(scene: TankParts, index: int, body: AnyFloat, bounds: _Box) -> Ite
     length = scene.tank.length
     if scene.is_open:
         yield from _lies_in_the_stretch(scene, index, body)
+    elif scene.is_revolved:
+        if right > length - gap:
+            yield problem_at(
+                ("body", index, body.shape_key),
+                body.half_width,
+                f"the float has a radius of {right:g} m, and the tank one of {length:g} m",
+                allowed=f"{gap:g} m of liquid beside it",
+            )
     elif right - left > length - 2 * gap:
         yield problem_at(
             ("body", index, body.shape_key),

@@ -35,6 +35,7 @@ def physical_tank(scene: TankParts) -> Tank:
         start=scene.stretch[0],
         phase_at=scene.phase_at,
         attachments=tuple(one.physical(scene) for one in scene.attachment),
+        bed=scene.bed,
     )
 
 

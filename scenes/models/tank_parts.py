@@ -18,7 +18,9 @@ from pydantic import (
 from hydroelastic.meshes.formats import FORMATS
 from hydroelastic.scenes.models.bodies import (
     LARGEST,
+    MOST_VERTICES,
     SMALLEST,
+    AnyNumber,
     Level,
     PositiveNumber,
     SceneModel,
@@ -101,6 +103,33 @@ Liquids: TypeAlias = Annotated[
 """The liquids of a scene."""
 
 
+class RoundTank(SceneModel):
+    """A tank of revolution about the vertical axis r = 0, with z = 0 at the still surface."""
+
+    radius: PositiveNumber = Field(description="radius at the still surface, m")
+    gravity: PositiveNumber = Field(default=9.81, description="acceleration of gravity, m/s²")
+    top: Literal["free", "rigid", "pressure_release"] = Field(
+        default="free", description="the top beside the floats: free surface, lid, or ψ = 0 without gravity waves"
+    )
+    outline: tuple[tuple[AnyNumber, AnyNumber], ...] | None = Field(
+        default=None,
+        min_length=2,
+        max_length=MOST_VERTICES,
+        description=f"2 to {MOST_VERTICES} corners [r, z] of the bed from the axis to the wall, m; by default it is "
+        "level",
+    )
+
+    @property
+    def length(self) -> float:
+        """The radius."""
+        return self.radius
+
+    @property
+    def ends(self) -> Literal["walls", "open"]:
+        """A tank of revolution has a wall."""
+        return "walls"
+
+
 class TankParts(SceneModel):
     """What the scenes of a tank and of the sea share: their liquids, bodies and analyses.
 
@@ -121,7 +150,7 @@ class TankParts(SceneModel):
             """Title of tables and images."""
 
         @property
-        def tank(self) -> Tank:
+        def tank(self) -> Tank | RoundTank:
             """The tank, or the stretch of the sea that is drawn."""
 
         @property
@@ -199,6 +228,11 @@ class TankParts(SceneModel):
     def is_open(self) -> bool:
         """Whether waves leave to both sides."""
         return self.tank.ends == "open"
+
+    @property
+    def bed(self) -> tuple[tuple[float, float], ...] | None:
+        """Corners of the bed from the left to the right wall, m; None where it is level."""
+        return None
 
     @property
     def is_revolved(self) -> bool:

@@ -11,6 +11,7 @@ from hydroelastic.output.outcome import Outcome
 from hydroelastic.output.sections import Section
 from hydroelastic.scenes.level_tank.run import NOTHING_TO_COMPARE
 from hydroelastic.scenes.models.level_tank import LevelTankScene
+from hydroelastic.scenes.models.round_tank import RoundTankScene
 from hydroelastic.scenes.models.string import StringScene
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.thread import ThreadScene
@@ -29,7 +30,7 @@ def comparison_of(scene: Scene, outcome: Outcome) -> tuple[Section, ...] | str:
     """
     if isinstance(scene, TankScene):
         return _tank(scene, outcome)
-    if isinstance(scene, LevelTankScene):
+    if isinstance(scene, LevelTankScene | RoundTankScene):
         found = tuple(section for section in outcome.sections if section.compares)
         return found or NOTHING_TO_COMPARE
     if isinstance(scene, StringScene):

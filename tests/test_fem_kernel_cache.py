@@ -74,6 +74,7 @@ def test_a_damaged_kernel_is_compiled_anew_with_one_line_of_notice(compiled: Pat
     assert integrated(compiled) == (THIRD, "")
 
 
+@pytest.mark.slow
 def test_a_kernel_that_another_process_compiles_is_waited_for(compiled: Path, tmp_path: Path) -> None:
     with subprocess.Popen(COMMAND, env=variables(tmp_path), stdout=subprocess.PIPE, text=True) as first:
         while not list(tmp_path.glob("fenics/*.c")):

@@ -133,6 +133,7 @@ def test_transmission_is_the_same_from_either_side(number: int) -> None:
     assert right.reflection[0, 0, 0] == pytest.approx(turned.reflection[0, 0, 0] * phase, abs=2e-4)
 
 
+@pytest.mark.slow
 def test_two_waves_are_reciprocal() -> None:
     row = TWO_LIQUIDS[1]
     scene = two_liquids(row, 1e-6, start=2.0)

@@ -50,6 +50,7 @@ def test_smooth_motion_to_seven_digits_in_si_units() -> None:
     assert solution.converged
 
 
+@pytest.mark.slow
 def test_other_lengths_and_gravities() -> None:
     model = HangingString(length=25.0, linear_density=0.3, resistance=(0.09, 0.09))
     solution = field_response(COMM, model, step(), [4.0], [5.2], tolerance=1e-7)

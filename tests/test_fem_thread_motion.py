@@ -44,6 +44,7 @@ def test_pendulum_limit() -> None:
     assert abs(last) < 0.2 * abs(last - before) < 1e-6
 
 
+@pytest.mark.slow
 def test_free_fall_follows_the_two_laws() -> None:
     """A straight free thread falls by tanh laws of its own across and along, without tension (case D03)."""
     given = inputs("D03")
@@ -80,6 +81,7 @@ def test_swing_in_liquid() -> None:
     assert worst_difference("D05", tip=extrapolated(*tips).ravel()) < tolerance("D05")
 
 
+@pytest.mark.slow_but("0.6")
 @pytest.mark.parametrize("dissipation", [None, 0.6])
 def test_second_order_in_time(dissipation: float | None) -> None:
     """Positions of the tip and tensions, by both rules, over three steps."""
@@ -118,8 +120,8 @@ VACUUM: list[dict[str, float]] = [
 ]
 
 
-@pytest.mark.slow_but("stiff-1000")
-@pytest.mark.parametrize("steps", [1_000, pytest.param(10_000, marks=pytest.mark.slow)])
+@pytest.mark.slow_but("stiff-250")
+@pytest.mark.parametrize("steps", [250, 1_000, pytest.param(10_000, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("rigidity", VACUUM, ids=["inextensible", "stiff", "soft and bending"])
 def test_energy_is_kept(rigidity: dict[str, float], steps: int) -> None:
     """Without liquid, to round-off, however the thread whips."""

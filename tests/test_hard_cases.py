@@ -173,7 +173,7 @@ def check_tank(scene: TankScene, reference: list[float], tones: list[dict[str, f
     return wrong_tones(found, tones or [None] * len(scene.body), scene.accuracy.tolerance, hidden=False)
 
 
-@pytest.mark.slow_but("[0-3]")
+@pytest.mark.slow_but("[0-1]")
 @pytest.mark.parametrize("entry", REFERENCE["random"], ids=range(len(REFERENCE["random"])))
 def test_tanks_at_random_keep_their_tolerance(entry: dict[str, Any]) -> None:
     assert check_tank(TankScene.model_validate(entry["scene"]), entry["omega"], entry["pressure_release"]) == ""

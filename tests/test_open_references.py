@@ -219,6 +219,7 @@ def test_stored_two_liquids_are_made_anew(row: dict[str, Any]) -> None:
     np.testing.assert_allclose(np.diag(impedance.imag) * row["omega"], row["rigid"]["damping"], rtol=1e-9)
 
 
+@pytest.mark.slow
 def test_light_upper_liquid_is_one_liquid() -> None:
     # The upper liquid adds terms of the order of its density.
     below = one_liquid(3.0, density=1000.0, depth=1.2)

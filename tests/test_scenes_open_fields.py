@@ -96,6 +96,7 @@ def free_surface_residual(field: SampledField, body: tuple[float, float]) -> flo
     return float(np.abs(residual).max() / np.abs(upwards).max())
 
 
+@pytest.mark.slow_but("left")
 @pytest.mark.slow_on_ranks_but
 @pytest.mark.mpi
 @pytest.mark.parametrize("waves_from", ["left", "right"])
@@ -168,10 +169,10 @@ def test_fields_end_where_the_scene_says(radiated: tuple[OpenSolution, list[Samp
         assert field.picture.real.goes_on == {"sides"}
 
 
-def test_files_hold_both_parts(resonant: tuple[OpenSolution, list[SampledField]], tmp_path: Path) -> None:
-    field = resonant[1][0]
+def test_files_hold_both_parts(radiated: tuple[OpenSolution, list[SampledField]], tmp_path: Path) -> None:
+    field = radiated[1][0]
     write_fields((field,), tmp_path / "fields")
-    mesh = meshio.read(tmp_path / "fields" / "resonance_1_001.vtu")
+    mesh = meshio.read(tmp_path / "fields" / "radiation_1_heave.vtu")
     assert mesh.points[:, :2] == pytest.approx(field.points)
     data = mesh.point_data
     for name, values in (("potential", field.potential), ("pressure", field.pressure)):
@@ -222,6 +223,7 @@ def test_what_is_drawn_of_short_waves_is_shorter_and_holds_the_bodies() -> None:
     assert wide.origin + wide.units.length > 5.5
 
 
+@pytest.mark.slow
 def test_waves_of_a_resonance_are_drawn_until_they_have_grown(
     resonant: tuple[OpenSolution, list[SampledField]],
 ) -> None:
@@ -236,6 +238,7 @@ def test_waves_of_a_resonance_are_drawn_until_they_have_grown(
             assert abs(elevation(field, 12.0)[1]) < 12.0 * abs(elevation(field, 6.5)[1])
 
 
+@pytest.mark.slow
 def test_a_resonance_that_is_not_found_again_has_no_field(
     resonant: tuple[OpenSolution, list[SampledField]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -250,6 +253,7 @@ def test_a_resonance_that_is_not_found_again_has_no_field(
     assert list(fields_of(solution)) == []
 
 
+@pytest.mark.slow
 def test_a_field_that_fails_costs_no_numbers(
     resonant: tuple[OpenSolution, list[SampledField]], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

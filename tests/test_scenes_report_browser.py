@@ -133,7 +133,7 @@ def test_a_page_is_shown(browser: Browser, reports: Reports, kind: str) -> None:
     assert file.stat().st_size < 5e6
 
 
-@pytest.mark.slow_but("tank", "roll")
+@pytest.mark.slow_but("tank")
 @pytest.mark.parametrize("kind", SCENES)
 def test_every_picture_has_a_caption_of_its_own(reports: Reports, kind: str) -> None:
     outcome, _ = reports(kind)

@@ -96,6 +96,7 @@ def test_a_load_on_the_end_changes_frequencies_as_bessel_functions_say() -> None
     assert found == pytest.approx(exact[:6], rel=1e-10)
 
 
+@pytest.mark.slow
 def test_a_heavy_load_swings_like_a_pendulum() -> None:
     # M ≫ ρl: ω² → g/l (1 + …ρl/M).
     # Waves run along a string so tight in 0.001 s.

@@ -286,6 +286,7 @@ def test_a_towed_body_comes_to_the_critical_line_as_it_must() -> None:
     assert reason(found, "tension-dominated, order 1") == "the load is 5.93 of the tension: it must be below 0.5"
 
 
+@pytest.mark.slow
 def test_a_moored_buoy_is_dominated_by_drag() -> None:
     found = compared(scene_of("moored_buoy", "analysis=[]"))
     zero, first = (named(found, f"drag-dominated, order {order}") for order in (0, 1))

@@ -102,6 +102,7 @@ def test_a_kernel_that_another_program_is_compiling_is_left_alone(compiled: Path
     foreign.unlink()
 
 
+@pytest.mark.slow
 def test_kernels_of_other_programs_are_left_alone(tmp_path: Path) -> None:
     foreign = tmp_path / "fenics" / "libffcx_forms_0.c"
     foreign.parent.mkdir()

@@ -152,6 +152,7 @@ def test_two_waves_are_reciprocal() -> None:
     assert abs(there[0, 1]) > 1e-3
 
 
+@pytest.mark.slow
 def test_place_of_the_plate_changes_phases_alone() -> None:
     row, start = PLATES[10], 4.0
     here, there = (response(plate(row, 1e-6, place), row["omega"]).table for place in (0.0, start))

@@ -253,7 +253,7 @@ def check_refinement(errors: np.ndarray) -> None:
     assert np.diff(errors, axis=0).max() <= 1e-9
 
 
-@pytest.mark.slow_but("base")
+@pytest.mark.slow
 @pytest.mark.parametrize("name", HARD_TANKS)
 def test_a_higher_degree_never_makes_an_answer_worse(tanks: Any, name: str) -> None:
     for tip_size in (TIP_SIZES[0], TIP_SIZES[-1]):

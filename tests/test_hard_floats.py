@@ -197,7 +197,7 @@ def strict_complaint(scene: TankScene) -> str:
     return ""
 
 
-@pytest.mark.slow_but("0")
+@pytest.mark.slow
 @pytest.mark.parametrize("number", range(WIDE_FAST))
 def test_all_kinds_of_floats_at_random_keep_their_tolerance(number: int) -> None:
     scene = draw_floats(WIDE_SEED, WIDE_FAST, wide=True)[number]

@@ -273,6 +273,7 @@ def test_a_float_close_to_the_bottom() -> None:
         assert steps[2] < steps[0] / 100
 
 
+@pytest.mark.slow
 def test_the_float_mode_is_found_in_a_long_tank() -> None:
     # Dense spectrum: the resonance is spread over many modes, and its centre does not move.
     mode = float_mode(box(length=600.0))

@@ -141,7 +141,7 @@ def test_kernel_of_two_liquids_is_its_series(ratio: float, lid: bool) -> None:
         np.testing.assert_allclose(level.kernel(6.0)(x), wave_series(level, rates, x), rtol=0, atol=1e-11)
 
 
-@pytest.mark.slow_but("Liu_flat60-0.6")
+@pytest.mark.slow
 @pytest.mark.parametrize("row", PUBLISHED["plates"]["rows"], ids=lambda row: f"{row['case']}-{row['omega_rad_s']}")
 def test_plates_as_published(row: dict[str, Any]) -> None:
     level = one_liquid(row["omega_rad_s"], density=1025.0, depth=row["H_m"])

@@ -241,7 +241,7 @@ def test_a_page_shows_nothing_of_the_page_before(tmp_path: Path) -> None:
 
 
 def test_the_field_has_no_holes_where_cells_are_cut_differently() -> None:
-    for turn in np.arange(0.05, 6.2, 0.4):
+    for turn in np.arange(0.05, 6.2, 1.3):
         image = render_field(coarse_beside_fine(turn), 1.0, (0.0, 1600.0, 0.0, 1200.0), (1600, 1200))
         # What shows through is white in all three channels.
         assert (image[near_the_edge(turn)].min(axis=1) < 200).all()

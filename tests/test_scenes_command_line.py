@@ -339,7 +339,7 @@ def test_the_real_command_keeps_streams_and_exit_codes_apart() -> None:
     bad = process("check", "missing.toml")
     assert (bad.returncode, bad.stdout) == (2, "")
     assert bad.stderr.count("\n") == 1
-    good = process("check", "aquarium")
+    good = process("check", "swell")
     assert (good.returncode, good.stderr) == (0, "")
 
 

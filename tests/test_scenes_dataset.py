@@ -77,7 +77,7 @@ SCENES: dict[str, tuple[str, ...]] = {
 }
 """Overrides that keep shipped scenes of each kind short."""
 ALL = [*SCENES, "floats", "open water"]
-FAST = ("aquarium", "string_sine", "swell", "released_chain", "open water")
+FAST = ("aquarium", "string_sine", "swell", "open water")
 
 
 @pytest.fixture(scope="module")

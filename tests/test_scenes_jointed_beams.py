@@ -73,6 +73,7 @@ def test_a_hinge_makes_the_plate_softer_and_a_joint_lies_between(tanks: Tanks) -
         assert np.any(softer < stiffer * (1.0 - 1e-4))
 
 
+@pytest.mark.slow_but("2.0")
 @pytest.mark.parametrize("at", [0.5, 2.0])
 def test_what_a_hinge_does_vanishes_where_the_beam_has_no_moment(tanks: Tanks, at: float) -> None:
     """In the middle of a centred beam it leaves the antisymmetric modes as they are; elsewhere it does not."""
@@ -166,6 +167,7 @@ def test_errors_are_estimated_honestly(tanks: Tanks, name: str) -> None:
         assert np.all(estimated[seen] < 30.0 * true[seen])
 
 
+@pytest.mark.slow
 def test_beams_on_an_interface_may_be_jointed(tanks: Tanks) -> None:
     """A welded joint again, between two liquids."""
     liquids = (Liquid(density=1000.0, depth=4.0), Liquid(density=800.0, depth=3.0))

@@ -187,6 +187,7 @@ def test_a_thread_held_at_its_other_end_is_estimated_the_same() -> None:
         assert one["position"]["difference"] == pytest.approx(other["position"]["difference"], abs=1e-8)
 
 
+@pytest.mark.slow
 def test_a_body_that_pulls_down_is_the_mirror_image() -> None:
     def ends(up: float) -> dict[str, Any]:
         held = {"kind": "fixed", "position": [0.0, 0.0, -3.0 * up]}

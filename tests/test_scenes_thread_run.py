@@ -132,6 +132,7 @@ def test_ends_can_change_their_names() -> None:
     assert swapped.rest.forces[::-1] == pytest.approx(-plain.rest.forces, abs=1e-8 * 1800.0)
 
 
+@pytest.mark.slow
 def test_a_plane_need_not_pass_through_the_origin() -> None:
     overrides = ("output.frames=0", 'analysis=[{kind = "motion", times = [0.0, 0.1], step = 0.05, tolerance = 0.1}]')
     plain = solve(thread_scene("released_chain", *overrides))

@@ -88,6 +88,7 @@ def test_a_plate_that_is_its_own_mirror_image_is_solved_as_two_halves() -> None:
     assert found == pytest.approx(frequencies(given, halves=False), rel=2e-8)
 
 
+@pytest.mark.slow
 def test_a_mirrored_plate_has_the_same_frequencies() -> None:
     mirrored = [(4.0 - x, value) for x, value in reversed(THICKNESS)]
     assert frequencies(scene(plate(start=4.0, thickness=mirrored))) == pytest.approx(

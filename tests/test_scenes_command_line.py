@@ -344,7 +344,7 @@ def test_the_real_command_keeps_streams_and_exit_codes_apart() -> None:
 
 
 def test_a_terminal_without_greek_letters_gets_question_marks() -> None:
-    result = process("check", "aquarium", PYTHONIOENCODING="ascii", PYTHONUTF8="0")
+    result = process("check", "swell", PYTHONIOENCODING="ascii", PYTHONUTF8="0")
     assert result.returncode == 0, result.stderr
     assert "?" in result.stdout
 
@@ -352,7 +352,6 @@ def test_a_terminal_without_greek_letters_gets_question_marks() -> None:
 @pytest.mark.slow_but("OMPI*")
 @pytest.mark.parametrize("variable", ["OMPI_COMM_WORLD_RANK", "PMI_RANK"])
 def test_only_the_first_rank_prints(variable: str) -> None:
-    assert process("list", **{variable: "0"}).stdout != ""
     silent = process("check", "missing.toml", **{variable: "1"})
     assert (silent.returncode, silent.stdout, silent.stderr) == (2, "", "")
     assert process("list", **{variable: "1"}).stdout == ""

@@ -77,7 +77,13 @@ def test_free_motions_of_both_methods_are_one_list() -> None:
 @pytest.mark.slow_on_ranks_but
 @pytest.mark.mpi
 def test_a_load_on_the_end_changes_frequencies_as_bessel_functions_say() -> None:
-    overrides = ("string.resistance=0", NO_MOTION, "accuracy.tolerance=1e-3", "accuracy.modes=6", "string.tip_mass=0.02")
+    overrides = (
+        "string.resistance=0",
+        NO_MOTION,
+        "accuracy.tolerance=1e-3",
+        "accuracy.modes=6",
+        "string.tip_mass=0.02",
+    )
     found = field(scene_of("string_smooth", *overrides)).free_motions.frequencies
     # φ = A J₀(z) + B Y₀(z), z = 2ω√((x + M/ρ)/g): zero above, and −ω²Mφ = Mg φ' at the load.
     length, gravity, shift = 1.0, 9.81, 0.02 / 0.05

@@ -165,6 +165,7 @@ ROWS = [
 BENCHMARK = Benchmark(rows=tuple(ROWS), not_measured={}, versions={"moordyn": {"MoorDyn": "2.7"}}, repeats=2)
 
 
+@pytest.mark.slow
 def test_all_rows_are_written(tmp_path: Path) -> None:
     rows = list(csv.DictReader(io.StringIO(threads_csv(BENCHMARK))))
     assert tuple(rows[0]) == THREAD_COLUMNS

@@ -283,7 +283,7 @@ def test_a_thin_float_has_its_added_mass_above_the_waves() -> None:
     assert added[0, 0] == pytest.approx(1800.0 * 0.01 * float(public["a_hat_inf"]), rel=1e-8)
 
 
-@pytest.mark.slow_but("two")
+@pytest.mark.slow
 @pytest.mark.parametrize("densities", [(1000.0,), (1000.0, 800.0)], ids=["one", "two"])
 def test_a_rigid_plate_has_its_added_mass_above_the_waves(densities: tuple[float, ...]) -> None:
     """π/8 ρl² of each liquid."""

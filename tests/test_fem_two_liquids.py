@@ -198,7 +198,7 @@ def test_the_mirror_image_has_the_same_frequencies(tanks: Any) -> None:
     assert tanks.omega(left) == pytest.approx(tanks.omega(right), rel=2e-8)
 
 
-@pytest.mark.slow_but("0.001-10.0")
+@pytest.mark.slow
 @pytest.mark.parametrize(("size", "density"), [(1e-3, 1.0), (1e3, 1.0), (1.0, 10.0), (1e-3, 10.0)])
 def test_metres_millimetres_and_heavier_liquids_give_the_same_digits(tanks: Any, size: float, density: float) -> None:
     """ω²L/g is a function of ratios of densities, of lengths, of EI/ρgL⁴ and m/ρL."""

@@ -100,6 +100,7 @@ def test_rounding_of_a_long_table_is_told() -> None:
     assert found.errors.max() < 30 * error.max()
 
 
+@pytest.mark.slow_but("cubic-4")
 @pytest.mark.parametrize(("interpolation", "order"), [("linear", 2), ("cubic", 4)])
 def test_tables_converge(interpolation: str, order: int) -> None:
     string = uniform_string(damping=1.0)

@@ -63,6 +63,7 @@ def test_welds_change_nothing(tanks: Tanks) -> None:
         assert solution.tank.nodes_of(0)
 
 
+@pytest.mark.slow
 def test_a_hinge_makes_the_plate_softer_and_a_joint_lies_between(tanks: Tanks) -> None:
     """Rayleigh: each frequency rises with the stiffness of the joint."""
     beams = (tanks.beam(hydrostatic=True, joints=[joint(2.0, k)]) for k in (0.0, 1e3, 1e5))

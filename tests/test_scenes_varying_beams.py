@@ -76,6 +76,7 @@ def test_it_is_the_limit_of_beams_of_many_steps() -> None:
     assert np.abs(limit).max() < 0.02 * np.abs(errors[2]).max()
 
 
+@pytest.mark.slow
 @pytest.mark.slow_on_ranks_but
 @pytest.mark.mpi
 def test_a_plate_that_is_its_own_mirror_image_is_solved_as_two_halves() -> None:

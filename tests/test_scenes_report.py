@@ -34,7 +34,6 @@ PARTS = ["Answer", "Results", "Beside estimates and closed forms", "What was mod
 # What is the only thing of its kind is a sentence among the results, not a part of its own.
 ALONE = {"open": "There is no comparison with older theories", "string": "This is the closed form"}
 
-
 Reports = Callable[[str], tuple[Outcome, str]]
 
 
@@ -44,9 +43,8 @@ def reports(tmp_path_factory: pytest.TempPathFactory) -> Reports:
 
     @cache
     def made(kind: str) -> tuple[Outcome, str]:
-        name, overrides = SCENES[kind]
         folder = tmp_path_factory.mktemp("reports") / kind
-        outcome = run_scene(read_scene(name, overrides), out=folder, images=None, page=True)
+        outcome = run_scene(read_scene(*SCENES[kind]), out=folder, images=None, page=True)
         return outcome, (folder / "report.html").read_text(encoding="utf-8")
 
     return made
@@ -287,9 +285,8 @@ def test_a_page_that_fails_leaves_no_folder(tmp_path: Path, monkeypatch: pytest.
 @pytest.mark.mpi
 @pytest.mark.parametrize("kind", ["tank", "thread"])
 def test_one_process_writes_the_page(tmp_path: Path, kind: str) -> None:
-    name, overrides = SCENES[kind]
     folder = MPI.COMM_WORLD.bcast(tmp_path / "out", root=0)
-    run_scene(read_scene(name, overrides), out=folder, images=None, page=True)
+    run_scene(read_scene(*SCENES[kind]), out=folder, images=None, page=True)
     assert parsed((folder / "report.html").read_text(encoding="utf-8")).headings
     MPI.COMM_WORLD.barrier()
 

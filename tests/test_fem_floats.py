@@ -320,7 +320,7 @@ SYMMETRIC: dict[str, TankScene] = {
 }
 
 
-@pytest.mark.slow_but("rectangle")
+@pytest.mark.slow
 @pytest.mark.slow_on_ranks_but
 @pytest.mark.mpi
 @pytest.mark.parametrize("name", SYMMETRIC)

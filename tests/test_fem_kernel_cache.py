@@ -94,6 +94,7 @@ def test_a_process_killed_while_it_compiles_delays_nobody(tmp_path: Path) -> Non
     assert "unfinished" in said
 
 
+@pytest.mark.slow
 def test_a_kernel_that_another_program_is_compiling_is_left_alone(compiled: Path) -> None:
     foreign = compiled / "fenics" / "libffcx_forms_0.c"
     foreign.touch()

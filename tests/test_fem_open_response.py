@@ -195,6 +195,7 @@ def test_sweep_of_a_plate_is_as_accurate_as_it_says() -> None:
     assert np.abs(table.energy_residual).max() <= 1e-7
 
 
+@pytest.mark.slow
 def test_what_does_not_disturb_the_water_sends_no_waves() -> None:
     # A beam that weighs and bends next to nothing moves with the water.
     light = beam([{"length": 2.0, "rigidity": 1e-6, "mass": 1e-6}], []) | {"start": 1.0}

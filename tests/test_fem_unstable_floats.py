@@ -24,7 +24,7 @@ LOOSE = {
 }
 
 
-@pytest.mark.slow_but("2-free-all motions", "1-free-heave", "2-rigid-circle", "1-pressure_release-sway")
+@pytest.mark.slow_but("2-free-all motions", "1-free-heave", "1-pressure_release-sway")
 @pytest.mark.slow_on_ranks_but("2-free-all motions")
 @pytest.mark.mpi
 @pytest.mark.parametrize("kind", LOOSE)

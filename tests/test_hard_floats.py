@@ -119,7 +119,7 @@ def complaint(scene: TankScene, reference: np.ndarray, rounding: np.ndarray | fl
     return ""
 
 
-FAST = ("circle_all_motions", "ship", "two_floats", "two_liquids_wedge", "two_liquids_float_and_beam", "thin_wedge")
+FAST = ("circle_all_motions", "ship", "two_floats", "two_liquids_wedge", "thin_wedge")
 
 
 @pytest.mark.slow_but(*(f"{name}-1e-03" for name in FAST), "circle_all_motions-1e-08", "thin_wedge-1e-08")

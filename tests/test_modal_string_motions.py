@@ -60,7 +60,7 @@ def test_values_of_motions() -> None:
     assert table.breaks == pytest.approx([0.0, 1.0])
 
 
-@pytest.mark.slow_but("_sine*-0.5")
+@pytest.mark.slow
 @pytest.mark.parametrize("damping", [0.0, 0.5, 3.766067388420842, 30.0])
 @pytest.mark.parametrize(
     ("function", "motion"),

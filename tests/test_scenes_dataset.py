@@ -57,7 +57,7 @@ length = 2.0
 flexural_rigidity = 5e3
 mass_per_length = 50.0
 [accuracy]
-tolerance = 1e-4
+tolerance = 1e-2
 modes = 4
 """
 SHORT = "output.times={start=0, stop=4, number=9}"

@@ -106,7 +106,7 @@ SYMMETRIC = {
 }
 
 
-@pytest.mark.slow_but("stepped")
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SYMMETRIC)
 def test_halves_of_a_symmetric_tank_give_the_whole(tanks: Tanks, name: str) -> None:
     scene = tanks.scene(*SYMMETRIC[name], tolerance=1e-8, modes=12)

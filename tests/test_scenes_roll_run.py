@@ -213,6 +213,7 @@ def test_that_error_does_not_depend_on_the_times_of_the_output() -> None:
     assert few.solution.ship_error == pytest.approx(many.solution.ship_error, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_what_a_section_makes_impossible_is_refused() -> None:
     with pytest.raises(SceneError, match="natural periods"):
         solve("swell", "roll={section = 'ship_section'}", "accuracy.tolerance=1e-2", "output.times=[1e8]")

@@ -174,6 +174,7 @@ def test_both_liquids_follow_the_interface_and_the_upper_one_the_top(tanks: Any)
         assert largest_of(interface.displacement) > 0.0
 
 
+@pytest.mark.slow
 def test_beams_lie_on_their_levels(tanks: Any) -> None:
     beam = {"length": 4.0, "flexural_rigidity": 5e3, "mass_per_length": 50.0}
     solution = tanks.solve(scene(Beam(start=1.0, **beam), Beam(start=5.0, at="surface", **beam), tolerance=1e-2))

@@ -126,6 +126,7 @@ def test_slightly_varied_resistance_is_first_order() -> None:
     assert first.real > 0.0
 
 
+@pytest.mark.slow
 def test_resistance_below_counts_more_than_above() -> None:
     below = field(
         scene_of("string_smooth", "string.resistance={bottom=0.1, top=0.0}", NO_MOTION, "accuracy.tolerance=1e-3")

@@ -176,6 +176,7 @@ def test_clamps_leave_a_thread_its_stretch() -> None:
     assert slope == pytest.approx(-1.0, abs=0.015)
 
 
+@pytest.mark.slow
 def test_modes_of_a_clamped_thread_that_stretches() -> None:
     """Undamped, and those of a thread that does not stretch but for the strain."""
     asked = {"analysis": [{"kind": "modes", "count": 4}], "accuracy": {"tolerance": 1e-6}}

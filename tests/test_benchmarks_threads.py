@@ -119,6 +119,7 @@ def test_errors_are_relative_to_the_largest() -> None:
     assert thread_error(JUMPER, tuple(tension)) == pytest.approx(1e-3)
 
 
+@pytest.mark.slow_but("[!j]*")
 @pytest.mark.parametrize(
     ("case", "least", "most"),
     [

@@ -27,6 +27,7 @@ def straight(direction: Any) -> InitialMotion:
     return InitialMotion(position=lambda s: np.outer(s, direction))
 
 
+@pytest.mark.slow_but("moving_load")
 @pytest.mark.parametrize("reactive", ["none", "moving_load", "lighthill"])
 def test_towed_thread_is_one_in_a_current(reactive: Any) -> None:
     """Towed at −U through still liquid, a thread moves as one that is held in a current U."""

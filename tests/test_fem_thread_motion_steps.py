@@ -86,6 +86,7 @@ def test_step_control() -> None:
     assert not StepControl(0.3, 1e-6).is_acceptable(2e-6)
 
 
+@pytest.mark.slow_but("inf")
 @pytest.mark.parametrize("rigidity", [np.inf, 400.0])
 def test_generalised_alpha(rigidity: float) -> None:
     """In liquid too it tends to what the midpoint rule tends to."""

@@ -173,7 +173,7 @@ SYMMETRIC = {
 }
 
 
-@pytest.mark.slow_on_ranks_but("free top")
+@pytest.mark.slow_on_ranks_but
 @pytest.mark.slow_but("free top")
 @pytest.mark.mpi
 @pytest.mark.parametrize("kind", SYMMETRIC)
@@ -264,7 +264,7 @@ LOADED = {
 
 
 @pytest.mark.slow_but("loose beam-rigid", "slit-free", "float-pressure_release")
-@pytest.mark.slow_on_ranks_but("slit-free", "loose beam-rigid")
+@pytest.mark.slow_on_ranks_but("slit-free")
 @pytest.mark.mpi
 @pytest.mark.parametrize("top", TOPS)
 @pytest.mark.parametrize("kind", LOADED)

@@ -74,6 +74,7 @@ def test_functions_move_the_string_as_closed_forms_do(function: object, motion: 
     assert found.values == pytest.approx(exact.values, abs=6e-8)
 
 
+@pytest.mark.slow_but("0.0-linear", "200.0-cubic")
 @pytest.mark.parametrize("interpolation", ["linear", "cubic"])
 @pytest.mark.parametrize("damping", [0.0, 3.0, 200.0])
 def test_a_table_of_a_ramp_is_the_ramp(interpolation: str, damping: float) -> None:

@@ -281,6 +281,7 @@ def test_a_page_that_fails_leaves_no_folder(tmp_path: Path, monkeypatch: pytest.
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.slow_on_ranks_but("tank")
 @pytest.mark.only_on_ranks
 @pytest.mark.mpi
 @pytest.mark.parametrize("kind", ["tank", "thread"])

@@ -150,6 +150,7 @@ def test_compare_sets_both_side_by_side() -> None:
     assert "no series to compare with" in refused.output
 
 
+@pytest.mark.slow
 @pytest.mark.slow_on_ranks_but
 @pytest.mark.mpi
 def test_nothing_moves_before_the_front_in_a_field_either() -> None:

@@ -42,6 +42,7 @@ def test_liquid_around_a_string_is_another_gravity_and_damping() -> None:
     assert wet.free_motions.frequencies == pytest.approx(dry.free_motions.frequencies, rel=1e-14)
 
 
+@pytest.mark.slow
 def test_metres_and_millimetres_give_the_same_digits() -> None:
     times = "output.times={start=0, stop=8, number=9}"
     metres = solve("string_sine", times)

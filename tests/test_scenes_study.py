@@ -187,6 +187,7 @@ def test_meshes_stay_within_the_unknowns_of_the_plan(beam: Study) -> None:
     assert [row.element_size for row in nested[:4]] == [0.125 / 2**k for k in range(4)]
 
 
+@pytest.mark.slow
 def test_a_tank_is_solved_as_halves_in_every_family_or_in_none(beam: Study) -> None:
     assert beam.halves
     assert "as two halves" in study_table(beam)

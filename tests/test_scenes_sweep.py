@@ -132,7 +132,7 @@ def test_branches_are_continuous_and_hold_the_elastic_tone(name: str, request: p
 @pytest.mark.mpi
 def test_ranks_solve_the_points_together(tanks: Tanks) -> None:
     scene = tanks.scene(tanks.beam(), modes=1, tolerance=1e-3)
-    found = sweep(scene, {RIGIDITY: [5e3, 5.5e3, 6e3, 6.5e3]})
+    found = sweep(scene, {RIGIDITY: [5e3, 6e3]})
     assert found.dataset["omega"].values[0] == pytest.approx(solve(scene).modes.omega, rel=2e-3)
     assert found.status == "ok"
 

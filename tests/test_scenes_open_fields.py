@@ -51,8 +51,8 @@ def solved(scene: TankScene) -> tuple[OpenSolution, list[SampledField]]:
     return solution, [field for field in fields if field is not None]
 
 
-def floating_plate(waves_from: str) -> TankScene:
-    body = {"kind": "beam", "start": 4.0, "length": 6.0, "flexural_rigidity": 471.0, "mass_per_length": 8.36}
+def floating_plate(waves_from: str, start: float = 4.0) -> TankScene:
+    body = {"kind": "beam", "start": start, "length": 6.0, "flexural_rigidity": 471.0, "mass_per_length": 8.36}
     return open_scene(
         body,
         liquids=({"density": DENSITY, "depth": DEPTH},),
@@ -120,6 +120,17 @@ def test_a_response_is_the_wave_that_comes_and_those_that_leave(waves_from: str)
         deflection = np.interp(table.plates[0].positions, plate.x, plate.displacement)
         # Linear between drawn points: (kh)²/8 with h = 0.03 m.
         assert deflection == pytest.approx(table.plates[0].deflection[row, 0].real, abs=1e-3)
+
+
+def test_phases_are_counted_from_the_origin_of_the_scene() -> None:
+    """The picture of a plate that begins there begins before it."""
+    solution, (field,) = solved(floating_plate("left", start=0.0))
+    table = solution.response[0]
+    row = int(np.argmax(np.abs(table.amplitudes[:, 0]).max(axis=1)))
+    assert field.points[:, 0].min() < -0.1
+    x, ahead = elevation(field, 19.7)
+    wave = np.exp(1j * table.wavenumbers[row, 0] * x)
+    assert ahead == pytest.approx(table.transmission[row, 0, 0] * wave, abs=VALUES)
 
 
 def test_radiated_waves_carry_the_power_of_damping(radiated: tuple[OpenSolution, list[SampledField]]) -> None:

@@ -6,13 +6,13 @@ from petsc4py import PETSc
 
 from hydroelastic.fem.interface_coupling import surface_blocks
 from hydroelastic.fem.liquid import (
-    LiquidMatrices,
     LiquidSolver,
     LiquidSpace,
     closed_layer,
     closed_layers,
     constrained_dofs,
 )
+from hydroelastic.fem.liquid_matrices import LiquidMatrices
 from hydroelastic.fem.pencil import CoupledPencil, SurfaceBlocks, coupled_pencil, loads_on_first
 from hydroelastic.fem.shape_loads import shape_loads, surface_load
 from hydroelastic.fem.surfaces import Body, LiquidSurface

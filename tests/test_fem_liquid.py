@@ -25,7 +25,7 @@ def as_vector(pencil: CoupledPencil, values: Callable[[np.ndarray], np.ndarray])
     function = fem.Function(pencil.liquid.space)
     function.interpolate(values)
     vector = pencil.coupling.createVecLeft()
-    vector.array[:] = function.x.array[: vector.getLocalSize()]
+    vector.array[:] = function.x.array[pencil.liquid.numbering.owned_dofs]
     return vector
 
 

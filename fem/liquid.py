@@ -264,6 +264,21 @@ class LiquidSolver:
                 solution[layer.dofs] -= mean / layer.measure
         self.solves += 1
 
+    def solve_all(self, loads: np.ndarray) -> np.ndarray:
+        """Return A⁺ ``loads`` for many loads at once, on one process, both of shape (N, loads) in Fortran's order."""
+        for layer in self._closed:
+            own = loads[layer.dofs]
+            loads[layer.dofs] -= np.outer(layer.load, own.sum(axis=0) / layer.measure)
+        free, answers = self._local_free, np.zeros(loads.shape, order="F")
+        right = PETSc.Mat().createDense((len(free), loads.shape[1]), array=loads[free].copy(order="F"))
+        result = right.duplicate()
+        self._solver.getPC().getFactorMatrix().matSolve(right, result)
+        answers[free] = result.getDenseArray()
+        for layer in self._closed:
+            answers[layer.dofs] -= layer.load @ answers[layer.dofs] / layer.measure
+        self.solves += loads.shape[1]
+        return answers
+
     def _sums(self, values: list[float]) -> np.ndarray:
         """Sums over all processes."""
         total = np.array(values)

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from petsc4py import PETSc
+
+from hydroelastic.fem.added_mass import dense
 
 from hydroelastic.fem.interface_coupling import surface_blocks
 from hydroelastic.fem.liquid import (
@@ -13,9 +17,13 @@ from hydroelastic.fem.liquid import (
     constrained_dofs,
 )
 from hydroelastic.fem.liquid_matrices import LiquidMatrices
-from hydroelastic.fem.pencil import CoupledPencil, SurfaceBlocks, coupled_pencil, loads_on_first
+from hydroelastic.fem.pencil import CoupledPencil, LiquidAnswer, SurfaceBlocks, coupled_pencil, loads_on_first
 from hydroelastic.fem.shape_loads import shape_loads, surface_load
 from hydroelastic.fem.surfaces import Body, LiquidSurface
+
+# Measured on one process: up to so many surface unknowns the answers to all of them at once, and dense linear algebra
+# after it, take less time than the answers that the Krylov–Schur method asks for one by one and a sparse count.
+_FEW = 300
 
 
 def build_pencil(
@@ -46,7 +54,7 @@ def build_pencil(
     layers = closed_layers(liquid)
     load = surface_load(liquid, names) if layers else None
     closed = () if load is None else tuple(closed_layer(liquid, layer, load) for layer in layers)
-    return coupled_pencil(
+    pencil = coupled_pencil(
         liquid,
         bodies=bodies,
         surfaces=surfaces,
@@ -57,6 +65,24 @@ def build_pencil(
         solver=LiquidSolver(laplace, constrained_dofs(liquid), tuple(layer for layer in closed if layer.measure > 0.0)),
         closed=layers,
     )
+    return replace(pencil, answer=liquid_answer(pencil, _FEW))
+
+
+def liquid_answer(pencil: CoupledPencil[LiquidSpace], most: int) -> LiquidAnswer | None:
+    """Return the answer of the liquid to all surface unknowns: n solutions of Laplace's equation at once, after which a
+    product with a matrix takes the place of each; ``None`` on several processes, or with more unknowns than that.
+
+    Args:
+        pencil: the coupled problem.
+        most: largest number of surface unknowns.
+    """
+    if pencil.coupling.comm.size > 1 or not 0 < pencil.size <= most:
+        return None
+    assert isinstance(pencil.solver, LiquidSolver)
+    potentials = pencil.solver.solve_all(dense(pencil.coupling))
+    momentum = pencil.momentum.transposeMatMult(PETSc.Mat().createDense(potentials.shape, array=potentials))
+    added_mass = momentum.getDenseArray()
+    return LiquidAnswer(potentials=potentials, added_mass=0.5 * (added_mass + added_mass.T))
 
 
 def _body_coupling(liquid: LiquidSpace, bodies: tuple[Body, ...], laplace: PETSc.Mat) -> PETSc.Mat:

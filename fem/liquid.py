@@ -14,7 +14,9 @@ whichever unknown that is.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
+import basix.ufl
 import numpy as np
 from dolfinx import fem
 from mpi4py import MPI
@@ -145,7 +147,7 @@ def liquid_space(
         continuous_pressure: whether the pressure is continuous across their interface; the mesh is then not cut there.
         condensed: whether unknowns inside of cells are condensed, where loads act on surfaces alone.
     """
-    space = fem.functionspace(tank.mesh, ("Lagrange", degree))
+    space = fem.functionspace(tank.mesh, _lagrange(tank.mesh.topology.cell_name(), degree))
     index_map = space.dofmap.index_map
     layer_of = np.zeros(index_map.size_local + index_map.num_ghosts, dtype=np.int8)
     for number, layer in enumerate(() if continuous_pressure else layers[1:], 1):
@@ -162,6 +164,11 @@ def liquid_space(
     )
 
 
+@lru_cache(maxsize=16)
+def _lagrange(cell_name: str, degree: int) -> basix.ufl._ElementBase:
+    return basix.ufl.element("Lagrange", cell_name, degree)
+
+
 def closed_layers(liquid: LiquidSpace) -> tuple[int, ...]:
     """The layers on whose boundary ψ = 0 nowhere, so that ∫ζ = 0 over their surfaces (collective)."""
     layers = range(len(liquid.layers))
@@ -173,20 +180,30 @@ def closed_layers(liquid: LiquidSpace) -> tuple[int, ...]:
     return tuple(layer for layer in layers if counts[layer] == 0)
 
 
+def cell_values(liquid: LiquidSpace, potentials: list[PETSc.Vec]) -> np.ndarray:
+    """Potentials at the degrees of freedom of each cell of this process, those inside of it too (collective).
+
+    Returns:
+        Shape (potentials, cells, functions).
+    """
+    numbering = liquid.numbering
+    local = numbering.spread(np.array([potential.array_r for potential in potentials]))
+    dofs = liquid.space.dofmap.list[: len(owned_cells(liquid.tank.mesh))]
+    values: np.ndarray = local[:, dofs]
+    if len(numbering.inside):
+        outside = np.ascontiguousarray(values[:, :, numbering.outside].transpose(1, 2, 0))
+        values[:, :, numbering.inside] = (liquid.cells.extension @ outside).transpose(2, 0, 1)
+    return values
+
+
 def as_functions(liquid: LiquidSpace, potentials: list[PETSc.Vec]) -> list[fem.Function]:
     """Potentials as dolfinx functions with their ghost values, inside of cells too (collective)."""
-    numbering, functions = liquid.numbering, []
+    functions = []
     dofs = liquid.space.dofmap.list[: len(owned_cells(liquid.tank.mesh))]
-    for potential in potentials:
+    for values in cell_values(liquid, potentials) if potentials else ():
         function = fem.Function(liquid.space)
-        values = function.x.array
-        values[numbering.owned_dofs] = potential.array_r
+        function.x.array[dofs] = values
         function.x.scatter_forward()
-        if len(numbering.inside):
-            values[dofs[:, numbering.inside]] = np.einsum(
-                "cio,co->ci", liquid.cells.extension, values[dofs[:, numbering.outside]]
-            )
-            function.x.scatter_forward()
         functions.append(function)
     return functions
 

@@ -44,6 +44,25 @@ class Numbering:
         numbers = np.sort(self.numbers[dofs[dofs < self.space.dofmap.index_map.size_local]])
         return (numbers[numbers >= 0] - self.first).astype(np.int32)
 
+    def spread(self, values: np.ndarray) -> np.ndarray:
+        """Give every process the unknowns on its cells (collective).
+
+        Args:
+            values: several vectors, shape (vectors, owned unknowns).
+
+        Returns:
+            The same at the local degrees of freedom, zero inside of cells, shape (vectors, local degrees of freedom).
+        """
+        local = np.zeros((len(values), len(self.numbers)))
+        local[:, self.owned_dofs] = values
+        if self.space.mesh.comm.size > 1:
+            vector = la.vector(self.space.dofmap.index_map)
+            for row in local:
+                vector.array[:] = row
+                vector.scatter_forward()
+                row[:] = vector.array
+        return local
+
     def summed(self, values: np.ndarray) -> np.ndarray:
         """Sum contributions of all processes to local degrees of freedom (collective).
 

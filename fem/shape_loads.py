@@ -137,7 +137,10 @@ def facet_quadrature(
 
 def _add_loads(liquid: LiquidSpace, body: Body, group: FacetGroup, singular_corner: int, loads: np.ndarray) -> None:
     quadrature = facet_quadrature(liquid, group, body.wavenumber, singular_corner)
-    basis = potential_basis(liquid, quadrature.reference)
-    dofs = liquid.space.dofmap.list[group.cells]
-    for number in range(body.size):
-        np.add.at(loads[number], dofs, (quadrature.weights * quadrature.values(body.shapes, number)) @ basis)
+    # Others vanish on the facet.
+    places = liquid.facet_dofs(group.place)
+    basis = potential_basis(liquid, quadrature.reference)[:, places]
+    values = np.array([quadrature.values(body.shapes, number) for number in range(body.size)])
+    np.add.at(
+        loads, (slice(None), liquid.space.dofmap.list[group.cells][:, places]), quadrature.weights * values @ basis
+    )

@@ -7,7 +7,6 @@ from dataclasses import replace
 from petsc4py import PETSc
 
 from hydroelastic.fem.added_mass import dense
-
 from hydroelastic.fem.interface_coupling import surface_blocks
 from hydroelastic.fem.liquid import (
     LiquidSolver,
@@ -87,5 +86,5 @@ def liquid_answer(pencil: CoupledPencil[LiquidSpace], most: int) -> LiquidAnswer
 
 def _body_coupling(liquid: LiquidSpace, bodies: tuple[Body, ...], laplace: PETSc.Mat) -> PETSc.Mat:
     """Columns ∫φᵢ q over each body's wetted surface."""
-    loads = (load for body in bodies for load in shape_loads(liquid, body))
+    loads = [load for body in bodies for load in shape_loads(liquid, body)]
     return loads_on_first(loads, sum(body.size for body in bodies), laplace)

@@ -44,6 +44,8 @@ class Sources:
 
     def least(self, x: float, y: float, most: float) -> float:
         """Return the least size at a point (x, y), in the unit of the mesh, or ``most`` where all sizes are greater."""
+        if not self._halves:
+            return min((most, *(source.value(x, y) for source in self.sources)))
         found = most
         waiting = [(self._floor(x, y), self)] if self.sources else []
         while waiting:

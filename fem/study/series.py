@@ -24,7 +24,6 @@ from hydroelastic.meshes.grading import Grading
 _mesh_row, _tolerance_row = steadily_timed(mesh_row), steadily_timed(tolerance_row)
 
 
-
 def nested_rows(
     studied: StudiedTank,
     family: Literal["uniform", "algebraic"],

@@ -54,9 +54,7 @@ class FacetGroup:
         """
         jacobians = cell_jacobians(self.mesh, self.cells, reference)
         # Nanson's formula: n ds = det J J⁻ᵀ n₀ ds₀.
-        areas = np.abs(np.linalg.det(jacobians))[..., None] * np.einsum(
-            "fqdg,d->fqg", np.linalg.inv(jacobians), self.reference_normal
-        )
+        areas = np.abs(np.linalg.det(jacobians))[..., None] * (self.reference_normal @ np.linalg.inv(jacobians))
         measures = np.linalg.norm(areas, axis=-1)
         return areas / measures[..., None], measures
 

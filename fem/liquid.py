@@ -287,10 +287,11 @@ class LiquidSolver:
             own = loads[layer.dofs]
             loads[layer.dofs] -= np.outer(layer.load, own.sum(axis=0) / layer.measure)
         free, answers = self._local_free, np.zeros(loads.shape, order="F")
-        right = PETSc.Mat().createDense((len(free), loads.shape[1]), array=loads[free].copy(order="F"))
+        # The transposed array holds one load after the other.
+        right = PETSc.Mat().createDense((len(free), loads.shape[1]), array=loads.T[:, free].T)
         result = right.duplicate()
         self._solver.getPC().getFactorMatrix().matSolve(right, result)
-        answers[free] = result.getDenseArray()
+        answers.T[:, free] = result.getDenseArray().T
         for layer in self._closed:
             answers[layer.dofs] -= layer.load @ answers[layer.dofs] / layer.measure
         self.solves += loads.shape[1]

@@ -9,7 +9,10 @@ from petsc4py import PETSc
 
 from hydroelastic.fem.cells import CURVED_QUADRATURE, is_straight, owned_cells
 from hydroelastic.fem.facets import facet_groups
+from hydroelastic.fem.interface_coupling import surface_blocks
 from hydroelastic.fem.liquid import LiquidSpace
+from hydroelastic.fem.pencil import SurfaceBlocks
+from hydroelastic.fem.surfaces import LiquidSurface
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -18,22 +21,26 @@ class LiquidMatrices:
 
     Attributes:
         laplace: A = ∫∇ψ·∇q.
-        surface_mass: S = ∫ψ q over the moving surfaces of the liquids, or ``None`` without one.
+        surfaces: the blocks of each moving surface of the liquids.
     """
 
     laplace: PETSc.Mat
-    surface_mass: PETSc.Mat | None
+    surfaces: list[SurfaceBlocks]
 
 
-def liquid_matrices(liquid: LiquidSpace, surfaces: tuple[str, ...]) -> LiquidMatrices:
+def liquid_matrices(liquid: LiquidSpace, surfaces: tuple[LiquidSurface, ...]) -> LiquidMatrices:
     """Assemble what the problems on one space share (collective).
 
     Args:
         liquid: the space.
-        surfaces: names of the moving surfaces of the liquids.
+        surfaces: the moving surfaces of the liquids.
     """
-    surface_mass = surface_mass_matrix(liquid, surfaces) if surfaces else None
-    return LiquidMatrices(laplace=laplace_matrix(liquid), surface_mass=surface_mass)
+    blocks = []
+    mass = surface_mass_matrix(liquid, tuple(one.surface for one in surfaces)) if surfaces else None
+    for surface in surfaces:
+        coupling, stiffness = surface_blocks(liquid, surface, mass)
+        blocks.append(SurfaceBlocks(coupling=coupling, stiffness=stiffness))
+    return LiquidMatrices(laplace=laplace_matrix(liquid), surfaces=blocks)
 
 
 def laplace_matrix(liquid: LiquidSpace) -> PETSc.Mat:

@@ -7,7 +7,6 @@ from dataclasses import replace
 from petsc4py import PETSc
 
 from hydroelastic.fem.added_mass import dense
-from hydroelastic.fem.interface_coupling import surface_blocks
 from hydroelastic.fem.liquid import (
     LiquidSolver,
     LiquidSpace,
@@ -16,7 +15,7 @@ from hydroelastic.fem.liquid import (
     constrained_dofs,
 )
 from hydroelastic.fem.liquid_matrices import LiquidMatrices
-from hydroelastic.fem.pencil import CoupledPencil, LiquidAnswer, SurfaceBlocks, coupled_pencil, loads_on_first
+from hydroelastic.fem.pencil import CoupledPencil, LiquidAnswer, coupled_pencil, loads_on_first
 from hydroelastic.fem.shape_loads import shape_loads, surface_load
 from hydroelastic.fem.surfaces import Body, LiquidSurface
 
@@ -36,7 +35,7 @@ def build_pencil(
 
     Args:
         liquid: space of the potential.
-        matrices: A and S on that space.
+        matrices: A on that space, and the blocks of the surfaces.
         bodies: the floating bodies.
         surfaces: those of the liquids that move under gravity: free surface and interface.
 
@@ -44,11 +43,6 @@ def build_pencil(
         The matrices, with the liquid factorized (collective).
     """
     laplace = matrices.laplace
-    blocks = []
-    for surface in surfaces:
-        assert matrices.surface_mass is not None
-        coupling, stiffness = surface_blocks(liquid, surface, matrices.surface_mass)
-        blocks.append(SurfaceBlocks(coupling=coupling, stiffness=stiffness))
     names = tuple(dict.fromkeys([*(body.surface for body in bodies), *(surface.surface for surface in surfaces)]))
     layers = closed_layers(liquid)
     load = surface_load(liquid, names) if layers else None
@@ -58,7 +52,7 @@ def build_pencil(
         bodies=bodies,
         surfaces=surfaces,
         body_coupling=_body_coupling(liquid, bodies, laplace) if bodies else None,
-        surface_blocks=blocks,
+        surface_blocks=matrices.surfaces,
         laplace=laplace,
         # A layer without moving surfaces has no flux to balance.
         solver=LiquidSolver(laplace, constrained_dofs(liquid), tuple(layer for layer in closed if layer.measure > 0.0)),

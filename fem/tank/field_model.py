@@ -149,7 +149,7 @@ def _field_models(
         continuous_pressure=infinite_frequency and tank.has_continuous_pressure,
         condensed=True,
     )
-    matrices = liquid_matrices(liquid, tuple(surface.surface for surface in surfaces))
+    matrices = liquid_matrices(liquid, surfaces)
     pencils = []
     for parity in parities:
         plane = (SYMMETRY_PLANE,) if parity == "antisymmetric" else ()

@@ -141,6 +141,5 @@ def _add_loads(liquid: LiquidSpace, body: Body, group: FacetGroup, singular_corn
     places = liquid.facet_dofs(group.place)
     basis = potential_basis(liquid, quadrature.reference)[:, places]
     values = np.array([quadrature.values(body.shapes, number) for number in range(body.size)])
-    np.add.at(
-        loads, (slice(None), liquid.space.dofmap.list[group.cells][:, places]), quadrature.weights * values @ basis
-    )
+    parts = quadrature.weights * values @ basis
+    np.add.at(loads.T, liquid.space.dofmap.list[group.cells][:, places], parts.transpose(1, 2, 0))

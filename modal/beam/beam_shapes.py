@@ -56,7 +56,7 @@ def _closed_shapes(beam: Beam, count: int) -> BeamShapes:
     def deflections(x: Array) -> Array:
         if guided:
             return np.array([guided_shape(number, x / length) for number in range(count)], dtype=np.float64)
-        return free_free_shapes(count, x / length)
+        return np.asarray(free_free_shapes(count, x / length), dtype=np.float64)
 
     return BeamShapes(
         dofs=beam.dofs(count),

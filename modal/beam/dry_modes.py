@@ -140,7 +140,7 @@ def _elastic_shapes_near(
     numbers: npt.NDArray[np.int64], parity: FloatArray, s: FloatArray, derivative: int
 ) -> FloatArray:
     """Evaluate shapes for s ≤ 1/2, where every term is bounded by one or two."""
-    offset = np.array([_single_root_offset(number) for number in numbers.tolist()])[:, None]
+    offset = np.array([_single_root_offset(number) for number in map(int, numbers)])[:, None]
     half_waves = numbers[:, None] + 0.5
     root = half_waves * np.pi + offset
     ratio = parity * np.exp(-root)

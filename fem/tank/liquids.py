@@ -23,8 +23,8 @@ from hydroelastic.physics.beams import Beam
 from hydroelastic.physics.symmetry import Parity, shapes_of_twins
 from hydroelastic.physics.tank import Tank
 
-# Surface unknowns up to which a family of tanks shares the answers to all of them.
-_MOST_ANSWERS = 2000
+# A dense answer of the liquid that takes more memory is not kept, bytes.
+_MOST_MEMORY = 200e6
 
 
 class Liquids:
@@ -103,7 +103,11 @@ class SharedLiquids(Liquids):
         if key not in self._pencils:
             made = super().pencils(mesh, tank, degree, shapes, half=half, infinite_frequency=infinite_frequency)
             self._pencils[key] = {
-                parity: replace(pencil, answer=pencil.answer or liquid_answer(pencil, _MOST_ANSWERS))
+                parity: replace(
+                    pencil,
+                    answer=pencil.answer
+                    or liquid_answer(pencil, int(_MOST_MEMORY / (8.0 * pencil.coupling.getSize()[0]))),
+                )
                 for parity, pencil in made.items()
             }
         return {

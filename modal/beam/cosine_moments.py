@@ -61,8 +61,15 @@ def _closed_form(beam: FloatingBeam, index: int, kappa: float, k: FloatArray) ->
 
 
 def _integrated(beam: FloatingBeam, index: int, k: FloatArray) -> FloatArray:
+    s, weighted_shape = _gauss_points(index)
+    waves = np.cos(np.outer(k, beam.start + beam.length * s))
+    moments: FloatArray = beam.length / 2 * waves @ weighted_shape
+    return moments
+
+
+@functools.lru_cache(maxsize=2048)
+def _gauss_points(index: int) -> tuple[FloatArray, FloatArray]:
+    """Gauss points on [0, 1], and 2 W at them times their weights; finding them takes longer than the integrals."""
     nodes, weights = leggauss(24 + 2 * index)
     s = (nodes + 1) / 2
-    waves = np.cos(np.outer(k, beam.start + beam.length * s))
-    moments: FloatArray = beam.length / 2 * waves @ (weights * free_free_shape(index, s))
-    return moments
+    return s, weights * free_free_shape(index, s)

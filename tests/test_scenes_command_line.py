@@ -17,7 +17,8 @@ from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.scenes.command_line import main
 from hydroelastic.scenes.read import scene_path
 
-DRAWING = {"vtk", "vtkmodules", "pyvista", "matplotlib", "PIL"}
+SPACE = {"vtk", "vtkmodules", "pyvista"}
+DRAWING = SPACE | {"matplotlib", "PIL"}
 # What reads datasets; they are written without.
 READING = {"xarray", "pandas"}
 HEAVY = (
@@ -303,11 +304,11 @@ def test_an_output_that_is_full_is_one_line(arguments: list[str]) -> None:
         (["--help"], set()),
         (["run", "--help"], set()),
         (["run", "missing.toml"], set()),
-        # What solves draws only when asked, and draws with pyvista.
+        # What solves draws only when asked, and draws sections without VTK.
         (["run", "aquarium", "--no-images", *COARSE], HEAVY - DRAWING - READING),
         (["run", "open_circle", "--no-images", "--set", "accuracy.tolerance=1e-2"], HEAVY - DRAWING - READING),
         (["compare", "aquarium", *COARSE], HEAVY - DRAWING - READING),
-        (["run", "aquarium", *COARSE], HEAVY - READING),
+        (["run", "aquarium", *COARSE], HEAVY - READING - SPACE),
     ],
 )
 def test_nothing_heavy_is_imported_that_is_not_needed(arguments: list[str], needed: set[str]) -> None:

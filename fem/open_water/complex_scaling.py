@@ -24,9 +24,10 @@ from dolfinx import fem
 from dolfinx.mesh import Mesh
 from petsc4py import PETSc
 
+from hydroelastic.fem.cell_matrices import TRANSVERSE_QUADRATURE
 from hydroelastic.fem.cells import CURVED_QUADRATURE, cell_corners, cell_positions, is_straight, owned_cells
-from hydroelastic.fem.kernels import compiled_form
-from hydroelastic.fem.liquid import NO_ENTITIES, TRANSVERSE_QUADRATURE, LiquidSpace, assembled, chosen_measure
+from hydroelastic.fem.kernels import NO_ENTITIES, assembled, chosen_measure, compiled_form
+from hydroelastic.fem.liquid import LiquidSpace
 
 # Step of the derivatives with respect to α, rad: their error of fourth order is that of rounding.
 _STEP = 5e-4

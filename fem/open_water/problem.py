@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.physics.tank import Tank
@@ -11,10 +12,6 @@ from hydroelastic.physics.tank import Tank
 if TYPE_CHECKING:
     # A scene is checked without starting MPI.
     from mpi4py import MPI
-
-    from hydroelastic.fem.open_water.field_model import Band
-    from hydroelastic.fem.open_water.solver import OpenSolver
-    from hydroelastic.fem.tank.resolution import Resolution
 
 # Tolerance of solutions that give initial values only.
 _ROUGH = 1e-3
@@ -36,7 +33,7 @@ class OpenWaterProblem:
     tank: Tank
     tolerance: float
     watch: Stopwatch
-    solvers: dict[tuple[Band, Resolution], OpenSolver] = field(default_factory=dict, compare=False, repr=False)
+    solvers: dict[Hashable, Any] = field(default_factory=dict, compare=False, repr=False)
 
     def rough(self) -> OpenWaterProblem:
         """Return the same problem with a coarse tolerance, for initial values."""

@@ -207,7 +207,8 @@ def _table(request: SpectrumRequest, curves: _Curves) -> SpectrumTable:
 
 
 def _with_drag(request: SpectrumRequest, curves: _Curves) -> tuple[np.ndarray, np.ndarray]:
-    """Return the damping in place of drag, dimensionless, and the motions with it per elevation, shape (n, unknowns)."""
+    """Return the damping in place of drag, dimensionless, and the motions with it per elevation, shape (n,
+    unknowns)."""
     model, outside = curves.solver.model, curves.solver.model.outside
     equations = [response.equations for response in curves.responses]
     dynamic = np.array([one.dynamic for one in equations])

@@ -20,11 +20,11 @@ from hydroelastic.output.columns import Column, headings_of, rows_of
 from hydroelastic.output.digits import beyond_error, number, per_cent, with_certain_digits
 from hydroelastic.output.open_water.bodies import bodies_section
 from hydroelastic.output.open_water.files import open_columns
+from hydroelastic.output.open_water.irregular import SPECTRUM
 from hydroelastic.output.open_water.quantities import (
     DECAY,
     RADIATION,
     RESPONSE,
-    SPECTRUM,
     THIN_FLOAT_ROWS,
     WavesAndMotions,
     region_words,

@@ -22,7 +22,6 @@ from hydroelastic.scenes.models.problems import problem
 from hydroelastic.scenes.models.sea_states import Spectrum
 from hydroelastic.scenes.models.values import DISTINCT, MOST_VALUES, OR_SWEEP, NumberFromZero, kind_of
 
-
 MOST_FIELDS = 20
 """Frequencies of one analysis whose fields are written and drawn."""
 
@@ -55,7 +54,7 @@ class Response(SceneModel):
     )
     wave_amplitude: PositiveNumber | None = Field(
         default=None,
-        description="amplitude of the waves, m; needed where attachments have quadratic damping, without effect elsewhere",
+        description="amplitude of the waves, m; needed beside quadratic damping, without effect elsewhere",
     )
     hull_pressures: Annotated[bool, Strict()] = Field(
         default=False, description="whether pressures along the hulls of floats are reported, and the drift by them"

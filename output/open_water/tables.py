@@ -149,7 +149,9 @@ def _response(table: WavesAndMotions) -> Iterator[Section]:
         found.setdefault(column.quantity.key, []).append(column)
     first = [*found["omega"], *(found["waves"] if count > 1 else ())]
     absorbed = ("absorption",) if table.absorption.any() else ()
-    keys = ("wavenumbers", "reflection", "transmission", *absorbed, "drift_force", "energy_residual", "relative_error")
+    # Of two waves the table is as wide as a terminal without it.
+    drift = ("drift_force",) if count == 1 else ()
+    keys = ("wavenumbers", "reflection", "transmission", *absorbed, *drift, "energy_residual", "relative_error")
     ratios = [*first, *(column for key in keys for column in found[key])]
     yield Section(
         title=f"Waves from the {table.waves_from}: ratios of elevations",

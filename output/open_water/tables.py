@@ -262,7 +262,7 @@ def _spectrum(table: SpectrumTable) -> Iterator[Section]:
         (plates, "Largest loads along beams in irregular waves, per metre of width", ()),
     ):
         found = [group.evaluated(one) for one in group.records(table)]
-        parts = [part for part in group.parts if any(one[part.key] is not None for one in found)]
+        parts = [part for part in group.parts if part.printed and any(one[part.key] is not None for one in found)]
         if found:
             yield Section(
                 title=title,

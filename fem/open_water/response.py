@@ -62,7 +62,8 @@ def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Respo
         request: frequencies and direction of the incident waves.
     """
     omegas = np.array(request.omega)
-    band = Band(lowest=float(omegas.min()), highest=float(omegas.max()))
+    low, high = problem.shared_band(float(omegas.min()), float(omegas.max()))
+    band = Band(lowest=low, highest=high)
 
     def solve(resolution: Resolution) -> Attempt[_Sweep]:
         solver = shared_solver(problem, band, resolution)

@@ -7,7 +7,6 @@ from functools import partial
 import numpy as np
 from scipy.linalg import eigvals
 
-from hydroelastic.fem.memory import release_memory
 from hydroelastic.fem.open_water.complex_direct import ShiftedSolver
 from hydroelastic.fem.open_water.field_model import Band, OpenModel, open_model
 from hydroelastic.fem.open_water.frequency import BodyEquations, OpenFrequency, OpenResponse
@@ -25,7 +24,6 @@ def shared_solver(problem: OpenWaterProblem, band: Band, resolution: Resolution)
     solver: OpenSolver | None = problem.solvers.get((band, resolution))
     if solver is None:
         problem.solvers.clear()
-        release_memory()
         solver = OpenSolver(open_model(problem, band, resolution), problem.watch)
         problem.solvers[band, resolution] = solver
     return solver

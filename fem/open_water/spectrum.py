@@ -55,8 +55,9 @@ def solve_spectrum(problem: OpenWaterProblem, request: SpectrumRequest) -> Spect
         problem: the open water.
         request: spectrum, duration, points.
     """
-    low, high = request.spectrum.band
-    band = Band(lowest=low, highest=min(high, request.highest or high))
+    lowest, highest = request.band
+    low, high = problem.shared_band(lowest, highest)
+    band = Band(lowest=low, highest=high)
 
     def solve(resolution: Resolution) -> Attempt[Curves]:
         solver = shared_solver(problem, band, resolution)
@@ -67,7 +68,7 @@ def solve_spectrum(problem: OpenWaterProblem, request: SpectrumRequest) -> Spect
             reduced=lambda omega: solver.response_between(omega.real, incident),
             difference=lambda one, other: relative_difference(outcome(one), outcome(other)),
         )
-        omegas = np.geomspace(band.lowest, band.highest, _FIRST)
+        omegas = np.geomspace(lowest, highest, _FIRST)
         swept = sweep(frequencies, omegas, problem.tolerance)
         with problem.watch.stage("errors"):
             places = estimated_places(omegas)

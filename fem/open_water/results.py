@@ -144,6 +144,7 @@ class ResponseTable:
         near_field_drift: (n, w) the drift force by the pressures on the hull, N/m³; of a lone float in one liquid, if
             pressures were requested.
         fields_at: frequencies at which fields are wanted, rad/s; empty for that of the largest motion.
+        curve: the same at frequencies between which nothing is missed, of more than six frequencies, to be drawn.
         missed_peaks: peaks that curves over ω do not show, found on a reduced basis.
         partial_waves: (n, w in, w out, orders) aⱼ of the elevation εⱼ iʲ [Jⱼ(kr) + aⱼ Hⱼ(kr)] cos jθ of each azimuthal
             order j about an axis, j = 0, 1 …; ``None`` of a section.
@@ -165,6 +166,7 @@ class ResponseTable:
     hulls: tuple[HullPressure, ...] = ()
     near_field_drift: Floats | None = None
     fields_at: tuple[float, ...] = ()
+    curve: ResponseTable | None = None
     missed_peaks: tuple[UnresolvedPeak, ...] = ()
     partial_waves: Complexes | None = None
 

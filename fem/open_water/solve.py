@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
 import numpy as np
@@ -90,6 +90,8 @@ def solve_open_water(
     tables: list[RadiationTable | ResponseTable | ResonanceTable | DecayTable | SpectrumTable] = []
     size = {"cells": 0, "dofs": 0, "degree": 0}
     reasons: list[str] = []
+    found = [one.band for one in requests if isinstance(one, RadiationRequest | ResponseRequest | SpectrumRequest)]
+    problem = replace(problem, bands=tuple(band for band in found if band is not None))
     for number, request in enumerate(requests, 1):
         report(f"analysis {number}: {request.kind}")
         solution = _solved(problem, request)

@@ -7,7 +7,6 @@ from functools import partial
 import numpy as np
 from scipy.linalg import eigvals
 
-from hydroelastic.fem.memory import release_memory
 from hydroelastic.fem.open_water.complex_direct import ShiftedSolver
 from hydroelastic.fem.open_water.field_model import Band, OpenModel, open_model
 from hydroelastic.fem.open_water.frequency import BodyEquations, OpenFrequency, OpenResponse
@@ -26,7 +25,6 @@ def shared_solver(problem: OpenWaterProblem, band: Band, resolution: Resolution)
     known: tuple[tuple[Band, Resolution], OpenSolver] | None = problem.solvers.get(order)
     if known is None or known[0] != (band, resolution):
         problem.solvers.pop(order, None)
-        release_memory()
         model = open_model(problem, band, resolution)
         known = (band, resolution), OpenSolver(model, problem.watch)
         problem.solvers[order] = known

@@ -2,17 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Annotated, Any, TypeAlias
 
 from pydantic import BeforeValidator, Field, SerializerFunctionWrapHandler, Strict, model_serializer
-from pydantic_core import InitErrorDetails
 
-from hydroelastic.physics import attachments as physics
 from hydroelastic.scenes.models.bodies import LARGEST, AnyNumber, SceneModel
-from hydroelastic.scenes.models.body_kinds import AnyFloat
-from hydroelastic.scenes.models.problems import problem_at
-from hydroelastic.scenes.models.tank_parts import TankParts
 
 _NOTHING = ((0.0, 0.0, 0.0),) * 3
 
@@ -42,108 +36,18 @@ class Attachment(SceneModel):
     stiffness: Matrix = Field(
         default=_NOTHING,
         description="three numbers for [heave, sway, roll], of solids [heave, surge, pitch], about the point, or a "
-        "symmetric matrix of three rows; forces in N/m and moments in N by displacements in m and rad",
+        "symmetric matrix of three rows, N/m²; of solids a metre more; "
+        "of one roll in N/m, of two in N",
     )
     damping: Matrix = Field(
-        default=_NOTHING, description="the same by velocities in m/s and rad/s; it must not add power"
+        default=_NOTHING,
+        description="the same by velocities, which must not add power, kg/(m·s); of one roll in kg/s, of two in kg·m/s",
     )
     quadratic_damping: tuple[NotNegative, NotNegative, NotNegative] = Field(
         default=(0.0, 0.0, 0.0),
-        description="β of [heave, sway, roll] about the point: forces β |v| v by velocities v in m/s and rad/s",
+        description="β of [heave, sway, roll] about the point in forces β |v| v, kg/m²; of roll in kg·m",
     )
 
     @model_serializer(mode="wrap")
     def _as_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
         return {key: value for key, value in write(self).items() if value is not None}
-
-    def physical(self, scene: TankParts) -> physics.Attachment:
-        """Return the attachment in the coordinates of a scene."""
-        body, point = scene.body[self.body - 1], self.at
-        if point is None:
-            if not isinstance(body, AnyFloat):
-                raise TypeError("a beam has no centre of mass at which something holds")
-            from hydroelastic.scenes.models.floats import placed_float
-
-            point = placed_float(scene, self.body - 1).hydrostatics.centre_of_mass
-        return physics.Attachment(
-            body=self.body - 1,
-            other=None if self.to is None else self.to - 1,
-            point=point,
-            stiffness=self.stiffness,
-            damping=self.damping,
-            drag=self.quadratic_damping,
-        )
-
-
-def attachments_hold_bodies(scene: TankParts) -> Iterator[InitErrorDetails]:
-    """Yield attachments of bodies that there are not, or that add power."""
-    for index, one in enumerate(scene.attachment):
-        yield from _ends_are_bodies(scene, index, one)
-        for key in ("stiffness", "damping"):
-            if not physics.is_symmetric(getattr(one, key)):
-                yield problem_at(
-                    ("attachment", index, key),
-                    None,
-                    "it is not symmetric, so that a closed path of motions would gain or lose energy",
-                    allowed="three numbers, or a symmetric matrix of three rows",
-                )
-        if scene.is_revolved and not _is_round(one):
-            yield problem_at(
-                ("attachment", index, "at" if one.at is not None and one.at[0] != 0.0 else "stiffness"),
-                None,
-                "it couples heave to surge or pitch, which solids of revolution on their axis do not",
-                allowed="a point [0, z], and matrices without terms between heave and the other two",
-            )
-        if physics.is_symmetric(one.damping) and not physics.is_passive(one.damping):
-            yield problem_at(
-                ("attachment", index, "damping"),
-                None,
-                "in some motion it adds power instead of taking it",
-                allowed="a matrix without negative eigenvalues",
-            )
-
-
-def _is_round(one: Attachment) -> bool:
-    """Whether heave stays uncoupled from surge and pitch."""
-    coupled = [row for matrix in (one.stiffness, one.damping) for row in (matrix[0][1], matrix[0][2])]
-    return (one.at is None or one.at[0] == 0.0) and not any(coupled)
-
-
-def _ends_are_bodies(scene: TankParts, index: int, one: Attachment) -> Iterator[InitErrorDetails]:
-    for key, number in (("body", one.body), ("to", one.to)):
-        if number is not None and number > len(scene.body):
-            yield problem_at(
-                ("attachment", index, key), number, "there is no body of that number", allowed=f"1 to {len(scene.body)}"
-            )
-            return
-    if one.to == one.body:
-        yield problem_at(
-            ("attachment", index, "to"),
-            one.to,
-            "both ends hold the same body, and never move apart",
-            remedy="Leave it out for an end that is fixed",
-        )
-    for number in (one.body, one.to):
-        if number is None:
-            continue
-        body = scene.body[number - 1]
-        if isinstance(body, AnyFloat):
-            continue
-        if one.at is None:
-            yield problem_at(
-                ("attachment", index, "at"), None, "it is missing, and a beam needs it", allowed="[x, y], m"
-            )
-        elif not body.start <= one.at[0] <= body.end:
-            yield problem_at(
-                ("attachment", index, "at"),
-                None,
-                f"x = {one.at[0]:g} m does not lie on the beam, [[body]] number {number}",
-                allowed=f"x from {body.start:g} to {body.end:g} m",
-            )
-        if any(matrix[1][1] for matrix in (one.stiffness, one.damping)) or one.quadratic_damping[1]:
-            yield problem_at(
-                ("attachment", index, "stiffness"),
-                None,
-                "a beam does not sway, so that forces in sway have no effect on it",
-                remedy="Make the numbers of sway zero",
-            )

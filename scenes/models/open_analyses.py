@@ -54,7 +54,7 @@ class Response(SceneModel):
     )
     wave_amplitude: PositiveNumber | None = Field(
         default=None,
-        description="amplitude of the waves, m; needed where attachments have quadratic damping, without effect elsewhere",
+        description="amplitude of the waves, m; needed beside quadratic damping, without effect elsewhere",
     )
     hull_pressures: Annotated[bool, Strict()] = Field(
         default=False, description="whether pressures along the hulls of floats are reported, and the drift by them"
@@ -79,8 +79,8 @@ class Response(SceneModel):
     @model_serializer(mode="wrap")
     def _as_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
         """Serialize without further keys that are not given."""
-        idle = {"wave_amplitude": None, "hull_pressures": False, "fields_at": ()}
-        return {key: value for key, value in write(self).items() if key not in idle or value != idle[key]}
+        further = ("wave_amplitude", "hull_pressures", "fields_at")
+        return {key: value for key, value in write(self).items() if key not in further or value}
 
 
 class Resonance(SceneModel):

@@ -11,7 +11,7 @@ from pydantic_core import InitErrorDetails
 
 from hydroelastic.scenes.models.bodies import MOST_BODIES
 from hydroelastic.scenes.models.problems import problem_at, require_fit
-from hydroelastic.scenes.models.solids import SolidFloat
+from hydroelastic.scenes.models.solids import SOLID_SHAPES, SolidFloat
 from hydroelastic.scenes.models.tank_checks import STAGES
 from hydroelastic.scenes.models.tank_parts import Accuracy, Liquids, RoundTank, TankParts
 from hydroelastic.scenes.models.title import Title
@@ -67,12 +67,22 @@ class RoundTankScene(TankParts):
 
 
 def is_round_tank(document: dict[str, Any]) -> bool:
-    """Return whether a document of the kind "tank" is of revolution: a radius, with a float or a shaped bed."""
-    tank, bodies = document.get("tank"), document.get("body")
-    if not isinstance(tank, dict) or "radius" not in tank:
+    """Return whether a document of the kind "tank" is of revolution.
+
+    It has a radius, and floats on the axis or an outline of its bed. Other bodies, and floats with a position of their
+    own, are those of a tank in three dimensions.
+    """
+    tank, bodies = document.get("tank"), document.get("body", [])
+    if not isinstance(tank, dict) or "radius" not in tank or "inner_radius" in tank or not isinstance(bodies, list):
         return False
-    floats = isinstance(bodies, list) and any(isinstance(one, dict) and one.get("kind") == "float" for one in bodies)
-    return floats or "outline" in tank
+    on_axis = [
+        isinstance(one, dict)
+        and one.get("kind") == "float"
+        and one.get("shape") in SOLID_SHAPES
+        and "position" not in one
+        for one in bodies
+    ]
+    return all(on_axis) and (bool(on_axis) or "outline" in tank)
 
 
 def _bed_fits(scene: RoundTankScene) -> Iterator[InitErrorDetails]:

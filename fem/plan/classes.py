@@ -53,18 +53,19 @@ class ClassModes:
         return self.classes[number].modes.completed(place)
 
 
-def solve_classes(pencils: dict[ClassParity, CoupledPencil], count: int) -> ClassModes:
+def solve_classes(pencils: dict[ClassParity, CoupledPencil], count: int, *, tolerance: float = 1e-12) -> ClassModes:
     """Solve each class for its share of the modes, and for more where the shares are not enough (collective).
 
     Args:
         pencils: the problem of each class that has unknowns.
         count: number of modes; fewer are returned if the model has fewer.
+        tolerance: relative residual at which an eigenpair counts as converged.
     """
     if not pencils:
         return ClassModes(classes=(), eigenvalues=np.empty(0), origins=())
     share = count if len(pencils) == 1 else count // len(pencils) + 2
     classes = [
-        SymmetryClass(parity=parity, pencil=pencil, modes=solve_modes(pencil, share, shapes=0))
+        SymmetryClass(parity=parity, pencil=pencil, modes=solve_modes(pencil, share, shapes=0, tolerance=tolerance))
         for parity, pencil in pencils.items()
     ]
     shares = [share] * len(classes)
@@ -81,7 +82,8 @@ def solve_classes(pencils: dict[ClassParity, CoupledPencil], count: int) -> Clas
             break
         short = int(np.argmin(reached))
         shares[short] += max(4, count - complete)
-        classes[short] = replace(classes[short], modes=solve_modes(classes[short].pencil, shares[short], shapes=0))
+        more = solve_modes(classes[short].pencil, shares[short], shapes=0, tolerance=tolerance)
+        classes[short] = replace(classes[short], modes=more)
     ordered = sorted(
         (float(value), number, place)
         for number, one in enumerate(classes)

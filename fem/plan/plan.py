@@ -25,7 +25,7 @@ from hydroelastic.meshes.plan import plan_mesh
 from hydroelastic.meshes.plan_loops import CircleLoop, Loop, PlanRegion, PolygonLoop
 from hydroelastic.modal.liquid.vertical_poles import VerticalPoles, vertical_poles
 from hydroelastic.physics.dofs import body_name
-from hydroelastic.physics.level_tank import Box, Cylinder, LevelTank
+from hydroelastic.physics.level_tank import Box, Cylinder, LevelTank, PolygonPlan
 from hydroelastic.physics.plate import Disc, Plate, Polygon, Rectangle
 
 HIGHEST_DEGREE = 10
@@ -290,6 +290,7 @@ def _wall(tank: LevelTank) -> PlanRegion:
     if isinstance(plan, Box):
         corners = np.array([[0.0, 0.0], [plan.length, 0.0], [plan.length, plan.width], [0.0, plan.width]])
     else:
+        assert isinstance(plan, PolygonPlan)
         corners = anticlockwise(np.array(plan.points))
     return PlanRegion(name=FREE_SURFACE, outside=PolygonLoop(corners=corners))
 

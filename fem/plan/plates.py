@@ -10,14 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.fem.plan.plan_pencil import Deflection, PlanPlate
-from hydroelastic.fem.plan.rectangle_body import dofs_by_stiffness, rectangle_body
+from hydroelastic.fem.plan.rectangle_body import dofs_by_stiffness, rectangle_body, rectangle_of
 from hydroelastic.fem.plan.truncation import geometric_tail, rectangle_energies
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.modal.plate.line_modes import LineModes, PlateLine, dry_modes
 from hydroelastic.modal.plate.polygon import PolygonModes, polygon_modes
 from hydroelastic.physics.dofs import Dof, body_name
 from hydroelastic.physics.level_tank import Box, Cylinder, LevelTank
-from hydroelastic.physics.plate import Disc, Edge, Plate, Polygon, Rectangle
+from hydroelastic.physics.plate import Disc, Edge, Plate, Polygon, Rectangle, Strip
 from hydroelastic.physics.symmetry import Parity
 
 # Beyond this degree the polynomials of a polygon are no longer told apart in double precision.
@@ -35,13 +35,13 @@ def plan_plate(tank: LevelTank, index: int, polynomials: int) -> PlanPlate:
     """
     plate = tank.plates[index]
     outline = plate.outline
-    if isinstance(outline, Rectangle):
-        box = tank.plan if isinstance(tank.plan, Box) else _far_from_walls(outline)
+    if isinstance(outline, Rectangle | Strip):
+        box = tank.plan if isinstance(tank.plan, Box) else _far_from_walls(rectangle_of(outline))
         found = rectangle_body(box, index, plate, polynomials, (None, None))
         return PlanPlate(
             body=found.body,
             deflection=found.deflection,
-            wavenumber=1.5 * polynomials / min(outline.size),
+            wavenumber=1.5 * polynomials / min(rectangle_of(outline).size),
             missing_energy=partial(rectangle_energies, found),
         )
     if isinstance(outline, Disc):

@@ -19,6 +19,8 @@ from hydroelastic.meshes.tagged_mesh import MeshError
 _TETRAHEDRON, _TRIANGLE = "tetrahedron", "triangle"
 # Smallest Jacobian of an accepted cell over that of the straight cell.
 _SMALLEST_JACOBIAN = 0.05
+# In which cells are straightened, and then their neighbours.
+_PASSES = 4
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -87,14 +89,25 @@ def _renumbered(mesh: NodedMesh) -> NodedMesh:
 
 
 def checked(mesh: NodedMesh) -> NodedMesh:
-    """Turn cells of negative volume, and refuse inverted ones."""
+    """Straighten cells that are inverted, as at the tip of a cone, whose shape tells nothing of a curve.
+
+    Raises:
+        MeshError: if cells are inverted all the same, or there is no still surface.
+    """
     if not len(mesh.facets):
         raise MeshError("the liquid has no still surface at z = 0")
-    smallest = jacobians(mesh, 2 * mesh.degree if mesh.degree > 1 else 1)
     straight = jacobians(replace(mesh, degree=1, cells=mesh.cells[:, :4]), 1)[:, :1]
-    if float((smallest / straight).min()) < _SMALLEST_JACOBIAN:
-        raise MeshError("a cell at a curved wall is inverted: ask for smaller cells")
-    return mesh
+    for _ in range(_PASSES):
+        smallest = (jacobians(mesh, 2 * mesh.degree if mesh.degree > 1 else 1) / straight).min(axis=1)
+        (folded,) = np.nonzero(smallest < _SMALLEST_JACOBIAN)
+        if not len(folded):
+            return mesh
+        places = _element(mesh).points
+        corners = np.column_stack([1.0 - places.sum(axis=1), places])
+        points = mesh.points.copy()
+        points[mesh.cells[folded]] = corners @ mesh.points[mesh.cells[folded, :4]]
+        mesh = replace(mesh, points=points)
+    raise MeshError("a cell at a curved wall is inverted: ask for smaller cells")
 
 
 def jacobians(mesh: NodedMesh, lattice: int) -> NDArray[np.float64]:

@@ -19,7 +19,7 @@ from hydroelastic.meshes.geometry import FREE_SURFACE
 from hydroelastic.meshes.interrupts import interrupts_deferred
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.meshes.tetrahedra import VolumeMesh, checked, mesh_integral, read_gmsh
-from hydroelastic.meshes.volume_file import mesh_of_file, solid_of_file
+from hydroelastic.meshes.volume_file import lies_in_plane, mesh_of_file, solid_of_file
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.dofs import body_name
 from hydroelastic.physics.level_tank import Box, Cylinder, FilePlan
@@ -34,6 +34,8 @@ _GROWTH = 0.6
 # Points of a curve from which distances are measured.
 _SAMPLES = 200
 # A face at this height, in units of the tank, is of the still surface.
+# Smallest part of the bulk size that the curvature of a wall asks for.
+_LEAST_CURVED = 0.2
 _LEVEL = 1e-7
 
 
@@ -209,13 +211,10 @@ def _name(tank: VolumeTank, tag: int, plates: dict[int, int]) -> str:
     """Name of a face of the liquid: a plate, the still surface, a plane of symmetry, or "" for a wall."""
     if tag in plates:
         return body_name(plates[tag] + 1)
-    box = np.array(gmsh.model.occ.getBoundingBox(2, tag)).reshape(2, 3)
-    if np.abs(box[:, 2]).max() < _LEVEL + 1e-6:
-        return FREE_SURFACE
-    for axis, middle in enumerate(plan_middle(tank)):
+    for axis, level, name in ((2, 0.0, FREE_SURFACE), *zip((0, 1), plan_middle(tank), MIRRORS, strict=True)):
         # Walls of the tank are no planes through its middle.
-        if np.abs(box[:, axis] - middle).max() < _LEVEL + 1e-6:
-            return MIRRORS[axis]
+        if lies_in_plane(tag, axis, level):
+            return name
     return ""
 
 
@@ -250,6 +249,8 @@ def _set_sizes(sizes: VolumeSizes, plates: list[int]) -> None:
         mesh.field.setAsBackgroundMesh(growing)
     for option, value in {
         "MeshSizeMax": sizes.bulk,
+        # Curvature is unbounded at the tip of a cone.
+        "MeshSizeMin": min(sizes.edge, _LEAST_CURVED * sizes.bulk),
         "MeshSizeFromPoints": 0,
         "MeshSizeExtendFromBoundary": 0,
         "MeshSizeFromCurvature": sizes.around,

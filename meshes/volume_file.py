@@ -50,8 +50,8 @@ def _file_plan(file: Path, fill: float, _changed: int) -> FilePlan:
             gmsh.model.occ.synchronize()
             low, high, area = np.full(3, inf), np.full(3, -inf), 0.0
             for _, tag in gmsh.model.getEntities(2):
-                box = np.array(gmsh.model.occ.getBoundingBox(2, tag)).reshape(2, 3)
-                if np.abs(box[:, 2]).max() < _LEVEL * max(1.0, fill):
+                if lies_in_plane(tag, 2, 0.0):
+                    box = np.array(gmsh.model.occ.getBoundingBox(2, tag)).reshape(2, 3)
                     low, high = np.minimum(low, box[0]), np.maximum(high, box[1])
                     area += gmsh.model.occ.getMass(2, tag)
         if not area:
@@ -59,6 +59,18 @@ def _file_plan(file: Path, fill: float, _changed: int) -> FilePlan:
     extent = (high - low)[:2]
     x, y = map(float, 0.5 * (low + high)[:2])
     return replace(plan, length=float(extent.max()), middle=(x, y), area=area)
+
+
+def lies_in_plane(tag: int, axis: int, level: float) -> bool:
+    """Return whether a face of the current model lies in a plane normal to an axis.
+
+    Boxes around faces, which OpenCASCADE gives, may be larger than these.
+    """
+    return (
+        gmsh.model.getType(2, tag) == "Plane"
+        and abs(gmsh.model.occ.getCenterOfMass(2, tag)[axis] - level) < _LEVEL
+        and abs(gmsh.model.getNormal(tag, [0.0, 0.0])[axis]) > 1.0 - _LEVEL
+    )
 
 
 def solid_of_file(plan: FilePlan) -> _Entities:
@@ -69,11 +81,14 @@ def solid_of_file(plan: FilePlan) -> _Entities:
     """
     occ = gmsh.model.occ
     gmsh.option.setString("Geometry.OCCTargetUnit", "M")
-    solids = [one for one in occ.importShapes(str(plan.file)) if one[0] == 3]
+    # Unlike a later dilation this keeps cones cones.
+    gmsh.option.setNumber("Geometry.OCCScaling", 1.0 / plan.metres)
+    try:
+        solids = [one for one in occ.importShapes(str(plan.file)) if one[0] == 3]
+    finally:
+        gmsh.option.setNumber("Geometry.OCCScaling", 1.0)
     if len(solids) != 1:
         raise MeshError(f"{plan.file} holds {len(solids)} solids; the inside of the tank is one")
-    if plan.metres != 1.0:
-        occ.dilate(solids, 0.0, 0.0, 0.0, *(3 * (1.0 / plan.metres,)))
     left, front, low, right, back, high = occ.getBoundingBox(*solids[0])
     # The box around a solid is a little larger than it.
     low, high = _extremes(solids, low, high)

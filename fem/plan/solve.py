@@ -15,8 +15,10 @@ from hydroelastic.fem.level_bed.solution import LevelMode, LevelSolution, PlanPr
 from hydroelastic.fem.level_bed.solve import NotTreatedError, solve_level_tank
 from hydroelastic.fem.plan.box import BoxSolution, solve_box
 from hydroelastic.fem.plan.classes import ClassModes
-from hydroelastic.fem.plan.plan import PlanSolution, plan_regions, solve_plan
-from hydroelastic.fem.plan.problems import BoxProblem, MeshProblem
+from hydroelastic.fem.plan.box_problem import BoxProblem
+from hydroelastic.fem.plan.mesh_problem import MeshProblem
+from hydroelastic.fem.plan.plan import PlanSolution, solve_plan
+from hydroelastic.fem.plan.regions import plan_regions
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.fem.tank.elastic_tone import elastic_tone
 from hydroelastic.physics.dofs import FIRST_ELASTIC, body_name
@@ -113,8 +115,10 @@ def solve_upright_tank(
         else:
             found = solve_plan(tank, tolerance=tolerance, count=modes, comm=comm, report=report)
             _, regions = plan_regions(tank)
-            (one,) = found.modes.classes
-            problems.append(MeshProblem(symmetry_class=one, plates=found.plates, regions=regions))
+            problems += [
+                MeshProblem(symmetry_class=one, plates=found.plates[one.parity], regions=regions, mirrors=found.mirrors)
+                for one in found.modes.classes
+            ]
     errors = found.relative_errors
     classes = found.modes
     listed = tuple(

@@ -17,6 +17,7 @@ from scipy.interpolate import RBFInterpolator
 from hydroelastic.meshes.filling import gmsh_model
 from hydroelastic.meshes.geometry import FREE_SURFACE
 from hydroelastic.meshes.interrupts import interrupts_deferred
+from hydroelastic.meshes.plan_loops import Mirrors
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.meshes.tetrahedra import VolumeMesh, checked, mesh_integral, read_gmsh
 from hydroelastic.meshes.volume_file import lies_in_plane, mesh_of_file, solid_of_file
@@ -56,13 +57,13 @@ class VolumeSizes:
     around: int = 16
 
 
-def volume_mesh(tank: VolumeTank, sizes: VolumeSizes, halved: tuple[bool, bool] = (False, False)) -> VolumeMesh:
+def volume_mesh(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors = (None, None)) -> VolumeMesh:
     """Mesh a dimensionless tank, on the calling process only.
 
     Args:
         tank: the tank.
         sizes: of the cells.
-        halved: whether only the half with smaller x, or y, is meshed, of a tank that is its own mirror image.
+        mirrors: x and y of planes of symmetry, below which nothing is meshed.
 
     Raises:
         MeshError: if gmsh fails, if a cell is inverted, or if the file's groups do not fit.
@@ -72,9 +73,9 @@ def volume_mesh(tank: VolumeTank, sizes: VolumeSizes, halved: tuple[bool, bool] 
     bed = depth_over(tank)
     with gmsh_model():
         occ = gmsh.model.occ
-        solid = _halved(_liquid(tank), tank, halved)
+        solid = _kept(_liquid(tank), tank, mirrors)
         plates = [_face(plate.outline) for plate in tank.plates]
-        plates = [part for plate in plates for part in [_halved(plate, tank, halved)]]
+        plates = [_kept(plate, tank, mirrors) for plate in plates]
         flat = [one for plate in plates for one in plate]
         parts = occ.fragment(solid, flat)[1] if flat else []
         occ.synchronize()
@@ -82,8 +83,8 @@ def volume_mesh(tank: VolumeTank, sizes: VolumeSizes, halved: tuple[bool, bool] 
             raise MeshError("the bed divides the liquid")
         (liquid,) = gmsh.model.getEntities(3)
         owners = _owners(plates, parts[len(solid) :])
-        faces = {tag: _name(tank, tag, owners) for _, tag in gmsh.model.getBoundary([liquid], oriented=False)}
-        _require_covered(tank, owners, faces)
+        faces = {tag: _name(tag, owners, mirrors) for _, tag in gmsh.model.getBoundary([liquid], oriented=False)}
+        _require_covered(tank, owners, faces, 2 ** sum(mirror is not None for mirror in mirrors))
         volume = occ.getMass(*liquid)
         _set_sizes(sizes, [tag for tag, name in faces.items() if name.startswith("body")])
         with interrupts_deferred():
@@ -181,15 +182,14 @@ def _face(outline: Outline) -> _Entities:
     return [(2, occ.addPlaneSurface([occ.addCurveLoop(lines)]))]
 
 
-def _halved(entities: _Entities, tank: VolumeTank, halved: tuple[bool, bool]) -> _Entities:
-    """The part below the planes of symmetry."""
-    dim = entities[0][0]
-    for axis in (0, 1):
-        if halved[axis]:
-            far, start, size = 8.0 + 4.0 * tank.depth, [-9.0] * 3, [20.0 + 8.0 * tank.depth] * 3
-            start[2] = -far
-            size[axis] = plan_middle(tank)[axis] - start[axis]
-            half = [(3, gmsh.model.occ.addBox(*start, *size))]
+def _kept(entities: _Entities, tank: VolumeTank, mirrors: Mirrors) -> _Entities:
+    """The part above the planes of symmetry."""
+    dim, far = entities[0][0], 10.0 + 4.0 * tank.depth
+    for axis, mirror in enumerate(mirrors):
+        if mirror is not None:
+            start = [-far, -far, -far]
+            start[axis] = mirror
+            half = [(3, gmsh.model.occ.addBox(*start, 2.0 * far, 2.0 * far, 2.0 * far))]
             entities = [one for one in gmsh.model.occ.intersect(entities, half)[0] if one[0] == dim]
     return entities
 
@@ -200,20 +200,20 @@ def _owners(plates: list[_Entities], parts: list[_Entities]) -> dict[int, int]:
     return {tag: index for index, part in zip(indices, parts, strict=True) for dim, tag in part if dim == 2}
 
 
-def _require_covered(tank: VolumeTank, owners: dict[int, int], faces: dict[int, str]) -> None:
+def _require_covered(tank: VolumeTank, owners: dict[int, int], faces: dict[int, str], images: int) -> None:
     for index, plate in enumerate(tank.plates):
         area = sum(gmsh.model.occ.getMass(2, tag) for tag, own in owners.items() if own == index and tag in faces)
-        if area < plate.outline.area * (1.0 - _LEVEL):
+        if images * area < plate.outline.area * (1.0 - _LEVEL):
             raise MeshError(f"plate {index + 1} does not lie on the still surface of the tank")
 
 
-def _name(tank: VolumeTank, tag: int, plates: dict[int, int]) -> str:
+def _name(tag: int, plates: dict[int, int], mirrors: Mirrors) -> str:
     """Name of a face of the liquid: a plate, the still surface, a plane of symmetry, or "" for a wall."""
     if tag in plates:
         return body_name(plates[tag] + 1)
-    for axis, level, name in ((2, 0.0, FREE_SURFACE), *zip((0, 1), plan_middle(tank), MIRRORS, strict=True)):
+    for axis, level, name in ((2, 0.0, FREE_SURFACE), *zip((0, 1), mirrors, MIRRORS, strict=True)):
         # Walls of the tank are no planes through its middle.
-        if lies_in_plane(tag, axis, level):
+        if level is not None and lies_in_plane(tag, axis, level):
             return name
     return ""
 

@@ -14,9 +14,11 @@ from hydroelastic.fem.level_bed.separation import separated
 from hydroelastic.fem.level_bed.solution import LevelMode, LevelSolution, PlanProblem, PlateTone
 from hydroelastic.fem.level_bed.solve import NotTreatedError, solve_level_tank
 from hydroelastic.fem.plan.box import BoxSolution, solve_box
+from hydroelastic.fem.plan.box_problem import BoxProblem
 from hydroelastic.fem.plan.classes import ClassModes
-from hydroelastic.fem.plan.plan import PlanSolution, plan_regions, solve_plan
-from hydroelastic.fem.plan.problems import BoxProblem, MeshProblem
+from hydroelastic.fem.plan.mesh_problem import MeshProblem
+from hydroelastic.fem.plan.plan import PlanSolution, solve_plan
+from hydroelastic.fem.plan.regions import plan_regions
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.fem.tank.elastic_tone import elastic_tone
 from hydroelastic.fem.volume.problem import VolumeProblem
@@ -120,12 +122,14 @@ def solve_upright_tank(
         elif model == "volume":
             assert isinstance(tank, VolumeTank)
             found = solve_volume(tank, tolerance=tolerance, count=modes, comm=comm, report=report)
-            problems += [VolumeProblem(symmetry_class=one, plates=found.plates) for one in found.modes.classes]
+            problems += [VolumeProblem(symmetry_class=one, model=found.model) for one in found.modes.classes]
         else:
             found = solve_plan(tank, tolerance=tolerance, count=modes, comm=comm, report=report)
             _, regions = plan_regions(tank)
-            (one,) = found.modes.classes
-            problems.append(MeshProblem(symmetry_class=one, plates=found.plates, regions=regions))
+            problems += [
+                MeshProblem(symmetry_class=one, plates=found.plates[one.parity], regions=regions, mirrors=found.mirrors)
+                for one in found.modes.classes
+            ]
     errors = found.relative_errors
     classes = found.modes
     listed = tuple(

@@ -8,7 +8,14 @@ from itertools import chain
 from petsc4py import PETSc
 
 from hydroelastic.fem.interface_coupling import surface_blocks
-from hydroelastic.fem.liquid import ClosedLayer, LiquidSpace, closed_layer, closed_layers, liquid_matrices
+from hydroelastic.fem.liquid import (
+    ClosedLayer,
+    LiquidMatrices,
+    LiquidSpace,
+    closed_layer,
+    closed_layers,
+    liquid_matrices,
+)
 from hydroelastic.fem.liquid_operator import LiquidOperator
 from hydroelastic.fem.pencil import CoupledPencil, SurfaceBlocks, coupled_pencil, loads_on_first
 from hydroelastic.fem.plan.plan_pencil import PlanPlate
@@ -21,19 +28,39 @@ SolverOf = Callable[[LiquidSpace, PETSc.Mat, tuple[ClosedLayer, ...]], LiquidOpe
 """Makes A⁺ from the space, A and the layers of constant volume."""
 
 
+def moving_water(liquid: LiquidSpace, *, waves: bool) -> tuple[str, ...]:
+    """Return the name of the water beside the plates, if there is any that moves under gravity."""
+    return (FREE_SURFACE,) if waves and FREE_SURFACE in liquid.tank.facet_names else ()
+
+
+def scaled_matrices(liquid: LiquidSpace, names: tuple[str, ...], images: int) -> LiquidMatrices:
+    """Assemble what the problems of all symmetries share, with energies of all parts that are alike (collective)."""
+    matrices = liquid_matrices(liquid, names)
+    for matrix in filter(None, (matrices.laplace, matrices.surface_mass)):
+        matrix.scale(float(images))
+    return matrices
+
+
 def volume_pencil(
-    liquid: LiquidSpace, plates: tuple[PlanPlate, ...], solver_of: SolverOf, *, waves: bool
-) -> CoupledPencil[LiquidSpace]:
-    """Assemble the coupled problem (collective).
+    liquid: LiquidSpace,
+    matrices: LiquidMatrices,
+    plates: tuple[PlanPlate, ...],
+    solver_of: SolverOf,
+    *,
+    waves: bool,
+    images: int = 1,
+) -> CoupledPencil[LiquidSpace] | None:
+    """Assemble the coupled problem of one symmetry; ``None`` where nothing moves (collective).
 
     Args:
         liquid: space of ψ.
+        matrices: see `scaled_matrices`.
         plates: the bodies.
         solver_of: makes the solver of Laplace's equation.
         waves: whether the water beside the plates moves under gravity.
+        images: number of parts that are alike.
     """
-    names = (FREE_SURFACE,) if waves and FREE_SURFACE in liquid.tank.facet_names else ()
-    matrices = liquid_matrices(liquid, names)
+    names = moving_water(liquid, waves=waves)
     surfaces = tuple(LiquidSurface(surface=name, gravity=1.0) for name in names)
     blocks = []
     for surface in surfaces:
@@ -41,10 +68,12 @@ def volume_pencil(
         coupling, stiffness = surface_blocks(liquid, surface, matrices.surface_mass)
         blocks.append(SurfaceBlocks(coupling=coupling, stiffness=stiffness))
     moving = [plate for plate in plates if plate.body.size]
+    if not moving and not names:
+        return None
     layers = closed_layers(liquid)
     load = surface_load(liquid, (*(plate.body.surface for plate in moving), *names)) if layers else None
     closed = () if load is None else tuple(closed_layer(liquid, layer, load) for layer in layers)
-    loads = chain.from_iterable(plate_loads(liquid, plate) for plate in moving)
+    loads = chain.from_iterable(images * plate_loads(liquid, plate) for plate in moving)
     count = sum(plate.body.size for plate in moving)
     return coupled_pencil(
         liquid,

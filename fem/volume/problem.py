@@ -9,7 +9,7 @@ from hydroelastic.fem.liquid import LiquidSpace
 from hydroelastic.fem.modes import Mode, ModeSet
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.classes import SymmetryClass
-from hydroelastic.fem.plan.plan_pencil import PlanPlate
+from hydroelastic.fem.volume.model import VolumeModel
 from hydroelastic.physics.arrays import FloatArray
 
 
@@ -19,11 +19,11 @@ class VolumeProblem:
 
     Attributes:
         symmetry_class: its problem and modes.
-        plates: the plates as bodies.
+        model: the tank in its resolution.
     """
 
     symmetry_class: SymmetryClass
-    plates: tuple[PlanPlate, ...]
+    model: VolumeModel
 
     @property
     def order(self) -> int | None:
@@ -32,12 +32,12 @@ class VolumeProblem:
 
     @property
     def symmetry(self) -> str:
-        """All modes are in one problem."""
+        """Name of the symmetry."""
         return self.symmetry_class.label
 
     @property
     def multiplicity(self) -> int:
-        """Equal frequencies are different modes of one problem."""
+        """Frequencies are single, but for chance."""
         return 1
 
     @property

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from hydroelastic.fem.cells import cell_positions, owned_cells
 from hydroelastic.fem.facets import facet_groups
 from hydroelastic.fem.level_bed.solution import LevelMode
-from hydroelastic.fem.liquid import LiquidSpace, as_functions
+from hydroelastic.fem.liquid import as_functions
 from hydroelastic.fem.shape_loads import potential_basis
 from hydroelastic.fem.volume.problem import VolumeProblem
 from hydroelastic.meshes.geometry import FREE_SURFACE
@@ -24,6 +24,8 @@ _PARTS = 3
 _SAME = 1e-9
 # Nodes of VTK's quadratic tetrahedron: corners, and the middles of these pairs.
 _MIDDLES = ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))
+# Nodes of a mirror image in the order of a cell that is not turned: of triangles and of these tetrahedra.
+_TURNED = {3: [1, 0, 2], 10: [1, 0, 2, 3, 4, 6, 5, 8, 7, 9]}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,23 +40,22 @@ class SurfaceSample:
         elevations: upward displacement in each mode, shape (modes, points).
     """
 
-    points: NDArray[np.float64]
+    points: FloatArray
     triangles: NDArray[np.int64]
     plate_of_points: NDArray[np.int32]
     plate_of_triangles: NDArray[np.int32]
-    elevations: NDArray[np.float64]
+    elevations: FloatArray
 
 
 def surface_sample(modes: tuple[LevelMode, ...], names: tuple[str, ...]) -> SurfaceSample | None:
-    """Sample modes of one problem on the still surface; ``None`` on other ranks than 0 (collective).
+    """Sample modes on the still surface; ``None`` on other ranks than 0 (collective).
 
     Args:
         modes: the modes.
         names: surfaces of the plates, in their order.
     """
-    problem = modes[0].problem
-    assert isinstance(problem, VolumeProblem)
-    liquid = problem.pencil.liquid
+    model = problem_of(modes[0]).model
+    liquid = model.liquid
     functions = as_functions(liquid, [one.mode.potential for one in modes])
     local = basix.create_lattice(basix.CellType.triangle, _PARTS, basix.LatticeType.equispaced, True)
     triangles = _lattice_triangles()
@@ -67,7 +68,7 @@ def surface_sample(modes: tuple[LevelMode, ...], names: tuple[str, ...]) -> Surf
             points = group.physical_points(reference).reshape(-1, 3)
             places.append(points)
             if number:
-                values.append(_deflections(problem, modes, name, points))
+                values.append(_deflections(modes, name, points))
             else:
                 # On the water gη = ω²ψ.
                 table, dofs = potential_basis(liquid, reference), liquid.space.dofmap.list[group.cells]
@@ -76,7 +77,7 @@ def surface_sample(modes: tuple[LevelMode, ...], names: tuple[str, ...]) -> Surf
                         [
                             one.mode.eigenvalue
                             * (function.x.array[dofs] @ table.T).ravel()
-                            * bool(problem.pencil.surfaces)
+                            * bool(one.problem.pencil.surfaces)
                             for one, function in zip(modes, functions, strict=True)
                         ]
                     )
@@ -96,33 +97,62 @@ def surface_sample(modes: tuple[LevelMode, ...], names: tuple[str, ...]) -> Surf
             elevations.append(moved[:, kept])
             owners.append((number, len(kept), len(corners[-1])))
             first += len(kept)
+    plate_of_points = np.repeat(*np.array([(number, count) for number, count, _ in owners]).T).astype(np.int32)
+    plate_of_triangles = np.repeat(*np.array([(number, count) for number, _, count in owners]).T).astype(np.int32)
+    joined, shown, triangles = _mirrored(modes, np.concatenate(every), np.concatenate(elevations, axis=1), corners)
+    images = len(joined) // len(plate_of_points)
     return SurfaceSample(
-        points=np.concatenate(every),
-        triangles=np.concatenate(corners),
-        plate_of_points=np.repeat(*np.array([(number, count) for number, count, _ in owners]).T).astype(np.int32),
-        plate_of_triangles=np.repeat(*np.array([(number, count) for number, _, count in owners]).T).astype(np.int32),
-        elevations=np.concatenate(elevations, axis=1),
+        points=joined,
+        triangles=triangles,
+        plate_of_points=np.tile(plate_of_points, images),
+        plate_of_triangles=np.tile(plate_of_triangles, images),
+        elevations=shown,
     )
 
 
-def _deflections(
-    problem: VolumeProblem, modes: tuple[LevelMode, ...], name: str, points: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    sizes = np.cumsum([0, *(plate.body.size for plate in problem.plates)])
-    ((plate, (start, end)),) = [
-        (plate, ends) for plate, ends in zip(problem.plates, pairwise(sizes), strict=True) if plate.body.surface == name
-    ]
-    amplitudes = np.array([one.mode.body_amplitudes[start:end] for one in modes])
-    return amplitudes @ plate.deflection(points[:, :2].T)
+def problem_of(mode: LevelMode) -> VolumeProblem:
+    """Return the problem of a mode of a volume."""
+    assert isinstance(mode.problem, VolumeProblem)
+    return mode.problem
+
+
+def _mirrored(
+    modes: tuple[LevelMode, ...], points: FloatArray, values: FloatArray, cells: list[NDArray[np.int64]]
+) -> tuple[FloatArray, FloatArray, NDArray[np.int64]]:
+    """Points (n, dim), values of each mode (modes, n) and cells, with all their mirror images."""
+    joined = np.concatenate(cells)
+    for axis, mirror in enumerate(problem_of(modes[0]).model.mirrors):
+        if mirror is not None:
+            image = points.copy()
+            image[:, axis] = 2.0 * mirror - image[:, axis]
+            odd = np.array([problem_of(one).symmetry_class.parity[axis] == 1 for one in modes])
+            joined = np.concatenate([joined, joined[:, _TURNED[joined.shape[1]]] + len(points)])
+            points = np.concatenate([points, image])
+            values = np.concatenate([values, np.where(odd, -1.0, 1.0)[:, None] * values], axis=1)
+    return points, values, joined
+
+
+def _deflections(modes: tuple[LevelMode, ...], name: str, points: FloatArray) -> FloatArray:
+    values = []
+    for one in modes:
+        problem = problem_of(one)
+        plates = problem.model.plates[problem.symmetry_class.parity]
+        sizes = np.cumsum([0, *(plate.body.size for plate in plates)])
+        ((plate, (start, end)),) = [
+            (plate, ends) for plate, ends in zip(plates, pairwise(sizes), strict=True) if plate.body.surface == name
+        ]
+        values.append(one.mode.body_amplitudes[start:end] @ plate.deflection(points[:, :2].T))
+    return np.array(values)
 
 
 def volume_sample(
-    liquid: LiquidSpace, modes: tuple[LevelMode, ...]
-) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.float64]] | None:
+    modes: tuple[LevelMode, ...],
+) -> tuple[FloatArray, NDArray[np.int64], FloatArray] | None:
     """Return points (n, 3), quadratic tetrahedra (cells, 10) and ψ of each mode (modes, n) (collective).
 
     ``None`` on other ranks than 0.
     """
+    liquid = problem_of(modes[0]).model.liquid
     functions = as_functions(liquid, [one.mode.potential for one in modes])
     mesh = liquid.tank.mesh
     corners = basix.geometry(basix.CellType.tetrahedron)
@@ -137,10 +167,11 @@ def volume_sample(
     points = np.concatenate([part[0] for part in gathered])
     kept, numbers = _merged(points)
     potentials = np.concatenate([part[1] for part in gathered], axis=1)[:, kept]
-    return points[kept], numbers.reshape(-1, len(reference)), potentials
+    every, shown, cells = _mirrored(modes, points[kept], potentials, [numbers.reshape(-1, len(reference))])
+    return every, cells, shown
 
 
-def _merged(points: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def _merged(points: FloatArray) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """The first of each set of equal points, and the number of each point among them."""
     _, kept, numbers = np.unique(np.round(points / _SAME), axis=0, return_index=True, return_inverse=True)
     return kept, numbers.ravel()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from itertools import count as numbered
 
@@ -12,25 +12,28 @@ from petsc4py import PETSc
 
 from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
 from hydroelastic.fem.cells import cell_corners, owned_cells
-from hydroelastic.fem.liquid import ClosedLayer, LiquidSolver, LiquidSpace, constrained_dofs, liquid_space
+from hydroelastic.fem.liquid import ClosedLayer, LiquidSolver, LiquidSpace, constrained_dofs
 from hydroelastic.fem.liquid_operator import LiquidOperator
 from hydroelastic.fem.modes import Mode
-from hydroelastic.fem.pencil import CoupledPencil
-from hydroelastic.fem.plan.classes import ClassModes, count_is_confirmed, solve_classes
+from hydroelastic.fem.plan.classes import (
+    ClassModes,
+    SymmetryClass,
+    count_is_confirmed,
+    merged_errors,
+    solve_classes,
+)
 from hydroelastic.fem.plan.plan_pencil import PlanPlate
-from hydroelastic.fem.plan.plates import plan_plate
-from hydroelastic.fem.plan.rectangle_body import ClassParity
 from hydroelastic.fem.spectral_error import cell_errors
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.volume.memory import DIRECT_UNKNOWNS, free_memory, memory_needed
+from hydroelastic.fem.volume.model import VolumeModel, volume_mirrors
 from hydroelastic.fem.volume.multigrid import MultigridSolver
-from hydroelastic.fem.volume.pencil import volume_pencil
 from hydroelastic.fem.volume.resolution import VolumeErrors, VolumeResolution, volume_resolution
 from hydroelastic.meshes.distribute import TankMesh, distribute_nodes
-from hydroelastic.meshes.geometry import FREE_SURFACE
+from hydroelastic.meshes.plan_loops import Mirrors
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.meshes.tetrahedra import VolumeMesh, mesh_volume
-from hydroelastic.meshes.volume import volume_mesh
+from hydroelastic.meshes.volume import VolumeSizes, volume_mesh
 from hydroelastic.physics.volume_tank import VolumeTank
 
 _MOST_ATTEMPTS = 5
@@ -55,10 +58,7 @@ class VolumeSolution:
     """Modes of a dimensionless tank on a mesh of its volume.
 
     Attributes:
-        tank: the tank.
-        resolution: the last one.
-        mesh: the mesh.
-        plates: the plates as bodies.
+        model: the tank in its last resolution.
         modes: the lowest modes, one more than asked for.
         errors: of their frequencies.
         counted: whether a coarser model confirms the number of modes.
@@ -66,10 +66,7 @@ class VolumeSolution:
         iterations: mean number of iterations of Laplace's equation; 0 of a direct solver.
     """
 
-    tank: VolumeTank
-    resolution: VolumeResolution
-    mesh: TankMesh
-    plates: tuple[PlanPlate, ...]
+    model: VolumeModel
     modes: ClassModes
     errors: VolumeErrors
     counted: bool
@@ -81,8 +78,8 @@ class VolumeSolution:
         """Numbers of its resolution, by name."""
         return {
             "problems": len(self.modes.classes),
-            "degree": self.resolution.degree,
-            "cells": self.mesh.cell_count,
+            "degree": self.model.resolution.degree,
+            "cells": self.model.mesh.cell_count,
             "layers": 0,
             "poles": 0,
         }
@@ -116,42 +113,30 @@ def solve_volume(
     """
     processes = comm or MPI.COMM_WORLD
     attempts = numbered(1)
-    zero = (FREE_SURFACE,) if tank.top == "pressure_release" else ()
+    mirrors = volume_mirrors(tank)
 
     def solve(resolution: VolumeResolution) -> VolumeSolution:
         attempt = next(attempts)
-        mesh, geometry = distributed_volume(tank, resolution, processes)
-        liquid = liquid_space(mesh, resolution.degree, zero)
-        report(f"attempt {attempt}: {mesh.cell_count} cells, degree {resolution.degree}, {liquid.size} unknowns")
-        require_memory(liquid.size, resolution.degree)
-        plates = tuple(plan_plate(tank, index, number) for index, number in enumerate(resolution.polynomials))
+        mesh, geometry = distributed_volume(tank, resolution.sizes, mirrors, processes)
+        model = VolumeModel(tank=tank, resolution=resolution, mesh=mesh, mirrors=mirrors)
+        size = model.liquid.size
+        report(f"attempt {attempt}: {mesh.cell_count} cells, degree {resolution.degree}, {size} unknowns")
+        require_memory(size, resolution.degree)
         solvers: list[LiquidOperator] = []
-        pencil = volume_pencil(
-            liquid, plates, partial(_solver, tolerance=tolerance, made=solvers), waves=tank.top == "free"
-        )
-        residual = 1e-12 if isinstance(solvers[0], LiquidSolver) else _INNER * tolerance
-        modes = solve_classes({(None, None): pencil}, count + 1, tolerance=residual)
-        found = [modes.completed(index) for index in range(len(modes.eigenvalues))]
-        edges, waves = _liquid_errors(liquid, found, resolution.sizes.edge)
-        errors = VolumeErrors(
-            edges=edges, waves=waves, geometry=np.full(len(found), geometry), plates=_plate_errors(plates, found)
-        )
+        modes = solve_classes(model.pencils(partial(_solver, tolerance=tolerance, made=solvers)), count + 1, tolerance)
 
-        def coarse(_: ClassParity) -> CoupledPencil:
-            fewer = resolution.coarser
-            space = liquid_space(mesh, fewer.degree, zero)
-            bodies = tuple(plan_plate(tank, index, number) for index, number in enumerate(fewer.polynomials))
-            return volume_pencil(space, bodies, _no_solver, waves=tank.top == "free")
+        def errors_of(one: SymmetryClass, some: list[Mode]) -> np.ndarray:
+            edges, waves = _liquid_errors(one.pencil.liquid, some, resolution.sizes.edge)
+            return np.array([model.images * edges, model.images * waves, _plate_errors(model.plates[one.parity], some)])
 
+        edges, waves, plates = merged_errors(modes, 3, errors_of)
+        coarser = replace(model, resolution=resolution.coarser)
         iterations = [one.iterations / max(one.solves, 1) for one in solvers if isinstance(one, MultigridSolver)]
         return VolumeSolution(
-            tank=tank,
-            resolution=resolution,
-            mesh=mesh,
-            plates=plates,
+            model=model,
             modes=modes,
-            errors=errors,
-            counted=count_is_confirmed(modes, coarse),
+            errors=VolumeErrors(edges=edges, waves=waves, geometry=np.full(len(edges), geometry), plates=plates),
+            counted=count_is_confirmed(modes, lambda parity: coarser.pencil(parity, _no_solver)),
             attempts=attempt,
             iterations=float(np.mean(iterations)) if iterations else 0.0,
         )
@@ -162,14 +147,16 @@ def solve_volume(
         lambda solution: ErrorEstimate(
             discretization=float(solution.relative_errors[:count].max(initial=0.0)), missing=int(not solution.counted)
         ),
-        lambda _, solution: solution.resolution.refined(solution.errors.first(count), tolerance),
+        lambda _, solution: solution.model.resolution.refined(solution.errors.first(count), tolerance),
         tolerance,
         rounds=_MOST_ATTEMPTS,
         failures=(TooLargeError,),
     ).solution
 
 
-def distributed_volume(tank: VolumeTank, resolution: VolumeResolution, comm: MPI.Comm) -> tuple[TankMesh, float]:
+def distributed_volume(
+    tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors, comm: MPI.Comm
+) -> tuple[TankMesh, float]:
     """Return the mesh over the processes, and an estimate of the relative error of ω by its curved walls (collective).
 
     Raises:
@@ -178,7 +165,7 @@ def distributed_volume(tank: VolumeTank, resolution: VolumeResolution, comm: MPI
     made: VolumeMesh | MeshError | None = None
     if comm.rank == 0:
         try:
-            made = volume_mesh(tank, resolution.sizes)
+            made = volume_mesh(tank, sizes, mirrors)
         except MeshError as error:
             made = error
     failed, deviation = comm.bcast(
@@ -253,6 +240,7 @@ def _plate_errors(plates: tuple[PlanPlate, ...], modes: list[Mode]) -> np.ndarra
     first = 0
     for plate in plates:
         last = first + plate.body.size
-        errors += plate.missing_energy(np.array([mode.body_amplitudes[first:last] for mode in modes]))
+        amplitudes = np.array([mode.body_amplitudes[first:last] for mode in modes]).reshape(len(modes), last - first)
+        errors += plate.missing_energy(amplitudes)
         first = last
     return 0.5 * errors / np.array([mode.eigenvalue for mode in modes])

@@ -115,7 +115,7 @@ def sample_volume(solution: LevelSolution) -> SampledModes | None:
     """Return all modes at points of the mesh of a volume; ``None`` on other ranks than 0 (collective)."""
     names = tuple(body_name(index + 1) for index in range(len(solution.tank.plates)))
     surface = surface_sample(solution.modes, names)
-    volume = volume_sample(solution.modes[0].problem.pencil.liquid, solution.modes)
+    volume = volume_sample(solution.modes)
     if surface is None or volume is None:
         return None
     scale, unit = solution.units.length, _unit(solution)

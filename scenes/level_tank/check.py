@@ -149,6 +149,7 @@ def _size_of_plan(tank: LevelTank, tolerance: float, modes: int) -> Iterator[str
 def _size_of_volume(tank: VolumeTank, tolerance: float, modes: int) -> Iterator[str]:
     from hydroelastic.fem.plan.solve import MODEL_WORDS
     from hydroelastic.fem.volume.memory import DIRECT_UNKNOWNS, free_memory, memory_needed
+    from hydroelastic.fem.volume.model import volume_mirrors
     from hydroelastic.fem.volume.resolution import volume_resolution
     from hydroelastic.meshes.tetrahedra import unknown_count
     from hydroelastic.meshes.volume import volume_mesh
@@ -156,9 +157,13 @@ def _size_of_volume(tank: VolumeTank, tolerance: float, modes: int) -> Iterator[
     words = MODEL_WORDS["volume"]
     yield f"{words[0].upper()}{words[1:]}."
     resolution = volume_resolution(tank, tolerance, modes)
-    mesh = volume_mesh(tank, resolution.sizes).noded
+    mirrors = volume_mirrors(tank)
+    mesh = volume_mesh(tank, resolution.sizes, mirrors).noded
     unknowns = unknown_count(mesh, resolution.degree)
     shapes = f", {' + '.join(map(str, resolution.polynomials))} polynomials along each direction of the plates"
+    parts = 2 ** sum(mirror is not None for mirror in mirrors)
+    if parts > 1:
+        yield f"  Planes of symmetry leave {parts} problems on {'a half' if parts == 2 else 'a quarter'} of the tank."
     yield (
         f"First attempt: degree {resolution.degree}, {len(mesh.cells)} tetrahedra, {unknowns} unknowns"
         f"{shapes if resolution.polynomials else ''}."

@@ -42,14 +42,6 @@ def write_surface(sample: SampledModes, file: Path) -> None:
 
 
 def write_volume(sample: SampledModes, file: Path) -> None:
-    """Write ψ of each mode in the liquid, on prisms below the triangles of the surface."""
-    count, levels = len(sample.points), len(sample.levels)
-    points = np.column_stack([np.tile(sample.points, (levels, 1)), np.repeat(sample.levels, count)])
-    prisms = [
-        np.hstack([sample.triangles + (level + 1) * count, sample.triangles + level * count])
-        for level in range(levels - 1)
-    ]
-    data = {
-        f"potential_{name}": potential.ravel() for name, potential in zip(sample.names, sample.potentials, strict=True)
-    }
-    meshio.write(file, meshio.Mesh(points, [("wedge", np.vstack(prisms))], point_data=data))
+    """Write ψ of each mode in the liquid."""
+    data = {f"potential_{name}": potential for name, potential in zip(sample.names, sample.potentials, strict=True)}
+    meshio.write(file, meshio.Mesh(sample.volume_points, [sample.volume_cells], point_data=data))

@@ -1,0 +1,87 @@
+"""The coupled problem of a tank on a mesh of its volume: A = ∫∇ψ·∇q, plates in their shapes, waves on the water."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import chain
+
+from petsc4py import PETSc
+
+from hydroelastic.fem.interface_coupling import surface_blocks
+from hydroelastic.fem.liquid import (
+    ClosedLayer,
+    LiquidMatrices,
+    LiquidSpace,
+    closed_layer,
+    closed_layers,
+    liquid_matrices,
+)
+from hydroelastic.fem.liquid_operator import LiquidOperator
+from hydroelastic.fem.pencil import CoupledPencil, SurfaceBlocks, coupled_pencil, loads_on_first
+from hydroelastic.fem.plan.plan_pencil import PlanPlate
+from hydroelastic.fem.shape_loads import surface_load
+from hydroelastic.fem.surfaces import LiquidSurface
+from hydroelastic.fem.volume.loads import plate_loads
+from hydroelastic.meshes.geometry import FREE_SURFACE
+
+SolverOf = Callable[[LiquidSpace, PETSc.Mat, tuple[ClosedLayer, ...]], LiquidOperator]
+"""Makes A⁺ from the space, A and the layers of constant volume."""
+
+
+def moving_water(liquid: LiquidSpace, *, waves: bool) -> tuple[str, ...]:
+    """Return the name of the water beside the plates, if there is any that moves under gravity."""
+    return (FREE_SURFACE,) if waves and FREE_SURFACE in liquid.tank.facet_names else ()
+
+
+def scaled_matrices(liquid: LiquidSpace, names: tuple[str, ...], images: int) -> LiquidMatrices:
+    """Assemble what the problems of all symmetries share, with energies of all parts that are alike (collective)."""
+    matrices = liquid_matrices(liquid, names)
+    for matrix in filter(None, (matrices.laplace, matrices.surface_mass)):
+        matrix.scale(float(images))
+    return matrices
+
+
+def volume_pencil(
+    liquid: LiquidSpace,
+    matrices: LiquidMatrices,
+    plates: tuple[PlanPlate, ...],
+    solver_of: SolverOf,
+    *,
+    waves: bool,
+    images: int = 1,
+) -> CoupledPencil[LiquidSpace] | None:
+    """Assemble the coupled problem of one symmetry; ``None`` where nothing moves (collective).
+
+    Args:
+        liquid: space of ψ.
+        matrices: see `scaled_matrices`.
+        plates: the bodies.
+        solver_of: makes the solver of Laplace's equation.
+        waves: whether the water beside the plates moves under gravity.
+        images: number of parts that are alike.
+    """
+    names = moving_water(liquid, waves=waves)
+    surfaces = tuple(LiquidSurface(surface=name, gravity=1.0) for name in names)
+    blocks = []
+    for surface in surfaces:
+        assert matrices.surface_mass is not None
+        coupling, stiffness = surface_blocks(liquid, surface, matrices.surface_mass)
+        blocks.append(SurfaceBlocks(coupling=coupling, stiffness=stiffness))
+    moving = [plate for plate in plates if plate.body.size]
+    if not moving and not names:
+        return None
+    layers = closed_layers(liquid)
+    load = surface_load(liquid, (*(plate.body.surface for plate in moving), *names)) if layers else None
+    closed = () if load is None else tuple(closed_layer(liquid, layer, load) for layer in layers)
+    loads = chain.from_iterable(images * plate_loads(liquid, plate) for plate in moving)
+    count = sum(plate.body.size for plate in moving)
+    return coupled_pencil(
+        liquid,
+        bodies=tuple(plate.body for plate in moving),
+        surfaces=surfaces,
+        body_coupling=loads_on_first(loads, count, matrices.laplace) if moving else None,
+        surface_blocks=blocks,
+        laplace=matrices.laplace,
+        solver=solver_of(liquid, matrices.laplace, closed),
+        closed=layers,
+    )

@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import numpy as np
 from petsc4py import PETSc
-from scipy.spatial import cKDTree
 
 from hydroelastic.fem.facets import facet_groups
 from hydroelastic.fem.liquid import LiquidSpace
@@ -65,6 +64,8 @@ def _pairs(liquid: LiquidSpace, name: str, above: PETSc.IS, below: PETSc.IS) -> 
     A place may be on one process below and on another above: every process sees the places below, which are those of a
     surface only.
     """
+    from scipy.spatial import cKDTree  # slow to import, so only where there is an interface
+
     comm = liquid.tank.mesh.comm
     places = _places(liquid, name)
     first = liquid.numbering.first

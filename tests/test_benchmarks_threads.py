@@ -119,6 +119,7 @@ def test_errors_are_relative_to_the_largest() -> None:
     assert thread_error(JUMPER, tuple(tension)) == pytest.approx(1e-3)
 
 
+@pytest.mark.slow_but("[!j]*")
 @pytest.mark.parametrize(
     ("case", "least", "most"),
     [
@@ -165,6 +166,7 @@ ROWS = [
 BENCHMARK = Benchmark(rows=tuple(ROWS), not_measured={}, versions={"moordyn": {"MoorDyn": "2.7"}}, repeats=2)
 
 
+@pytest.mark.slow
 def test_all_rows_are_written(tmp_path: Path) -> None:
     rows = list(csv.DictReader(io.StringIO(threads_csv(BENCHMARK))))
     assert tuple(rows[0]) == THREAD_COLUMNS

@@ -42,7 +42,7 @@ KINDS = pytest.mark.parametrize("kind", ["one", "one, hydrostatic", "two", "lid"
 
 
 @pytest.mark.slow_but("one", "lid", "water alone")
-@pytest.mark.slow_on_ranks_but("one", "water alone")
+@pytest.mark.slow_on_ranks_but("water alone")
 @pytest.mark.mpi
 @KINDS
 def test_between_two_modes_the_inertia_counts_those_below(tanks: Any, kind: str) -> None:

@@ -17,7 +17,8 @@ from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.scenes.command_line import main
 from hydroelastic.scenes.read import scene_path
 
-DRAWING = {"vtk", "vtkmodules", "pyvista", "matplotlib", "PIL"}
+SPACE = {"vtk", "vtkmodules", "pyvista"}
+DRAWING = SPACE | {"matplotlib", "PIL"}
 # What reads datasets; they are written without.
 READING = {"xarray", "pandas"}
 HEAVY = (
@@ -303,11 +304,11 @@ def test_an_output_that_is_full_is_one_line(arguments: list[str]) -> None:
         (["--help"], set()),
         (["run", "--help"], set()),
         (["run", "missing.toml"], set()),
-        # What solves draws only when asked, and draws with pyvista.
+        # What solves draws only when asked, and draws sections without VTK.
         (["run", "aquarium", "--no-images", *COARSE], HEAVY - DRAWING - READING),
         (["run", "open_circle", "--no-images", "--set", "accuracy.tolerance=1e-2"], HEAVY - DRAWING - READING),
         (["compare", "aquarium", *COARSE], HEAVY - DRAWING - READING),
-        (["run", "aquarium", *COARSE], HEAVY - READING),
+        (["run", "aquarium", *COARSE], HEAVY - READING - SPACE),
     ],
 )
 def test_nothing_heavy_is_imported_that_is_not_needed(arguments: list[str], needed: set[str]) -> None:
@@ -337,12 +338,12 @@ def test_the_real_command_keeps_streams_and_exit_codes_apart() -> None:
     bad = process("check", "missing.toml")
     assert (bad.returncode, bad.stdout) == (2, "")
     assert bad.stderr.count("\n") == 1
-    good = process("check", "aquarium")
+    good = process("check", "swell")
     assert (good.returncode, good.stderr) == (0, "")
 
 
 def test_a_terminal_without_greek_letters_gets_question_marks() -> None:
-    result = process("check", "aquarium", PYTHONIOENCODING="ascii", PYTHONUTF8="0")
+    result = process("check", "swell", PYTHONIOENCODING="ascii", PYTHONUTF8="0")
     assert result.returncode == 0, result.stderr
     assert "?" in result.stdout
 
@@ -350,7 +351,6 @@ def test_a_terminal_without_greek_letters_gets_question_marks() -> None:
 @pytest.mark.slow_but("OMPI*")
 @pytest.mark.parametrize("variable", ["OMPI_COMM_WORLD_RANK", "PMI_RANK"])
 def test_only_the_first_rank_prints(variable: str) -> None:
-    assert process("list", **{variable: "0"}).stdout != ""
     silent = process("check", "missing.toml", **{variable: "1"})
     assert (silent.returncode, silent.stdout, silent.stderr) == (2, "", "")
     assert process("list", **{variable: "1"}).stdout == ""

@@ -56,8 +56,8 @@ def pytest_runtest_teardown(item: pytest.Item, nextitem: pytest.Item | None) -> 
     """After the last test of a file forget what its functions keep: all solutions together take gigabytes."""
     if nextitem is None or nextitem.path != item.path:
         for value in vars(getattr(item, "module", None) or object).values():
-            wrapped = getattr(value, "__wrapped__", None) if hasattr(value, "cache_clear") else None
-            if wrapped is not None and wrapped.__code__.co_filename.startswith(FOLDER):
+            code = getattr(getattr(value, "__wrapped__", None), "__code__", None)
+            if code is not None and code.co_filename.startswith(FOLDER) and hasattr(value, "cache_clear"):
                 value.cache_clear()
 
 

@@ -133,7 +133,7 @@ def test_errors_are_relative_to_the_largest() -> None:
 )
 def test_hydroelastic_comes_to_the_exact_values(case: Case, least: float, most: float) -> None:
     answer = hydroelastic_thread.solve(case)
-    assert least < row_of(case, answer, (1.0,)).error < most
+    assert least < row_of(case, [answer], (1.0,)).error < most
 
 
 @pytest.mark.slow_but("moorpy-catenary-*")

@@ -300,13 +300,13 @@ def test_unknowns_of_the_two_sides_of_a_slit_are_told_apart() -> None:
     """
     (pencil,) = pencils(SLIT)
     body = pencil.body_size if pencil.stiffness.comm.rank == 0 else 0
-    points = pencil.liquid.space.tabulate_dof_coordinates()
+    points = pencil.liquid.unknown_positions()
     dofs = pencil.liquid.surface_dofs(("interface",), 0)
-    at_slit = np.flatnonzero(np.all(points[dofs, :2] == [0.4, 0.0], axis=1))
+    at_slit = np.flatnonzero(np.all(points[dofs] == [0.4, 0.0], axis=1))
     comm = pencil.liquid.tank.mesh.comm
     assert comm.allreduce(len(at_slit)) == 2
     unit, load = pencil.stiffness.createVecRight(), pencil.coupling.createVecLeft()
-    from_slit = points[: load.getLocalSize(), 0] - 0.4
+    from_slit = points[:, 0] - 0.4
     starts = np.array(comm.allgather(unit.getOwnershipRange()[0] + body))
     for rank in range(comm.size):
         for node in comm.bcast(at_slit, root=rank):

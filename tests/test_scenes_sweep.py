@@ -3,7 +3,10 @@ again."""
 
 import csv
 import json
+from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,6 +15,7 @@ from scene_files import BEAM_IN_TANK
 from tanks import Tanks
 
 import hydroelastic.scenes.sweep.workers as workers
+from hydroelastic.fem.sweep.encounters import Encounter
 from hydroelastic.fem.tank.liquids import liquid_key
 from hydroelastic.fem.tank.mode_vectors import mode_vectors
 from hydroelastic.scenes.command_line import main
@@ -145,6 +149,25 @@ def test_other_kinds_of_scenes_are_swept_over_several_keys() -> None:
     assert found.dataset["response_largest_angle"].values[1, 0] == expected
     assert found.table["response_largest_angle"].tolist()[3] == expected
     assert found.plot("response_largest_angle").width > 500
+
+
+def test_modes_that_are_not_resolved_are_told_like_a_missed_tolerance() -> None:
+    solved = sweep("swell", {"roll.damping_ratio": [0.2, 0.4]}).solved
+    assert (solved.status, solved.reasons) == ("ok", [])
+    meeting = Encounter(
+        kind="unresolved", at=0.3, omega=2.5, gap=0.1, gap_error=0.0, branches=(0, 1), reason="the shape changes"
+    )
+    line: Any = SimpleNamespace(others={}, encounters=(meeting,), followed=SimpleNamespace(exhausted=True))
+    doubtful = replace(solved, lines=(line,))
+    assert doubtful.status == "unconverged"
+    assert doubtful.reasons == [
+        "roll.damping_ratio = 0.3: modes not resolved at ω = 2.5: the shape changes",
+        "following the modes needs more points than were allowed",
+    ]
+    crossing: Any = SimpleNamespace(
+        others={}, encounters=(replace(meeting, kind="crossing"),), followed=SimpleNamespace(exhausted=False)
+    )
+    assert replace(solved, lines=(crossing,)).status == "ok"
 
 
 @pytest.fixture

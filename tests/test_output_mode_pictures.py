@@ -239,7 +239,7 @@ def test_a_page_shows_nothing_of_the_page_before(tmp_path: Path) -> None:
 
 
 def test_the_field_has_no_holes_where_cells_are_cut_differently() -> None:
-    for turn in np.arange(0.05, 6.2, 0.4):
+    for turn in np.arange(0.05, 6.2, 1.3):
         raster = coarse_beside_fine(turn)
         image = raster.coloured(np.full(len(raster.points), 0.9), 1.0, mode_colours())
         # What shows through is white in all three channels.

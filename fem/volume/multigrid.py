@@ -45,7 +45,13 @@ class MultigridSolver:
     """
 
     def __init__(
-        self, liquid: LiquidSpace, matrix: PETSc.Mat, closed: tuple[ClosedLayer, ...], *, tolerance: float
+        self,
+        liquid: LiquidSpace,
+        matrix: PETSc.Mat,
+        closed: tuple[ClosedLayer, ...],
+        images: int,
+        *,
+        tolerance: float,
     ) -> None:
         """Set up all levels (collective).
 
@@ -53,6 +59,7 @@ class MultigridSolver:
             liquid: space of ψ.
             matrix: A on all unknowns; it is not changed.
             closed: the layers of constant volume; one, or none where ψ = 0 on a surface.
+            images: the factor of A to ∫∇ψ·∇q.
             tolerance: of the solution, relative, in the energy norm.
         """
         self.solves, self.iterations = 0, 0
@@ -62,9 +69,10 @@ class MultigridSolver:
         while spaces[0].degree > 1:
             spaces.insert(0, liquid_space(liquid.tank, spaces[0].degree // 2, liquid.zero_potential))
         self._fixed = liquid.zero_dofs()
-        matrices = [laplace_matrix(space) for space in spaces[:-1]] + [
-            matrix.copy() if liquid.zero_potential else matrix
-        ]
+        matrices = [laplace_matrix(space) for space in spaces[:-1]]
+        for one in matrices:
+            one.scale(float(images))
+        matrices.append(matrix.copy() if liquid.zero_potential else matrix)
         for space, one in zip(spaces, matrices, strict=True):
             self._constrain(space, one)
         self._solver = solver = PETSc.KSP().create(matrix.comm)

@@ -24,8 +24,8 @@ from hydroelastic.fem.surfaces import LiquidSurface
 from hydroelastic.fem.volume.loads import plate_loads
 from hydroelastic.meshes.geometry import FREE_SURFACE
 
-SolverOf = Callable[[LiquidSpace, PETSc.Mat, tuple[ClosedLayer, ...]], LiquidOperator]
-"""Makes A⁺ from the space, A and the layers of constant volume."""
+SolverOf = Callable[[LiquidSpace, PETSc.Mat, tuple[ClosedLayer, ...], int], LiquidOperator]
+"""Makes A⁺ from the space, A, the layers of constant volume, and the number of parts that are alike."""
 
 
 def moving_water(liquid: LiquidSpace, *, waves: bool) -> tuple[str, ...]:
@@ -82,6 +82,6 @@ def volume_pencil(
         body_coupling=loads_on_first(loads, count, matrices.laplace) if moving else None,
         surface_blocks=blocks,
         laplace=matrices.laplace,
-        solver=solver_of(liquid, matrices.laplace, closed),
+        solver=solver_of(liquid, matrices.laplace, closed, images),
         closed=layers,
     )

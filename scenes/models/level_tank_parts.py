@@ -66,7 +66,7 @@ class ShapedBed(SceneModel):
     """
 
     slope: PlanPoint | None = Field(
-        default=None, description="[along x, along y], rise of a plane bed per length; depth is that in the middle"
+        default=None, description="[along x, along y], rise of a plane bed, m/m; depth is that in the middle"
     )
     points: tuple[tuple[AnyNumber, AnyNumber, AnyNumber], ...] | None = Field(
         default=None,

@@ -12,9 +12,13 @@ import numpy as np
 import pytest
 from level_tanks import CASES, reference_tank
 
+from hydroelastic.fem.facets import facet_groups
+from hydroelastic.fem.liquid import liquid_space
 from hydroelastic.fem.modes import solve_modes
 from hydroelastic.fem.plan.solve import solve_upright_tank
+from hydroelastic.fem.shape_loads import facet_quadrature
 from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.volume.floats import float_body
 from hydroelastic.fem.volume.model import VolumeModel, volume_mirrors
 from hydroelastic.fem.volume.multigrid import MultigridSolver
 from hydroelastic.fem.volume.resolution import VolumeResolution
@@ -26,6 +30,7 @@ from hydroelastic.meshes.volume import VolumeSizes, volume_mesh
 from hydroelastic.meshes.volume_file import file_plan
 from hydroelastic.physics.level_tank import Box, Cylinder, LevelTank
 from hydroelastic.physics.plate import Disc, Plate, Rectangle
+from hydroelastic.physics.solid_floats import SOLID_MOTIONS, SolidFloat
 from hydroelastic.physics.volume_tank import SlopingBed, SurveyedBed, VolumeTank
 
 SILENT: Report = lambda _message: None  # noqa: E731
@@ -189,6 +194,89 @@ def test_multigrid_gives_the_modes_of_the_factorization() -> None:
         # The residual of eigenpairs, 1e-9, enters squared; that of Laplace's equation, 1e-10, too.
         assert values[0] == pytest.approx(values[1], rel=1e-10)
     assert max(iterations) < 22.0, iterations
+
+
+def floating_cylinder(name: str) -> VolumeTank:
+    given = CASES[name]["inputs"]
+    radius, draught = given["a"], given["T"]
+    gyration = float(np.sqrt(radius**2 / 4.0 + draught**2 / 12.0))
+    solid = SolidFloat(
+        shape="cylinder",
+        size=(2.0 * radius, 2.0 * radius),
+        draught=draught,
+        position=(0.0, 0.0),
+        centre_of_gravity=given["zg"],
+        gyration=(gyration, gyration, 1.0),
+        motions=SOLID_MOTIONS[:5],
+    )
+    return VolumeTank(plan=Cylinder(radius=given["R"]), depth=given["H"], density=1000.0, gravity=9.81, floats=(solid,))
+
+
+@pytest.mark.slow_but("float_cylinder_shallow_draught-0.003")
+@pytest.mark.parametrize(
+    ("name", "tolerance"),
+    [
+        ("float_cylinder_shallow_draught", 3e-3),
+        ("float_cylinder_shallow_draught", 1e-4),
+        ("float_cylinder_base", 1e-3),
+    ],
+)
+def test_floating_cylinders_have_the_frequencies_of_the_meridian_plane(name: str, tolerance: float) -> None:
+    tank = floating_cylinder(name)
+    solution = solve_volume(tank.scaled(), tolerance=tolerance, count=10)
+    assert solution.counted
+    omega = np.sqrt(solution.modes.eigenvalues) * tank.units.frequency
+    # Surge and sway have no stiffness.
+    assert sum(one.modes.zero_modes for one in solution.modes.classes) == 2
+    for expected, twice in list(zip(CASES[name]["omega"], CASES[name]["multiplicity"], strict=True))[:3]:
+        places = np.argsort(np.abs(omega - expected))[:twice]
+        errors = omega[places] / expected - 1.0
+        assert np.all((errors > 0.0) & (errors <= tolerance))
+        # Measured at the float's corner: 1.2 to 1.4; of low waves more.
+        assert np.all(solution.relative_errors[places] >= errors)
+
+
+def test_hydrostatics_of_a_box_and_a_sphere_are_those_of_their_wetted_surface() -> None:
+    """V = ∫n_z z dS and the first moments, by the divergence theorem over the mesh."""
+    from mpi4py import MPI
+
+    for shape, size, depth in (("box", (0.6, 0.4), 0.2), ("sphere", (0.6, 0.6), 0.3), ("sphere", (0.6, 0.6), 0.2)):
+        solid = SolidFloat(
+            shape=shape,
+            size=size,
+            draught=depth,
+            position=(0.9, 0.8),
+            centre_of_gravity=0.05,
+            gyration=(1.0, 1.0, 1.0),
+            motions=SOLID_MOTIONS,
+        )
+        tank = VolumeTank(plan=Box(length=2.0, width=1.5), depth=0.6, density=1.0, gravity=1.0, floats=(solid,))
+        sizes = VolumeSizes(edge=0.2, bulk=0.3, geometry=4)
+        mesh, _ = distributed_volume(tank, sizes, (None, None), MPI.COMM_SELF)
+        liquid = liquid_space(mesh, 2)
+        found = solid.hydrostatics
+        points, normals, weights = [], [], []
+        for group in facet_groups(liquid, "body_1"):
+            quadrature = facet_quadrature(liquid, group, 1.0, -1)
+            points.append(quadrature.points)
+            normals.append(quadrature.normals)
+            weights.append(quadrature.weights.ravel())
+        at, towards, weight = np.hstack(points), np.hstack(normals), np.concatenate(weights)
+        # Out of the liquid is into the body: its volume has the other sign.
+        volume = -float(weight @ (at[2] * towards[2]))
+        assert volume == pytest.approx(-float(weight @ ((at[0] - 0.9) * towards[0])), rel=1e-4)
+        assert volume == pytest.approx(found.volume, rel=1e-4)
+        assert -float(weight @ (0.5 * at[2] ** 2 * towards[2])) == pytest.approx(volume * found.buoyancy, rel=1e-4)
+        assert float(weight @ towards[2]) == pytest.approx(found.waterplane, rel=1e-4)
+        moments = [float(weight @ ((at[1 - axis] - (0.8, 0.9)[axis]) ** 2 * towards[2])) for axis in (0, 1)]
+        lever = found.volume * (found.buoyancy - 0.05)
+        assert solid.stiffness() == pytest.approx(
+            [0.0, 0.0, found.waterplane, found.second[0] + lever, found.second[1] + lever, 0.0]
+        )
+        if shape == "box":
+            assert moments == pytest.approx(found.second, rel=1e-4)
+        names = [f"{motion}" for motion in float_body(solid, "body_1", (1, 0)).dofs]
+        assert names == ["surge", "pitch"]
 
 
 def test_meshes_have_the_volume_of_the_tank() -> None:

@@ -19,8 +19,8 @@ from hydroelastic.fem.liquid import (
 from hydroelastic.fem.liquid_operator import LiquidOperator
 from hydroelastic.fem.pencil import CoupledPencil, SurfaceBlocks, coupled_pencil, loads_on_first
 from hydroelastic.fem.plan.plan_pencil import PlanPlate
-from hydroelastic.fem.shape_loads import surface_load
-from hydroelastic.fem.surfaces import LiquidSurface
+from hydroelastic.fem.shape_loads import shape_loads, surface_load
+from hydroelastic.fem.surfaces import Body, LiquidSurface
 from hydroelastic.fem.volume.loads import plate_loads
 from hydroelastic.meshes.geometry import FREE_SURFACE
 
@@ -45,6 +45,7 @@ def volume_pencil(
     liquid: LiquidSpace,
     matrices: LiquidMatrices,
     plates: tuple[PlanPlate, ...],
+    floats: tuple[Body, ...],
     solver_of: SolverOf,
     *,
     waves: bool,
@@ -55,7 +56,8 @@ def volume_pencil(
     Args:
         liquid: space of ψ.
         matrices: see `scaled_matrices`.
-        plates: the bodies.
+        plates: those on the still surface.
+        floats: those with draught, after them.
         solver_of: makes the solver of Laplace's equation.
         waves: whether the water beside the plates moves under gravity.
         images: number of parts that are alike.
@@ -68,18 +70,25 @@ def volume_pencil(
         coupling, stiffness = surface_blocks(liquid, surface, matrices.surface_mass)
         blocks.append(SurfaceBlocks(coupling=coupling, stiffness=stiffness))
     moving = [plate for plate in plates if plate.body.size]
-    if not moving and not names:
+    rigid = [body for body in floats if body.size]
+    bodies = (*(plate.body for plate in moving), *rigid)
+    if not bodies and not names:
         return None
     layers = closed_layers(liquid)
-    load = surface_load(liquid, (*(plate.body.surface for plate in moving), *names)) if layers else None
+    load = surface_load(liquid, (*(body.surface for body in bodies), *names)) if layers else None
     closed = () if load is None else tuple(closed_layer(liquid, layer, load) for layer in layers)
-    loads = chain.from_iterable(images * plate_loads(liquid, plate) for plate in moving)
-    count = sum(plate.body.size for plate in moving)
+    loads = chain.from_iterable(
+        images * load
+        for load in chain(
+            (plate_loads(liquid, plate) for plate in moving), (shape_loads(liquid, body) for body in rigid)
+        )
+    )
+    count = sum(body.size for body in bodies)
     return coupled_pencil(
         liquid,
-        bodies=tuple(plate.body for plate in moving),
+        bodies=bodies,
         surfaces=surfaces,
-        body_coupling=loads_on_first(loads, count, matrices.laplace) if moving else None,
+        body_coupling=loads_on_first(loads, count, matrices.laplace) if bodies else None,
         surface_blocks=blocks,
         laplace=matrices.laplace,
         solver=solver_of(liquid, matrices.laplace, closed, images),

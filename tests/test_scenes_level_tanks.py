@@ -113,7 +113,7 @@ def test_a_beam_in_a_box_is_a_cover_of_slats() -> None:
 BAD: dict[str, tuple[dict[str, Any], str]] = {
     "two plans": ({"tank": {"radius": 5.0, "width": 2.0}}, "different plans"),
     "no plan": ({"tank": {"length": 5.0}}, 'no plan. Did you mean "beam"'),
-    "float": ({"body": [{"kind": "float", "start": 0.0}]}, "bodies are plates"),
+    "varying beam": ({"body": [{"kind": "varying_beam", "start": 0.0}]}, "bodies are plates"),
     "beams in a cylinder": ({"body": [BEAM]}, "side to side of a box"),
     "beam with a key of a plate": ({"body": [BEAM | {"mass_per_area": 1.0}]}, "not known here"),
     "beam too heavy": (

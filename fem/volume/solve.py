@@ -123,7 +123,7 @@ def solve_volume(
         model = VolumeModel(tank=tank, resolution=resolution, mesh=mesh, mirrors=mirrors)
         size = model.liquid.size
         report(f"attempt {attempt}: {mesh.cell_count} cells, degree {resolution.degree}, {size} unknowns")
-        require_memory(size, resolution.degree)
+        require_memory(size, resolution.degree, processes)
         modes = solve_classes(model.pencils(partial(direct_or_multigrid, tolerance=tolerance)), count + 1, tolerance)
 
         def errors_of(one: SymmetryClass, some: list[Mode]) -> np.ndarray:
@@ -181,13 +181,13 @@ def distributed_volume(
     return distribute_nodes(comm, made.noded if isinstance(made, VolumeMesh) else None), _GEOMETRY * deviation
 
 
-def require_memory(unknowns: int, degree: int) -> None:
-    """Refuse a problem that does not fit.
+def require_memory(unknowns: int, degree: int, comm: MPI.Comm) -> None:
+    """Refuse a problem that does not fit into the memory of the first process's computer (collective).
 
     Raises:
         TooLargeError: with what is needed and what there is.
     """
-    needed, free = memory_needed(unknowns, degree), free_memory()
+    needed, free = memory_needed(unknowns, degree), comm.bcast(free_memory())
     if free is not None and needed > free:
         raise TooLargeError(
             f"{unknowns} unknowns of degree {degree} need about {needed / 2**30:.1f} GiB, and {free / 2**30:.1f} GiB "

@@ -18,9 +18,10 @@ import numpy as np
 from dolfinx.mesh import create_box, locate_entities_boundary, meshtags
 from mpi4py import MPI
 
-from hydroelastic.fem.liquid import closed_layer, laplace_matrix, liquid_space
+from hydroelastic.fem.liquid import closed_layer, liquid_space
 from hydroelastic.fem.memory import peak_memory
 from hydroelastic.fem.shape_loads import surface_load
+from hydroelastic.fem.volume.matrices import volume_laplace
 from hydroelastic.fem.volume.multigrid import MultigridSolver
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.meshes.geometry import FREE_SURFACE, LIQUID
@@ -50,7 +51,7 @@ def measured(comm: MPI.Comm, degree: int, unknowns: float, tolerance: float) -> 
         tank = cube(comm, max(2, round((unknowns ** (1.0 / 3.0) - 1.0) / degree)))
         times.append(perf_counter())
         liquid = liquid_space(tank, degree)
-        laplace = laplace_matrix(liquid)
+        laplace = volume_laplace(liquid)
         surface = surface_load(liquid, (FREE_SURFACE,))
         times.append(perf_counter())
         solver = MultigridSolver(liquid, laplace, (closed_layer(liquid, 0, surface),), 1, tolerance=tolerance)

@@ -6,14 +6,16 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
 
-from hydroelastic.fem.liquid import LiquidMatrices, LiquidSpace, liquid_space
+from hydroelastic.fem.liquid import LiquidSpace, liquid_space
+from hydroelastic.fem.liquid_matrices import LiquidMatrices
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.plan_pencil import PlanPlate
 from hydroelastic.fem.plan.plates import plan_plate
 from hydroelastic.fem.plan.rectangle_body import AxisParity, ClassParity, rectangle_of
 from hydroelastic.fem.plan.regions import mirrors_of, plan_regions
 from hydroelastic.fem.volume.floats import float_body
-from hydroelastic.fem.volume.pencil import SolverOf, moving_water, scaled_matrices, volume_pencil
+from hydroelastic.fem.volume.matrices import volume_matrices
+from hydroelastic.fem.volume.pencil import SolverOf, moving_water, volume_pencil
 from hydroelastic.fem.volume.resolution import VolumeResolution
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.meshes.geometry import FREE_SURFACE
@@ -78,7 +80,7 @@ class VolumeModel:
 
     @cached_property
     def _matrices(self) -> LiquidMatrices:
-        return scaled_matrices(self.liquid, moving_water(self.liquid, waves=self._waves), self.images)
+        return volume_matrices(self.liquid, moving_water(self.liquid, waves=self._waves), self.images)
 
     @property
     def _waves(self) -> bool:

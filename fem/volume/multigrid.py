@@ -14,8 +14,9 @@ from dolfinx.fem import petsc as fem_petsc
 from mpi4py import MPI
 from petsc4py import PETSc
 
-from hydroelastic.fem.liquid import ClosedLayer, LiquidSpace, laplace_matrix, liquid_space
+from hydroelastic.fem.liquid import ClosedLayer, LiquidSpace, liquid_space
 from hydroelastic.fem.modes import EigenSolverError
+from hydroelastic.fem.volume.matrices import volume_laplace
 
 # Of Chebyshev's method before and after each coarser level; measured on P4: 14 iterations of 3 steps, 18 of 2.
 _SMOOTHING_STEPS = 3
@@ -69,9 +70,7 @@ class MultigridSolver:
         while spaces[0].degree > 1:
             spaces.insert(0, liquid_space(liquid.tank, spaces[0].degree // 2, liquid.zero_potential))
         self._fixed = liquid.zero_dofs()
-        matrices = [laplace_matrix(space) for space in spaces[:-1]]
-        for one in matrices:
-            one.scale(float(images))
+        matrices = [volume_laplace(space, images) for space in spaces[:-1]]
         matrices.append(matrix.copy() if liquid.zero_potential else matrix)
         for space, one in zip(spaces, matrices, strict=True):
             self._constrain(space, one)

@@ -82,6 +82,7 @@ class VolumeSolution:
             "problems": len(self.modes.classes),
             "degree": self.model.resolution.degree,
             "cells": self.model.mesh.cell_count,
+            "iterations": round(self.iterations),
             "layers": 0,
             "poles": 0,
         }

@@ -301,6 +301,13 @@ SIZE = Group(
         Quantity("degree", "polynomial degree of ψ", "1"),
         Quantity("layers", "layers at each edge", "1"),
         Quantity("poles", "poles of the depth; 0 where it is exact", "1"),
+        Quantity("cells", "tetrahedra of a volume; 0 of other models", "1", value=lambda size: size.get("cells", 0)),
+        Quantity(
+            "iterations",
+            "iterations of each solution of Laplace's equation by multigrid, in the mean; 0 of a factorization",
+            "1",
+            value=lambda size: size.get("iterations", 0),
+        ),
         Quantity("dofs", "unknowns of all problems", "1"),
         Quantity("surface_unknowns", "unknowns of plates and water", "1"),
         Quantity("plate_shapes", "dry modes of the plates, of all problems", "1"),

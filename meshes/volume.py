@@ -22,9 +22,10 @@ from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.meshes.tetrahedra import VolumeMesh, checked, mesh_integral, read_gmsh
 from hydroelastic.meshes.volume_file import lies_in_plane, mesh_of_file, solid_of_file
 from hydroelastic.physics.arrays import FloatArray
-from hydroelastic.physics.dofs import body_name
+from hydroelastic.physics.dofs import body_name, body_number
 from hydroelastic.physics.level_tank import Box, Cylinder, FilePlan
 from hydroelastic.physics.plate import Disc, Outline, Polygon, Rectangle, Strip
+from hydroelastic.physics.solid_floats import SolidFloat
 from hydroelastic.physics.volume_tank import SlopingBed, SurveyedBed, VolumeTank
 
 MIRRORS = ("mirror_x", "mirror_y")
@@ -38,6 +39,10 @@ _SAMPLES = 200
 # Smallest part of the bulk size that the curvature of a wall asks for.
 _LEAST_CURVED = 0.2
 _LEVEL = 1e-7
+# Points this close to a float, in units of the tank, are on it.
+_ON_FLOAT = 1e-7
+# By so much boxes around edges are larger than these.
+_BOXES = 1e-6
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -73,7 +78,10 @@ def volume_mesh(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors = (None, 
     bed = depth_over(tank)
     with gmsh_model():
         occ = gmsh.model.occ
-        solid = _kept(_liquid(tank), tank, mirrors)
+        solid = _liquid(tank)
+        if tank.floats:
+            solid = occ.cut(solid, [one for float_ in tank.floats for one in _float_solid(float_)])[0]
+        solid = _kept(solid, tank, mirrors)
         plates = [_face(plate.outline) for plate in tank.plates]
         plates = [_kept(plate, tank, mirrors) for plate in plates]
         flat = [one for plate in plates for one in plate]
@@ -83,10 +91,10 @@ def volume_mesh(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors = (None, 
             raise MeshError("the bed divides the liquid")
         (liquid,) = gmsh.model.getEntities(3)
         owners = _owners(plates, parts[len(solid) :])
-        faces = {tag: _name(tag, owners, mirrors) for _, tag in gmsh.model.getBoundary([liquid], oriented=False)}
+        faces = {tag: _name(tank, tag, owners, mirrors) for _, tag in gmsh.model.getBoundary([liquid], oriented=False)}
         _require_covered(tank, owners, faces, 2 ** sum(mirror is not None for mirror in mirrors))
         volume = occ.getMass(*liquid)
-        _set_sizes(sizes, [tag for tag, name in faces.items() if name.startswith("body")])
+        _set_sizes(sizes, _singular_edges(tank, faces, mirrors))
         with interrupts_deferred():
             gmsh.model.mesh.generate(3)
             degree = sizes.geometry if _is_curved(tank) else 1
@@ -207,21 +215,46 @@ def _require_covered(tank: VolumeTank, owners: dict[int, int], faces: dict[int, 
             raise MeshError(f"plate {index + 1} does not lie on the still surface of the tank")
 
 
-def _name(tag: int, plates: dict[int, int], mirrors: Mirrors) -> str:
-    """Name of a face of the liquid: a plate, the still surface, a plane of symmetry, or "" for a wall."""
+def _name(tank: VolumeTank, tag: int, plates: dict[int, int], mirrors: Mirrors) -> str:
+    """Name of a face of the liquid: a plate, a float, the still surface, a plane of symmetry, or "" for a wall."""
     if tag in plates:
         return body_name(plates[tag] + 1)
     for axis, level, name in ((2, 0.0, FREE_SURFACE), *zip((0, 1), mirrors, MIRRORS, strict=True)):
         # Walls of the tank are no planes through its middle.
         if level is not None and lies_in_plane(tag, axis, level):
             return name
+    for index, solid in enumerate(tank.floats, len(tank.plates) + 1):
+        if solid.distance(_points_of(tag)).max() < _ON_FLOAT:
+            return body_name(index)
     return ""
+
+
+def _points_of(face: int) -> FloatArray:
+    """Points of a face: of its middle, and of its edges."""
+    low, high = gmsh.model.getParametrizationBounds(2, face)
+    points = [gmsh.model.getValue(2, face, [0.5 * (a + b) for a, b in zip(low, high, strict=True)])]
+    for _, edge in gmsh.model.getBoundary([(2, face)], oriented=False):
+        (start,), (end,) = gmsh.model.getParametrizationBounds(1, edge)
+        points.append(gmsh.model.getValue(1, edge, [0.5 * (start + end)]))
+    return np.array(points)
+
+
+def _float_solid(solid: SolidFloat) -> _Entities:
+    """A float as a solid that reaches above the still surface."""
+    occ, (x, y), depth = gmsh.model.occ, solid.position, solid.draught
+    if solid.shape == "sphere":
+        return [(3, occ.addSphere(x, y, 0.5 * solid.size[0] - depth, 0.5 * solid.size[0]))]
+    if solid.shape == "cylinder":
+        return [(3, occ.addCylinder(x, y, -depth, 0.0, 0.0, 2.0 * depth, 0.5 * solid.size[0]))]
+    along, across = solid.size
+    return [(3, occ.addBox(x - 0.5 * along, y - 0.5 * across, -depth, along, across, 2.0 * depth))]
 
 
 def _is_curved(tank: VolumeTank) -> bool:
     round_plates = any(isinstance(plate.outline, Disc) for plate in tank.plates)
     return (
         isinstance(tank.plan, Cylinder)
+        or any(solid.shape != "box" for solid in tank.floats)
         or round_plates
         or isinstance(tank.bed, SurveyedBed)
         or (isinstance(tank.plan, FilePlan) and any(kind not in ("Plane",) for kind in _kinds()))
@@ -232,10 +265,27 @@ def _kinds() -> set[str]:
     return {gmsh.model.getType(2, tag) for _, tag in gmsh.model.getEntities(2)}
 
 
-def _set_sizes(sizes: VolumeSizes, plates: list[int]) -> None:
-    """Cells grow from the edges of plates, and follow curved walls."""
+def _singular_edges(tank: VolumeTank, faces: dict[int, str], mirrors: Mirrors) -> set[int]:
+    """Edges of plates and corners of floats; not those that planes of symmetry make, nor where walls of a float meet
+    the still surface at right angles."""
+    upright = {
+        body_name(number) for number, solid in enumerate(tank.floats, len(tank.plates) + 1) if solid.shape != "sphere"
+    }
+    found = set()
+    for face, name in faces.items():
+        if body_number(name) is None:
+            continue
+        planes = [*enumerate(mirrors), (2, 0.0 if name in upright else None)]
+        for _, edge in gmsh.model.getBoundary([(2, face)], oriented=False):
+            box = np.array(gmsh.model.occ.getBoundingBox(1, edge)).reshape(2, 3)
+            if not any(level is not None and np.abs(box[:, axis] - level).max() < _BOXES for axis, level in planes):
+                found.add(edge)
+    return found
+
+
+def _set_sizes(sizes: VolumeSizes, edges: set[int]) -> None:
+    """Cells grow from singular edges, and follow curved walls."""
     mesh = gmsh.model.mesh
-    edges = {tag for plate in plates for _, tag in gmsh.model.getBoundary([(2, plate)], oriented=False)}
     if edges and sizes.edge < sizes.bulk:
         near = mesh.field.add("Distance")
         mesh.field.setNumbers(near, "CurvesList", sorted(edges))

@@ -8,6 +8,7 @@ from typing import TypeAlias
 from hydroelastic.physics.level_tank import FilePlan, LevelTank
 from hydroelastic.physics.plate import Point
 from hydroelastic.physics.scales import Scales
+from hydroelastic.physics.solid_floats import SolidFloat
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,18 +51,24 @@ class VolumeTank(LevelTank):
 
     Attributes:
         bed: of an upright tank; ``None`` where it is level, or part of a file.
+        floats: solids with draught; as bodies they come after the plates.
     """
 
     bed: Bed | None = None
+    floats: tuple[SolidFloat, ...] = ()
 
     @property
     def is_level(self) -> bool:
-        """Whether it is an upright tank with a level bed all the same."""
-        return self.bed is None and not isinstance(self.plan, FilePlan)
+        """Whether it is an upright tank with a level bed and plates all the same."""
+        return self.bed is None and not self.floats and not isinstance(self.plan, FilePlan)
 
     def scaled(self) -> VolumeTank:
         """Return the tank in its own units."""
         units: Scales = self.units
         level = super().scaled()
         assert isinstance(level, VolumeTank)
-        return replace(level, bed=None if self.bed is None else self.bed.scaled(units.length))
+        return replace(
+            level,
+            bed=None if self.bed is None else self.bed.scaled(units.length),
+            floats=tuple(solid.scaled(units) for solid in self.floats),
+        )

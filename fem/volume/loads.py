@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from hydroelastic.fem.facets import FacetGroup, facet_groups
 from hydroelastic.fem.liquid import LiquidSpace
 from hydroelastic.fem.plan.plan_pencil import PlanPlate
-from hydroelastic.fem.shape_loads import potential_basis, summed_over_processes
+from hydroelastic.fem.shape_loads import potential_basis
 
 # Degrees of the quadrature beyond that of ψ.
 _SPARE_DEGREES = 8
@@ -22,8 +22,7 @@ def plate_loads(liquid: LiquidSpace, plate: PlanPlate) -> NDArray[np.float64]:
 
     An integral that is not exact costs frequencies their bound from above, so the points follow the shortest shape.
     """
-    index_map = liquid.space.dofmap.index_map
-    loads = np.zeros((plate.body.size, index_map.size_local + index_map.num_ghosts))
+    loads = np.zeros((plate.body.size, len(liquid.layer_of)))
     for group in facet_groups(liquid, plate.body.surface):
         corners = group.physical_points(group.reference_corners)
         sizes = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
@@ -31,7 +30,7 @@ def plate_loads(liquid: LiquidSpace, plate: PlanPlate) -> NDArray[np.float64]:
         orders = liquid.degree + _SPARE_DEGREES + 2 * np.ceil(0.5 * plate.wavenumber * sizes).astype(int)
         for order in np.unique(orders):
             _add(liquid, plate, group.subset(orders == order), int(order), loads)
-    return summed_over_processes(liquid, loads)
+    return liquid.numbering.summed(loads)
 
 
 def _add(liquid: LiquidSpace, plate: PlanPlate, group: FacetGroup, order: int, loads: NDArray[np.float64]) -> None:

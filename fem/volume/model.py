@@ -6,21 +6,28 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
 
-from hydroelastic.fem.liquid import LiquidMatrices, LiquidSpace, liquid_space
+from hydroelastic.fem.liquid import LiquidSpace, liquid_space
+from hydroelastic.fem.liquid_matrices import LiquidMatrices
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.plan_pencil import PlanPlate
 from hydroelastic.fem.plan.plates import plan_plate
 from hydroelastic.fem.plan.rectangle_body import AxisParity, ClassParity, rectangle_of
 from hydroelastic.fem.plan.regions import mirrors_of, plan_regions
-from hydroelastic.fem.volume.pencil import SolverOf, moving_water, scaled_matrices, volume_pencil
+from hydroelastic.fem.volume.floats import float_body
+from hydroelastic.fem.volume.matrices import volume_matrices
+from hydroelastic.fem.volume.pencil import SolverOf, moving_water, volume_pencil
 from hydroelastic.fem.volume.resolution import VolumeResolution
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.meshes.geometry import FREE_SURFACE
 from hydroelastic.meshes.plan_loops import Mirrors
 from hydroelastic.meshes.volume import MIRRORS
+from hydroelastic.physics.dofs import body_name
 from hydroelastic.physics.level_tank import FilePlan
 from hydroelastic.physics.plate import Strip
 from hydroelastic.physics.volume_tank import SlopingBed, SurveyedBed, VolumeTank
+
+# A float this close to a plane of symmetry, in units of the tank, is in it.
+_MIDDLE = 1e-9
 
 
 def volume_mirrors(tank: VolumeTank) -> Mirrors:
@@ -31,7 +38,12 @@ def volume_mirrors(tank: VolumeTank) -> Mirrors:
         replace(plate, outline=rectangle_of(plate.outline)) if isinstance(plate.outline, Strip) else plate
         for plate in tank.plates
     )
-    along, across = mirrors_of(*plan_regions(replace(tank, plates=outlines)))
+    along, across = (
+        mirror
+        if mirror is not None and all(abs(one.position[axis] - mirror) < _MIDDLE for one in tank.floats)
+        else None
+        for axis, mirror in enumerate(mirrors_of(*plan_regions(replace(tank, plates=outlines))))
+    )
     if isinstance(tank.bed, SlopingBed):
         along, across = (
             None if slope else mirror for mirror, slope in zip((along, across), tank.bed.slope, strict=True)
@@ -68,7 +80,7 @@ class VolumeModel:
 
     @cached_property
     def _matrices(self) -> LiquidMatrices:
-        return scaled_matrices(self.liquid, moving_water(self.liquid, waves=self._waves), self.images)
+        return volume_matrices(self.liquid, moving_water(self.liquid, waves=self._waves), self.images)
 
     @property
     def _waves(self) -> bool:
@@ -94,8 +106,12 @@ class VolumeModel:
         """Return the problem of a symmetry, ``None`` where nothing moves in it (collective)."""
         odd = tuple(name for name, own in zip(MIRRORS, parity, strict=True) if own == 1)
         liquid = replace(self.liquid, zero_potential=(*self.liquid.zero_potential, *odd))
+        floats = tuple(
+            float_body(solid, body_name(number), parity)
+            for number, solid in enumerate(self.tank.floats, len(self.tank.plates) + 1)
+        )
         return volume_pencil(
-            liquid, self._matrices, self.plates[parity], solver_of, waves=self._waves, images=self.images
+            liquid, self._matrices, self.plates[parity], floats, solver_of, waves=self._waves, images=self.images
         )
 
     def pencils(self, solver_of: SolverOf) -> dict[ClassParity, CoupledPencil]:

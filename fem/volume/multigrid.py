@@ -14,11 +14,12 @@ from dolfinx.fem import petsc as fem_petsc
 from mpi4py import MPI
 from petsc4py import PETSc
 
-from hydroelastic.fem.liquid import ClosedLayer, LiquidSpace, laplace_matrix, liquid_space
+from hydroelastic.fem.liquid import ClosedLayer, LiquidSpace, liquid_space
 from hydroelastic.fem.modes import EigenSolverError
+from hydroelastic.fem.volume.matrices import volume_laplace
 
-# Of Chebyshev's method before and after each coarser level.
-_SMOOTHING_STEPS = 2
+# Of Chebyshev's method before and after each coarser level; measured on P4: 14 iterations of 3 steps, 18 of 2.
+_SMOOTHING_STEPS = 3
 _MOST_ITERATIONS = 200
 # Ratio of the smallest to the largest eigenvalue that the smoother damps, of the largest one estimated.
 _DAMPED = "0,0.1,0,1.1"
@@ -45,7 +46,13 @@ class MultigridSolver:
     """
 
     def __init__(
-        self, liquid: LiquidSpace, matrix: PETSc.Mat, closed: tuple[ClosedLayer, ...], *, tolerance: float
+        self,
+        liquid: LiquidSpace,
+        matrix: PETSc.Mat,
+        closed: tuple[ClosedLayer, ...],
+        images: int,
+        *,
+        tolerance: float,
     ) -> None:
         """Set up all levels (collective).
 
@@ -53,6 +60,7 @@ class MultigridSolver:
             liquid: space of ψ.
             matrix: A on all unknowns; it is not changed.
             closed: the layers of constant volume; one, or none where ψ = 0 on a surface.
+            images: the factor of A to ∫∇ψ·∇q.
             tolerance: of the solution, relative, in the energy norm.
         """
         self.solves, self.iterations = 0, 0
@@ -62,9 +70,8 @@ class MultigridSolver:
         while spaces[0].degree > 1:
             spaces.insert(0, liquid_space(liquid.tank, spaces[0].degree // 2, liquid.zero_potential))
         self._fixed = liquid.zero_dofs()
-        matrices = [laplace_matrix(space) for space in spaces[:-1]] + [
-            matrix.copy() if liquid.zero_potential else matrix
-        ]
+        matrices = [volume_laplace(space, images) for space in spaces[:-1]]
+        matrices.append(matrix.copy() if liquid.zero_potential else matrix)
         for space, one in zip(spaces, matrices, strict=True):
             self._constrain(space, one)
         self._solver = solver = PETSc.KSP().create(matrix.comm)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import ceil, log10, pi, sqrt
+from math import ceil, log10, pi
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,8 @@ _DEGREE, _FINE_DEGREE, _FINE = 4, 6, 1e-8
 _LARGEST, _SMALLEST = 0.35, 5e-4
 # Relative error of ω by waves at degree 4 over (kh)⁸, of tetrahedra of size h, and by edges over h²; measured.
 _OF_WAVES, _OF_EDGES = 1.2e-7, 0.05
+# At the corners of floats over h^(4/3), as ψ ~ r^(2/3).
+_OF_CORNERS, _CORNER_ORDER = 0.05, 4.0 / 3.0
 # Largest and smallest ratio of successive sizes.
 _LEAST_STEP, _MOST_STEP = 0.85, 0.3
 
@@ -61,12 +63,14 @@ class VolumeResolution:
     Attributes:
         degree: of ψ.
         sizes: of the cells.
+        order: of the error by cells at edges.
         polynomials: number of polynomials along each direction of each plate.
     """
 
     degree: int
     sizes: VolumeSizes
     polynomials: tuple[int, ...]
+    order: float = 2.0
 
     @property
     def coarser(self) -> VolumeResolution:
@@ -81,7 +85,7 @@ class VolumeResolution:
         )
         sizes = self.sizes
         if edges > 1.0:
-            sizes = replace(sizes, edge=sizes.edge * _step(edges, 2.0))
+            sizes = replace(sizes, edge=sizes.edge * _step(edges, self.order))
         if waves > 1.0:
             sizes = replace(sizes, bulk=sizes.bulk * _step(waves, 2.0 * self.degree))
         if geometry > 1.0:
@@ -108,10 +112,13 @@ def volume_resolution(tank: VolumeTank, tolerance: float, count: int) -> VolumeR
     wavenumbers = [plate_wavenumber(tank, plate, eigenvalue) for plate in tank.plates]
     radians = (tolerance / (3.0 * _OF_WAVES)) ** (0.5 / degree)
     bulk = min(radians / max([water_wavenumber(tank, eigenvalue), *wavenumbers]), _LARGEST, 2.0 * tank.depth)
+    order = _CORNER_ORDER if tank.floats else 2.0
+    edge = (0.5 * tolerance / (_OF_CORNERS if tank.floats else _OF_EDGES)) ** (1.0 / order)
     return VolumeResolution(
         degree=degree,
+        order=order,
         sizes=VolumeSizes(
-            edge=min(max(sqrt(0.5 * tolerance / _OF_EDGES), 4.0 * _SMALLEST), bulk),
+            edge=min(max(edge, 4.0 * _SMALLEST), bulk),
             bulk=bulk,
             geometry=4,
             around=16,

@@ -141,8 +141,10 @@ def _deflections(modes: tuple[LevelMode, ...], name: str, points: FloatArray) ->
         ((plate, (start, end)),) = [
             (plate, ends) for plate, ends in zip(plates, pairwise(sizes), strict=True) if plate.body.surface == name
         ]
-        values.append(one.mode.body_amplitudes[start:end] @ plate.deflection(points[:, :2].T))
-    return np.array(values)
+        values.append(
+            one.mode.body_amplitudes[start:end] @ plate.deflection(np.asarray(points[:, :2].T, dtype=np.float64))
+        )
+    return np.array(values, dtype=np.float64)
 
 
 def volume_sample(

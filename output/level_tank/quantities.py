@@ -200,7 +200,7 @@ EXACT = Group("exact", "frequencies of a closed form", (
     Quantity("difference", "relative difference of the solution", "1", shown="+.1e"),
 ), record=_exact, dimension="exact_mode")
 SOLVER = Group("solver", "how the modes were found", (
-    Quantity("model", "how the plan is solved"),
+    Quantity("model", "how the plan is solved", value=lambda tank: tank.model),
     Quantity("attempts", "resolutions that were solved", "1"),
     Quantity("count_confirmed_by_inertia", "whether an independent count confirms the modes",
         value=lambda tank: tank.counted),
@@ -212,6 +212,10 @@ SIZE = Group("size", "size of the problem", (
     Quantity("degree", "polynomial degree of ψ", "1"),
     Quantity("layers", "layers at each edge", "1"),
     Quantity("poles", "poles of the depth; 0 where it is exact", "1"),
+    Quantity("cells", "tetrahedra of a volume; 0 of other models", "1", value=lambda size: size.get("cells", 0)),
+    Quantity("iterations",
+        "iterations of each solution of Laplace's equation by multigrid, in the mean; 0 of a factorization", "1",
+        value=lambda size: size.get("iterations", 0)),
     Quantity("dofs", "unknowns of all problems", "1"),
     Quantity("surface_unknowns", "unknowns of plates and water", "1"),
     Quantity("plate_shapes", "dry modes of the plates, of all problems", "1"),

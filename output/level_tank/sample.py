@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from hydroelastic.fem.level_bed.patches import Patch
 from hydroelastic.fem.level_bed.solution import LevelSolution
-from hydroelastic.fem.volume.samples import surface_sample, volume_sample
 from hydroelastic.physics.dofs import body_name
 
 # Horizontal layers of the volume.
@@ -113,6 +112,9 @@ def sample_modes(solution: LevelSolution, patches: tuple[Patch, ...]) -> Sampled
 
 def sample_volume(solution: LevelSolution) -> SampledModes | None:
     """Return all modes at points of the mesh of a volume; ``None`` on other ranks than 0 (collective)."""
+    # Solutions of other models do without dolfinx.
+    from hydroelastic.fem.volume.samples import surface_sample, volume_sample
+
     names = tuple(body_name(index + 1) for index in range(len(solution.tank.plates)))
     surface = surface_sample(solution.modes, names)
     volume = volume_sample(solution.modes)

@@ -68,6 +68,8 @@ def _boundaries(tank: LevelTank) -> Iterator[Row]:
     elif not isinstance(plan, FilePlan):
         yield f"level bed, {tank.depth:g} m deep", "ψ_z = 0"
     yield "top beside the plates", _TOPS[tank.top]
+    for index, solid in enumerate(tank.floats if isinstance(tank, VolumeTank) else (), len(tank.plates) + 1):
+        yield f"float {index}, {solid.shape} of {solid.draught:g} m draught", f"ψ_n = u·n, {', '.join(solid.motions)}"
     for index, plate in enumerate(tank.plates, 1):
         motion = "ψ_z = w, which bends" if plate.is_elastic else "ψ_z = w, heave and pitch"
         yield f"plate {index}", motion
@@ -86,7 +88,7 @@ def _unknowns(tank: LevelTank) -> Iterator[Row]:
 
 
 def _plates(scene: LevelTankScene, tank: LevelTank) -> Iterator[Row]:
-    for index, (given, plate) in enumerate(zip(scene.body, tank.plates, strict=True), 1):
+    for index, (given, plate) in enumerate(zip(scene.plates, tank.plates, strict=True), 1):
         area = plate.outline.area
         stiffness = plate.flexural_rigidity / (tank.density * tank.gravity * area**2)
         yield (

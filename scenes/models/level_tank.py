@@ -12,6 +12,7 @@ from pydantic_core import InitErrorDetails
 
 from hydroelastic.physics.level_tank import Box, Cylinder, Plan
 from hydroelastic.physics.plate import Disc, Outline, Polygon, Rectangle, Strip
+from hydroelastic.physics.solid_floats import SolidFloat
 from hydroelastic.physics.tank import ROUND_OFF
 from hydroelastic.scenes.models.level_tank_parts import PLAN_KEYS, SOLID_FORMATS, LevelTankParts
 from hydroelastic.scenes.models.level_tank_physics import (
@@ -23,6 +24,7 @@ from hydroelastic.scenes.models.level_tank_physics import (
     shape_file,
 )
 from hydroelastic.scenes.models.problems import problem_at, require_fit
+from hydroelastic.scenes.models.solid_parts import TankFloat
 from hydroelastic.scenes.models.tank_checks import DEPTH_TO_LENGTH, MASS_GROUP, SHORTEST_BEAM, STIFFNESS_GROUP
 
 LEAST_INNER_RADIUS = 1e-3
@@ -57,12 +59,12 @@ class LevelTankScene(LevelTankParts):
                 problem_at(
                     ("body", index, "kind"),
                     kind,
-                    "in three dimensions bodies are plates or uniform beams; others are of tanks per metre of width",
-                    allowed='"plate" or "beam"',
+                    "in three dimensions bodies are plates, beams or solids; others are of tanks per metre of width",
+                    allowed='"plate", "beam" or "float"',
                     remedy=f"Leave out {' and '.join(keys)} of [tank] for a tank per metre of width" if keys else "",
                 )
                 for index, kind in kinds
-                if kind not in ("plate", "beam")
+                if kind not in ("plate", "beam", "float")
             ]
         else:
             problems = [
@@ -153,13 +155,56 @@ def _files_can_be_read(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
 
 def _volumes_are_of_plates(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
     for index, body in enumerate(scene.body):
-        if needs_volume(scene.tank) and body.kind == "beam":
+        if needs_volume(scene) and body.kind == "beam":
             yield problem_at(
                 ("body", index, "kind"),
                 body.kind,
                 "beams side by side need a tank with a level bed",
                 remedy='Take a plate, kind = "plate" with outline = "strip", in its place',
             )
+
+
+def _floats_lie_in_the_tank(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
+    plan, depth = physical_plan(scene), scene.liquid[0].depth
+    middle, first = middle_of(plan), len(scene.plates)
+    if any(isinstance(body, TankFloat) for body in scene.body[:first]):
+        remedy = "Move it to the end of the scene"
+        place = next(index for index, body in enumerate(scene.body) if isinstance(body, TankFloat))
+        yield problem_at(("body", place, "kind"), "float", "a float comes before a plate", remedy=remedy)
+        return
+    spheres = [(first + index, body, body.solid(middle)) for index, body in enumerate(scene.floats)]
+    for index, body, solid in spheres:
+        if solid.draught >= depth * (1.0 - LEAST_DEPTH):
+            most = f"less than {depth * (1.0 - LEAST_DEPTH):g} m"
+            yield problem_at(("body", index, "draught"), solid.draught, "it leaves no liquid below", allowed=most)
+        if not _is_inside(plan, solid):
+            key = body.shape_key
+            yield problem_at(("body", index, key), getattr(body, key), "the float does not lie inside the tank")
+        stiffness = dict(zip(solid.motions, solid.stiffness(), strict=True))
+        for motion in ("roll", "pitch"):
+            if stiffness.get(motion, 1.0) <= 0.0:
+                yield problem_at(
+                    ("body", index, "vertical_centre_of_gravity"),
+                    solid.centre_of_gravity,
+                    f"the float is unstable in {motion}",
+                    remedy="Lower its centre of gravity",
+                )
+                break
+    for (_, _, one), (index, body, other) in combinations(spheres, 2):
+        apart = [abs(a - b) for a, b in zip(one.position, other.position, strict=True)]
+        if all(gap <= 0.5 * (a + b) for gap, a, b in zip(apart, one.size, other.size, strict=True)):
+            yield problem_at(("body", index, body.shape_key), None, "the float touches another one")
+
+
+def _is_inside(plan: Plan, solid: SolidFloat) -> bool:
+    (x, y), (along, across) = solid.position, solid.size
+    if isinstance(plan, Box):
+        return 0.5 * along < x < plan.length - 0.5 * along and 0.5 * across < y < plan.width - 0.5 * across
+    if isinstance(plan, Cylinder):
+        reach = 0.5 * (hypot(along, across) if solid.shape == "box" else along)
+        return plan.inner_radius < hypot(x, y) - reach * bool(plan.inner_radius) and hypot(x, y) + reach < plan.radius
+    # Of other plans gmsh tells.
+    return True
 
 
 def _bed_is_below_the_surface(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
@@ -184,7 +229,7 @@ def _bed_is_below_the_surface(scene: LevelTankParts) -> Iterator[InitErrorDetail
 
 
 def _outlines_fit_the_plan(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
-    for index, plate in enumerate(scene.body):
+    for index, plate in enumerate(scene.plates):
         if plate.outline == "strip" and scene.tank.width is None:
             yield problem_at(
                 ("body", index, plate.shape_key),
@@ -209,7 +254,7 @@ def _depth_fits_the_plan(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
 def _plates_lie_in_the_tank(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
     plan = physical_plan(scene)
     reach = 1.0 + ROUND_OFF
-    for index, plate in enumerate(scene.body):
+    for index, plate in enumerate(scene.plates):
         outline = physical_outline(scene, plate)
         if isinstance(plan, Box):
             bounds = _bounds(outline)
@@ -238,7 +283,7 @@ def _plates_lie_in_the_tank(scene: LevelTankParts) -> Iterator[InitErrorDetails]
 
 def _plates_keep_apart(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
     unit = physical_plan(scene).unit
-    outlines = [physical_outline(scene, plate) for plate in scene.body]
+    outlines = [physical_outline(scene, plate) for plate in scene.plates]
     for (first, one), (second, other) in combinations(enumerate(outlines), 2):
         if _touch(one, other, ROUND_OFF * unit):
             yield problem_at(
@@ -289,7 +334,7 @@ def _bounds(outline: Outline) -> _Bounds:
 def _groups_are_in_range(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
     (liquid,), gravity = scene.liquid, scene.tank.gravity
     unit = physical_plan(scene).unit
-    for index, plate in enumerate(scene.body):
+    for index, plate in enumerate(scene.plates):
         outline = physical_outline(scene, plate)
         (low, high), (lower, upper) = _bounds(outline)
         extent = min(high - low, upper - lower)
@@ -333,7 +378,7 @@ STAGES: tuple[tuple[_Check, ...], ...] = (
     (_plan_is_complete, _something_moves, _volumes_are_of_plates),
     (_files_can_be_read,),
     (_outlines_fit_the_plan, _depth_fits_the_plan, _bed_is_below_the_surface),
-    (_plates_lie_in_the_tank,),
+    (_plates_lie_in_the_tank, _floats_lie_in_the_tank),
     (_plates_keep_apart, _groups_are_in_range),
 )
 """Each stage is made when those before found nothing, so that one wrong length is one message."""

@@ -31,6 +31,7 @@ from hydroelastic.scenes.models.bodies import (
 )
 from hydroelastic.scenes.models.folder import SceneInFolder
 from hydroelastic.scenes.models.problems import problem_at
+from hydroelastic.scenes.models.solid_parts import TankFloat
 from hydroelastic.scenes.models.tank_parts import Accuracy
 from hydroelastic.scenes.models.title import Title
 
@@ -133,7 +134,7 @@ class PlanLiquid(SceneModel):
 
     density: PositiveNumber = Field(description="density, kg/m³")
     depth: PositiveNumber = Field(
-        description="depth, m: over the middle of a sloping bed, over the lowest point of a bed of points or of a file"
+        description="depth, m; over the middle of a sloping bed, over the lowest point of a bed of points or of a file"
     )
 
 
@@ -313,10 +314,24 @@ class LevelTankParts(SceneInFolder):
     tank: PlanTank = Field(description="the tank")
     liquid: tuple[PlanLiquid, ...] = Field(min_length=1, max_length=1, description="the liquid")
     body: tuple[
-        Annotated[Annotated[Plate, Tag("plate")] | Annotated[Slats, Tag("beam")], Discriminator(_kind_of)], ...
+        Annotated[
+            Annotated[Plate, Tag("plate")] | Annotated[Slats, Tag("beam")] | Annotated[TankFloat, Tag("float")],
+            Discriminator(_kind_of),
+        ],
+        ...,
     ] = Field(
         default=(),
         max_length=MOST_BODIES,
-        description=f"up to {MOST_BODIES} plates, and beams side by side; none for sloshing alone",
+        description=f"up to {MOST_BODIES} plates, beams side by side, or solid floats; none for sloshing alone",
     )
     accuracy: Accuracy = Field(default=Accuracy(), description="what is asked of the answer")
+
+    @property
+    def plates(self) -> tuple[PlanBody, ...]:
+        """The plates and the beams side by side."""
+        return tuple(body for body in self.body if not isinstance(body, TankFloat))
+
+    @property
+    def floats(self) -> tuple[TankFloat, ...]:
+        """The solid floats, which come after the plates."""
+        return tuple(body for body in self.body if isinstance(body, TankFloat))

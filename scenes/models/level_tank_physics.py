@@ -30,18 +30,20 @@ def physical_level_tank(scene: parts.LevelTankParts) -> LevelTank:
                 edge=plate.edge,
                 slats=plate.kind == "beam",
             )
-            for plate in scene.body
+            for plate in scene.plates
         ),
     )
-    if not needs_volume(scene.tank):
+    if not needs_volume(scene):
         return tank
     given = {field.name: getattr(tank, field.name) for field in fields(tank)}
-    return VolumeTank(**given, bed=_physical_bed(scene))
+    floats = tuple(body.solid(middle_of(tank.plan)) for body in scene.floats)
+    return VolumeTank(**given, bed=_physical_bed(scene), floats=floats)
 
 
-def needs_volume(tank: parts.PlanTank) -> bool:
+def needs_volume(scene: parts.LevelTankParts) -> bool:
     """Return whether a mesh of the volume is wanted, or nothing smaller fits."""
-    return tank.model == "volume" or tank.shape is not None or tank.bed is not None
+    tank = scene.tank
+    return tank.model == "volume" or tank.shape is not None or tank.bed is not None or bool(scene.floats)
 
 
 def _physical_bed(scene: parts.LevelTankParts) -> Bed | None:

@@ -103,6 +103,9 @@ def solve_open_water(
         reasons += _reasons(problem.tolerance, number, request.kind, solution)
         del solution
         release_memory()
+    # All processes free the last solver together.
+    problem.solvers.clear()
+    release_memory()
     return OpenWaterSolution(
         radiation=tuple(one for one in tables if isinstance(one, RadiationTable)),
         response=tuple(one for one in tables if isinstance(one, ResponseTable)),

@@ -91,6 +91,9 @@ class OpenFrequency:
         differences = np.abs(direct - by_far_field).max(axis=0)
         # Waves exert no moment on a circle about its centre; such a computed force is rounding.
         floor = max(_NO_FORCE * scale.max(initial=0.0), np.finfo(float).tiny)
+        # Nor do they heave a deep spar: its force is compared with that of a body that radiates as much as it moves.
+        radiating = np.sqrt(self.incidence.powers.max() * np.abs(np.diag(self.hydrodynamic)))
+        floor = np.maximum(floor, _NO_FORCE * abs(self.squared) * radiating)
         return float(np.max(differences / np.maximum(scale, floor), initial=0.0))
 
 

@@ -8,7 +8,7 @@ on the free surface is its limit, both agree. A resonance of the water between t
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import pi, sqrt
 
 import numpy as np
@@ -106,6 +106,7 @@ def solve_memory(problem: OpenWaterProblem, latest: float, elastic_modes: int) -
     long = open_basin(problem.tank, 0.0)
     shapes = reported_shapes(long.tank, elastic_modes)
     matrix, limit_error = infinite_frequency_added_mass(problem, shapes)
+    latest = max(latest, 1.0 / long.units.frequency)
     bodies = whole_bodies(long.tank, shapes)
     scale = motion_scale(long, bodies)
     limit = scale.masses(matrix)
@@ -116,7 +117,7 @@ def solve_memory(problem: OpenWaterProblem, latest: float, elastic_modes: int) -
     ray = Ray(angle=0.25 * scaling, gap=0.25 * scaling)
 
     def solve(resolution: Resolution) -> Attempt[_Found]:
-        model = open_model(problem, band, Resolution(**{**vars(resolution), "shapes": shapes}), angle=scaling)
+        model = open_model(problem, band, replace(resolution, shapes=shapes), angle=scaling)
         unit = model.basin.units.frequency
         low, high = band.lowest / unit, band.highest / unit
         solver = OpenSolver(model, problem.watch)
@@ -128,7 +129,8 @@ def solve_memory(problem: OpenWaterProblem, latest: float, elastic_modes: int) -
             causes.append(model.errors(radiated, np.abs(np.diag(added))))
             return added
 
-        axis = np.geomspace(low, high, _ON_AXIS)
+        # Lower ones change K at later times only.
+        axis = np.geomspace(max(low, 1.0 / (latest * unit)), high, _ON_AXIS)
         along = np.geomspace(low, high, _ON_RAY) * ray.turned
         chosen = np.concatenate([along, arc(high * ray.turned, _ON_ARC)[:-1], axis])
         hydrodynamics = Problem(
@@ -142,6 +144,8 @@ def solve_memory(problem: OpenWaterProblem, latest: float, elastic_modes: int) -
             added, _ = hydrodynamics_along_ray(solver, ray, radii, (low, high), fast, infinitely_deep=deep)
             is_short = radii > high
             beyond = np.concatenate([added[~is_short] - far, fast.beyond_limit(radii[is_short] * ray.turned)])
+            if not deep:
+                beyond = _with_long_waves(beyond, -1j * radii * ray.turned, int(np.searchsorted(radii, low)))
             masses = model.scale.masses
             memory = memory_on_ray(
                 np.array([masses(one) for one in beyond]),
@@ -173,6 +177,18 @@ def solve_memory(problem: OpenWaterProblem, latest: float, elastic_modes: int) -
     )
 
 
+def _with_long_waves(beyond: np.ndarray, p: np.ndarray, first: int) -> np.ndarray:
+    """H − a∞ over a bed, shape (k, m, m), with K̂ = c₀ + c₁p, c₀ = lim b and c₁ real, below the first meshed one of p.
+
+    Waves longer than those of the mesh are not absorbed, and b would vanish with them.
+    """
+    meshed = p[first] * beyond[first]
+    slope = meshed.imag / p[first].imag
+    start = meshed.real - slope * p[first].real
+    long = start / p[:first, None, None] + slope
+    return np.concatenate([long, beyond[first:]])
+
+
 def memory_band(water: Tank, tolerance: float, latest: float, elastic_modes: int) -> Band:
     """Return the range of frequencies that the mesh resolves.
 
@@ -189,6 +205,4 @@ def memory_band(water: Tank, tolerance: float, latest: float, elastic_modes: int
         for body in water.bodies
     )
     fastest = sqrt(pi * water.gravity / narrowest)
-    return Band(
-        lowest=lowest_meshed_frequency(water, latest), highest=highest_meshed_frequency(fastest, tolerance)
-    )
+    return Band(lowest=lowest_meshed_frequency(water, latest), highest=highest_meshed_frequency(fastest, tolerance))

@@ -295,9 +295,7 @@ def hydrodynamics_along_ray(
     """
     low, high = band
     omegas = radii * ray.turned
-    slow = (
-        low_frequency_series(lambda few: solver.hydrodynamics(few**2), low * ray.turned) if infinitely_deep else None
-    )
+    slow = low_frequency_series(lambda few: solver.hydrodynamics(few**2), low * ray.turned) if infinitely_deep else None
     first = np.searchsorted(radii, low) if slow else 0
     last = np.searchsorted(radii, high, side="right")
     parts = [solver.hydrodynamics(omegas[first:last] ** 2), fast.hydrodynamic(omegas[last:])]

@@ -9,9 +9,17 @@ from typing import Any
 from hydroelastic.output.columns import Column, columns_of, csv_columns
 from hydroelastic.output.csv_files import write_csv
 from hydroelastic.output.open_water.quantities import ALONG_BEAM, DECAY, PLATES, RADIATION, RESONANCE, RESPONSE
+from hydroelastic.output.open_water.time_quantities import IMPULSE_RESPONSE, MOTION
 from hydroelastic.output.quantities import Group
 
-ROWS = {"radiation": ("omega",), "response": ("omega", "wave"), "resonance": ("resonance",), "decay": ("time",)}
+ROWS = {
+    "radiation": ("omega",),
+    "response": ("omega", "wave"),
+    "resonance": ("resonance",),
+    "decay": ("time",),
+    "impulse_response": ("impulse_time",),
+    "motion": ("motion_time",),
+}
 """Dimensions whose places are the rows of the tables of an analysis."""
 _DEFLECTION = Group(
     "deflection",
@@ -20,16 +28,17 @@ _DEFLECTION = Group(
 )
 
 
-def open_columns(group: Group, table: Any) -> Iterator[Column]:
-    """Yield the columns of the table of an analysis."""
+def open_columns(group: Group, table: Any, rows: tuple[str, ...] = ()) -> Iterator[Column]:
+    """Yield the columns of the table of an analysis; its rows are those of `ROWS`, if no others are given."""
     motions = dict.fromkeys(("influenced_dof", "radiating_dof", "dof"), table.dofs)
     waves = dict.fromkeys(("wave", "outgoing_wave"), getattr(table, "waves", ()))
     labels = {**motions, **waves, "wave_direction": ("from_left", "from_right")}
-    return columns_of(group, table, ROWS[group.key], labels)
+    return columns_of(group, table, rows or ROWS[group.key], labels)
 
 
 def write_open_csv(solution: Any, folder: Path) -> None:
-    """Write ``radiation.csv``, ``response.csv``, ``deflection.csv``, ``resonance.csv`` and ``decay.csv``.
+    """Write ``radiation.csv``, ``response.csv``, ``deflection.csv``, ``resonance.csv``, ``decay.csv``, ``motion.csv``,
+    ``impulse_response.csv`` and, with what this gives back in the frequency domain, ``impulse_response_check.csv``.
 
     Those without rows are left out. The column ``analysis`` counts analyses of a kind from 1; ``re_`` and ``im_`` are
     the parts of a complex number; of a matrix, the first name is the force and the second the motion, or the wave that
@@ -40,7 +49,7 @@ def write_open_csv(solution: Any, folder: Path) -> None:
         solution: the solution.
         folder: an existing folder.
     """
-    groups = (RADIATION, RESPONSE, RESONANCE, DECAY)
+    groups = (RADIATION, RESPONSE, RESONANCE, DECAY, IMPULSE_RESPONSE, MOTION)
     files = {
         group.key: csv_columns((number, open_columns(group, one)) for number, one in enumerate(group.of(solution), 1))
         for group in groups
@@ -49,6 +58,10 @@ def write_open_csv(solution: Any, folder: Path) -> None:
         (number, columns_of(_DEFLECTION, plate, ("omega", "wave", ALONG_BEAM), {}))
         for number, table in enumerate(RESPONSE.of(solution), 1)
         for plate in table.deflections
+    )
+    files["impulse_response_check"] = csv_columns(
+        (number, open_columns(IMPULSE_RESPONSE, table, ("impulse_omega",)))
+        for number, table in enumerate(IMPULSE_RESPONSE.of(solution), 1)
     )
     for name, columns in files.items():
         if columns["analysis"]:

@@ -14,6 +14,7 @@ import numpy as np
 
 from hydroelastic.fem.open_water.region import Region
 from hydroelastic.fem.open_water.results import DIRECTIONS, Complexes, Floats, ResponseTable
+from hydroelastic.output.open_water.time_quantities import IMPULSE_RESPONSE, MOTION
 from hydroelastic.output.provenance import PROCESSES
 from hydroelastic.output.quantities import Group, Quantity
 from hydroelastic.physics.dofs import Dof, body_name
@@ -296,7 +297,7 @@ def _of_scene(key: str, meaning: str, value: Callable[[Any], Any], unit: str | N
 
 
 OPEN_WATER = Group("", "open water", (
-    RADIATION, RESPONSE, RESONANCE, DECAY, ESTIMATES,
+    RADIATION, RESPONSE, RESONANCE, DECAY, IMPULSE_RESPONSE, MOTION, ESTIMATES,
     Group("size", "size of the largest problem", (
         Quantity("cells", "number of cells", "1"),
         Quantity("dofs", "number of unknowns of ψ", "1"),

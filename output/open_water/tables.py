@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, ResonanceTable, UnresolvedPeak
+from hydroelastic.fem.time_domain.results import ImpulseResponseTable, MotionTable
 from hydroelastic.modal.floats.infinite_draught import InfiniteDraughtFloat
 from hydroelastic.output.columns import Column, headings_of, rows_of
 from hydroelastic.output.digits import beyond_error, number, per_cent, with_certain_digits
@@ -21,6 +22,7 @@ from hydroelastic.output.open_water.quantities import (
     WavesAndMotions,
     region_words,
 )
+from hydroelastic.output.open_water.time_quantities import IMPULSE_RESPONSE, MOTION
 from hydroelastic.output.provenance import Summary
 from hydroelastic.output.sections import Row, Section
 from hydroelastic.physics.dofs import Dof
@@ -46,6 +48,10 @@ def open_sections(solution: Any, summary: Summary) -> Iterator[Section]:
         yield _resonance(resonance)
     for decay in solution.decay:
         yield _decay(decay)
+    for impulse_response in solution.impulse_response:
+        yield _impulse_response(impulse_response)
+    for motion in solution.motion:
+        yield _motion(motion)
     if solution.left_out:
         yield Section(title="Left out of the model", lines=solution.left_out)
     yield from _estimates(solution.endless_float, summary)
@@ -230,6 +236,58 @@ def _decay(table: DecayTable) -> Section:
             *((f"{left_out} more motions: decay.csv.",) if left_out else ()),
             *((tail,) if table.tail is not None else ()),
             f"The estimated errors hold up to the last time, t = {table.certified_until:.6g} s.",
+        ),
+    )
+
+
+def _impulse_response(table: ImpulseResponseTable) -> Section:
+    """The diagonal of K; what it gives back in the frequency domain is a file."""
+    shown, thinned = _shown(len(table.times), "times", "impulse_response.csv")
+    columns = [
+        column
+        for column in open_columns(IMPULSE_RESPONSE, table)
+        if len(set(column.places.values())) < 2 and column.places.get("influenced_dof", 0) < _MOST_MOTIONS
+    ]
+    far = ", ".join(
+        f"{dof.words} {number(float(value))} {'kg·m' if dof.is_rotation else 'kg/m'}"
+        for dof, value in zip(table.dofs, np.diag(table.infinite_frequency_added_mass), strict=True)
+    )
+    return Section(
+        title="Impulse responses K of radiation",
+        headings=headings_of(columns, "influenced_dof"),
+        rows=rows_of(IMPULSE_RESPONSE, columns, shown),
+        lines=(
+            *thinned,
+            f"Added mass at infinite frequency: {far}.",
+            f"Added mass and damping by K at {len(table.omega)} frequencies from {table.omega[0]:.3g} to "
+            f"{table.omega[-1]:.3g} rad/s differ from the frequency domain by {_largest(table.causality_error)} of the "
+            f"largest, added mass at infinite frequency by Ogilvie's relation from its limit by "
+            f"{_largest(table.ogilvie_error)}; estimated error {table.relative_error:.1e}.",
+            "Coupling of motions: impulse_response.csv; what K gives back: impulse_response_check.csv.",
+        ),
+    )
+
+
+def _motion(table: MotionTable) -> Section:
+    shown, thinned = _shown(len(table.times), "times", "motion.csv")
+    columns = [
+        column
+        for column in open_columns(MOTION, table)
+        if column.quantity.key in ("times", "elevation", "displacement") and column.places.get("dof", 0) < _MOST_MOTIONS
+    ]
+    sizes = "; ".join(
+        f"{dof.words} {deviation:.4g} and {largest:.4g} {'rad' if dof.is_rotation else 'm'}"
+        for dof, deviation, largest in zip(table.dofs, table.standard_deviation, table.largest, strict=True)
+    )
+    return Section(
+        title=f"Motion from rest in waves from the {table.waves_from}",
+        headings=headings_of(columns, "dof"),
+        rows=rows_of(MOTION, columns, shown),
+        lines=(
+            *thinned,
+            f"Standard deviation and largest motion after {table.ramp:g} s: {sizes}.",
+            f"η is that of the incident waves at the middle of the first body. Estimated error of forces and memory "
+            f"{table.relative_error:.1e}.",
         ),
     )
 

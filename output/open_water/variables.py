@@ -14,6 +14,7 @@ from hydroelastic.output.open_water.quantities import (
     RESPONSE,
     motions_of,
 )
+from hydroelastic.output.open_water.time_quantities import IMPULSE_RESPONSE, MOTION
 from hydroelastic.output.variables import Variable, array_variables
 
 COMMENT = "exp(-i omega t); per metre of width; x along the waves, heave upwards, roll anticlockwise"
@@ -23,17 +24,17 @@ COMMENT = "exp(-i omega t); per metre of width; x along the waves, heave upwards
 def open_variables(solution: Any) -> list[Variable]:
     """Return the arrays of a solution, several analyses of a kind joined by their frequencies and wave directions.
 
-    A dimension `wave` is there only where waves travel on two levels, `analysis` only with several resonance or decay
-    analyses.
+    A dimension `wave` is there only where waves travel on two levels, `analysis` only with several analyses of
+    another kind than radiation and response.
     """
-    motions = motions_of(*solution.radiation) or motions_of(*solution.response)
-    others = motions_of(*solution.resonance, *solution.decay)
+    motions = motions_of(*solution.radiation, *solution.impulse_response) or motions_of(*solution.response)
+    others = motions_of(*solution.resonance, *solution.decay, *solution.motion)
     with_rolls = any(dof.is_rotation for dof in (*motions, *others))
     parts = {
         group.key: [list(record_variables(group, one, with_rolls=with_rolls)) for one in group.of(solution)]
-        for group in (RADIATION, RESPONSE, RESONANCE, DECAY)
+        for group in (RADIATION, RESPONSE, RESONANCE, DECAY, IMPULSE_RESPONSE, MOTION)
     }
-    for kind in ("resonance", "decay"):
+    for kind in ("resonance", "decay", "impulse_response", "motion"):
         if len(parts[kind]) > 1:
             parts[kind] = [list(numbered_along("analysis", part, number)) for number, part in enumerate(parts[kind], 1)]
     names, other_names = ([dof.capitalised for dof in dofs] for dofs in (motions, others))

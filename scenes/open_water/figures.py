@@ -14,6 +14,7 @@ from hydroelastic.output.pictures.curves import COLOURS, GREY, Sheets, label_axe
 from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.scenes.open_water.results import OpenSolution
+from hydroelastic.scenes.open_water.time_figures import by_unit, draw_over_time
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -48,12 +49,7 @@ def draw_open(solution: OpenSolution, folder: Path, options: PictureOptions) -> 
         _draw_resonances(resonance, sheets, f"resonance_{number}")
     for number, decay in enumerate(solution.decay, 1):
         _draw_decay(decay, sheets, f"decay_{number}")
-
-
-def _by_unit(dofs: tuple[Dof, ...]) -> list[tuple[bool, list[int]]]:
-    """Places of the motions that are rotations, rad, and of the others, m; those first that come first."""
-    turns = [motion.is_rotation for motion in dofs]
-    return [(kind, [place for place, turn in enumerate(turns) if turn == kind]) for kind in dict.fromkeys(turns)]
+    draw_over_time(solution, sheets)
 
 
 def _draw_radiation(table: RadiationTable, sheets: Sheets, name: str) -> None:
@@ -63,7 +59,7 @@ def _draw_radiation(table: RadiationTable, sheets: Sheets, name: str) -> None:
     if not len(order):
         return
     omega = table.omega[order]
-    rows = _by_unit(table.dofs)
+    rows = by_unit(table.dofs)
     heading = "added mass, radiation damping, force per metre of waves from the left"
     with sheets.sheet(name, heading, width=15.0, height=0.9 + 4.9 * len(rows)) as figure:
         panels = figure.subplots(len(rows), 3, squeeze=False)
@@ -104,7 +100,7 @@ def _draw_response(table: ResponseTable, sheets: Sheets, name: str) -> None:
     order = np.argsort(table.omega)
     largest = np.argsort(-np.abs(table.amplitudes).max(axis=(0, 1)), kind="stable")
     largest = largest[: max(_MOST_CURVES // len(table.waves), 1)]
-    groups = [(turns, [place for place in places if place in largest]) for turns, places in _by_unit(table.dofs)]
+    groups = [(turns, [place for place in places if place in largest]) for turns, places in by_unit(table.dofs)]
     groups = [(turns, places) for turns, places in groups if places]
     heading = f"response per metre of waves from the {table.waves_from}"
     with sheets.sheet(name, heading, width=5.5 * (1 + len(groups)), height=6.0) as figure:
@@ -200,7 +196,7 @@ def _draw_decay(table: DecayTable, sheets: Sheets, name: str) -> None:
     released = int(np.argmax(np.abs(table.initial)))
     order = np.argsort(table.times)
     times, displacement = table.times[order], table.displacement[order]
-    groups = [(turns, _moving(displacement, places, table)) for turns, places in _by_unit(table.dofs)]
+    groups = [(turns, _moving(displacement, places, table)) for turns, places in by_unit(table.dofs)]
     groups = [(turns, places) for turns, places in groups if places]
     heading = f"free motion after release in {table.dofs[released].words}"
     with sheets.sheet(name, heading, width=6.0 * (1 + len(groups))) as figure:

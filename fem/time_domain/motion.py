@@ -20,7 +20,9 @@ from hydroelastic.fem.time_domain.radiation_memory import Complexes, Floats, Rad
 
 # Rates over the highest frequency of waves and bodies beyond which an exponential has no state: what is neglected of it
 # is of the third order in the inverse.
-_QUICK = 100.0
+_QUICK = 30.0
+# Multiple of the motion in the same waves without a beginning beyond which one grows without bound.
+_UNBOUNDED = 1e6
 
 
 class UnsolvedMotionError(RuntimeError):
@@ -105,6 +107,11 @@ class MovingBodies:
         size = np.abs(self.steady(waves)).sum(axis=0) + np.finfo(float).tiny
         # States far below the motions need no digits of their own.
         scale = np.concatenate([size, size * waves.omega.max(), np.full(matrix.shape[0] - 2 * count, size.max())])
+
+        def bounded(_time: float, state: Floats) -> float:
+            return float(_UNBOUNDED - np.abs(state[:count] / size).max())
+
+        bounded.terminal = True  # type: ignore[attr-defined]
         found = solve_ivp(
             rates,
             (0.0, float(times[-1])) if times[-1] > 0.0 else (0.0, 1.0),
@@ -113,8 +120,9 @@ class MovingBodies:
             t_eval=times,
             rtol=max(tolerance, 1e-12),
             atol=tolerance * scale,
+            events=bounded,
         )
-        if not found.success or not np.all(np.isfinite(found.y)):
+        if found.status != 0:
             raise UnsolvedMotionError(found.message)
         return found.y[:count].T, found.y[velocity].T
 

@@ -178,7 +178,7 @@ def _resonant(problem: OpenWaterProblem, table: ResonanceTable, number: int) -> 
     fastest = max(-2.0 * omega.imag / omega.real for omega in omegas)
     radians = min(_RADIANS, log(_GROWTH) / fastest)
     model = _model(problem, min(sizes), max(sizes), motions=motions, radians=radians, angle=ANGLE)
-    search = ResonanceSearch(model.pencil, model.stiffness, model.mass)
+    search = ResonanceSearch(model.pencil, model.stiffness, model.mass, model.outside.damping)
     for place, omega in shown.items():
         label = table.labels[place]
         pair = _found_again(search, model.squared_frequency(omega), problem.watch)

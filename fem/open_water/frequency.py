@@ -97,6 +97,7 @@ class OpenResponse:
         incident: indices of the incident waves.
         scattered: ψ of radiated and diffracted waves for each, shape (incident, free unknowns).
         motions: body unknowns, shape (incident, body unknowns).
+        absorbed: power that damping from outside takes, over ½ω³, shape (incident,).
     """
 
     model: OpenModel
@@ -105,6 +106,7 @@ class OpenResponse:
     incident: list[int]
     scattered: np.ndarray
     motions: np.ndarray
+    absorbed: np.ndarray
 
     def outgoing(self) -> np.ndarray:
         """c of all outgoing waves, the incident one included, shape (outgoing waves, incident) (collective)."""
@@ -116,8 +118,15 @@ class OpenResponse:
         )
         return incidence.amplitudes(fluxes) + np.eye(len(incidence.planes))[:, self.incident]
 
+    @property
+    def absorption(self) -> np.ndarray:
+        """Power that damping from outside takes, over incident power, shape (incident,)."""
+        absorption: np.ndarray = self.absorbed / self.incidence.powers[self.incident]
+        return absorption
+
     def energy_residual(self) -> np.ndarray:
-        """Outgoing power over incident power, less one, shape (incident,) (collective)."""
+        """Outgoing and absorbed power over incident power, less one, shape (incident,) (collective)."""
         powers = self.incidence.powers
-        residual: np.ndarray = powers @ np.abs(self.outgoing()) ** 2 / powers[self.incident] - 1.0
+        outgoing = powers @ np.abs(self.outgoing()) ** 2 / powers[self.incident]
+        residual: np.ndarray = outgoing + self.absorption - 1.0
         return residual

@@ -56,9 +56,9 @@ def solve_motion(problem: OpenWaterProblem, request: MotionRequest, water: Water
     asked = RadiationRequest(omega=tuple(distinct.tolist()), elastic_modes=request.elastic_modes)
     radiation = solve_radiation(problem, asked)
     table = radiation.table
-    middle = sum(problem.tank.bodies[0].waterplane) / 2.0
+    middle = sum(problem.tank.bodies[0].waterplane) / 2.0 - problem.tank.phase_at
     direction = 0 if request.waves_from == "left" else 1
-    # Forces are those of a crest at x = 0; the given phases are those at the first body.
+    # The given phases are those at the first body.
     travelled = (1.0, -1.0)[direction] * table.wavenumbers[place, 0] * middle
     waves = amplitude * np.exp(1j * phase)
     forces = WaveForces(
@@ -66,13 +66,11 @@ def solve_motion(problem: OpenWaterProblem, request: MotionRequest, water: Water
         forces=table.excitation_force[place, 0, direction] * (waves * np.exp(-1j * travelled))[:, None],
         ramp=request.ramp,
     )
-    nothing = np.zeros_like(table.inertia)
     bodies = MovingBodies(
         memory=water.memory,
         inertia=table.inertia,
         stiffness=table.stiffness,
-        damping=nothing,
-        quadratic_damping=nothing,
+        outside=water.model.scale.outside(water.model.outside),
     )
     displacement, velocity = bodies.motion(forces, times, _STEPS * problem.tolerance)
     turning = np.exp(-1j * np.outer(times, omega))

@@ -28,12 +28,14 @@ class ResponseRequest:
         omega: frequencies, rad/s, positive and finite.
         waves_from: the side from which the waves are incident.
         positions: number of points along each beam at which its deflection is reported.
+        elevation: amplitude of the incident waves, m, on which the damping by drag depends.
     """
 
     kind: ClassVar = "response"
     omega: tuple[float, ...]
     waves_from: Literal["left", "right"] = "left"
     positions: int = 101
+    elevation: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True)

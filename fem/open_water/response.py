@@ -62,7 +62,7 @@ def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Respo
 
     def solve(resolution: Resolution) -> Attempt[_Sweep]:
         model = open_model(problem, band, resolution)
-        solver = OpenSolver(model, problem.watch)
+        solver = OpenSolver(model, problem.watch, request.elevation)
         incident = _incident(model, request)
         frequencies = Problem(
             full=lambda omega: solver.response(omega.real, incident),
@@ -162,6 +162,7 @@ def _table(
         amplitudes=model.scale.amplitudes(motions),
         reflection=waves[:, :, back],
         transmission=waves[:, :, forward],
+        absorption=np.array([solution.absorption for solution in solutions]),
         energy_residual=np.array([solution.energy_residual() for solution in solutions]),
         relative_error=errors,
         plates=tuple(_plates(request, model, motions)),

@@ -113,7 +113,8 @@ class ResponseTable:
         amplitudes: (n, w, m) of the motions, m/m or rad/m.
         reflection: (n, w in, w out) ratio of elevations.
         transmission: (n, w in, w out) ratio of elevations.
-        energy_residual: (n, w) relative difference of incident and outgoing power.
+        absorption: (n, w) power that damping from outside takes, over incident power.
+        energy_residual: (n, w) relative difference of incident power and outgoing and absorbed power.
         relative_error: (n,) estimated relative error of the amplitudes.
         plates: one for each beam.
         missed_peaks: peaks that curves over ω do not show, found on a reduced basis.
@@ -127,6 +128,7 @@ class ResponseTable:
     amplitudes: Complexes
     reflection: Complexes
     transmission: Complexes
+    absorption: Floats
     energy_residual: Floats
     relative_error: Floats
     plates: tuple[PlateDeflection, ...]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 from scipy.linalg import eigvals
 
@@ -11,6 +13,7 @@ from hydroelastic.fem.open_water.frequency import OpenFrequency, OpenResponse
 from hydroelastic.fem.open_water.incident_waves import Incidence, incidence, planes
 from hydroelastic.fem.open_water.reduced_pencil import ReducedPencil
 from hydroelastic.fem.stopwatch import Stopwatch
+from hydroelastic.physics.attachments import REGULAR
 
 
 class OpenSolver:
@@ -19,11 +22,12 @@ class OpenSolver:
     Args:
         model: the problem.
         watch: records the time by stage.
+        elevation: amplitude of the incident waves, m, on which the damping by drag depends.
     """
 
-    def __init__(self, model: OpenModel, watch: Stopwatch) -> None:
+    def __init__(self, model: OpenModel, watch: Stopwatch, elevation: float = 0.0) -> None:
         """Prepare (collective)."""
-        self.model = model
+        self.model, self._elevation = model, elevation
         self._watch = watch
         with watch.stage("solve"):
             self._direct: ShiftedSolver = model.pencil.solver()
@@ -130,31 +134,61 @@ class OpenSolver:
             self._direct.shift(squared)
             radiated, diffracted = self._solved(self._loads), self._solved(-waves.fluxes)
         products = self.model.pencil.products
-        dynamic = self.model.stiffness - squared * (self.model.mass + products(self._loads, radiated))
-        forces = squared * (waves.pressures + products(diffracted, self._loads))
-        motions = np.linalg.solve(dynamic, forces.T).T
+        motions, absorbed = self._motions(
+            squared, waves, products(self._loads, radiated), waves.pressures + products(diffracted, self._loads)
+        )
         scattered = diffracted + motions @ radiated
         with self._watch.stage("reduce"):
             # Waves from the other side are the dual problem of amplitudes: with them these are of second order.
             self._reduced.add(squared, scattered, motions @ self._loads - waves.fluxes)
-        return self._response(squared, waves, incident, scattered[incident], motions[incident])
+        return self._response(squared, waves, incident, scattered[incident], motions[incident], absorbed[incident])
 
     def response_between(self, omega: float, incident: list[int]) -> tuple[OpenResponse, float]:
         """The same on the basis, and its largest relative residual (collective).
 
-        The bodies keep all their unknowns: (VᵀAV − λVᵀMV) y − VᵀF a = −Vᵀg, −λFᵀV y + (K − λM_b) a = λ∫ρφφᵢ.
+        The bodies keep all their unknowns.
         """
         squared = self.model.squared_frequency(omega)
         waves = self.incidence(omega)
         with self._watch.stage("reduce"):
-            operator = self._coupled(squared)
-            loads = -waves.fluxes[incident]
-            right = np.hstack([self._reduced.project(loads), squared * waves.pressures[incident]])
-            unknowns = np.linalg.solve(operator, right.T).T
-            coordinates, motions = unknowns[:, : self.basis_size], unknowns[:, self.basis_size :]
-            residual = self._reduced.residuals(squared, loads + motions @ self._loads, coordinates).max()
+            loads, coupling = -waves.fluxes, self._projected_loads()
+            found = self._reduced.solve(squared, np.vstack([coupling, self._reduced.project(loads)]))
+            radiated, diffracted = found[: len(coupling)], found[len(coupling) :]
+            forces = waves.pressures + diffracted @ coupling.T
+            motions, absorbed = (
+                part[incident] for part in self._motions(squared, waves, coupling @ radiated.T, forces)
+            )
+            coordinates = diffracted[incident] + motions @ radiated
+            residual = self._reduced.residuals(squared, loads[incident] + motions @ self._loads, coordinates).max()
             scattered = self._reduced.potentials(coordinates)
-        return self._response(squared, waves, incident, scattered, motions), float(residual)
+        return self._response(squared, waves, incident, scattered, motions, absorbed), float(residual)
+
+    def _motions(
+        self, squared: complex, waves: Incidence, hydrodynamic: np.ndarray, pressures: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return the motions in each wave, [K − iωB − λ(M_b + H)] a = λp, shape (waves, body unknowns), and aᴴBa/ω,
+        the power that B takes over ½ω³, shape (waves,).
+
+        Args:
+            squared: λ.
+            waves: the incident waves.
+            hydrodynamic: H, shape (body unknowns, body unknowns).
+            pressures: p = ∫ρφφᵢ + Fᵀφ_D, shape (waves, body unknowns).
+        """
+        outside, omega = self.model.outside, float(np.sqrt(squared).real)
+        dynamic = self.model.restoring(squared) - squared * (self.model.mass + hydrodynamic)
+        motions: np.ndarray = np.linalg.solve(dynamic, squared * pressures.T).T
+        dampings = np.broadcast_to(outside.damping, (len(motions), *outside.damping.shape)).copy()
+        # Drag depends on the height of the wave: each has a damping of its own.
+        heights = self._elevation / self.model.basin.units.length / waves.elevations
+        for place, height in enumerate(heights if len(outside.drag) else ()):
+            force = squared * pressures[place]
+            damping = outside.equivalent_damping(
+                partial(_speeds, outside.paths, omega, dynamic, height * force), REGULAR
+            )
+            motions[place] = _moved(omega, dynamic, force, damping)
+            dampings[place] += damping
+        return motions, np.einsum("wi,wij,wj->w", motions.conj(), dampings, motions).real / omega
 
     def resonances_between(self) -> np.ndarray:
         """Return ω of bodies and liquid on the basis, rad/s, Re ω ≥ 0, with those of the continuous spectrum
@@ -173,12 +207,18 @@ class OpenSolver:
         return np.block(
             [
                 [self._reduced.operator(squared), -coupling.T],
-                [-squared * coupling, self.model.stiffness - squared * self.model.mass],
+                [-squared * coupling, self.model.restoring(squared) - squared * self.model.mass],
             ]
         )
 
     def _response(
-        self, squared: complex, waves: Incidence, incident: list[int], scattered: np.ndarray, motions: np.ndarray
+        self,
+        squared: complex,
+        waves: Incidence,
+        incident: list[int],
+        scattered: np.ndarray,
+        motions: np.ndarray,
+        absorbed: np.ndarray,
     ) -> OpenResponse:
         return OpenResponse(
             model=self.model,
@@ -187,6 +227,7 @@ class OpenSolver:
             incident=incident,
             scattered=scattered,
             motions=motions,
+            absorbed=absorbed,
         )
 
     def _projected_loads(self) -> np.ndarray:
@@ -197,3 +238,15 @@ class OpenSolver:
 
     def _solved(self, loads: np.ndarray) -> np.ndarray:
         return np.array([self._direct.solve(load) for load in loads]).reshape(loads.shape)
+
+
+def _moved(omega: float, dynamic: np.ndarray, force: np.ndarray, damping: np.ndarray) -> np.ndarray:
+    """Motions by a force with further damping, shape (body unknowns,)."""
+    motions: np.ndarray = np.linalg.solve(dynamic - 1j * omega * damping, force)
+    return motions
+
+
+def _speeds(paths: np.ndarray, omega: float, dynamic: np.ndarray, force: np.ndarray, damping: np.ndarray) -> np.ndarray:
+    """Amplitudes of the velocities along paths, shape (paths,)."""
+    speeds: np.ndarray = omega * np.abs(paths @ _moved(omega, dynamic, force, damping))
+    return speeds

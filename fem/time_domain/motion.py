@@ -1,11 +1,11 @@
 """Motions of bodies in waves over time: Cummins' equation.
 
-    (M + a∞) ξ″ + B ξ′ + (D |ξ′|) ξ′ + ∫₀ᵗ K(t − u) ξ′(u) du + C ξ = r(t) Re Σ fₙ e^{−iωₙt}
+    (M + a∞) ξ″ + B ξ′ + Σ pᵢ βᵢ |pᵢᵀξ′| pᵢᵀξ′ + ∫₀ᵗ K(t − u) ξ′(u) du + C ξ = r(t) Re Σ fₙ e^{−iωₙt}
 
-from rest at t = 0, with stiffness C and damping B and D of hydrostatics and of all forces from outside, and a ramp r of
-the waves (W. E. Cummins 1962). The convolution is the sum of the exponentials of `RadiationMemory`, whose states
-z′ = pz + ξ′ make the equation one of first order, which SciPy's DOP853 integrates. Exponentials far quicker than all
-else are only a damping and a mass: ∫ e^{pu} ξ′(t − u) du = −ξ′/p − ξ″/p² …
+from rest at t = 0, with the stiffness C of hydrostatics and of forces from outside, their damping B and drags β along
+paths p, and a ramp r of the waves (W. E. Cummins 1962). The convolution is the sum of the exponentials of
+`RadiationMemory`, whose states z′ = pz + ξ′ make the equation one of first order, which SciPy's DOP853 integrates.
+Exponentials far quicker than all else are only a damping and a mass: ∫ e^{pu} ξ′(t − u) du = −ξ′/p − ξ″/p² …
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from scipy.integrate import solve_ivp
 from scipy.sparse import block_array, block_diag, csr_array
 
 from hydroelastic.fem.time_domain.radiation_memory import Complexes, Floats, RadiationMemory
+from hydroelastic.physics.attachments import IRREGULAR, REGULAR, OutsideForces
 
 # Rates over the highest frequency of waves and bodies beyond which an exponential has no state: what is neglected of it
 # is of the third order in the inverse.
@@ -57,28 +58,39 @@ class MovingBodies:
     Attributes:
         memory: added mass at infinite frequency and impulse responses.
         inertia: M, shape (m, m).
-        stiffness: C, shape (m, m).
-        damping: B, shape (m, m).
-        quadratic_damping: D, the force in i being Σⱼ Dᵢⱼ |ξ′ⱼ| ξ′ⱼ, shape (m, m).
+        stiffness: of hydrostatics and of the bodies, shape (m, m).
+        outside: springs, dampers and drags from outside.
     """
 
     memory: RadiationMemory
     inertia: Floats
     stiffness: Floats
-    damping: Floats
-    quadratic_damping: Floats
+    outside: OutsideForces
 
     def steady(self, waves: WaveForces) -> Complexes:
-        """Amplitudes of the motions in each wave alone, after all transients and without quadratic damping, shape
-        (n, m)."""
-        omega = waves.omega[:, None, None]
-        impedance = (
+        """Amplitudes of the motions in waves without a beginning, with the linear damping that takes the same power as
+        the drags in one wave, or in many of random phases, shape (n, m)."""
+        omega, paths = waves.omega[:, None, None], self.outside.paths
+        without_drag = (
             self.stiffness
             - omega**2 * (self.inertia + self.memory.infinite_frequency_added_mass)
-            - 1j * omega * (self.damping + self.memory.transform(waves.omega))
+            - 1j * omega * self.memory.transform(waves.omega)
+            + np.array([self.outside.impedance(one) for one in waves.omega])
         )
-        amplitudes: Complexes = np.linalg.solve(impedance, waves.forces[..., None])[..., 0]
-        return amplitudes
+
+        def amplitudes(damping: Floats) -> Complexes:
+            found: Complexes = np.linalg.solve(without_drag - 1j * omega * damping, waves.forces[..., None])[..., 0]
+            return found
+
+        if not len(self.outside.drag):
+            return amplitudes(np.zeros_like(self.inertia))
+        is_regular = len(waves.omega) == 1
+
+        def speeds(damping: Floats) -> Floats:
+            along = np.abs(waves.omega[:, None] * (amplitudes(damping) @ paths.T))
+            return along[0] if is_regular else np.sqrt(0.5 * (along**2).sum(axis=0))
+
+        return amplitudes(self.outside.equivalent_damping(speeds, REGULAR if is_regular else IRREGULAR))
 
     def motion(self, waves: WaveForces, times: Floats, tolerance: float) -> tuple[Floats, Floats]:
         """Integrate from rest at t = 0.
@@ -96,12 +108,12 @@ class MovingBodies:
         """
         matrix, inverse = self._system(self._highest(waves))
         count = len(self.inertia)
-        velocity = slice(count, 2 * count)
+        velocity, drag = slice(count, 2 * count), self.outside.drag
 
         def rates(time: float, state: Floats) -> Floats:
-            speeds = state[velocity]
+            speeds = self.outside.paths @ state[velocity]
             change: Floats = matrix @ state
-            change[velocity] += inverse @ (waves.at(time) - self.quadratic_damping @ (np.abs(speeds) * speeds))
+            change[velocity] += inverse @ (waves.at(time) - self.outside.paths.T @ (drag * np.abs(speeds) * speeds))
             return change
 
         size = np.abs(self.steady(waves)).sum(axis=0) + np.finfo(float).tiny
@@ -129,7 +141,8 @@ class MovingBodies:
     def _highest(self, waves: WaveForces) -> float:
         """The highest frequency of waves and bodies, rad/s."""
         mass = self.inertia + self.memory.infinite_frequency_added_mass
-        natural = np.sqrt(np.abs(np.linalg.eigvals(np.linalg.solve(mass, self.stiffness))).max())
+        stiffness = self.stiffness + self.outside.stiffness
+        natural = np.sqrt(np.abs(np.linalg.eigvals(np.linalg.solve(mass, stiffness))).max())
         return max(float(waves.omega.max()), float(natural))
 
     def _system(self, highest: float) -> tuple[csr_array, Floats]:
@@ -140,7 +153,7 @@ class MovingBodies:
         quick, weights = memory.rates[is_quick][:, None, None], memory.weights[is_quick]
         rates, kept = memory.rates[~is_quick], memory.weights[~is_quick]
         mass = self.inertia + memory.infinite_frequency_added_mass - (weights / quick**2).sum(axis=0).real
-        damping = self.damping - (weights / quick).sum(axis=0).real
+        damping = self.outside.damping - (weights / quick).sum(axis=0).real
         inverse = np.linalg.inv(mass)
         one, states = np.eye(count), 2 * len(rates) * count
         turning = block_diag([np.kron([[p.real, -p.imag], [p.imag, p.real]], one) for p in rates])
@@ -150,7 +163,7 @@ class MovingBodies:
         matrix = block_array(
             [
                 [csr_array((count, count)), one, csr_array((count, states))],
-                [-inverse @ self.stiffness, -inverse @ damping, -inverse @ pulled],
+                [-inverse @ (self.stiffness + self.outside.stiffness), -inverse @ damping, -inverse @ pulled],
                 [csr_array((states, count)), driven, turning],
             ]
         )

@@ -56,8 +56,8 @@ class MotionTable:
         elevation: (n,) m, there, without the bodies.
         displacement: (n, m) m or rad.
         velocity: (n, m) m/s or rad/s.
-        steady: (n, m) m or rad, in the same waves without a beginning, by the frequency domain; without quadratic
-            damping.
+        steady: (n, m) m or rad, in the same waves without a beginning, by the frequency domain; drag is linear
+            there.
         relative_error: estimated relative error of the forces and of the added mass.
     """
 

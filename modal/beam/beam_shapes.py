@@ -30,6 +30,8 @@ class BeamShapes:
         dofs: degree of freedom of each.
         parities: +1 or −1: the mirror image of a shape about the middle of its beam is ± a shape of the mirrored beam.
         deflection: number of the shape and distances from the left end → w.
+        tabulated: distances from the left end, within the beam, and order 0 … 3 of the derivative → that of all shapes,
+            shape (shapes, points); of free ends.
         bending: twice the strain energy of each, in units of the beam, shape (shapes,).
         mass: ∫m wᵢwⱼ, shape (shapes, shapes).
         wavenumber: the largest wavenumber among them, 1/m or dimensionless as the beam.
@@ -38,6 +40,7 @@ class BeamShapes:
     dofs: tuple[Dof, ...]
     parities: tuple[int, ...]
     deflection: Callable[[int, Array], Array]
+    tabulated: Callable[[Array, int], Array]
     bending: Array
     mass: Array
     wavenumber: float
@@ -57,10 +60,15 @@ def _closed_shapes(beam: Beam, count: int) -> BeamShapes:
         values = guided_shape(number, x / length) if guided else free_free_shape(number, x / length)
         return np.asarray(values, dtype=np.float64)
 
+    def tabulated(x: Array, derivative: int) -> Array:
+        values = [free_free_shape(number, np.clip(x / length, 0.0, 1.0), derivative) for number in range(count)]
+        return np.asarray(np.array(values).reshape(count, len(x)) / length**derivative, dtype=np.float64)
+
     return BeamShapes(
         dofs=beam.dofs(count),
         parities=tuple(1 - 2 * (number % 2) for number in range(count)),
         deflection=deflection,
+        tabulated=tabulated,
         bending=beam.flexural_rigidity * (roots / length) ** 4 * length,
         mass=np.diag(np.full(count, beam.mass_per_length * length)),
         wavenumber=float(roots.max(initial=0.0)) / length,
@@ -77,6 +85,7 @@ def _computed_shapes(beam: Beam, count: int) -> BeamShapes:
         dofs=modes.dofs,
         parities=modes.parities,
         deflection=_AllAtOnce(modes, scale),
+        tabulated=lambda x, derivative: scale * modes.shapes(np.clip(x, 0.0, modes.beam.length), derivative),
         bending=modes.squared_frequencies * length,
         mass=mass * length,
         wavenumber=float(modes.wavenumbers.max()),

@@ -14,12 +14,13 @@ import numpy as np
 
 from hydroelastic.fem.open_water.region import Region
 from hydroelastic.fem.open_water.results import DIRECTIONS, Complexes, Floats, ResponseTable
+from hydroelastic.output.open_water.bodies import BODIES
 from hydroelastic.output.open_water.time_quantities import IMPULSE_RESPONSE, MOTION
 from hydroelastic.output.provenance import PROCESSES
 from hydroelastic.output.quantities import Group, Quantity
 from hydroelastic.physics.dofs import Dof, body_name
 
-_CREST = "beside an incident wave whose crest is at x = 0 of the scene at t = 0"
+_CREST = "beside an incident wave whose crest is at x = 0 of the scene, or at `sea.phase_at`, at t = 0"
 _INERTIA: dict[str, Any] = {"unit": "kg/m", "of_roll": ("kg", "kg m")}
 _FORCE: dict[str, Any] = {"unit": "N/m^2", "of_roll": ("N/m",), "phase": _CREST}
 _MOTION: dict[str, Any] = {"unit": "m", "of_roll": ("rad",)}
@@ -42,7 +43,7 @@ class WavesAndMotions(ResponseTable):
     """A response with the bodies.
 
     Attributes:
-        centres: x of the middle of the waterplane of each body, m.
+        centres: x of the middle of the waterplane of each body, from where the phase of the wave is 0, m.
         motions: those of the radiation analyses; of this response if there is none.
     """
 
@@ -81,7 +82,7 @@ def region_words(region: Region | None) -> str:
 
 def _responses(solution: Any) -> list[WavesAndMotions]:
     motions = motions_of(*solution.radiation) or motions_of(*solution.response)
-    centres = tuple(sum(body.waterplane) / 2.0 for body in solution.tank.bodies)
+    centres = tuple(sum(body.waterplane) / 2.0 - solution.tank.phase_at for body in solution.tank.bodies)
     return [WavesAndMotions(**vars(table), centres=centres, motions=motions) for table in solution.response]
 
 
@@ -93,8 +94,8 @@ def motions_of(*tables: Any) -> tuple[Dof, ...]:
 def _phase_at_body(table: WavesAndMotions) -> Floats:
     """Return θ, degrees, of the motion |a| cos(ωt − θ) of a body that the crest of the incident wave passes at t = 0.
 
-    The phase of a is beside the crest at x = 0, and waves e^{±ikx − iωt} are e^{±ikx_b} at the middle x_b of the
-    waterplane: θ = arg(a e^{∓ikx_b}), upper signs for waves from the left. NaN where |a| is not larger than its error,
+    The phase of a is beside the crest at x_p, and waves e^{±ik(x − x_p) − iωt} are e^{±ik(x_b − x_p)} at the middle
+    x_b of the waterplane, from which `centres` are counted: θ = arg(a e^{∓ikx_b}), upper signs for waves from the left. NaN where |a| is not larger than its error,
     which is relative to the largest of the displacements, or of the rotations.
     """
     centres = np.array([table.centres[(dof.body or 1) - 1] for dof in table.dofs])
@@ -215,7 +216,10 @@ RESPONSE = Group("response", "motions and waves per unit elevation of the incide
     _array("shape_phase_at_body", "phase of a further shape, as `RAO_phase_at_body`", "omega wave shape",
         lambda it: _phase_at_body(it)[:, :, it.further] if it.further else None,
         order="omega wave_direction wave shape", unit="degree"),
-    _joined("energy_residual", "relative difference of incident and outgoing power", "omega wave",
+    _joined("absorption", "power that damping from outside takes, over that of the incident wave", "omega wave",
+        "omega wave_direction wave", unit="1", short="absorbed", shown=".4g",
+        variable="absorbed_power_fraction"),
+    _joined("energy_residual", "relative difference of incident power, and outgoing and absorbed power", "omega wave",
         "omega wave_direction wave", unit="1", short="energy", shown=".1e", variable="response_energy_residual"),
     _joined("relative_error", "estimated relative error of the motions", "omega", "omega wave_direction", unit="1",
         short="error/largest", shown=".1e", variable="response_relative_error"),
@@ -297,7 +301,7 @@ def _of_scene(key: str, meaning: str, value: Callable[[Any], Any], unit: str | N
 
 
 OPEN_WATER = Group("", "open water", (
-    RADIATION, RESPONSE, RESONANCE, DECAY, IMPULSE_RESPONSE, MOTION, ESTIMATES,
+    BODIES, RADIATION, RESPONSE, RESONANCE, DECAY, IMPULSE_RESPONSE, MOTION, ESTIMATES,
     Group("size", "size of the largest problem", (
         Quantity("cells", "number of cells", "1"),
         Quantity("dofs", "number of unknowns of ψ", "1"),

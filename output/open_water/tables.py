@@ -13,6 +13,7 @@ from hydroelastic.fem.time_domain.results import ImpulseResponseTable, MotionTab
 from hydroelastic.modal.floats.infinite_draught import InfiniteDraughtFloat
 from hydroelastic.output.columns import Column, headings_of, rows_of
 from hydroelastic.output.digits import beyond_error, number, per_cent, with_certain_digits
+from hydroelastic.output.open_water.bodies import bodies_section
 from hydroelastic.output.open_water.files import open_columns
 from hydroelastic.output.open_water.quantities import (
     DECAY,
@@ -34,12 +35,13 @@ _MOST_MOTIONS = 4
 
 
 def open_sections(solution: Any, summary: Summary) -> Iterator[Section]:
-    """Yield the tables by analysis, and the comparison with the thin-float theory.
+    """Yield the bodies at rest, the tables by analysis, and the comparison with the thin-float theory.
 
     Args:
         solution: the solution.
         summary: content of ``summary.json``.
     """
+    yield bodies_section(solution)
     for radiation in solution.radiation:
         yield from _radiation(radiation)
     for response in RESPONSE.of(solution):
@@ -143,7 +145,8 @@ def _response(table: WavesAndMotions) -> Iterator[Section]:
     for column in open_columns(RESPONSE, table):
         found.setdefault(column.quantity.key, []).append(column)
     first = [*found["omega"], *(found["waves"] if count > 1 else ())]
-    keys = ("wavenumbers", "reflection", "transmission", "energy_residual", "relative_error")
+    absorbed = ("absorption",) if table.absorption.any() else ()
+    keys = ("wavenumbers", "reflection", "transmission", *absorbed, "energy_residual", "relative_error")
     ratios = [*first, *(column for key in keys for column in found[key])]
     yield Section(
         title=f"Waves from the {table.waves_from}: ratios of elevations",

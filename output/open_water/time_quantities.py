@@ -66,7 +66,7 @@ MOTION = Group("motion", "motions in waves over time, by analysis", (
     _joined("velocity", "velocity in waves", "motion_time dof", unit="m/s", of_roll=("rad/s",),
         variable="motion_velocity"),
     _joined("steady", "motion in the same waves without a beginning, by the frequency domain", "motion_time dof",
-        variable="motion_steady", note="linear: without quadratic damping", **_MOTION),
+        variable="motion_steady", note="with a linear damping in place of drag", **_MOTION),
     _joined("standard_deviation", "standard deviation of the motion after the ramp", "dof",
         variable="motion_standard_deviation", **_MOTION),
     _joined("largest", "largest motion after the ramp", "dof", variable="motion_largest", **_MOTION),

@@ -3,6 +3,7 @@
 from hydroelastic.scenes.models.bodies import Beam, Float
 from hydroelastic.scenes.models.open_analyses import Decay, Radiation, Resonance, Response
 from hydroelastic.scenes.models.roll import RollScene
+from hydroelastic.scenes.models.sea import SeaScene
 from hydroelastic.scenes.models.string import StringScene
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.tank_parts import Accuracy, Liquid, MeshFile, Tank
@@ -19,6 +20,7 @@ __all__ = [
     "Resonance",
     "Response",
     "RollScene",
+    "SeaScene",
     "StringScene",
     "Tank",
     "TankScene",

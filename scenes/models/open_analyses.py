@@ -8,8 +8,10 @@ from pydantic import (
     BeforeValidator,
     Discriminator,
     Field,
+    SerializerFunctionWrapHandler,
     Strict,
     Tag,
+    model_serializer,
     model_validator,
 )
 
@@ -62,11 +64,25 @@ class Response(SceneModel):
     positions: Annotated[int, Strict(), Field(ge=2, le=MOST_VALUES)] = Field(
         default=101, description="points along each beam at which its deflection is reported"
     )
+    wave_amplitude: PositiveNumber | None = Field(
+        default=None,
+        description="amplitude of the waves, m; needed where attachments have quadratic damping, without effect elsewhere",
+    )
 
     @property
     def request(self) -> ResponseRequest:
         """What the solver is asked for."""
-        return ResponseRequest(omega=self.omega, waves_from=self.waves_from, positions=self.positions)
+        return ResponseRequest(
+            omega=self.omega,
+            waves_from=self.waves_from,
+            positions=self.positions,
+            elevation=self.wave_amplitude or 0.0,
+        )
+
+    @model_serializer(mode="wrap")
+    def _as_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        """Serialize without an amplitude that is not given."""
+        return {key: value for key, value in write(self).items() if key != "wave_amplitude" or value is not None}
 
 
 class Resonance(SceneModel):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from hydroelastic.physics.beams import Beam
@@ -19,13 +20,19 @@ def physical_tank(scene: TankParts) -> Tank:
     Raises:
         ValueError: if a float cannot float at its level.
     """
-    return tank(
+    found = tank(
         length=scene.tank.length,
         gravity=scene.tank.gravity,
         is_open=scene.is_open,
         liquids=tuple((layer.density, layer.depth) for layer in scene.layers),
         top=scene.top,
         bodies=tuple(_body(scene, index) for index in range(len(scene.body))),
+    )
+    return replace(
+        found,
+        start=scene.stretch[0],
+        phase_at=scene.phase_at,
+        attachments=tuple(one.physical(scene) for one in scene.attachment),
     )
 
 

@@ -144,6 +144,8 @@ def _depths_fit_the_bodies(scene: TankParts) -> Iterator[InitErrorDetails]:
 
 
 def _beams_lie_in_the_tank(scene: TankParts) -> Iterator[InitErrorDetails]:
+    if scene.kind == "sea":
+        return
     length = scene.tank.length
     place = "stretch that is drawn" if scene.is_open else "tank"
     for index, beam in scene.beams:

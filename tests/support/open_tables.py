@@ -138,6 +138,7 @@ def _response(scene: TankScene, analysis: Response, numbers: np.random.Generator
         amplitudes=_complex(numbers, count, len(waves), len(dofs)),
         reflection=_complex(numbers, count, len(waves), len(waves)),
         transmission=_complex(numbers, count, len(waves), len(waves)),
+        absorption=np.zeros((count, len(waves))),
         energy_residual=np.full((count, len(waves)), 1e-9),
         relative_error=np.full(count, 1e-7),
         plates=tuple(plates),

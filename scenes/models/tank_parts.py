@@ -31,6 +31,7 @@ from hydroelastic.scenes.models.problems import problem
 
 if TYPE_CHECKING:
     from hydroelastic.scenes.models.attachments import Attachment
+    from hydroelastic.scenes.models.export import Export
 
 
 class Tank(SceneModel):
@@ -148,6 +149,10 @@ class TankParts(SceneModel):
         def mesh(self) -> MeshFile | None:
             """A mesh by the user."""
 
+        @property
+        def export(self) -> Export | None:
+            """Files for other programs."""
+
     def model_post_init(self, context: Any) -> None:
         """Keep the folder of the scene file, to which paths of outlines are relative, and the file's name in messages.
 
@@ -233,5 +238,6 @@ class TankParts(SceneModel):
 
     @model_serializer(mode="wrap")
     def _without_idle_keys(self, written: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        """Leave out an empty list of analyses."""
-        return {key: value for key, value in written(self).items() if key != "analysis" or value}
+        """Leave out an empty list of analyses, and files for other programs that are not asked for."""
+        idle = ("analysis", "export")
+        return {key: value for key, value in written(self).items() if key not in idle or value}

@@ -14,7 +14,9 @@ Amplitudes of outgoing waves are those of `incident_waves`.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -33,22 +35,28 @@ class OpenFrequency:
         model: the problem.
         squared: λ.
         incidence: the travelling waves, first those to the right, then those to the left.
-        radiated: ψ of a unit of each body unknown, shape (body unknowns, free unknowns).
-        diffracted: φ_D of each incident wave, shape (waves, free unknowns).
         hydrodynamic: H, shape (body unknowns, body unknowns).
+        diffraction: Fᵀφ_D of each incident wave, shape (waves, body unknowns).
+        potentials: returns ψ of a unit of each body unknown, shape (body unknowns, free unknowns).
     """
 
     model: OpenModel
     squared: complex
     incidence: Incidence
-    radiated: np.ndarray
-    diffracted: np.ndarray
     hydrodynamic: np.ndarray
+    diffraction: np.ndarray
+    potentials: Callable[[], np.ndarray]
+
+    @cached_property
+    def radiated(self) -> np.ndarray:
+        """ψ of a unit of each body unknown, shape (body unknowns, free unknowns)."""
+        return self.potentials()
 
     @property
     def diffraction_force(self) -> np.ndarray:
-        """λFᵀφ_D for each incident wave, shape (waves, body unknowns) (collective)."""
-        return self.squared * self.model.pencil.products(self.diffracted, self.model.pencil.loads.astype(complex))
+        """λFᵀφ_D for each incident wave, shape (waves, body unknowns)."""
+        force: np.ndarray = self.squared * self.diffraction
+        return force
 
     @property
     def froude_krylov_force(self) -> np.ndarray:
@@ -95,7 +103,8 @@ class OpenResponse:
         squared: λ.
         incidence: the travelling waves, first those to the right, then those to the left.
         incident: indices of the incident waves.
-        scattered: ψ of radiated and diffracted waves for each, shape (incident, free unknowns).
+        fluxes: gᵀψ of the radiated and diffracted waves of each, shape (waves, incident).
+        potentials: returns ψ of these waves, shape (incident, free unknowns).
         motions: body unknowns, shape (incident, body unknowns).
         absorbed: power that damping from outside takes, over ½ω³, shape (incident,).
     """
@@ -104,18 +113,20 @@ class OpenResponse:
     squared: complex
     incidence: Incidence
     incident: list[int]
-    scattered: np.ndarray
+    fluxes: np.ndarray
+    potentials: Callable[[], np.ndarray]
     motions: np.ndarray
     absorbed: np.ndarray
 
+    @cached_property
+    def scattered(self) -> np.ndarray:
+        """ψ of radiated and diffracted waves of each incident wave, shape (incident, free unknowns)."""
+        return self.potentials()
+
     def outgoing(self) -> np.ndarray:
-        """c of all outgoing waves, the incident one included, shape (outgoing waves, incident) (collective)."""
+        """c of all outgoing waves, the incident one included, shape (outgoing waves, incident)."""
         incidence = self.incidence
-        fluxes = (
-            incidence.pressures @ self.motions.T
-            - incidence.own[:, self.incident]
-            - self.model.pencil.products(incidence.fluxes, self.scattered)
-        )
+        fluxes = incidence.pressures @ self.motions.T - incidence.own[:, self.incident] - self.fluxes
         return incidence.amplitudes(fluxes) + np.eye(len(incidence.planes))[:, self.incident]
 
     @property
@@ -125,7 +136,7 @@ class OpenResponse:
         return absorption
 
     def energy_residual(self) -> np.ndarray:
-        """Outgoing and absorbed power over incident power, less one, shape (incident,) (collective)."""
+        """Outgoing and absorbed power over incident power, less one, shape (incident,)."""
         powers = self.incidence.powers
         outgoing = powers @ np.abs(self.outgoing()) ** 2 / powers[self.incident]
         residual: np.ndarray = outgoing + self.absorption - 1.0

@@ -8,13 +8,13 @@ from math import nan
 import numpy as np
 
 from hydroelastic.fem.open_water.attempts import best_over_band
-from hydroelastic.fem.open_water.field_model import Band, OpenModel, open_model
+from hydroelastic.fem.open_water.field_model import Band, OpenModel
 from hydroelastic.fem.open_water.frequency import OpenResponse
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import between, estimated_places, relative_difference
 from hydroelastic.fem.open_water.requests import ResponseRequest
 from hydroelastic.fem.open_water.results import PlateDeflection, ResponseTable, UnresolvedPeak
-from hydroelastic.fem.open_water.solver import OpenSolver
+from hydroelastic.fem.open_water.solver import OpenSolver, shared_solver
 from hydroelastic.fem.open_water.sweep import FEW, Problem, Swept, sweep
 from hydroelastic.fem.open_water.unresolved_peaks import unresolved_peaks
 from hydroelastic.fem.surfaces import Body
@@ -61,9 +61,9 @@ def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Respo
     band = Band(lowest=float(omegas.min()), highest=float(omegas.max()))
 
     def solve(resolution: Resolution) -> Attempt[_Sweep]:
-        model = open_model(problem, band, resolution)
-        solver = OpenSolver(model, problem.watch, request.elevation)
-        incident = _incident(model, request)
+        solver = shared_solver(problem, band, resolution)
+        solver.elevation = request.elevation
+        incident = _incident(solver.model, request)
         frequencies = Problem(
             full=lambda omega: solver.response(omega.real, incident),
             reduced=lambda omega: solver.response_between(omega.real, incident),

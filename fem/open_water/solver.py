@@ -7,13 +7,27 @@ from functools import partial
 import numpy as np
 from scipy.linalg import eigvals
 
+from hydroelastic.fem.memory import release_memory
 from hydroelastic.fem.open_water.complex_direct import ShiftedSolver
-from hydroelastic.fem.open_water.field_model import OpenModel
+from hydroelastic.fem.open_water.field_model import Band, OpenModel, open_model
 from hydroelastic.fem.open_water.frequency import OpenFrequency, OpenResponse
 from hydroelastic.fem.open_water.incident_waves import Incidence, incidence, planes
-from hydroelastic.fem.open_water.reduced_pencil import ReducedPencil
+from hydroelastic.fem.open_water.problem import OpenWaterProblem
+from hydroelastic.fem.open_water.reduced_pencil import LoadProducts, ReducedPencil
 from hydroelastic.fem.stopwatch import Stopwatch
+from hydroelastic.fem.tank.resolution import Resolution
 from hydroelastic.physics.attachments import REGULAR
+
+
+def shared_solver(problem: OpenWaterProblem, band: Band, resolution: Resolution) -> OpenSolver:
+    """Return the solver of a band and a resolution, with its basis: that of the last analysis if it is the same
+    (collective)."""
+    if (band, resolution) not in problem.solvers:
+        problem.solvers.clear()
+        release_memory()
+        model = open_model(problem, band, resolution)
+        problem.solvers[band, resolution] = OpenSolver(model, problem.watch)
+    return problem.solvers[band, resolution]
 
 
 class OpenSolver:
@@ -22,20 +36,24 @@ class OpenSolver:
     Args:
         model: the problem.
         watch: records the time by stage.
+
+    Attributes:
+        model: the problem.
         elevation: amplitude of the incident waves, m, on which the damping by drag depends.
     """
 
-    def __init__(self, model: OpenModel, watch: Stopwatch, elevation: float = 0.0) -> None:
+    def __init__(self, model: OpenModel, watch: Stopwatch) -> None:
         """Prepare (collective)."""
-        self.model, self._elevation = model, elevation
+        self.model, self.elevation = model, 0.0
         self._watch = watch
         with watch.stage("solve"):
             self._direct: ShiftedSolver = model.pencil.solver()
         self._reduced = ReducedPencil(model.pencil)
         self._loads = model.pencil.loads.astype(complex)
-        self._projected = np.zeros((len(self._loads), 0), dtype=complex)
-        # A sweep evaluates a frequency several times.
+        self._known = self._reduced.load_products(self._loads)
+        # A sweep evaluates a frequency several times, and so do several analyses.
         self._waves: dict[float, Incidence] = {}
+        self._solutions: dict[float, tuple[np.ndarray, np.ndarray]] = {}
 
     @property
     def factorizations(self) -> int:
@@ -68,7 +86,7 @@ class OpenSolver:
     def hydrodynamics(self, squares: np.ndarray) -> np.ndarray:
         """H at many λ on the basis, shape (λ, body unknowns, body unknowns) (collective)."""
         with self._watch.stage("reduce"):
-            projected = self._projected_loads()
+            projected = self._known_loads().projected
             return np.array([projected @ self._reduced.solve(square, projected).T for square in squares])
 
     def hydrodynamic(self, squared: complex) -> tuple[np.ndarray, float]:
@@ -77,49 +95,66 @@ class OpenSolver:
         The residual is that of one combination of all motions.
         """
         with self._watch.stage("reduce"):
-            projected = self._projected_loads()
-            coordinates = self._reduced.solve(squared, projected)
+            known = self._known_loads()
+            coordinates = self._reduced.solve(squared, known.projected)
             # Factors without simple ratios, so that no parts cancel by symmetry.
-            parts = np.cos(1.0 + np.arange(len(projected)))[None]
-            residual = self._reduced.residuals(squared, parts @ self._loads, parts @ coordinates)[0]
-            return projected @ coordinates.T, float(residual)
+            parts = np.cos(1.0 + np.arange(len(coordinates)))[None]
+            residual = self._reduced.known_residuals(squared, known, parts, parts @ coordinates)[0]
+            return known.projected @ coordinates.T, float(residual)
 
     def frequency(self, omega: float) -> OpenFrequency:
         """Return radiation and diffraction at ω in rad/s by a factorization; the solutions extend the basis
         (collective)."""
         squared = self.model.squared_frequency(omega)
         waves = self.incidence(omega)
-        radiated = self.radiation(squared)
-        with self._watch.stage("solve"):
-            diffracted = self._solved(-waves.fluxes)
-        with self._watch.stage("reduce"):
-            self._reduced.add(squared, diffracted, -waves.fluxes)
-        return self._frequency(squared, waves, radiated, diffracted)
+        radiated, diffracted = self._at(omega)
+        if self.model.basin.tank.elastic:
+            with self._watch.stage("reduce"):
+                self._reduced.add(squared, np.vstack([radiated, diffracted]), np.vstack([self._loads, -waves.fluxes]))
+        products = self.model.pencil.products
+        return OpenFrequency(
+            model=self.model,
+            squared=squared,
+            incidence=waves,
+            hydrodynamic=products(self._loads, radiated),
+            diffraction=products(diffracted, self._loads),
+            potentials=lambda: radiated,
+        )
+
+    def _at(self, omega: float) -> tuple[np.ndarray, np.ndarray]:
+        """Return radiated and diffracted ψ at ω in rad/s by a factorization (collective).
+
+        Of rigid bodies they extend the basis. Beams have many shapes: their basis is extended by sums of them.
+        """
+        if omega not in self._solutions:
+            squared, waves = self.model.squared_frequency(omega), self.incidence(omega)
+            with self._watch.stage("solve"):
+                self._direct.shift(squared)
+                found = self._solved(self._loads), self._solved(-waves.fluxes)
+            if not self.model.basin.tank.elastic:
+                with self._watch.stage("reduce"):
+                    self._reduced.add(squared, np.vstack(found), np.vstack([self._loads, -waves.fluxes]))
+            self._solutions[omega] = found
+        return self._solutions[omega]
 
     def frequency_between(self, omega: float) -> tuple[OpenFrequency, float]:
         """The same on the basis, and its largest relative residual (collective)."""
         squared = self.model.squared_frequency(omega)
         waves = self.incidence(omega)
         with self._watch.stage("reduce"):
-            loads = np.vstack([self._loads, -waves.fluxes])
-            projected = np.vstack([self._projected_loads(), -self._reduced.project(waves.fluxes)])
-            coordinates = self._reduced.solve(squared, projected)
-            residual = self._reduced.residuals(squared, loads, coordinates).max()
-            potentials = self._reduced.potentials(coordinates)
-        count = len(self._loads)
-        return self._frequency(squared, waves, potentials[:count], potentials[count:]), float(residual)
-
-    def _frequency(
-        self, squared: complex, waves: Incidence, radiated: np.ndarray, diffracted: np.ndarray
-    ) -> OpenFrequency:
+            known, count = self._reduced.load_products(np.vstack([self._loads, -waves.fluxes])), len(self._loads)
+            found = self._reduced.solve(squared, known.projected)
+            residual = self._reduced.known_residuals(squared, known, np.eye(len(found)), found).max()
+            lifted = self._reduced.lifted(found[:count])
+        coupling = known.projected[:count]
         return OpenFrequency(
             model=self.model,
             squared=squared,
             incidence=waves,
-            radiated=radiated,
-            diffracted=diffracted,
-            hydrodynamic=self.model.pencil.products(self._loads, radiated),
-        )
+            hydrodynamic=coupling @ found[:count].T,
+            diffraction=found[count:] @ coupling.T,
+            potentials=lifted,
+        ), float(residual)
 
     def response(self, omega: float, incident: list[int]) -> OpenResponse:
         """Return the response of free bodies by a factorization; the scattered waves extend the basis (collective).
@@ -130,18 +165,26 @@ class OpenSolver:
         """
         squared = self.model.squared_frequency(omega)
         waves = self.incidence(omega)
-        with self._watch.stage("solve"):
-            self._direct.shift(squared)
-            radiated, diffracted = self._solved(self._loads), self._solved(-waves.fluxes)
+        radiated, diffracted = self._at(omega)
         products = self.model.pencil.products
         motions, absorbed = self._motions(
             squared, waves, products(self._loads, radiated), waves.pressures + products(diffracted, self._loads)
         )
         scattered = diffracted + motions @ radiated
-        with self._watch.stage("reduce"):
-            # Waves from the other side are the dual problem of amplitudes: with them these are of second order.
-            self._reduced.add(squared, scattered, motions @ self._loads - waves.fluxes)
-        return self._response(squared, waves, incident, scattered[incident], motions[incident], absorbed[incident])
+        if self.model.basin.tank.elastic:
+            with self._watch.stage("reduce"):
+                # Waves from the other side are the dual problem of amplitudes: with them these are of second order.
+                self._reduced.add(squared, scattered, motions @ self._loads - waves.fluxes)
+        return OpenResponse(
+            model=self.model,
+            squared=squared,
+            incidence=waves,
+            incident=incident,
+            fluxes=products(waves.fluxes, scattered[incident]),
+            potentials=lambda: scattered[incident],
+            motions=motions[incident],
+            absorbed=absorbed[incident],
+        )
 
     def response_between(self, omega: float, incident: list[int]) -> tuple[OpenResponse, float]:
         """The same on the basis, and its largest relative residual (collective).
@@ -151,17 +194,24 @@ class OpenSolver:
         squared = self.model.squared_frequency(omega)
         waves = self.incidence(omega)
         with self._watch.stage("reduce"):
-            loads, coupling = -waves.fluxes, self._projected_loads()
-            found = self._reduced.solve(squared, np.vstack([coupling, self._reduced.project(loads)]))
-            radiated, diffracted = found[: len(coupling)], found[len(coupling) :]
+            known, count = self._reduced.load_products(np.vstack([self._loads, -waves.fluxes])), len(self._loads)
+            found = self._reduced.solve(squared, known.projected)
+            radiated, diffracted, coupling = found[:count], found[count:], known.projected[:count]
             forces = waves.pressures + diffracted @ coupling.T
-            motions, absorbed = (
-                part[incident] for part in self._motions(squared, waves, coupling @ radiated.T, forces)
-            )
+            motions, absorbed = (part[incident] for part in self._motions(squared, waves, coupling @ radiated.T, forces))
             coordinates = diffracted[incident] + motions @ radiated
-            residual = self._reduced.residuals(squared, loads[incident] + motions @ self._loads, coordinates).max()
-            scattered = self._reduced.potentials(coordinates)
-        return self._response(squared, waves, incident, scattered, motions, absorbed), float(residual)
+            parts = np.hstack([motions, np.eye(len(diffracted))[incident]])
+            residual = self._reduced.known_residuals(squared, known, parts, coordinates).max()
+        return OpenResponse(
+            model=self.model,
+            squared=squared,
+            incidence=waves,
+            incident=incident,
+            fluxes=-known.projected[count:] @ coordinates.T,
+            potentials=self._reduced.lifted(coordinates),
+            motions=motions,
+            absorbed=absorbed,
+        ), float(residual)
 
     def _motions(
         self, squared: complex, waves: Incidence, hydrodynamic: np.ndarray, pressures: np.ndarray
@@ -180,7 +230,7 @@ class OpenSolver:
         motions: np.ndarray = np.linalg.solve(dynamic, squared * pressures.T).T
         dampings = np.broadcast_to(outside.damping, (len(motions), *outside.damping.shape)).copy()
         # Drag depends on the height of the wave: each has a damping of its own.
-        heights = self._elevation / self.model.basin.units.length / waves.elevations
+        heights = self.elevation / self.model.basin.units.length / waves.elevations
         for place, height in enumerate(heights if len(outside.drag) else ()):
             force = squared * pressures[place]
             damping = outside.equivalent_damping(
@@ -203,7 +253,7 @@ class OpenSolver:
 
     def _coupled(self, squared: complex) -> np.ndarray:
         """The operator of bodies and liquid on the basis, linear in λ (collective)."""
-        coupling = self._projected_loads()
+        coupling = self._known_loads().projected
         return np.block(
             [
                 [self._reduced.operator(squared), -coupling.T],
@@ -211,30 +261,11 @@ class OpenSolver:
             ]
         )
 
-    def _response(
-        self,
-        squared: complex,
-        waves: Incidence,
-        incident: list[int],
-        scattered: np.ndarray,
-        motions: np.ndarray,
-        absorbed: np.ndarray,
-    ) -> OpenResponse:
-        return OpenResponse(
-            model=self.model,
-            squared=squared,
-            incidence=waves,
-            incident=incident,
-            scattered=scattered,
-            motions=motions,
-            absorbed=absorbed,
-        )
-
-    def _projected_loads(self) -> np.ndarray:
-        """VᵀF, for the basis as it is (collective)."""
-        if self._projected.shape[1] != self._reduced.size:
-            self._projected = self._reduced.project(self._loads)
-        return self._projected
+    def _known_loads(self) -> LoadProducts:
+        """Products of F, for the basis as it is (collective)."""
+        if self._known.projected.shape[1] != self._reduced.size:
+            self._known = self._reduced.load_products(self._loads)
+        return self._known
 
     def _solved(self, loads: np.ndarray) -> np.ndarray:
         return np.array([self._direct.solve(load) for load in loads]).reshape(loads.shape)

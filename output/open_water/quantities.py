@@ -94,9 +94,9 @@ def motions_of(*tables: Any) -> tuple[Dof, ...]:
 def _phase_at_body(table: WavesAndMotions) -> Floats:
     """Return θ, degrees, of the motion |a| cos(ωt − θ) of a body that the crest of the incident wave passes at t = 0.
 
-    The phase of a is beside the crest at x_p, and waves e^{±ik(x − x_p) − iωt} are e^{±ik(x_b − x_p)} at the middle
-    x_b of the waterplane, from which `centres` are counted: θ = arg(a e^{∓ikx_b}), upper signs for waves from the left. NaN where |a| is not larger than its error,
-    which is relative to the largest of the displacements, or of the rotations.
+    The phase of a is beside the crest at x_p, and waves e^{±ik(x − x_p) − iωt} are e^{±ikx_b} at the middle of the
+    waterplane, x_b from there: θ = arg(a e^{∓ikx_b}), upper signs for waves from the left. NaN where |a| is not larger
+    than its error, which is relative to the largest of the displacements, or of the rotations.
     """
     centres = np.array([table.centres[(dof.body or 1) - 1] for dof in table.dofs])
     towards = 1.0 if table.waves_from == "left" else -1.0

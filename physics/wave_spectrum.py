@@ -97,7 +97,9 @@ class PeakedSpectrum(WaveSpectrum):
         if self.enhancement == 1.0:
             return 1.0
         energy = sum(
-            quad(lambda x: 5.0 * x**-5 * exp(-1.25 * x**-4) * (self._enhanced(x) - 1.0), low, high, epsabs=_PRECISION)[0]
+            quad(lambda x: 5.0 * x**-5 * exp(-1.25 * x**-4) * (self._enhanced(x) - 1.0), low, high, epsabs=_PRECISION)[
+                0
+            ]
             for low, high in ((0.3, 0.8), (0.8, 1.0), (1.0, 1.3), (1.3, 3.0))
         )
         # ∫ 5 x⁻⁵ e^{−(5/4)x⁻⁴} dx = 1.

@@ -261,7 +261,7 @@ IMPULSE = {"kind": "impulse_response", "times": [0.0, 1.0, 2.0]}
         ({"export": {"formats": ["wamit", "wamit"], "width": 1.0}}, "named twice"),
         ({"export": {"formats": ["hydrostar"], "width": 1.0}}, "formats"),
         ({"export": EXPORT, "analysis": []}, "analysis of radiation"),
-        ({"export": EXPORT, "liquid": [{"density": 1e3, "depth": 3.0}, {"density": 900.0, "depth": 5.0}]}, "two"),
+        ({"export": EXPORT, "liquid": [{"density": 1025.0, "depth": 3.0}, {"density": 1.2, "depth": 5.0}]}, "two"),
         ({"export": EXPORT | {"formats": ["bemio"]}}, "impulse responses at equally spaced times"),
         (
             {"export": EXPORT | {"formats": ["nemoh"]}, "analysis": [{"kind": "radiation", "omega": [0.5, 1.0, 2.0]}]},

@@ -198,7 +198,9 @@ class OpenSolver:
             found = self._reduced.solve(squared, known.projected)
             radiated, diffracted, coupling = found[:count], found[count:], known.projected[:count]
             forces = waves.pressures + diffracted @ coupling.T
-            motions, absorbed = (part[incident] for part in self._motions(squared, waves, coupling @ radiated.T, forces))
+            motions, absorbed = (
+                part[incident] for part in self._motions(squared, waves, coupling @ radiated.T, forces)
+            )
             coordinates = diffracted[incident] + motions @ radiated
             parts = np.hstack([motions, np.eye(len(diffracted))[incident]])
             residual = self._reduced.known_residuals(squared, known, parts, coordinates).max()

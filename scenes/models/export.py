@@ -11,9 +11,10 @@ from pydantic import AfterValidator, Field
 from pydantic_core import InitErrorDetails
 
 from hydroelastic.scenes.models.bodies import PositiveNumber, SceneModel
-from hydroelastic.scenes.models.open_analyses import ImpulseResponse, Radiation
+from hydroelastic.scenes.models.open_analyses import Radiation
 from hydroelastic.scenes.models.problems import problem, problem_at
 from hydroelastic.scenes.models.tank_parts import TankParts
+from hydroelastic.scenes.models.time_analyses import ImpulseResponse
 
 _ROUNDING = 1e-9
 

@@ -17,27 +17,22 @@ from pydantic import (
 
 from hydroelastic.fem.open_water.requests import (
     DecayRequest,
-    ImpulseResponseRequest,
-    MotionRequest,
     RadiationRequest,
-    RegularWave,
     ResonanceRequest,
     ResponseRequest,
 )
 from hydroelastic.scenes.models.bodies import AnyNumber, PositiveNumber, SceneModel
 from hydroelastic.scenes.models.infinity import ZeroOrMoreOrInfinite
 from hydroelastic.scenes.models.problems import problem
+from hydroelastic.scenes.models.time_analyses import ImpulseResponse, Motion
 from hydroelastic.scenes.models.values import (
     DISTINCT,
-    MOST_SWEPT,
     MOST_VALUES,
     OR_SWEEP,
+    ElasticModes,
     NumberFromZero,
-    ascending_values,
     kind_of,
 )
-
-ElasticModes: TypeAlias = Annotated[int, Strict(), Field(ge=0, le=200)]
 
 
 class Radiation(SceneModel):
@@ -140,55 +135,6 @@ class Decay(SceneModel):
         """What the solver is asked for; bodies are counted from 0."""
         start = self.displacement
         return DecayRequest(body=self.body - 1, heave=start.heave, roll=start.roll, times=self.times)
-
-
-class ImpulseResponse(SceneModel):
-    """Impulse response functions of radiation, and added mass and damping back from them."""
-
-    kind: Literal["impulse_response"] = Field(default="impulse_response", description="kind of the analysis")
-    times: Annotated[tuple[NumberFromZero, ...], *DISTINCT] = Field(description=f"times, s, {OR_SWEEP}")
-    elastic_modes: ElasticModes = Field(default=4, description="how many elastic shapes of each beam are reported")
-
-    @property
-    def request(self) -> ImpulseResponseRequest:
-        """What the solver is asked for."""
-        return ImpulseResponseRequest(times=self.times, elastic_modes=self.elastic_modes)
-
-
-class IncidentWave(SceneModel):
-    """A regular wave that comes from afar."""
-
-    omega: PositiveNumber = Field(description="angular frequency, rad/s")
-    amplitude: PositiveNumber = Field(description="half the height from trough to crest, m")
-    phase: AnyNumber = Field(
-        default=0.0, description="rad: the crest passes the middle of the first body at t = phase/omega"
-    )
-
-
-class Motion(SceneModel):
-    """Motions over time in waves that begin at t = 0, from rest."""
-
-    kind: Literal["motion"] = Field(default="motion", description="kind of the analysis")
-    times: Annotated[tuple[NumberFromZero, ...], *ascending_values(MOST_SWEPT)] = Field(
-        description=f"times, s, ascending, {OR_SWEEP}"
-    )
-    waves: Annotated[tuple[IncidentWave, ...], Field(min_length=1, max_length=MOST_VALUES)] = Field(
-        description="the incident waves, tables {omega, amplitude, phase}"
-    )
-    waves_from: Literal["left", "right"] = Field(default="left", description="the side from which waves come")
-    ramp: NumberFromZero = Field(default=0.0, description="time in which the waves grow to their height, s")
-    elastic_modes: ElasticModes = Field(default=4, description="how many elastic shapes of each beam move")
-
-    @property
-    def request(self) -> MotionRequest:
-        """What the solver is asked for."""
-        return MotionRequest(
-            times=self.times,
-            waves=tuple(RegularWave(**wave.model_dump()) for wave in self.waves),
-            waves_from=self.waves_from,
-            ramp=self.ramp,
-            elastic_modes=self.elastic_modes,
-        )
 
 
 Analysis: TypeAlias = Annotated[

@@ -18,6 +18,8 @@ MOST_SWEPT = 1_000_000
 """Values of any sweep."""
 
 
+ElasticModes: TypeAlias = Annotated[int, Strict(), Field(ge=0, le=200)]
+
 NumberFromZero: TypeAlias = Annotated[float, Strict(), Field(ge=0, le=LARGEST)]
 
 

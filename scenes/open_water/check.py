@@ -83,9 +83,9 @@ def _request(scene: TankParts, analysis: Analysis) -> str:
     if isinstance(analysis, ImpulseResponse):
         return f"impulse response: of the radiated waves at {_span(analysis.times, 'time')} s"
     if isinstance(analysis, Motion):
-        count = len(analysis.waves)
-        waves = "a regular wave" if count == 1 else f"{count} waves"
-        return f"motion: from rest in {waves} from the {analysis.waves_from}; {_span(analysis.times, 'time')} s"
+        return (
+            f"motion: from rest in {analysis.words}, from the {analysis.waves_from}; {_span(analysis.times, 'time')} s"
+        )
     return _resonances(analysis)
 
 

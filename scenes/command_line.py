@@ -281,6 +281,19 @@ def check(scene: str, overrides: tuple[str, ...]) -> None:
     print_check(checked.title, tuple(checker_of(checked)(checked)), Console())
 
 
+@main.command()
+def schema() -> None:
+    """Print the JSON schema of scenes, by which editors of TOML complete and check them.
+
+    \b
+    Example:
+      hydroelastic schema > scene.schema.json
+    """
+    from hydroelastic.scenes.schema import schema_text
+
+    click.echo(schema_text(), nl=False)
+
+
 @main.command("list")
 def list_scenes() -> None:
     """List the scenes that come with the package.

@@ -12,6 +12,7 @@ from hydroelastic.physics import attachments as physics
 from hydroelastic.scenes.models.bodies import LARGEST, AnyNumber, Float, SceneModel
 from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.tank_parts import TankParts
+from hydroelastic.scenes.models.values import OrElse
 
 _NOTHING = ((0.0, 0.0, 0.0),) * 3
 
@@ -23,8 +24,10 @@ def _as_matrix(value: Any) -> Any:
     return value
 
 
+_DIAGONAL = {"type": "array", "items": {"type": "number"}, "minItems": 3, "maxItems": 3}
+
 Triple: TypeAlias = tuple[AnyNumber, AnyNumber, AnyNumber]
-Matrix: TypeAlias = Annotated[tuple[Triple, Triple, Triple], BeforeValidator(_as_matrix)]
+Matrix: TypeAlias = Annotated[tuple[Triple, Triple, Triple], BeforeValidator(_as_matrix), OrElse(_DIAGONAL)]
 NotNegative: TypeAlias = Annotated[float, Strict(), Field(ge=0, le=LARGEST)]
 
 

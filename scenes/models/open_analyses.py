@@ -31,6 +31,7 @@ from hydroelastic.scenes.models.values import (
     OR_SWEEP,
     ElasticModes,
     NumberFromZero,
+    OrElse,
     kind_of,
 )
 
@@ -122,7 +123,7 @@ class Decay(SceneModel):
     """The motion of a released float."""
 
     kind: Literal["decay"] = Field(default="decay", description="kind of the analysis")
-    displacement: Annotated[Release, BeforeValidator(_as_heave)] = Field(
+    displacement: Annotated[Release, BeforeValidator(_as_heave), OrElse({"type": "number"})] = Field(
         description="displacement from which the float is released: heave in m, or a table {heave, roll} in m and rad"
     )
     body: Annotated[int, Strict(), Field(ge=1, le=1000)] = Field(

@@ -25,7 +25,7 @@ def wave_components(
         count: N.
         seed: of NumPy's default generator, which draws the phases; the same gives the same waves.
     """
-    omega = np.linspace(*spectrum.band, _POINTS)
+    omega: NDArray[np.float64] = np.linspace(*spectrum.band, _POINTS, dtype=np.float64)
     density = spectrum.density(omega)
     energy = np.concatenate([[0.0], np.cumsum(0.5 * (density[1:] + density[:-1]) * np.diff(omega))])
     middles = (np.arange(count) + 0.5) / count * energy[-1]

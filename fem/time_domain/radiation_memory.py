@@ -20,12 +20,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import pi
+from typing import Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-Floats = npt.NDArray[np.float64]
-Complexes = npt.NDArray[np.complex128]
+Floats: TypeAlias = npt.NDArray[np.float64]
+Complexes: TypeAlias = npt.NDArray[np.complexfloating[Any, Any]]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,8 +45,7 @@ class RadiationMemory:
 
     def impulse_response(self, times: Floats) -> Floats:
         """K at times t ≥ 0, s, shape (n,): shape (n, m, m)."""
-        values: Floats = np.tensordot(np.exp(np.outer(times, self.rates)), self.weights, axes=1).real
-        return values
+        return np.asarray(np.tensordot(np.exp(np.outer(times, self.rates)), self.weights, axes=1).real, dtype=float)
 
     def transform(self, omega: Floats) -> Complexes:
         """∫ K e^{iωt} dt = b − iω (a − a∞) at real ω, rad/s, shape (n,): shape (n, m, m)."""
@@ -54,7 +54,7 @@ class RadiationMemory:
             np.tensordot(1.0 / (p - rates), weights, axes=1)
             for rates, weights in ((self.rates, self.weights), (self.rates.conj(), self.weights.conj()))
         )
-        total: Complexes = 0.5 * (upper + lower)
+        total: Complexes = np.add(upper, lower) / 2.0
         return total
 
     def radiation_damping(self, omega: Floats) -> Floats:

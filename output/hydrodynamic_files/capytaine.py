@@ -27,7 +27,7 @@ def _variables(bodies: WholeBodies) -> Iterator[Variable]:
     places = np.flatnonzero(bodies.modelled)
     names = [
         (bodies.bodies[place // 6].name + "__" if len(bodies.bodies) > 1 else "") + MOTIONS[place % 6]
-        for place in places.tolist()
+        for place in map(int, places)
     ]
     of_motions = ("omega", "radiating_dof", "influenced_dof")
     of_forces = ("omega", "wave_direction", "influenced_dof")

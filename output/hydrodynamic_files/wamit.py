@@ -52,7 +52,9 @@ def write_wamit(bodies: WholeBodies, folder: Path, name: str) -> None:
 
 def _radiation(bodies: WholeBodies) -> Iterator[str]:
     for period, limit in zip((_ZERO, _INFINITE), bodies.limits, strict=True):
-        for i, j in _entries(bodies) if limit is not None else ():
+        if limit is None:
+            continue
+        for i, j in _entries(bodies):
             # Added mass in heave is infinite for very long waves in deep water.
             if np.isfinite(limit[i, j]):
                 yield f"{_number(period)}{i + 1:6d}{j + 1:6d}{_number(limit[i, j] / bodies.density)}"

@@ -10,7 +10,8 @@ from pydantic import Discriminator, Field, SerializerFunctionWrapHandler, Tag, m
 from hydroelastic.scenes.models.attachments import Attachment, attachments_hold_bodies
 from hydroelastic.scenes.models.bodies import MOST_BODIES, AnyNumber, Beam, Float, PositiveNumber, SceneModel
 from hydroelastic.scenes.models.body_kinds import kind_of_body
-from hydroelastic.scenes.models.export import Export, export_is_possible
+from hydroelastic.scenes.models.export import Export
+from hydroelastic.scenes.models.export_checks import export_is_possible
 from hydroelastic.scenes.models.open_analyses import Analysis
 from hydroelastic.scenes.models.open_checks import drag_is_heeded
 from hydroelastic.scenes.models.problems import problem, require_fit

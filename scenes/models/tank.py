@@ -8,7 +8,8 @@ from pydantic import Field, model_validator
 
 from hydroelastic.scenes.models.bodies import MOST_BODIES
 from hydroelastic.scenes.models.body_kinds import Body
-from hydroelastic.scenes.models.export import Export, export_is_possible
+from hydroelastic.scenes.models.export import Export
+from hydroelastic.scenes.models.export_checks import export_is_possible
 from hydroelastic.scenes.models.open_analyses import Analysis
 from hydroelastic.scenes.models.problems import require_fit
 from hydroelastic.scenes.models.tank_checks import STAGES

@@ -25,13 +25,13 @@ from hydroelastic.scenes.models.bodies import (
     SceneModel,
 )
 from hydroelastic.scenes.models.body_kinds import AnyBeam
+from hydroelastic.scenes.models.export import Export
 from hydroelastic.scenes.models.infinity import PositiveOrInfinite
 from hydroelastic.scenes.models.open_analyses import Analysis, Resonance
 from hydroelastic.scenes.models.problems import problem
 
 if TYPE_CHECKING:
     from hydroelastic.scenes.models.attachments import Attachment
-    from hydroelastic.scenes.models.export import Export
 
 
 class Tank(SceneModel):

@@ -52,13 +52,17 @@ class FacetGroup:
         Returns:
             Shapes (facets, points, gdim) and (facets, points); on straight cells one point stands for all.
         """
-        jacobians = cell_jacobians(self.mesh, self.cells, reference)
+        jacobians = self.jacobians(reference)
         # Nanson's formula: n ds = det J J⁻ᵀ n₀ ds₀.
         areas = np.abs(np.linalg.det(jacobians))[..., None] * np.einsum(
             "fqdg,d->fqg", np.linalg.inv(jacobians), self.reference_normal
         )
         measures = np.linalg.norm(areas, axis=-1)
         return areas / measures[..., None], measures
+
+    def jacobians(self, reference: np.ndarray) -> np.ndarray:
+        """See `cells.cell_jacobians`."""
+        return cell_jacobians(self.mesh, self.cells, reference)
 
     def subset(self, chosen: np.ndarray) -> FacetGroup:
         """Some of the facets, by a mask."""

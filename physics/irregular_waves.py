@@ -25,7 +25,6 @@ from scipy.interpolate import CubicSpline
 
 from hydroelastic.physics.wave_spectrum import WaveSpectrum
 
-Complexes = NDArray[np.complex128]
 Floats = NDArray[np.float64]
 
 _ORDERS = (0, 1, 2)
@@ -64,7 +63,9 @@ class Statistics:
         return total
 
 
-def moments(spectrum: WaveSpectrum, omegas: Floats, transfer: Complexes, orders: tuple[int, ...] = _ORDERS) -> Floats:
+def moments(
+    spectrum: WaveSpectrum, omegas: np.ndarray, transfer: np.ndarray, orders: tuple[int, ...] = _ORDERS
+) -> Floats:
     """Return ∫ |T|² S ωⁿ dω between the first and the last frequency, shape (orders, q).
 
     Args:
@@ -84,7 +85,7 @@ def moments(spectrum: WaveSpectrum, omegas: Floats, transfer: Complexes, orders:
 
 
 def statistics(
-    spectrum: WaveSpectrum, omegas: Floats, transfer: Complexes, errors: Floats, duration: float
+    spectrum: WaveSpectrum, omegas: np.ndarray, transfer: np.ndarray, errors: np.ndarray, duration: float
 ) -> Statistics:
     """Return the statistics of linear responses.
 

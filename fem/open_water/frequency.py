@@ -95,6 +95,25 @@ class OpenFrequency:
 
 
 @dataclass(frozen=True, kw_only=True)
+class BodyEquations:
+    """Equations of motion of the bodies at one λ, from which a response to waves follows with any further damping.
+
+    Shapes: m body unknowns, w waves.
+
+    Attributes:
+        dynamic: K − iωB − λ(M_b + H), shape (m, m).
+        forces: X of each wave, shape (w, m).
+        radiated: gᵀψ of a unit of each unknown, shape (w, m).
+        diffracted: gᵀφ_D of each wave, shape (w, w).
+    """
+
+    dynamic: np.ndarray
+    forces: np.ndarray
+    radiated: np.ndarray
+    diffracted: np.ndarray
+
+
+@dataclass(frozen=True, kw_only=True)
 class OpenResponse:
     """Bodies that move freely in waves, at one λ.
 
@@ -107,6 +126,7 @@ class OpenResponse:
         potentials: returns ψ of these waves, shape (incident, free unknowns).
         motions: body unknowns, shape (incident, body unknowns).
         absorbed: power that damping from outside takes, over ½ω³, shape (incident,).
+        equations: from which the motions follow, without drag.
     """
 
     model: OpenModel
@@ -117,6 +137,7 @@ class OpenResponse:
     potentials: Callable[[], np.ndarray]
     motions: np.ndarray
     absorbed: np.ndarray
+    equations: BodyEquations
 
     @cached_property
     def scattered(self) -> np.ndarray:
@@ -125,9 +146,34 @@ class OpenResponse:
 
     def outgoing(self) -> np.ndarray:
         """c of all outgoing waves, the incident one included, shape (outgoing waves, incident)."""
+        return self._outgoing(self.motions, self.fluxes)
+
+    def _outgoing(self, motions: np.ndarray, scattered: np.ndarray) -> np.ndarray:
         incidence = self.incidence
-        fluxes = incidence.pressures @ self.motions.T - incidence.own[:, self.incident] - self.fluxes
+        fluxes = incidence.pressures @ motions.T - incidence.own[:, self.incident] - scattered
         return incidence.amplitudes(fluxes) + np.eye(len(incidence.planes))[:, self.incident]
+
+    def drift_force(self, motions: np.ndarray | None = None) -> np.ndarray:
+        """Mean force in the direction of x, of second order in the waves, per |c|² of each incident wave, dimensionless,
+        shape (incident,).
+
+        Each wave train carries momentum kP/ω, P its power, towards the bodies or away: with waves of amplitude A from
+        the left, F = ρgA² (c_g/2c)(1 + |R|² − |T|²), in deep water without absorption ½ρgA²|R|² (Maruo 1960;
+        Longuet-Higgins 1977, Proc. R. Soc. Lond. A 352, 463).
+
+        Args:
+            motions: other motions than those of the response, shape (incident, body unknowns), as with further damping.
+        """
+        outgoing = self.outgoing()
+        if motions is not None:
+            scattered = self.equations.diffracted[:, self.incident] + self.equations.radiated @ motions.T
+            outgoing = self._outgoing(motions, scattered)
+        planes, powers = self.incidence.planes, self.incidence.powers
+        momenta = 0.5 * self.squared.real * np.array([plane.wave.wavenumber for plane in planes]) * powers
+        directions = np.array([plane.direction for plane in planes])
+        # Waves that leave to the left push to the right.
+        force: np.ndarray = (-directions * momenta) @ np.abs(outgoing) ** 2 + (directions * momenta)[self.incident]
+        return force
 
     @property
     def absorption(self) -> np.ndarray:

@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar, Literal, TypeAlias
+from typing import TYPE_CHECKING, ClassVar, Literal, TypeAlias
+
+if TYPE_CHECKING:
+    # Spectra need SciPy, whose import is slow.
+    from hydroelastic.physics.wave_spectrum import WaveSpectrum
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,6 +33,8 @@ class ResponseRequest:
         waves_from: the side from which the waves are incident.
         positions: number of points along each beam at which its deflection is reported.
         elevation: amplitude of the incident waves, m, on which the damping by drag depends.
+        hull_pressures: whether pressures along hulls are reported, and the drift force by them.
+        fields_at: frequencies at which fields are written and drawn, rad/s; empty for that of the largest motion.
     """
 
     kind: ClassVar = "response"
@@ -36,6 +42,8 @@ class ResponseRequest:
     waves_from: Literal["left", "right"] = "left"
     positions: int = 101
     elevation: float = 0.0
+    hull_pressures: bool = False
+    fields_at: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -122,9 +130,41 @@ class MotionRequest:
     elastic_modes: int = 4
 
 
+@dataclass(frozen=True, kw_only=True)
+class SpectrumRequest:
+    """Statistics of the response to irregular waves.
+
+    Attributes:
+        spectrum: of the waves.
+        words: description of the waves.
+        waves_from: the side from which the waves are incident.
+        duration: of the sea state, s.
+        highest: highest frequency, rad/s; ``None`` for that of the spectrum.
+        points: points of bodies at which motions are reported, (index of the body, (x, y) in m).
+        positions: number of points along each beam.
+        thickness: of beams, m, for their stresses 6M/h²; ``None`` for no stresses.
+    """
+
+    kind: ClassVar = "spectrum"
+    spectrum: WaveSpectrum
+    words: str
+    waves_from: Literal["left", "right"] = "left"
+    duration: float = 10800.0
+    highest: float | None = None
+    points: tuple[tuple[int, tuple[float, float]], ...] = ()
+    positions: int = 51
+    thickness: float | None = None
+
+
 OVER_TIME = (ImpulseResponseRequest, MotionRequest)
 """Requests that need the memory of the water."""
 
 Request: TypeAlias = (
-    RadiationRequest | ResponseRequest | ResonanceRequest | DecayRequest | ImpulseResponseRequest | MotionRequest
+    RadiationRequest
+    | ResponseRequest
+    | ResonanceRequest
+    | DecayRequest
+    | SpectrumRequest
+    | ImpulseResponseRequest
+    | MotionRequest
 )

@@ -25,10 +25,18 @@ from hydroelastic.fem.open_water.requests import (
     RadiationRequest,
     Request,
     ResponseRequest,
+    SpectrumRequest,
 )
 from hydroelastic.fem.open_water.resonance import ResonanceSolution, solve_resonance
 from hydroelastic.fem.open_water.response import ResponseSolution, solve_response
-from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, ResonanceTable, ResponseTable
+from hydroelastic.fem.open_water.results import (
+    DecayTable,
+    RadiationTable,
+    ResonanceTable,
+    ResponseTable,
+    SpectrumTable,
+)
+from hydroelastic.fem.open_water.spectrum import SpectrumSolution, solve_spectrum
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.time_domain.results import ImpulseResponseTable, MotionTable
 
@@ -36,9 +44,17 @@ from hydroelastic.fem.time_domain.results import ImpulseResponseTable, MotionTab
 _POWER = 10.0
 
 _Solution: TypeAlias = (
-    RadiationSolution | ResponseSolution | ResonanceSolution | DecaySolution | ImpulseResponseSolution | MotionSolution
+    RadiationSolution
+    | ResponseSolution
+    | ResonanceSolution
+    | DecaySolution
+    | SpectrumSolution
+    | ImpulseResponseSolution
+    | MotionSolution
 )
-_Table: TypeAlias = RadiationTable | ResponseTable | ResonanceTable | DecayTable | ImpulseResponseTable | MotionTable
+_Table: TypeAlias = (
+    RadiationTable | ResponseTable | ResonanceTable | DecayTable | SpectrumTable | ImpulseResponseTable | MotionTable
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,6 +66,7 @@ class OpenWaterSolution:
         response: one for each response analysis.
         resonance: one for each resonance analysis.
         decay: one for each decay analysis.
+        spectrum: one for each spectrum analysis.
         impulse_response: one for each impulse response analysis.
         motion: one for each motion analysis.
         size: "cells", "dofs" (unknowns of ψ) and "degree" of the largest problem that was solved.
@@ -61,6 +78,7 @@ class OpenWaterSolution:
     response: tuple[ResponseTable, ...] = ()
     resonance: tuple[ResonanceTable, ...] = ()
     decay: tuple[DecayTable, ...] = ()
+    spectrum: tuple[SpectrumTable, ...] = ()
     impulse_response: tuple[ImpulseResponseTable, ...] = ()
     motion: tuple[MotionTable, ...] = ()
     size: dict[str, int]
@@ -118,6 +136,7 @@ def solve_open_water(
         response=tuple(one for one in tables if isinstance(one, ResponseTable)),
         resonance=tuple(one for one in tables if isinstance(one, ResonanceTable)),
         decay=tuple(one for one in tables if isinstance(one, DecayTable)),
+        spectrum=tuple(one for one in tables if isinstance(one, SpectrumTable)),
         impulse_response=tuple(one for one in tables if isinstance(one, ImpulseResponseTable)),
         motion=tuple(one for one in tables if isinstance(one, MotionTable)),
         size=size,
@@ -135,6 +154,8 @@ def _solved(problem: OpenWaterProblem, request: Request, memory: Callable[[int],
             return solve_response(problem, request)
         case DecayRequest():
             return solve_decay(problem, request)
+        case SpectrumRequest():
+            return solve_spectrum(problem, request)
         case ImpulseResponseRequest():
             return solve_impulse_response(request, memory(request.elastic_modes))
         case MotionRequest():

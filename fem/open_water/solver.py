@@ -10,7 +10,7 @@ from scipy.linalg import eigvals
 from hydroelastic.fem.memory import release_memory
 from hydroelastic.fem.open_water.complex_direct import ShiftedSolver
 from hydroelastic.fem.open_water.field_model import Band, OpenModel, open_model
-from hydroelastic.fem.open_water.frequency import OpenFrequency, OpenResponse
+from hydroelastic.fem.open_water.frequency import BodyEquations, OpenFrequency, OpenResponse
 from hydroelastic.fem.open_water.incident_waves import Incidence, incidence, planes
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.reduced_pencil import LoadProducts, ReducedPencil
@@ -39,12 +39,14 @@ class OpenSolver:
 
     Attributes:
         model: the problem.
-        elevation: amplitude of the incident waves, m, on which the damping by drag depends.
+        elevation: amplitude of regular waves, m, on which the damping by drag depends; 0 for none.
+        damping: further damping of the body unknowns, in place of drag in irregular waves, dimensionless.
     """
 
     def __init__(self, model: OpenModel, watch: Stopwatch) -> None:
         """Prepare (collective)."""
-        self.model, self.elevation = model, 0.0
+        self.model = model
+        self.elevation, self.damping = 0.0, np.zeros_like(model.mass)
         self._watch = watch
         with watch.stage("solve"):
             self._direct: ShiftedSolver = model.pencil.solver()
@@ -167,9 +169,14 @@ class OpenSolver:
         waves = self.incidence(omega)
         radiated, diffracted = self._at(omega)
         products = self.model.pencil.products
-        motions, absorbed = self._motions(
-            squared, waves, products(self._loads, radiated), waves.pressures + products(diffracted, self._loads)
+        equations = self._equations(
+            squared,
+            waves,
+            products(self._loads, radiated),
+            products(diffracted, self._loads),
+            (products(waves.fluxes, radiated), products(waves.fluxes, diffracted)),
         )
+        motions, absorbed = self._motions(squared, waves, equations)
         scattered = diffracted + motions @ radiated
         if self.model.basin.tank.elastic:
             with self._watch.stage("reduce"):
@@ -184,6 +191,7 @@ class OpenSolver:
             potentials=lambda: scattered[incident],
             motions=motions[incident],
             absorbed=absorbed[incident],
+            equations=equations,
         )
 
     def response_between(self, omega: float, incident: list[int]) -> tuple[OpenResponse, float]:
@@ -197,10 +205,15 @@ class OpenSolver:
             known, count = self._reduced.load_products(np.vstack([self._loads, -waves.fluxes])), len(self._loads)
             found = self._reduced.solve(squared, known.projected)
             radiated, diffracted, coupling = found[:count], found[count:], known.projected[:count]
-            forces = waves.pressures + diffracted @ coupling.T
-            motions, absorbed = (
-                part[incident] for part in self._motions(squared, waves, coupling @ radiated.T, forces)
+            fluxes = -known.projected[count:]
+            equations = self._equations(
+                squared,
+                waves,
+                coupling @ radiated.T,
+                diffracted @ coupling.T,
+                (fluxes @ radiated.T, fluxes @ diffracted.T),
             )
+            motions, absorbed = (part[incident] for part in self._motions(squared, waves, equations))
             coordinates = diffracted[incident] + motions @ radiated
             parts = np.hstack([motions, np.eye(len(diffracted))[incident]])
             residual = self._reduced.known_residuals(squared, known, parts, coordinates).max()
@@ -209,37 +222,44 @@ class OpenSolver:
             squared=squared,
             incidence=waves,
             incident=incident,
-            fluxes=-known.projected[count:] @ coordinates.T,
+            fluxes=fluxes @ coordinates.T,
             potentials=self._reduced.lifted(coordinates),
             motions=motions,
             absorbed=absorbed,
+            equations=equations,
         ), float(residual)
 
-    def _motions(
-        self, squared: complex, waves: Incidence, hydrodynamic: np.ndarray, pressures: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray]:
-        """Return the motions in each wave, [K − iωB − λ(M_b + H)] a = λp, shape (waves, body unknowns), and aᴴBa/ω,
-        the power that B takes over ½ω³, shape (waves,).
+    def _equations(
+        self,
+        squared: complex,
+        waves: Incidence,
+        hydrodynamic: np.ndarray,
+        diffraction: np.ndarray,
+        fluxes: tuple[np.ndarray, np.ndarray],
+    ) -> BodyEquations:
+        """Return the equations of motion from H, Fᵀφ_D, and gᵀψ of radiation and diffraction."""
+        return BodyEquations(
+            dynamic=self.model.restoring(squared) - squared * (self.model.mass + hydrodynamic),
+            forces=squared * (waves.pressures + diffraction),
+            radiated=fluxes[0],
+            diffracted=fluxes[1],
+        )
 
-        Args:
-            squared: λ.
-            waves: the incident waves.
-            hydrodynamic: H, shape (body unknowns, body unknowns).
-            pressures: p = ∫ρφφᵢ + Fᵀφ_D, shape (waves, body unknowns).
-        """
+    def _motions(self, squared: complex, waves: Incidence, equations: BodyEquations) -> tuple[np.ndarray, np.ndarray]:
+        """Return the motions in each wave, shape (waves, body unknowns), and aᴴBa/ω, the power that B takes over ½ω³,
+        shape (waves,)."""
         outside, omega = self.model.outside, float(np.sqrt(squared).real)
-        dynamic = self.model.restoring(squared) - squared * (self.model.mass + hydrodynamic)
-        motions: np.ndarray = np.linalg.solve(dynamic, squared * pressures.T).T
-        dampings = np.broadcast_to(outside.damping, (len(motions), *outside.damping.shape)).copy()
-        # Drag depends on the height of the wave: each has a damping of its own.
-        heights = self.elevation / self.model.basin.units.length / waves.elevations
-        for place, height in enumerate(heights if len(outside.drag) else ()):
-            force = squared * pressures[place]
-            damping = outside.equivalent_damping(
-                partial(_speeds, outside.paths, omega, dynamic, height * force), REGULAR
-            )
-            motions[place] = _moved(omega, dynamic, force, damping)
-            dampings[place] += damping
+        dynamic, forces = equations.dynamic - 1j * omega * self.damping, equations.forces
+        motions: np.ndarray = np.linalg.solve(dynamic, forces.T).T
+        dampings = np.repeat((outside.damping + self.damping)[None], len(motions), axis=0)
+        if self.elevation:
+            # Drag depends on the height of the wave: each has a damping of its own.
+            heights = self.elevation / self.model.basin.units.length / waves.elevations
+            for place, (height, force) in enumerate(zip(heights, forces, strict=True)):
+                speeds = partial(_speeds, outside.paths, omega, dynamic, height * force)
+                damping = outside.equivalent_damping(speeds, REGULAR)
+                motions[place] = _moved(omega, dynamic, force, damping)
+                dampings[place] += damping
         return motions, np.einsum("wi,wij,wj->w", motions.conj(), dampings, motions).real / omega
 
     def resonances_between(self) -> np.ndarray:

@@ -79,8 +79,8 @@ class MovingBodies:
         )
 
         def amplitudes(damping: Floats) -> Complexes:
-            found: Complexes = np.linalg.solve(without_drag - 1j * omega * damping, waves.forces[..., None])[..., 0]
-            return found
+            impedance = without_drag - 1j * omega * damping
+            return np.asarray(np.linalg.solve(impedance, waves.forces[..., None])[..., 0], dtype=complex)
 
         if not len(self.outside.drag):
             return amplitudes(np.zeros_like(self.inertia))

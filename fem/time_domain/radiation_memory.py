@@ -20,13 +20,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import pi
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 Floats: TypeAlias = npt.NDArray[np.float64]
-Complexes: TypeAlias = npt.NDArray[np.complexfloating[Any, Any]]
+Complexes: TypeAlias = npt.NDArray[np.complex128]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,7 +45,8 @@ class RadiationMemory:
 
     def impulse_response(self, times: Floats) -> Floats:
         """K at times t ≥ 0, s, shape (n,): shape (n, m, m)."""
-        return np.asarray(np.tensordot(np.exp(np.outer(times, self.rates)), self.weights, axes=1).real, dtype=float)
+        values: Floats = np.real(np.tensordot(np.exp(np.outer(times, self.rates)), self.weights, axes=1))
+        return values
 
     def transform(self, omega: Floats) -> Complexes:
         """∫ K e^{iωt} dt = b − iω (a − a∞) at real ω, rad/s, shape (n,): shape (n, m, m)."""
@@ -54,12 +55,11 @@ class RadiationMemory:
             np.tensordot(1.0 / (p - rates), weights, axes=1)
             for rates, weights in ((self.rates, self.weights), (self.rates.conj(), self.weights.conj()))
         )
-        total: Complexes = np.add(upper, lower) / 2.0
-        return total
+        return np.asarray(0.5 * (upper + lower), dtype=complex)
 
     def radiation_damping(self, omega: Floats) -> Floats:
         """b = ∫ K cos ωt dt, shape (n, m, m)."""
-        return self.transform(omega).real
+        return np.real(self.transform(omega))
 
     def added_mass(self, omega: Floats) -> Floats:
         """a = a∞ − (1/ω) ∫ K sin ωt dt at ω > 0, shape (n, m, m): Ogilvie's relation."""

@@ -32,6 +32,8 @@ class BeamShapes:
         deflection: number of the shape and distances from the left end → w.
         tabulated: distances from the left end, within the beam, and order 0 … 3 of the derivative → that of all shapes,
             shape (shapes, points); of free ends.
+        moments: the same points → bending moments EI w″ of all shapes, shape (shapes, points).
+        shears: the same points → shear forces (EI w″)′, shape (shapes, points).
         bending: twice the strain energy of each, in units of the beam, shape (shapes,).
         mass: ∫m wᵢwⱼ, shape (shapes, shapes).
         wavenumber: the largest wavenumber among them, 1/m or dimensionless as the beam.
@@ -41,6 +43,8 @@ class BeamShapes:
     parities: tuple[int, ...]
     deflection: Callable[[int, Array], Array]
     tabulated: Callable[[Array, int], Array]
+    moments: Callable[[Array], Array]
+    shears: Callable[[Array], Array]
     bending: Array
     mass: Array
     wavenumber: float
@@ -69,6 +73,8 @@ def _closed_shapes(beam: Beam, count: int) -> BeamShapes:
         parities=tuple(1 - 2 * (number % 2) for number in range(count)),
         deflection=deflection,
         tabulated=tabulated,
+        moments=lambda x: beam.flexural_rigidity * tabulated(x, 2),
+        shears=lambda x: beam.flexural_rigidity * tabulated(x, 3),
         bending=beam.flexural_rigidity * (roots / length) ** 4 * length,
         mass=np.diag(np.full(count, beam.mass_per_length * length)),
         wavenumber=float(roots.max(initial=0.0)) / length,
@@ -86,6 +92,8 @@ def _computed_shapes(beam: Beam, count: int) -> BeamShapes:
         parities=modes.parities,
         deflection=_AllAtOnce(modes, scale),
         tabulated=lambda x, derivative: scale * modes.shapes(np.clip(x, 0.0, modes.beam.length), derivative),
+        moments=lambda x: scale * modes.bending_moments(np.clip(x, 0.0, modes.beam.length)),
+        shears=lambda x: scale * modes.shear_forces(np.clip(x, 0.0, modes.beam.length)),
         bending=modes.squared_frequencies * length,
         mass=mass * length,
         wavenumber=float(modes.wavenumbers.max()),

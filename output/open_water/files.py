@@ -8,7 +8,17 @@ from typing import Any
 
 from hydroelastic.output.columns import Column, columns_of, csv_columns
 from hydroelastic.output.csv_files import write_csv
-from hydroelastic.output.open_water.quantities import ALONG_BEAM, DECAY, PLATES, RADIATION, RESONANCE, RESPONSE
+from hydroelastic.output.open_water.quantities import (
+    ALONG_BEAM,
+    ALONG_HULL,
+    DECAY,
+    HULLS,
+    PLATES,
+    RADIATION,
+    RESONANCE,
+    RESPONSE,
+    SPECTRUM,
+)
 from hydroelastic.output.open_water.time_quantities import IMPULSE_RESPONSE, MOTION
 from hydroelastic.output.quantities import Group
 
@@ -17,6 +27,7 @@ ROWS = {
     "response": ("omega", "wave"),
     "resonance": ("resonance",),
     "decay": ("time",),
+    "spectrum": ("spectrum_omega",),
     "impulse_response": ("impulse_time",),
     "motion": ("motion_time",),
 }
@@ -24,7 +35,22 @@ ROWS = {
 _DEFLECTION = Group(
     "deflection",
     "deflection of a beam",
-    (PLATES["body"], RESPONSE["omega"], RESPONSE["waves"], PLATES["positions"], PLATES["deflection"]),
+    (
+        PLATES["body"],
+        RESPONSE["omega"],
+        RESPONSE["waves"],
+        PLATES["positions"],
+        PLATES["deflection"],
+        PLATES["bending_moment"],
+        PLATES["shear_force"],
+    ),
+)
+
+
+_PRESSURE = Group(
+    "pressure",
+    "pressure along a hull",
+    (HULLS["body"], RESPONSE["omega"], RESPONSE["waves"], HULLS["x"], HULLS["y"], HULLS["pressure"]),
 )
 
 
@@ -32,13 +58,15 @@ def open_columns(group: Group, table: Any, rows: tuple[str, ...] = ()) -> Iterat
     """Yield the columns of the table of an analysis; its rows are those of `ROWS`, if no others are given."""
     motions = dict.fromkeys(("influenced_dof", "radiating_dof", "dof"), table.dofs)
     waves = dict.fromkeys(("wave", "outgoing_wave"), getattr(table, "waves", ()))
+    motions["spectrum_quantity"] = getattr(table, "quantities", ())
     labels = {**motions, **waves, "wave_direction": ("from_left", "from_right")}
     return columns_of(group, table, rows or ROWS[group.key], labels)
 
 
 def write_open_csv(solution: Any, folder: Path) -> None:
-    """Write ``radiation.csv``, ``response.csv``, ``deflection.csv``, ``resonance.csv``, ``decay.csv``, ``motion.csv``,
-    ``impulse_response.csv`` and, with what this gives back in the frequency domain, ``impulse_response_check.csv``.
+    """Write ``radiation.csv``, ``response.csv``, ``deflection.csv``, ``pressure.csv``, ``resonance.csv``,
+    ``decay.csv``, ``spectrum.csv``, ``motion.csv``, ``impulse_response.csv`` and, with what this gives back in the
+    frequency domain, ``impulse_response_check.csv``.
 
     Those without rows are left out. The column ``analysis`` counts analyses of a kind from 1; ``re_`` and ``im_`` are
     the parts of a complex number; of a matrix, the first name is the force and the second the motion, or the wave that
@@ -49,7 +77,7 @@ def write_open_csv(solution: Any, folder: Path) -> None:
         solution: the solution.
         folder: an existing folder.
     """
-    groups = (RADIATION, RESPONSE, RESONANCE, DECAY, IMPULSE_RESPONSE, MOTION)
+    groups = (RADIATION, RESPONSE, RESONANCE, DECAY, SPECTRUM, IMPULSE_RESPONSE, MOTION)
     files = {
         group.key: csv_columns((number, open_columns(group, one)) for number, one in enumerate(group.of(solution), 1))
         for group in groups
@@ -58,6 +86,11 @@ def write_open_csv(solution: Any, folder: Path) -> None:
         (number, columns_of(_DEFLECTION, plate, ("omega", "wave", ALONG_BEAM), {}))
         for number, table in enumerate(RESPONSE.of(solution), 1)
         for plate in table.deflections
+    )
+    files["pressure"] = csv_columns(
+        (number, columns_of(_PRESSURE, hull, ("omega", "wave", ALONG_HULL), {}))
+        for number, table in enumerate(RESPONSE.of(solution), 1)
+        for hull in table.pressures
     )
     files["impulse_response_check"] = csv_columns(
         (number, open_columns(IMPULSE_RESPONSE, table, ("impulse_omega",)))

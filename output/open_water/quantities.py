@@ -36,6 +36,20 @@ class Deflection:
     waves: tuple[str, ...]
     positions: Floats
     deflection: Complexes
+    bending_moment: Complexes
+    shear_force: Complexes
+
+
+@dataclass(frozen=True, kw_only=True)
+class Pressure:
+    """The pressure along a hull in waves: `number` of the body, from 1, and `HullPressure` with the waves."""
+
+    number: int
+    omega: Floats
+    waves: tuple[str, ...]
+    x: Floats
+    y: Floats
+    pressure: Complexes
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -70,7 +84,16 @@ class WavesAndMotions(ResponseTable):
                 waves=self.waves,
                 positions=plate.positions,
                 deflection=plate.deflection,
+                bending_moment=plate.bending_moment,
+                shear_force=plate.shear_force,
             )
+
+    @property
+    def pressures(self) -> Iterator[Pressure]:
+        """The pressure along each hull."""
+        for hull in self.hulls:
+            x, y = hull.points.T
+            yield Pressure(number=hull.body + 1, omega=self.omega, waves=self.waves, x=x, y=y, pressure=hull.pressure)
 
 
 def region_words(region: Region | None) -> str:
@@ -188,7 +211,24 @@ PLATES = Group("plates", "the deflection of each beam", (
     _joined("deflection", "deflection of body {.number}", f"omega wave {ALONG_BEAM}",
         f"omega wave_direction wave {ALONG_BEAM}", unit="m/m", variable="deflection_of_body_{.number}",
         phase=_CREST),
+    _joined("bending_moment", "bending moment of body {.number} per metre of width", f"omega wave {ALONG_BEAM}",
+        f"omega wave_direction wave {ALONG_BEAM}", unit="N/m", variable="bending_moment_of_body_{.number}",
+        phase=_CREST),
+    _joined("shear_force", "shear force of body {.number} per metre of width", f"omega wave {ALONG_BEAM}",
+        f"omega wave_direction wave {ALONG_BEAM}", unit="N/m^2", variable="shear_force_of_body_{.number}",
+        phase=_CREST),
 ), record=lambda table: list(table.deflections), dimension="plate")
+ALONG_HULL = "point_on_body_{.number}"
+HULLS = Group("hulls", "the pressure along the hull of each float", (
+    Quantity("body", "number of the body", "1", value=lambda it: it.number, variable="", column="body"),
+    _array("x", "x of points along the hull of body {.number}", ALONG_HULL, lambda it: it.x, unit="m",
+        variable="x_of_points_on_body_{.number}", column="x"),
+    _array("y", "y of points along the hull of body {.number}", ALONG_HULL, lambda it: it.y, unit="m",
+        variable="y_of_points_on_body_{.number}", column="y"),
+    _array("pressure", "pressure along the hull of body {.number}, by all waves, at points that do not move",
+        f"omega wave {ALONG_HULL}", lambda it: it.pressure, order=f"omega wave_direction wave {ALONG_HULL}",
+        unit="Pa/m", variable="pressure_on_body_{.number}", column="pressure", phase=_CREST),
+), record=lambda table: list(table.pressures), dimension="hull", note="if `hull_pressures`")
 RESPONSE = Group("response", "motions and waves per unit elevation of the incident wave, by analysis", (
     _OMEGA,
     Quantity("waves_from", 'side from which the waves come, `"left"` or `"right"`', variable="",
@@ -219,11 +259,16 @@ RESPONSE = Group("response", "motions and waves per unit elevation of the incide
     _joined("absorption", "power that damping from outside takes, over that of the incident wave", "omega wave",
         "omega wave_direction wave", unit="1", short="absorbed", shown=".4g",
         variable="absorbed_power_fraction"),
+    _joined("drift_force", "mean force along x over the square of the amplitude of the waves", "omega wave",
+        "omega wave_direction wave", unit="N/m^3", short="drift/A²", error="relative_error"),
+    _joined("near_field_drift", "the same by pressures on the hull, as a check", "omega wave",
+        "omega wave_direction wave", unit="N/m^3", note="`null` unless `hull_pressures`, of a lone float in one liquid"),
     _joined("energy_residual", "relative difference of incident power, and outgoing and absorbed power", "omega wave",
         "omega wave_direction wave", unit="1", short="energy", shown=".1e", variable="response_energy_residual"),
     _joined("relative_error", "estimated relative error of the motions", "omega", "omega wave_direction", unit="1",
         short="error/largest", shown=".1e", variable="response_relative_error"),
     PLATES,
+    HULLS,
     Group("missed_peaks", "resonances between two frequencies that the curve does not show", (
         Quantity("below", "frequency below", "rad/s"),
         Quantity("above", "frequency above", "rad/s"),
@@ -269,6 +314,61 @@ DECAY = Group("decay", "motion after release, by analysis", (
     _joined("certified_until", "time to which the error of the motion after release holds", "", unit="s",
         variable="decay_certified_until"),
 ), dimension="decay_analysis", note=_NUMBERED)
+_CURVE = "spectrum_omega spectrum_quantity"
+SPECTRUM = Group("spectrum", "responses to irregular waves, by analysis", (
+    Quantity("waves", "spectrum of the waves", variable="spectrum_of_waves"),
+    Quantity("waves_from", 'side from which the waves come, `"left"` or `"right"`', variable=""),
+    _joined("significant_height", "significant height of the waves", "", unit="m", symbol="Hs",
+        variable="significant_wave_height"),
+    _joined("duration", "duration of the sea state", "", unit="s", variable="sea_state_duration"),
+    _array("omega", "frequencies chosen by the solver", "spectrum_omega", lambda it: it.omega, unit="rad/s",
+        variable="spectrum_omega", column="omega"),
+    _array("density", "spectrum of the waves", "spectrum_omega", lambda it: it.density, unit="m^2 s/rad",
+        variable="wave_spectrum", column="wave_spectrum"),
+    _array("quantities", "responses", "spectrum_quantity", lambda it: it.quantities, variable="spectrum_quantity"),
+    _array("transfer", "response per unit elevation, in its unit per m", _CURVE, lambda it: it.transfer,
+        variable="spectrum_transfer_function", column="", phase=_CREST),
+    _array("response_density", "spectrum of a response, in the square of its unit times s/rad", _CURVE,
+        lambda it: it.response_density, variable="response_spectrum", column="response_spectrum"),
+    _array("relative_error", "estimated relative error of the transfer functions", "spectrum_omega",
+        lambda it: it.relative_error, unit="1", variable="spectrum_relative_error", column="relative_error"),
+    Group("responses", "statistics of each response, in its unit", (
+        Quantity("quantity", "response"),
+        Quantity("unit", "its unit", short="unit"),
+        Quantity("significant_amplitude", "significant amplitude", short="significant", error="relative_error"),
+        Quantity("largest_amplitude", "most probable largest amplitude in the duration", short="largest",
+            error="relative_error"),
+        Quantity("zero_crossing_period", "zero-crossing period", "s", symbol="Tz", error="relative_error"),
+        Quantity("relative_error", "estimated relative error of the significant amplitude", "1",
+            short="relative error", shown=".1e"),
+        Quantity("sampling_error", "part of it by the sampling of the transfer function", "1", shown=".1e",
+            short="by sampling"),
+        Quantity("truncation_error", "part of it by waves beyond the frequencies", "1", shown=".1e",
+            short="by truncation"),
+        Quantity("transfer_error", "part of it by errors of the transfer function", "1", shown=".1e",
+            short="by solution"),
+    ), dimension="irregular_response", prefix="irregular_response"),
+    _joined("mean_drift_force", "mean force on the bodies along x", "", unit="N/m"),
+    _DOFS,
+    _joined("equivalent_damping", "linear damping in place of quadratic damping", _OF_BODIES, unit="kg/(m s)",
+        of_roll=("kg/s", "kg m/s")),
+    Group("plates", "largest loads along each beam", (
+        Quantity("body", "number of the body", "1", value=lambda it: it.body + 1, short="body"),
+        Quantity("largest_bending_moment", "most probable largest bending moment anywhere in the duration", "N", short="largest moment",
+            value=lambda it: float(it.largest_bending_moment.max())),
+        Quantity("at", "where that is", "m", symbol="x",
+            value=lambda it: float(it.positions[it.largest_bending_moment.argmax()])),
+        Quantity("significant_bending_moment", "largest significant amplitude of the bending moment", "N", short="significant moment",
+            value=lambda it: float(it.significant_bending_moment.max())),
+        Quantity("significant_shear_force", "largest significant amplitude of the shear force", "N/m", short="significant shear",
+            value=lambda it: float(it.significant_shear_force.max())),
+        Quantity("significant_deflection", "largest significant amplitude of the deflection", "m", short="significant deflection",
+            value=lambda it: float(it.significant_deflection.max())),
+        Quantity("largest_stress", "most probable largest stress in the duration", "N/m^2", short="largest stress",
+            value=lambda it: None if it.largest_stress is None else float(it.largest_stress.max()),
+            note="`null` without a thickness"),
+    ), dimension="spectrum_plate", prefix="spectrum_plate"),
+), dimension="spectrum_analysis", note=_NUMBERED)
 THIN_FLOAT_ROWS = Group("rows", "values by the thin-float theory and by the field solution", (
     Quantity("quantity", "quantity"),
     Quantity("theory", "by the theory"),
@@ -301,7 +401,7 @@ def _of_scene(key: str, meaning: str, value: Callable[[Any], Any], unit: str | N
 
 
 OPEN_WATER = Group("", "open water", (
-    BODIES, RADIATION, RESPONSE, RESONANCE, DECAY, IMPULSE_RESPONSE, MOTION, ESTIMATES,
+    BODIES, RADIATION, RESPONSE, RESONANCE, DECAY, SPECTRUM, IMPULSE_RESPONSE, MOTION, ESTIMATES,
     Group("size", "size of the largest problem", (
         Quantity("cells", "number of cells", "1"),
         Quantity("dofs", "number of unknowns of ψ", "1"),

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import ceil, pi
+from math import pi
 from typing import Any
 
-import numpy as np
-
-from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, ResonanceTable, UnresolvedPeak
-from hydroelastic.fem.time_domain.results import ImpulseResponseTable, MotionTable
+from hydroelastic.fem.open_water.results import (
+    DecayTable,
+    RadiationTable,
+    ResonanceTable,
+    SpectrumTable,
+    UnresolvedPeak,
+)
 from hydroelastic.modal.floats.infinite_draught import InfiniteDraughtFloat
 from hydroelastic.output.columns import Column, headings_of, rows_of
 from hydroelastic.output.digits import beyond_error, number, per_cent, with_certain_digits
@@ -19,17 +22,16 @@ from hydroelastic.output.open_water.quantities import (
     DECAY,
     RADIATION,
     RESPONSE,
+    SPECTRUM,
     THIN_FLOAT_ROWS,
     WavesAndMotions,
     region_words,
 )
-from hydroelastic.output.open_water.time_quantities import IMPULSE_RESPONSE, MOTION
+from hydroelastic.output.open_water.shown_rows import MOST_ROWS, largest, shown_rows
+from hydroelastic.output.open_water.time_tables import sections_over_time
 from hydroelastic.output.provenance import Summary
 from hydroelastic.output.sections import Row, Section
 from hydroelastic.physics.dofs import Dof
-
-MOST_ROWS = 25
-"""Largest number of rows of a table; longer ones are shown at equal distances."""
 
 _MOST_MOTIONS = 4
 
@@ -50,10 +52,9 @@ def open_sections(solution: Any, summary: Summary) -> Iterator[Section]:
         yield _resonance(resonance)
     for decay in solution.decay:
         yield _decay(decay)
-    for impulse_response in solution.impulse_response:
-        yield _impulse_response(impulse_response)
-    for motion in solution.motion:
-        yield _motion(motion)
+    for spectrum in SPECTRUM.of(solution):
+        yield from _spectrum(spectrum)
+    yield from sections_over_time(solution)
     if solution.left_out:
         yield Section(title="Left out of the model", lines=solution.left_out)
     yield from _estimates(solution.endless_float, summary)
@@ -112,8 +113,8 @@ def open_cost(summary: Summary) -> str:
 def _radiation(table: RadiationTable) -> Iterator[Section]:
     """One table for each motion: the diagonals of a and b, and the excitation by waves from the left."""
     several = len(table.waves) > 1
-    shown, thinned = _shown(len(table.omega), "frequencies", "radiation.csv")
-    worst = f"Largest residuals: energy {_largest(table.energy_residual)}, Haskind {_largest(table.haskind_residual)}."
+    shown, thinned = shown_rows(len(table.omega), "frequencies", "radiation.csv")
+    worst = f"Largest residuals: energy {largest(table.energy_residual)}, Haskind {largest(table.haskind_residual)}."
     further = (
         "Coupling of motions, phases and waves from the right: radiation.csv and dataset.nc.",
         f"{worst} {table.factorizations} factorizations.",
@@ -139,14 +140,14 @@ def _response(table: WavesAndMotions) -> Iterator[Section]:
     """Outgoing waves and motions of the bodies for each incident wave."""
     count = len(table.waves)
     places = max(MOST_ROWS // count, 2)
-    shown, thinned = _shown(len(table.omega), "frequencies", "response.csv", places=places)
+    shown, thinned = shown_rows(len(table.omega), "frequencies", "response.csv", places=places)
     rows = [place * count + wave for place in shown for wave in range(count)]
     found: dict[str, list[Column]] = {}
     for column in open_columns(RESPONSE, table):
         found.setdefault(column.quantity.key, []).append(column)
     first = [*found["omega"], *(found["waves"] if count > 1 else ())]
     absorbed = ("absorption",) if table.absorption.any() else ()
-    keys = ("wavenumbers", "reflection", "transmission", *absorbed, "energy_residual", "relative_error")
+    keys = ("wavenumbers", "reflection", "transmission", *absorbed, "drift_force", "energy_residual", "relative_error")
     ratios = [*first, *(column for key in keys for column in found[key])]
     yield Section(
         title=f"Waves from the {table.waves_from}: ratios of elevations",
@@ -214,7 +215,7 @@ def _counted(table: ResonanceTable) -> str:
 
 
 def _decay(table: DecayTable) -> Section:
-    shown, thinned = _shown(len(table.times), "times", "decay.csv")
+    shown, thinned = shown_rows(len(table.times), "times", "decay.csv")
     columns = {column.name: column for column in open_columns(DECAY, table)}
     time, error = columns.pop("time"), columns.pop("absolute_error")
     # Released motions are first.
@@ -243,69 +244,25 @@ def _decay(table: DecayTable) -> Section:
     )
 
 
-def _impulse_response(table: ImpulseResponseTable) -> Section:
-    """The diagonal of K; what it gives back in the frequency domain is a file."""
-    shown, thinned = _shown(len(table.times), "times", "impulse_response.csv")
-    columns = [
-        column
-        for column in open_columns(IMPULSE_RESPONSE, table)
-        if len(set(column.places.values())) < 2 and column.places.get("influenced_dof", 0) < _MOST_MOTIONS
-    ]
-    far = ", ".join(
-        f"{dof.words} {number(float(value))} {'kg·m' if dof.is_rotation else 'kg/m'}"
-        for dof, value in zip(table.dofs, np.diag(table.infinite_frequency_added_mass), strict=True)
+def _spectrum(table: SpectrumTable) -> Iterator[Section]:
+    """Statistics of the responses to irregular waves, and of loads along beams."""
+    responses, plates = SPECTRUM["responses"], SPECTRUM["plates"]
+    about = (
+        f"Mean drift force along x: {table.mean_drift_force:.4g} N/m.",
+        f"{table.waves}; {table.duration:g} s from the {table.waves_from}. Amplitudes are half of heights.",
+        f"{len(table.omega)} frequencies from {table.omega[0]:.4g} to {table.omega[-1]:.4g} rad/s, chosen so that no "
+        "peak lies between them: spectrum.csv.",
     )
-    return Section(
-        title="Impulse responses K of radiation",
-        headings=headings_of(columns, "influenced_dof"),
-        rows=rows_of(IMPULSE_RESPONSE, columns, shown),
-        lines=(
-            *thinned,
-            f"Added mass at infinite frequency: {far}.",
-            f"Added mass and damping by K at {len(table.omega)} frequencies from {table.omega[0]:.3g} to "
-            f"{table.omega[-1]:.3g} rad/s differ from the frequency domain by {_largest(table.causality_error)} of the "
-            f"largest, added mass at infinite frequency by Ogilvie's relation from its limit by "
-            f"{_largest(table.ogilvie_error)}; estimated error {table.relative_error:.1e}.",
-            "Coupling of motions: impulse_response.csv; what K gives back: impulse_response_check.csv.",
-        ),
-    )
-
-
-def _motion(table: MotionTable) -> Section:
-    shown, thinned = _shown(len(table.times), "times", "motion.csv")
-    columns = [
-        column
-        for column in open_columns(MOTION, table)
-        if column.quantity.key in ("times", "elevation", "displacement") and column.places.get("dof", 0) < _MOST_MOTIONS
-    ]
-    sizes = "; ".join(
-        f"{dof.words} {deviation:.4g} and {largest:.4g} {'rad' if dof.is_rotation else 'm'}"
-        for dof, deviation, largest in zip(table.dofs, table.standard_deviation, table.largest, strict=True)
-    )
-    return Section(
-        title=f"Motion from rest in waves from the {table.waves_from}",
-        headings=headings_of(columns, "dof"),
-        rows=rows_of(MOTION, columns, shown),
-        lines=(
-            *thinned,
-            f"Standard deviation and largest motion after {table.ramp:g} s: {sizes}.",
-            f"η is that of the incident waves at the middle of the first body. Estimated error of forces and memory "
-            f"{table.relative_error:.1e}.",
-        ),
-    )
-
-
-def _shown(count: int, what: str, file: str, places: int = MOST_ROWS) -> tuple[list[int], tuple[str, ...]]:
-    """Return the rows that are shown, at equal distances with the first and the last one, and a note on the others."""
-    if count <= places:
-        return list(range(count)), ()
-    least = ceil((count - 1) / (places - 1))
-    # With a few rows less all distances may be equal.
-    stride = next((step for step in range(least, ceil(1.5 * least)) if (count - 1) % step == 0), least)
-    rows = sorted({*range(0, count, stride), count - 1})
-    return rows, (f"{len(rows)} of {count} {what}; all of them are in {file}.",)
-
-
-def _largest(values: np.ndarray) -> str:
-    known = np.abs(values[np.isfinite(values)])
-    return f"{known.max():.1e}" if known.size else "–"
+    for group, title, lines in (
+        (responses, "Responses to irregular waves", about),
+        (plates, "Largest loads along beams in irregular waves, per metre of width", ()),
+    ):
+        found = [group.evaluated(one) for one in group.records(table)]
+        parts = [part for part in group.parts if any(one[part.key] is not None for one in found)]
+        if found:
+            yield Section(
+                title=title,
+                headings=tuple(part.heading for part in parts),
+                rows=[tuple(part.cell(one, group) for part in parts) for one in found],
+                lines=lines,
+            )

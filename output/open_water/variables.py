@@ -12,6 +12,7 @@ from hydroelastic.output.open_water.quantities import (
     RADIATION,
     RESONANCE,
     RESPONSE,
+    SPECTRUM,
     motions_of,
 )
 from hydroelastic.output.open_water.time_quantities import IMPULSE_RESPONSE, MOTION
@@ -27,14 +28,16 @@ def open_variables(solution: Any) -> list[Variable]:
     A dimension `wave` is there only where waves travel on two levels, `analysis` only with several analyses of
     another kind than radiation and response.
     """
-    motions = motions_of(*solution.radiation, *solution.impulse_response) or motions_of(*solution.response)
+    motions = motions_of(*solution.radiation, *solution.impulse_response) or motions_of(
+        *solution.response, *solution.spectrum
+    )
     others = motions_of(*solution.resonance, *solution.decay, *solution.motion)
     with_rolls = any(dof.is_rotation for dof in (*motions, *others))
     parts = {
         group.key: [list(record_variables(group, one, with_rolls=with_rolls)) for one in group.of(solution)]
-        for group in (RADIATION, RESPONSE, RESONANCE, DECAY, IMPULSE_RESPONSE, MOTION)
+        for group in (RADIATION, RESPONSE, RESONANCE, DECAY, SPECTRUM, IMPULSE_RESPONSE, MOTION)
     }
-    for kind in ("resonance", "decay", "impulse_response", "motion"):
+    for kind in ("resonance", "decay", "spectrum", "impulse_response", "motion"):
         if len(parts[kind]) > 1:
             parts[kind] = [list(numbered_along("analysis", part, number)) for number, part in enumerate(parts[kind], 1)]
     names, other_names = ([dof.capitalised for dof in dofs] for dofs in (motions, others))

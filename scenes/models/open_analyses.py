@@ -24,6 +24,7 @@ from hydroelastic.fem.open_water.requests import (
 from hydroelastic.scenes.models.bodies import AnyNumber, PositiveNumber, SceneModel
 from hydroelastic.scenes.models.infinity import ZeroOrMoreOrInfinite
 from hydroelastic.scenes.models.problems import problem
+from hydroelastic.scenes.models.sea_states import Spectrum
 from hydroelastic.scenes.models.time_analyses import ImpulseResponse, Motion
 from hydroelastic.scenes.models.values import (
     DISTINCT,
@@ -34,6 +35,9 @@ from hydroelastic.scenes.models.values import (
     OrElse,
     kind_of,
 )
+
+MOST_FIELDS = 20
+"""Frequencies of one analysis whose fields are written and drawn."""
 
 
 class Radiation(SceneModel):
@@ -64,6 +68,13 @@ class Response(SceneModel):
         default=None,
         description="amplitude of the waves, m; needed where attachments have quadratic damping, without effect elsewhere",
     )
+    hull_pressures: Annotated[bool, Strict()] = Field(
+        default=False, description="whether pressures along the hulls of floats are reported, and the drift by them"
+    )
+    fields_at: Annotated[tuple[PositiveNumber, ...], Field(max_length=MOST_FIELDS)] = Field(
+        default=(),
+        description="frequencies, rad/s, at which fields are written and drawn; by default where a motion is largest",
+    )
 
     @property
     def request(self) -> ResponseRequest:
@@ -73,12 +84,15 @@ class Response(SceneModel):
             waves_from=self.waves_from,
             positions=self.positions,
             elevation=self.wave_amplitude or 0.0,
+            hull_pressures=self.hull_pressures,
+            fields_at=self.fields_at,
         )
 
     @model_serializer(mode="wrap")
     def _as_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        """Serialize without an amplitude that is not given."""
-        return {key: value for key, value in write(self).items() if key != "wave_amplitude" or value is not None}
+        """Serialize without further keys that are not given."""
+        idle = {"wave_amplitude": None, "hull_pressures": False, "fields_at": ()}
+        return {key: value for key, value in write(self).items() if key not in idle or value != idle[key]}
 
 
 class Resonance(SceneModel):
@@ -143,6 +157,7 @@ Analysis: TypeAlias = Annotated[
     | Annotated[Response, Tag("response")]
     | Annotated[Resonance, Tag("resonance")]
     | Annotated[Decay, Tag("decay")]
+    | Annotated[Spectrum, Tag("spectrum")]
     | Annotated[ImpulseResponse, Tag("impulse_response")]
     | Annotated[Motion, Tag("motion")],
     Discriminator(kind_of),

@@ -19,6 +19,7 @@ from hydroelastic.scenes.models.open_analyses import (
     Response,
 )
 from hydroelastic.scenes.models.physical import physical_tank
+from hydroelastic.scenes.models.sea_states import Spectrum
 from hydroelastic.scenes.models.tank_parts import TankParts
 from hydroelastic.scenes.open_water.estimates import infinite_draught_comparison
 from hydroelastic.scenes.tank.check import modelled_tank
@@ -85,6 +86,11 @@ def _request(scene: TankParts, analysis: Analysis) -> str:
     if isinstance(analysis, Motion):
         return (
             f"motion: from rest in {analysis.words}, from the {analysis.waves_from}; {_span(analysis.times, 'time')} s"
+        )
+    if isinstance(analysis, Spectrum):
+        return (
+            f"spectrum: statistics of the responses in {analysis.duration:g} s of irregular waves from the "
+            f"{analysis.waves_from}, {analysis.words}"
         )
     return _resonances(analysis)
 

@@ -9,7 +9,7 @@ from pydantic_core import InitErrorDetails
 
 from hydroelastic.fem.open_water.region import MOST_DAMPING_ANYWHERE
 from hydroelastic.scenes.models.bodies import Float
-from hydroelastic.scenes.models.open_analyses import Decay, Resonance, Response
+from hydroelastic.scenes.models.open_analyses import Decay, Motion, Resonance, Response
 from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.tank_parts import TankParts
 
@@ -82,6 +82,7 @@ def frequencies_and_times_can_be_resolved(scene: TankParts) -> Iterator[InitErro
     for index, analysis in enumerate(scene.analysis if scene.is_open else ()):
         for key, values in (
             ("omega", getattr(analysis, "omega", ())),
+            ("waves", [wave.omega for wave in analysis.request.waves] if isinstance(analysis, Motion) else ()),
             ("below", [value for value in [getattr(analysis, "below", None)] if value is not None]),
         ):
             wrong = [value for value in values if 0.0 < value < slowest or fastest < value < inf]

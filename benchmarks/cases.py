@@ -7,9 +7,12 @@ from typing import Literal
 
 Code = Literal[
     "hydroelastic",
+    "hydroelastic modes",
     "ngsolve",
     "scikit-fem",
     "lower bound",
+    "sweep",
+    "ngsolve loop",
     "hydroelastic radiation",
     "capytaine",
     "string field",
@@ -21,7 +24,10 @@ Code = Literal[
     "moordyn",
 ]
 Variant = Literal[
+    "one process",
+    "two processes",
     "certified",
+    "modes alone",
     "whole",
     "halves",
     "bare",
@@ -36,15 +42,17 @@ Variant = Literal[
     "relaxed in motion",
 ]
 
-CODES: tuple[Code, ...] = ("hydroelastic", "ngsolve", "scikit-fem", "lower bound")
+CODES: tuple[Code, ...] = ("hydroelastic", "hydroelastic modes", "ngsolve", "scikit-fem", "lower bound")
 """Those that solve the tanks."""
+SWEEP_CODES: tuple[Code, ...] = ("sweep", "ngsolve loop")
+"""Those that solve many tanks."""
 CIRCLE_CODES: tuple[Code, ...] = ("hydroelastic radiation", "capytaine")
 """Those that solve the circle in open water."""
 STRING_CODES: tuple[Code, ...] = ("string field", "string series", "string sum")
 """Those that move the hanging string."""
 THREAD_CODES: tuple[Code, ...] = ("thread field", "thread catenary", "moorpy", "moordyn")
 """Those that bring flexible threads to rest, or move them."""
-ALL_CODES = (*CODES, *CIRCLE_CODES, *STRING_CODES, *THREAD_CODES)
+ALL_CODES = (*CODES, *SWEEP_CODES, *CIRCLE_CODES, *STRING_CODES, *THREAD_CODES)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,10 +61,12 @@ class Case:
 
     Attributes:
         code: by which code.
-        tank: name of the tank, of the frequency of the circle, of the motion of the string, or of the thread.
-        variant: ``certified`` with estimate, count and tones; ``whole`` tank or its two ``halves`` without them;
-            ``bare`` factorization and solutions alone; a cylinder of ``one length``, or ``two lengths`` and their
-            difference; a series ``cut sharply``; a thread moved in ``one run`` at a chosen resolution, at rest by a
+        tank: name of the tank, of the sweep, of the frequency of the circle, of the motion of the string, or of the
+            thread.
+        variant: a sweep on ``one process`` or ``two processes``; ``certified`` with estimate, count and tones;
+            ``whole`` tank or its two ``halves`` without them; ``modes alone``, the same for this solver; ``bare``
+            factorization and solutions alone; a cylinder of ``one length``, or ``two lengths`` and their difference;
+            a series ``cut sharply``; a thread moved in ``one run`` at a chosen resolution, at rest by a
             ``closed form`` or as several ``catenaries`` in a row, or ``lumped`` into point masses, at
             rest ``relaxed`` or ``relaxed in motion``.
         degree: polynomial degree, where it is chosen; else 0.

@@ -23,6 +23,7 @@ from hydroelastic.benchmarks.cases import Code
 
 PEER_MODULES: dict[Code, str] = {
     "ngsolve": "ngsolve",
+    "ngsolve loop": "ngsolve",
     "scikit-fem": "skfem",
     "capytaine": "capytaine",
     "moorpy": "moorpy",
@@ -79,7 +80,7 @@ def _requirement(code: Code) -> str:
     for line in declared:
         requirement, _, marker = line.partition(";")
         name = re.match(r"[A-Za-z0-9._-]+", requirement.strip())
-        if name and name[0].lower() == code and re.search(rf"extra\s*==\s*['\"]{EXTRA}['\"]", marker):
+        if name and name[0].lower() == code.partition(" ")[0] and re.search(rf"extra\s*==\s*['\"]{EXTRA}['\"]", marker):
             return requirement.strip()
     raise PeerError(f"the metadata of hydroelastic do not name {code}; start with ./hydro, or install the package")
 

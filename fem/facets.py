@@ -54,9 +54,7 @@ class FacetGroup:
         """
         jacobians = self.jacobians(reference)
         # Nanson's formula: n ds = det J J⁻ᵀ n₀ ds₀.
-        areas = np.abs(np.linalg.det(jacobians))[..., None] * np.einsum(
-            "fqdg,d->fqg", np.linalg.inv(jacobians), self.reference_normal
-        )
+        areas = np.abs(np.linalg.det(jacobians))[..., None] * (self.reference_normal @ np.linalg.inv(jacobians))
         measures = np.linalg.norm(areas, axis=-1)
         return areas / measures[..., None], measures
 
@@ -83,11 +81,8 @@ def facet_groups(liquid: LiquidSpace, name: str, layer: int | None = None) -> It
     facets = liquid.tank.facets(name)
     facet_to_cell = mesh.topology.connectivity(dim - 1, dim)
     cell_to_facet = mesh.topology.connectivity(dim, dim - 1)
-    cells = np.array([facet_to_cell.links(facet)[0] for facet in facets], dtype=np.int64)
-    places = np.array(
-        [np.flatnonzero(cell_to_facet.links(cell) == facet)[0] for cell, facet in zip(cells, facets, strict=True)],
-        dtype=np.int64,
-    )
+    cells = facet_to_cell.array[facet_to_cell.offsets[facets]].astype(np.int64)
+    places = np.argmax(cell_to_facet.array.reshape(-1, dim + 1)[cells] == facets[:, None], axis=1)
     if layer is not None:
         inside = liquid.layer_of[liquid.space.dofmap.list[cells, 0]] == layer
         cells, places = cells[inside], places[inside]

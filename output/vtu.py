@@ -23,12 +23,12 @@ _UNITS = {
 _ARRAY = re.compile(rb'(<DataArray[^>]*\bName="([^"_]*)[^"]*"[^>]*>[^<]*)(</DataArray>)')
 
 
-def write_vtu(path: Path, mesh: meshio.Mesh) -> None:
+def write_vtu(path: Path, mesh: meshio.Mesh, compression: str | None = "zlib") -> None:
     """Write a mesh with its arrays; VTK's key UNITS_LABEL of an array tells its unit."""
     # Who writes no fields does without it.
     import meshio
 
-    meshio.write(path, mesh)
+    meshio.write(path, mesh, compression=compression)
     path.write_bytes(_ARRAY.sub(_with_unit, path.read_bytes()))
 
 

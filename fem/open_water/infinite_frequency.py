@@ -9,7 +9,6 @@ import numpy as np
 from scipy.linalg import block_diag
 
 from hydroelastic.fem.added_mass import body_responses
-from hydroelastic.fem.liquid import compile_form
 from hydroelastic.fem.open_water.attempts import best_in_basin
 from hydroelastic.fem.open_water.basin import open_basin, sized_absorbing_layer
 from hydroelastic.fem.open_water.field_model import ANGLE, GROWTH, NO_WATER, open_mesh
@@ -125,8 +124,6 @@ def infinite_frequency_added_mass(problem: OpenWaterProblem, shapes: tuple[int, 
             mesh = distributed_mesh(
                 problem.comm, lambda: open_mesh(basin, resolution, absorbing_layer, infinite_frequency=True)
             )
-        with watch.stage("forms"):
-            compile_form(mesh, resolution.degree, continuous_pressure=tank.has_continuous_pressure)
         with watch.stage("added mass"):
             pencil = build_field_model(mesh, tank, degree=resolution.degree, shapes=shapes, infinite_frequency=True)
             matrix, potentials = body_responses(pencil)

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from hydroelastic.modal.beam.dry_modes import free_free_shape, free_free_wavenumber
+from hydroelastic.modal.beam.dry_modes import free_free_shapes, free_free_wavenumber
 from hydroelastic.modal.beam.guided_modes import guided_shape, guided_wavenumber
 from hydroelastic.modal.beam.jointed_modes import JointedModes, jointed_modes
 from hydroelastic.physics.beams import Beam
@@ -60,9 +60,10 @@ def _closed_shapes(beam: Beam, count: int) -> BeamShapes:
     wavenumber = guided_wavenumber if guided else free_free_wavenumber
     roots = np.array([wavenumber(number) for number in range(count)])
 
-    def deflection(number: int, x: Array) -> Array:
-        values = guided_shape(number, x / length) if guided else free_free_shape(number, x / length)
-        return np.asarray(values, dtype=np.float64)
+    def deflections(x: Array) -> Array:
+        if guided:
+            return np.array([guided_shape(number, x / length) for number in range(count)], dtype=np.float64)
+        return np.asarray(free_free_shapes(count, x / length), dtype=np.float64)
 
     def tabulated(x: Array, derivative: int) -> Array:
         values = [free_free_shape(number, np.clip(x / length, 0.0, 1.0), derivative) for number in range(count)]
@@ -71,7 +72,7 @@ def _closed_shapes(beam: Beam, count: int) -> BeamShapes:
     return BeamShapes(
         dofs=beam.dofs(count),
         parities=tuple(1 - 2 * (number % 2) for number in range(count)),
-        deflection=deflection,
+        deflection=_AllAtOnce(deflections),
         tabulated=tabulated,
         moments=lambda x: beam.flexural_rigidity * tabulated(x, 2),
         shears=lambda x: beam.flexural_rigidity * tabulated(x, 3),
@@ -90,7 +91,8 @@ def _computed_shapes(beam: Beam, count: int) -> BeamShapes:
     return BeamShapes(
         dofs=modes.dofs,
         parities=modes.parities,
-        deflection=_AllAtOnce(modes, scale),
+        # Lengths in units of the tank end within rounding of each other.
+        deflection=_AllAtOnce(lambda x: scale * modes.shapes(np.minimum(x, length))),
         tabulated=lambda x, derivative: scale * modes.shapes(np.clip(x, 0.0, modes.beam.length), derivative),
         moments=lambda x: scale * modes.bending_moments(np.clip(x, 0.0, modes.beam.length)),
         shears=lambda x: scale * modes.shear_forces(np.clip(x, 0.0, modes.beam.length)),
@@ -103,15 +105,14 @@ def _computed_shapes(beam: Beam, count: int) -> BeamShapes:
 class _AllAtOnce:
     """Evaluates all shapes at some points for the first of them: one is asked for after the other."""
 
-    def __init__(self, modes: JointedModes, scale: float) -> None:
-        self._modes, self._scale = modes, scale
+    def __init__(self, deflections: Callable[[Array], Array]) -> None:
+        self._deflections = deflections
         self._points: Array = np.empty(0)
         self._values: Array = np.empty((0, 0))
 
     def __call__(self, number: int, x: Array) -> Array:
         if not np.array_equal(x, self._points):
-            # Lengths in units of the tank end within rounding of each other.
-            self._values = self._scale * self._modes.shapes(np.minimum(x, self._modes.beam.length))
+            self._values = self._deflections(x)
             self._points = x.copy()
         values: Array = self._values[number]
         return values

@@ -66,7 +66,7 @@ class SceneModel(BaseModel, metaclass=_Keyworded):
             ``pydantic.ValidationError`` instead.
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False, defer_build=True)
 
 
 class BeamSection(SceneModel):

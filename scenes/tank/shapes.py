@@ -122,7 +122,8 @@ def write_fields(shapes: ModeShapes, omegas: list[float], folder: Path) -> None:
         point_data=data,
         cell_data={"liquid": [shapes.liquid.liquid]},
     )
-    write_vtu(folder / "modes.vtu", mesh)
+    # Compressed it would be a quarter smaller, and take as long as the solution.
+    write_vtu(folder / "modes.vtu", mesh, compression=None)
     moved = {
         f"displacement_{name}": displacement_of(curves, floats)
         for name, curves, floats in zip(mode_names(shapes), shapes.curves, shapes.floats, strict=True)

@@ -7,7 +7,7 @@ the same loss of energy or the least mean square difference, so that b follows f
     b = 8/(3π) β |u̇|          in a regular wave, u̇ of amplitude |u̇|
     b = √(8/π) β σ            in irregular waves, u̇ normally distributed with standard deviation σ
 
-Source: O. M. Faltinsen, Sea Loads on Ships and Offshore Structures (1990), § 5; N. M. Newman (1977), § 6.
+Source: O. M. Faltinsen, Sea Loads on Ships and Offshore Structures, 1990.
 """
 
 from __future__ import annotations

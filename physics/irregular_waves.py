@@ -4,7 +4,7 @@ A response r has the spectrum |T|² S and, with mₙ = ∫ |T|² S ωⁿ dω,
 
     significant amplitude              2 √m₀
     zero-crossing period               2π √(m₀/m₂)
-    most probable largest amplitude    √(2 m₀ ln N)   of N = (duration)/(zero-crossing period) cycles, as in a narrow band
+    most probable largest amplitude    √(2 m₀ ln N),  N = duration/(zero-crossing period), as in a narrow band
 
 T between its samples is a cubic spline of real and imaginary part; moments are Gauss sums over the intervals between
 samples and edges of S, in which T S is smooth. Errors of a moment come from sampling (the difference of splines through

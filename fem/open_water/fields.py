@@ -5,7 +5,7 @@ therefore solved for once more, in a basin of that length, to the accuracy of a 
 the tables:
 
     radiation    for each motion of a body, where its damping is largest
-    response     where the motion of a body is largest, for the incident wave that causes it, or at the frequencies asked
+    response     where the motion of a body is largest, for the incident wave that causes it, or as asked
     resonance    each of the resonances of lowest |ω|
 """
 

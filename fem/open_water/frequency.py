@@ -154,7 +154,7 @@ class OpenResponse:
         return incidence.amplitudes(fluxes) + np.eye(len(incidence.planes))[:, self.incident]
 
     def drift_force(self, motions: np.ndarray | None = None) -> np.ndarray:
-        """Mean force in the direction of x, of second order in the waves, per |c|² of each incident wave, dimensionless,
+        """Return the mean force along x, of second order in the waves, per |c|² of each incident wave, dimensionless,
         shape (incident,).
 
         Each wave train carries momentum kP/ω, P its power, towards the bodies or away: with waves of amplitude A from

@@ -78,7 +78,8 @@ class _Sweep:
 
 
 def _swept(problem: OpenWaterProblem, omegas: np.ndarray, shapes: tuple[int, ...]) -> Attempt[_Sweep]:
-    band = Band(lowest=float(omegas.min()), highest=float(omegas.max()))
+    low, high = problem.shared_band(float(omegas.min()), float(omegas.max()))
+    band = Band(lowest=low, highest=high)
 
     def solve(resolution: Resolution) -> Attempt[_Sweep]:
         solver = shared_solver(problem, band, replace(resolution, shapes=shapes))

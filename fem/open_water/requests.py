@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
 from typing import TYPE_CHECKING, ClassVar, Literal, TypeAlias
 
 if TYPE_CHECKING:
@@ -22,6 +23,12 @@ class RadiationRequest:
     kind: ClassVar = "radiation"
     omega: tuple[float, ...]
     elastic_modes: int = 4
+
+    @property
+    def band(self) -> tuple[float, float] | None:
+        """Lowest and highest frequency of waves, rad/s; ``None`` of limits alone."""
+        finite = [omega for omega in self.omega if 0.0 < omega < inf]
+        return (min(finite), max(finite)) if finite else None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,6 +51,11 @@ class ResponseRequest:
     elevation: float = 0.0
     hull_pressures: bool = False
     fields_at: tuple[float, ...] = ()
+
+    @property
+    def band(self) -> tuple[float, float]:
+        """Lowest and highest frequency, rad/s."""
+        return min(self.omega), max(self.omega)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -154,6 +166,12 @@ class SpectrumRequest:
     points: tuple[tuple[int, tuple[float, float]], ...] = ()
     positions: int = 51
     thickness: float | None = None
+
+    @property
+    def band(self) -> tuple[float, float]:
+        """Lowest and highest frequency, rad/s."""
+        low, high = self.spectrum.band
+        return low, min(high, self.highest or high)
 
 
 OVER_TIME = (ImpulseResponseRequest, MotionRequest)

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from hydroelastic.fem.open_water.attempts import best_over_band
+from hydroelastic.fem.open_water.curves import refined_curves
 from hydroelastic.fem.open_water.field_model import Band, OpenModel
 from hydroelastic.fem.open_water.frequency import OpenResponse
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
@@ -23,6 +24,8 @@ from hydroelastic.fem.tank.error_estimates import FrequencyErrors, boundary_erro
 from hydroelastic.fem.tank.resolution import Resolution, rounding_error
 from hydroelastic.modal.beam.beam_shapes import beam_shapes
 
+# Largest part of a motion by which its drawn curve may miss it.
+_DRAWN = 1e-3
 # Deflection of all omitted dry modes, per mode in use, over the last two amplitudes: at the tips they add like Σ n⁻⁵.
 _TAIL = 0.25
 
@@ -59,7 +62,8 @@ def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Respo
         request: frequencies and direction of the incident waves.
     """
     omegas = np.array(request.omega)
-    band = Band(lowest=float(omegas.min()), highest=float(omegas.max()))
+    low, high = problem.shared_band(float(omegas.min()), float(omegas.max()))
+    band = Band(lowest=low, highest=high)
 
     def solve(resolution: Resolution) -> Attempt[_Sweep]:
         solver = shared_solver(problem, band, resolution)
@@ -88,7 +92,13 @@ def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Respo
     if request.hull_pressures:
         table = replace(table, **_on_hulls(found.swept.solutions))
     if len(omegas) > FEW:
-        table = replace(table, missed_peaks=_unresolved(request, found.solver, table))
+        incident = _incident(model, request)
+        curves = refined_curves(found.solver, incident, omegas, found.swept, max(_DRAWN, problem.tolerance))
+        table = replace(
+            table,
+            missed_peaks=_unresolved(request, found.solver, table),
+            curve=_table(request, model, curves.omegas, curves.responses, curves.errors),
+        )
     return ResponseSolution(table=table, model=model, error=attempt.error)
 
 

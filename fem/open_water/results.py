@@ -141,6 +141,7 @@ class ResponseTable:
         near_field_drift: (n, w) the drift force by the pressures on the hull, N/m³; of a lone float in one liquid, if
             pressures were requested.
         fields_at: frequencies at which fields are wanted, rad/s; empty for that of the largest motion.
+        curve: the same at frequencies between which nothing is missed, of more than six frequencies, to be drawn.
         missed_peaks: peaks that curves over ω do not show, found on a reduced basis.
     """
 
@@ -160,6 +161,7 @@ class ResponseTable:
     hulls: tuple[HullPressure, ...] = ()
     near_field_drift: Floats | None = None
     fields_at: tuple[float, ...] = ()
+    curve: ResponseTable | None = None
     missed_peaks: tuple[UnresolvedPeak, ...] = ()
 
 

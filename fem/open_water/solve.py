@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import Literal, TypeAlias
 
@@ -114,6 +114,8 @@ def solve_open_water(
     tables: list[_Table] = []
     size = {"cells": 0, "dofs": 0, "degree": 0}
     reasons: list[str] = []
+    found = [one.band for one in requests if isinstance(one, RadiationRequest | ResponseRequest | SpectrumRequest)]
+    problem = replace(problem, bands=tuple(band for band in found if band is not None))
     latest = max((max(one.times) for one in requests if isinstance(one, OVER_TIME)), default=0.0)
 
     @cache

@@ -7,7 +7,6 @@ from functools import partial
 import numpy as np
 from scipy.linalg import eigvals
 
-from hydroelastic.fem.memory import release_memory
 from hydroelastic.fem.open_water.complex_direct import ShiftedSolver
 from hydroelastic.fem.open_water.field_model import Band, OpenModel, open_model
 from hydroelastic.fem.open_water.frequency import BodyEquations, OpenFrequency, OpenResponse
@@ -22,12 +21,12 @@ from hydroelastic.physics.attachments import REGULAR
 def shared_solver(problem: OpenWaterProblem, band: Band, resolution: Resolution) -> OpenSolver:
     """Return the solver of a band and a resolution, with its basis: that of the last analysis if it is the same
     (collective)."""
-    if (band, resolution) not in problem.solvers:
+    solver: OpenSolver | None = problem.solvers.get((band, resolution))
+    if solver is None:
         problem.solvers.clear()
-        release_memory()
-        model = open_model(problem, band, resolution)
-        problem.solvers[band, resolution] = OpenSolver(model, problem.watch)
-    return problem.solvers[band, resolution]
+        solver = OpenSolver(open_model(problem, band, resolution), problem.watch)
+        problem.solvers[band, resolution] = solver
+    return solver
 
 
 class OpenSolver:

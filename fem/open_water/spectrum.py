@@ -1,7 +1,6 @@
 """Bodies in irregular waves: transfer functions at frequencies that miss nothing, and the statistics of responses.
 
-A reduced basis serves the whole band of the spectrum. Frequencies begin at equal ratios and about each resonance of
-bodies and liquid together, and are halved until cubic splines through the motions meet the next ones to the tolerance.
+A reduced basis serves the whole band of the spectrum, and gives motions at as many frequencies as their curves need.
 Drag is replaced by linear damping of least mean square difference, from the standard deviation of the velocities along
 it, with the equations of motion at these frequencies; see `physics/attachments.py`, `physics/irregular_waves.py`.
 """
@@ -9,35 +8,29 @@ it, with the equations of motion at these frequencies; see `physics/attachments.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from hydroelastic.fem.open_water.attempts import best_over_band
+from hydroelastic.fem.open_water.curves import Curves, elevation_of, refined_curves
 from hydroelastic.fem.open_water.field_model import Band, OpenModel
-from hydroelastic.fem.open_water.frequency import OpenResponse
 from hydroelastic.fem.open_water.outside import displacement_at
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import between, estimated_places, relative_difference
 from hydroelastic.fem.open_water.requests import SpectrumRequest
 from hydroelastic.fem.open_water.response import along_beam, outcome, response_errors
 from hydroelastic.fem.open_water.results import IrregularResponse, PlateStatistics, SpectrumTable
-from hydroelastic.fem.open_water.solver import OpenSolver, shared_solver
-from hydroelastic.fem.open_water.sweep import Problem, Swept, sweep
+from hydroelastic.fem.open_water.solver import shared_solver
+from hydroelastic.fem.open_water.sweep import Problem, sweep
 from hydroelastic.fem.tank.attempts import Attempt
 from hydroelastic.fem.tank.error_estimates import joined_errors
 from hydroelastic.fem.tank.resolution import Resolution
 from hydroelastic.physics.attachments import IRREGULAR
 from hydroelastic.physics.irregular_waves import moments, statistics
 
-# Frequencies at first, and the most in the end.
-_FIRST, _MOST = 33, 1500
-# Frequencies about a resonance ω − iγ, in γ from ω.
-_ABOUT = (-4.0, -2.0, -1.0, 0.0, 1.0, 2.0, 4.0)
-# Largest part of the tolerance by which a spline misses the motion between frequencies, relative to the largest motion.
-_MISSED = 1.0
-_LEAST_MISSED = 1e-6
+# Frequencies at first.
+_FIRST = 33
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,16 +48,6 @@ class SpectrumSolution:
     error: float
 
 
-@dataclass(frozen=True, kw_only=True)
-class _Curves:
-    """Responses at frequencies ω, ascending, rad/s, with estimated relative errors, shape (n,)."""
-
-    solver: OpenSolver
-    omegas: np.ndarray
-    responses: list[OpenResponse]
-    errors: np.ndarray
-
-
 def solve_spectrum(problem: OpenWaterProblem, request: SpectrumRequest) -> SpectrumSolution:
     """Solve for the statistics of responses to irregular waves (collective).
 
@@ -72,10 +55,11 @@ def solve_spectrum(problem: OpenWaterProblem, request: SpectrumRequest) -> Spect
         problem: the open water.
         request: spectrum, duration, points.
     """
-    low, high = request.spectrum.band
-    band = Band(lowest=low, highest=min(high, request.highest or high))
+    lowest, highest = request.band
+    low, high = problem.shared_band(lowest, highest)
+    band = Band(lowest=low, highest=high)
 
-    def solve(resolution: Resolution) -> Attempt[_Curves]:
+    def solve(resolution: Resolution) -> Attempt[Curves]:
         solver = shared_solver(problem, band, resolution)
         solver.elevation, solver.damping = 0.0, np.zeros_like(solver.model.mass)
         incident = [0 if request.waves_from == "left" else len(solver.model.basin.scaled_layers.branches)]
@@ -84,17 +68,17 @@ def solve_spectrum(problem: OpenWaterProblem, request: SpectrumRequest) -> Spect
             reduced=lambda omega: solver.response_between(omega.real, incident),
             difference=lambda one, other: relative_difference(outcome(one), outcome(other)),
         )
-        omegas = np.geomspace(band.lowest, band.highest, _FIRST)
+        omegas = np.geomspace(lowest, highest, _FIRST)
         swept = sweep(frequencies, omegas, problem.tolerance)
         with problem.watch.stage("errors"):
             places = estimated_places(omegas)
             causes = [response_errors(swept.solutions[place]) for place in places]
-        curves = _refined(solver, incident, omegas, swept, problem.tolerance)
+        curves = refined_curves(solver, incident, omegas, swept, problem.tolerance)
         total = np.array([cause.total.max() for cause in causes])
         known = [int(np.searchsorted(curves.omegas, omegas[place])) for place in places]
         errors = curves.errors + between(curves.omegas, known, total)
         return Attempt(
-            result=_Curves(solver=solver, omegas=curves.omegas, responses=curves.responses, errors=errors),
+            result=replace(curves, errors=errors),
             causes=joined_errors(causes, float(curves.errors.max())),
             resolution=resolution,
         )
@@ -104,65 +88,7 @@ def solve_spectrum(problem: OpenWaterProblem, request: SpectrumRequest) -> Spect
     return SpectrumSolution(table=table, model=attempt.result.solver.model, error=attempt.error)
 
 
-def _refined(
-    solver: OpenSolver, incident: list[int], omegas: np.ndarray, swept: Swept[OpenResponse], tolerance: float
-) -> _Curves:
-    """Add frequencies until splines meet the next ones (collective)."""
-    found = {float(omega): one for omega, one in zip(omegas, swept.solutions, strict=True)}
-    errors = {float(omega): float(error) for omega, error in zip(omegas, swept.errors, strict=True)}
-
-    def added(asked: Iterator[float] | list[float]) -> None:
-        for omega in asked:
-            if omega not in found:
-                found[omega], residual = solver.response_between(omega, incident)
-                errors[omega] = swept.ratio * residual**2
-
-    turns = np.array([dof.is_rotation for dof in solver.model.scale.dofs])
-    added(list(_about(solver.resonances_between(), omegas)))
-    open_intervals = list(zip(sorted(found), sorted(found)[1:], strict=False))
-    while open_intervals and len(found) < _MOST:
-        known = np.array(sorted(found))
-        motions = np.array([found[omega].motions[0] / _elevation(found[omega]) for omega in known])
-        # Motions of one unit are compared with the largest of them: of beams few shapes matter.
-        largest = np.array([sizes[turns == turn].max() for sizes in [np.abs(motions).max(axis=0)] for turn in turns])
-        middles = np.array([0.5 * (low + high) for low, high in open_intervals])
-        expected = CubicSpline(known, motions)(middles)
-        added([float(middle) for middle in middles])
-        again = []
-        for (low, high), middle, guess in zip(open_intervals, middles, expected, strict=True):
-            there = found[float(middle)]
-            missed = np.abs(there.motions[0] / _elevation(there) - guess)
-            if np.any(missed > max(_MISSED * tolerance, _LEAST_MISSED) * largest):
-                again += [(low, float(middle)), (float(middle), high)]
-        open_intervals = again
-    known = np.array(sorted(found))
-    return _Curves(
-        solver=solver,
-        omegas=known,
-        responses=[found[omega] for omega in known],
-        errors=np.array([errors[omega] for omega in known]),
-    )
-
-
-def _about(resonances: np.ndarray, omegas: np.ndarray) -> Iterator[float]:
-    """Frequencies about resonances that the others may not resolve."""
-    for resonance in resonances:
-        width = abs(resonance.imag)
-        place = int(np.searchsorted(omegas, resonance.real))
-        if 0 < place < len(omegas) and 0.0 < width < omegas[place] - omegas[place - 1]:
-            near = [float(resonance.real + factor * width) for factor in _ABOUT]
-            yield from (omega for omega in near if omegas[0] < omega < omegas[-1])
-
-
-def _elevation(response: OpenResponse) -> complex:
-    """Elevation of the incident wave where its phase is told, per unit c."""
-    incidence = response.incidence
-    place = response.incident[0]
-    phase = np.exp(1j * incidence.phases_at_origin(response.model.basin)[place])
-    return complex(incidence.elevations[place] * phase)
-
-
-def _table(request: SpectrumRequest, curves: _Curves) -> SpectrumTable:
+def _table(request: SpectrumRequest, curves: Curves) -> SpectrumTable:
     model, omegas = curves.solver.model, curves.omegas
     damping, motions = _with_drag(request, curves)
     rows = _rows(model, request)
@@ -206,13 +132,14 @@ def _table(request: SpectrumRequest, curves: _Curves) -> SpectrumTable:
     )
 
 
-def _with_drag(request: SpectrumRequest, curves: _Curves) -> tuple[np.ndarray, np.ndarray]:
-    """Return the damping in place of drag, dimensionless, and the motions with it per elevation, shape (n, unknowns)."""
+def _with_drag(request: SpectrumRequest, curves: Curves) -> tuple[np.ndarray, np.ndarray]:
+    """Return the damping in place of drag, dimensionless, and the motions with it per elevation, shape (n,
+    unknowns)."""
     model, outside = curves.solver.model, curves.solver.model.outside
     equations = [response.equations for response in curves.responses]
     dynamic = np.array([one.dynamic for one in equations])
     (place,) = curves.responses[0].incident
-    elevations = np.array([_elevation(response) for response in curves.responses])
+    elevations = np.array([elevation_of(response) for response in curves.responses])
     forces = np.array([one.forces[place] for one in equations]) / elevations[:, None]
     scaled = curves.omegas / model.basin.units.frequency
 
@@ -230,7 +157,7 @@ def _with_drag(request: SpectrumRequest, curves: _Curves) -> tuple[np.ndarray, n
     return damping, moved(damping)
 
 
-def _mean_drift(request: SpectrumRequest, curves: _Curves, motions: np.ndarray) -> float:
+def _mean_drift(request: SpectrumRequest, curves: Curves, motions: np.ndarray) -> float:
     """Mean of the drift force along x, 2 ∫ (F/A²) S dω, N/m.
 
     Args:
@@ -240,7 +167,7 @@ def _mean_drift(request: SpectrumRequest, curves: _Curves, motions: np.ndarray) 
     """
     units = curves.solver.model.basin.units
     forces = [
-        float(one.drift_force((_elevation(one) * motion)[None])[0]) / abs(_elevation(one)) ** 2
+        float(one.drift_force((elevation_of(one) * motion)[None])[0]) / abs(elevation_of(one)) ** 2
         for one, motion in zip(curves.responses, motions, strict=True)
     ]
     # F/A² is the square of a transfer function: it is along the waves, for no more waves pass than come.
@@ -281,7 +208,7 @@ def _rows(model: OpenModel, request: SpectrumRequest) -> list[_Row]:
     return rows
 
 
-def _deviation(model: OpenModel, curves: _Curves, motions: np.ndarray) -> np.ndarray:
+def _deviation(model: OpenModel, curves: Curves, motions: np.ndarray) -> np.ndarray:
     """Errors of the motions per elevation, shape (n, unknowns): relative to the largest of the same unit."""
     turns = np.array([dof.is_rotation for dof in model.scale.dofs])
     sizes = np.abs(motions)
@@ -291,7 +218,7 @@ def _deviation(model: OpenModel, curves: _Curves, motions: np.ndarray) -> np.nda
 
 
 def _plates(
-    model: OpenModel, request: SpectrumRequest, curves: _Curves, motions: np.ndarray
+    model: OpenModel, request: SpectrumRequest, curves: Curves, motions: np.ndarray
 ) -> Iterator[PlateStatistics]:
     """Deflection, bending moment and shear force along each beam."""
     first, units = 0, model.basin.units

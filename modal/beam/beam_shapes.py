@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from hydroelastic.modal.beam.dry_modes import free_free_shapes, free_free_wavenumber
+from hydroelastic.modal.beam.dry_modes import free_free_shape, free_free_shapes, free_free_wavenumber
 from hydroelastic.modal.beam.guided_modes import guided_shape, guided_wavenumber
 from hydroelastic.modal.beam.jointed_modes import JointedModes, jointed_modes
 from hydroelastic.physics.beams import Beam

@@ -8,6 +8,7 @@ from typing import Any
 
 from hydroelastic.output.columns import Column, columns_of, csv_columns
 from hydroelastic.output.csv_files import write_csv
+from hydroelastic.output.open_water.irregular import SPECTRUM
 from hydroelastic.output.open_water.quantities import (
     ALONG_BEAM,
     ALONG_HULL,
@@ -17,7 +18,6 @@ from hydroelastic.output.open_water.quantities import (
     RADIATION,
     RESONANCE,
     RESPONSE,
-    SPECTRUM,
 )
 from hydroelastic.output.open_water.time_quantities import IMPULSE_RESPONSE, MOTION
 from hydroelastic.output.quantities import Group

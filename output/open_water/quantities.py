@@ -15,16 +15,17 @@ import numpy as np
 from hydroelastic.fem.open_water.region import Region
 from hydroelastic.fem.open_water.results import DIRECTIONS, Complexes, Floats, ResponseTable
 from hydroelastic.output.open_water.bodies import BODIES
+from hydroelastic.output.open_water.declarations import CREST, DOFS, NUMBERED, OF_BODIES, joined_array, own_array
+from hydroelastic.output.open_water.irregular import SPECTRUM
 from hydroelastic.output.open_water.time_quantities import IMPULSE_RESPONSE, MOTION
 from hydroelastic.output.provenance import PROCESSES
 from hydroelastic.output.quantities import Group, Quantity
 from hydroelastic.physics.dofs import Dof, body_name
 
-_CREST = "beside an incident wave whose crest is at x = 0 of the scene, or at `sea.phase_at`, at t = 0"
 _INERTIA: dict[str, Any] = {"unit": "kg/m", "of_roll": ("kg", "kg m")}
-_FORCE: dict[str, Any] = {"unit": "N/m^2", "of_roll": ("N/m",), "phase": _CREST}
+_FORCE: dict[str, Any] = {"unit": "N/m^2", "of_roll": ("N/m",), "phase": CREST}
 _MOTION: dict[str, Any] = {"unit": "m", "of_roll": ("rad",)}
-_PER_ELEVATION: dict[str, Any] = {"unit": "m/m", "of_roll": ("rad/m",), "phase": _CREST}
+_PER_ELEVATION: dict[str, Any] = {"unit": "m/m", "of_roll": ("rad/m",), "phase": CREST}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -131,16 +132,6 @@ def _phase_at_body(table: WavesAndMotions) -> Floats:
     return np.where(is_known, np.degrees(np.angle(at_body)) + 0.0, np.nan)
 
 
-def _joined(key: str, meaning: str, dimensions: str, order: str = "", **more: Any) -> Quantity:
-    """An array that all analyses of a kind have together, in another order of its dimensions if there is one."""
-    names = tuple(dimensions.split())
-    return Quantity(key, meaning, dimensions=names, joined=tuple(order.split()) or names, **more)
-
-
-def _array(key: str, meaning: str, dimensions: str, value: Callable[[Any], Any], **more: Any) -> Quantity:
-    return _joined(key, meaning, dimensions, value=value, in_summary=False, **more)
-
-
 def _inverse(name: str) -> Callable[[Any], Floats]:
     def found(table: Any) -> Floats:
         # Infinite in the limit of long waves.
@@ -152,52 +143,50 @@ def _inverse(name: str) -> Callable[[Any], Floats]:
 
 # fmt: off
 # A table: as many arguments on a line as fit.
-_OMEGA = _joined("omega", "angular frequency", "omega", unit="rad/s", symbol="ω", shown=".6g")
+_OMEGA = joined_array("omega", "angular frequency", "omega", unit="rad/s", symbol="ω", shown=".6g")
 _WAVES = (
-    _joined("waves", "branch of the dispersion relation", "wave", short="wave", variable="wave", column="wave",
+    joined_array("waves", "branch of the dispersion relation", "wave", short="wave", variable="wave", column="wave",
         note="a dimension only where waves travel on two levels"),
-    _joined("wavenumbers", "wavenumber", "omega wave", unit="1/m", symbol="k", shown=".6g", variable="wavenumber",
+    joined_array("wavenumbers", "wavenumber", "omega wave", unit="1/m", symbol="k", shown=".6g", variable="wavenumber",
         column="wavenumber", is_coordinate=True),
-    _array("wavelength", "wavelength", "omega wave", _inverse("wavenumbers"), unit="m", is_coordinate=True),
-    _array("period", "period", "omega", _inverse("omega"), unit="s", is_coordinate=True),
+    own_array("wavelength", "wavelength", "omega wave", _inverse("wavenumbers"), unit="m", is_coordinate=True),
+    own_array("period", "period", "omega", _inverse("omega"), unit="s", is_coordinate=True),
 )
-_DOFS = Quantity("dofs", "names of the motions", dimensions=("dof",), variable="")
 
 
 def _capitalised(name: str, meaning: str = "motion") -> Quantity:
-    return _array(name, meaning, name, lambda table: [dof.capitalised for dof in table.dofs])
+    return own_array(name, meaning, name, lambda table: [dof.capitalised for dof in table.dofs])
 
 
 _MATRIX = "omega influenced_dof radiating_dof", "omega radiating_dof influenced_dof"  # Capytaine puts the motion first.
 _FORCES = "omega wave wave_direction influenced_dof"
-_OF_BODIES = "influenced_dof radiating_dof"
 RADIATION = Group("radiation", "radiated and incident waves, by analysis; matrices are force by motion", (
     _OMEGA,
     *_WAVES,
-    _DOFS,
+    DOFS,
     _capitalised("radiating_dof", "motion that radiates"),
     _capitalised("influenced_dof", "motion that a force excites"),
-    _joined("wave_direction", "direction in which incident waves travel", "wave_direction", unit="rad",
+    joined_array("wave_direction", "direction in which incident waves travel", "wave_direction", unit="rad",
         value=lambda _: DIRECTIONS, printed=False),
-    _joined("added_mass", "added mass", *_MATRIX, symbol="a", error="relative_error", **_INERTIA),
-    _joined("radiation_damping", "radiation damping", *_MATRIX, unit="kg/(m s)", of_roll=("kg/s", "kg m/s"),
+    joined_array("added_mass", "added mass", *_MATRIX, symbol="a", error="relative_error", **_INERTIA),
+    joined_array("radiation_damping", "radiation damping", *_MATRIX, unit="kg/(m s)", of_roll=("kg/s", "kg m/s"),
         symbol="b", error="relative_error"),
-    _joined("excitation_force", "excitation force per unit elevation", _FORCES, symbol="|f|",
+    joined_array("excitation_force", "excitation force per unit elevation", _FORCES, symbol="|f|",
         error="relative_error", **_FORCE),
-    _joined("froude_krylov_force", "force of the incident wave per unit elevation", _FORCES,
+    joined_array("froude_krylov_force", "force of the incident wave per unit elevation", _FORCES,
         variable="Froude_Krylov_force", printed=False, **_FORCE),
-    _joined("diffraction_force", "force of the scattered waves per unit elevation", _FORCES, printed=False,
+    joined_array("diffraction_force", "force of the scattered waves per unit elevation", _FORCES, printed=False,
         **_FORCE),
-    _joined("relative_error", "estimated relative error of added mass and damping", "omega", unit="1",
+    joined_array("relative_error", "estimated relative error of added mass and damping", "omega", unit="1",
         short="relative error", shown=".1e", variable="radiation_relative_error"),
-    _joined("energy_residual", "relative difference of damping and the radiated power", "omega", unit="1",
+    joined_array("energy_residual", "relative difference of damping and the radiated power", "omega", unit="1",
         printed=False, variable="radiation_energy_residual"),
-    _joined("haskind_residual", "relative difference of the excitation and its value by Haskind's relation",
+    joined_array("haskind_residual", "relative difference of the excitation and its value by Haskind's relation",
         "omega", unit="1", printed=False),
-    _joined("inertia", "inertia of the bodies", _OF_BODIES, variable="inertia_matrix", **_INERTIA),
-    _joined("stiffness", "stiffness of bodies and hydrostatics", _OF_BODIES, variable="hydrostatic_stiffness",
+    joined_array("inertia", "inertia of the bodies", OF_BODIES, variable="inertia_matrix", **_INERTIA),
+    joined_array("stiffness", "stiffness of bodies and hydrostatics", OF_BODIES, variable="hydrostatic_stiffness",
         unit="N/m^2", of_roll=("N/m", "N")),
-    _joined("infinite_frequency_added_mass", "added mass at infinite frequency", _OF_BODIES,
+    joined_array("infinite_frequency_added_mass", "added mass at infinite frequency", OF_BODIES,
         note="`null` if it was not requested", **_INERTIA),
     Quantity("factorizations", "number of factorizations", "1"),
 ), dimension="radiation_analysis")
@@ -207,65 +196,67 @@ ALONG_BEAM = "position_on_body_{.number}"
 """The dimension of the places along a beam."""
 PLATES = Group("plates", "the deflection of each beam", (
     Quantity("body", "number of the body", "1", value=lambda it: it.number, variable="", column="body"),
-    _joined("positions", "position on body {.number}", ALONG_BEAM, unit="m", variable=ALONG_BEAM, column="x"),
-    _joined("deflection", "deflection of body {.number}", f"omega wave {ALONG_BEAM}",
+    joined_array("positions", "position on body {.number}", ALONG_BEAM, unit="m", variable=ALONG_BEAM, column="x"),
+    joined_array("deflection", "deflection of body {.number}", f"omega wave {ALONG_BEAM}",
         f"omega wave_direction wave {ALONG_BEAM}", unit="m/m", variable="deflection_of_body_{.number}",
-        phase=_CREST),
-    _joined("bending_moment", "bending moment of body {.number} per metre of width", f"omega wave {ALONG_BEAM}",
+        phase=CREST),
+    joined_array("bending_moment", "bending moment of body {.number} per metre of width", f"omega wave {ALONG_BEAM}",
         f"omega wave_direction wave {ALONG_BEAM}", unit="N/m", variable="bending_moment_of_body_{.number}",
-        phase=_CREST),
-    _joined("shear_force", "shear force of body {.number} per metre of width", f"omega wave {ALONG_BEAM}",
+        phase=CREST),
+    joined_array("shear_force", "shear force of body {.number} per metre of width", f"omega wave {ALONG_BEAM}",
         f"omega wave_direction wave {ALONG_BEAM}", unit="N/m^2", variable="shear_force_of_body_{.number}",
-        phase=_CREST),
+        phase=CREST),
 ), record=lambda table: list(table.deflections), dimension="plate")
 ALONG_HULL = "point_on_body_{.number}"
 HULLS = Group("hulls", "the pressure along the hull of each float", (
     Quantity("body", "number of the body", "1", value=lambda it: it.number, variable="", column="body"),
-    _array("x", "x of points along the hull of body {.number}", ALONG_HULL, lambda it: it.x, unit="m",
+    own_array("x", "x of points along the hull of body {.number}", ALONG_HULL, lambda it: it.x, unit="m",
         variable="x_of_points_on_body_{.number}", column="x"),
-    _array("y", "y of points along the hull of body {.number}", ALONG_HULL, lambda it: it.y, unit="m",
+    own_array("y", "y of points along the hull of body {.number}", ALONG_HULL, lambda it: it.y, unit="m",
         variable="y_of_points_on_body_{.number}", column="y"),
-    _array("pressure", "pressure along the hull of body {.number}, by all waves, at points that do not move",
+    own_array("pressure", "pressure along the hull of body {.number}, by all waves, at points that do not move",
         f"omega wave {ALONG_HULL}", lambda it: it.pressure, order=f"omega wave_direction wave {ALONG_HULL}",
-        unit="Pa/m", variable="pressure_on_body_{.number}", column="pressure", phase=_CREST),
+        unit="Pa/m", variable="pressure_on_body_{.number}", column="pressure", phase=CREST),
 ), record=lambda table: list(table.pressures), dimension="hull", note="if `hull_pressures`")
 RESPONSE = Group("response", "motions and waves per unit elevation of the incident wave, by analysis", (
     _OMEGA,
     Quantity("waves_from", 'side from which the waves come, `"left"` or `"right"`', variable="",
         column="waves_from"),
     *_WAVES,
-    _DOFS,
+    DOFS,
     _capitalised("radiating_dof", "motion that radiates"),
-    _array("shape", "further shape", "shape", lambda it: [it.dofs[place].capitalised for place in it.further]),
-    _array("outgoing_wave", "branch of the outgoing wave", "outgoing_wave", lambda it: it.waves),
-    _array("wave_direction", "direction in which incident waves travel", "wave_direction",
+    own_array("shape", "further shape", "shape", lambda it: [it.dofs[place].capitalised for place in it.further]),
+    own_array("outgoing_wave", "branch of the outgoing wave", "outgoing_wave", lambda it: it.waves),
+    own_array("wave_direction", "direction in which incident waves travel", "wave_direction",
         lambda it: [it.direction], unit="rad"),
-    _joined("reflection", "elevation of the reflected wave over that of the incident one", *_RATIOS, unit="1",
-        symbol="|R|", error="relative_error", variable="reflection_coefficient", phase=_CREST),
-    _joined("transmission", "elevation of the transmitted wave over that of the incident one", *_RATIOS, unit="1",
-        symbol="|T|", error="relative_error", variable="transmission_coefficient", phase=_CREST),
-    _joined("amplitudes", "motion per unit elevation of the incident wave", *_AMPLITUDES, error="relative_error",
+    joined_array("reflection", "elevation of the reflected wave over that of the incident one", *_RATIOS, unit="1",
+        symbol="|R|", error="relative_error", variable="reflection_coefficient", phase=CREST),
+    joined_array("transmission", "elevation of the transmitted wave over that of the incident one", *_RATIOS, unit="1",
+        symbol="|T|", error="relative_error", variable="transmission_coefficient", phase=CREST),
+    joined_array("amplitudes", "motion per unit elevation of the incident wave", *_AMPLITUDES, error="relative_error",
         variable="RAO", column="", **_PER_ELEVATION),
-    _joined("phase_at_body",
+    joined_array("phase_at_body",
         "phase of the motion beside the crest of the incident wave at the middle of the body's waterplane",
         *_AMPLITUDES, unit="degree", value=_phase_at_body, shown=".1f", variable="RAO_phase_at_body",
         note="positive where it comes after the crest, `null` where the motion is not larger than its error"),
-    _array("shape_amplitude", "amplitude of a further shape per unit elevation", "omega wave shape",
+    own_array("shape_amplitude", "amplitude of a further shape per unit elevation", "omega wave shape",
         lambda it: it.amplitudes[:, :, it.further] if it.further else None, order="omega wave_direction wave shape",
-        unit="1", phase=_CREST),
-    _array("shape_phase_at_body", "phase of a further shape, as `RAO_phase_at_body`", "omega wave shape",
+        unit="1", phase=CREST),
+    own_array("shape_phase_at_body", "phase of a further shape, as `RAO_phase_at_body`", "omega wave shape",
         lambda it: _phase_at_body(it)[:, :, it.further] if it.further else None,
         order="omega wave_direction wave shape", unit="degree"),
-    _joined("absorption", "power that damping from outside takes, over that of the incident wave", "omega wave",
+    joined_array("absorption", "power that damping from outside takes, over that of the incident wave", "omega wave",
         "omega wave_direction wave", unit="1", short="absorbed", shown=".4g",
         variable="absorbed_power_fraction"),
-    _joined("drift_force", "mean force along x over the square of the amplitude of the waves", "omega wave",
+    joined_array("drift_force", "mean force along x over the square of the amplitude of the waves", "omega wave",
         "omega wave_direction wave", unit="N/m^3", short="drift/A²", error="relative_error"),
-    _joined("near_field_drift", "the same by pressures on the hull, as a check", "omega wave",
-        "omega wave_direction wave", unit="N/m^3", note="`null` unless `hull_pressures`, of a lone float in one liquid"),
-    _joined("energy_residual", "relative difference of incident power, and outgoing and absorbed power", "omega wave",
-        "omega wave_direction wave", unit="1", short="energy", shown=".1e", variable="response_energy_residual"),
-    _joined("relative_error", "estimated relative error of the motions", "omega", "omega wave_direction", unit="1",
+    joined_array("near_field_drift", "the same by pressures on the hull, as a check", "omega wave",
+        "omega wave_direction wave", unit="N/m^3",
+        note="`null` unless `hull_pressures`, of a lone float in one liquid; sharp corners leave some per cent"),
+    joined_array("energy_residual", "relative difference of incident power, and outgoing and absorbed power",
+        "omega wave", "omega wave_direction wave", unit="1", short="energy", shown=".1e",
+        variable="response_energy_residual"),
+    joined_array("relative_error", "estimated relative error of the motions", "omega", "omega wave_direction", unit="1",
         short="error/largest", shown=".1e", variable="response_relative_error"),
     PLATES,
     HULLS,
@@ -279,96 +270,40 @@ RESPONSE = Group("response", "motions and waves per unit elevation of the incide
     ), dimension="missed_peak", prefix="missed_peak",
         note="those that differ by a tenth of the largest or more, of sweeps of more than six frequencies"),
 ), record=_responses, dimension="response_analysis")
-_NUMBERED = "several have one more dimension, `analysis`, in `dataset.nc`"
 RESONANCE = Group("resonance", "resonances e^{−iωt}, by analysis", (
-    _array("resonance", "number of the resonance", "resonance",
+    own_array("resonance", "number of the resonance", "resonance",
         lambda table: np.arange(1, len(table.omega) + 1, dtype=np.int32), column="resonance"),
     Quantity("labels", "dominant motion of a resonance", dimensions=("resonance",), variable="", column="label"),
-    _array("resonance_motion", "dominant motion of a resonance", "resonance",
+    own_array("resonance_motion", "dominant motion of a resonance", "resonance",
         lambda table: np.array([dof.capitalised for dof in table.labels], dtype=np.str_)),
-    _joined("omega", "complex frequency of a resonance", "resonance", unit="rad/s", symbol="ω",
+    joined_array("omega", "complex frequency of a resonance", "resonance", unit="rad/s", symbol="ω",
         variable="resonance_omega", note="with Im ω < 0"),
-    _DOFS,
+    DOFS,
     _capitalised("dof"),
-    _joined("body_amplitudes", "motion in a resonance, the dominant one 1", "resonance dof", unit="1",
+    joined_array("body_amplitudes", "motion in a resonance, the dominant one 1", "resonance dof", unit="1",
         variable="resonance_amplitude", column=""),
-    _joined("relative_error", "estimated relative error of the frequency of a resonance", "resonance", unit="1",
+    joined_array("relative_error", "estimated relative error of the frequency of a resonance", "resonance", unit="1",
         shown=".1e", variable="resonance_relative_error"),
-    _joined("residuals", "relative residual of the equations", "resonance", unit="1", shown=".1e",
+    joined_array("residuals", "relative residual of the equations", "resonance", unit="1", shown=".1e",
         variable="resonance_residual", column="residual"),
     Quantity("counted", "number of resonances in the region by an independent count", "1", note="`null` if not"),
     Quantity("region", "region of ω in which they were counted", value=lambda table: region_words(table.region)),
-), dimension="resonance_analysis", note=_NUMBERED)
+), dimension="resonance_analysis", note=NUMBERED)
 DECAY = Group("decay", "motion after release, by analysis", (
-    _joined("times", "time after release", "time", unit="s", symbol="t", shown=".6g", variable="time",
+    joined_array("times", "time after release", "time", unit="s", symbol="t", shown=".6g", variable="time",
         column="time"),
-    _DOFS,
+    DOFS,
     _capitalised("dof"),
-    _joined("displacement", "motion after release", "time dof", variable="decay_displacement", column="",
+    joined_array("displacement", "motion after release", "time dof", variable="decay_displacement", column="",
         **_MOTION),
-    _joined("initial", "motion at release", "dof", variable="decay_initial", **_MOTION),
-    _joined("absolute_error", "estimated error of the motion after release", "time",
+    joined_array("initial", "motion at release", "dof", variable="decay_initial", **_MOTION),
+    joined_array("absolute_error", "estimated error of the motion after release", "time",
         variable="decay_absolute_error", shown=".1e", **_MOTION),
-    _joined("tail", "asymptotic coefficient of 1/t^2", "", variable="decay_tail", unit="m s^2",
+    joined_array("tail", "asymptotic coefficient of 1/t^2", "", variable="decay_tail", unit="m s^2",
         of_roll=("rad s^2",), note="`null` where no tail is known"),
-    _joined("certified_until", "time to which the error of the motion after release holds", "", unit="s",
+    joined_array("certified_until", "time to which the error of the motion after release holds", "", unit="s",
         variable="decay_certified_until"),
-), dimension="decay_analysis", note=_NUMBERED)
-_CURVE = "spectrum_omega spectrum_quantity"
-SPECTRUM = Group("spectrum", "responses to irregular waves, by analysis", (
-    Quantity("waves", "spectrum of the waves", variable="spectrum_of_waves"),
-    Quantity("waves_from", 'side from which the waves come, `"left"` or `"right"`', variable=""),
-    _joined("significant_height", "significant height of the waves", "", unit="m", symbol="Hs",
-        variable="significant_wave_height"),
-    _joined("duration", "duration of the sea state", "", unit="s", variable="sea_state_duration"),
-    _array("omega", "frequencies chosen by the solver", "spectrum_omega", lambda it: it.omega, unit="rad/s",
-        variable="spectrum_omega", column="omega"),
-    _array("density", "spectrum of the waves", "spectrum_omega", lambda it: it.density, unit="m^2 s/rad",
-        variable="wave_spectrum", column="wave_spectrum"),
-    _array("quantities", "responses", "spectrum_quantity", lambda it: it.quantities, variable="spectrum_quantity"),
-    _array("transfer", "response per unit elevation, in its unit per m", _CURVE, lambda it: it.transfer,
-        variable="spectrum_transfer_function", column="", phase=_CREST),
-    _array("response_density", "spectrum of a response, in the square of its unit times s/rad", _CURVE,
-        lambda it: it.response_density, variable="response_spectrum", column="response_spectrum"),
-    _array("relative_error", "estimated relative error of the transfer functions", "spectrum_omega",
-        lambda it: it.relative_error, unit="1", variable="spectrum_relative_error", column="relative_error"),
-    Group("responses", "statistics of each response, in its unit", (
-        Quantity("quantity", "response"),
-        Quantity("unit", "its unit", short="unit"),
-        Quantity("significant_amplitude", "significant amplitude", short="significant", error="relative_error"),
-        Quantity("largest_amplitude", "most probable largest amplitude in the duration", short="largest",
-            error="relative_error"),
-        Quantity("zero_crossing_period", "zero-crossing period", "s", symbol="Tz", error="relative_error"),
-        Quantity("relative_error", "estimated relative error of the significant amplitude", "1",
-            short="relative error", shown=".1e"),
-        Quantity("sampling_error", "part of it by the sampling of the transfer function", "1", shown=".1e",
-            short="by sampling"),
-        Quantity("truncation_error", "part of it by waves beyond the frequencies", "1", shown=".1e",
-            short="by truncation"),
-        Quantity("transfer_error", "part of it by errors of the transfer function", "1", shown=".1e",
-            short="by solution"),
-    ), dimension="irregular_response", prefix="irregular_response"),
-    _joined("mean_drift_force", "mean force on the bodies along x", "", unit="N/m"),
-    _DOFS,
-    _joined("equivalent_damping", "linear damping in place of quadratic damping", _OF_BODIES, unit="kg/(m s)",
-        of_roll=("kg/s", "kg m/s")),
-    Group("plates", "largest loads along each beam", (
-        Quantity("body", "number of the body", "1", value=lambda it: it.body + 1, short="body"),
-        Quantity("largest_bending_moment", "most probable largest bending moment anywhere in the duration", "N", short="largest moment",
-            value=lambda it: float(it.largest_bending_moment.max())),
-        Quantity("at", "where that is", "m", symbol="x",
-            value=lambda it: float(it.positions[it.largest_bending_moment.argmax()])),
-        Quantity("significant_bending_moment", "largest significant amplitude of the bending moment", "N", short="significant moment",
-            value=lambda it: float(it.significant_bending_moment.max())),
-        Quantity("significant_shear_force", "largest significant amplitude of the shear force", "N/m", short="significant shear",
-            value=lambda it: float(it.significant_shear_force.max())),
-        Quantity("significant_deflection", "largest significant amplitude of the deflection", "m", short="significant deflection",
-            value=lambda it: float(it.significant_deflection.max())),
-        Quantity("largest_stress", "most probable largest stress in the duration", "N/m^2", short="largest stress",
-            value=lambda it: None if it.largest_stress is None else float(it.largest_stress.max()),
-            note="`null` without a thickness"),
-    ), dimension="spectrum_plate", prefix="spectrum_plate"),
-), dimension="spectrum_analysis", note=_NUMBERED)
+), dimension="decay_analysis", note=NUMBERED)
 THIN_FLOAT_ROWS = Group("rows", "values by the thin-float theory and by the field solution", (
     Quantity("quantity", "quantity"),
     Quantity("theory", "by the theory"),

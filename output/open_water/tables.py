@@ -18,11 +18,11 @@ from hydroelastic.output.columns import Column, headings_of, rows_of
 from hydroelastic.output.digits import beyond_error, number, per_cent, with_certain_digits
 from hydroelastic.output.open_water.bodies import bodies_section
 from hydroelastic.output.open_water.files import open_columns
+from hydroelastic.output.open_water.irregular import SPECTRUM
 from hydroelastic.output.open_water.quantities import (
     DECAY,
     RADIATION,
     RESPONSE,
-    SPECTRUM,
     THIN_FLOAT_ROWS,
     WavesAndMotions,
     region_words,
@@ -147,7 +147,9 @@ def _response(table: WavesAndMotions) -> Iterator[Section]:
         found.setdefault(column.quantity.key, []).append(column)
     first = [*found["omega"], *(found["waves"] if count > 1 else ())]
     absorbed = ("absorption",) if table.absorption.any() else ()
-    keys = ("wavenumbers", "reflection", "transmission", *absorbed, "drift_force", "energy_residual", "relative_error")
+    # Of two waves the table is as wide as a terminal without it.
+    drift = ("drift_force",) if count == 1 else ()
+    keys = ("wavenumbers", "reflection", "transmission", *absorbed, *drift, "energy_residual", "relative_error")
     ratios = [*first, *(column for key in keys for column in found[key])]
     yield Section(
         title=f"Waves from the {table.waves_from}: ratios of elevations",
@@ -258,7 +260,7 @@ def _spectrum(table: SpectrumTable) -> Iterator[Section]:
         (plates, "Largest loads along beams in irregular waves, per metre of width", ()),
     ):
         found = [group.evaluated(one) for one in group.records(table)]
-        parts = [part for part in group.parts if any(one[part.key] is not None for one in found)]
+        parts = [part for part in group.parts if part.printed and any(one[part.key] is not None for one in found)]
         if found:
             yield Section(
                 title=title,

@@ -6,13 +6,13 @@ from dataclasses import replace
 from typing import Any
 
 from hydroelastic.output.joined_variables import joined, numbered_along, record_variables
+from hydroelastic.output.open_water.irregular import SPECTRUM
 from hydroelastic.output.open_water.quantities import (
     DECAY,
     OPEN_WATER,
     RADIATION,
     RESONANCE,
     RESPONSE,
-    SPECTRUM,
     motions_of,
 )
 from hydroelastic.output.open_water.time_quantities import IMPULSE_RESPONSE, MOTION

@@ -66,7 +66,7 @@ class Response(SceneModel):
     )
     wave_amplitude: PositiveNumber | None = Field(
         default=None,
-        description="amplitude of the waves, m; needed where attachments have quadratic damping, without effect elsewhere",
+        description="amplitude of the waves, m; needed beside quadratic damping, without effect elsewhere",
     )
     hull_pressures: Annotated[bool, Strict()] = Field(
         default=False, description="whether pressures along the hulls of floats are reported, and the drift by them"

@@ -5,8 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from hydroelastic.physics import attachments as physics
 from hydroelastic.physics.beams import Beam
 from hydroelastic.physics.tank import Tank, tank
+from hydroelastic.scenes.models.attachments import Attachment
 from hydroelastic.scenes.models.bodies import Float
 from hydroelastic.scenes.models.tank_parts import TankParts
 
@@ -32,7 +34,24 @@ def physical_tank(scene: TankParts) -> Tank:
         found,
         start=scene.stretch[0],
         phase_at=scene.phase_at,
-        attachments=tuple(one.physical(scene) for one in scene.attachment),
+        attachments=tuple(_attachment(scene, one) for one in scene.attachment),
+    )
+
+
+def _attachment(scene: TankParts, one: Attachment) -> physics.Attachment:
+    point = one.at
+    if point is None:
+        from hydroelastic.scenes.models.floats import placed_float
+
+        # Without a point it holds a float, at its centre of mass.
+        point = placed_float(scene, one.body - 1).hydrostatics.centre_of_mass
+    return physics.Attachment(
+        body=one.body - 1,
+        other=None if one.to is None else one.to - 1,
+        point=point,
+        stiffness=one.stiffness,
+        damping=one.damping,
+        drag=one.quadratic_damping,
     )
 
 

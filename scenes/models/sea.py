@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, SerializerFunctionWrapHandler, Tag, model_serializer, model_validator
 
-from hydroelastic.scenes.models.attachments import Attachment, attachments_hold_bodies
+from hydroelastic.scenes.models.attachments import Attachment
 from hydroelastic.scenes.models.bodies import MOST_BODIES, AnyNumber, Beam, Float, PositiveNumber, SceneModel
 from hydroelastic.scenes.models.body_kinds import kind_of_body
 from hydroelastic.scenes.models.export import Export
@@ -15,6 +15,7 @@ from hydroelastic.scenes.models.export_checks import export_is_possible
 from hydroelastic.scenes.models.open_analyses import Analysis
 from hydroelastic.scenes.models.open_checks import drag_is_heeded
 from hydroelastic.scenes.models.problems import problem, require_fit
+from hydroelastic.scenes.models.sea_checks import attachments_hold_bodies
 from hydroelastic.scenes.models.tank_checks import STAGES
 from hydroelastic.scenes.models.tank_parts import Accuracy, Liquids, Tank, TankParts
 from hydroelastic.scenes.models.title import Title

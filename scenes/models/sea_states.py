@@ -10,13 +10,12 @@ from pydantic import Field, SerializerFunctionWrapHandler, Strict, ValidationErr
 from pydantic_core import InitErrorDetails
 
 from hydroelastic.fem.open_water.requests import SpectrumRequest
-from hydroelastic.scenes.models.bodies import LARGEST, AnyNumber, Float, PositiveNumber, SceneModel
+from hydroelastic.scenes.models.bodies import LARGEST, AnyNumber, PositiveNumber, SceneModel
 from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.values import MOST_VALUES
 
 if TYPE_CHECKING:
     from hydroelastic.physics.wave_spectrum import WaveSpectrum
-    from hydroelastic.scenes.models.tank_parts import TankParts
 
 MOST_POINTS = 50
 """Points of bodies in one analysis: each has three rows in the tables."""
@@ -76,7 +75,8 @@ class Spectrum(SceneModel):
 
         if self.waves == "table":
             return TabulatedSpectrum(omega=self.omega, values=self.density)
-        assert self.significant_height is not None and self.peak_period is not None
+        assert self.significant_height is not None
+        assert self.peak_period is not None
         enhancement = self.peak_enhancement if self.waves == "jonswap" else 1.0
         return PeakedSpectrum(height=self.significant_height, period=self.peak_period, enhancement=enhancement)
 
@@ -135,33 +135,3 @@ def _problems_of(sea: Spectrum) -> Iterator[InitErrorDetails]:
         yield problem_at(("omega",), None, "they do not ascend", allowed="two frequencies or more, each above the last")
     elif not any(sea.density):
         yield problem_at(("density",), None, "the sea is at rest", allowed="a value other than 0")
-
-
-def sea_points_lie_on_bodies(scene: TankParts) -> Iterator[InitErrorDetails]:
-    """Yield points of bodies that there are not, or that do not lie on their beam, and bands without waves."""
-    for index, analysis in enumerate(scene.analysis):
-        if not isinstance(analysis, Spectrum):
-            continue
-        for number, point in enumerate(analysis.points):
-            where = ("analysis", index, "points", number)
-            if point.body > len(scene.body):
-                yield problem_at(
-                    (*where, "body"), point.body, "there is no body of that number", allowed=f"1 to {len(scene.body)}"
-                )
-                continue
-            body = scene.body[point.body - 1]
-            if not isinstance(body, Float) and not body.start <= point.at[0] <= body.end:
-                yield problem_at(
-                    (*where, "at"),
-                    None,
-                    f"x = {point.at[0]:g} m does not lie on the beam, [[body]] number {point.body}",
-                    allowed=f"x from {body.start:g} to {body.end:g} m",
-                )
-        low = analysis.spectrum.band[0]
-        if analysis.highest_omega is not None and analysis.highest_omega <= 1.1 * low:
-            yield problem_at(
-                ("analysis", index, "highest_omega"),
-                analysis.highest_omega,
-                "hardly any waves are below it",
-                allowed=f"more than {1.1 * low:.4g} rad/s",
-            )

@@ -21,7 +21,7 @@ from hydroelastic.scenes.models.open_checks import (
     resonance_regions_are_covered_by_theory,
 )
 from hydroelastic.scenes.models.problems import problem_at
-from hydroelastic.scenes.models.sea_states import sea_points_lie_on_bodies
+from hydroelastic.scenes.models.sea_checks import sea_points_lie_on_bodies
 from hydroelastic.scenes.models.tank_parts import TankParts
 
 DEPTH_TO_LENGTH = (1e-4, 1e3)

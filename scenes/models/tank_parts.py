@@ -16,6 +16,7 @@ from pydantic import (
 )
 
 from hydroelastic.meshes.formats import FORMATS
+from hydroelastic.scenes.models.attachments import Attachment
 from hydroelastic.scenes.models.bodies import (
     LARGEST,
     SMALLEST,
@@ -29,9 +30,6 @@ from hydroelastic.scenes.models.export import Export
 from hydroelastic.scenes.models.infinity import PositiveOrInfinite
 from hydroelastic.scenes.models.open_analyses import Analysis, Resonance
 from hydroelastic.scenes.models.problems import problem
-
-if TYPE_CHECKING:
-    from hydroelastic.scenes.models.attachments import Attachment
 
 
 class Tank(SceneModel):

@@ -41,7 +41,7 @@ GUIDES = {
 }
 UNITS = (
     *("m", "s", "kg", "N", "1/s", "m²", "rad", "rad/s", "rad/m", "1/rad", "degrees", "m/s", "m/s²", "kg/m³", "kg/m²"),
-    *("kg/m", "kg·m", "kg/(m·s)", "N·m", "N·m/rad", "N·m²", "N/m", "N·s/m²", "N/m²"),
+    *("kg/m", "kg·m", "m²·s/rad", "kg/(m·s)", "N·m", "N·m/rad", "N·m²", "N/m", "N·s/m²", "N/m²"),
 )
 UNIT = re.compile(rf"(?:^|, )({'|'.join(map(re.escape, sorted(UNITS, key=len, reverse=True)))})(?=$|[;,])")
 SWEEP_TITLE = "Values as a table"

@@ -91,8 +91,8 @@ class Response(SceneModel):
     @model_serializer(mode="wrap")
     def _as_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
         """Serialize without further keys that are not given."""
-        idle = {"wave_amplitude": None, "hull_pressures": False, "fields_at": ()}
-        return {key: value for key, value in write(self).items() if key not in idle or value != idle[key]}
+        further = ("wave_amplitude", "hull_pressures", "fields_at")
+        return {key: value for key, value in write(self).items() if key not in further or value}
 
 
 class Resonance(SceneModel):

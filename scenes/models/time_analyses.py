@@ -40,7 +40,7 @@ class IncidentWave(SceneModel):
     omega: PositiveNumber = Field(description="angular frequency, rad/s")
     amplitude: PositiveNumber = Field(description="half the height from trough to crest, m")
     phase: AnyNumber = Field(
-        default=0.0, description="rad: the crest passes the middle of the first body at t = phase/omega"
+        default=0.0, description="phase, rad; the crest passes the middle of the first body at t = phase/omega"
     )
 
 

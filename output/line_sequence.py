@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
-from xml.sax.saxutils import quoteattr
 
 import numpy as np
 from numpy.typing import NDArray
+
+from hydroelastic.output.vtu import write_collection, write_vtu
 
 Frame = tuple[float, NDArray[np.float64], dict[str, NDArray[np.float64]]]
 """Time, s; points of the line, m, shape (n, 3); data at them by name."""
@@ -31,7 +32,7 @@ def write_line(file: Path, points: NDArray[np.float64], data: dict[str, NDArray[
 
     count = len(points)
     cells = [("line", np.column_stack([np.arange(count - 1), np.arange(1, count)]))] if count > 1 else []
-    meshio.Mesh(points, cells, point_data=data).write(file)
+    write_vtu(file, meshio.Mesh(points, cells, point_data=data))
 
 
 def write_sequence(folder: Path, name: str, frames: Iterable[Frame]) -> None:
@@ -46,7 +47,5 @@ def write_sequence(folder: Path, name: str, frames: Iterable[Frame]) -> None:
     for number, (time, points, data) in enumerate(frames):
         file = f"{name}_{number:06d}.vtu"
         write_line(folder / file, points, data)
-        entries.append(f'  <DataSet timestep="{time:.12g}" file={quoteattr(file)}/>')
-    text = '<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1">\n <Collection>\n'
-    text += "\n".join(entries) + "\n </Collection>\n</VTKFile>\n"
-    (folder / f"{name}.pvd").write_text(text, encoding="utf-8")
+        entries.append((time, 0, file))
+    write_collection(folder / f"{name}.pvd", entries)

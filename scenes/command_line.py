@@ -30,12 +30,18 @@ from hydroelastic.scenes.command_options import (
     set_option,
     width_option,
 )
-from hydroelastic.scenes.command_parts import NOT_TO_TOLERANCE, folder_of_results, is_first_rank, title_of_scene
+from hydroelastic.scenes.command_parts import (
+    NOT_TO_TOLERANCE,
+    file_of_scene,
+    folder_of_results,
+    is_first_rank,
+    title_of_scene,
+)
 from hydroelastic.scenes.errors import SceneError, UnsolvedError
 from hydroelastic.scenes.kinds import checker_of, comparer_of, runner_of
 from hydroelastic.scenes.program import PROGRAM
 from hydroelastic.scenes.progress import progress
-from hydroelastic.scenes.read import closed_tank, read_scene, scene_path, shipped_scenes
+from hydroelastic.scenes.read import closed_tank, read_scene, shipped_scenes
 from hydroelastic.scenes.run import page_writer
 from hydroelastic.scenes.sweep.command import sweep
 
@@ -117,7 +123,7 @@ def _print_version(context: click.Context, _parameter: click.Parameter, asked: b
 def main() -> None:
     """Natural frequencies and mode shapes of elastic bodies that float in a liquid.
 
-    A SCENE is a TOML file or the name of a shipped scene.
+    A SCENE is a TOML file, the name of a shipped scene, or - for the standard input.
 
     \b
     Example:
@@ -175,7 +181,7 @@ def run(
             images=None if no_images else options,
             page=write_page,
             out=folder,
-            scene_file=scene_path(scene),
+            scene_file=file_of_scene(scene),
             import_seconds=seconds,
             report=report,
         )
@@ -257,7 +263,7 @@ def study(
 
         measured = study_scene(tank, plan, report=report)
         if is_first_rank():
-            write_study(measured, folder, picture_options(formats, dpi=dpi), scene_file=scene_path(scene))
+            write_study(measured, folder, picture_options(formats, dpi=dpi), scene_file=file_of_scene(scene))
     click.echo(study_table(measured))
     click.echo(f"Written to {results_message(folder, replaces=replaces)}")
 
@@ -279,6 +285,19 @@ def check(scene: str, overrides: tuple[str, ...]) -> None:
 
     # Evaluated completely before printing: an error leaves no partial output.
     print_check(checked.title, tuple(checker_of(checked)(checked)), Console())
+
+
+@main.command()
+def schema() -> None:
+    """Print the JSON schema of scenes, by which editors of TOML complete and check them.
+
+    \b
+    Example:
+      hydroelastic schema > scene.schema.json
+    """
+    from hydroelastic.scenes.schema import schema_text
+
+    click.echo(schema_text(), nl=False)
 
 
 @main.command("list")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import click
+from click.shell_completion import CompletionItem
 
 from hydroelastic.output.pictures.options import (
     CURVE_FORMATS,
@@ -15,8 +16,16 @@ from hydroelastic.output.pictures.options import (
     CurveFormat,
     PictureOptions,
 )
+from hydroelastic.scenes.read import SHIPPED_FOLDER
 
-scene_argument = click.argument("scene", metavar="SCENE")
+
+def _scenes(_context: click.Context, _parameter: click.Parameter, typed: str) -> list[CompletionItem]:
+    """What a shell completes: names of shipped scenes, and files."""
+    names = sorted(path.stem for path in SHIPPED_FOLDER.glob("*.toml"))
+    return [*(CompletionItem(name) for name in names if name.startswith(typed)), CompletionItem(typed, type="file")]
+
+
+scene_argument = click.argument("scene", metavar="SCENE", shell_complete=_scenes)
 set_option = click.option(
     "--set",
     "overrides",

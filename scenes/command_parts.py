@@ -9,7 +9,7 @@ import click
 
 from hydroelastic.output.folder import check_output
 from hydroelastic.scenes.errors import Problem, SceneError, folder_errors
-from hydroelastic.scenes.read import Scene, scene_path
+from hydroelastic.scenes.read import STANDARD_INPUT, Scene, scene_path
 
 NOT_TO_TOLERANCE = 3
 """Exit code where something was not solved to its tolerance."""
@@ -18,14 +18,21 @@ RANK_VARIABLES = ("OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK")
 """Where MPI launchers say which process this is; without one there is only one process."""
 
 
+def file_of_scene(scene: str) -> Path | None:
+    """Return the file of a scene; ``None`` for the standard input."""
+    path = scene_path(scene)
+    return None if path == STANDARD_INPUT else Path(os.path.realpath(path))
+
+
 def folder_of_results(scene: str, out: Path | None, *, suffix: str = "") -> Path:
     """Return the result folder of a scene, after a check that nothing in it would be lost.
 
     Raises:
         SceneError: if the folder cannot be written, or is the default one and has the results of another scene.
     """
-    file = Path(os.path.realpath(scene_path(scene)))
-    folder = out if out is not None else Path("results") / f"{file.stem}{suffix}"
+    file = file_of_scene(scene)
+    stem = "standard_input" if file is None else file.stem
+    folder = out if out is not None else Path("results") / f"{stem}{suffix}"
     with folder_errors():
         earlier = check_output(folder)
     other = earlier.scene_file(folder) if earlier is not None else None
@@ -38,7 +45,7 @@ def folder_of_results(scene: str, out: Path | None, *, suffix: str = "") -> Path
                 wrong=f"it has the results of another scene, {other}",
                 remedy=f"Name another folder with --out; --out {folder} replaces them",
             ),
-            file=file,
+            file=file or "the standard input",
         )
     click.echo(f"Note: the results of {other} in {folder}/ will be replaced.", err=True)
     return folder

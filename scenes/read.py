@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import re
+import sys
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping
 from copy import deepcopy
@@ -42,6 +43,9 @@ SCENE_MODELS: dict[str, type[Scene]] = {
 MOST_BYTES = 20_000_000
 """Of a scene's file: 100,000 waves or points, written out, take less."""
 
+STANDARD_INPUT = Path("-")
+"""In place of a scene's file: the scene comes from the standard input; its paths start at the current folder."""
+
 SHIPPED_FOLDER = Path(__file__).resolve().parent
 
 
@@ -70,7 +74,7 @@ def shipped_scenes() -> tuple[ShippedScene, ...]:
 
 
 def scene_path(scene: str | Path) -> Path:
-    """Return the file of a scene given by its path or, for a shipped one, by its bare name.
+    """Return the file of a scene given by its path or, for a shipped one, by its bare name; `STANDARD_INPUT` for ``-``.
 
     A file of that very name comes first.
 
@@ -78,6 +82,8 @@ def scene_path(scene: str | Path) -> Path:
         SceneError: if there is no such file, or it is a folder or a device.
     """
     path = Path(scene)
+    if path == STANDARD_INPUT:
+        return path
     shipped = SHIPPED_FOLDER / f"{path}.toml"
     try:
         if path.is_file():
@@ -107,7 +113,7 @@ def read_scene(path: str | Path, overrides: Iterable[str] | Mapping[str, Any] = 
     """Read and validate a scene.
 
     Args:
-        path: a TOML file, or the bare name of a shipped scene such as ``aquarium``.
+        path: a TOML file, or the bare name of a shipped scene such as ``aquarium``, or ``-`` for the standard input.
         overrides: replacements by dotted key, made before validation; entries are numbered from 1:
             ``{"body.1.start": 2.5, "accuracy.tolerance": 1e-8}``. On the command line they are texts ``key=value``
             with TOML values, ``body.1.start=2.5``, where an unquoted word is a text.
@@ -143,7 +149,7 @@ class SceneSource:
         changes = tuple(change for some in overrides for change in _changes(some))
         for change in changes:
             _override(document, change)
-        label = str(self.file or "the scene")
+        label = _label(self.file) if self.file is not None else "the scene"
         if changes:
             label += f" with {' '.join(f'{change.option} {change.text}' for change in changes)}"
         model = _model_of(document, label)
@@ -205,16 +211,18 @@ def _misplaced(key: str, value: str, because: str, *, allowed: str, what: str) -
 
 
 def _unusable(path: Path, wrong: str, remedy: str = "") -> SceneError:
-    return SceneError(Problem(wrong=wrong, remedy=remedy), file=path)
+    return SceneError(Problem(wrong=wrong, remedy=remedy), file=_label(path))
 
 
 def _parse(file: Path) -> Document:
     try:
-        size = file.stat().st_size
+        # One byte more tells that there are too many.
+        piped = sys.stdin.buffer.read(MOST_BYTES + 1) if file == STANDARD_INPUT else None
+        size = file.stat().st_size if piped is None else len(piped)
         if size > MOST_BYTES:
             wrong = f"it is {size / 1e6:.3g} MB large, and a scene takes {MOST_BYTES / 1e6:g} MB at most"
             raise _unusable(file, wrong, "Name tables of numbers in files of their own")
-        content = file.read_bytes()
+        content = file.read_bytes() if piped is None else piped
     except OSError as error:
         raise _unusable(file, f"it cannot be read ({error.strerror})") from error
     try:
@@ -231,6 +239,11 @@ def _parse(file: Path) -> Document:
     if not document:
         raise _unusable(file, "it is empty", f"A scene begins with {_known_kinds()}")
     return document
+
+
+def _label(file: Path) -> str:
+    """What messages call a file."""
+    return "the standard input" if file == STANDARD_INPUT else str(file)
 
 
 def _mended_line(text: str, error: str) -> str:

@@ -354,3 +354,31 @@ def test_only_the_first_rank_prints(variable: str) -> None:
     silent = process("check", "missing.toml", **{variable: "1"})
     assert (silent.returncode, silent.stdout, silent.stderr) == (2, "", "")
     assert process("list", **{variable: "1"}).stdout == ""
+
+
+def test_a_scene_comes_from_the_standard_input(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    text = scene_path("sloshing").read_text(encoding="utf-8")
+    checked = CliRunner().invoke(main, ["check", "-"], input=text)
+    assert checked.exit_code == 0
+    assert checked.output == CliRunner().invoke(main, ["check", "sloshing"]).output
+    wrong = CliRunner().invoke(main, ["check", "-", "--set", "accuracy.modes=0"], input=text)
+    assert wrong.exit_code == 2
+    assert "the standard input with --set accuracy.modes=0" in wrong.output
+    empty = CliRunner().invoke(main, ["run", "-"], input="")
+    assert empty.exit_code == 2
+    assert "the standard input: it is empty" in empty.output
+    run = CliRunner().invoke(main, ["run", "-", "--no-images", "--quiet", "--set", "accuracy.modes=1"], input=text)
+    assert run.exit_code == 0
+    assert (tmp_path / "results" / "standard_input" / "summary.json").is_file()
+    assert json.loads((tmp_path / "results" / "standard_input" / "manifest.json").read_text())["scene"] == ""
+
+
+@pytest.mark.parametrize(("shell", "word"), [("bash", "complete"), ("zsh", "compdef"), ("fish", "complete")])
+def test_shells_complete_commands_and_shipped_scenes(shell: str, word: str) -> None:
+    source = CliRunner().invoke(main, [], env={"_HYDROELASTIC_COMPLETE": f"{shell}_source"}, prog_name="hydroelastic")
+    assert source.exit_code == 0
+    assert word in source.output
+    typed = {"COMP_WORDS": "hydroelastic run aqua", "COMP_CWORD": "2", "_HYDROELASTIC_COMPLETE": "bash_complete"}
+    found = CliRunner().invoke(main, [], env=typed, prog_name="hydroelastic")
+    assert found.output.split() == ["plain,aquarium", "plain,aquarium_hydrostatic", "file,aqua"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from functools import cache
 from itertools import pairwise
@@ -12,6 +13,7 @@ import meshio
 import numpy as np
 import pytest
 import pyvista
+import vtk
 import xarray
 
 from hydroelastic.meshes.files import save_mesh
@@ -275,3 +277,34 @@ def test_meshes_are_read_by_others(tmp_path: Path, suffix: str) -> None:
     areas = read.compute_cell_sizes()["Area"]
     assert areas.sum() == pytest.approx(0.5, rel=1e-14)
     np.testing.assert_array_equal(read.cell_data["gmsh:physical"], np.concatenate([mesh.facet_tags, mesh.cell_tags]))
+
+
+@pytest.mark.parametrize(
+    ("scene", "file", "units"),
+    [
+        ("sloshing", "modes.vtu", {"potential_001": "m^2", "displacement_003": "m"}),
+        ("sloshing", "bodies_002.vtu", {"displacement": "m"}),
+        ("open_plate", "response_1.vtu", {"pressure_real": "Pa", "potential_imaginary": "m^2"}),
+    ],
+)
+def test_arrays_tell_their_units(
+    scene: str, file: str, units: dict[str, str], folder_of: Callable[[str], Path]
+) -> None:
+    mesh = pyvista.read(folder_of(scene) / "fields" / file)
+    for name, unit in units.items():
+        array = mesh.point_data.VTKObject.GetArray(name)
+        assert array.GetInformation().Get(vtk.vtkDataArray.UNITS_LABEL()) == unit
+
+
+def test_modes_are_played_by_their_frequencies(folder_of: Callable[[str], Path]) -> None:
+    folder = folder_of("sloshing")
+    reader = pyvista.get_reader(folder / "fields" / "modes.pvd")
+    modes = json.loads((folder / "summary.json").read_text())["modes"]
+    # Twelve digits are written.
+    np.testing.assert_allclose(reader.time_values, [mode["omega"] for mode in modes], rtol=1e-11)
+    all_modes = pyvista.read(folder / "fields" / "bodies.vtu")
+    for number in range(1, len(modes) + 1):
+        reader.set_active_time_point(number - 1)
+        np.testing.assert_array_equal(
+            reader.read()[0].point_data["displacement"], all_modes.point_data[f"displacement_{number:03d}"]
+        )

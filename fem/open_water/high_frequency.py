@@ -45,7 +45,11 @@ class HighFrequencySeries:
 
     def hydrodynamic(self, omegas: np.ndarray) -> np.ndarray:
         """Return H at ω of shape (n,): shape (n, m, m)."""
-        return self.limit + self._sum(omegas, self.coefficients)
+        return self.limit + self.beyond_limit(omegas)
+
+    def beyond_limit(self, omegas: np.ndarray) -> np.ndarray:
+        """Return H − a(∞) at ω of shape (n,), with all digits: shape (n, m, m)."""
+        return self._sum(omegas, self.coefficients)
 
     def errors(self, omegas: np.ndarray) -> np.ndarray:
         """Return an upper estimate of |δH| of the truncated series at ω of shape (n,): shape (n, m, m)."""

@@ -9,6 +9,7 @@ from scipy.linalg import block_diag
 
 from hydroelastic.fem.open_water.basin import OpenBasin
 from hydroelastic.fem.surfaces import Body
+from hydroelastic.physics.attachments import OutsideForces
 from hydroelastic.physics.dofs import Dof, dof_names
 from hydroelastic.physics.scales import Scales
 
@@ -46,6 +47,17 @@ class MotionScale:
         """Convert a matrix of stiffnesses, shape (m, m), to N/m², to N/m for roll with heave, to N for roll."""
         return (
             self.units.density * self.units.gravity * self.units.volume * self.units.length * self._in_motions(matrix)
+        )
+
+    def outside(self, forces: OutsideForces) -> OutsideForces:
+        """Convert forces from outside on the dimensionless body unknowns to those on the motions in SI units."""
+        units = self.units
+        drag = units.density * units.gravity * units.length**3 / units.frequency**2
+        return OutsideForces(
+            stiffness=self.stiffnesses(forces.stiffness),
+            damping=self.stiffnesses(forces.damping) / units.frequency,
+            drag=drag * forces.drag,
+            paths=forces.paths @ np.linalg.inv(self.turn * self.lengths[:, None]),
         )
 
     def forces(self, forces: np.ndarray) -> np.ndarray:

@@ -58,12 +58,13 @@ def solve_radiation(problem: OpenWaterProblem, request: RadiationRequest) -> Rad
         request: frequencies and shapes.
     """
     omegas = np.array([omega for omega in request.omega if isfinite(omega) and omega > 0.0])
-    shapes = _reported_shapes(open_basin(problem.tank, 0.0).tank, request.elastic_modes)
+    shapes = reported_shapes(open_basin(problem.tank, 0.0).tank, request.elastic_modes)
     attempt = _swept(problem, omegas, shapes) if len(omegas) else None
     return _tabulated(problem, request, shapes, attempt)
 
 
-def _reported_shapes(tank: Tank, elastic: int) -> tuple[int, ...]:
+def reported_shapes(tank: Tank, elastic: int) -> tuple[int, ...]:
+    """Return the number of shapes of each body, with the rigid ones and some elastic ones of each beam; 0 of floats."""
     return tuple(len(body.rigid_motions) + elastic if body.is_elastic else 0 for body in tank.bodies)
 
 

@@ -149,7 +149,9 @@ class RayIntegral:
             fast = high_frequency_series(
                 lambda omegas: self._solver.hydrodynamics(omegas**2), high * self._ray.turned, self._limit
             )
-            added, slow = self._added(radii, fast, infinitely_deep=infinitely_deep)
+            added, slow = hydrodynamics_along_ray(
+                self._solver, self._ray, radii, self._band, fast, infinitely_deep=infinitely_deep
+            )
             weights = self._ray_weights(radii)
             motion = _summed(times, radii, self._ray, self._integrand(radii, added) * weights[:, None])
         with self._watch.stage("errors"):
@@ -205,22 +207,6 @@ class RayIntegral:
         pushed = np.abs(inverse @ (stiffness @ self._initial[restored]))
         moved: np.ndarray = np.einsum("nij,njk,nk->ni", np.abs(inverse), own(errors), pushed) * np.abs(omegas)[:, None]
         return moved
-
-    def _added(
-        self, radii: np.ndarray, fast: HighFrequencySeries, *, infinitely_deep: bool
-    ) -> tuple[np.ndarray, LowFrequencySeries | None]:
-        """Return H at all points, and its low-frequency series."""
-        low, high = self._band
-        omegas = radii * self._ray.turned
-        slow = (
-            low_frequency_series(lambda few: self._solver.hydrodynamics(few**2), low * self._ray.turned)
-            if infinitely_deep
-            else None
-        )
-        first = np.searchsorted(radii, low) if slow else 0
-        last = np.searchsorted(radii, high, side="right")
-        parts = [self._solver.hydrodynamics(omegas[first:last] ** 2), fast.hydrodynamic(omegas[last:])]
-        return np.concatenate([slow.hydrodynamic(omegas[:first]), *parts] if slow else parts), slow
 
     def _integrand(self, radii: np.ndarray, added: np.ndarray) -> np.ndarray:
         """E at p = conj(−iω), shape (points, body unknowns)."""
@@ -289,6 +275,34 @@ class RayIntegral:
             truncation=np.zeros(len(times)),
             rounding=of_elements("rounding"),
         )
+
+
+def hydrodynamics_along_ray(
+    solver: OpenSolver,
+    ray: Ray,
+    radii: np.ndarray,
+    band: tuple[float, float],
+    fast: HighFrequencySeries,
+    *,
+    infinitely_deep: bool,
+) -> tuple[np.ndarray, LowFrequencySeries | None]:
+    """Return H at |ω| of shape (n,) along a ray, shape (n, m, m), and its low-frequency series (collective).
+
+    Args:
+        solver: solves on a reduced basis, dimensionless.
+        ray: the ray.
+        radii: |ω|, ascending.
+        band: lowest and highest frequency of the mesh; beyond these H is that of the series.
+        fast: the high-frequency series.
+        infinitely_deep: whether all liquids are, so that H has a low-frequency series.
+    """
+    low, high = band
+    omegas = radii * ray.turned
+    slow = low_frequency_series(lambda few: solver.hydrodynamics(few**2), low * ray.turned) if infinitely_deep else None
+    first = np.searchsorted(radii, low) if slow else 0
+    last = np.searchsorted(radii, high, side="right")
+    parts = [solver.hydrodynamics(omegas[first:last] ** 2), fast.hydrodynamic(omegas[last:])]
+    return np.concatenate([slow.hydrodynamic(omegas[:first]), *parts] if slow else parts), slow
 
 
 def _summed(times: np.ndarray, radii: np.ndarray, ray: Ray, weighed: np.ndarray) -> np.ndarray:

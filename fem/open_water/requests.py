@@ -94,6 +94,55 @@ class DecayRequest:
 
 
 @dataclass(frozen=True, kw_only=True)
+class ImpulseResponseRequest:
+    """Impulse response functions of radiation.
+
+    Attributes:
+        times: times after the impulse, s.
+        elastic_modes: number of elastic shapes of each beam.
+    """
+
+    kind: ClassVar = "impulse_response"
+    times: tuple[float, ...]
+    elastic_modes: int = 4
+
+
+@dataclass(frozen=True, kw_only=True)
+class RegularWave:
+    """An incident wave A cos(ωt − phase) at the middle of the first body.
+
+    Attributes:
+        omega: ω, rad/s.
+        amplitude: A, m.
+        phase: rad.
+    """
+
+    omega: float
+    amplitude: float
+    phase: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class MotionRequest:
+    """Motions over time in waves that begin at t = 0, from rest.
+
+    Attributes:
+        times: ascending, s.
+        waves: the incident waves.
+        waves_from: the side from which they come.
+        ramp: time in which they grow to their height, s.
+        elastic_modes: number of elastic shapes of each beam.
+    """
+
+    kind: ClassVar = "motion"
+    times: tuple[float, ...]
+    waves: tuple[RegularWave, ...]
+    waves_from: Literal["left", "right"] = "left"
+    ramp: float = 0.0
+    elastic_modes: int = 4
+
+
+@dataclass(frozen=True, kw_only=True)
 class SpectrumRequest:
     """Statistics of the response to irregular waves.
 
@@ -125,4 +174,15 @@ class SpectrumRequest:
         return low, min(high, self.highest or high)
 
 
-Request: TypeAlias = RadiationRequest | ResponseRequest | ResonanceRequest | DecayRequest | SpectrumRequest
+OVER_TIME = (ImpulseResponseRequest, MotionRequest)
+"""Requests that need the memory of the water."""
+
+Request: TypeAlias = (
+    RadiationRequest
+    | ResponseRequest
+    | ResonanceRequest
+    | DecayRequest
+    | SpectrumRequest
+    | ImpulseResponseRequest
+    | MotionRequest
+)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from typing import Literal, TypeAlias
 
 import numpy as np
@@ -11,10 +12,16 @@ import numpy as np
 from hydroelastic.fem.kept_tolerance import kept_tolerance
 from hydroelastic.fem.memory import release_memory
 from hydroelastic.fem.open_water.decay import DecaySolution, solve_decay
+from hydroelastic.fem.open_water.impulse_response import ImpulseResponseSolution, solve_impulse_response
+from hydroelastic.fem.open_water.motion import MotionSolution, solve_motion
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import RadiationSolution, solve_radiation
+from hydroelastic.fem.open_water.radiation_memory import WaterMemory, solve_memory
 from hydroelastic.fem.open_water.requests import (
+    OVER_TIME,
     DecayRequest,
+    ImpulseResponseRequest,
+    MotionRequest,
     RadiationRequest,
     Request,
     ResponseRequest,
@@ -31,11 +38,23 @@ from hydroelastic.fem.open_water.results import (
 )
 from hydroelastic.fem.open_water.spectrum import SpectrumSolution, solve_spectrum
 from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.time_domain.results import ImpulseResponseTable, MotionTable
 
 # Factor of the tolerance for energy and Haskind residuals, which are of first order in the error of the field.
 _POWER = 10.0
 
-_Solution: TypeAlias = RadiationSolution | ResponseSolution | ResonanceSolution | DecaySolution | SpectrumSolution
+_Solution: TypeAlias = (
+    RadiationSolution
+    | ResponseSolution
+    | ResonanceSolution
+    | DecaySolution
+    | SpectrumSolution
+    | ImpulseResponseSolution
+    | MotionSolution
+)
+_Table: TypeAlias = (
+    RadiationTable | ResponseTable | ResonanceTable | DecayTable | SpectrumTable | ImpulseResponseTable | MotionTable
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,6 +67,8 @@ class OpenWaterSolution:
         resonance: one for each resonance analysis.
         decay: one for each decay analysis.
         spectrum: one for each spectrum analysis.
+        impulse_response: one for each impulse response analysis.
+        motion: one for each motion analysis.
         size: "cells", "dofs" (unknowns of ψ) and "degree" of the largest problem that was solved.
         seconds: time by stage.
         reasons: why the solution does not keep the tolerance or is incomplete; empty if it does.
@@ -58,6 +79,8 @@ class OpenWaterSolution:
     resonance: tuple[ResonanceTable, ...] = ()
     decay: tuple[DecayTable, ...] = ()
     spectrum: tuple[SpectrumTable, ...] = ()
+    impulse_response: tuple[ImpulseResponseTable, ...] = ()
+    motion: tuple[MotionTable, ...] = ()
     size: dict[str, int]
     seconds: dict[str, float]
     reasons: tuple[str, ...] = ()
@@ -86,15 +109,22 @@ def solve_open_water(
         EigenSolverError: if resonances cannot be found.
         UnstableFloatError: if a float that is released would capsize.
         DriftingFloatError: if a float that is released would drift away.
+        UnsolvedMotionError: if a motion in waves grows without bound.
     """
-    tables: list[RadiationTable | ResponseTable | ResonanceTable | DecayTable | SpectrumTable] = []
+    tables: list[_Table] = []
     size = {"cells": 0, "dofs": 0, "degree": 0}
     reasons: list[str] = []
     found = [one.band for one in requests if isinstance(one, RadiationRequest | ResponseRequest | SpectrumRequest)]
     problem = replace(problem, bands=tuple(band for band in found if band is not None))
+    latest = max((max(one.times) for one in requests if isinstance(one, OVER_TIME)), default=0.0)
+
+    @cache
+    def memory(elastic_modes: int) -> WaterMemory:
+        return solve_memory(problem, latest, elastic_modes)
+
     for number, request in enumerate(requests, 1):
         report(f"analysis {number}: {request.kind}")
-        solution = _solved(problem, request)
+        solution = _solved(problem, request, memory)
         # The tables alone: a model holds its mesh and matrices.
         tables.append(solution.table)
         if solution.model is not None and solution.model.pencil.size > size["dofs"]:
@@ -112,13 +142,16 @@ def solve_open_water(
         resonance=tuple(one for one in tables if isinstance(one, ResonanceTable)),
         decay=tuple(one for one in tables if isinstance(one, DecayTable)),
         spectrum=tuple(one for one in tables if isinstance(one, SpectrumTable)),
+        impulse_response=tuple(one for one in tables if isinstance(one, ImpulseResponseTable)),
+        motion=tuple(one for one in tables if isinstance(one, MotionTable)),
         size=size,
         seconds=dict(problem.watch.seconds),
         reasons=tuple(reasons),
     )
 
 
-def _solved(problem: OpenWaterProblem, request: Request) -> _Solution:
+def _solved(problem: OpenWaterProblem, request: Request, memory: Callable[[int], WaterMemory]) -> _Solution:
+    """Solve one analysis; the memory of the water, by the elastic modes, serves several."""
     if problem.tank.geometry.is_revolved:
         from hydroelastic.fem.open_water.orders import solve_by_order
 
@@ -132,6 +165,10 @@ def _solved(problem: OpenWaterProblem, request: Request) -> _Solution:
             return solve_decay(problem, request)
         case SpectrumRequest():
             return solve_spectrum(problem, request)
+        case ImpulseResponseRequest():
+            return solve_impulse_response(request, memory(request.elastic_modes))
+        case MotionRequest():
+            return solve_motion(problem, request, memory(request.elastic_modes))
         case _:
             return solve_resonance(problem, request)
 

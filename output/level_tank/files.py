@@ -11,6 +11,7 @@ from hydroelastic.output.csv_files import write_csv
 from hydroelastic.output.level_tank.quantities import MODES
 from hydroelastic.output.level_tank.sample import SampledModes, SampledTank
 from hydroelastic.output.quantities import Quantity
+from hydroelastic.output.vtu import write_vtu
 
 
 def write_level_tank(tank: SampledTank, folder: Path) -> None:
@@ -38,10 +39,10 @@ def write_surface(sample: SampledModes, file: Path) -> None:
         data[f"displacement_{name}"] = upwards.copy()
     points = np.column_stack([sample.points, np.zeros(len(sample.points))])
     cells = [("triangle", sample.triangles)]
-    meshio.write(file, meshio.Mesh(points, cells, point_data=data, cell_data={"plate": [sample.plate_of_triangles]}))
+    write_vtu(file, meshio.Mesh(points, cells, point_data=data, cell_data={"plate": [sample.plate_of_triangles]}))
 
 
 def write_volume(sample: SampledModes, file: Path) -> None:
     """Write ψ of each mode in the liquid."""
     data = {f"potential_{name}": potential for name, potential in zip(sample.names, sample.potentials, strict=True)}
-    meshio.write(file, meshio.Mesh(sample.volume_points, [sample.volume_cells], point_data=data))
+    write_vtu(file, meshio.Mesh(sample.volume_points, [sample.volume_cells], point_data=data))

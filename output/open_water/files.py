@@ -19,6 +19,7 @@ from hydroelastic.output.open_water.quantities import (
     RESONANCE,
     RESPONSE,
 )
+from hydroelastic.output.open_water.time_quantities import IMPULSE_RESPONSE, MOTION
 from hydroelastic.output.quantities import Group
 
 ROWS = {
@@ -27,6 +28,8 @@ ROWS = {
     "resonance": ("resonance",),
     "decay": ("time",),
     "spectrum": ("spectrum_omega",),
+    "impulse_response": ("impulse_time",),
+    "motion": ("motion_time",),
 }
 """Dimensions whose places are the rows of the tables of an analysis."""
 _DEFLECTION = Group(
@@ -51,20 +54,21 @@ _PRESSURE = Group(
 )
 
 
-def open_columns(group: Group, table: Any) -> Iterator[Column]:
-    """Yield the columns of the table of an analysis."""
+def open_columns(group: Group, table: Any, rows: tuple[str, ...] = ()) -> Iterator[Column]:
+    """Yield the columns of the table of an analysis; its rows are those of `ROWS`, if no others are given."""
     motions = dict.fromkeys(("influenced_dof", "radiating_dof", "dof"), table.dofs)
     waves = dict.fromkeys(("wave", "outgoing_wave"), getattr(table, "waves", ()))
     motions["spectrum_quantity"] = getattr(table, "quantities", ())
     partial = getattr(table, "partial_waves", None)
     orders = [f"order_{number}" for number in range(0 if partial is None else partial.shape[-1])]
     labels = {**motions, **waves, "wave_direction": ("from_left", "from_right"), "azimuthal_order": orders}
-    return columns_of(group, table, ROWS[group.key], labels)
+    return columns_of(group, table, rows or ROWS[group.key], labels)
 
 
 def write_open_csv(solution: Any, folder: Path) -> None:
     """Write ``radiation.csv``, ``response.csv``, ``deflection.csv``, ``pressure.csv``, ``resonance.csv``,
-    ``decay.csv`` and ``spectrum.csv``.
+    ``decay.csv``, ``spectrum.csv``, ``motion.csv``, ``impulse_response.csv`` and, with what this gives back in the
+    frequency domain, ``impulse_response_check.csv``.
 
     Those without rows are left out. The column ``analysis`` counts analyses of a kind from 1; ``re_`` and ``im_`` are
     the parts of a complex number; of a matrix, the first name is the force and the second the motion, or the wave that
@@ -75,7 +79,7 @@ def write_open_csv(solution: Any, folder: Path) -> None:
         solution: the solution.
         folder: an existing folder.
     """
-    groups = (RADIATION, RESPONSE, RESONANCE, DECAY, SPECTRUM)
+    groups = (RADIATION, RESPONSE, RESONANCE, DECAY, SPECTRUM, IMPULSE_RESPONSE, MOTION)
     files = {
         group.key: csv_columns((number, open_columns(group, one)) for number, one in enumerate(group.of(solution), 1))
         for group in groups
@@ -89,6 +93,10 @@ def write_open_csv(solution: Any, folder: Path) -> None:
         (number, columns_of(_PRESSURE, hull, ("omega", "wave", ALONG_HULL), {}))
         for number, table in enumerate(RESPONSE.of(solution), 1)
         for hull in table.pressures
+    )
+    files["impulse_response_check"] = csv_columns(
+        (number, open_columns(IMPULSE_RESPONSE, table, ("impulse_omega",)))
+        for number, table in enumerate(IMPULSE_RESPONSE.of(solution), 1)
     )
     for name, columns in files.items():
         if columns["analysis"]:

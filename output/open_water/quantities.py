@@ -17,6 +17,7 @@ from hydroelastic.fem.open_water.results import DIRECTIONS, Complexes, Floats, R
 from hydroelastic.output.open_water.bodies import BODIES
 from hydroelastic.output.open_water.declarations import CREST, DOFS, NUMBERED, OF_BODIES, joined_array, own_array
 from hydroelastic.output.open_water.irregular import SPECTRUM
+from hydroelastic.output.open_water.time_quantities import IMPULSE_RESPONSE, MOTION
 from hydroelastic.output.provenance import PROCESSES
 from hydroelastic.output.quantities import Group, Quantity
 from hydroelastic.physics.dofs import Dof, body_name
@@ -360,7 +361,7 @@ def _of_scene(key: str, meaning: str, value: Callable[[Any], Any], unit: str | N
 
 
 OPEN_WATER = Group("", "open water", (
-    BODIES, RADIATION, RESPONSE, RESONANCE, DECAY, SPECTRUM, ESTIMATES,
+    BODIES, RADIATION, RESPONSE, RESONANCE, DECAY, SPECTRUM, IMPULSE_RESPONSE, MOTION, ESTIMATES,
     Group("size", "size of the largest problem", (
         Quantity("cells", "number of cells", "1"),
         Quantity("dofs", "number of unknowns of ψ", "1"),

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import ceil, pi
+from math import pi
 from typing import Any
-
-import numpy as np
 
 from hydroelastic.fem.open_water.results import (
     DecayTable,
@@ -29,14 +27,13 @@ from hydroelastic.output.open_water.quantities import (
     WavesAndMotions,
     region_words,
 )
+from hydroelastic.output.open_water.shown_rows import MOST_ROWS, largest, shown_rows
+from hydroelastic.output.open_water.time_tables import sections_over_time
 from hydroelastic.output.provenance import Summary
 from hydroelastic.output.quantities import Group
 from hydroelastic.output.sections import Row, Section
 from hydroelastic.output.whole_units import of_whole_solids
 from hydroelastic.physics.dofs import Dof
-
-MOST_ROWS = 25
-"""Largest number of rows of a table; longer ones are shown at equal distances."""
 
 _MOST_MOTIONS = 4
 
@@ -60,6 +57,7 @@ def open_sections(solution: Any, summary: Summary) -> Iterator[Section]:
         yield _decay(decay)
     for spectrum in SPECTRUM.of(solution):
         yield from _spectrum(spectrum)
+    yield from sections_over_time(solution)
     if solution.left_out:
         yield Section(title="Left out of the model", lines=solution.left_out)
     yield from _estimates(solution.endless_float, summary)
@@ -118,8 +116,8 @@ def open_cost(summary: Summary) -> str:
 def _radiation(table: RadiationTable, group: Group) -> Iterator[Section]:
     """One table for each motion: the diagonals of a and b, and the excitation by waves from the left."""
     several = len(table.waves) > 1
-    shown, thinned = _shown(len(table.omega), "frequencies", "radiation.csv")
-    worst = f"Largest residuals: energy {_largest(table.energy_residual)}, Haskind {_largest(table.haskind_residual)}."
+    shown, thinned = shown_rows(len(table.omega), "frequencies", "radiation.csv")
+    worst = f"Largest residuals: energy {largest(table.energy_residual)}, Haskind {largest(table.haskind_residual)}."
     further = (
         "Coupling of motions, phases and waves from the right: radiation.csv and dataset.nc.",
         f"{worst} {table.factorizations} factorizations.",
@@ -145,7 +143,7 @@ def _response(table: WavesAndMotions, group: Group) -> Iterator[Section]:
     """Outgoing waves and motions of the bodies for each incident wave."""
     count = len(table.waves)
     places = max(MOST_ROWS // count, 2)
-    shown, thinned = _shown(len(table.omega), "frequencies", "response.csv", places=places)
+    shown, thinned = shown_rows(len(table.omega), "frequencies", "response.csv", places=places)
     rows = [place * count + wave for place in shown for wave in range(count)]
     found: dict[str, list[Column]] = {}
     for column in open_columns(group, table):
@@ -224,7 +222,7 @@ def _counted(table: ResonanceTable) -> str:
 
 
 def _decay(table: DecayTable) -> Section:
-    shown, thinned = _shown(len(table.times), "times", "decay.csv")
+    shown, thinned = shown_rows(len(table.times), "times", "decay.csv")
     columns = {column.name: column for column in open_columns(DECAY, table)}
     time, error = columns.pop("time"), columns.pop("absolute_error")
     # Released motions are first.
@@ -275,19 +273,3 @@ def _spectrum(table: SpectrumTable) -> Iterator[Section]:
                 rows=[tuple(part.cell(one, group) for part in parts) for one in found],
                 lines=lines,
             )
-
-
-def _shown(count: int, what: str, file: str, places: int = MOST_ROWS) -> tuple[list[int], tuple[str, ...]]:
-    """Return the rows that are shown, at equal distances with the first and the last one, and a note on the others."""
-    if count <= places:
-        return list(range(count)), ()
-    least = ceil((count - 1) / (places - 1))
-    # With a few rows less all distances may be equal.
-    stride = next((step for step in range(least, ceil(1.5 * least)) if (count - 1) % step == 0), least)
-    rows = sorted({*range(0, count, stride), count - 1})
-    return rows, (f"{len(rows)} of {count} {what}; all of them are in {file}.",)
-
-
-def _largest(values: np.ndarray) -> str:
-    known = np.abs(values[np.isfinite(values)])
-    return f"{known.max():.1e}" if known.size else "–"

@@ -15,10 +15,11 @@ from hydroelastic.output.open_water.quantities import (
     RESPONSE,
     motions_of,
 )
+from hydroelastic.output.open_water.time_quantities import IMPULSE_RESPONSE, MOTION
 from hydroelastic.output.variables import Variable, array_variables
 from hydroelastic.output.whole_units import of_whole_solids
 
-_GROUPS = (RADIATION, RESPONSE, RESONANCE, DECAY, SPECTRUM)
+_GROUPS = (RADIATION, RESPONSE, RESONANCE, DECAY, SPECTRUM, IMPULSE_RESPONSE, MOTION)
 
 COMMENT = "exp(-i omega t); per metre of width; x along the waves, heave upwards, roll anticlockwise"
 """Signs and units of all arrays."""
@@ -27,17 +28,19 @@ COMMENT = "exp(-i omega t); per metre of width; x along the waves, heave upwards
 def open_variables(solution: Any) -> list[Variable]:
     """Return the arrays of a solution, several analyses of a kind joined by their frequencies and wave directions.
 
-    A dimension `wave` is there only where waves travel on two levels, `analysis` only with several resonance or decay
-    analyses.
+    A dimension `wave` is there only where waves travel on two levels, `analysis` only with several analyses of
+    another kind than radiation and response.
     """
-    motions = motions_of(*solution.radiation) or motions_of(*solution.response, *solution.spectrum)
-    others = motions_of(*solution.resonance, *solution.decay)
+    motions = motions_of(*solution.radiation, *solution.impulse_response) or motions_of(
+        *solution.response, *solution.spectrum
+    )
+    others = motions_of(*solution.resonance, *solution.decay, *solution.motion)
     with_rolls = any(dof.is_rotation for dof in (*motions, *others))
     parts = {
         group.key: [list(record_variables(group, one, with_rolls=with_rolls)) for one in group.of(solution)]
         for group in (map(of_whole_solids, _GROUPS) if solution.tank.geometry.is_whole else _GROUPS)
     }
-    for kind in ("resonance", "decay", "spectrum"):
+    for kind in ("resonance", "decay", "spectrum", "impulse_response", "motion"):
         if len(parts[kind]) > 1:
             parts[kind] = [list(numbered_along("analysis", part, number)) for number, part in enumerate(parts[kind], 1)]
     names, other_names = ([dof.capitalised for dof in dofs] for dofs in (motions, others))

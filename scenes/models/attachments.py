@@ -7,6 +7,7 @@ from typing import Annotated, Any, TypeAlias
 from pydantic import BeforeValidator, Field, SerializerFunctionWrapHandler, Strict, model_serializer
 
 from hydroelastic.scenes.models.bodies import LARGEST, AnyNumber, SceneModel
+from hydroelastic.scenes.models.values import OrElse
 
 _NOTHING = ((0.0, 0.0, 0.0),) * 3
 
@@ -18,8 +19,10 @@ def _as_matrix(value: Any) -> Any:
     return value
 
 
+_DIAGONAL = {"type": "array", "items": {"type": "number"}, "minItems": 3, "maxItems": 3}
+
 Triple: TypeAlias = tuple[AnyNumber, AnyNumber, AnyNumber]
-Matrix: TypeAlias = Annotated[tuple[Triple, Triple, Triple], BeforeValidator(_as_matrix)]
+Matrix: TypeAlias = Annotated[tuple[Triple, Triple, Triple], BeforeValidator(_as_matrix), OrElse(_DIAGONAL)]
 NotNegative: TypeAlias = Annotated[float, Strict(), Field(ge=0, le=LARGEST)]
 
 

@@ -104,6 +104,11 @@ UNIFORM_KEYS = ("length", "flexural_rigidity", "mass_per_length")
 """What a beam without sections is given by."""
 
 
+def _sections_may_stand_for_means(schema: dict[str, Any]) -> None:
+    """Require in the JSON schema only what a beam of sections has too."""
+    schema["required"] = ["start"] if "start" in schema["required"] else []
+
+
 class Beam(SceneModel):
     """An Euler–Bernoulli beam without draught that floats on a liquid: uniform, or of uniform sections.
 
@@ -113,6 +118,8 @@ class Beam(SceneModel):
     Raises:
         SceneError: if sections stand beside the keys of a uniform beam.
     """
+
+    model_config = ConfigDict(json_schema_extra=_sections_may_stand_for_means)
 
     kind: Literal["beam"] = Field(default="beam", description="kind of the body")
     at: Level | None = Field(

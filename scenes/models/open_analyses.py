@@ -15,12 +15,26 @@ from pydantic import (
     model_validator,
 )
 
-from hydroelastic.fem.open_water.requests import DecayRequest, RadiationRequest, ResonanceRequest, ResponseRequest
+from hydroelastic.fem.open_water.requests import (
+    DecayRequest,
+    RadiationRequest,
+    ResonanceRequest,
+    ResponseRequest,
+)
 from hydroelastic.scenes.models.bodies import AnyNumber, PositiveNumber, SceneModel
 from hydroelastic.scenes.models.infinity import ZeroOrMoreOrInfinite
 from hydroelastic.scenes.models.problems import problem
 from hydroelastic.scenes.models.sea_states import Spectrum
-from hydroelastic.scenes.models.values import DISTINCT, MOST_VALUES, OR_SWEEP, NumberFromZero, kind_of
+from hydroelastic.scenes.models.time_analyses import ImpulseResponse, Motion
+from hydroelastic.scenes.models.values import (
+    DISTINCT,
+    MOST_VALUES,
+    OR_SWEEP,
+    ElasticModes,
+    NumberFromZero,
+    OrElse,
+    kind_of,
+)
 
 MOST_FIELDS = 20
 """Frequencies of one analysis whose fields are written and drawn."""
@@ -33,9 +47,7 @@ class Radiation(SceneModel):
     omega: Annotated[tuple[ZeroOrMoreOrInfinite, ...], *DISTINCT] = Field(
         description=f"frequencies, rad/s, {OR_SWEEP}; 0 for very long waves, inf for the limit of infinite frequency"
     )
-    elastic_modes: Annotated[int, Strict(), Field(ge=0, le=200)] = Field(
-        default=4, description="how many elastic shapes of each beam are reported"
-    )
+    elastic_modes: ElasticModes = Field(default=4, description="how many elastic shapes of each beam are reported")
 
     @property
     def request(self) -> RadiationRequest:
@@ -130,7 +142,7 @@ class Decay(SceneModel):
     """The motion of a released float."""
 
     kind: Literal["decay"] = Field(default="decay", description="kind of the analysis")
-    displacement: Annotated[Release, BeforeValidator(_as_heave)] = Field(
+    displacement: Annotated[Release, BeforeValidator(_as_heave), OrElse({"type": "number"})] = Field(
         description="displacement from which the float is released: heave in m, or a table {heave, roll} in m and rad"
     )
     body: Annotated[int, Strict(), Field(ge=1, le=1000)] = Field(
@@ -150,7 +162,9 @@ Analysis: TypeAlias = Annotated[
     | Annotated[Response, Tag("response")]
     | Annotated[Resonance, Tag("resonance")]
     | Annotated[Decay, Tag("decay")]
-    | Annotated[Spectrum, Tag("spectrum")],
+    | Annotated[Spectrum, Tag("spectrum")]
+    | Annotated[ImpulseResponse, Tag("impulse_response")]
+    | Annotated[Motion, Tag("motion")],
     Discriminator(kind_of),
 ]
 """Any analysis: the key ``kind`` tells which."""

@@ -9,13 +9,15 @@ from pydantic_core import InitErrorDetails
 
 from hydroelastic.fem.open_water.region import MOST_DAMPING_ANYWHERE
 from hydroelastic.scenes.models.body_kinds import AnyFloat
-from hydroelastic.scenes.models.open_analyses import Decay, Resonance, Response
+from hydroelastic.scenes.models.open_analyses import Decay, Motion, Resonance, Response
 from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.solids import SOLID_SHAPES, SolidFloat
 from hydroelastic.scenes.models.tank_parts import TankParts
 
 SLOWEST, FASTEST = 1e-6, 1e3
 """Frequencies in √(g/length), with the length that is drawn, between which waves can be meshed beside bodies."""
+_OF_SECTIONS = ("spectrum", "impulse_response", "motion")
+"""Analyses of sections only."""
 
 
 def closed_tanks_have_no_open_water_keys(scene: TankParts) -> Iterator[InitErrorDetails]:
@@ -83,6 +85,7 @@ def frequencies_and_times_can_be_resolved(scene: TankParts) -> Iterator[InitErro
     for index, analysis in enumerate(scene.analysis if scene.is_open else ()):
         for key, values in (
             ("omega", getattr(analysis, "omega", ())),
+            ("waves", [wave.omega for wave in analysis.request.waves] if isinstance(analysis, Motion) else ()),
             ("below", [value for value in [getattr(analysis, "below", None)] if value is not None]),
         ):
             wrong = [value for value in values if 0.0 < value < slowest or fastest < value < inf]
@@ -154,9 +157,10 @@ def bodies_are_all_sections_or_all_solids(scene: TankParts) -> Iterator[InitErro
                 remedy="Put sections and solids into scenes of their own",
             )
     for index, analysis in enumerate(scene.analysis if scene.is_revolved else ()):
-        if analysis.kind == "spectrum" or getattr(analysis, "hull_pressures", False):
+        is_refused = analysis.kind in _OF_SECTIONS
+        if is_refused or getattr(analysis, "hull_pressures", False):
             yield problem_at(
-                ("analysis", index, "kind" if analysis.kind == "spectrum" else "hull_pressures"),
+                ("analysis", index, "kind" if is_refused else "hull_pressures"),
                 analysis.kind,
                 "it is computed for sections only, and the bodies are solids of revolution",
                 remedy="Leave it out",

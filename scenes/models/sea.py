@@ -10,6 +10,8 @@ from pydantic import Discriminator, Field, SerializerFunctionWrapHandler, Tag, m
 from hydroelastic.scenes.models.attachments import Attachment
 from hydroelastic.scenes.models.bodies import MOST_BODIES, AnyNumber, Beam, Float, PositiveNumber, SceneModel
 from hydroelastic.scenes.models.body_kinds import AnyFloat, kind_of_sea_body
+from hydroelastic.scenes.models.export import Export
+from hydroelastic.scenes.models.export_checks import export_is_possible
 from hydroelastic.scenes.models.open_analyses import Analysis
 from hydroelastic.scenes.models.open_checks import drag_is_heeded
 from hydroelastic.scenes.models.problems import problem, require_fit
@@ -96,6 +98,7 @@ class SeaScene(TankParts):
     )
     analysis: tuple[Analysis, ...] = Field(default=(), description="what is asked; one resonance analysis if empty")
     accuracy: Accuracy = Field(default=Accuracy(), description="what is asked of the answer")
+    export: Export | None = Field(default=None, description="files for other programs, of open water")
 
     @property
     def mesh(self) -> None:
@@ -123,7 +126,7 @@ class SeaScene(TankParts):
 
     @model_validator(mode="after")
     def _parts_fit(self) -> SeaScene:
-        require_fit(self, (*STAGES, (attachments_hold_bodies, drag_is_heeded)))
+        require_fit(self, (*STAGES, (attachments_hold_bodies, drag_is_heeded, export_is_possible)))
         return self
 
 

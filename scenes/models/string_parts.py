@@ -18,7 +18,7 @@ from hydroelastic.scenes.models.bodies import AnyNumber, PositiveNumber, SceneMo
 from hydroelastic.scenes.models.folder import SceneInFolder
 from hydroelastic.scenes.models.number_files import read_columns
 from hydroelastic.scenes.models.title import Title
-from hydroelastic.scenes.models.values import OR_SWEEP, NumberFromZero, Sweep, ascending_values, kind_of
+from hydroelastic.scenes.models.values import OR_SWEEP, NumberFromZero, OrElse, Sweep, ascending_values, kind_of
 
 if TYPE_CHECKING:
     from hydroelastic.physics.string import HangingString as PhysicalString
@@ -49,7 +49,7 @@ class HangingString(SceneModel):
 
     length: PositiveNumber = Field(description="length of the string, m")
     linear_density: PositiveNumber = Field(description="ρ, mass of the string per length, kg/m")
-    resistance: Annotated[Resistance, BeforeValidator(_uniform)] = Field(
+    resistance: Annotated[Resistance, BeforeValidator(_uniform), OrElse({"type": "number"})] = Field(
         default=Resistance(bottom=0.0, top=0.0),
         description="λ, half of the drag per length and velocity (the drag is 2λ ∂U/∂t), kg/(m·s), or a table "
         "{bottom, top} between which it varies linearly",

@@ -8,6 +8,8 @@ from pydantic import Field, model_validator
 
 from hydroelastic.scenes.models.bodies import MOST_BODIES
 from hydroelastic.scenes.models.body_kinds import Body
+from hydroelastic.scenes.models.export import Export
+from hydroelastic.scenes.models.export_checks import export_is_possible
 from hydroelastic.scenes.models.open_analyses import Analysis
 from hydroelastic.scenes.models.problems import require_fit
 from hydroelastic.scenes.models.tank_checks import STAGES
@@ -35,6 +37,7 @@ class TankScene(TankParts):
         default=(), description='what is asked of open water, one resonance analysis if empty; none with ends = "walls"'
     )
     accuracy: Accuracy = Field(default=Accuracy(), description="what is asked of the answer")
+    export: Export | None = Field(default=None, description="files for other programs, of open water")
     mesh: MeshFile | None = Field(default=None, description="a mesh of your own")
 
     @property
@@ -44,5 +47,5 @@ class TankScene(TankParts):
 
     @model_validator(mode="after")
     def _parts_fit(self) -> TankScene:
-        require_fit(self, STAGES)
+        require_fit(self, (*STAGES, (export_is_possible,)))
         return self

@@ -27,6 +27,7 @@ from hydroelastic.scenes.models.bodies import (
     SceneModel,
 )
 from hydroelastic.scenes.models.body_kinds import AnyBeam, AnyFloat
+from hydroelastic.scenes.models.export import Export
 from hydroelastic.scenes.models.infinity import PositiveOrInfinite
 from hydroelastic.scenes.models.open_analyses import Analysis, Resonance
 from hydroelastic.scenes.models.problems import problem
@@ -175,6 +176,10 @@ class TankParts(SceneModel):
         def mesh(self) -> MeshFile | None:
             """A mesh by the user."""
 
+        @property
+        def export(self) -> Export | None:
+            """Files for other programs."""
+
     def model_post_init(self, context: Any) -> None:
         """Keep the folder of the scene file, to which paths of outlines are relative, and the file's name in messages.
 
@@ -270,5 +275,6 @@ class TankParts(SceneModel):
 
     @model_serializer(mode="wrap")
     def _without_idle_keys(self, written: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        """Leave out an empty list of analyses."""
-        return {key: value for key, value in written(self).items() if key != "analysis" or value}
+        """Leave out an empty list of analyses, and files for other programs that are not asked for."""
+        idle = ("analysis", "export")
+        return {key: value for key, value in written(self).items() if key not in idle or value}

@@ -2,10 +2,21 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import AfterValidator, BeforeValidator, Field, Strict, ValidationError, model_validator
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    BeforeValidator,
+    Field,
+    GetJsonSchemaHandler,
+    Strict,
+    ValidationError,
+    model_validator,
+)
+from pydantic_core import CoreSchema
 
 from hydroelastic.scenes.errors import scene_error
 from hydroelastic.scenes.models.bodies import LARGEST, SMALLEST, SceneModel
@@ -16,6 +27,25 @@ MOST_VALUES = 10000
 
 MOST_SWEPT = 1_000_000
 """Values of any sweep."""
+
+
+ElasticModes: TypeAlias = Annotated[int, Strict(), Field(ge=0, le=200)]
+
+
+@dataclass(frozen=True)
+class OrElse:
+    """Another form of a value, for the JSON schema of scenes.
+
+    Attributes:
+        form: its schema, or the model of a table.
+    """
+
+    form: dict[str, Any] | type[BaseModel]
+
+    def __get_pydantic_json_schema__(self, own: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        """Return the schema of either form."""
+        other = self.form if isinstance(self.form, dict) else handler(self.form.__pydantic_core_schema__)
+        return {"anyOf": [handler(own), other]}
 
 
 NumberFromZero: TypeAlias = Annotated[float, Strict(), Field(ge=0, le=LARGEST)]
@@ -91,6 +121,7 @@ def _going_up(values: tuple[float, ...]) -> tuple[float, ...]:
 
 DISTINCT = (
     BeforeValidator(_expanded),
+    OrElse(Sweep),
     AfterValidator(_all_different),
     Field(min_length=1, max_length=MOST_VALUES),
 )
@@ -101,7 +132,7 @@ OR_SWEEP = "or a table {start, stop, number, spacing} of them"
 
 def ascending_values(most: int) -> tuple[Any, ...]:
     """Return the type of an ascending list of at most ``most`` places or times."""
-    return BeforeValidator(_expanded), AfterValidator(_going_up), Field(min_length=1, max_length=most)
+    return BeforeValidator(_expanded), OrElse(Sweep), AfterValidator(_going_up), Field(min_length=1, max_length=most)
 
 
 def kind_of(entry: Any) -> str:

@@ -9,7 +9,15 @@ from hydroelastic.modal.liquid.travelling_waves import travelling_waves
 from hydroelastic.modal.tank_estimates import two_layers
 from hydroelastic.output.open_water.tables import infinite_draught_message
 from hydroelastic.output.sections import Section
-from hydroelastic.scenes.models.open_analyses import Analysis, Decay, Radiation, Resonance, Response
+from hydroelastic.scenes.models.open_analyses import (
+    Analysis,
+    Decay,
+    ImpulseResponse,
+    Motion,
+    Radiation,
+    Resonance,
+    Response,
+)
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.sea_states import Spectrum
 from hydroelastic.scenes.models.tank_parts import TankParts
@@ -73,6 +81,12 @@ def _request(scene: TankParts, analysis: Analysis) -> str:
             if value
         ]
         return f"decay: float {analysis.body} is released at {' and '.join(motions)}; {_span(analysis.times, 'time')} s"
+    if isinstance(analysis, ImpulseResponse):
+        return f"impulse response: of the radiated waves at {_span(analysis.times, 'time')} s"
+    if isinstance(analysis, Motion):
+        return (
+            f"motion: from rest in {analysis.words}, from the {analysis.waves_from}; {_span(analysis.times, 'time')} s"
+        )
     if isinstance(analysis, Spectrum):
         return (
             f"spectrum: statistics of the responses in {analysis.duration:g} s of irregular waves from the "

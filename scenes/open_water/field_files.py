@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from hydroelastic.fem.open_water.field_samples import SampledField
+from hydroelastic.output.vtu import write_vtu
 from hydroelastic.scenes.tank.body_file import displacement_of, write_bodies
 
 
@@ -29,7 +30,7 @@ def _write_field(field: SampledField, folder: Path) -> None:
     data = _parts("potential", field.potential) | _parts("pressure", field.pressure) | _parts("displacement", moved)
     points = np.column_stack([field.points, np.zeros(len(field.points))])
     mesh = meshio.Mesh(points, [("triangle", field.triangles)], point_data=data, cell_data={"liquid": [field.liquid]})
-    meshio.write(folder / f"{field.name}.vtu", mesh)
+    write_vtu(folder / f"{field.name}.vtu", mesh)
 
 
 def _write_bodies(field: SampledField, folder: Path) -> None:

@@ -15,6 +15,7 @@ from hydroelastic.output.pictures.curves import COLOURS, GREY, Sheets, label_axe
 from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.scenes.open_water.results import OpenSolution
+from hydroelastic.scenes.open_water.time_figures import by_unit, draw_over_time
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -51,6 +52,7 @@ def draw_open(solution: OpenSolution, folder: Path, options: PictureOptions) -> 
         _draw_decay(decay, sheets, f"decay_{number}")
     for number, spectrum in enumerate(solution.spectrum, 1):
         _draw_spectrum(spectrum, sheets, f"spectrum_{number}")
+    draw_over_time(solution, sheets)
 
 
 def _draw_spectrum(table: SpectrumTable, sheets: Sheets, name: str) -> None:
@@ -81,7 +83,7 @@ def _draw_radiation(table: RadiationTable, sheets: Sheets, name: str, is_whole: 
     if not len(order):
         return
     omega = table.omega[order]
-    rows = _by_unit(table.dofs)
+    rows = by_unit(table.dofs)
     heading = "added mass, radiation damping, force per metre of waves from the left"
     with sheets.sheet(name, heading, width=15.0, height=0.9 + 4.9 * len(rows)) as figure:
         panels = figure.subplots(len(rows), 3, squeeze=False)
@@ -125,7 +127,7 @@ def _draw_response(table: ResponseTable, sheets: Sheets, name: str) -> None:
     order = np.argsort(table.omega)
     largest = np.argsort(-np.abs(table.amplitudes).max(axis=(0, 1)), kind="stable")
     largest = largest[: max(_MOST_CURVES // len(table.waves), 1)]
-    groups = [(turns, [place for place in places if place in largest]) for turns, places in _by_unit(table.dofs)]
+    groups = [(turns, [place for place in places if place in largest]) for turns, places in by_unit(table.dofs)]
     groups = [(turns, places) for turns, places in groups if places]
     heading = f"response per metre of waves from the {table.waves_from}"
     with sheets.sheet(name, heading, width=5.5 * (1 + len(groups)), height=6.0) as figure:
@@ -236,7 +238,7 @@ def _draw_decay(table: DecayTable, sheets: Sheets, name: str) -> None:
     released = int(np.argmax(np.abs(table.initial)))
     order = np.argsort(table.times)
     times, displacement = table.times[order], table.displacement[order]
-    groups = [(turns, _moving(displacement, places, table)) for turns, places in _by_unit(table.dofs)]
+    groups = [(turns, _moving(displacement, places, table)) for turns, places in by_unit(table.dofs)]
     groups = [(turns, places) for turns, places in groups if places]
     heading = f"free motion after release in {table.dofs[released].words}"
     with sheets.sheet(name, heading, width=6.0 * (1 + len(groups))) as figure:

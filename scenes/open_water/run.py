@@ -19,6 +19,7 @@ from hydroelastic.output.open_water.tables import open_cost, open_sections
 from hydroelastic.output.open_water.variables import COMMENT, open_variables
 from hydroelastic.output.pictures.options import OF_CURVES, OF_FIELDS, OF_MOTIONS, PictureOptions
 from hydroelastic.output.provenance import Summary
+from hydroelastic.scenes.open_water.export import write_exports
 from hydroelastic.scenes.open_water.field_files import write_fields
 from hydroelastic.scenes.open_water.figures import draw_open
 from hydroelastic.scenes.open_water.physics import open_water_problem
@@ -71,6 +72,7 @@ def _plans(problem: OpenWaterProblem, solution: OpenSolution) -> tuple[PlanWaves
 
 def _write(water: SampledWater, folder: Path) -> None:
     write_open_csv(water.solution, folder)
+    write_exports(water.solution, folder / "export")
     write_fields(water.fields, folder / "fields")
 
 

@@ -8,6 +8,7 @@ from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.open_water.decay import DriftingFloatError, UnstableFloatError
 from hydroelastic.fem.open_water.solve import solve_open_water
 from hydroelastic.fem.stopwatch import Report, Stopwatch
+from hydroelastic.fem.time_domain.motion import UnsolvedMotionError
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
 from hydroelastic.scenes.models.tank_parts import TankParts
@@ -20,7 +21,7 @@ def solve_open(scene: TankParts, comm: MPI.Comm, report: Report) -> OpenSolution
 
     Raises:
         SceneError: if no mesh can be made, or a float that is released would capsize or drift away.
-        UnsolvedError: if resonances cannot be found.
+        UnsolvedError: if resonances cannot be found, or a motion in waves grows without bound.
     """
     requests = tuple(analysis.request for analysis in scene.analyses)
     try:
@@ -30,6 +31,8 @@ def solve_open(scene: TankParts, comm: MPI.Comm, report: Report) -> OpenSolution
         raise SceneError(problem) from error
     except EigenSolverError as error:
         raise UnsolvedError(f"the eigen-solver failed: {error}") from error
+    except UnsolvedMotionError as error:
+        raise UnsolvedError(f"a motion in waves grows without bound: {error}") from error
     except UnstableFloatError:
         wrong, remedy = "a float is unstable and would capsize", "Lower its centre of mass"
     except DriftingFloatError as error:

@@ -125,6 +125,16 @@ def _open_water(summary: Summary) -> Iterator[Row]:
         name += ", rad" if motion.is_rotation else ", m"
         yield _of_absolute(name, table["displacement"][back][released], table["absolute_error"][back])
 
+    for table in summary["impulse_response"]:
+        for place, dof in enumerate(map(Dof, table["dofs"][:_MOST_MODES])):
+            unit = "kg·m" if dof.is_rotation else "kg/m"
+            quantity = f"added mass of {dof.words} at infinite frequency, {unit}"
+            yield _row(quantity, table["infinite_frequency_added_mass"][place][place], table["relative_error"])
+    for table in summary["motion"]:
+        for place, dof in enumerate(map(Dof, table["dofs"][:_MOST_MODES])):
+            quantity = f"largest {dof.words} in waves, {'rad' if dof.is_rotation else 'm'}"
+            yield _row(quantity, table["largest"][place], table["relative_error"])
+
 
 def _largest_damping(table: Summary) -> Iterator[Row]:
     """The largest damping of each motion of a rigid body, at finite frequencies."""

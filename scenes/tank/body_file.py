@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.fem.pictures.mode import FloatSection, SurfaceCurve
+from hydroelastic.output.vtu import write_vtu
 
 # Numbers of the array `part`.
 _CURVES = {"free_surface": 1, "interface": 2, "body": 3}
@@ -63,4 +64,4 @@ def write_bodies(
         count += len(section.contour)
     shifted = np.concatenate(points) + np.array([start, 0.0, 0.0])
     mesh = meshio.Mesh(shifted, cells, point_data=dict(arrays), cell_data={"part": parts})
-    meshio.write(path, mesh)
+    write_vtu(path, mesh)

@@ -96,7 +96,7 @@ def _write(tank: SampledTank, folder: Path) -> None:
     from hydroelastic.scenes.tank.shapes import write_fields
 
     assert tank.shapes is not None
-    write_fields(tank.shapes, folder / "fields")
+    write_fields(tank.shapes, [mode["omega"] for mode in tank.summary["modes"]], folder / "fields")
     write_csv(folder / "modes.csv", mode_columns(tank.summary))
 
 

@@ -12,6 +12,7 @@ from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.tank.mode_shapes import ModeShapes
 from hydroelastic.output.pictures.options import PictureOptions
 from hydroelastic.output.provenance import Summary
+from hydroelastic.output.vtu import write_collection, write_vtu
 from hydroelastic.scenes.tank.body_file import displacement_of, write_bodies
 
 # Number of lowest modes that are always shown.
@@ -95,11 +96,17 @@ def draw_all(shapes: ModeShapes, summary: Summary, folder: Path, options: Pictur
         animate_mode(drawn[place], folder / f"mode_{place + 1:03d}.gif", width=options.animation_width)
 
 
-def write_fields(shapes: ModeShapes, folder: Path) -> None:
+def write_fields(shapes: ModeShapes, omegas: list[float], folder: Path) -> None:
     """Write the shape of every mode as VTU files for ParaView, in metres.
 
     ``modes.vtu`` has ψ, ∇ψ and the number of each cell's liquid; ``bodies.vtu``, of surfaces, beams and floats, their
-    displacements under the same names.
+    displacements under the same names. ``modes.pvd`` plays the modes, ``bodies_001.vtu`` and so on, by their
+    frequencies.
+
+    Args:
+        shapes: of the modes.
+        omegas: frequencies of those that do not grow, rad/s.
+        folder: a new folder.
     """
     folder.mkdir()
     data = {}
@@ -116,10 +123,15 @@ def write_fields(shapes: ModeShapes, folder: Path) -> None:
         cell_data={"liquid": [shapes.liquid.liquid]},
     )
     # Compressed it would be a quarter smaller, and take as long as the solution.
-    meshio.write(folder / "modes.vtu", mesh, compression=None)
+    write_vtu(folder / "modes.vtu", mesh, compression=None)
     moved = {
         f"displacement_{name}": displacement_of(curves, floats)
         for name, curves, floats in zip(mode_names(shapes), shapes.curves, shapes.floats, strict=True)
     }
     if moved:
         write_bodies(folder / "bodies.vtu", shapes.curves[0], shapes.floats[0], moved)
+        files = {f"bodies_{name}.vtu": moved[f"displacement_{name}"] for name in mode_names(shapes)[: len(omegas)]}
+        for file, displacement in files.items():
+            write_bodies(folder / file, shapes.curves[0], shapes.floats[0], {"displacement": displacement})
+        entries = sorted(zip(omegas, files, strict=True))
+        write_collection(folder / "modes.pvd", [(omega, 0, file) for omega, file in entries])

@@ -1,0 +1,47 @@
+"""Impulse response functions of radiation over time, in SI units."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hydroelastic.fem.open_water.field_model import OpenModel
+from hydroelastic.fem.open_water.radiation_memory import WaterMemory
+from hydroelastic.fem.open_water.requests import ImpulseResponseRequest
+from hydroelastic.fem.time_domain.results import ImpulseResponseTable
+
+
+@dataclass(frozen=True, kw_only=True)
+class ImpulseResponseSolution:
+    """Result of an impulse response analysis.
+
+    Attributes:
+        table: the results in SI units.
+        model: the last field model.
+        error: the largest relative error, that of causality among them.
+    """
+
+    table: ImpulseResponseTable
+    model: OpenModel
+    error: float
+
+
+def solve_impulse_response(request: ImpulseResponseRequest, water: WaterMemory) -> ImpulseResponseSolution:
+    """Return the impulse responses of radiation, by the memory of the water."""
+    times = np.array(request.times)
+    table = ImpulseResponseTable(
+        times=times,
+        dofs=water.dofs,
+        impulse_response=water.memory.impulse_response(times),
+        infinite_frequency_added_mass=water.memory.infinite_frequency_added_mass,
+        omega=water.omega,
+        added_mass=water.memory.added_mass(water.omega),
+        radiation_damping=water.memory.radiation_damping(water.omega),
+        causality_error=water.causality_error,
+        ogilvie_error=water.ogilvie_error,
+        relative_error=water.error,
+    )
+    return ImpulseResponseSolution(
+        table=table, model=water.model, error=max(water.error, float(water.causality_error.max()))
+    )

@@ -1,0 +1,95 @@
+"""Motions of bodies in waves over time, in SI units: the frequency domain gives what Cummins' equation needs.
+
+Excitation forces are those of a radiation analysis at the frequencies of the waves, added mass at infinite frequency
+and impulse responses those of `radiation_memory`; a(ω) and b(ω) of the former check the latter.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hydroelastic.fem.open_water.field_model import OpenModel
+from hydroelastic.fem.open_water.problem import OpenWaterProblem
+from hydroelastic.fem.open_water.radiation import solve_radiation
+from hydroelastic.fem.open_water.radiation_memory import WaterMemory
+from hydroelastic.fem.open_water.requests import MotionRequest, RadiationRequest
+from hydroelastic.fem.time_domain.motion import MovingBodies, WaveForces
+from hydroelastic.fem.time_domain.results import MotionTable
+
+# Errors of the steps of the integration, relative to the tolerance.
+_STEPS = 1e-3
+
+
+@dataclass(frozen=True, kw_only=True)
+class MotionSolution:
+    """Result of a motion analysis.
+
+    Attributes:
+        table: the results in SI units.
+        model: the last field model.
+        error: the largest relative error of forces, added mass and causality.
+    """
+
+    table: MotionTable
+    model: OpenModel
+    error: float
+
+
+def solve_motion(problem: OpenWaterProblem, request: MotionRequest, water: WaterMemory) -> MotionSolution:
+    """Solve for the motion from rest in waves (collective).
+
+    Args:
+        problem: the open water.
+        request: waves and times.
+        water: the memory of the water.
+
+    Raises:
+        UnsolvedMotionError: if it grows without bound.
+    """
+    omega, amplitude, phase = (
+        np.array([getattr(wave, name) for wave in request.waves]) for name in ("omega", "amplitude", "phase")
+    )
+    times = np.array(request.times)
+    distinct, place = np.unique(omega, return_inverse=True)
+    asked = RadiationRequest(omega=tuple(distinct.tolist()), elastic_modes=request.elastic_modes)
+    radiation = solve_radiation(problem, asked)
+    table = radiation.table
+    middle = sum(problem.tank.bodies[0].waterplane) / 2.0 - problem.tank.phase_at
+    direction = 0 if request.waves_from == "left" else 1
+    # The given phases are those at the first body.
+    travelled = (1.0, -1.0)[direction] * table.wavenumbers[place, 0] * middle
+    waves = amplitude * np.exp(1j * phase)
+    forces = WaveForces(
+        omega=omega,
+        forces=table.excitation_force[place, 0, direction] * (waves * np.exp(-1j * travelled))[:, None],
+        ramp=request.ramp,
+    )
+    bodies = MovingBodies(
+        memory=water.memory,
+        inertia=table.inertia,
+        stiffness=table.stiffness,
+        outside=water.model.scale.outside(water.model.outside),
+    )
+    displacement, velocity = bodies.motion(forces, times, _STEPS * problem.tolerance)
+    turning = np.exp(-1j * np.outer(times, omega))
+    error = max(radiation.error, water.error, float(water.causality_error.max()))
+    return MotionSolution(
+        table=MotionTable(
+            times=times,
+            dofs=table.dofs,
+            waves_from=request.waves_from,
+            wave_omega=omega,
+            wave_amplitude=amplitude,
+            wave_phase=phase,
+            ramp=request.ramp,
+            elevation=(turning @ waves).real,
+            displacement=displacement,
+            velocity=velocity,
+            steady=(turning @ bodies.steady(forces)).real,
+            relative_error=error,
+        ),
+        model=water.model,
+        error=error,
+    )

@@ -1,0 +1,208 @@
+"""The memory of the waves that bodies radiate: H along a ray of complex frequencies, as exponentials in time.
+
+H on a reduced basis of solutions on the ray and on the real axis, with the series `low_frequency` and `high_frequency`
+beyond the mesh, gives the exponentials of `fem/time_domain/radiation_memory.py`. H on the real axis, which does not
+enter these, tells the error: where H is analytic between the real axis and the ray, and a∞ of the problem with ψ = 0
+on the free surface is its limit, both agree. A resonance of the water between the bodies in between would show there.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import pi, sqrt
+
+import numpy as np
+
+from hydroelastic.fem.open_water.attempts import best_over_band
+from hydroelastic.fem.open_water.basin import open_basin
+from hydroelastic.fem.open_water.field_model import ANGLE, ANGLE_OVER_A_BED, Band, OpenModel, open_model
+from hydroelastic.fem.open_water.high_frequency import arc, high_frequency_series, highest_meshed_frequency
+from hydroelastic.fem.open_water.infinite_frequency import infinite_frequency_added_mass
+from hydroelastic.fem.open_water.low_frequency import is_infinitely_deep, lowest_meshed_frequency
+from hydroelastic.fem.open_water.motion_scale import motion_scale
+from hydroelastic.fem.open_water.problem import OpenWaterProblem
+from hydroelastic.fem.open_water.radiation import relative_difference, reported_shapes
+from hydroelastic.fem.open_water.ray import Ray, hydrodynamics_along_ray
+from hydroelastic.fem.open_water.results import Complexes, Floats
+from hydroelastic.fem.open_water.solver import OpenSolver
+from hydroelastic.fem.open_water.sweep import Problem, sweep
+from hydroelastic.fem.tank.attempts import Attempt
+from hydroelastic.fem.tank.error_estimates import FrequencyErrors, joined_errors
+from hydroelastic.fem.tank.field_model import whole_bodies
+from hydroelastic.fem.tank.resolution import Resolution
+from hydroelastic.fem.time_domain.radiation_memory import RadiationMemory, memory_on_ray, ray_radii
+from hydroelastic.physics.dofs import Dof
+from hydroelastic.physics.tank import Tank
+
+# Points of the ray, of the arc beyond it and of the real axis at which the basis must be accurate.
+_ON_RAY, _ON_ARC, _ON_AXIS = 40, 12, 20
+# Error of the trapezoidal rule along the ray.
+_RULE = 1e-9
+# Ends of the ray, as multiples of 1/t and of the highest frequency of the mesh.
+_LOWER, _HIGHER = 1e-3, 1e8
+
+
+@dataclass(frozen=True, kw_only=True)
+class WaterMemory:
+    """The memory of the water around bodies. Shapes: m motions, c frequencies.
+
+    Attributes:
+        memory: the exponentials and a∞, SI units per metre of width.
+        dofs: m degrees of freedom.
+        omega: frequencies of the check, rad/s, shape (c,).
+        hydrodynamic: a + i b/ω there, not by the memory, shape (c, m, m).
+        model: the field model.
+        error: estimated relative error of H on the ray and of a∞.
+    """
+
+    memory: RadiationMemory
+    dofs: tuple[Dof, ...]
+    omega: Floats
+    hydrodynamic: Complexes
+    model: OpenModel
+    error: float
+
+    @property
+    def by_memory(self) -> Complexes:
+        """a + i b/ω by the memory at the frequencies of the check, shape (c, m, m)."""
+        limit = self.memory.infinite_frequency_added_mass
+        values: Complexes = limit + 1j * self.memory.transform(self.omega) / self.omega[:, None, None]
+        return values
+
+    @property
+    def causality_error(self) -> Floats:
+        """Largest difference of both, relative to the largest |a + i b/ω| of both motions, shape (c,)."""
+        return self._largest(np.abs(self.by_memory - self.hydrodynamic))
+
+    @property
+    def ogilvie_error(self) -> Floats:
+        """Largest difference of a(ω) + (1/ω) ∫ K sin ωt dt from a∞, relative to the same, shape (c,)."""
+        return self._largest(np.abs((self.by_memory - self.hydrodynamic).real))
+
+    def _largest(self, differences: Floats) -> Floats:
+        sizes = np.sqrt(np.abs(np.einsum("cii->ci", self.hydrodynamic)).max(axis=0))
+        largest: Floats = (differences / np.outer(sizes, sizes)).max(axis=(1, 2))
+        return largest
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Found:
+    """The memory at one resolution, and H on the real axis, in SI units."""
+
+    memory: RadiationMemory
+    model: OpenModel
+    omega: np.ndarray
+    hydrodynamic: np.ndarray
+
+
+def solve_memory(problem: OpenWaterProblem, latest: float, elastic_modes: int) -> WaterMemory:
+    """Return the memory of the water, to the tolerance of the problem (collective).
+
+    Args:
+        problem: the open water.
+        latest: the last time at which it is wanted, s.
+        elastic_modes: number of elastic shapes of each beam.
+    """
+    long = open_basin(problem.tank, 0.0)
+    shapes = reported_shapes(long.tank, elastic_modes)
+    matrix, limit_error = infinite_frequency_added_mass(problem, shapes)
+    latest = max(latest, 1.0 / long.units.frequency)
+    bodies = whole_bodies(long.tank, shapes)
+    scale = motion_scale(long, bodies)
+    limit = scale.masses(matrix)
+    band = memory_band(problem.tank, problem.tolerance, latest, elastic_modes)
+    deep = is_infinitely_deep(problem.tank)
+    scaling = ANGLE if deep else ANGLE_OVER_A_BED
+    # Halfway between the real axis and the continuous spectrum of deep water, arg ω = −α/2.
+    ray = Ray(angle=0.25 * scaling, gap=0.25 * scaling)
+
+    def solve(resolution: Resolution) -> Attempt[_Found]:
+        model = open_model(problem, band, replace(resolution, shapes=shapes), angle=scaling)
+        unit = model.basin.units.frequency
+        low, high = band.lowest / unit, band.highest / unit
+        solver = OpenSolver(model, problem.watch)
+        causes: list[FrequencyErrors] = []
+
+        def full(omega: complex) -> np.ndarray:
+            radiated = solver.radiation(omega**2)
+            added = model.pencil.products(model.pencil.loads.astype(complex), radiated)
+            causes.append(model.errors(radiated, np.abs(np.diag(added))))
+            return added
+
+        # Lower ones change K at later times only.
+        axis = np.geomspace(max(low, 1.0 / (latest * unit)), high, _ON_AXIS)
+        along = np.geomspace(low, high, _ON_RAY) * ray.turned
+        chosen = np.concatenate([along, arc(high * ray.turned, _ON_ARC)[:-1], axis])
+        hydrodynamics = Problem(
+            full=full, reduced=lambda omega: solver.hydrodynamic(omega**2), difference=relative_difference
+        )
+        swept = sweep(hydrodynamics, chosen, problem.tolerance)
+        with problem.watch.stage("memory"):
+            far = model.scale.unknown_masses(limit)
+            fast = high_frequency_series(lambda omegas: solver.hydrodynamics(omegas**2), high * ray.turned, far)
+            radii = ray_radii(min(_LOWER / (latest * unit), 1e-4 * low), _HIGHER * high, ray.angle, _RULE)
+            added, _ = hydrodynamics_along_ray(solver, ray, radii, (low, high), fast, infinitely_deep=deep)
+            is_short = radii > high
+            beyond = np.concatenate([added[~is_short] - far, fast.beyond_limit(radii[is_short] * ray.turned)])
+            if not deep:
+                beyond = _with_long_waves(beyond, -1j * radii * ray.turned, int(np.searchsorted(radii, low)))
+            masses = model.scale.masses
+            memory = memory_on_ray(
+                np.array([masses(one) for one in beyond]),
+                limit,
+                radii * unit,
+                ray.angle,
+                start=masses(fast.coefficients[0]) * band.highest**2,
+                quickest=band.highest,
+            )
+        found = _Found(
+            memory=memory,
+            model=model,
+            omega=axis * unit,
+            hydrodynamic=np.array([masses(one) for one in solver.hydrodynamics(axis**2)]),
+        )
+        return Attempt(
+            result=found, causes=joined_errors(causes, float(swept.errors.max()) + limit_error), resolution=resolution
+        )
+
+    attempt = best_over_band(problem, band, solve)
+    found = attempt.result
+    return WaterMemory(
+        memory=found.memory,
+        dofs=scale.dofs,
+        omega=found.omega,
+        hydrodynamic=found.hydrodynamic,
+        model=found.model,
+        error=attempt.error,
+    )
+
+
+def _with_long_waves(beyond: np.ndarray, p: np.ndarray, first: int) -> np.ndarray:
+    """H − a∞ over a bed, shape (k, m, m), with K̂ = c₀ + c₁p, c₀ = lim b and c₁ real, below the first meshed one of p.
+
+    Waves longer than those of the mesh are not absorbed, and b would vanish with them.
+    """
+    meshed = p[first] * beyond[first]
+    slope = meshed.imag / p[first].imag
+    start = meshed.real - slope * p[first].real
+    long = start / p[:first, None, None] + slope
+    return np.concatenate([long, beyond[first:]])
+
+
+def memory_band(water: Tank, tolerance: float, latest: float, elastic_modes: int) -> Band:
+    """Return the range of frequencies that the mesh resolves.
+
+    The highest frequency is that of waves as short as the bodies, or as the shortest shape of a beam.
+
+    Args:
+        water: open water in SI units.
+        tolerance: largest relative error that is accepted.
+        latest: the last time at which the memory is wanted, s.
+        elastic_modes: number of elastic shapes of each beam.
+    """
+    narrowest = min(
+        (body.waterplane[1] - body.waterplane[0]) / (elastic_modes + 1 if body.is_elastic else 1)
+        for body in water.bodies
+    )
+    fastest = sqrt(pi * water.gravity / narrowest)
+    return Band(lowest=lowest_meshed_frequency(water, latest), highest=highest_meshed_frequency(fastest, tolerance))

@@ -1,0 +1,92 @@
+"""Results of the analyses over time, in SI units: of sections per metre of width, of bodies of revolution whole."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from hydroelastic.fem.time_domain.radiation_memory import Floats
+from hydroelastic.physics.dofs import Dof
+
+
+@dataclass(frozen=True, kw_only=True)
+class ImpulseResponseTable:
+    """Impulse response functions of radiation. Shapes: n times, c frequencies, m motions.
+
+    Attributes:
+        times: (n,) s, not negative.
+        dofs: m degrees of freedom.
+        impulse_response: (n, m, m) K; entry (i, j) is the force in i after a jump of displacement in j, N/m, of width.
+        infinite_frequency_added_mass: (m, m) a∞.
+        omega: (c,) rad/s.
+        added_mass: (c, m, m) a∞ − (1/ω) ∫ K sin ωt dt.
+        radiation_damping: (c, m, m) ∫ K cos ωt dt.
+        causality_error: (c,) largest difference of a + i b/ω by K and by the solution at that frequency, relative to
+            the largest |a + i b/ω| of both motions.
+        ogilvie_error: (c,) the same of a∞ by Ogilvie's relation and by the limit of infinite frequency.
+        relative_error: estimated relative error of H, from which K is made.
+    """
+
+    times: Floats
+    dofs: tuple[Dof, ...]
+    impulse_response: Floats
+    infinite_frequency_added_mass: Floats
+    omega: Floats
+    added_mass: Floats
+    radiation_damping: Floats
+    causality_error: Floats
+    ogilvie_error: Floats
+    relative_error: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class MotionTable:
+    """Motions in waves over time, from rest. Shapes: n times, w waves, m motions.
+
+    Attributes:
+        times: (n,) s.
+        dofs: m degrees of freedom.
+        waves_from: the side from which the waves come.
+        wave_omega: (w,) rad/s.
+        wave_amplitude: (w,) m.
+        wave_phase: (w,) rad: η = Σ A cos(ωt − phase) at the middle of the first body.
+        ramp: time in which the waves grow, s.
+        elevation: (n,) m, there, without the bodies.
+        displacement: (n, m) m or rad.
+        velocity: (n, m) m/s or rad/s.
+        steady: (n, m) m or rad, in the same waves without a beginning, by the frequency domain; drag is linear
+            there.
+        relative_error: estimated relative error of the forces and of the added mass.
+    """
+
+    times: Floats
+    dofs: tuple[Dof, ...]
+    waves_from: str
+    wave_omega: Floats
+    wave_amplitude: Floats
+    wave_phase: Floats
+    ramp: float
+    elevation: Floats
+    displacement: Floats
+    velocity: Floats
+    steady: Floats
+    relative_error: float
+
+    @cached_property
+    def _grown(self) -> np.ndarray:
+        """Whether the waves have grown, or all times if none is later, shape (n,)."""
+        later: np.ndarray = self.times >= self.ramp
+        return later if later.any() else np.ones_like(later)
+
+    @property
+    def standard_deviation(self) -> Floats:
+        """Of each motion after the ramp, about its mean, shape (m,)."""
+        return self.displacement[self._grown].std(axis=0)
+
+    @property
+    def largest(self) -> Floats:
+        """The largest |displacement| after the ramp, shape (m,)."""
+        sizes: Floats = np.abs(self.displacement[self._grown]).max(axis=0)
+        return sizes

@@ -1,0 +1,81 @@
+"""Numeric output files of WAMIT: ``.1`` added mass and damping, ``.3`` excitation, ``.4`` motions, ``.hst`` stiffness.
+
+    .1      PER I J  A/(ρLᵏ)  B/(ρωLᵏ)           PER = −1 at ω = 0 and 0 at ω = ∞, both without B
+    .3      PER BETA I  |X| arg X Re X Im X      X/(ρgLᵐ) per unit elevation, degrees
+    .4      PER BETA I  |ξ| arg ξ Re ξ Im ξ      ξ/Lⁿ per unit elevation
+    .hst    I J  C/(ρgLᵏ)
+
+with L = 1 m. WAMIT's time factor is e^{iωt}: complex numbers are the conjugates of those of e^{−iωt}, and phases are
+relative to a wave whose crest is at x = 0 at t = 0. Motions of body n are 6(n − 1) + 1 to 6n, in the frame of each body
+at its centre of gravity (XBODY). Source: WAMIT user manual, § 4; J. Jonkman's reader in OpenFAST for the limits of PER.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from hydroelastic.output.hydrodynamic_files.whole_bodies import WholeBodies
+
+_ZERO, _INFINITE = -1.0, 0.0
+
+
+def write_wamit(bodies: WholeBodies, folder: Path, name: str) -> None:
+    """Write ``<name>.1``, ``<name>.3``, ``<name>.hst`` and, where motions in waves are known, ``<name>.4``."""
+    files = {
+        "1": _radiation(bodies),
+        "3": (
+            line
+            for omega, forces in zip(bodies.omega, bodies.excitation_force, strict=True)
+            for direction, force in zip(bodies.directions, forces, strict=True)
+            for line in _complex_lines(bodies, omega, direction, force / (bodies.density * bodies.gravity))
+        ),
+        "4": (
+            line
+            for motions in bodies.motions
+            for omega, amplitudes in zip(motions.omega, motions.amplitudes, strict=True)
+            for line in _complex_lines(bodies, omega, motions.direction, amplitudes)
+        ),
+        "hst": (
+            f"{i + 1:6d}{j + 1:6d}{_number(value / (bodies.density * bodies.gravity))}"
+            for (i, j), value in np.ndenumerate(bodies.stiffness)
+            if i // 6 == j // 6
+        ),
+    }
+    for kind, lines in files.items():
+        text = "".join(f"{line}\n" for line in lines)
+        if text:
+            (folder / f"{name}.{kind}").write_text(text, encoding="ascii")
+
+
+def _radiation(bodies: WholeBodies) -> Iterator[str]:
+    for period, limit in zip((_ZERO, _INFINITE), bodies.limits, strict=True):
+        if limit is None:
+            continue
+        for i, j in _entries(bodies):
+            # Added mass in heave is infinite for very long waves in deep water.
+            if np.isfinite(limit[i, j]):
+                yield f"{_number(period)}{i + 1:6d}{j + 1:6d}{_number(limit[i, j] / bodies.density)}"
+    for omega, mass, damping in zip(bodies.omega, bodies.added_mass, bodies.radiation_damping, strict=True):
+        for i, j in _entries(bodies):
+            values = _number(mass[i, j] / bodies.density) + _number(damping[i, j] / (bodies.density * omega))
+            yield f"{_number(2.0 * np.pi / omega)}{i + 1:6d}{j + 1:6d}{values}"
+
+
+def _entries(bodies: WholeBodies) -> Iterator[tuple[int, int]]:
+    places = np.flatnonzero(bodies.modelled)
+    return ((int(i), int(j)) for i in places for j in places)
+
+
+def _complex_lines(bodies: WholeBodies, omega: float, direction: float, values: np.ndarray) -> Iterator[str]:
+    for place in np.flatnonzero(bodies.modelled):
+        value = np.conj(values[place])
+        parts = (abs(value), np.degrees(np.angle(value)), value.real, value.imag)
+        yield f"{_number(2.0 * np.pi / omega)}{_number(direction)}{place + 1:6d}{''.join(map(_number, parts))}"
+
+
+def _number(value: float) -> str:
+    # No negative zero.
+    return f"{value + 0.0:18.9E}"

@@ -1,0 +1,78 @@
+"""Tables of the analyses of open water over time: impulse responses, and motions in waves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from hydroelastic.fem.time_domain.results import ImpulseResponseTable, MotionTable
+from hydroelastic.output.columns import headings_of, rows_of
+from hydroelastic.output.digits import number
+from hydroelastic.output.open_water.files import open_columns
+from hydroelastic.output.open_water.shown_rows import largest, shown_rows
+from hydroelastic.output.open_water.time_quantities import IMPULSE_RESPONSE, MOTION
+from hydroelastic.output.sections import Section
+
+_MOST_MOTIONS = 4
+
+
+def sections_over_time(solution: Any) -> Iterator[Section]:
+    """Yield the tables of impulse responses and of motions in waves."""
+    for impulse_response in solution.impulse_response:
+        yield _impulse_response(impulse_response)
+    for motion in solution.motion:
+        yield _motion(motion)
+
+
+def _impulse_response(table: ImpulseResponseTable) -> Section:
+    """The diagonal of K; what it gives back in the frequency domain is a file."""
+    shown, thinned = shown_rows(len(table.times), "times", "impulse_response.csv")
+    columns = [
+        column
+        for column in open_columns(IMPULSE_RESPONSE, table)
+        if len(set(column.places.values())) < 2 and column.places.get("influenced_dof", 0) < _MOST_MOTIONS
+    ]
+    far = ", ".join(
+        f"{dof.words} {number(float(value))} {'kg·m' if dof.is_rotation else 'kg/m'}"
+        for dof, value in zip(table.dofs, np.diag(table.infinite_frequency_added_mass), strict=True)
+    )
+    return Section(
+        title="Impulse responses K of radiation",
+        headings=headings_of(columns, "influenced_dof"),
+        rows=rows_of(IMPULSE_RESPONSE, columns, shown),
+        lines=(
+            *thinned,
+            f"Added mass at infinite frequency: {far}.",
+            f"Added mass and damping by K at {len(table.omega)} frequencies from {table.omega[0]:.3g} to "
+            f"{table.omega[-1]:.3g} rad/s differ from the frequency domain by {largest(table.causality_error)} of the "
+            f"largest, added mass at infinite frequency by Ogilvie's relation from its limit by "
+            f"{largest(table.ogilvie_error)}; estimated error {table.relative_error:.1e}.",
+            "Coupling of motions: impulse_response.csv; what K gives back: impulse_response_check.csv.",
+        ),
+    )
+
+
+def _motion(table: MotionTable) -> Section:
+    shown, thinned = shown_rows(len(table.times), "times", "motion.csv")
+    columns = [
+        column
+        for column in open_columns(MOTION, table)
+        if column.quantity.key in ("times", "elevation", "displacement") and column.places.get("dof", 0) < _MOST_MOTIONS
+    ]
+    sizes = "; ".join(
+        f"{dof.words} {deviation:.4g} and {largest:.4g} {'rad' if dof.is_rotation else 'm'}"
+        for dof, deviation, largest in zip(table.dofs, table.standard_deviation, table.largest, strict=True)
+    )
+    return Section(
+        title=f"Motion from rest in waves from the {table.waves_from}",
+        headings=headings_of(columns, "dof"),
+        rows=rows_of(MOTION, columns, shown),
+        lines=(
+            *thinned,
+            f"Standard deviation and largest motion after {table.ramp:g} s: {sizes}.",
+            f"η is that of the incident waves at the middle of the first body. Estimated error of forces and memory "
+            f"{table.relative_error:.1e}.",
+        ),
+    )

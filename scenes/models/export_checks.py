@@ -1,0 +1,76 @@
+"""Checks of scenes that ask for files for other programs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+from math import inf
+
+from pydantic_core import InitErrorDetails
+
+from hydroelastic.scenes.models.export import Format
+from hydroelastic.scenes.models.open_analyses import Radiation
+from hydroelastic.scenes.models.problems import problem_at
+from hydroelastic.scenes.models.tank_parts import TankParts
+from hydroelastic.scenes.models.time_analyses import ImpulseResponse
+
+_ROUNDING = 1e-9
+
+
+def export_is_possible(scene: TankParts) -> Iterator[InitErrorDetails]:
+    """Yield what the files that are asked for need and the scene lacks."""
+    if scene.export is None:
+        return
+    omega = sorted(
+        {
+            omega
+            for analysis in scene.analysis
+            if isinstance(analysis, Radiation)
+            for omega in analysis.omega
+            if 0.0 < omega < inf
+        }
+    )
+    if not scene.is_open:
+        yield problem_at(("export",), None, "a tank with walls has no waves", remedy="Leave it out")
+    elif scene.is_revolved:
+        yield problem_at(("export",), None, "the files are written for sections only, and the bodies are solids")
+    elif scene.beams:
+        yield problem_at(("export",), None, "the files are those of rigid bodies, and a beam is elastic")
+    elif len(scene.layers) > 1:
+        yield problem_at(("export",), None, "the files are those of bodies in one liquid, and there are two")
+    elif len(omega) < 2:
+        yield problem_at(
+            ("export",),
+            None,
+            "it needs an analysis of radiation at two or more frequencies",
+            remedy='Add an [[analysis]] of kind = "radiation"',
+        )
+    else:
+        yield from _formats_are_possible(scene, scene.export.formats, omega)
+
+
+def _is_equally_spaced(values: Sequence[float]) -> bool:
+    """Whether ascending values have equal distances, but for rounding."""
+    steps = [after - before for before, after in pairwise(values)]
+    return max(steps) - min(steps) <= _ROUNDING * values[-1]
+
+
+def _formats_are_possible(
+    scene: TankParts, formats: tuple[Format, ...], omega: list[float]
+) -> Iterator[InitErrorDetails]:
+    key = ("export", "formats")
+    if "nemoh" in formats and not _is_equally_spaced(omega):
+        yield problem_at(
+            key,
+            "nemoh",
+            "its readers take equally spaced frequencies",
+            remedy='Ask for radiation at omega = { start, stop, number } with spacing = "linear"',
+        )
+    times = next((analysis.times for analysis in scene.analysis if isinstance(analysis, ImpulseResponse)), ())
+    if "bemio" in formats and (len(times) < 2 or times[0] != 0.0 or not _is_equally_spaced(times)):
+        yield problem_at(
+            key,
+            "bemio",
+            "it holds impulse responses at equally spaced times from 0 on",
+            remedy='Add an [[analysis]] of kind = "impulse_response" with times = { start = 0.0, stop, number }',
+        )

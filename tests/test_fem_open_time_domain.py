@@ -1,0 +1,106 @@
+"""Impulse responses of bodies in open water, and their motions over time, beside the frequency domain."""
+
+from dataclasses import replace
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+from mpi4py import MPI
+
+from hydroelastic.fem.open_water.problem import OpenWaterProblem
+from hydroelastic.fem.open_water.radiation import solve_radiation
+from hydroelastic.fem.open_water.requests import (
+    ImpulseResponseRequest,
+    MotionRequest,
+    RadiationRequest,
+    RegularWave,
+    ResponseRequest,
+)
+from hydroelastic.fem.open_water.response import solve_response
+from hydroelastic.fem.open_water.solve import OpenWaterSolution, solve_open_water
+from hydroelastic.fem.stopwatch import Stopwatch
+from hydroelastic.scenes.models import TankScene
+from hydroelastic.scenes.models.physical import physical_tank
+
+TOLERANCE = 1e-2
+WAVE = RegularWave(omega=2.2, amplitude=0.05, phase=0.3)
+TIMES = tuple(np.linspace(0.0, 60.0, 301).tolist())
+
+
+@cache
+def problem(depth: float) -> OpenWaterProblem:
+    body: dict[str, Any] = {"kind": "float", "shape": "ellipse", "position": 5.0, "half_width": 1.0, "half_height": 1.0}
+    scene = TankScene(
+        tank={"length": 10.0, "ends": "open"},
+        liquid=[{"density": 1000.0, "depth": depth}],
+        body=[{**body, "motions": ["heave"]}],
+        analysis=[],
+    )
+    return OpenWaterProblem(comm=MPI.COMM_WORLD, tank=physical_tank(scene), tolerance=TOLERANCE, watch=Stopwatch())
+
+
+@cache
+def solved(depth: float) -> OpenWaterSolution:
+    requests = (
+        ImpulseResponseRequest(times=(0.0, 0.5, 2.0, 20.0)),
+        MotionRequest(times=TIMES, waves=(WAVE,), waves_from="right", ramp=5.0),
+    )
+    return solve_open_water(problem(depth), requests)
+
+
+@pytest.mark.slow_but("inf")
+@pytest.mark.parametrize("depth", [np.inf, 3.0], ids=["inf", "bed"])
+def test_impulse_responses_give_added_mass_and_damping_back(depth: float) -> None:
+    solution = solved(depth)
+    table = solution.impulse_response[0]
+    assert not solution.reasons
+    # Measured: 5e-5 in deep water, 2e-5 over a bed, both in the longest waves; the discretization error is larger.
+    assert table.causality_error.max() < 2e-4
+    assert np.median(table.causality_error) < 1e-5
+    assert table.ogilvie_error.max() < 2e-4
+    # Another mesh, another basis.
+    places = slice(2, -3, 4)
+    other = solve_radiation(problem(depth), RadiationRequest(omega=tuple(table.omega[places].tolist()))).table
+    omega = other.omega[:, None, None]
+    whole, own = (
+        one.added_mass[chosen] + 1j * one.radiation_damping[chosen] / omega
+        for one, chosen in ((other, slice(None)), (table, places))
+    )
+    # Over a bed b/ω of long waves is far larger than a.
+    np.testing.assert_array_less(np.abs(own - whole), TOLERANCE * np.abs(whole))
+
+
+@pytest.mark.slow
+def test_added_mass_and_damping_come_back_to_a_millionth() -> None:
+    fine = replace(problem(np.inf), tolerance=1e-5)
+    table = solve_open_water(fine, (ImpulseResponseRequest(times=(0.0, 50.0)),)).impulse_response[0]
+    # Measured: 1.5e-7 of both.
+    assert table.causality_error.max() < 1e-6
+    assert table.ogilvie_error.max() < 1e-6
+
+
+def test_impulse_response_of_a_circle_decays_like_an_inverse_square() -> None:
+    table = solved(np.inf).impulse_response[0]
+    # b ~ hω of long waves in deep water leaves K ~ −(2/π) h/t², with h = ρ (2R)²: the waterplane is a wavemaker.
+    h = 1000.0 * 4.0
+    expected = -2.0 / np.pi * h / table.times[-1] ** 2
+    # The next term is smaller by g^{-1}R/t² times a logarithm.
+    assert table.impulse_response[-1, 0, 0] == pytest.approx(expected, rel=0.05)
+
+
+@pytest.mark.slow_but("inf")
+@pytest.mark.parametrize("depth", [np.inf, 3.0], ids=["inf", "bed"])
+def test_regular_waves_end_in_the_response_of_the_frequency_domain(depth: float) -> None:
+    table = solved(depth).motion[0]
+    request = ResponseRequest(omega=(WAVE.omega,), waves_from="right")
+    response = solve_response(problem(depth), request).table
+    # The response is beside a crest at x = 0; waves from the right have travelled from x = 5 to there.
+    amplitude = response.amplitudes[0, 0, 0] * np.exp(1j * 5.0 * response.wavenumbers[0, 0])
+    wave = WAVE.amplitude * np.exp(1j * (WAVE.phase - WAVE.omega * table.times))
+    late = table.times > 40.0
+    np.testing.assert_allclose(table.elevation, wave.real, rtol=0.0, atol=1e-12)
+    expected = (amplitude * wave).real
+    # Both keep the tolerance; after the transient an algebraic tail of 1e-4 of the amplitude is left.
+    np.testing.assert_allclose(table.displacement[late, 0], expected[late], rtol=0.0, atol=2e-3 * abs(amplitude * 0.05))
+    np.testing.assert_allclose(table.steady[:, 0], expected, rtol=0.0, atol=1e-3 * abs(amplitude * 0.05))

@@ -1,0 +1,101 @@
+"""Impulse responses as exponentials, and Cummins' equation, without any solver of the frequency domain."""
+
+from math import pi
+
+import numpy as np
+import pytest
+
+from hydroelastic.fem.time_domain.motion import MovingBodies, UnsolvedMotionError, WaveForces
+from hydroelastic.fem.time_domain.radiation_memory import RadiationMemory, memory_on_ray, ray_radii
+from hydroelastic.physics.attachments import OutsideForces
+
+# K̂ = C p/(p² + 2γp + ω₀²), so that K = C e^{−γt} (cos νt − (γ/ν) sin νt), ν² = ω₀² − γ².
+STRENGTH, GAMMA, NATURAL = 1.3, 0.6, 1.4
+ANGLE = 0.2
+LIMIT = np.array([[2.0]])
+
+
+def beyond_limit(p: np.ndarray) -> np.ndarray:
+    return np.asarray(STRENGTH / (p**2 + 2.0 * GAMMA * p + NATURAL**2))
+
+
+@pytest.fixture(scope="module")
+def memory() -> RadiationMemory:
+    radii = ray_radii(1e-6, 1e6, ANGLE, 1e-10)
+    p = -1j * radii * np.exp(-1j * ANGLE)
+    start = np.array([[STRENGTH]])
+    return memory_on_ray(beyond_limit(p)[:, None, None], LIMIT, radii, ANGLE, start=start, quickest=3.0)
+
+
+def test_added_mass_and_damping_come_back(memory: RadiationMemory) -> None:
+    omega = np.geomspace(1e-2, 30.0, 50)
+    whole = LIMIT[0, 0] + beyond_limit(-1j * omega)
+    # The rule's 1e-10, and the cut ends of the ray.
+    np.testing.assert_allclose(memory.added_mass(omega)[:, 0, 0], whole.real, rtol=0.0, atol=1e-8)
+    np.testing.assert_allclose(memory.radiation_damping(omega)[:, 0, 0], omega * whole.imag, rtol=0.0, atol=1e-8)
+
+
+def test_impulse_response_is_the_closed_form(memory: RadiationMemory) -> None:
+    times = np.linspace(0.0, 12.0, 40)
+    nu = np.sqrt(NATURAL**2 - GAMMA**2)
+    exact = STRENGTH * np.exp(-GAMMA * times) * (np.cos(nu * times) - GAMMA / nu * np.sin(nu * times))
+    # At t = 0 the cut end of the ray is not damped by e^{pt}.
+    np.testing.assert_allclose(memory.impulse_response(times)[:, 0, 0], exact, rtol=0.0, atol=1e-5)
+
+
+def bodies(
+    memory: RadiationMemory, *, damping: float = 0.0, quadratic: float = 0.0, spring: float = 3.0
+) -> MovingBodies:
+    return MovingBodies(
+        memory=memory,
+        inertia=np.array([[1.0]]),
+        stiffness=np.array([[1.0]]),
+        outside=OutsideForces(
+            stiffness=np.array([[spring - 1.0]]),
+            damping=np.array([[damping]]),
+            drag=np.array([quadratic] if quadratic else []),
+            paths=np.ones((1 if quadratic else 0, 1)),
+        ),
+    )
+
+
+@pytest.mark.parametrize("damping", [0.0, pytest.param(0.4, marks=pytest.mark.slow)])
+def test_regular_waves_end_in_the_motion_of_the_frequency_domain(memory: RadiationMemory, damping: float) -> None:
+    moving = bodies(memory, damping=damping)
+    waves = WaveForces(omega=np.array([0.9, 1.7]), forces=np.array([[1.0 + 0.5j], [0.3j]]), ramp=10.0)
+    times = np.linspace(0.0, 400.0, 401)
+    displacement, velocity = moving.motion(waves, times, 1e-9)
+    turning = np.exp(-1j * np.outer(times, waves.omega))
+    amplitudes = np.array(
+        [
+            force / (3.0 - w**2 * (1.0 + LIMIT[0, 0] + beyond_limit(np.array(-1j * w))) - 1j * w * damping)
+            for w, force in zip(waves.omega, waves.forces, strict=True)
+        ]
+    )
+    late = times > 360.0
+    # The transient has decayed to less than 1e-7; the exponentials without states are left out to (1/30)³ of the last
+    # part of K̂.
+    np.testing.assert_allclose(displacement[late], (turning @ amplitudes).real[late], rtol=0.0, atol=2e-6)
+    np.testing.assert_allclose(
+        velocity[late], (turning @ (-1j * waves.omega[:, None] * amplitudes)).real[late], rtol=0.0, atol=4e-6
+    )
+    np.testing.assert_allclose(moving.steady(waves), amplitudes, rtol=1e-8)
+
+
+def test_quadratic_damping_dissipates_as_its_equivalent_linear_one(memory: RadiationMemory) -> None:
+    omega, quadratic = 1.05, 0.5
+    waves = WaveForces(omega=np.array([omega]), forces=np.array([[1.0 + 0.0j]]), ramp=20.0)
+    times = np.linspace(0.0, 200.0, 2001)
+    displacement, _ = bodies(memory, quadratic=quadratic).motion(waves, times, 1e-8)
+    amplitude = np.abs(displacement[times > 150.0]).max()
+    # 8/(3π) β ωA does the same work in a period. Third harmonics, which it leaves out, are of a per cent.
+    linear = bodies(memory, damping=8.0 / (3.0 * pi) * quadratic * omega * amplitude)
+    assert abs(linear.steady(waves)[0, 0]) == pytest.approx(amplitude, rel=0.01)
+    assert abs(bodies(memory, quadratic=quadratic).steady(waves)[0, 0]) == pytest.approx(amplitude, rel=0.01)
+    assert abs(bodies(memory).steady(waves)[0, 0]) > 1.1 * amplitude
+
+
+def test_what_grows_without_bound_is_refused(memory: RadiationMemory) -> None:
+    waves = WaveForces(omega=np.array([1.0]), forces=np.array([[1.0 + 0.0j]]))
+    with pytest.raises(UnsolvedMotionError):
+        bodies(memory, spring=-40.0).motion(waves, np.linspace(0.0, 100.0, 11), 1e-6)

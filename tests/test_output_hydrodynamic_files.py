@@ -1,0 +1,284 @@
+"""Files of WAMIT, BEMIO, Nemoh and Capytaine, read back by readers written from the formats' descriptions."""
+
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, cast
+
+import h5py
+import numpy as np
+import pytest
+import xarray
+from hydrodynamic_readers import Read, read_bemio, read_nemoh, read_wamit, rows
+
+from hydroelastic.fem.open_water.results import RadiationTable, ResponseTable
+from hydroelastic.fem.time_domain.results import ImpulseResponseTable
+from hydroelastic.output.hydrodynamic_files.bemio import write_bemio
+from hydroelastic.output.hydrodynamic_files.capytaine import write_capytaine
+from hydroelastic.output.hydrodynamic_files.nemoh import write_nemoh
+from hydroelastic.output.hydrodynamic_files.wamit import write_wamit
+from hydroelastic.output.hydrodynamic_files.whole_bodies import WholeBodies, whole_bodies_of_sections
+from hydroelastic.physics.dofs import Dof
+from hydroelastic.scenes.errors import SceneError
+from hydroelastic.scenes.models import SeaScene
+from hydroelastic.scenes.models.physical import physical_tank
+
+WIDTH = 7.0
+# Numbers are written with ten digits.
+DIGITS = 1e-8
+PHASE_AT = -0.5
+
+
+def scene(**changes: Any) -> SeaScene:
+    barge: dict[str, Any] = {
+        "kind": "float",
+        "shape": "rectangle",
+        "half_width": 2.0,
+        "half_height": 1.0,
+        "motions": ["heave", "roll"],
+    }
+    disc = {"kind": "float", "shape": "ellipse", "half_width": 1.0, "half_height": 1.0, "motions": ["sway"]}
+    barge |= {"position": 1.0, "vertical_centre_of_gravity": 0.2, "radius_of_gyration": 1.1}
+    keys = {
+        "sea": {"phase_at": PHASE_AT, "gravity": 9.8},
+        "liquid": [{"density": 1025.0, "depth": 12.0}],
+        "body": [barge, disc | {"position": 6.0}],
+        "analysis": [{"kind": "radiation", "omega": [0.5, 1.0, 1.5]}],
+    }
+    return SeaScene(**keys | changes)
+
+
+DOFS = (Dof("body_1__heave"), Dof("body_1__roll"), Dof("body_2__sway"))
+
+
+@pytest.fixture(scope="module")
+def section() -> SimpleNamespace:
+    """Numbers of a section as a solver would give them, without its symmetries."""
+    random = np.random.default_rng(5)
+
+    def numbers(*shape: int) -> np.ndarray:
+        return random.uniform(0.5, 1.5, shape) * 1e3
+
+    def complex_numbers(*shape: int) -> np.ndarray:
+        return np.asarray(numbers(*shape) * np.exp(2j * np.pi * random.uniform(size=shape)))
+
+    omega = np.array([1.5, 0.5, np.inf, 1.0])
+    finite = np.isfinite(omega)
+    froude_krylov, diffraction = (complex_numbers(4, 1, 2, 3) * finite[:, None, None, None] for _ in range(2))
+    radiation = RadiationTable(
+        omega=omega,
+        dofs=DOFS,
+        waves=("surface",),
+        wavenumbers=omega[:, None],
+        added_mass=numbers(4, 3, 3),
+        radiation_damping=numbers(4, 3, 3),
+        excitation_force=froude_krylov + diffraction,
+        froude_krylov_force=froude_krylov,
+        diffraction_force=diffraction,
+        relative_error=np.zeros(4),
+        energy_residual=np.zeros(4),
+        haskind_residual=np.zeros(4),
+        inertia=np.diag([3.0, 2.0, 5.0]) * 1e3,
+        stiffness=np.diag([4.0, 7.0, 0.0]) * 1e4,
+        infinite_frequency_added_mass=None,
+        factorizations=0,
+    )
+    response = SimpleNamespace(
+        omega=np.array([1.0]), dofs=DOFS, waves_from="right", amplitudes=complex_numbers(1, 1, 3)
+    )
+    times = np.linspace(0.0, 4.0, 9)
+    impulse = SimpleNamespace(
+        times=times, dofs=DOFS, impulse_response=numbers(9, 3, 3), infinite_frequency_added_mass=numbers(3, 3)
+    )
+    return SimpleNamespace(radiation=radiation, response=response, impulse=impulse)
+
+
+@pytest.fixture(scope="module")
+def bodies(section: SimpleNamespace) -> WholeBodies:
+    return whole_bodies_of_sections(
+        physical_tank(scene()),
+        [section.radiation],
+        [cast(ResponseTable, section.response)],
+        [cast(ImpulseResponseTable, section.impulse)],
+        width=WIDTH,
+    )
+
+
+def test_a_section_of_some_width_has_surge_heave_and_pitch(section: SimpleNamespace, bodies: WholeBodies) -> None:
+    heave, pitch, surge = 2, 4, 6
+    given = section.radiation
+    assert np.flatnonzero(bodies.modelled).tolist() == [heave, pitch, surge]
+    np.testing.assert_array_equal(bodies.omega, [0.5, 1.0, 1.5])
+    # Pitch lifts what roll lowers, so that coupling with it changes its sign.
+    mass = bodies.added_mass[0]
+    assert mass[heave, surge] == WIDTH * given.added_mass[1, 0, 2]
+    assert mass[heave, pitch] == -WIDTH * given.added_mass[1, 0, 1]
+    assert mass[pitch, pitch] == WIDTH * given.added_mass[1, 1, 1]
+    assert bodies.limits[0] is None
+    assert bodies.limits[1] is not None
+    assert bodies.limits[1][surge, pitch] == -WIDTH * given.added_mass[2, 2, 1]
+    np.testing.assert_array_equal(bodies.excitation_force[2, 1, pitch], -WIDTH * given.excitation_force[0, 0, 1, 1])
+    assert bodies.motions[0].direction == 180.0
+    np.testing.assert_array_equal(
+        bodies.motions[0].amplitudes[0, [heave, pitch]], section.response.amplitudes[0, 0, :2] * [1.0, -1.0]
+    )
+
+
+def test_bodies_at_rest_are_relative_to_where_phases_are(bodies: WholeBodies) -> None:
+    barge, disc = bodies.bodies
+    np.testing.assert_allclose(barge.centre_of_gravity, (1.5, 0.0, 0.2), atol=1e-12)
+    np.testing.assert_allclose(barge.centre_of_buoyancy, (1.5, 0.0, -0.5), atol=1e-12)
+    assert barge.volume == pytest.approx(4.0 * WIDTH, rel=1e-12)
+    assert disc.waterplane_area == pytest.approx(2.0 * WIDTH, rel=1e-12)
+
+
+def agrees(read: Read, bodies: WholeBodies) -> None:
+    scale, weight = bodies.density, bodies.density * bodies.gravity
+    np.testing.assert_allclose(read.omega, bodies.omega, rtol=DIGITS)
+    np.testing.assert_allclose(read.added_mass, bodies.added_mass / scale, rtol=DIGITS)
+    per_frequency = bodies.radiation_damping / (scale * bodies.omega[:, None, None])
+    np.testing.assert_allclose(read.damping, per_frequency, rtol=DIGITS)
+    # e^{iωt} instead of e^{−iωt}.
+    np.testing.assert_allclose(read.force, np.conj(bodies.excitation_force) / weight, rtol=DIGITS, atol=1e-12)
+
+
+def test_wamit_is_read_back(bodies: WholeBodies, tmp_path: Path) -> None:
+    slow = np.full((12, 12), 5.0)
+    slow[2, 2] = np.inf
+    known = replace(bodies, limits=(slow, bodies.limits[1]))
+    write_wamit(known, tmp_path, "barge")
+    read, limits, stiffness = read_wamit(tmp_path, "barge", 12)
+    agrees(read, bodies)
+    # PER = 0 is the infinite frequency, PER < 0 the infinite period; what is infinite there is left out.
+    assert set(limits) == {0.0, -1.0}
+    assert bodies.limits[1] is not None
+    np.testing.assert_allclose(limits[0.0], bodies.limits[1] / bodies.density, rtol=DIGITS)
+    assert limits[-1.0][4, 6] == pytest.approx(5.0 / bodies.density, rel=DIGITS)
+    assert limits[-1.0][2, 2] == 0.0
+    np.testing.assert_allclose(stiffness, bodies.stiffness / (bodies.density * bodies.gravity), rtol=DIGITS)
+    motions = rows(tmp_path / "barge.4")
+    np.testing.assert_allclose(motions[:, 0], 2.0 * np.pi, rtol=DIGITS)
+    np.testing.assert_array_equal(motions[:, 1], 180.0)
+    expected = np.conj(bodies.motions[0].amplitudes[0][motions[:, 2].astype(int) - 1])
+    np.testing.assert_allclose(motions[:, 5] + 1j * motions[:, 6], expected, rtol=DIGITS)
+
+
+def test_bemio_is_read_back(bodies: WholeBodies, tmp_path: Path) -> None:
+    path = tmp_path / "barge.h5"
+    write_bemio(bodies, path)
+    agrees(read_bemio(path, 2), bodies)
+    with h5py.File(path) as file:
+        assert file["simulation_parameters/scaled"][0, 0] == 0.0
+        assert file["simulation_parameters/water_depth"][0, 0] == 12.0
+        np.testing.assert_allclose(file["simulation_parameters/wave_dir"][:, 0], [0.0, 180.0])
+        second = file["body2"]
+        assert second["properties/name"][()] == b"body_2"
+        assert second["properties/dof_start"][0, 0] == 7.0
+        np.testing.assert_allclose(second["properties/cg"][:, 0], bodies.bodies[1].centre_of_gravity)
+        coefficients = second["hydro_coeffs"]
+        assert coefficients["added_mass/all"].shape == (6, 12, 3)
+        assert coefficients["excitation/re"].shape == (6, 2, 3)
+        assert bodies.limits[1] is not None
+        np.testing.assert_allclose(coefficients["added_mass/inf_freq"][:], bodies.limits[1][6:] / bodies.density)
+        for part in ("", "scattering/", "froude-krylov/"):
+            force = {name: coefficients[f"excitation/{part}{name}"][:] for name in ("re", "im", "mag", "phase")}
+            np.testing.assert_allclose(force["mag"] * np.exp(1j * force["phase"]), force["re"] + 1j * force["im"])
+        response = coefficients["radiation_damping/impulse_response_fun"]
+        assert bodies.impulse_response is not None
+        np.testing.assert_allclose(response["K"][0, 4], bodies.impulse_response[:, 6, 4] / bodies.density)
+        np.testing.assert_allclose(response["t"][:, 0], np.linspace(0.0, 4.0, 9))
+        # (1/π) ∫ Re (X e^{iωt}) dω with X between three frequencies on straight lines, at t = 0.
+        excitation = coefficients["excitation/impulse_response_fun"]
+        lags = excitation["t"][:, 0]
+        np.testing.assert_allclose(lags, np.linspace(-4.0, 4.0, 17))
+        real = coefficients["excitation/re"][0, 1]
+        expected = 0.5 * (0.5 * (real[0] + real[1]) + 0.5 * (real[1] + real[2])) / np.pi
+        np.testing.assert_allclose(excitation["f"][0, 1, 8], expected, rtol=1e-12)
+        omega = np.linspace(0.5, 1.5, 20001)
+        force = np.interp(omega, bodies.omega, coefficients["excitation/re"][0, 1]) + 1j * np.interp(
+            omega, bodies.omega, coefficients["excitation/im"][0, 1]
+        )
+        expected = np.trapezoid((force * np.exp(2j * omega)).real, omega) / np.pi
+        np.testing.assert_allclose(excitation["f"][0, 1, 12], expected, rtol=1e-4)
+
+
+def test_nemoh_is_read_back(bodies: WholeBodies, tmp_path: Path) -> None:
+    write_nemoh(bodies, tmp_path)
+    agrees(read_nemoh(tmp_path, bodies.density, bodies.gravity), bodies)
+    settings = (tmp_path / "Nemoh.cal").read_text().splitlines()
+    assert [line.split()[:3] for line in settings if "Number of wave" in line] == [
+        ["3", "0.5", "1.5"],
+        ["2", "0.0", "180.0"],
+    ]
+    places = (tmp_path / "mesh" / "Hydrostatics_1.dat").read_text().splitlines()
+    np.testing.assert_allclose([float(line.split()[6]) for line in places[:3]], bodies.bodies[1].centre_of_gravity)
+    assert float(places[3].split()[2]) == pytest.approx(bodies.bodies[1].volume, rel=DIGITS)
+    np.testing.assert_allclose(rows(tmp_path / "mesh" / "KH_0.dat"), bodies.stiffness[:6, :6], rtol=DIGITS)
+
+
+def test_capytaine_is_read_back(bodies: WholeBodies, tmp_path: Path) -> None:
+    path = tmp_path / "barge.nc"
+    write_capytaine(bodies, path)
+    dataset = xarray.load_dataset(path)
+    assert dataset.radiating_dof.values.tolist() == ["body_1__Heave", "body_1__Pitch", "body_2__Surge"]
+    one = {"radiating_dof": "body_2__Surge", "influenced_dof": "body_1__Pitch"}
+    np.testing.assert_array_equal(dataset.added_mass.sel(one), bodies.added_mass[:, 4, 6])
+    force = dataset.excitation_force.sel(influenced_dof="body_1__Pitch")
+    np.testing.assert_array_equal(
+        force.sel(complex="re") + 1j * force.sel(complex="im"), bodies.excitation_force[:, :, 4]
+    )
+
+
+def test_capytaine_finds_the_motions_in_waves(bodies: WholeBodies, tmp_path: Path) -> None:
+    """Its own functions read the dataset, and its own exporter agrees with WAMIT's files."""
+    pytest.importorskip("capytaine")
+    from capytaine.io.xarray import merge_complex_values
+    from capytaine.post_pro import rao
+
+    write_capytaine(bodies, tmp_path / "barge.nc")
+    dataset = merge_complex_values(xarray.load_dataset(tmp_path / "barge.nc"))
+    own = np.flatnonzero(bodies.modelled)
+    matrices = np.ix_(own, own)
+    for row, omega in enumerate(bodies.omega):
+        impedance = (
+            -(omega**2) * (bodies.inertia + bodies.added_mass[row])
+            - 1j * omega * bodies.radiation_damping[row]
+            + bodies.stiffness
+        )[matrices]
+        expected = np.linalg.solve(impedance, bodies.excitation_force[row, 1, own])
+        found = rao(dataset, wave_direction=np.pi).sel(omega=omega).values.squeeze()
+        np.testing.assert_allclose(found, expected, rtol=1e-10)
+
+
+EXPORT = {"formats": ["wamit"], "width": 3.0}
+IMPULSE = {"kind": "impulse_response", "times": [0.0, 1.0, 2.0]}
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"export": {"formats": ["wamit"]}}, "width"),
+        ({"export": {"formats": ["wamit", "wamit"], "width": 1.0}}, "named twice"),
+        ({"export": {"formats": ["hydrostar"], "width": 1.0}}, "formats"),
+        ({"export": EXPORT, "analysis": []}, "analysis of radiation"),
+        ({"export": EXPORT, "liquid": [{"density": 1025.0, "depth": 3.0}, {"density": 1.2, "depth": 5.0}]}, "two"),
+        ({"export": EXPORT | {"formats": ["bemio"]}}, "impulse responses at equally spaced times"),
+        (
+            {"export": EXPORT | {"formats": ["nemoh"]}, "analysis": [{"kind": "radiation", "omega": [0.5, 1.0, 2.0]}]},
+            "equally spaced",
+        ),
+    ],
+)
+def test_what_files_need_is_asked_for(changes: dict[str, Any], words: str) -> None:
+    with pytest.raises(SceneError, match=words):
+        scene(**changes)
+
+
+def test_all_files_are_possible() -> None:
+    asked = scene(
+        export={"formats": ["wamit", "bemio", "nemoh", "capytaine"], "width": 3.0},
+        analysis=[{"kind": "radiation", "omega": [0.5, 1.0, 1.5]}, IMPULSE],
+    )
+    assert asked.export is not None
+    assert asked.export.width == 3.0
+    assert "export" not in scene().model_dump()

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import basix.ufl
 import numpy as np
 from dolfinx import graph
 from dolfinx.mesh import Mesh, MeshTags, create_mesh, meshtags, meshtags_from_entities
 from mpi4py import MPI
+from numpy.typing import NDArray
 
 from hydroelastic.meshes.compat import distribute_entity_data
 from hydroelastic.meshes.geometry_nodes import geometry_nodes
@@ -17,7 +18,7 @@ from hydroelastic.meshes.tagged_mesh import TaggedMesh
 
 @dataclass(frozen=True, kw_only=True)
 class TankMesh:
-    """A distributed mesh of triangles with named groups of cells and facets.
+    """A distributed mesh of simplices with named groups of cells and facets.
 
     Attributes:
         mesh: the dolfinx mesh.
@@ -49,8 +50,38 @@ class TankMesh:
         return int(self.mesh.topology.index_map(self.mesh.topology.dim).size_global)
 
 
+@dataclass(frozen=True, kw_only=True)
+class NodedMesh:
+    """A mesh of simplices of one degree in plain arrays, with its nodes in the order of dolfinx.
+
+    Attributes:
+        cell: "triangle" or "tetrahedron".
+        degree: of the geometry.
+        points: nodes, m or dimensionless, shape (nodes, dim).
+        cells: numbers of each cell's nodes in the order of ``basix.ufl.element("Lagrange", cell, degree)``, the corners
+            first, shape (cells, nodes per cell).
+        cell_tags: group of each cell, shape (cells,).
+        facets: numbers of the corners of the tagged facets, shape (facets, dim).
+        facet_tags: group of each of them, shape (facets,).
+        cell_names: physical name → tag, of cells.
+        facet_names: physical name → tag, of facets.
+        deviation: see `TankMesh`.
+    """
+
+    cell: str
+    degree: int
+    points: NDArray[np.float64]
+    cells: NDArray[np.int64]
+    cell_tags: NDArray[np.int32]
+    facets: NDArray[np.int64]
+    facet_tags: NDArray[np.int32]
+    cell_names: dict[str, int]
+    facet_names: dict[str, int]
+    deviation: float = 0.0
+
+
 def distribute_mesh(comm: MPI.Comm, tagged: TaggedMesh | None) -> TankMesh:
-    """Distribute a mesh over the processes of ``comm``.
+    """Distribute a mesh of triangles over the processes of ``comm``.
 
     Args:
         comm: communicator.
@@ -59,32 +90,54 @@ def distribute_mesh(comm: MPI.Comm, tagged: TaggedMesh | None) -> TankMesh:
     Returns:
         The distributed mesh (collective).
     """
+    noded = None
     if comm.rank == 0:
         assert tagged is not None
         points, cells, degree = geometry_nodes(tagged)
-        facets, facet_values = tagged.facets, tagged.facet_tags.astype(np.int32)
-        deviation = tagged.deviation.distance
-        shared = degree, tagged.facet_names, tagged.cell_names, tagged.cell_tags.astype(np.int32), deviation
-    else:
-        shared = None
-    degree, facet_names, cell_names, cell_values, deviation = comm.bcast(shared, root=0)
-    element = basix.ufl.element("Lagrange", "triangle", degree, shape=(2,))
-    if comm.rank > 0:
-        points, cells = np.empty((0, 2)), np.empty((0, element.dim // 2), dtype=np.int64)
-        facets, facet_values = np.empty((0, 2), dtype=np.int64), np.empty(0, dtype=np.int32)
-    mesh = create_mesh(comm, cells=cells, x=points, e=element)
-    dim = mesh.topology.dim
+        noded = NodedMesh(
+            cell="triangle",
+            degree=degree,
+            points=points,
+            cells=cells,
+            cell_tags=tagged.cell_tags.astype(np.int32),
+            facets=tagged.facets,
+            facet_tags=tagged.facet_tags.astype(np.int32),
+            cell_names=tagged.cell_names,
+            facet_names=tagged.facet_names,
+            deviation=tagged.deviation.distance,
+        )
+    return distribute_nodes(comm, noded)
+
+
+def distribute_nodes(comm: MPI.Comm, noded: NodedMesh | None) -> TankMesh:
+    """Distribute a mesh of any simplices; the whole of it is on rank 0, ``None`` on the others (collective)."""
+    # Its large arrays but the tags of cells stay on rank 0; others have arrays of the same widths without rows.
+    own = noded or comm.bcast(None, root=0)
+    if noded is not None:
+        comm.bcast(
+            replace(
+                noded,
+                points=noded.points[:0],
+                cells=noded.cells[:0],
+                facets=noded.facets[:0],
+                facet_tags=noded.facet_tags[:0],
+            ),
+            root=0,
+        )
+    dim = own.points.shape[1]
+    element = basix.ufl.element("Lagrange", own.cell, own.degree, shape=(dim,))
+    mesh = create_mesh(comm, cells=own.cells, x=own.points, e=element)
     mesh.topology.create_entities(dim - 1)
     mesh.topology.create_connectivity(dim - 1, dim)
     mesh.topology.create_connectivity(dim - 1, 0)
-    local, values = distribute_entity_data(mesh, dim - 1, facets, facet_values)
-    own = np.arange(mesh.topology.index_map(dim).size_local, dtype=np.int32)
+    local, values = distribute_entity_data(mesh, dim - 1, own.facets, own.facet_tags)
+    cells = np.arange(mesh.topology.index_map(dim).size_local, dtype=np.int32)
     # All cells came from rank 0, so that their numbers there are their original ones.
     return TankMesh(
         mesh=mesh,
         facet_tags=meshtags_from_entities(mesh, dim - 1, graph.adjacencylist(local), values),
-        facet_names=facet_names,
-        cell_tags=meshtags(mesh, dim, own, cell_values[mesh.topology.original_cell_index[: len(own)]]),
-        cell_names=cell_names,
-        deviation=deviation,
+        facet_names=own.facet_names,
+        cell_tags=meshtags(mesh, dim, cells, own.cell_tags[mesh.topology.original_cell_index[: len(cells)]]),
+        cell_names=own.cell_names,
+        deviation=own.deviation,
     )

@@ -16,9 +16,13 @@ Grading: TypeAlias = NDArray[np.float64]
 """Distances of nodes from a corner, ascending."""
 UNGRADED: Grading = np.zeros(0)
 """No nodes but those of the cells' size."""
+Mirrors: TypeAlias = tuple[float | None, float | None]
+"""x and y of planes of symmetry, ``None`` without one; the part of the plan with larger coordinates is kept."""
 
 # Corners of a wall that turn the other way by more than this are re-entrant, radians.
 _REENTRANT = 1e-3
+# Corners that turn by less than this are none: where mirror planes cross a side.
+_FLAT = 1e-9
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -62,7 +66,10 @@ class PolygonLoop:
         places = []
         ahead = np.roll(self.corners, -1, axis=0) - self.corners
         lengths = np.linalg.norm(ahead, axis=1)
-        graded = [towards_reentrant if reentrant else towards for reentrant in self._is_reentrant]
+        graded = [
+            towards_reentrant if turn < -_REENTRANT else UNGRADED if abs(turn) < _FLAT else towards
+            for turn in self._turns
+        ]
         for number, length in enumerate(lengths):
             start, end = (_fitting(one, length) for one in (graded[number], graded[(number + 1) % len(lengths)]))
             low, high = start[-1] if len(start) else 0.0, 1.0 - (end[-1] if len(end) else 0.0)
@@ -82,14 +89,32 @@ class PolygonLoop:
     @property
     def reentrant(self) -> NDArray[np.float64]:
         """Corners with more than half a turn inside, shape (corners, 2)."""
-        return np.asarray(self.corners[self._is_reentrant])
+        return np.asarray(self.corners[self._turns < -_REENTRANT])
 
     @property
-    def _is_reentrant(self) -> NDArray[np.bool_]:
+    def _turns(self) -> NDArray[np.float64]:
+        """The angle by which the outline turns to the left at each corner."""
         ahead = np.roll(self.corners, -1, axis=0) - self.corners
         behind = np.roll(ahead, 1, axis=0)
-        turn = np.arctan2(behind[:, 0] * ahead[:, 1] - behind[:, 1] * ahead[:, 0], (behind * ahead).sum(axis=1))
-        return np.asarray(turn < -_REENTRANT)
+        return np.arctan2(behind[:, 0] * ahead[:, 1] - behind[:, 1] * ahead[:, 0], (behind * ahead).sum(axis=1))
+
+    def cut(self, mirrors: Mirrors) -> PolygonLoop:
+        """Return it with a corner wherever one of its sides crosses a mirror plane."""
+        corners = self.corners
+        for axis, mirror in enumerate(mirrors):
+            if mirror is not None:
+                away, ahead = corners[:, axis] - mirror, np.roll(corners, -1, axis=0)
+                crossing = np.flatnonzero(away * np.roll(away, -1) < -(_FLAT**2))
+                part = (away / np.where(away == np.roll(away, -1), 1.0, away - np.roll(away, -1)))[:, None]
+                corners = np.insert(corners, crossing + 1, (corners + part * (ahead - corners))[crossing], axis=0)
+        return PolygonLoop(corners=corners)
+
+    def is_symmetric(self, axis: int, mirror: float) -> bool:
+        """Whether it is its own image in a plane."""
+        image = self.corners.copy()
+        image[:, axis] = 2.0 * mirror - image[:, axis]
+        away = np.abs(image[:, None] - self.corners).max(axis=2).min(axis=1)
+        return bool(away.max() < _FLAT)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -111,8 +136,17 @@ class CircleLoop:
 
     def places(self, size: float, _towards: Grading, _towards_reentrant: Grading) -> NDArray[np.float64]:
         """Return where the nodes lie, in parts of a turn; it has no corners."""
-        count = max(ceil(2.0 * pi * self.radius / size), 12)
+        # Of a whole number of nodes in a quarter some lie on planes of symmetry.
+        count = 4 * max(ceil(0.5 * pi * self.radius / size), 3)
         return np.arange(count) / count
+
+    def cut(self, _mirrors: Mirrors) -> CircleLoop:
+        """Return it; it has nodes on planes through its centre."""
+        return self
+
+    def is_symmetric(self, axis: int, mirror: float) -> bool:
+        """Whether it is its own image in a plane."""
+        return bool(abs(self.centre[axis] - mirror) < _FLAT)
 
     def contains(self, point: NDArray[np.float64]) -> bool:
         """Whether a point lies inside."""
@@ -149,6 +183,15 @@ class PlanRegion:
     def gap(self, other: PlanRegion) -> float:
         """Return the distance of its loops from those of another region, as far as a few hundred points show it."""
         return min(_gap(one, another) for one in self.loops for another in other.loops)
+
+
+def kept_by(mirrors: Mirrors, points: NDArray[np.float64], near: float) -> NDArray[np.bool_]:
+    """Return which points lie on the kept side of mirror planes, or as close to them as said."""
+    kept = np.full(len(points), True)
+    for axis, mirror in enumerate(mirrors):
+        if mirror is not None:
+            kept &= points[:, axis] > mirror - near
+    return kept
 
 
 def _fitting(grading: Grading, length: float) -> Grading:

@@ -7,11 +7,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from math import pi
+from pathlib import Path
 from typing import TypeAlias
 
 import numpy as np
 
-from hydroelastic.physics.plate import Plate, Polygon, scaled_point
+from hydroelastic.physics.plate import Plate, Point, Polygon, scaled_point
 from hydroelastic.physics.scales import Scales
 from hydroelastic.physics.tank import Top
 
@@ -84,8 +85,45 @@ class PolygonPlan(Polygon):
         return PolygonPlan(points=tuple(scaled_point(point, length) for point in self.points))
 
 
-Plan: TypeAlias = Box | Cylinder | PolygonPlan
-"""The plan of an upright tank."""
+@dataclass(frozen=True, kw_only=True)
+class FilePlan:
+    """The still surface of a tank that a file describes.
+
+    Attributes:
+        file: solid of CAD, the inside of the tank, or mesh of the liquid; in m.
+        fill: height of the still surface above the lowest point, m.
+        length: the larger side of the box around the still surface, m.
+        middle: x and y of the middle of that box, m.
+        area: of the still surface, m².
+        metres: the unit of the other lengths, m.
+    """
+
+    file: Path
+    fill: float
+    length: float
+    middle: Point
+    area: float
+    metres: float = 1.0
+
+    @property
+    def unit(self) -> float:
+        """The unit of length of the dimensionless tank, m."""
+        return self.length
+
+    def scaled(self, length: float) -> FilePlan:
+        """Return it in units of a length."""
+        return replace(
+            self,
+            fill=self.fill / length,
+            length=self.length / length,
+            middle=scaled_point(self.middle, length),
+            area=self.area / length**2,
+            metres=self.metres * length,
+        )
+
+
+Plan: TypeAlias = Box | Cylinder | PolygonPlan | FilePlan
+"""The plan of a tank: of all but one of a file, its walls are upright."""
 
 
 @dataclass(frozen=True, kw_only=True)

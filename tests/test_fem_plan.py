@@ -183,7 +183,7 @@ def test_shapes_of_a_disc_lie_about_its_centre(inner: float) -> None:
 
     outline = Disc(radius=0.8, inner_radius=inner, position=(2.0, -1.0))
     plate = Plate(outline=outline, flexural_rigidity=1e3, mass_per_area=7.0)
-    body = plan_plate(LevelTank(plan=Cylinder(radius=5.0), depth=1.0, plates=(plate,), **WATER), 0, 8)
+    body = plan_plate(LevelTank(plan=Cylinder(radius=5.0), depth=1.0, plates=(plate,), **WATER), 0, 8, (None, None))
     points, weights = np.polynomial.legendre.leggauss(24)
     radius = inner + 0.5 * (0.8 - inner) * (1.0 + points)
     angle = 2.0 * np.pi * np.arange(40) / 40.0

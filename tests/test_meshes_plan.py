@@ -9,7 +9,7 @@ from mpi4py import MPI
 from hydroelastic.fem.cells import cell_jacobians, cell_positions
 from hydroelastic.meshes.distribute import TankMesh, distribute_mesh
 from hydroelastic.meshes.plan import plan_mesh
-from hydroelastic.meshes.plan_loops import CircleLoop, Loop, PlanRegion, PolygonLoop
+from hydroelastic.meshes.plan_loops import CircleLoop, Loop, Mirrors, PlanRegion, PolygonLoop
 
 
 def _box(left: float, right: float, low: float, high: float) -> PolygonLoop:
@@ -20,7 +20,7 @@ def _circle(radius: float, x: float = 0.0, y: float = 0.0) -> CircleLoop:
     return CircleLoop(centre=np.array([x, y]), radius=radius)
 
 
-def _meshed(wall: Loop, *plates: PlanRegion, layers: int = 3) -> TankMesh:
+def _meshed(wall: Loop, *plates: PlanRegion, layers: int = 3, mirrors: Mirrors = (None, None)) -> TankMesh:
     mesh = plan_mesh(
         PlanRegion(name="water", outside=wall),
         plates,
@@ -28,6 +28,7 @@ def _meshed(wall: Loop, *plates: PlanRegion, layers: int = 3) -> TankMesh:
         layers=layers,
         thickness=0.1,
         geometry_degree=6,
+        mirrors=mirrors,
     )
     return distribute_mesh(MPI.COMM_SELF, mesh)
 
@@ -94,3 +95,43 @@ def test_corners_of_more_than_half_a_turn_are_refined() -> None:
     assert near.any()
     assert _area(mesh, "water") == pytest.approx(0.75, rel=1e-13)
     assert sizes[near].max() < 0.02
+
+
+MIRRORS: list[Mirrors] = [(0.0, None), (None, 0.0), (0.0, 0.0)]
+SYMMETRIC = {
+    "disc": (_circle(1.0), PlanRegion(name="plate", outside=_circle(0.4))),
+    "ring": (_circle(1.0), PlanRegion(name="plate", outside=_circle(0.7), inside=(_circle(0.3),))),
+    "cross": (
+        _box(-1.0, 1.0, -0.8, 0.8),
+        PlanRegion(
+            name="plate",
+            outside=PolygonLoop(
+                corners=np.array([[0.0, -0.4], [0.1, -0.1], [0.5, 0.0], [0.1, 0.1], [0.0, 0.4], [-0.1, 0.1], [-0.5, 0.0], [-0.1, -0.1]])
+            ),
+        ),
+    ),
+}
+
+
+@pytest.mark.parametrize("mirrors", MIRRORS)
+@pytest.mark.parametrize("name", SYMMETRIC)
+def test_a_part_between_mirror_planes_has_its_share_of_each_region(name: str, mirrors: Mirrors) -> None:
+    wall, plate = SYMMETRIC[name]
+    whole = _meshed(wall, plate)
+    part = _meshed(wall, plate, mirrors=mirrors)
+    share = 0.5 ** sum(mirror is not None for mirror in mirrors)
+    for region in ("plate", "water"):
+        assert _area(part, region) == pytest.approx(share * _area(whole, region), rel=1e-12)
+    # All of it lies on one side, and the planes are its edges: a quarter has no node off them by rounding.
+    for axis, mirror in enumerate(mirrors):
+        if mirror is not None:
+            places = part.mesh.geometry.x[:, axis]
+            assert abs(places.min()) < 1e-15
+
+
+def test_a_plate_beside_a_mirror_plane_is_meshed_on_one_side() -> None:
+    wall = _box(-1.0, 1.0, -0.8, 0.8)
+    plates = tuple(PlanRegion(name=f"plate {x:g}", outside=_circle(0.2, x)) for x in (-0.5, 0.5))
+    part = _meshed(wall, *plates, mirrors=(0.0, None))
+    assert _area(part, "plate 0.5") == pytest.approx(0.04 * np.pi, rel=1e-10)
+    assert "plate -0.5" not in part.cell_names

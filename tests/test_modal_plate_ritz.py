@@ -13,6 +13,7 @@ from hydroelastic.physics.plate import Edge
 
 SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 # Free square, ν = 0.3: Legendre–Ritz of growing degree, digits that no longer change.
+CORNERS = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
 FREE_SQUARE = np.array([13.468198, 19.596137, 24.270201, 34.800891, 34.800891])
 
 
@@ -57,7 +58,7 @@ def test_the_energy_of_coefficients_is_that_of_the_modes() -> None:
 
 
 def test_a_square_is_a_polygon() -> None:
-    modes = polygon_modes(SQUARE, 0.3, 18)
+    modes = polygon_modes(CORNERS, 0.3, 14)
     assert np.sqrt(modes.stiffness[3:8]) == pytest.approx(FREE_SQUARE, rel=1e-6)
     points, weights = polygon_quadrature(SQUARE, 30)
     shapes = modes.deflection(points)[:20]
@@ -67,8 +68,8 @@ def test_a_square_is_a_polygon() -> None:
 def test_a_turned_square_has_the_same_modes() -> None:
     turn = np.array([[np.cos(0.4), np.sin(0.4)], [-np.sin(0.4), np.cos(0.4)]])
     # The polynomials of a degree in x and y together are the same in any axes.
-    assert polygon_modes(SQUARE @ turn, 0.3, 12).stiffness[3:20] == pytest.approx(
-        polygon_modes(SQUARE, 0.3, 12).stiffness[3:20], rel=1e-9
+    assert polygon_modes(tuple(map(tuple, SQUARE @ turn)), 0.3, 12).stiffness[3:20] == pytest.approx(
+        polygon_modes(CORNERS, 0.3, 12).stiffness[3:20], rel=1e-9
     )
 
 

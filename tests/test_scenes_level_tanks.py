@@ -113,7 +113,7 @@ def test_a_beam_in_a_box_is_a_cover_of_slats() -> None:
 BAD: dict[str, tuple[dict[str, Any], str]] = {
     "two plans": ({"tank": {"radius": 5.0, "width": 2.0}}, "different plans"),
     "no plan": ({"tank": {"length": 5.0}}, 'no plan. Did you mean "beam"'),
-    "float": ({"body": [{"kind": "float", "start": 0.0}]}, "bodies are plates"),
+    "varying beam": ({"body": [{"kind": "varying_beam", "start": 0.0}]}, "bodies are plates"),
     "beams in a cylinder": ({"body": [BEAM]}, "side to side of a box"),
     "beam with a key of a plate": ({"body": [BEAM | {"mass_per_area": 1.0}]}, "not known here"),
     "beam too heavy": (
@@ -153,3 +153,58 @@ def test_check_tells_the_model_and_its_size() -> None:
     text = "\n".join(line for section in checker_of(asked)(asked) for line in section.lines)
     assert "one problem for each order n" in text
     assert "no volume mesh" in text
+
+
+BASIN = {"length": 10.0, "width": 6.0}
+SLOPE = {"slope": [0.2, 0.0]}
+
+
+def test_a_sloping_bed_is_solved_in_its_volume_and_sampled_on_its_mesh(tmp_path: Path) -> None:
+    asked = scene(tank=BASIN | {"bed": SLOPE}, body=[], accuracy={"tolerance": 1e-3, "modes": 3})
+    runner_of(asked)(asked, out=tmp_path / "basin", images=None)
+    summary = json.loads((tmp_path / "basin" / "summary.json").read_text(encoding="utf-8"))
+    assert summary["status"] == "ok"
+    assert summary["solver"]["model"].startswith("volume")
+    assert summary["exact"] == []
+    surface, volume = (meshio.read(tmp_path / "basin" / "fields" / f"{name}.vtu") for name in ("surface", "volume"))
+    # Both halves beside the plane of symmetry y = 3, and the bed from 4 m to 2 m.
+    assert np.ptp(surface.points, axis=0) == pytest.approx([10.0, 6.0, 0.0], abs=1e-9)
+    assert volume.points[:, 2].min() == pytest.approx(-4.0, abs=1e-9)
+    assert volume.points[np.argmin(volume.points[:, 2]), 0] == pytest.approx(0.0, abs=1e-9)
+    corners = np.array([[0.0, 0.0], [0.0, 6.0], [10.0, 0.0]])
+    eta = [
+        surface.point_data["displacement_002"][np.argmin(np.linalg.norm(surface.points[:, :2] - c, axis=1)), 2]
+        for c in corners
+    ]
+    # The second mode is the first across: odd about y = 3, higher over the shallow end than over the deep one or alike.
+    assert eta[0] == pytest.approx(-eta[1], rel=1e-9)
+    assert summary["modes"][1]["symmetry"] == "yA"
+    # On the water gη = ω²ψ, of a corner in both files.
+    place = np.argmin(np.linalg.norm(volume.points, axis=1))
+    omega = summary["modes"][1]["omega"]
+    assert 9.81 * eta[0] == pytest.approx(omega**2 * volume.point_data["potential_002"][place], rel=1e-9)
+
+
+def test_check_tells_the_volume_its_unknowns_and_memory() -> None:
+    asked = scene(tank=BASIN | {"bed": SLOPE}, body=[], accuracy={"tolerance": 1e-3, "modes": 3})
+    text = " ".join(line for section in checker_of(asked)(asked) for line in section.lines)
+    for said in ("tetrahedra in all of the liquid", "unknowns", "GiB", "a half of the tank"):
+        assert said in text, said
+
+
+BAD_VOLUMES: dict[str, tuple[dict[str, Any], str]] = {
+    "beams": ({"tank": BASIN | {"bed": SLOPE}, "body": [BEAM]}, "need a tank with a level bed"),
+    "beach": ({"tank": BASIN | {"bed": {"slope": [0.7, 0.0]}}, "body": []}, "A beach is drawn"),
+    "two beds": ({"tank": BASIN | {"bed": SLOPE | {"points": [[0.0, 0.0, 0.0]] * 3}}, "body": []}, "given together"),
+    "no bed": ({"tank": BASIN | {"bed": {}}, "body": []}, "its shape is missing"),
+    "no file": ({"tank": {"shape": "none.step"}, "body": []}, "there is no file"),
+    "format": ({"tank": {"shape": "tank.dwg"}, "body": []}, "not a known format"),
+    "bed table": ({"tank": BASIN | {"bed": {"file": "none.csv"}}, "body": []}, "none.csv"),
+}
+
+
+@pytest.mark.parametrize("case", BAD_VOLUMES)
+def test_bad_volumes_are_refused_with_the_reason(case: str) -> None:
+    changes, said = BAD_VOLUMES[case]
+    with pytest.raises(SceneError, match=said):
+        scene(**changes)

@@ -12,6 +12,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh, solve
+from scipy.sparse import csr_matrix
 
 from hydroelastic.modal.plate.legendre import gauss
 from hydroelastic.modal.plate.rectangle import polynomials_of
@@ -106,6 +107,11 @@ class IntervalSpace:
         return self.mass_on(self.cells)
 
     @cached_property
+    def sparse_mass(self) -> csr_matrix:
+        """∫uv, of which most entries are zero."""
+        return csr_matrix(self.mass)
+
+    @cached_property
     def stiffness(self) -> FloatArray:
         """∫∇u·∇v, with the second direction, shape (N, N)."""
         points = self.degree + self.spare_points
@@ -174,8 +180,8 @@ class IntervalSpace:
         shift = 1.0 / (self.nodes[-1] - self.nodes[0]) ** 2
         _, vectors = eigh(self.mass, self.stiffness + shift * self.mass)
         vectors = vectors[:, ::-1]
-        norms = np.einsum("ij,ij->j", vectors, self.mass @ vectors)
-        squares = np.einsum("ij,ij->j", vectors, self.stiffness @ vectors) / norms
+        norms = (vectors * (self.sparse_mass @ vectors)).sum(axis=0)
+        squares = (vectors * (csr_matrix(self.stiffness) @ vectors)).sum(axis=0) / norms
         if self.holds_constant:
             squares[0] = 0.0
         return squares, vectors / np.sqrt(norms)

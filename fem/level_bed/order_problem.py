@@ -6,17 +6,17 @@ functions of depth, so that frequencies come from above.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
 from petsc4py import PETSc
-from scipy.linalg import cho_factor, cho_solve
+from scipy.linalg import solve
 from scipy.sparse import csr_matrix
 
 from hydroelastic.fem.level_bed.line import Line
-from hydroelastic.fem.pencil import CoupledPencil, SurfaceBlocks, coupled_pencil, loads_on_first
+from hydroelastic.fem.pencil import CoupledPencil, LiquidAnswer, SurfaceBlocks, coupled_pencil
 from hydroelastic.fem.surfaces import Body, LiquidSurface
 from hydroelastic.meshes.geometry import FREE_SURFACE
 from hydroelastic.modal.plate.line_modes import LineModes
@@ -78,49 +78,42 @@ class LineLiquid:
 
 
 @dataclass(kw_only=True)
-class SpectralOperator:
-    """A⁺ = Σ v vᵀ/(k tanh kH) without the constant.
+class LineOperator:
+    """A⁺ and A of one order.
 
     Attributes:
-        functions: v as columns, shape (N, functions).
-        inverses: 1/(k tanh kH), shape (functions,).
-        solves: how many loads were answered.
+        liquid: the unknowns.
+        solves: how many loads were answered; all at once.
     """
 
-    functions: FloatArray
-    inverses: FloatArray
+    liquid: LineLiquid
     solves: int = 0
+
+    def answer(self, loads: FloatArray) -> FloatArray:
+        """Return A⁺ of loads as columns, shape (N, loads).
+
+        It is Σ v vᵀ/(k tanh kH) without the constant, or where ψ = 0 on the water the inverse on the other unknowns.
+        """
+        line, slopes = self.liquid.line, self.liquid.slopes
+        if not len(self.liquid.zeros):
+            first = int(self.liquid.holds_constant)
+            functions = line.waves[1][:, first:]
+            potentials: FloatArray = functions @ ((functions.T @ loads) / slopes[first:, None])
+            return potentials
+        free = np.setdiff1d(np.arange(line.size), self.liquid.zeros)
+        moments = (line.sparse_mass @ line.waves[1])[free]
+        held = np.zeros_like(loads)
+        held[free] = solve((moments * slopes) @ moments.T, loads[free], assume_a="pos")
+        return held
 
     def solve(self, load: PETSc.Vec, potential: PETSc.Vec) -> None:
         """See `LiquidOperator.solve`."""
-        potential.array[:] = self.functions @ (self.inverses * (self.functions.T @ load.array_r))
-        self.solves += 1
+        potential.array[:] = self.answer(load.array_r[:, None])[:, 0]
 
-
-@dataclass(kw_only=True)
-class HeldOperator:
-    """A⁺ where ψ = 0 on the water: the inverse of A on the other unknowns.
-
-    Attributes:
-        matrix: A on all unknowns, shape (N, N).
-        free: the other unknowns.
-        solves: how many loads were answered.
-    """
-
-    matrix: FloatArray
-    free: np.ndarray
-    solves: int = 0
-    _factor: tuple[FloatArray, bool] = field(init=False)
-
-    def __post_init__(self) -> None:
-        """Factorize."""
-        self._factor = cho_factor(self.matrix[np.ix_(self.free, self.free)])
-
-    def solve(self, load: PETSc.Vec, potential: PETSc.Vec) -> None:
-        """See `LiquidOperator.solve`."""
-        potential.set(0.0)
-        potential.array[self.free] = cho_solve(self._factor, load.array_r[self.free])
-        self.solves += 1
+    def mult(self, _matrix: PETSc.Mat, potential: PETSc.Vec, load: PETSc.Vec) -> None:
+        """``load`` ← A ``potential``."""
+        mass, (_, functions) = self.liquid.line.sparse_mass, self.liquid.line.waves
+        load.array[:] = mass @ (functions @ (self.liquid.slopes * (functions.T @ (mass @ potential.array_r))))
 
 
 def order_pencil(
@@ -140,28 +133,26 @@ def order_pencil(
     zeros = line.unknowns_of(water) if released else np.empty(0, dtype=np.int64)
     liquid = LineLiquid(line=line, depth=tank.depth, zeros=zeros)
     bodies = tuple(_body(tank.plates[index], index, line, shapes) for index, shapes in modes.items())
-    _, functions = line.waves
-    moments = line.mass @ functions
-    matrix = (moments * liquid.slopes) @ moments.T
-    laplace = _matrix(0.5 * (matrix + matrix.T))
-    operator: HeldOperator | SpectralOperator
-    if len(zeros):
-        operator = HeldOperator(matrix=matrix, free=np.setdiff1d(np.arange(line.size), zeros))
-    else:
-        first = int(liquid.holds_constant)
-        operator = SpectralOperator(functions=functions[:, first:], inverses=1.0 / liquid.slopes[first:])
     waves = tank.top == "free" and not released and len(water) > 0
-    loads = [load for index, shapes in modes.items() for load in _loads(line, covered[index], shapes)]
-    return coupled_pencil(
+    loads = [_loads(line, covered[index], shapes).T for index, shapes in modes.items()]
+    surfaces = [_water(line, water)] if waves else []
+    operator = LineOperator(liquid=liquid)
+    laplace = PETSc.Mat().createPython((line.size, line.size), operator, comm=PETSc.COMM_SELF)
+    laplace.setUp()
+    coupling = np.concatenate([*loads, *(mass for mass, _ in surfaces)], axis=1)
+    potentials = operator.answer(coupling)
+    pencil = coupled_pencil(
         liquid,
         bodies=bodies,
         surfaces=(LiquidSurface(surface=FREE_SURFACE, gravity=1.0),) if waves else (),
-        body_coupling=loads_on_first(loads, len(loads), laplace) if loads else None,
-        surface_blocks=[_water(line, water)] if waves else [],
+        body_coupling=_matrix(np.concatenate(loads, axis=1)) if loads else None,
+        surface_blocks=[SurfaceBlocks(coupling=_matrix(mass), stiffness=_matrix(square)) for mass, square in surfaces],
         laplace=laplace,
         solver=operator,
         closed=(0,) if liquid.is_closed else (),
     )
+    added = coupling.T @ potentials
+    return replace(pencil, answer=LiquidAnswer(potentials=potentials, added_mass=0.5 * (added + added.T)))
 
 
 def covered_elements(line: Line) -> np.ndarray:
@@ -211,10 +202,11 @@ def _loads(line: Line, elements: np.ndarray, shapes: LineModes) -> FloatArray:
     return line.load(elements, values * weights)
 
 
-def _water(line: Line, elements: np.ndarray) -> SurfaceBlocks:
+def _water(line: Line, elements: np.ndarray) -> tuple[FloatArray, FloatArray]:
+    """∫uv over the water for v on it, and for both on it."""
     unknowns = line.unknowns_of(elements)
     mass = line.mass_on(elements)[:, unknowns]
-    return SurfaceBlocks(coupling=_matrix(mass), stiffness=_matrix(mass[unknowns]))
+    return mass, mass[unknowns]
 
 
 def _matrix(values: FloatArray) -> PETSc.Mat:

@@ -13,7 +13,7 @@ from hydroelastic.fem.modes import Mode
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.box_pencil import BoxLiquid, box_pencil, plate_loads, water_columns, water_masses
 from hydroelastic.fem.plan.box_resolution import BoxResolution, axis_space, box_resolution
-from hydroelastic.fem.plan.classes import ClassModes, SymmetryClass, count_is_confirmed, solve_classes
+from hydroelastic.fem.plan.classes import ClassModes, SymmetryClass, count_is_confirmed, merged_errors, solve_classes
 from hydroelastic.fem.plan.rectangle_body import AxisParity, ClassParity, RectangleBody, rectangle_body, rectangle_of
 from hydroelastic.fem.plan.truncation import rectangle_energies
 from hydroelastic.fem.stopwatch import Report
@@ -97,15 +97,17 @@ def solve_box(tank: LevelTank, *, tolerance: float, count: int, report: Report =
         attempt = next(attempts)
         report(f"attempt {attempt}: degree {resolution.degree}, {resolution.layers} layers")
         problems = {parity: box_problem(tank, resolution, parity) for parity in symmetries(tank)}
-        modes = solve_classes({parity: one for parity, (one, _) in problems.items() if one is not None}, count + 1)
-        found = [modes.completed(index) for index in range(len(modes.eigenvalues))]
-        liquid, plates = np.zeros(len(found)), np.zeros(len(found))
-        for number, one in enumerate(modes.classes):
-            own = [index for index, (origin, _) in enumerate(modes.origins) if origin == number]
-            shapes = [found[index] for index in own]
-            bodies = problems[one.parity][1]
-            liquid[own] = _liquid_errors(tank, resolution, one, bodies, shapes)
-            plates[own] = _plate_errors(bodies, shapes)
+        modes = solve_classes({parity: one for parity, (one, _) in problems.items() if one is not None}, count + 1, tolerance)
+        liquid, plates = merged_errors(
+            modes,
+            2,
+            lambda one, own: np.array(
+                [
+                    _liquid_errors(tank, resolution, one, problems[one.parity][1], own),
+                    _plate_errors(problems[one.parity][1], own),
+                ]
+            ),
+        )
         coarser = resolution.coarser()
         return BoxSolution(
             tank=tank,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -11,6 +12,11 @@ import numpy as np
 from hydroelastic.fem.modes import HIDDEN, Mode, ModeSet, count_below, solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.rectangle_body import ClassParity
+from hydroelastic.meshes.plan_loops import Mirrors
+from hydroelastic.physics.arrays import FloatArray
+
+# Of the tolerance, the residual to which modes are solved.
+_OF_RESIDUALS = 1e-3
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,6 +37,16 @@ class SymmetryClass:
     def label(self) -> str:
         """What the class is called: xS even and xA odd along x, "" without a symmetry."""
         return "".join(f"{axis}{'SA'[own]}" for axis, own in zip("xy", self.parity, strict=True) if own is not None)
+
+    def folded(self, points: FloatArray, mirrors: Mirrors) -> tuple[FloatArray, FloatArray]:
+        """Return points (2, n) on the kept side of mirror planes, and the signs of modes at the given ones, (n,)."""
+        places, signs = points.copy(), np.ones(points.shape[1])
+        for axis, (mirror, own) in enumerate(zip(mirrors, self.parity, strict=True)):
+            if mirror is not None:
+                beyond = places[axis] < mirror
+                places[axis, beyond] = 2.0 * mirror - places[axis, beyond]
+                signs[beyond & (own == 1)] *= -1.0
+        return places, signs
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,18 +69,21 @@ class ClassModes:
         return self.classes[number].modes.completed(place)
 
 
-def solve_classes(pencils: dict[ClassParity, CoupledPencil], count: int) -> ClassModes:
+def solve_classes(pencils: dict[ClassParity, CoupledPencil], count: int, tolerance: float) -> ClassModes:
     """Solve each class for its share of the modes, and for more where the shares are not enough (collective).
 
     Args:
         pencils: the problem of each class that has unknowns.
         count: number of modes; fewer are returned if the model has fewer.
+        tolerance: largest relative error of frequencies that is accepted.
     """
+    # The error of λ is that of the residual squared.
+    solve = partial(solve_modes, shapes=0, tolerance=max(_OF_RESIDUALS * tolerance, 1e-12))
     if not pencils:
         return ClassModes(classes=(), eigenvalues=np.empty(0), origins=())
     share = count if len(pencils) == 1 else count // len(pencils) + 2
     classes = [
-        SymmetryClass(parity=parity, pencil=pencil, modes=solve_modes(pencil, share, shapes=0))
+        SymmetryClass(parity=parity, pencil=pencil, modes=solve(pencil, share))
         for parity, pencil in pencils.items()
     ]
     shares = [share] * len(classes)
@@ -81,7 +100,7 @@ def solve_classes(pencils: dict[ClassParity, CoupledPencil], count: int) -> Clas
             break
         short = int(np.argmin(reached))
         shares[short] += max(4, count - complete)
-        classes[short] = replace(classes[short], modes=solve_modes(classes[short].pencil, shares[short], shapes=0))
+        classes[short] = replace(classes[short], modes=solve(classes[short].pencil, shares[short]))
     ordered = sorted(
         (float(value), number, place)
         for number, one in enumerate(classes)
@@ -118,3 +137,20 @@ def count_is_confirmed(solution: ClassModes, coarse: Callable[[ClassParity], Cou
         if count_below(pencil, shift) != int(np.sum(one.modes.eigenvalues < shift)):
             return False
     return True
+
+
+def merged_errors(
+    solution: ClassModes, causes: int, estimate: Callable[[SymmetryClass, list[Mode]], np.ndarray]
+) -> np.ndarray:
+    """Return the errors of all modes by cause, shape (causes, modes).
+
+    Args:
+        solution: the modes.
+        causes: their number.
+        estimate: gives those of some modes of a class, shape (causes, modes of the class).
+    """
+    errors = np.zeros((causes, len(solution.origins)))
+    for number, one in enumerate(solution.classes):
+        own = [index for index, (origin, _) in enumerate(solution.origins) if origin == number]
+        errors[:, own] = estimate(one, [solution.completed(index) for index in own])
+    return errors

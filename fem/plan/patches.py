@@ -9,8 +9,8 @@ import numpy as np
 
 from hydroelastic.fem.level_bed.patches import Patch, line_patches
 from hydroelastic.fem.level_bed.separation import separated
-from hydroelastic.fem.plan.plan import plan_regions
 from hydroelastic.fem.plan.rectangle_body import rectangle_of
+from hydroelastic.fem.plan.regions import plan_regions
 from hydroelastic.fem.plan.solve import level_model
 from hydroelastic.meshes.plan import plan_mesh
 from hydroelastic.physics.arrays import FloatArray

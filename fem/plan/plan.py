@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cache
 from itertools import count as numbered
+from itertools import product
 from math import ceil, log10, pi, sqrt
 
 import numpy as np
@@ -13,19 +15,19 @@ from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
 from hydroelastic.fem.modes import Mode
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.box_resolution import expected_eigenvalue, plate_wavenumber, water_wavenumber
-from hydroelastic.fem.plan.classes import ClassModes, count_is_confirmed, solve_classes
+from hydroelastic.fem.plan.classes import ClassModes, SymmetryClass, count_is_confirmed, merged_errors, solve_classes
 from hydroelastic.fem.plan.plan_errors import liquid_and_pole_errors
 from hydroelastic.fem.plan.plan_pencil import PlanPlate, PlanSpace, plan_pencil, plan_space, stacked_pencil
-from hydroelastic.fem.plan.plates import anticlockwise, plan_plate
+from hydroelastic.fem.plan.plates import plan_plate
+from hydroelastic.fem.plan.rectangle_body import ClassParity
+from hydroelastic.fem.plan.regions import mirrors_of, plan_regions
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.tank.resolution import radians
 from hydroelastic.meshes.distribute import distribute_mesh
-from hydroelastic.meshes.geometry import FREE_SURFACE
 from hydroelastic.meshes.plan import plan_mesh
-from hydroelastic.meshes.plan_loops import CircleLoop, Loop, PlanRegion, PolygonLoop
+from hydroelastic.meshes.plan_loops import Mirrors
 from hydroelastic.modal.liquid.vertical_poles import VerticalPoles, vertical_poles
-from hydroelastic.physics.dofs import body_name
-from hydroelastic.physics.level_tank import Box, Cylinder, LevelTank
+from hydroelastic.physics.level_tank import LevelTank
 from hydroelastic.physics.plate import Disc, Plate, Polygon, Rectangle
 
 HIGHEST_DEGREE = 10
@@ -129,8 +131,9 @@ class PlanSolution:
     Attributes:
         tank: the tank.
         resolution: the last one.
-        space: the plan.
-        plates: the plates as bodies.
+        space: the plan, or the part of it between its mirror planes.
+        mirrors: x and y of these planes.
+        plates: the plates as bodies, in the shapes of each symmetry class.
         poles: of the depth.
         modes: the lowest modes, one more than asked for.
         errors: of their frequencies.
@@ -141,7 +144,8 @@ class PlanSolution:
     tank: LevelTank
     resolution: PlanResolution
     space: PlanSpace
-    plates: tuple[PlanPlate, ...]
+    mirrors: Mirrors
+    plates: dict[ClassParity, tuple[PlanPlate, ...]]
     poles: VerticalPoles
     modes: ClassModes
     errors: PlanErrors
@@ -152,7 +156,7 @@ class PlanSolution:
     def sizes(self) -> dict[str, int]:
         """Numbers of its resolution, by name."""
         return {
-            "problems": 1,
+            "problems": len(self.modes.classes),
             "degree": self.resolution.degree,
             "layers": self.resolution.layers,
             "poles": len(self.poles.shifts),
@@ -190,29 +194,31 @@ def solve_plan(
     def solve(resolution: PlanResolution) -> PlanSolution:
         attempt = next(attempts)
         report(f"attempt {attempt}: degree {resolution.degree}, {resolution.layers} layers")
-        space, plates, poles = _parts(tank, resolution)
-        pencil = plan_pencil(space, poles, plates, waves=tank.top == "free", comm=processes)
-        modes = solve_classes({(None, None): pencil}, count + 1)
-        found = [modes.completed(index) for index in range(len(modes.eigenvalues))]
-        gradients, missing = liquid_and_pole_errors(pencil, found, tank.depth, _LOWEST)
-        errors = PlanErrors(
-            liquid=0.5 * _WITH_MASS * gradients,
-            poles=0.5 * missing,
-            plates=_plate_errors(plates, found),
-        )
+        parts = plan_parts(tank, resolution)
+        plates = {parity: parts.plates(parity) for parity in parts.classes}
+        pencils = {
+            parity: plan_pencil(parts.space_of(parity), parts.poles, own, waves=tank.top == "free", comm=processes)
+            for parity, own in plates.items()
+        }
+        modes = solve_classes({parity: one for parity, one in pencils.items() if one is not None}, count + 1, tolerance)
+        errors = merged_errors(modes, 3, lambda one, own: _errors(tank, one, plates[one.parity], own))
 
-        def coarse(_: object) -> CoupledPencil:
-            space, plates, poles = _parts(tank, resolution.coarser)
-            return stacked_pencil(space, poles, plates, waves=tank.top == "free")
+        def coarse(parity: ClassParity) -> CoupledPencil | None:
+            found = coarser()
+            return stacked_pencil(
+                found.space_of(parity), found.poles, found.plates(parity), waves=tank.top == "free"
+            )
 
+        coarser = cache(lambda: plan_parts(tank, resolution.coarser))
         return PlanSolution(
             tank=tank,
             resolution=resolution,
-            space=space,
+            space=parts.space,
+            mirrors=parts.mirrors,
             plates=plates,
-            poles=poles,
+            poles=parts.poles,
             modes=modes,
-            errors=errors,
+            errors=PlanErrors(liquid=errors[0], poles=errors[1], plates=errors[2]),
             counted=count_is_confirmed(modes, coarse),
             attempts=attempt,
         )
@@ -259,8 +265,50 @@ def _extent(plate: Plate) -> float:
     return float(np.ptp(np.array(outline.points), axis=0).max())
 
 
-def _parts(tank: LevelTank, resolution: PlanResolution) -> tuple[PlanSpace, tuple[PlanPlate, ...], VerticalPoles]:
+@dataclass(frozen=True, kw_only=True)
+class PlanParts:
+    """What all symmetry classes of a tank share at one resolution.
+
+    Attributes:
+        tank: the dimensionless tank.
+        resolution: of it.
+        mirrors: x and y of its mirror planes.
+        space: the part of the plan between them.
+        poles: of the depth.
+    """
+
+    tank: LevelTank
+    resolution: PlanResolution
+    mirrors: Mirrors
+    space: PlanSpace
+    poles: VerticalPoles
+
+    @property
+    def classes(self) -> tuple[ClassParity, ...]:
+        """Even and odd about each mirror plane."""
+        along, across = ((None,) if mirror is None else (0, 1) for mirror in self.mirrors)
+        return tuple(product(along, across))
+
+    def space_of(self, parity: ClassParity) -> PlanSpace:
+        """Return the space of a class."""
+        return self.space.of_class(parity, self.mirrors)
+
+    def plates(self, parity: ClassParity) -> tuple[PlanPlate, ...]:
+        """Return the plates in the shapes of a class."""
+        return tuple(
+            plan_plate(self.tank, index, polynomials, parity)
+            for index, polynomials in enumerate(self.resolution.polynomials)
+        )
+
+
+def plan_parts(tank: LevelTank, resolution: PlanResolution) -> PlanParts:
+    """Mesh a dimensionless tank's plan up to its mirror planes, and assemble on it.
+
+    Raises:
+        MeshError: if the plan cannot be meshed.
+    """
     wall, plates = plan_regions(tank)
+    mirrors = mirrors_of(wall, plates)
     mesh = plan_mesh(
         wall,
         plates,
@@ -268,47 +316,22 @@ def _parts(tank: LevelTank, resolution: PlanResolution) -> tuple[PlanSpace, tupl
         layers=resolution.layers,
         thickness=min(0.5 * resolution.size, tank.depth),
         geometry_degree=min(max(resolution.degree, 4), 8),
+        mirrors=mirrors,
     )
-    space = plan_space(distribute_mesh(MPI.COMM_SELF, mesh), resolution.degree)
-    bodies = tuple(plan_plate(tank, index, polynomials) for index, polynomials in enumerate(resolution.polynomials))
-    poles = vertical_poles(tank.depth, resolution.wavenumber, resolution.pole_error, lowest=_LOWEST)
-    return space, bodies, poles
+    images = 2 ** sum(mirror is not None for mirror in mirrors)
+    return PlanParts(
+        tank=tank,
+        resolution=resolution,
+        mirrors=mirrors,
+        space=plan_space(distribute_mesh(MPI.COMM_SELF, mesh), resolution.degree, images),
+        poles=vertical_poles(tank.depth, resolution.wavenumber, resolution.pole_error, lowest=_LOWEST),
+    )
 
 
-def plan_regions(tank: LevelTank) -> tuple[PlanRegion, tuple[PlanRegion, ...]]:
-    """Return the inside of the walls, and the outline of each plate."""
-    wall = _wall(tank)
-    return wall, tuple(_region(tank, index, wall) for index in range(len(tank.plates)))
-
-
-def _wall(tank: LevelTank) -> PlanRegion:
-    plan = tank.plan
-    if isinstance(plan, Cylinder):
-        outer: Loop = CircleLoop(centre=np.zeros(2), radius=plan.radius)
-        inner = (CircleLoop(centre=np.zeros(2), radius=plan.inner_radius),) if plan.inner_radius else ()
-        return PlanRegion(name=FREE_SURFACE, outside=outer, inside=inner)
-    if isinstance(plan, Box):
-        corners = np.array([[0.0, 0.0], [plan.length, 0.0], [plan.length, plan.width], [0.0, plan.width]])
-    else:
-        corners = anticlockwise(np.array(plan.points))
-    return PlanRegion(name=FREE_SURFACE, outside=PolygonLoop(corners=corners))
-
-
-def _region(tank: LevelTank, index: int, wall: PlanRegion) -> PlanRegion:
-    """The outline of a plate; that of the wall itself where it covers the plan."""
-    outline, name = tank.plates[index].outline, body_name(index + 1)
-    if outline.area > tank.plan.area * (1.0 - 1e-9):
-        return PlanRegion(name=name, outside=wall.outside, inside=wall.inside)
-    if isinstance(outline, Disc):
-        centre = np.array(outline.position)
-        hole = (CircleLoop(centre=centre, radius=outline.inner_radius),) if outline.inner_radius else ()
-        return PlanRegion(name=name, outside=CircleLoop(centre=centre, radius=outline.radius), inside=hole)
-    if isinstance(outline, Rectangle):
-        (x, y), (length, width) = outline.position, outline.size
-        half = 0.5 * np.array([[-length, -width], [length, -width], [length, width], [-length, width]])
-        return PlanRegion(name=name, outside=PolygonLoop(corners=np.array([x, y]) + half))
-    assert isinstance(outline, Polygon)
-    return PlanRegion(name=name, outside=PolygonLoop(corners=anticlockwise(np.array(outline.points))))
+def _errors(tank: LevelTank, one: SymmetryClass, plates: tuple[PlanPlate, ...], modes: list[Mode]) -> np.ndarray:
+    """Errors of modes of a class by the liquid, the poles and the plates, shape (3, modes)."""
+    gradients, missing = liquid_and_pole_errors(one.pencil, modes, tank.depth, _LOWEST)
+    return np.array([0.5 * _WITH_MASS * gradients, 0.5 * missing, _plate_errors(plates, modes)])
 
 
 def _plate_errors(plates: tuple[PlanPlate, ...], modes: list[Mode]) -> np.ndarray:

@@ -51,18 +51,17 @@ def liquid_and_pole_errors(
     places = []
     load, height = pencil.coupling.createVecLeft(), pencil.coupling.createVecLeft()
     mass = direct_solver(pencil.liquid.space.mass)
+    space = pencil.liquid.space
     for number, mode in enumerate(modes):
         pencil.coupling.mult(mode.displacement, load)
         for pole, part in operator.parts(load.array_r):
-            potential = load.duplicate()
-            potential.array[:] = part
-            potentials.append(potential)
+            potentials.append(PETSc.Vec().createWithArray(space.expanded(part), comm=PETSc.COMM_SELF))
             places.append((number, pole))
             moments[number, pole] = load.array_r @ part
         mass.solve(load, height)
         moments[number, -1] = load.dot(height) / operator.comm.size
     if potentials:
-        energies = cell_errors(pencil.liquid.space.liquid, potentials).sum(axis=1)
+        energies = space.images * cell_errors(space.liquid, potentials).sum(axis=1)
         for energy, (number, pole) in zip(energies, places, strict=True):
             errors[number] += poles.weights[pole] * energy
     errors, moments = operator.comm.allreduce(errors), operator.comm.allreduce(moments)

@@ -8,8 +8,7 @@ Each process has the whole plan, and factorizes its share of the poles; one sum 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
-from functools import cached_property
+from dataclasses import dataclass, field, replace
 
 import basix
 import numpy as np
@@ -27,9 +26,11 @@ from hydroelastic.fem.liquid import LiquidSpace, liquid_space
 from hydroelastic.fem.liquid_matrices import laplace_matrix
 from hydroelastic.fem.pencil import CoupledPencil, SurfaceBlocks, coupled_pencil
 from hydroelastic.fem.plan.box_pencil import as_matrix
+from hydroelastic.fem.plan.rectangle_body import ClassParity
 from hydroelastic.fem.surfaces import Body, LiquidSurface
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.meshes.geometry import FREE_SURFACE
+from hydroelastic.meshes.plan_loops import Mirrors
 from hydroelastic.modal.liquid.vertical_poles import VerticalPoles
 
 Deflection = Callable[[NDArray[np.float64]], NDArray[np.float64]]
@@ -56,26 +57,58 @@ class PlanPlate:
 
 @dataclass(frozen=True, kw_only=True)
 class PlanSpace:
-    """Matrices on the plan, alike on each process.
+    """Matrices on the plan or a part of it between mirror planes, alike on each process.
+
+    Energies are those of all parts.
 
     Attributes:
         liquid: the space of ψ.
-        stiffness: K₂.
-        mass: M₂.
+        stiffness: K₂ on the kept unknowns.
+        mass: M₂ on the kept unknowns.
+        water: ∫ψq over the water on the kept unknowns; ``None`` where plates cover all of it.
+        kept: unknowns of the space that are not zero on a mirror plane.
+        images: number of parts that are alike.
+        closed: whether the constant is among the functions, and ∫ζ = 0.
     """
 
     liquid: LiquidSpace
     stiffness: PETSc.Mat
     mass: PETSc.Mat
+    water: sparse.csr_matrix | None
+    kept: NDArray[np.int32]
+    images: int = 1
+    closed: bool = True
 
-    @cached_property
+    @property
     def size(self) -> int:
-        """Number of unknowns."""
-        return self.liquid.size
+        """Number of kept unknowns."""
+        return len(self.kept)
 
-    def mass_on(self, name: str) -> sparse.csr_matrix:
-        """Return ∫ψq over the cells of one name."""
-        return as_sparse(_mass(self.liquid, self.liquid.tank.cells(name)))
+    def of_class(self, parity: ClassParity, mirrors: Mirrors) -> PlanSpace:
+        """Return the space of one symmetry: odd functions are zero on the mirror plane.
+
+        Args:
+            parity: even (0) or odd (1) about each of the planes.
+            mirrors: x and y of the planes.
+        """
+        if 1 not in parity:
+            return self
+        places = self.liquid.space.tabulate_dof_coordinates()
+        zero = np.full(len(places), False)
+        for axis, (own, mirror) in enumerate(zip(parity, mirrors, strict=True)):
+            if own == 1:
+                zero |= np.abs(places[:, axis] - mirror) < _ON_MIRROR
+        kept = np.flatnonzero(~zero).astype(np.int32)
+        rows = PETSc.IS().createGeneral(kept.astype(PETSc.IntType), comm=PETSc.COMM_SELF)
+        stiffness, mass = (matrix.createSubMatrix(rows, rows) for matrix in (self.stiffness, self.mass))
+        water = None if self.water is None else self.water[kept][:, kept].tocsr()
+        return replace(self, stiffness=stiffness, mass=mass, water=water, kept=kept, closed=False)
+
+    def expanded(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return values of the kept unknowns (size, …) as those of all unknowns of the space."""
+        whole = np.zeros((self.liquid.size, *values.shape[1:]))
+        whole[self.kept] = values
+        return whole
 
     def loads(self, plate: PlanPlate) -> NDArray[np.float64]:
         """Return ∫φq over a plate for each of its shapes φ, shape (shapes, unknowns)."""
@@ -84,7 +117,7 @@ class PlanSpace:
         degree = self.liquid.degree
         corners = cell_positions(mesh, cells, np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]))
         sizes = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
-        loads = np.zeros((plate.body.size, self.size))
+        loads = np.zeros((plate.body.size, self.liquid.size))
         # Cells in the layers need fewer points than the longest ones.
         orders = degree + _SPARE_DEGREES + 2 * np.ceil(0.5 * plate.wavenumber * sizes).astype(int)
         for order in np.unique(orders):
@@ -97,30 +130,50 @@ class PlanSpace:
             parts = (values * (measures * weights)) @ basis
             dofs = self.liquid.space.dofmap.list[chosen]
             spread = sparse.csr_matrix(
-                (np.ones(dofs.size), (np.arange(dofs.size), dofs.ravel())), shape=(dofs.size, self.size)
+                (np.ones(dofs.size), (np.arange(dofs.size), dofs.ravel())), shape=(dofs.size, self.liquid.size)
             )
             loads += parts.reshape(plate.body.size, -1) @ spread
-        return loads
+        return self.images * loads[:, self.kept]
 
 
 # Degrees of the quadrature beyond that of ψ.
 _SPARE_DEGREES = 8
+# Unknowns this close to a mirror plane, in units of the tank, lie on it.
+_ON_MIRROR = 1e-10
 
 
-def plan_space(tank: TankMesh, degree: int) -> PlanSpace:
-    """Assemble what all problems on a plan share."""
+def plan_space(tank: TankMesh, degree: int, images: int = 1) -> PlanSpace:
+    """Assemble what all problems on a plan share.
+
+    Args:
+        tank: the mesh of the plan, or of a part of it.
+        degree: of ψ.
+        images: number of parts that are alike.
+    """
     liquid = liquid_space(tank, degree)
+    stiffness = laplace_matrix(liquid)
+    stiffness.scale(float(images))
     cells = np.arange(tank.cell_count, dtype=np.int32)
-    return PlanSpace(liquid=liquid, stiffness=laplace_matrix(liquid), mass=_mass(liquid, cells))
+    has_water = FREE_SURFACE in tank.cell_names
+    return PlanSpace(
+        liquid=liquid,
+        stiffness=stiffness,
+        mass=_mass(liquid, cells, images),
+        water=as_sparse(_mass(liquid, tank.cells(FREE_SURFACE), images)) if has_water else None,
+        kept=np.arange(liquid.size, dtype=np.int32),
+        images=images,
+    )
 
 
-def _mass(liquid: LiquidSpace, cells: NDArray[np.int32]) -> PETSc.Mat:
+def _mass(liquid: LiquidSpace, cells: NDArray[np.int32], images: int) -> PETSc.Mat:
     space = liquid.space
     trial, test = ufl.TrialFunction(space), ufl.TestFunction(space)
     more = 0 if is_straight(space.mesh) else CURVED_QUADRATURE
     dx = chosen_measure("dx", space.mesh, space.mesh.topology.dim, cells, 2 * liquid.degree + more)
     form: fem.Form = compiled_form(ufl.inner(trial, test) * dx)
-    return assembled(form)
+    mass = assembled(form)
+    mass.scale(float(images))
+    return mass
 
 
 def as_sparse(matrix: PETSc.Mat) -> sparse.csr_matrix:
@@ -150,8 +203,8 @@ class PlanLiquid:
 
     @property
     def owned_layer_of(self) -> np.ndarray:
-        """All of them carry the constant."""
-        return np.zeros(self.size, dtype=np.int8)
+        """All of them carry the constant, if it is among the functions."""
+        return np.full(self.size, 0 if self.space.closed else -1, dtype=np.int8)
 
     def zero_dofs(self) -> np.ndarray:
         """There are none."""
@@ -170,7 +223,8 @@ class PoleStack(PlanLiquid):
     @property
     def owned_layer_of(self) -> np.ndarray:
         """0 for the unknowns of d₀ = 0, which carry the constant, −1 for all others."""
-        return np.where(np.arange(self.size) < self.space.size, 0, -1)
+        carries = (np.arange(self.size) < self.space.size) & self.space.closed
+        return np.where(carries, 0, -1)
 
 
 @dataclass(kw_only=True)
@@ -186,7 +240,7 @@ class PoleOperator:
     liquid: PlanLiquid
     comm: MPI.Comm
     solves: int = 0
-    _solvers: list[tuple[int, PETSc.KSP]] = field(init=False)
+    _solvers: list[tuple[int, PETSc.KSP, PETSc.Vec, PETSc.Vec]] = field(init=False)
     _constant: NDArray[np.float64] = field(init=False)
 
     def __post_init__(self) -> None:
@@ -199,13 +253,13 @@ class PoleOperator:
         for number in range(self.comm.rank, len(poles.shifts), self.comm.size):
             matrix = space.stiffness.copy()
             matrix.axpy(poles.shifts[number], space.mass, structure=PETSc.Mat.Structure.SAME_NONZERO_PATTERN)
-            if poles.shifts[number] == 0.0:
+            if poles.shifts[number] == 0.0 and space.closed:
                 # Without its first unknown, which is exact for loads without flux.
                 rows = PETSc.IS().createStride(self.liquid.size - 1, first=1, step=1, comm=PETSc.COMM_SELF)
                 matrix = matrix.createSubMatrix(rows, rows)
             solver = direct_solver(matrix)
             solver.setUp()
-            self._solvers.append((number, solver))
+            self._solvers.append((number, solver, *matrix.createVecs()))
 
     def solve(self, load: PETSc.Vec, potential: PETSc.Vec) -> None:
         """See `LiquidOperator.solve`."""
@@ -223,10 +277,9 @@ class PoleOperator:
     def parts(self, load: NDArray[np.float64]) -> list[tuple[int, NDArray[np.float64]]]:
         """Return ψ_j of a load for this process's poles, with their numbers."""
         area = self._constant.sum()
-        balanced = load - load.sum() / area * self._constant
+        balanced = load - load.sum() / area * self._constant if self.liquid.space.closed else load
         answers = []
-        for number, solver in self._solvers:
-            right, left = solver.getOperators()[0].createVecs()
+        for number, solver, right, left in self._solvers:
             first = len(balanced) - len(right.array)
             left.array[:] = balanced[first:]
             solver.solve(left, right)
@@ -239,8 +292,8 @@ class PoleOperator:
 
 def plan_pencil(
     space: PlanSpace, poles: VerticalPoles, plates: tuple[PlanPlate, ...], *, waves: bool, comm: MPI.Comm
-) -> CoupledPencil[PlanLiquid]:
-    """Assemble the coupled problem, alike on each process (collective).
+) -> CoupledPencil[PlanLiquid] | None:
+    """Assemble the coupled problem, alike on each process; ``None`` where nothing moves (collective).
 
     The matrix "A" of the pencil is K₂, its part of d₀ = 0: `stacked` gives the problem whose A is a matrix.
 
@@ -253,9 +306,11 @@ def plan_pencil(
     """
     liquid = PlanLiquid(space=space, poles=poles)
     loads, water = _blocks(space, plates, waves=waves)
+    if loads is None and water is None:
+        return None
     return coupled_pencil(
         liquid,
-        bodies=tuple(plate.body for plate in plates),
+        bodies=tuple(plate.body for plate in plates if plate.body.size),
         surfaces=(LiquidSurface(surface=FREE_SURFACE, gravity=1.0),) if water is not None else (),
         body_coupling=as_matrix(loads) if loads is not None else None,
         surface_blocks=[SurfaceBlocks(coupling=as_matrix(water), stiffness=as_matrix(_square(water)))]
@@ -263,7 +318,7 @@ def plan_pencil(
         else [],
         laplace=space.stiffness,
         solver=PoleOperator(liquid=liquid, comm=comm),
-        closed=(0,),
+        closed=(0,) if space.closed else (),
     )
 
 
@@ -285,7 +340,7 @@ def stacked_pencil(
 
     return coupled_pencil(
         PoleStack(space=space, poles=poles),
-        bodies=tuple(plate.body for plate in plates),
+        bodies=tuple(plate.body for plate in plates if plate.body.size),
         surfaces=(LiquidSurface(surface=FREE_SURFACE, gravity=1.0),) if water is not None else (),
         body_coupling=upon_each_other(loads) if loads is not None else None,
         surface_blocks=[SurfaceBlocks(coupling=upon_each_other(water), stiffness=as_matrix(_square(water)))]
@@ -293,7 +348,7 @@ def stacked_pencil(
         else [],
         laplace=as_matrix(laplace),
         solver=PoleOperator(liquid=PlanLiquid(space=space, poles=poles), comm=MPI.COMM_SELF),
-        closed=(0,),
+        closed=(0,) if space.closed else (),
     )
 
 
@@ -301,16 +356,17 @@ def _blocks(
     space: PlanSpace, plates: tuple[PlanPlate, ...], *, waves: bool
 ) -> tuple[sparse.csr_matrix | None, sparse.csr_matrix | None]:
     """Loads by the plates' shapes and by the water's height, (N, shapes) and (N, unknowns of the water)."""
-    loads = sparse.csr_matrix(np.concatenate([space.loads(plate) for plate in plates]).T) if plates else None
-    if not waves or FREE_SURFACE not in space.liquid.tank.cell_names:
+    parts = [space.loads(plate) for plate in plates if plate.body.size]
+    loads = sparse.csr_matrix(np.concatenate(parts).T) if parts else None
+    if not waves or space.water is None:
         return loads, None
-    mass = space.mass_on(FREE_SURFACE)
-    return loads, mass[:, water_unknowns(space)].tocsr()
+    return loads, space.water[:, water_unknowns(space)].tocsr()
 
 
 def water_unknowns(space: PlanSpace) -> NDArray[np.int64]:
-    """Return the unknowns of ψ on the water, ascending."""
-    return np.unique(space.liquid.space.dofmap.list[space.liquid.tank.cells(FREE_SURFACE)]).astype(np.int64)
+    """Return which of the kept unknowns of ψ are on the water, ascending."""
+    water = np.unique(space.liquid.space.dofmap.list[space.liquid.tank.cells(FREE_SURFACE)])
+    return np.flatnonzero(np.isin(space.kept, water))
 
 
 def _square(water: sparse.csr_matrix) -> sparse.csr_matrix:

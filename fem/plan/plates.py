@@ -10,14 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.fem.plan.plan_pencil import Deflection, PlanPlate
-from hydroelastic.fem.plan.rectangle_body import dofs_by_stiffness, rectangle_body
+from hydroelastic.fem.plan.rectangle_body import ClassParity, dofs_by_stiffness, rectangle_body, rectangle_of
 from hydroelastic.fem.plan.truncation import geometric_tail, rectangle_energies
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.modal.plate.line_modes import LineModes, PlateLine, dry_modes
 from hydroelastic.modal.plate.polygon import PolygonModes, polygon_modes
 from hydroelastic.physics.dofs import Dof, body_name
 from hydroelastic.physics.level_tank import Box, Cylinder, LevelTank
-from hydroelastic.physics.plate import Disc, Edge, Plate, Polygon, Rectangle
+from hydroelastic.physics.plate import Disc, Edge, Plate, Polygon, Rectangle, Strip
 from hydroelastic.physics.symmetry import Parity
 
 # Beyond this degree the polynomials of a polygon are no longer told apart in double precision.
@@ -25,29 +25,30 @@ _HIGHEST_OF_POLYGON = 22
 _RIGID_MOTIONS = ("heave", "pitch", "roll")
 
 
-def plan_plate(tank: LevelTank, index: int, polynomials: int) -> PlanPlate:
-    """Return a plate of a dimensionless tank in all of its shapes.
+def plan_plate(tank: LevelTank, index: int, polynomials: int, parity: ClassParity) -> PlanPlate:
+    """Return a plate of a dimensionless tank in its shapes of one symmetry.
 
     Args:
         tank: the tank.
         index: index of the plate.
         polynomials: number of polynomials along each direction.
+        parity: even (0) or odd (1) about the mirror planes, in which the middle of the plate lies.
     """
     plate = tank.plates[index]
     outline = plate.outline
-    if isinstance(outline, Rectangle):
-        box = tank.plan if isinstance(tank.plan, Box) else _far_from_walls(outline)
-        found = rectangle_body(box, index, plate, polynomials, (None, None))
+    if isinstance(outline, Rectangle | Strip):
+        box = tank.plan if isinstance(tank.plan, Box) else _far_from_walls(rectangle_of(outline))
+        found = rectangle_body(box, index, plate, polynomials, parity)
         return PlanPlate(
             body=found.body,
             deflection=found.deflection,
-            wavenumber=1.5 * polynomials / min(outline.size),
+            wavenumber=1.5 * polynomials / min(rectangle_of(outline).size),
             missing_energy=partial(rectangle_energies, found),
         )
     if isinstance(outline, Disc):
-        return _disc(tank, index, outline, polynomials)
+        return _disc(tank, index, outline, polynomials, parity)
     assert isinstance(outline, Polygon)
-    return _polygon(plate, index, outline, polynomials)
+    return _polygon(plate, index, outline, polynomials, parity)
 
 
 def _far_from_walls(outline: Rectangle) -> Box:
@@ -103,10 +104,12 @@ class _DiscShapes:
             modes.values(radius).T * (np.cos(order * angle) if sign > 0 else np.sin(order * angle))
             for (order, sign), modes in zip(self.orders, self.families, strict=True)
         ]
+        if not tables:
+            return np.empty((0, len(radius)))
         return np.concatenate(tables) * self.factors[:, None]
 
 
-def _disc(tank: LevelTank, index: int, disc: Disc, polynomials: int) -> PlanPlate:
+def _disc(tank: LevelTank, index: int, disc: Disc, polynomials: int, parity: ClassParity) -> PlanPlate:
     plate = tank.plates[index]
     edge = plate.edge if _covers(tank, disc) else "free"
     edges: tuple[Edge, Edge] = ("free", edge)
@@ -125,10 +128,10 @@ def _disc(tank: LevelTank, index: int, disc: Disc, polynomials: int) -> PlanPlat
         count = max(ceil(0.5 * (polynomials - 0.5 * order)) + 1, 5) if plate.is_elastic else line.rigid_count
         count += 2 if disc.inner_radius and plate.is_elastic else 0
         if count:
-            modes = dry_modes(line, count)
             for sign in (1, -1) if order else (1,):
-                orders.append((order, sign))
-                families.append(modes)
+                if _is_of(parity, order, sign):
+                    orders.append((order, sign))
+                    families.append(dry_modes(line, count))
     factors, squares, bending, rigid = [], [], [], []
     for (order, sign), modes in zip(orders, families, strict=True):
         whole = 2.0 * pi if order == 0 else pi
@@ -153,6 +156,12 @@ def _disc(tank: LevelTank, index: int, disc: Disc, polynomials: int) -> PlanPlat
         wavenumber=0.8 * polynomials / disc.radius,
         missing_energy=partial(_disc_tail, body, shapes),
     )
+
+
+def _is_of(parity: ClassParity, order: int, sign: int) -> bool:
+    """Whether cos nθ (sign +1) or sin nθ (−1) has a parity: x → −x turns θ to π − θ, y → −y to −θ."""
+    sine = int(sign < 0)
+    return all(wanted in (None, own) for wanted, own in zip(parity, ((order + sine) % 2, sine), strict=True))
 
 
 def _covers(tank: LevelTank, disc: Disc) -> bool:
@@ -186,10 +195,9 @@ def _disc_tail(body: Body, shapes: _DiscShapes, amplitudes: NDArray[np.float64])
     return radial + geometric_tail(of_order[:, -2:].sum(axis=1), of_order[:, -4:-2].sum(axis=1))
 
 
-def _polygon(plate: Plate, index: int, outline: Polygon, polynomials: int) -> PlanPlate:
-    corners = anticlockwise(np.array(outline.points))
-    modes = polygon_modes(corners, plate.poisson_ratio, min(polynomials, _HIGHEST_OF_POLYGON))
-    count = len(modes.stiffness) if plate.is_elastic else 3
+def _polygon(plate: Plate, index: int, outline: Polygon, polynomials: int, parity: ClassParity) -> PlanPlate:
+    modes = polygon_modes(outline.points, plate.poisson_ratio, min(polynomials, _HIGHEST_OF_POLYGON), parity)
+    count = len(modes.stiffness) if plate.is_elastic else modes.rigid
     root = float(np.sqrt(outline.area))
     squares = np.full(count, outline.area)
     rigidity = plate.flexural_rigidity if plate.is_elastic else 0.0
@@ -197,38 +205,34 @@ def _polygon(plate: Plate, index: int, outline: Polygon, polynomials: int) -> Pl
     def deflection(points: NDArray[np.float64]) -> NDArray[np.float64]:
         return modes.deflection(points)[:count] * root
 
-    names = tuple(Dof(_RIGID_MOTIONS[number]) if number < 3 else Dof.elastic(number - 2) for number in range(count))
-    bending = np.zeros(count)
-    if plate.is_elastic:
-        bending = rigidity * modes.stiffness[:count] * squares
+    # Of 1, x and y those of the parity.
+    rigid = [
+        Dof(name)
+        for name, own in zip(_RIGID_MOTIONS, ((0, 0), (1, 0), (0, 1)), strict=True)
+        if all(wanted in (None, one) for wanted, one in zip(parity, own, strict=True))
+    ]
+    names = (*rigid, *(Dof.elastic(number + 1) for number in range(count - modes.rigid)))
+    bending = rigidity * modes.stiffness[:count] * squares if plate.is_elastic else np.zeros(count)
     return PlanPlate(
         body=_body(plate, index, deflection, names, bending, squares),
         deflection=deflection,
-        wavenumber=0.8 * modes.degree / float(modes.half.min()),
+        wavenumber=0.8 * modes.basis.degree / float(modes.basis.half.min()),
         missing_energy=partial(_polygon_tail, modes, rigidity * outline.area),
     )
 
 
 def _polygon_tail(modes: PolygonModes, factor: float, amplitudes: NDArray[np.float64]) -> NDArray[np.float64]:
     """Energy of the degrees left out, from that of the last two."""
-    if amplitudes.shape[1] == 3:
+    if amplitudes.shape[1] < len(modes.stiffness) or not factor:
         return np.zeros(len(amplitudes))
-    # Of orthonormal polynomials, those of the last degrees.
-    raw = amplitudes @ modes.coefficients
-    parts = np.linalg.solve(modes.orthonormal, raw.T).T
+    # Of the functions made orthonormal one after the other, those of the last degrees.
+    parts = np.linalg.solve(modes.orthonormal, (amplitudes @ modes.coefficients).T).T
+    degree, degrees = modes.basis.degree, modes.basis.degrees
 
     def beyond(dropped: int) -> NDArray[np.float64]:
-        kept = (modes.degree - dropped + 1) * (modes.degree - dropped + 2) // 2
-        rest = parts[:, kept:]
-        energy: NDArray[np.float64] = factor * ((rest @ modes.bending[kept:, kept:]) * rest).sum(axis=1)
+        rest = parts * (degrees > degree - dropped)
+        energy: NDArray[np.float64] = factor * ((rest @ modes.bending) * rest).sum(axis=1)
         return energy
 
     last = beyond(2)
     return 0.25 * geometric_tail(last, beyond(4) - last)
-
-
-def anticlockwise(corners: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the corners of a polygon in anticlockwise order."""
-    ahead = np.roll(corners, -1, axis=0)
-    area = float((corners[:, 0] * ahead[:, 1] - corners[:, 1] * ahead[:, 0]).sum())
-    return corners if area > 0.0 else corners[::-1]

@@ -14,21 +14,27 @@ from hydroelastic.fem.level_bed.separation import separated
 from hydroelastic.fem.level_bed.solution import LevelMode, LevelSolution, PlanProblem, PlateTone
 from hydroelastic.fem.level_bed.solve import NotTreatedError, solve_level_tank
 from hydroelastic.fem.plan.box import BoxSolution, solve_box
+from hydroelastic.fem.plan.box_problem import BoxProblem
 from hydroelastic.fem.plan.classes import ClassModes
-from hydroelastic.fem.plan.plan import PlanSolution, plan_regions, solve_plan
-from hydroelastic.fem.plan.problems import BoxProblem, MeshProblem
+from hydroelastic.fem.plan.mesh_problem import MeshProblem
+from hydroelastic.fem.plan.plan import PlanSolution, solve_plan
+from hydroelastic.fem.plan.regions import plan_regions
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.fem.tank.elastic_tone import elastic_tone
+from hydroelastic.fem.volume.problem import VolumeProblem
+from hydroelastic.fem.volume.solve import VolumeSolution, solve_volume
 from hydroelastic.physics.dofs import FIRST_ELASTIC, body_name
 from hydroelastic.physics.level_tank import Box, LevelTank
 from hydroelastic.physics.plate import Polygon, Rectangle, Strip
+from hydroelastic.physics.volume_tank import VolumeTank
 
-LevelModel: TypeAlias = Literal["orders", "box", "plan"]
+LevelModel: TypeAlias = Literal["orders", "box", "plan", "volume"]
 
 MODEL_WORDS: dict[LevelModel, str] = {
     "orders": "upright tank with a level bed whose orders separate: one problem on a line for each, exact in depth",
     "box": "upright box with a level bed and rectangular plates: products of two intervals, exact in depth",
     "plan": "upright tank with a level bed: triangles on the plan, the depth by its poles",
+    "volume": "volume: tetrahedra in all of the liquid",
 }
 """What each model is, as summaries tell it."""
 
@@ -42,6 +48,8 @@ def level_model(physical: LevelTank) -> LevelModel:
     Raises:
         NotTreatedError: if there is none.
     """
+    if isinstance(physical, VolumeTank):
+        return "volume"
     tank = physical.scaled()
     if separated(tank) is not None:
         return "orders"
@@ -80,13 +88,14 @@ def solve_upright_tank(
     comm: MPI.Comm | None = None,
     report: Report = lambda _message: None,
 ) -> LevelSolution:
-    """Solve an upright tank with a level bed in its smallest model (collective).
+    """Solve a tank in three dimensions in its smallest model (collective).
 
     Args:
         physical: the tank, in SI units.
         tolerance: largest relative error of the frequencies that is accepted.
         modes: number of modes, from the lowest.
-        comm: the processes, all by default; each solves the same, but for the poles of a plan, which they share.
+        comm: the processes, all by default; each solves the same, but for the poles of a plan, which they share, and
+            the mesh of a volume, which is distributed.
         report: receives messages on the progress.
 
     Raises:
@@ -100,7 +109,7 @@ def solve_upright_tank(
     watch = Stopwatch()
     tank = physical.scaled()
     problems: list[PlanProblem] = []
-    found: BoxSolution | PlanSolution
+    found: BoxSolution | PlanSolution | VolumeSolution
     with watch.stage("modes"):
         if model == "box":
             assert isinstance(tank.plan, Box)
@@ -110,11 +119,17 @@ def solve_upright_tank(
                 BoxProblem(symmetry_class=one, plates=found.plates[one.parity], size=size)
                 for one in found.modes.classes
             ]
+        elif model == "volume":
+            assert isinstance(tank, VolumeTank)
+            found = solve_volume(tank, tolerance=tolerance, count=modes, comm=comm, report=report)
+            problems += [VolumeProblem(symmetry_class=one, model=found.model) for one in found.modes.classes]
         else:
             found = solve_plan(tank, tolerance=tolerance, count=modes, comm=comm, report=report)
             _, regions = plan_regions(tank)
-            (one,) = found.modes.classes
-            problems.append(MeshProblem(symmetry_class=one, plates=found.plates, regions=regions))
+            problems += [
+                MeshProblem(symmetry_class=one, plates=found.plates[one.parity], regions=regions, mirrors=found.mirrors)
+                for one in found.modes.classes
+            ]
     errors = found.relative_errors
     classes = found.modes
     listed = tuple(

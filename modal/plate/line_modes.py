@@ -14,13 +14,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.polynomial import legendre
 from scipy.linalg import eigh, qr
 from scipy.special import eval_jacobi
 
+from hydroelastic.modal.plate.legendre import gauss
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.plate import Edge
 
@@ -176,6 +177,7 @@ class LineModes:
         return self.plate.raw(len(self.coefficients), places, derivative) @ self.coefficients
 
 
+@lru_cache(maxsize=256)
 def dry_modes(plate: PlateLine, count: int) -> LineModes:
     """Return the dry modes in the polynomials of the lowest degrees.
 
@@ -222,7 +224,7 @@ def lowest_dry(line: Callable[[int], PlateLine]) -> tuple[int, float]:
 def _gauss(plate: PlateLine, polynomials: int) -> tuple[FloatArray, FloatArray]:
     """Gauss points and weights on the line, with the weight r of a radius."""
     degree = 2 * polynomials + int(plate.transverse) + 2 if plate.is_disc else polynomials + 4
-    local, weights = legendre.leggauss(degree)
+    local, weights = gauss(degree)
     half = 0.5 * (plate.end - plate.start)
     points = 0.5 * (plate.end + plate.start) + half * local
     return points, half * weights * (points if plate.round else 1.0)

@@ -1,21 +1,32 @@
-"""Dry modes of a free polygonal plate by Ritz' method in polynomials of x and y.
+"""Dry modes of a free polygonal plate by Ritz' method in polynomials and the singular functions of its corners.
 
     a(w, w) = ∫ w_xx² + w_yy² + 2ν w_xx w_yy + 2(1 − ν) w_xy²
 
-Products of Legendre polynomials of the box around the polygon, up to a degree in x and y together, are made orthonormal
-on the polygon. At corners of less than half a turn the modes are smooth enough for the error to fall like a high power
-of the degree; at re-entrant ones it falls slowly, and the estimate of the error tells so.
+Products of Legendre polynomials of the box around the polygon, up to a degree in x and y together, and `corner_functions`
+are made orthonormal on the polygon. Convex or not, the error falls exponentially with the degree: the first frequency of
+a free square has 9 digits at degree 8 and 12 at 12, that of an L 7 and 9.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh, qr, solve_triangular
 
+from hydroelastic.modal.plate.corner_functions import CornerFunction, corner_functions
 from hydroelastic.modal.plate.legendre import gauss, legendre_table
+from hydroelastic.modal.plate.rectangle import AxisParity
+from hydroelastic.physics.plate import Point
+
+# r = uᵍ from a corner: r^{2λ − 2} r dr of λ > 1/2 becomes u^{2g λ − 1} du.
+_CORNER_POWER = 4
+# Of a function's norm, the part that others of the basis may leave of it.
+_INDEPENDENT = 1e-10
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -23,93 +34,203 @@ class PolygonModes:
     """Dry modes of a polygon of unit flexural rigidity, with ∫w² = 1.
 
     Attributes:
-        middle: centre of the box around it, shape (2,).
-        half: half its sides, shape (2,).
-        degree: of the polynomials.
-        coefficients: of the products of Legendre polynomials, by ascending degree, shape (modes, products).
-        stiffness: κ = a(w, w), exactly 0 of the three rigid motions, which come first, shape (modes,).
-        orthonormal: coefficients of the polynomials made orthonormal, by ascending degree, shape (products, products).
-        bending: a between those, shape (products, products).
+        basis: the functions of which the modes consist.
+        coefficients: of the functions, shape (modes, functions).
+        rigid: number of rigid motions, which come first.
+        stiffness: κ = a(w, w), exactly 0 of the rigid motions, shape (modes,).
+        orthonormal: coefficients of the functions made orthonormal one after the other, shape (functions, functions).
+        bending: a between those, shape (functions, functions).
     """
 
-    middle: NDArray[np.float64]
-    half: NDArray[np.float64]
-    degree: int
+    basis: PolygonBasis
     coefficients: NDArray[np.float64]
+    rigid: int
     stiffness: NDArray[np.float64]
     orthonormal: NDArray[np.float64]
     bending: NDArray[np.float64]
 
     def deflection(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return all shapes at points (2, n), shape (modes, n)."""
-        return np.asarray(
-            self.coefficients @ _products(self.degree, (points - self.middle[:, None]) / self.half[:, None])
+        return np.asarray(self.coefficients @ self.basis.values(points))
+
+
+@dataclass(frozen=True, kw_only=True)
+class PolygonBasis:
+    """Functions of one symmetry on a polygon: rigid motions, those of the corners, polynomials by ascending degree.
+
+    Attributes:
+        middle: centre of the box around it, shape (2,).
+        half: half its sides, shape (2,).
+        degree: of the polynomials.
+        parity: even (0) or odd (1) about the middle along x and y, or both (``None``).
+        corners: functions of the corners that are kept.
+    """
+
+    middle: NDArray[np.float64]
+    half: NDArray[np.float64]
+    degree: int
+    parity: tuple[AxisParity, AxisParity]
+    corners: tuple[CornerFunction, ...]
+
+    @property
+    def _powers(self) -> list[tuple[int, int]]:
+        """Degrees in x and y of the polynomials."""
+        return [
+            (total - n, n)
+            for total in range(self.degree + 1)
+            for n in range(total + 1)
+            if all(own is None or own == power % 2 for own, power in zip(self.parity, (total - n, n), strict=True))
+        ]
+
+    @property
+    def rigid(self) -> int:
+        """Number of rigid motions: of 1, x and y."""
+        return sum(sum(powers) < 2 for powers in self._powers)
+
+    @property
+    def degrees(self) -> NDArray[np.int64]:
+        """The degree of each function, 0 of the corners'."""
+        totals = [sum(powers) for powers in self._powers]
+        return np.array([*totals[: self.rigid], *(0 for _ in self.corners), *totals[self.rigid :]])
+
+    def values(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return all functions at points (2, n), shape (functions, n)."""
+        singular = [self._folded(points, one.value) for one in self.corners]
+        return self._ordered(self._products(points, 0, 0), singular)
+
+    def curvatures(self, points: NDArray[np.float64]) -> list[NDArray[np.float64]]:
+        """Return their second derivatives with respect to xx, yy and xy, each of shape (functions, n)."""
+        singular = [self._folded(points, one.curvatures) for one in self.corners]
+        found = []
+        for number, (along, across) in enumerate(((2, 0), (0, 2), (1, 1))):
+            scale = self.half[0] ** along * self.half[1] ** across
+            found.append(self._ordered(self._products(points, along, across) / scale, [one[number] for one in singular]))
+        return found
+
+    def _ordered(self, products: NDArray[np.float64], singular: list[NDArray[np.float64]]) -> NDArray[np.float64]:
+        return np.concatenate([products[: self.rigid], *(one[None] for one in singular), products[self.rigid :]])
+
+    def _products(self, points: NDArray[np.float64], along: int, across: int) -> NDArray[np.float64]:
+        local = (points - self.middle[:, None]) / self.half[:, None]
+        first, second = (
+            legendre_table(self.degree + 1, places, order)
+            for places, order in zip(local, (along, across), strict=True)
         )
+        return np.array([first[m] * second[n] for m, n in self._powers])
+
+    def _folded(
+        self, points: NDArray[np.float64], evaluate: Callable[[NDArray[np.float64]], NDArray[np.float64]]
+    ) -> NDArray[np.float64]:
+        """A function and its images, so that it has the parity: values (n,), or derivatives xx, yy and xy (3, n)."""
+        total = np.zeros(points.shape[1])
+        middle = self.middle[:, None]
+        for images in product(*((False,) if own is None else (False, True) for own in self.parity)):
+            signs = np.where(images, -1.0, 1.0)
+            values = evaluate(middle + signs[:, None] * (points - middle))
+            if values.ndim == 2:
+                values = values * np.array([1.0, 1.0, signs.prod()])[:, None]
+            odd = sum(image and own == 1 for image, own in zip(images, self.parity, strict=True))
+            total = total + (-1.0) ** odd * values
+        return total
 
 
-def polygon_modes(corners: NDArray[np.float64], poisson_ratio: float, degree: int) -> PolygonModes:
-    """Return all Ritz modes of a free plate.
+@lru_cache(maxsize=64)
+def polygon_modes(
+    points: tuple[Point, ...], poisson_ratio: float, degree: int, parity: tuple[AxisParity, AxisParity] = (None, None)
+) -> PolygonModes:
+    """Return all Ritz modes of a free plate of one symmetry.
 
     Args:
-        corners: of the polygon, anticlockwise, shape (corners, 2).
+        points: corners of the polygon.
         poisson_ratio: ν.
         degree: of the polynomials in x and y together.
+        parity: even (0) or odd (1) about the middle along x and y of a polygon that is symmetric about it.
     """
+    corners = anticlockwise(np.array(points))
     low, high = corners.min(axis=0), corners.max(axis=0)
-    middle, half = 0.5 * (low + high), 0.5 * (high - low)
-    points, weights = polygon_quadrature(corners, degree + 1)
-    local = (points - middle[:, None]) / half[:, None]
-    values = _products(degree, local)
-    # The first three columns are 1, x and y, so that the rigid motions are the first three orthonormal polynomials.
-    _, triangle = qr((values * np.sqrt(weights)).T, mode="economic")
-    xx, yy, xy = (
-        solve_triangular(
-            triangle, _products(degree, local, along, across) / (half[0] ** along * half[1] ** across), trans=1
+    middle = 0.5 * (low + high)
+    # Of a symmetric polygon the corners on one side, for the functions of the others are their images.
+    kept = [
+        one
+        for one in corner_functions(corners, poisson_ratio)
+        if all(own is None or place > mean - 1e-9 for own, place, mean in zip(parity, one.corner, middle, strict=True))
+    ]
+    basis = PolygonBasis(middle=middle, half=0.5 * (high - low), degree=degree, parity=parity, corners=tuple(kept))
+    places, weights = polygon_quadrature(corners, degree + 1)
+    root = np.sqrt(weights)
+    values = basis.values(places) * root
+    norms = np.linalg.norm(values, axis=1)
+    # Of a corner on a plane of symmetry those of the other parity are zero, and some are nearly polynomials.
+    scaled = values / np.where(norms > 0.0, norms, 1.0)[:, None]
+    parts = np.abs(np.diagonal(qr(scaled.T, mode="r")[0]))
+    independent = (norms > _INDEPENDENT * norms.max()) & (parts > _INDEPENDENT)
+    inner = independent[basis.rigid : basis.rigid + len(kept)]
+    basis = replace(basis, corners=tuple(one for one, is_new in zip(kept, inner, strict=True) if is_new))
+    independent[basis.rigid + len(kept) :] = independent[: basis.rigid] = True
+    _, triangle = qr(values[independent].T, mode="economic")
+    # The rigid motions are the first functions, and orthonormal to each other.
+    xx, yy, xy = (solve_triangular(triangle, table * root, trans=1) for table in basis.curvatures(places))
+    bending = sum(
+        part @ part.T
+        for part in (
+            np.sqrt(0.5 * (1.0 + poisson_ratio)) * (xx + yy),
+            np.sqrt(0.5 * (1.0 - poisson_ratio)) * (xx - yy),
+            np.sqrt(2.0 * (1.0 - poisson_ratio)) * xy,
         )
-        for along, across in ((2, 0), (0, 2), (1, 1))
     )
-    mixed = (xx * weights) @ yy.T
-    bending = (xx * weights) @ xx.T + (yy * weights) @ yy.T + poisson_ratio * (mixed + mixed.T)
-    bending += 2.0 * (1.0 - poisson_ratio) * (xy * weights) @ xy.T
-    bending[:3] = bending[:, :3] = 0.0
+    rigid = basis.rigid
+    bending[:rigid] = bending[:, :rigid] = 0.0
     # Of the inverse problem the softest modes are the most exact.
-    elastic = bending[3:, 3:]
+    elastic = bending[rigid:, rigid:]
     inverses, turn = eigh(np.eye(len(elastic)), elastic)
     vectors = np.zeros((len(bending), len(bending)))
-    vectors[:3, :3] = np.eye(3)
-    vectors[3:, 3:] = (turn / np.sqrt(inverses))[:, ::-1]
+    vectors[:rigid, :rigid] = np.eye(rigid)
+    vectors[rigid:, rigid:] = (turn / np.sqrt(inverses))[:, ::-1]
     orthonormal = solve_triangular(triangle, np.eye(len(triangle)))
     return PolygonModes(
-        middle=middle,
-        half=half,
-        degree=degree,
+        basis=basis,
         coefficients=(orthonormal @ vectors).T,
-        stiffness=np.concatenate([np.zeros(3), 1.0 / inverses[::-1]]),
+        rigid=rigid,
+        stiffness=np.concatenate([np.zeros(rigid), 1.0 / inverses[::-1]]),
         orthonormal=orthonormal,
         bending=bending,
     )
 
 
-def _products(degree: int, local: NDArray[np.float64], along: int = 0, across: int = 0) -> NDArray[np.float64]:
-    """Products of Legendre polynomials up to a degree, or derivatives, at points of [−1, 1]², (products, points)."""
-    first, second = legendre_table(degree + 1, local[0], along), legendre_table(degree + 1, local[1], across)
-    return np.array([first[total - n] * second[n] for total in range(degree + 1) for n in range(total + 1)])
+def anticlockwise(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the corners of a polygon in anticlockwise order."""
+    ahead = np.roll(corners, -1, axis=0)
+    area = float((corners[:, 0] * ahead[:, 1] - corners[:, 1] * ahead[:, 0]).sum())
+    return corners if area > 0.0 else corners[::-1]
 
 
 def polygon_quadrature(corners: NDArray[np.float64], count: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return points (2, n) and weights, exact for polynomials of degree 2·count − 2 on a polygon.
+    """Return points (2, n) and weights for polynomials of degree 2·count − 2 on a polygon, and functions of its corners.
 
-    Each triangle of it is the image of a square, one side of which becomes a corner.
+    Each triangle of it is cut in four, so that it has one corner of the polygon at most; it is the image of a square,
+    one side of which becomes that corner, with nodes denser towards it.
     """
     reference, parts = gauss(count)
-    u, v = 0.5 * (1.0 + reference[:, None]), 0.5 * (1.0 + reference[None, :])
-    weight = 0.25 * np.outer(parts * u[:, 0], parts)
+    across, across_weights = 0.5 * (1.0 + reference), 0.5 * parts
+    denser, denser_parts = gauss(2 * count + 8)
+    u = 0.5 * (1.0 + denser)
+    towards = u**_CORNER_POWER
+    towards_weights = 0.5 * denser_parts * _CORNER_POWER * u ** (_CORNER_POWER - 1)
     points, weights = [], []
-    for first, second, third in _triangles(corners):
-        edge, other = second - first, third - second
-        places = first[:, None, None] + edge[:, None, None] * u + other[:, None, None] * (u * v)
-        points.append(places.reshape(2, -1))
-        weights.append(weight.ravel() * abs(edge[0] * other[1] - edge[1] * other[0]))
+    for triangle in _triangles(corners):
+        middles = 0.5 * (triangle + np.roll(triangle, -1, axis=0))
+        cut = [(triangle[place], middles[place], middles[place - 1]) for place in range(3)]
+        for number, (first, second, third) in enumerate([*cut, middles]):
+            along, along_weights = (towards, towards_weights) if number < 3 else (across, across_weights)
+            edge, other = second - first, third - second
+            places = (
+                first[:, None, None]
+                + edge[:, None, None] * along[:, None]
+                + other[:, None, None] * (along[:, None] * across)
+            )
+            points.append(places.reshape(2, -1))
+            area = abs(edge[0] * other[1] - edge[1] * other[0])
+            weights.append((np.outer(along_weights * along, across_weights) * area).ravel())
     return np.concatenate(points, axis=1), np.concatenate(weights)
 
 

@@ -15,13 +15,18 @@ from hydroelastic.output.quantities import Quantity
 
 def write_level_tank(tank: SampledTank, folder: Path) -> None:
     """Write ``modes.csv`` and ``fields/`` into an existing folder; SI units."""
+    write_modes(tank, folder)
+    (folder / "fields").mkdir()
+    write_surface(tank.sample, folder / "fields" / "surface.vtu")
+    write_volume(tank.sample, folder / "fields" / "volume.vtu")
+
+
+def write_modes(tank: SampledTank, folder: Path) -> None:
+    """Write ``modes.csv`` into an existing folder; SI units."""
     keys = [part.key for part in MODES.parts if isinstance(part, Quantity)]
     modes = tank.summary["modes"]
     columns = {key: ["" if mode[key] is None else mode[key] for mode in modes] for key in keys}
     write_csv(folder / "modes.csv", {"mode": np.arange(1, len(modes) + 1), **columns})
-    (folder / "fields").mkdir()
-    write_surface(tank.sample, folder / "fields" / "surface.vtu")
-    write_volume(tank.sample, folder / "fields" / "volume.vtu")
 
 
 def write_surface(sample: SampledModes, file: Path) -> None:
@@ -37,14 +42,6 @@ def write_surface(sample: SampledModes, file: Path) -> None:
 
 
 def write_volume(sample: SampledModes, file: Path) -> None:
-    """Write ψ of each mode in the liquid, on prisms below the triangles of the surface."""
-    count, levels = len(sample.points), len(sample.levels)
-    points = np.column_stack([np.tile(sample.points, (levels, 1)), np.repeat(sample.levels, count)])
-    prisms = [
-        np.hstack([sample.triangles + (level + 1) * count, sample.triangles + level * count])
-        for level in range(levels - 1)
-    ]
-    data = {
-        f"potential_{name}": potential.ravel() for name, potential in zip(sample.names, sample.potentials, strict=True)
-    }
-    meshio.write(file, meshio.Mesh(points, [("wedge", np.vstack(prisms))], point_data=data))
+    """Write ψ of each mode in the liquid."""
+    data = {f"potential_{name}": potential for name, potential in zip(sample.names, sample.potentials, strict=True)}
+    meshio.write(file, meshio.Mesh(sample.volume_points, [sample.volume_cells], point_data=data))

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from hydroelastic.fem.level_bed.patches import Patch
 from hydroelastic.fem.level_bed.solution import LevelSolution
+from hydroelastic.physics.dofs import body_name
 
 # Horizontal layers of the volume.
 _LEVELS = 12
@@ -27,8 +28,9 @@ class SampledModes:
         names: of the shapes: 001, or 002_cos and 002_sin of a pair.
         numbers: number of the mode of each shape, from 0.
         elevations: upward displacement, m, at unit generalized mass, shape (shapes, points).
-        levels: z of horizontal planes, m, from the surface down.
-        potentials: ψ in each of them, m², shape (shapes, levels, points).
+        volume_points: places in the liquid, m, shape (volume points, 3).
+        volume_cells: kind of the cells between them, as meshio calls it, and numbers of their nodes.
+        potentials: ψ at these places, m², shape (shapes, volume points).
     """
 
     points: NDArray[np.float64]
@@ -38,7 +40,8 @@ class SampledModes:
     names: tuple[str, ...]
     numbers: tuple[int, ...]
     elevations: NDArray[np.float64]
-    levels: NDArray[np.float64]
+    volume_points: NDArray[np.float64]
+    volume_cells: tuple[str, NDArray[np.int64]]
     potentials: NDArray[np.float64]
 
 
@@ -75,8 +78,7 @@ def sample_modes(solution: LevelSolution, patches: tuple[Patch, ...]) -> Sampled
     depth = solution.tank.depth
     # Denser towards the surface.
     levels = -depth * np.linspace(0.0, 1.0, _LEVELS + 1) ** 2
-    # ζ = 1 of the dimensionless mode at the generalized mass ρL³ is a displacement of 1/√(ρL³) m at 1 kg.
-    unit = 1.0 / np.sqrt(solution.units.density * scale**3)
+    unit = _unit(solution)
     names, numbers, elevations, potentials = [], [], [], []
     for number, one in enumerate(solution.modes):
         pair = one.problem.multiplicity == 2
@@ -90,17 +92,56 @@ def sample_modes(solution: LevelSolution, patches: tuple[Patch, ...]) -> Sampled
             potentials.append(
                 [sign * unit * scale * np.concatenate([part.potential(z, depth) for part in parts]) for z in levels]
             )
+    triangles = np.concatenate([patch.triangles + first for patch, first in zip(patches, offsets[:-1], strict=True)])
+    prisms = [
+        np.hstack([triangles + (level + 1) * len(points), triangles + level * len(points)]) for level in range(_LEVELS)
+    ]
     return SampledModes(
         points=points * scale,
-        triangles=np.concatenate([patch.triangles + first for patch, first in zip(patches, offsets[:-1], strict=True)]),
+        triangles=triangles,
         plate_of_points=_numbers(patches, [len(patch.points) for patch in patches]),
         plate_of_triangles=_numbers(patches, [len(patch.triangles) for patch in patches]),
         names=tuple(names),
         numbers=tuple(numbers),
         elevations=np.array(elevations),
-        levels=levels * scale,
-        potentials=np.array(potentials),
+        volume_points=scale * np.column_stack([np.tile(points, (len(levels), 1)), np.repeat(levels, len(points))]),
+        volume_cells=("wedge", np.vstack(prisms)),
+        potentials=np.array(potentials).reshape(len(names), -1),
     )
+
+
+def sample_volume(solution: LevelSolution) -> SampledModes | None:
+    """Return all modes at points of the mesh of a volume; ``None`` on other ranks than 0 (collective)."""
+    # Solutions of other models do without dolfinx.
+    from hydroelastic.fem.volume.samples import surface_sample, volume_sample
+
+    names = tuple(body_name(index + 1) for index in range(len(solution.tank.plates)))
+    surface = surface_sample(solution.modes, names)
+    volume = volume_sample(solution.modes)
+    if surface is None or volume is None:
+        return None
+    scale, unit = solution.units.length, _unit(solution)
+    elevations = surface.elevations
+    highest = elevations[np.arange(len(elevations)), np.abs(elevations).argmax(axis=1)]
+    signs = np.where(highest < 0.0, -unit, unit)[:, None]
+    points, cells, potentials = volume
+    return SampledModes(
+        points=surface.points * scale,
+        triangles=surface.triangles,
+        plate_of_points=surface.plate_of_points,
+        plate_of_triangles=surface.plate_of_triangles,
+        names=tuple(f"{number:03d}" for number in range(1, len(elevations) + 1)),
+        numbers=tuple(range(len(elevations))),
+        elevations=signs * elevations,
+        volume_points=points * scale,
+        volume_cells=("tetra10", cells),
+        potentials=signs * scale * potentials,
+    )
+
+
+def _unit(solution: LevelSolution) -> float:
+    """The displacement ζ = 1 of a dimensionless mode, at the generalized mass ρL³, in m at 1 kg."""
+    return float(1.0 / np.sqrt(solution.units.density * solution.units.length**3))
 
 
 def _numbers(patches: tuple[Patch, ...], sizes: list[int]) -> NDArray[np.int32]:

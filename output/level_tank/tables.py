@@ -48,7 +48,7 @@ def _modes(summary: Summary) -> Section:
         lines.append("Modes of multiplicity 2 are pairs, cos nθ and sin nθ, of one frequency.")
     if zero:
         lines.append(
-            f"{zero} motion{'s' * (zero > 1)} of plates without stiffness {'are' if zero > 1 else 'is'} not listed."
+            f"{zero} motion{'s' * (zero > 1)} of bodies without stiffness {'are' if zero > 1 else 'is'} not listed."
         )
     return Section(
         title="Natural modes",

@@ -8,7 +8,8 @@ from hydroelastic.fem.level_bed.resolution import expected_eigenvalue, line_node
 from hydroelastic.fem.level_bed.separation import separated
 from hydroelastic.output.digits import number
 from hydroelastic.output.sections import Row, Section
-from hydroelastic.physics.level_tank import Box, Cylinder, LevelTank
+from hydroelastic.physics.level_tank import Box, Cylinder, FilePlan, LevelTank
+from hydroelastic.physics.volume_tank import SlopingBed, VolumeTank
 from hydroelastic.scenes.level_tank.solve import require_treated
 from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.models.level_tank_physics import physical_level_tank
@@ -49,23 +50,36 @@ def check_level_tank(scene: LevelTankScene) -> Iterator[Section]:
 
 def _boundaries(tank: LevelTank) -> Iterator[Row]:
     plan = tank.plan
+    bed = tank.bed if isinstance(tank, VolumeTank) else None
     if isinstance(plan, Box):
         yield f"four walls around {plan.length:g} m × {plan.width:g} m", "ψ_n = 0"
     elif isinstance(plan, Cylinder):
         yield f"wall of radius {plan.radius:g} m", "ψ_r = 0"
         if plan.inner_radius:
             yield f"inner wall of radius {plan.inner_radius:g} m", "ψ_r = 0"
+    elif isinstance(plan, FilePlan):
+        yield f"walls and bed of {plan.file.name}, {tank.depth:g} m deep", "ψ_n = 0"
     else:
         yield f"{len(plan.points)} walls around the plan", "ψ_n = 0"
-    yield f"level bed, {tank.depth:g} m deep", "ψ_z = 0"
+    if isinstance(bed, SlopingBed):
+        yield f"sloping bed, {tank.depth:g} m deep in the middle", "ψ_n = 0"
+    elif bed is not None:
+        yield f"bed through {len(bed.points)} points, up to {tank.depth:g} m deep", "ψ_n = 0"
+    elif not isinstance(plan, FilePlan):
+        yield f"level bed, {tank.depth:g} m deep", "ψ_z = 0"
     yield "top beside the plates", _TOPS[tank.top]
+    for index, solid in enumerate(tank.floats if isinstance(tank, VolumeTank) else (), len(tank.plates) + 1):
+        yield f"float {index}, {solid.shape} of {solid.draught:g} m draught", f"ψ_n = u·n, {', '.join(solid.motions)}"
     for index, plate in enumerate(tank.plates, 1):
         motion = "ψ_z = w, which bends" if plate.is_elastic else "ψ_z = w, heave and pitch"
         yield f"plate {index}", motion
 
 
 def _unknowns(tank: LevelTank) -> Iterator[Row]:
-    yield "ψ", "on the surface", "over a level bed it follows below as cosh k(z + H)/cosh kH of each part"
+    if isinstance(tank, VolumeTank):
+        yield "ψ", "in all of the liquid", "Laplace's equation on tetrahedra"
+    else:
+        yield "ψ", "on the surface", "over a level bed it follows below as cosh k(z + H)/cosh kH of each part"
     if tank.top == "free":
         yield "η", "water", "it keeps gravity waves"
     for index, plate in enumerate(tank.plates, 1):
@@ -74,7 +88,7 @@ def _unknowns(tank: LevelTank) -> Iterator[Row]:
 
 
 def _plates(scene: LevelTankScene, tank: LevelTank) -> Iterator[Row]:
-    for index, (given, plate) in enumerate(zip(scene.body, tank.plates, strict=True), 1):
+    for index, (given, plate) in enumerate(zip(scene.plates, tank.plates, strict=True), 1):
         area = plate.outline.area
         stiffness = plate.flexural_rigidity / (tank.density * tank.gravity * area**2)
         yield (
@@ -90,8 +104,11 @@ def _plates(scene: LevelTankScene, tank: LevelTank) -> Iterator[Row]:
 
 def _size(scene: LevelTankScene, tank: LevelTank) -> Iterator[str]:
     scaled = tank.scaled()
-    separation = separated(scaled)
     asked = scene.accuracy
+    if isinstance(scaled, VolumeTank):
+        yield from _size_of_volume(scaled, asked.tolerance, asked.modes)
+        return
+    separation = separated(scaled)
     if separation is None:
         yield from _size_of_plan(scaled, asked.tolerance, asked.modes)
         return
@@ -129,3 +146,34 @@ def _size_of_plan(tank: LevelTank, tolerance: float, modes: int) -> Iterator[str
         yield "  The added mass in a finer space shows the error of each mode."
     else:
         yield "  The decay of ψ with the degree, and a bound for the poles, show the error of each mode."
+
+
+def _size_of_volume(tank: VolumeTank, tolerance: float, modes: int) -> Iterator[str]:
+    from hydroelastic.fem.plan.solve import MODEL_WORDS
+    from hydroelastic.fem.volume.memory import DIRECT_UNKNOWNS, free_memory, memory_needed
+    from hydroelastic.fem.volume.model import volume_mirrors
+    from hydroelastic.fem.volume.resolution import volume_resolution
+    from hydroelastic.meshes.tetrahedra import unknown_count
+    from hydroelastic.meshes.volume import volume_mesh
+
+    words = MODEL_WORDS["volume"]
+    yield f"{words[0].upper()}{words[1:]}."
+    resolution = volume_resolution(tank, tolerance, modes)
+    mirrors = volume_mirrors(tank)
+    mesh = volume_mesh(tank, resolution.sizes, mirrors).noded
+    unknowns = unknown_count(mesh, resolution.degree)
+    shapes = f", {' + '.join(map(str, resolution.polynomials))} polynomials along each direction of the plates"
+    parts = 2 ** sum(mirror is not None for mirror in mirrors)
+    if parts > 1:
+        yield f"  Planes of symmetry leave {parts} problems on {'a half' if parts == 2 else 'a quarter'} of the tank."
+    yield (
+        f"First attempt: degree {resolution.degree}, {len(mesh.cells)} tetrahedra, {unknowns} unknowns"
+        f"{shapes if resolution.polynomials else ''}."
+    )
+    solver = "a factorization" if unknowns <= DIRECT_UNKNOWNS else "multigrid over the polynomial degree"
+    free = free_memory()
+    there = "" if free is None else f" of {free / 2**30:.1f} GiB that are free"
+    needed = memory_needed(unknowns, resolution.degree) / 2**30
+    yield f"  Laplace's equation by {solver}; about {needed:.2f} GiB{there}."
+    yield "  The decay of ψ with the degree, and the volume of curved cells, show the error; where it is too large"
+    yield "  cells are made smaller at the edges of plates, elsewhere, or at curved walls."

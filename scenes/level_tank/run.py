@@ -7,20 +7,24 @@ from pathlib import Path
 
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.output.level_tank.quantities import LEVEL_TANK
-from hydroelastic.output.level_tank.sample import SampledTank, sample_modes
+from hydroelastic.output.level_tank.sample import SampledTank, sample_modes, sample_volume
 from hydroelastic.output.level_tank.tables import compared_level_tank, level_tank_cost, level_tank_sections
 from hydroelastic.output.outcome import Outcome
 from hydroelastic.output.pictures.options import OF_FIELDS, OF_MOTIONS, PictureOptions
 from hydroelastic.output.provenance import Summary
 from hydroelastic.output.sections import Section
+from hydroelastic.physics.volume_tank import VolumeTank
 from hydroelastic.scenes.level_tank.solve import SolvedLevelTank, solve_level_scene
 from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.staged_run import StagedRun
 
 
-def _sample(solved: SolvedLevelTank, summary: Summary) -> SampledTank:
+def _sample(solved: SolvedLevelTank, summary: Summary) -> SampledTank | None:
     from hydroelastic.fem.plan.patches import level_patches
 
+    if isinstance(solved.tank.tank, VolumeTank):
+        sample = sample_volume(solved.tank)
+        return None if sample is None else SampledTank(solved=solved, sample=sample, summary=summary)
     return SampledTank(
         solved=solved, sample=sample_modes(solved.tank, level_patches(solved.tank.tank)), summary=summary
     )

@@ -10,6 +10,7 @@ from mpi4py import MPI
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.modal.plate.closed_forms import exact_frequencies
 from hydroelastic.modal.plate.estimates import plate_estimates
+from hydroelastic.physics.volume_tank import VolumeTank
 from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
 from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.models.level_tank_physics import physical_level_tank
@@ -63,9 +64,12 @@ def solve_level_scene(scene: LevelTankScene, comm: MPI.Comm, report: Report) -> 
 
     physical = physical_level_tank(scene)
     watch = Stopwatch()
-    with watch.stage("estimates"):
-        exact = exact_frequencies(physical, scene.accuracy.modes)
-        estimates = plate_estimates(physical)
+    exact: tuple[ExactMode, ...] = ()
+    estimates: tuple[PlateEstimate, ...] = ()
+    if not isinstance(physical, VolumeTank) or physical.is_level:
+        with watch.stage("estimates"):
+            exact = exact_frequencies(physical, scene.accuracy.modes)
+            estimates = plate_estimates(physical)
     try:
         solution = solve_upright_tank(
             physical, tolerance=scene.accuracy.tolerance, modes=scene.accuracy.modes, comm=comm, report=report

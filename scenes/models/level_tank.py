@@ -1,4 +1,4 @@
-"""The scene of an upright tank with a level bed in three dimensions: its model with all checks."""
+"""The scene of a tank in three dimensions: its model with all checks."""
 
 from __future__ import annotations
 
@@ -10,22 +10,34 @@ from typing import Any, TypeAlias
 from pydantic import ValidationError, model_validator
 from pydantic_core import InitErrorDetails
 
-from hydroelastic.physics.level_tank import Box, Cylinder
-from hydroelastic.physics.plate import Disc, Outline, Rectangle, Strip
+from hydroelastic.physics.level_tank import Box, Cylinder, Plan
+from hydroelastic.physics.plate import Disc, Outline, Polygon, Rectangle, Strip
+from hydroelastic.physics.solid_floats import SolidFloat
 from hydroelastic.physics.tank import ROUND_OFF
-from hydroelastic.scenes.models.level_tank_parts import PLAN_KEYS, LevelTankParts
-from hydroelastic.scenes.models.level_tank_physics import physical_outline, physical_plan
+from hydroelastic.scenes.models.level_tank_parts import PLAN_KEYS, SOLID_FORMATS, LevelTankParts
+from hydroelastic.scenes.models.level_tank_physics import (
+    bed_points,
+    middle_of,
+    needs_volume,
+    physical_outline,
+    physical_plan,
+    shape_file,
+)
 from hydroelastic.scenes.models.problems import problem_at, require_fit
+from hydroelastic.scenes.models.solid_parts import TankFloat
 from hydroelastic.scenes.models.tank_checks import DEPTH_TO_LENGTH, MASS_GROUP, SHORTEST_BEAM, STIFFNESS_GROUP
 
 LEAST_INNER_RADIUS = 1e-3
 """Part of the outer radius: around a thinner column no fewer digits are lost than without it."""
 
+LEAST_DEPTH = 0.05
+"""Part of the depth that a bed leaves: cells over a shallower one would be flat."""
+
 _Bounds: TypeAlias = tuple[tuple[float, float], tuple[float, float]]
 
 
 class LevelTankScene(LevelTankParts):
-    """An upright tank with a level bed, with plates on its surface or none (sloshing).
+    """A tank in three dimensions, with plates on its surface or none (sloshing).
 
     Raises:
         SceneError: if a value is not allowed or the parts do not fit together.
@@ -47,12 +59,12 @@ class LevelTankScene(LevelTankParts):
                 problem_at(
                     ("body", index, "kind"),
                     kind,
-                    "in three dimensions bodies are plates or uniform beams; others are of tanks per metre of width",
-                    allowed='"plate" or "beam"',
+                    "in three dimensions bodies are plates, beams or solids; others are of tanks per metre of width",
+                    allowed='"plate", "beam" or "float"',
                     remedy=f"Leave out {' and '.join(keys)} of [tank] for a tank per metre of width" if keys else "",
                 )
                 for index, kind in kinds
-                if kind not in ("plate", "beam")
+                if kind not in ("plate", "beam", "float")
             ]
         else:
             problems = [
@@ -86,10 +98,10 @@ def is_level_tank(document: dict[str, Any]) -> bool:
 
 def _plan_is_complete(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
     tank = scene.tank
-    given = [key for key in ("length", "width", "radius", "inner_radius", "plan") if getattr(tank, key) is not None]
+    given = [key for key in ("length", *PLAN_KEYS) if getattr(tank, key) is not None]
     box, round_ = {"length", "width"}, {"radius", "inner_radius"}
-    kinds = [bool(box & set(given)), bool(round_ & set(given)), "plan" in given]
-    allowed = "length and width of a box, radius (and inner_radius) of a cylinder, or plan"
+    kinds = [bool(box & set(given)), bool(round_ & set(given)), "plan" in given, "shape" in given]
+    allowed = "length and width of a box, radius (and inner_radius) of a cylinder, plan, or shape"
     if sum(kinds) != 1:
         said = " and ".join(given)
         wrong = f"{said} are of different plans" if given else "the plan of the tank is missing"
@@ -110,8 +122,114 @@ def _plan_is_complete(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
             )
 
 
+def _files_can_be_read(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
+    tank = scene.tank
+    if tank.bed is not None and tank.shape is not None:
+        yield problem_at(
+            ("tank", "bed"), None, "the bed of a tank of a file is part of the file", remedy="Leave it out"
+        )
+    if tank.bed is not None and tank.bed.file is not None:
+        try:
+            points = bed_points(scene)
+            if len(points) < 3:
+                raise ValueError(f"it holds {len(points)} points; three are a bed at least")
+        except (ValueError, OSError) as error:
+            yield problem_at(("tank", "bed", "file"), str(tank.bed.file), str(error))
+    if tank.shape is None:
+        return
+    allowed = (*SOLID_FORMATS, ".msh")
+    if tank.shape.suffix.lower() not in allowed:
+        yield problem_at(
+            ("tank", "shape"), str(tank.shape), "it is not a known format", allowed=", ".join(f"*{s}" for s in allowed)
+        )
+    elif not shape_file(scene).is_file():
+        yield problem_at(("tank", "shape"), str(tank.shape), f"there is no file {shape_file(scene)}")
+    else:
+        from hydroelastic.meshes.tagged_mesh import MeshError
+
+        try:
+            physical_plan(scene)
+        except MeshError as error:
+            yield problem_at(("tank", "shape"), str(tank.shape), str(error))
+
+
+def _volumes_are_of_plates(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
+    for index, body in enumerate(scene.body):
+        if needs_volume(scene) and body.kind == "beam":
+            yield problem_at(
+                ("body", index, "kind"),
+                body.kind,
+                "beams side by side need a tank with a level bed",
+                remedy='Take a plate, kind = "plate" with outline = "strip", in its place',
+            )
+
+
+def _floats_lie_in_the_tank(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
+    plan, depth = physical_plan(scene), scene.liquid[0].depth
+    middle, first = middle_of(plan), len(scene.plates)
+    if any(isinstance(body, TankFloat) for body in scene.body[:first]):
+        remedy = "Move it to the end of the scene"
+        place = next(index for index, body in enumerate(scene.body) if isinstance(body, TankFloat))
+        yield problem_at(("body", place, "kind"), "float", "a float comes before a plate", remedy=remedy)
+        return
+    spheres = [(first + index, body, body.solid(middle)) for index, body in enumerate(scene.floats)]
+    for index, body, solid in spheres:
+        if solid.draught >= depth * (1.0 - LEAST_DEPTH):
+            most = f"less than {depth * (1.0 - LEAST_DEPTH):g} m"
+            yield problem_at(("body", index, "draught"), solid.draught, "it leaves no liquid below", allowed=most)
+        if not _is_inside(plan, solid):
+            key = body.shape_key
+            yield problem_at(("body", index, key), getattr(body, key), "the float does not lie inside the tank")
+        stiffness = dict(zip(solid.motions, solid.stiffness(), strict=True))
+        for motion in ("roll", "pitch"):
+            if stiffness.get(motion, 1.0) <= 0.0:
+                yield problem_at(
+                    ("body", index, "vertical_centre_of_gravity"),
+                    solid.centre_of_gravity,
+                    f"the float is unstable in {motion}",
+                    remedy="Lower its centre of gravity",
+                )
+                break
+    for (_, _, one), (index, body, other) in combinations(spheres, 2):
+        apart = [abs(a - b) for a, b in zip(one.position, other.position, strict=True)]
+        if all(gap <= 0.5 * (a + b) for gap, a, b in zip(apart, one.size, other.size, strict=True)):
+            yield problem_at(("body", index, body.shape_key), None, "the float touches another one")
+
+
+def _is_inside(plan: Plan, solid: SolidFloat) -> bool:
+    (x, y), (along, across) = solid.position, solid.size
+    if isinstance(plan, Box):
+        return 0.5 * along < x < plan.length - 0.5 * along and 0.5 * across < y < plan.width - 0.5 * across
+    if isinstance(plan, Cylinder):
+        reach = 0.5 * (hypot(along, across) if solid.shape == "box" else along)
+        return plan.inner_radius < hypot(x, y) - reach * bool(plan.inner_radius) and hypot(x, y) + reach < plan.radius
+    # Of other plans gmsh tells.
+    return True
+
+
+def _bed_is_below_the_surface(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
+    bed = scene.tank.bed
+    if bed is None:
+        return
+    depth, plan = scene.liquid[0].depth, physical_plan(scene)
+    if bed.slope is not None:
+        x, y = middle_of(plan)
+        (low, high), (lower, upper) = _plan_bounds(plan)
+        rise = abs(bed.slope[0]) * max(high - x, x - low) + abs(bed.slope[1]) * max(upper - y, y - lower)
+    else:
+        heights = [height for _, _, height in bed_points(scene)]
+        rise = max(heights) - min(heights)
+    if rise > depth * (1.0 - LEAST_DEPTH):
+        yield problem_at(
+            ("tank", "bed"),
+            None,
+            f"it rises by {rise:g} m, and leaves less than {LEAST_DEPTH:g} of the depth of {depth:g} m",
+            remedy="A beach is drawn as a solid of CAD, with key shape",
+        )
+
+
 def _outlines_fit_the_plan(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
-    for index, plate in enumerate(scene.body):
+    for index, plate in enumerate(scene.plates):
         if plate.outline == "strip" and scene.tank.width is None:
             yield problem_at(
                 ("body", index, plate.shape_key),
@@ -122,7 +240,7 @@ def _outlines_fit_the_plan(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
 
 
 def _depth_fits_the_plan(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
-    unit, depth = physical_plan(scene.tank).unit, scene.liquid[0].depth
+    unit, depth = physical_plan(scene).unit, scene.liquid[0].depth
     least, most = DEPTH_TO_LENGTH
     if not least <= depth / unit <= most:
         yield problem_at(
@@ -134,10 +252,10 @@ def _depth_fits_the_plan(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
 
 
 def _plates_lie_in_the_tank(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
-    plan = physical_plan(scene.tank)
+    plan = physical_plan(scene)
     reach = 1.0 + ROUND_OFF
-    for index, plate in enumerate(scene.body):
-        outline = physical_outline(scene.tank, plate)
+    for index, plate in enumerate(scene.plates):
+        outline = physical_outline(scene, plate)
         if isinstance(plan, Box):
             bounds = _bounds(outline)
             sides = (plan.length, plan.width)
@@ -164,8 +282,8 @@ def _plates_lie_in_the_tank(scene: LevelTankParts) -> Iterator[InitErrorDetails]
 
 
 def _plates_keep_apart(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
-    unit = physical_plan(scene.tank).unit
-    outlines = [physical_outline(scene.tank, plate) for plate in scene.body]
+    unit = physical_plan(scene).unit
+    outlines = [physical_outline(scene, plate) for plate in scene.plates]
     for (first, one), (second, other) in combinations(enumerate(outlines), 2):
         if _touch(one, other, ROUND_OFF * unit):
             yield problem_at(
@@ -174,6 +292,16 @@ def _plates_keep_apart(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
                 f"the plate overlaps or touches [[body]] number {first + 1}",
                 remedy="Leave a gap between them",
             )
+
+
+def _plan_bounds(plan: Plan) -> _Bounds:
+    """Least and largest x and y of a plan that is not of a file."""
+    if isinstance(plan, Box):
+        return (0.0, plan.length), (0.0, plan.width)
+    if isinstance(plan, Cylinder):
+        return (-plan.radius, plan.radius), (-plan.radius, plan.radius)
+    assert isinstance(plan, Polygon)
+    return _bounds(plan)
 
 
 def _touch(one: Outline, other: Outline, negligible: float) -> bool:
@@ -205,9 +333,9 @@ def _bounds(outline: Outline) -> _Bounds:
 
 def _groups_are_in_range(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
     (liquid,), gravity = scene.liquid, scene.tank.gravity
-    unit = physical_plan(scene.tank).unit
-    for index, plate in enumerate(scene.body):
-        outline = physical_outline(scene.tank, plate)
+    unit = physical_plan(scene).unit
+    for index, plate in enumerate(scene.plates):
+        outline = physical_outline(scene, plate)
         (low, high), (lower, upper) = _bounds(outline)
         extent = min(high - low, upper - lower)
         if isinstance(outline, Disc) and outline.inner_radius:
@@ -247,9 +375,10 @@ def _something_moves(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
 
 _Check: TypeAlias = Callable[[LevelTankParts], Iterator[InitErrorDetails]]
 STAGES: tuple[tuple[_Check, ...], ...] = (
-    (_plan_is_complete, _something_moves),
-    (_outlines_fit_the_plan, _depth_fits_the_plan),
-    (_plates_lie_in_the_tank,),
+    (_plan_is_complete, _something_moves, _volumes_are_of_plates),
+    (_files_can_be_read,),
+    (_outlines_fit_the_plan, _depth_fits_the_plan, _bed_is_below_the_surface),
+    (_plates_lie_in_the_tank, _floats_lie_in_the_tank),
     (_plates_keep_apart, _groups_are_in_range),
 )
 """Each stage is made when those before found nothing, so that one wrong length is one message."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from math import inf
+from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal, TypeAlias
 
 from pydantic import (
@@ -28,15 +29,23 @@ from hydroelastic.scenes.models.bodies import (
     PositiveNumber,
     SceneModel,
 )
+from hydroelastic.scenes.models.folder import SceneInFolder
 from hydroelastic.scenes.models.problems import problem_at
+from hydroelastic.scenes.models.solid_parts import TankFloat
 from hydroelastic.scenes.models.tank_parts import Accuracy
 from hydroelastic.scenes.models.title import Title
 
 PlanPoint: TypeAlias = tuple[AnyNumber, AnyNumber]
 OutlineName: TypeAlias = Literal["rectangle", "strip", "disc", "ring", "polygon"]
 
-PLAN_KEYS = ("width", "radius", "inner_radius", "plan")
+PLAN_KEYS = ("width", "radius", "inner_radius", "plan", "shape")
 """Keys of [tank] by which a tank is one in three dimensions."""
+
+SOLID_FORMATS = (".step", ".stp", ".brep")
+"""Files of solids that gmsh reads by OpenCASCADE."""
+
+MOST_BED_POINTS = 5_000
+"""The smooth surface through n points takes n² numbers."""
 
 KEYS_OF_OUTLINES: dict[OutlineName, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "rectangle": (("size",), ("position",)),
@@ -50,8 +59,40 @@ KEYS_OF_OUTLINES: dict[OutlineName, tuple[tuple[str, ...], tuple[str, ...]]] = {
 _OUTLINE_KEYS = ("position", "size", "start", "length", "radius", "inner_radius", "points")
 
 
+class ShapedBed(SceneModel):
+    """The bed of an upright tank that is not level: a slope, or a smooth surface through points.
+
+    Raises:
+        SceneError: if it is not given in one of the three ways.
+    """
+
+    slope: PlanPoint | None = Field(
+        default=None, description="[along x, along y], rise of a plane bed per length; depth is that in the middle"
+    )
+    points: tuple[tuple[AnyNumber, AnyNumber, AnyNumber], ...] | None = Field(
+        default=None,
+        min_length=3,
+        max_length=MOST_BED_POINTS,
+        description="[x, y, height] of points of the bed, m, from any level; depth is that over the lowest of them",
+    )
+    file: Path | None = Field(default=None, description="text file with three columns, x, y and height, of such points")
+
+    @model_validator(mode="after")
+    def _given_once(self) -> ShapedBed:
+        given = [key for key in ("slope", "points", "file") if getattr(self, key) is not None]
+        if len(given) != 1:
+            wrong = f"{' and '.join(given)} are given together" if given else "its shape is missing"
+            found = problem_at((given[-1] if given else "slope",), None, wrong, allowed="one of slope, points and file")
+            raise ValidationError.from_exception_data(type(self).__name__, [found])
+        return self
+
+    @model_serializer(mode="wrap")
+    def _without_idle_keys(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        return {key: value for key, value in write(self).items() if value is not None}
+
+
 class PlanTank(SceneModel):
-    """An upright tank with a level bed: a box, a cylinder or ring, or a plan of corners."""
+    """An upright tank: a box, a cylinder or ring, or a plan of corners; or a tank of any shape from a file."""
 
     length: PositiveNumber | None = Field(default=None, description="length of a box along x, m")
     width: PositiveNumber | None = Field(default=None, description="width of a box along y, m")
@@ -65,6 +106,16 @@ class PlanTank(SceneModel):
         max_length=MOST_VERTICES,
         description=f"3 to {MOST_VERTICES} corners [x, y] of the plan, m",
     )
+    shape: Path | None = Field(
+        default=None,
+        description="file of a tank of any shape, m: the inside as one solid (*.step, *.stp, *.brep), filled to depth "
+        'above its lowest point, or a mesh of the liquid (*.msh) with the physical surface "free_surface"',
+    )
+    bed: ShapedBed | None = Field(default=None, description="bed of an upright tank that is not level")
+    model: Literal["smallest", "volume"] = Field(
+        default="smallest",
+        description="whether the smallest model that fits is solved, or a mesh of the volume in any case",
+    )
     gravity: PositiveNumber = Field(default=9.81, description="acceleration of gravity, m/s²")
     ends: Literal["walls"] = Field(default="walls", description="rigid vertical walls all around")
     top: Literal["free", "rigid", "pressure_release"] = Field(
@@ -74,14 +125,17 @@ class PlanTank(SceneModel):
 
     @model_serializer(mode="wrap")
     def _without_idle_keys(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        return {key: value for key, value in write(self).items() if value is not None}
+        idle = {"model": "smallest"}
+        return {key: value for key, value in write(self).items() if value is not None and idle.get(key) != value}
 
 
 class PlanLiquid(SceneModel):
     """An ideal incompressible liquid."""
 
     density: PositiveNumber = Field(description="density, kg/m³")
-    depth: PositiveNumber = Field(description="depth, m")
+    depth: PositiveNumber = Field(
+        description="depth, m; over the middle of a sloping bed, over the lowest point of a bed of points or of a file"
+    )
 
 
 class Plate(SceneModel):
@@ -252,7 +306,7 @@ def _one_mass(plate: Plate) -> Iterator[InitErrorDetails]:
         )
 
 
-class LevelTankParts(SceneModel):
+class LevelTankParts(SceneInFolder):
     """The parts of the scene of a tank in three dimensions, each valid by itself."""
 
     kind: Literal["tank"] = Field(default="tank", description="kind of the scene")
@@ -260,10 +314,24 @@ class LevelTankParts(SceneModel):
     tank: PlanTank = Field(description="the tank")
     liquid: tuple[PlanLiquid, ...] = Field(min_length=1, max_length=1, description="the liquid")
     body: tuple[
-        Annotated[Annotated[Plate, Tag("plate")] | Annotated[Slats, Tag("beam")], Discriminator(_kind_of)], ...
+        Annotated[
+            Annotated[Plate, Tag("plate")] | Annotated[Slats, Tag("beam")] | Annotated[TankFloat, Tag("float")],
+            Discriminator(_kind_of),
+        ],
+        ...,
     ] = Field(
         default=(),
         max_length=MOST_BODIES,
-        description=f"up to {MOST_BODIES} plates, and beams side by side; none for sloshing alone",
+        description=f"up to {MOST_BODIES} plates, beams side by side, or solid floats; none for sloshing alone",
     )
     accuracy: Accuracy = Field(default=Accuracy(), description="what is asked of the answer")
+
+    @property
+    def plates(self) -> tuple[PlanBody, ...]:
+        """The plates and the beams side by side."""
+        return tuple(body for body in self.body if not isinstance(body, TankFloat))
+
+    @property
+    def floats(self) -> tuple[TankFloat, ...]:
+        """The solid floats, which come after the plates."""
+        return tuple(body for body in self.body if isinstance(body, TankFloat))

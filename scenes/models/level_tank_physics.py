@@ -2,23 +2,27 @@
 
 from __future__ import annotations
 
-from hydroelastic.physics.level_tank import Box, Cylinder, LevelTank, Plan, PolygonPlan
+from dataclasses import fields
+from pathlib import Path
+
+from hydroelastic.physics.level_tank import Box, Cylinder, FilePlan, LevelTank, Plan, PolygonPlan
 from hydroelastic.physics.plate import Disc, Outline, Plate, Point, Polygon, Rectangle, Strip
+from hydroelastic.physics.volume_tank import Bed, SlopingBed, SurveyedBed, VolumeTank
 from hydroelastic.scenes.models import level_tank_parts as parts
 
 
 def physical_level_tank(scene: parts.LevelTankParts) -> LevelTank:
     """Return the tank of a scene; SI units."""
     (liquid,) = scene.liquid
-    return LevelTank(
-        plan=physical_plan(scene.tank),
+    tank = LevelTank(
+        plan=physical_plan(scene),
         depth=liquid.depth,
         density=liquid.density,
         gravity=scene.tank.gravity,
         top=scene.tank.top,
         plates=tuple(
             Plate(
-                outline=physical_outline(scene.tank, plate),
+                outline=physical_outline(scene, plate),
                 flexural_rigidity=plate.whole_rigidity,
                 mass_per_area=plate.whole_mass,
                 poisson_ratio=plate.poisson_ratio,
@@ -26,13 +30,64 @@ def physical_level_tank(scene: parts.LevelTankParts) -> LevelTank:
                 edge=plate.edge,
                 slats=plate.kind == "beam",
             )
-            for plate in scene.body
+            for plate in scene.plates
         ),
     )
+    if not needs_volume(scene):
+        return tank
+    given = {field.name: getattr(tank, field.name) for field in fields(tank)}
+    floats = tuple(body.solid(middle_of(tank.plan)) for body in scene.floats)
+    return VolumeTank(**given, bed=_physical_bed(scene), floats=floats)
 
 
-def physical_plan(tank: parts.PlanTank) -> Plan:
-    """Return the plan of a tank."""
+def needs_volume(scene: parts.LevelTankParts) -> bool:
+    """Return whether a mesh of the volume is wanted, or nothing smaller fits."""
+    tank = scene.tank
+    return tank.model == "volume" or tank.shape is not None or tank.bed is not None or bool(scene.floats)
+
+
+def _physical_bed(scene: parts.LevelTankParts) -> Bed | None:
+    bed = scene.tank.bed
+    if bed is None:
+        return None
+    if bed.slope is not None:
+        return SlopingBed(slope=bed.slope)
+    return SurveyedBed(points=bed_points(scene))
+
+
+def bed_points(scene: parts.LevelTankParts) -> tuple[tuple[float, float, float], ...]:
+    """Return the points of a bed, from the scene or its file.
+
+    Raises:
+        ValueError: with the error in the file and its line.
+    """
+    bed = scene.tank.bed
+    assert bed is not None
+    if bed.points is not None:
+        return bed.points
+    assert bed.file is not None
+    from hydroelastic.scenes.models.number_files import read_columns
+
+    return tuple((x, y, z) for x, y, z in read_columns(scene.folder / bed.file, 3))
+
+
+def shape_file(scene: parts.LevelTankParts) -> Path:
+    """Return the file of a tank's shape."""
+    assert scene.tank.shape is not None
+    return (scene.folder / scene.tank.shape).resolve()
+
+
+def physical_plan(scene: parts.LevelTankParts) -> Plan:
+    """Return the plan of a tank.
+
+    Raises:
+        MeshError: if the file of its shape cannot be read.
+    """
+    tank = scene.tank
+    if tank.shape is not None:
+        from hydroelastic.meshes.volume_file import file_plan
+
+        return file_plan(shape_file(scene), scene.liquid[0].depth)
     if tank.plan is not None:
         return PolygonPlan(points=tank.plan)
     if tank.radius is not None:
@@ -48,13 +103,15 @@ def middle_of(plan: Plan) -> Point:
         return 0.5 * plan.length, 0.5 * plan.width
     if isinstance(plan, Cylinder):
         return 0.0, 0.0
+    if isinstance(plan, FilePlan):
+        return plan.middle
     x, y = zip(*plan.points, strict=True)
     return 0.5 * (min(x) + max(x)), 0.5 * (min(y) + max(y))
 
 
-def physical_outline(tank: parts.PlanTank, plate: parts.PlanBody) -> Outline:
+def physical_outline(scene: parts.LevelTankParts, plate: parts.PlanBody) -> Outline:
     """Return the outline of a plate in a tank."""
-    plan = physical_plan(tank)
+    plan = physical_plan(scene)
     if isinstance(plate, parts.Slats):
         assert isinstance(plan, Box)
         return Strip(start=plate.start, length=plate.length, width=plan.width)

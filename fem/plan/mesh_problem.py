@@ -1,4 +1,4 @@
-"""The problems of a box and of a plan, as the common solution of level tanks has them, with their modes sampled."""
+"""The problem of a symmetry class of any plan, as the common solution of level tanks has it, with its modes sampled."""
 
 from __future__ import annotations
 
@@ -14,33 +14,31 @@ from hydroelastic.fem.direct import configure_direct
 from hydroelastic.fem.level_bed.solution import SampledSurface
 from hydroelastic.fem.modes import Mode, ModeSet
 from hydroelastic.fem.pencil import CoupledPencil
-from hydroelastic.fem.plan.box_pencil import BoxLiquid, water_columns, water_masses
 from hydroelastic.fem.plan.classes import SymmetryClass
 from hydroelastic.fem.plan.plan_pencil import PlanLiquid, PlanPlate, PlanSpace, water_unknowns
-from hydroelastic.fem.plan.rectangle_body import RectangleBody
 from hydroelastic.meshes.geometry import FREE_SURFACE
-from hydroelastic.meshes.plan_loops import PlanRegion
+from hydroelastic.meshes.plan_loops import Mirrors, PlanRegion
 from hydroelastic.physics.arrays import FloatArray
 
-# Standing waves with less than this part of the largest amplitude are not sampled.
-_UNSEEN = 1e-7
 # Standing waves of a plan that carry ψ down; what is left is near the edges of plates.
 _CARRIED = 120
 
 
 @dataclass(frozen=True, kw_only=True)
-class BoxProblem:
-    """A symmetry class of a box; see `PlanProblem`.
+class MeshProblem:
+    """A symmetry class of a tank on its plan; see `PlanProblem`.
 
     Attributes:
         symmetry_class: its problem and modes.
-        plates: the plates in its shapes.
-        size: sides of the box.
+        plates: the plates as bodies.
+        regions: their outlines.
+        mirrors: x and y of the mirror planes.
     """
 
     symmetry_class: SymmetryClass
-    plates: tuple[RectangleBody, ...]
-    size: tuple[float, float]
+    plates: tuple[PlanPlate, ...]
+    regions: tuple[PlanRegion, ...]
+    mirrors: Mirrors
 
     @property
     def order(self) -> int | None:
@@ -54,83 +52,7 @@ class BoxProblem:
 
     @property
     def multiplicity(self) -> int:
-        """Frequencies are single, but for chance."""
-        return 1
-
-    @property
-    def pencil(self) -> CoupledPencil[BoxLiquid]:
-        """Its matrices."""
-        return self.symmetry_class.pencil
-
-    @property
-    def modes(self) -> ModeSet:
-        """Its lowest modes."""
-        return self.symmetry_class.modes
-
-    def sampled(self, mode: Mode, x: FloatArray, y: FloatArray, *, second: bool) -> SampledSurface:
-        """See `PlanProblem.sampled`; there is no second mode."""
-        del second
-        liquid = self.pencil.liquid
-        sign: FloatArray = np.ones(len(x))
-        folded = []
-        for axis, places in enumerate((x, y)):
-            parity, length = self.symmetry_class.parity[axis], self.size[axis]
-            beyond = (places > 0.5 * length) & (parity is not None)
-            folded.append(np.clip(np.where(beyond, length - places, places), 0.0, length))
-            sign = np.where(beyond & (parity == 1), -sign, sign)
-        tables = [space.table(places) for space, places in zip(liquid.spaces, folded, strict=True)]
-        height = np.zeros(liquid.size)
-        if self.pencil.surfaces:
-            columns = water_columns(water_masses(liquid, self.plates))
-            height[columns] = mode.displacement.array_r[self.pencil.body_size :]
-        elevation = sign * np.einsum("ip,ij,jp->p", tables[0], height.reshape(liquid.shape), tables[1], optimize=True)
-        position = 0
-        for plate in self.plates:
-            (left, right), (low, high) = plate.extents
-            inside = (x >= left) & (x <= right) & (y >= low) & (y <= high)
-            amplitudes = mode.body_amplitudes[position : position + plate.body.size]
-            position += plate.body.size
-            elevation[inside] = amplitudes @ plate.deflection(np.array([x[inside], y[inside]]))
-        squares = np.add.outer(liquid.spaces[0].waves[0], liquid.spaces[1].waves[0])
-        along, across = (space.waves[1].T for space in liquid.spaces)
-        moments = [space.mass @ space.waves[1] for space in liquid.spaces]
-        parts = moments[0].T @ mode.potential.array_r.reshape(liquid.shape) @ moments[1]
-        seen = np.argwhere(np.abs(parts) > _UNSEEN * np.abs(parts).max())
-        first, other = along @ tables[0], across @ tables[1]
-        return SampledSurface(
-            elevation=elevation,
-            wavenumbers=np.sqrt(np.maximum(squares[seen[:, 0], seen[:, 1]], 0.0)),
-            potentials=(sign * first[seen[:, 0]] * other[seen[:, 1]] * parts[seen[:, 0], seen[:, 1]][:, None]).T,
-        )
-
-
-@dataclass(frozen=True, kw_only=True)
-class MeshProblem:
-    """A tank on its plan; see `PlanProblem`.
-
-    Attributes:
-        symmetry_class: its problem and modes.
-        plates: the plates as bodies.
-        regions: their outlines.
-    """
-
-    symmetry_class: SymmetryClass
-    plates: tuple[PlanPlate, ...]
-    regions: tuple[PlanRegion, ...]
-
-    @property
-    def order(self) -> int | None:
-        """Orders are not separated."""
-        return None
-
-    @property
-    def symmetry(self) -> str:
-        """All modes are in one problem."""
-        return ""
-
-    @property
-    def multiplicity(self) -> int:
-        """Equal frequencies are different modes of one problem."""
+        """Equal frequencies are different modes."""
         return 1
 
     @property
@@ -179,6 +101,8 @@ class MeshProblem:
         del second
         space: PlanSpace = self.pencil.liquid.space
         points = np.column_stack([x, y])
+        places, sign = self.symmetry_class.folded(points.T, self.mirrors)
+        folded = places.T
         under = [
             np.array(
                 [region.outside.contains(p) and not any(hole.contains(p) for hole in region.inside) for p in points]
@@ -187,11 +111,11 @@ class MeshProblem:
         ]
         elevation = np.zeros(len(x))
         if self.pencil.surfaces:
-            height = np.zeros((space.size, 1))
-            height[water_unknowns(space), 0] = mode.displacement.array_r[self.pencil.body_size :]
+            height = np.zeros(space.size)
+            height[water_unknowns(space)] = mode.displacement.array_r[self.pencil.body_size :]
             water = ~np.any(under, axis=0) if under else np.full(len(x), True)
             cells = space.liquid.tank.cells(FREE_SURFACE)
-            elevation[water] = _evaluated(space, height, points[water], cells)[:, 0]
+            elevation[water] = sign[water] * _evaluated(space, height[:, None], folded[water], cells)[:, 0]
         position = 0
         for plate, inside in zip(self.plates, under, strict=True):
             amplitudes = mode.body_amplitudes[position : position + plate.body.size]
@@ -207,11 +131,11 @@ class MeshProblem:
         known = self._waves_at
         key = points.tobytes()
         if key not in known:
-            known[key] = _evaluated(space, functions, points, every)
+            known[key] = sign[:, None] * _evaluated(space, functions, folded, every)
         return SampledSurface(
             elevation=elevation,
             wavenumbers=np.append(wavenumbers, wavenumbers[-1]),
-            potentials=np.column_stack([known[key] * parts, _evaluated(space, rest[:, None], points, every)]),
+            potentials=np.column_stack([known[key] * parts, sign[:, None] * _evaluated(space, rest[:, None], folded, every)]),
         )
 
 
@@ -229,7 +153,8 @@ def _evaluated(space: PlanSpace, coefficients: FloatArray, points: FloatArray, c
             found[number] = links[0]
     values = np.empty((len(points), coefficients.shape[1]))
     function = fem.Function(space.liquid.space)
+    whole = space.expanded(coefficients)
     for column in range(coefficients.shape[1]):
-        function.x.array[:] = coefficients[:, column]
+        function.x.array[:] = whole[:, column]
         values[:, column] = function.eval(places, found).reshape(len(points))
     return values

@@ -1,0 +1,1 @@
+"""Tanks on meshes of their volume."""

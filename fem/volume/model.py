@@ -1,0 +1,120 @@
+"""The problems of a tank on a mesh of its volume, one for each symmetry."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import product
+
+from hydroelastic.fem.liquid import LiquidSpace, liquid_space
+from hydroelastic.fem.liquid_matrices import LiquidMatrices
+from hydroelastic.fem.pencil import CoupledPencil
+from hydroelastic.fem.plan.plan_pencil import PlanPlate
+from hydroelastic.fem.plan.plates import plan_plate
+from hydroelastic.fem.plan.rectangle_body import AxisParity, ClassParity, rectangle_of
+from hydroelastic.fem.plan.regions import mirrors_of, plan_regions
+from hydroelastic.fem.volume.floats import float_body
+from hydroelastic.fem.volume.matrices import volume_matrices
+from hydroelastic.fem.volume.pencil import SolverOf, moving_water, volume_pencil
+from hydroelastic.fem.volume.resolution import VolumeResolution
+from hydroelastic.meshes.distribute import TankMesh
+from hydroelastic.meshes.geometry import FREE_SURFACE
+from hydroelastic.meshes.plan_loops import Mirrors
+from hydroelastic.meshes.volume import MIRRORS
+from hydroelastic.physics.dofs import body_name
+from hydroelastic.physics.level_tank import FilePlan
+from hydroelastic.physics.plate import Strip
+from hydroelastic.physics.volume_tank import SlopingBed, SurveyedBed, VolumeTank
+
+# A float this close to a plane of symmetry, in units of the tank, is in it.
+_MIDDLE = 1e-9
+
+
+def volume_mirrors(tank: VolumeTank) -> Mirrors:
+    """Return x and y of the planes of symmetry of a dimensionless tank, ``None`` where there is none."""
+    if isinstance(tank.plan, FilePlan) or isinstance(tank.bed, SurveyedBed):
+        return None, None
+    outlines = tuple(
+        replace(plate, outline=rectangle_of(plate.outline)) if isinstance(plate.outline, Strip) else plate
+        for plate in tank.plates
+    )
+    along, across = (
+        mirror
+        if mirror is not None and all(abs(one.position[axis] - mirror) < _MIDDLE for one in tank.floats)
+        else None
+        for axis, mirror in enumerate(mirrors_of(*plan_regions(replace(tank, plates=outlines))))
+    )
+    if isinstance(tank.bed, SlopingBed):
+        along, across = (
+            None if slope else mirror for mirror, slope in zip((along, across), tank.bed.slope, strict=True)
+        )
+    return along, across
+
+
+@dataclass(frozen=True, kw_only=True)
+class VolumeModel:
+    """A tank in one resolution.
+
+    Attributes:
+        tank: the dimensionless tank.
+        resolution: of it.
+        mesh: of the part between the planes of symmetry.
+        mirrors: x and y of these planes.
+    """
+
+    tank: VolumeTank
+    resolution: VolumeResolution
+    mesh: TankMesh
+    mirrors: Mirrors
+
+    @property
+    def images(self) -> int:
+        """Number of parts that are alike."""
+        return 2 ** sum(mirror is not None for mirror in self.mirrors)
+
+    @cached_property
+    def liquid(self) -> LiquidSpace:
+        """The space of ψ that all symmetries share (collective)."""
+        zero = (FREE_SURFACE,) if self.tank.top == "pressure_release" else ()
+        return liquid_space(self.mesh, self.resolution.degree, zero)
+
+    @cached_property
+    def _matrices(self) -> LiquidMatrices:
+        return volume_matrices(self.liquid, moving_water(self.liquid, waves=self._waves), self.images)
+
+    @property
+    def _waves(self) -> bool:
+        return self.tank.top == "free"
+
+    @property
+    def parities(self) -> tuple[ClassParity, ...]:
+        """The symmetries: even (0) and odd (1) about each plane."""
+        choices: list[tuple[AxisParity, ...]] = [(None,) if mirror is None else (0, 1) for mirror in self.mirrors]
+        return tuple(product(choices[0], choices[1]))
+
+    @cached_property
+    def plates(self) -> dict[ClassParity, tuple[PlanPlate, ...]]:
+        """The plates in the shapes of each symmetry."""
+        return {
+            parity: tuple(
+                plan_plate(self.tank, index, number, parity) for index, number in enumerate(self.resolution.polynomials)
+            )
+            for parity in self.parities
+        }
+
+    def pencil(self, parity: ClassParity, solver_of: SolverOf) -> CoupledPencil[LiquidSpace] | None:
+        """Return the problem of a symmetry, ``None`` where nothing moves in it (collective)."""
+        odd = tuple(name for name, own in zip(MIRRORS, parity, strict=True) if own == 1)
+        liquid = replace(self.liquid, zero_potential=(*self.liquid.zero_potential, *odd))
+        floats = tuple(
+            float_body(solid, body_name(number), parity)
+            for number, solid in enumerate(self.tank.floats, len(self.tank.plates) + 1)
+        )
+        return volume_pencil(
+            liquid, self._matrices, self.plates[parity], floats, solver_of, waves=self._waves, images=self.images
+        )
+
+    def pencils(self, solver_of: SolverOf) -> dict[ClassParity, CoupledPencil]:
+        """Return the problems in which something moves (collective)."""
+        found = {parity: self.pencil(parity, solver_of) for parity in self.parities}
+        return {parity: pencil for parity, pencil in found.items() if pencil is not None}

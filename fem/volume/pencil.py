@@ -1,0 +1,82 @@
+"""The coupled problem of a tank on a mesh of its volume: A = ∫∇ψ·∇q, plates in their shapes, waves on the water."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import chain
+
+from petsc4py import PETSc
+
+from hydroelastic.fem.liquid import (
+    ClosedLayer,
+    LiquidSpace,
+    closed_layer,
+    closed_layers,
+)
+from hydroelastic.fem.liquid_matrices import LiquidMatrices
+from hydroelastic.fem.liquid_operator import LiquidOperator
+from hydroelastic.fem.pencil import CoupledPencil, coupled_pencil, loads_on_first
+from hydroelastic.fem.plan.plan_pencil import PlanPlate
+from hydroelastic.fem.shape_loads import shape_loads, surface_load
+from hydroelastic.fem.surfaces import Body, LiquidSurface
+from hydroelastic.fem.volume.loads import plate_loads
+from hydroelastic.meshes.geometry import FREE_SURFACE
+
+SolverOf = Callable[[LiquidSpace, PETSc.Mat, tuple[ClosedLayer, ...], int], LiquidOperator]
+"""Makes A⁺ from the space, A, the layers of constant volume, and the number of parts that are alike."""
+
+
+def moving_water(liquid: LiquidSpace, *, waves: bool) -> tuple[LiquidSurface, ...]:
+    """Return the water beside the plates, if there is any that moves under gravity."""
+    there = waves and FREE_SURFACE in liquid.tank.facet_names
+    return (LiquidSurface(surface=FREE_SURFACE, gravity=1.0),) if there else ()
+
+
+def volume_pencil(
+    liquid: LiquidSpace,
+    matrices: LiquidMatrices,
+    plates: tuple[PlanPlate, ...],
+    floats: tuple[Body, ...],
+    solver_of: SolverOf,
+    *,
+    waves: bool,
+    images: int = 1,
+) -> CoupledPencil[LiquidSpace] | None:
+    """Assemble the coupled problem of one symmetry; ``None`` where nothing moves (collective).
+
+    Args:
+        liquid: space of ψ.
+        matrices: see `volume_matrices`.
+        plates: those on the still surface.
+        floats: those with draught, after them.
+        solver_of: makes the solver of Laplace's equation.
+        waves: whether the water beside the plates moves under gravity.
+        images: number of parts that are alike.
+    """
+    surfaces = moving_water(liquid, waves=waves)
+    moving = [plate for plate in plates if plate.body.size]
+    rigid = [body for body in floats if body.size]
+    bodies = (*(plate.body for plate in moving), *rigid)
+    if not bodies and not surfaces:
+        return None
+    layers = closed_layers(liquid)
+    names = (*(body.surface for body in bodies), *(surface.surface for surface in surfaces))
+    load = surface_load(liquid, names) if layers else None
+    closed = () if load is None else tuple(closed_layer(liquid, layer, load) for layer in layers)
+    loads = chain.from_iterable(
+        images * load
+        for load in chain(
+            (plate_loads(liquid, plate) for plate in moving), (shape_loads(liquid, body) for body in rigid)
+        )
+    )
+    count = sum(body.size for body in bodies)
+    return coupled_pencil(
+        liquid,
+        bodies=bodies,
+        surfaces=surfaces,
+        body_coupling=loads_on_first(loads, count, matrices.laplace) if bodies else None,
+        surface_blocks=matrices.surfaces,
+        laplace=matrices.laplace,
+        solver=solver_of(liquid, matrices.laplace, closed, images),
+        closed=layers,
+    )

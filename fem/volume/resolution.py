@@ -1,0 +1,142 @@
+"""Resolution of a volume: degree of ψ, sizes of cells at the edges of plates and elsewhere, geometry, plates."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import ceil, log10, pi
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hydroelastic.fem.plan.box_resolution import expected_eigenvalue, plate_wavenumber, water_wavenumber
+from hydroelastic.meshes.volume import VolumeSizes
+from hydroelastic.physics.plate import Disc, Plate, Polygon, Rectangle, Strip
+from hydroelastic.physics.volume_tank import VolumeTank
+
+MOST_POLYNOMIALS = 30
+_DEGREE, _FINE_DEGREE, _FINE = 4, 6, 1e-8
+# Largest and smallest cells, in units of the tank.
+_LARGEST, _SMALLEST = 0.35, 5e-4
+# Relative error of ω by waves at degree 4 over (kh)⁸, of tetrahedra of size h, and by edges over h²; measured.
+_OF_WAVES, _OF_EDGES = 1.2e-7, 0.05
+# At the corners of floats over h^(4/3), as ψ ~ r^(2/3).
+_OF_CORNERS, _CORNER_ORDER = 0.05, 4.0 / 3.0
+# Largest and smallest ratio of successive sizes.
+_LEAST_STEP, _MOST_STEP = 0.85, 0.3
+
+
+@dataclass(frozen=True, kw_only=True)
+class VolumeErrors:
+    """Relative errors of the frequencies by cause, each of shape (modes,).
+
+    Attributes:
+        edges: by the space of ψ in the cells at the edges of plates.
+        waves: by that in all other cells.
+        geometry: by curved walls.
+        plates: by the polynomials of the plates.
+    """
+
+    edges: NDArray[np.float64]
+    waves: NDArray[np.float64]
+    geometry: NDArray[np.float64]
+    plates: NDArray[np.float64]
+
+    @property
+    def total(self) -> NDArray[np.float64]:
+        """Their sum."""
+        return self.edges + self.waves + self.geometry + self.plates
+
+    def first(self, count: int) -> VolumeErrors:
+        """Return those of the first modes."""
+        return VolumeErrors(
+            edges=self.edges[:count],
+            waves=self.waves[:count],
+            geometry=self.geometry[:count],
+            plates=self.plates[:count],
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class VolumeResolution:
+    """Degrees, sizes and polynomials.
+
+    Attributes:
+        degree: of ψ.
+        sizes: of the cells.
+        order: of the error by cells at edges.
+        polynomials: number of polynomials along each direction of each plate.
+    """
+
+    degree: int
+    sizes: VolumeSizes
+    polynomials: tuple[int, ...]
+    order: float = 2.0
+
+    @property
+    def coarser(self) -> VolumeResolution:
+        """The resolution that confirms the number of modes, on the same mesh."""
+        return replace(self, degree=2, polynomials=tuple(max(6, count - 6) for count in self.polynomials))
+
+    def refined(self, errors: VolumeErrors, tolerance: float) -> VolumeResolution | None:
+        """Return the next resolution by the parts of the error; ``None`` where it ends."""
+        edges, waves, geometry, plates = (
+            float(part.max(initial=0.0)) / (share * tolerance)
+            for part, share in ((errors.edges, 0.5), (errors.waves, 0.3), (errors.geometry, 0.1), (errors.plates, 0.1))
+        )
+        sizes = self.sizes
+        if edges > 1.0:
+            sizes = replace(sizes, edge=sizes.edge * _step(edges, self.order))
+        if waves > 1.0:
+            sizes = replace(sizes, bulk=sizes.bulk * _step(waves, 2.0 * self.degree))
+        if geometry > 1.0:
+            sizes = replace(sizes, around=ceil(sizes.around / _step(geometry, 2.0 * (sizes.geometry // 2) + 2.0)))
+        sizes = replace(sizes, edge=min(sizes.edge, sizes.bulk))
+        finer = replace(self, sizes=sizes)
+        if plates > 1.0:
+            factor = min(max(1.2 * plates ** (1.0 / 8.0), 1.2), 2.0)
+            finer = replace(
+                finer, polynomials=tuple(min(ceil(factor * count), MOST_POLYNOMIALS) for count in self.polynomials)
+            )
+        return None if finer == self or sizes.edge < _SMALLEST else finer
+
+
+def _step(excess: float, order: float) -> float:
+    return min(max(0.9 * excess ** (-1.0 / order), _MOST_STEP), _LEAST_STEP)
+
+
+def volume_resolution(tank: VolumeTank, tolerance: float, count: int) -> VolumeResolution:
+    """Return the first resolution for some modes of a dimensionless tank."""
+    digits = -log10(tolerance)
+    degree = _FINE_DEGREE if tolerance < _FINE else _DEGREE
+    eigenvalue = expected_eigenvalue(tank, count)
+    wavenumbers = [plate_wavenumber(tank, plate, eigenvalue) for plate in tank.plates]
+    radians = (tolerance / (3.0 * _OF_WAVES)) ** (0.5 / degree)
+    bulk = min(radians / max([water_wavenumber(tank, eigenvalue), *wavenumbers]), _LARGEST, 2.0 * tank.depth)
+    order = _CORNER_ORDER if tank.floats else 2.0
+    edge = (0.5 * tolerance / (_OF_CORNERS if tank.floats else _OF_EDGES)) ** (1.0 / order)
+    return VolumeResolution(
+        degree=degree,
+        order=order,
+        sizes=VolumeSizes(
+            edge=min(max(edge, 4.0 * _SMALLEST), bulk),
+            bulk=bulk,
+            geometry=4,
+            around=16,
+        ),
+        polynomials=tuple(
+            min(ceil(1.1 * wavenumber * _extent(plate) / pi + 1.2 * digits) + 4, MOST_POLYNOMIALS)
+            for plate, wavenumber in zip(tank.plates, wavenumbers, strict=True)
+        ),
+    )
+
+
+def _extent(plate: Plate) -> float:
+    outline = plate.outline
+    if isinstance(outline, Disc):
+        return 2.0 * outline.radius
+    if isinstance(outline, Strip):
+        return max(outline.length, outline.width)
+    if isinstance(outline, Rectangle):
+        return max(outline.size)
+    assert isinstance(outline, Polygon)
+    return float(np.ptp(np.array(outline.points), axis=0).max())

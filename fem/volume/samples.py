@@ -1,0 +1,191 @@
+"""Modes of a volume as plain arrays on rank 0: displacement of the still surface, ψ in the liquid."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import basix
+import numpy as np
+from numpy.typing import NDArray
+
+from hydroelastic.fem.cells import cell_positions, owned_cells
+from hydroelastic.fem.facets import facet_groups
+from hydroelastic.fem.level_bed.solution import LevelMode
+from hydroelastic.fem.liquid import as_functions
+from hydroelastic.fem.shape_loads import potential_basis
+from hydroelastic.fem.volume.problem import VolumeProblem
+from hydroelastic.meshes.geometry import FREE_SURFACE
+from hydroelastic.physics.arrays import FloatArray
+
+# Parts of a facet's edges.
+_PARTS = 3
+# Points this close, in units of the tank, are one.
+_SAME = 1e-9
+# Nodes of VTK's quadratic tetrahedron: corners, and the middles of these pairs.
+_MIDDLES = ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))
+# Nodes of a mirror image in the order of a cell that is not turned: of triangles and of these tetrahedra.
+_TURNED = {3: [1, 0, 2], 10: [1, 0, 2, 3, 4, 6, 5, 8, 7, 9]}
+
+
+@dataclass(frozen=True, kw_only=True)
+class SurfaceSample:
+    """Modes on the still surface, dimensionless; plates and water have points of their own at edges.
+
+    Attributes:
+        points: x and y, shape (points, 2).
+        triangles: numbers of their corners, shape (triangles, 3).
+        plate_of_points: number of the plate at each point, from 1; 0 is water.
+        plate_of_triangles: the same of each triangle.
+        elevations: upward displacement in each mode, shape (modes, points).
+    """
+
+    points: FloatArray
+    triangles: NDArray[np.int64]
+    plate_of_points: NDArray[np.int32]
+    plate_of_triangles: NDArray[np.int32]
+    elevations: FloatArray
+
+
+def surface_sample(modes: tuple[LevelMode, ...], names: tuple[str, ...]) -> SurfaceSample | None:
+    """Sample modes on the still surface; ``None`` on other ranks than 0 (collective).
+
+    Args:
+        modes: the modes.
+        names: surfaces of the plates, in their order.
+    """
+    model = problem_of(modes[0]).model
+    liquid = model.liquid
+    functions = as_functions(liquid, [one.mode.potential for one in modes])
+    local = basix.create_lattice(basix.CellType.triangle, _PARTS, basix.LatticeType.equispaced, True)
+    triangles = _lattice_triangles()
+    parts = []
+    for number, name in enumerate((FREE_SURFACE, *names)):
+        places: list[FloatArray] = [np.empty((0, 3))]
+        values: list[FloatArray] = [np.empty((len(modes), 0))]
+        for group in facet_groups(liquid, name) if name in liquid.tank.facet_names else ():
+            reference = group.reference_points(local)
+            points = group.physical_points(reference).reshape(-1, 3)
+            places.append(points)
+            if number:
+                values.append(_deflections(modes, name, points))
+            else:
+                # On the water gη = ω²ψ.
+                table, dofs = potential_basis(liquid, reference), liquid.space.dofmap.list[group.cells]
+                values.append(
+                    np.array(
+                        [
+                            one.mode.eigenvalue
+                            * (function.x.array[dofs] @ table.T).ravel()
+                            * bool(one.problem.pencil.surfaces)
+                            for one, function in zip(modes, functions, strict=True)
+                        ]
+                    )
+                )
+        parts.append((number, np.concatenate(places), np.concatenate(values, axis=1)))
+    gathered = liquid.tank.mesh.comm.gather(parts, root=0)
+    if gathered is None:
+        return None
+    corners, owners, every, elevations = [], [], [], []
+    first = 0
+    for number, at, moved in (part for process in gathered for part in process):
+        if len(at):
+            kept, numbers = _merged(at)
+            blocks = np.arange(len(at)).reshape(-1, len(local))
+            corners.append(first + numbers[blocks[:, triangles].reshape(-1, 3)])
+            every.append(at[kept, :2])
+            elevations.append(moved[:, kept])
+            owners.append((number, len(kept), len(corners[-1])))
+            first += len(kept)
+    plate_of_points = np.repeat(*np.array([(number, count) for number, count, _ in owners]).T).astype(np.int32)
+    plate_of_triangles = np.repeat(*np.array([(number, count) for number, _, count in owners]).T).astype(np.int32)
+    joined, shown, triangles = _mirrored(modes, np.concatenate(every), np.concatenate(elevations, axis=1), corners)
+    images = len(joined) // len(plate_of_points)
+    return SurfaceSample(
+        points=joined,
+        triangles=triangles,
+        plate_of_points=np.tile(plate_of_points, images),
+        plate_of_triangles=np.tile(plate_of_triangles, images),
+        elevations=shown,
+    )
+
+
+def problem_of(mode: LevelMode) -> VolumeProblem:
+    """Return the problem of a mode of a volume."""
+    assert isinstance(mode.problem, VolumeProblem)
+    return mode.problem
+
+
+def _mirrored(
+    modes: tuple[LevelMode, ...], points: FloatArray, values: FloatArray, cells: list[NDArray[np.int64]]
+) -> tuple[FloatArray, FloatArray, NDArray[np.int64]]:
+    """Points (n, dim), values of each mode (modes, n) and cells, with all their mirror images."""
+    joined = np.concatenate(cells)
+    for axis, mirror in enumerate(problem_of(modes[0]).model.mirrors):
+        if mirror is not None:
+            image = points.copy()
+            image[:, axis] = 2.0 * mirror - image[:, axis]
+            odd = np.array([problem_of(one).symmetry_class.parity[axis] == 1 for one in modes])
+            joined = np.concatenate([joined, joined[:, _TURNED[joined.shape[1]]] + len(points)])
+            points = np.concatenate([points, image])
+            values = np.concatenate([values, np.where(odd, -1.0, 1.0)[:, None] * values], axis=1)
+    return points, values, joined
+
+
+def _deflections(modes: tuple[LevelMode, ...], name: str, points: FloatArray) -> FloatArray:
+    values = []
+    for one in modes:
+        problem = problem_of(one)
+        plates = problem.model.plates[problem.symmetry_class.parity]
+        sizes = np.cumsum([0, *(plate.body.size for plate in plates)])
+        ((plate, (start, end)),) = [
+            (plate, ends) for plate, ends in zip(plates, pairwise(sizes), strict=True) if plate.body.surface == name
+        ]
+        values.append(
+            one.mode.body_amplitudes[start:end] @ plate.deflection(np.asarray(points[:, :2].T, dtype=np.float64))
+        )
+    return np.array(values, dtype=np.float64)
+
+
+def volume_sample(
+    modes: tuple[LevelMode, ...],
+) -> tuple[FloatArray, NDArray[np.int64], FloatArray] | None:
+    """Return points (n, 3), quadratic tetrahedra (cells, 10) and ψ of each mode (modes, n) (collective).
+
+    ``None`` on other ranks than 0.
+    """
+    liquid = problem_of(modes[0]).model.liquid
+    functions = as_functions(liquid, [one.mode.potential for one in modes])
+    mesh = liquid.tank.mesh
+    corners = basix.geometry(basix.CellType.tetrahedron)
+    reference = np.vstack([corners, [0.5 * (corners[one] + corners[other]) for one, other in _MIDDLES]])
+    places = cell_positions(mesh, owned_cells(mesh), reference)
+    table = potential_basis(liquid, reference)
+    dofs = liquid.space.dofmap.list[: len(places)]
+    values = np.array([(function.x.array[dofs] @ table.T).ravel() for function in functions])
+    gathered = mesh.comm.gather((places.reshape(-1, 3), values), root=0)
+    if gathered is None:
+        return None
+    points = np.concatenate([part[0] for part in gathered])
+    kept, numbers = _merged(points)
+    potentials = np.concatenate([part[1] for part in gathered], axis=1)[:, kept]
+    every, shown, cells = _mirrored(modes, points[kept], potentials, [numbers.reshape(-1, len(reference))])
+    return every, cells, shown
+
+
+def _merged(points: FloatArray) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """The first of each set of equal points, and the number of each point among them."""
+    _, kept, numbers = np.unique(np.round(points / _SAME), axis=0, return_index=True, return_inverse=True)
+    return kept, numbers.ravel()
+
+
+def _lattice_triangles() -> NDArray[np.int64]:
+    """The small triangles of a lattice on a triangle, whose rows run along its first edge."""
+    starts = np.cumsum([0, *range(_PARTS + 1, 0, -1)])
+    upright = [(starts[j] + i, starts[j] + i + 1, starts[j + 1] + i) for j in range(_PARTS) for i in range(_PARTS - j)]
+    turned = [
+        (starts[j] + i + 1, starts[j + 1] + i + 1, starts[j + 1] + i)
+        for j in range(_PARTS)
+        for i in range(_PARTS - j - 1)
+    ]
+    return np.array(upright + turned)

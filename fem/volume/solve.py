@@ -1,0 +1,258 @@
+"""Modes of a tank on a mesh of its volume to a tolerance."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import partial
+from itertools import count as numbered
+
+import numpy as np
+from mpi4py import MPI
+from petsc4py import PETSc
+
+from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
+from hydroelastic.fem.cells import cell_corners, owned_cells
+from hydroelastic.fem.liquid import ClosedLayer, LiquidSolver, LiquidSpace, constrained_dofs
+from hydroelastic.fem.liquid_operator import LiquidOperator
+from hydroelastic.fem.modes import Mode
+from hydroelastic.fem.plan.classes import (
+    ClassModes,
+    SymmetryClass,
+    count_is_confirmed,
+    merged_errors,
+    solve_classes,
+)
+from hydroelastic.fem.plan.plan_pencil import PlanPlate
+from hydroelastic.fem.spectral_error import cell_errors
+from hydroelastic.fem.stopwatch import Report
+from hydroelastic.fem.volume.memory import DIRECT_UNKNOWNS, free_memory, memory_needed
+from hydroelastic.fem.volume.model import VolumeModel, volume_mirrors
+from hydroelastic.fem.volume.multigrid import MultigridSolver
+from hydroelastic.fem.volume.resolution import VolumeErrors, VolumeResolution, volume_resolution
+from hydroelastic.meshes.distribute import TankMesh, distribute_nodes
+from hydroelastic.meshes.plan_loops import Mirrors
+from hydroelastic.meshes.tagged_mesh import MeshError
+from hydroelastic.meshes.tetrahedra import VolumeMesh, mesh_volume
+from hydroelastic.meshes.volume import VolumeSizes, volume_mesh
+from hydroelastic.physics.volume_tank import VolumeTank
+
+_MOST_ATTEMPTS = 5
+# The decay of the energy in cells at an edge shows 0.36 to 0.57 of the error, that of waves more; measured on plates
+# in boxes and cylinders.
+_OF_EDGES, _OF_WAVES = 3.0, 1.8
+# Of the corners of floats, ψ ~ r^(2/3), it shows all; measured on floating cylinders.
+_OF_CORNERS = 1.3
+# Cells up to this multiple of the size at edges belong to them.
+_AT_EDGES = 4.0
+# Of the volume's relative error, that of frequencies.
+_GEOMETRY = 2.0
+_ROUNDING = 1e-11
+# Of the asked tolerance, that of Laplace's equation by iteration; measured: 1e-9 changes frequencies by 1e-11.
+_INNER = 1e-2
+
+
+class TooLargeError(MeshError):
+    """The problem would not fit into memory."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class VolumeSolution:
+    """Modes of a dimensionless tank on a mesh of its volume.
+
+    Attributes:
+        model: the tank in its last resolution.
+        modes: the lowest modes, one more than asked for.
+        errors: of their frequencies.
+        counted: whether a coarser model confirms the number of modes.
+        attempts: number of resolutions that were solved.
+        iterations: mean number of iterations of Laplace's equation; 0 of a direct solver.
+    """
+
+    model: VolumeModel
+    modes: ClassModes
+    errors: VolumeErrors
+    counted: bool
+    attempts: int
+    iterations: float
+
+    @property
+    def sizes(self) -> dict[str, int]:
+        """Numbers of its resolution, by name."""
+        return {
+            "problems": len(self.modes.classes),
+            "degree": self.model.resolution.degree,
+            "cells": self.model.mesh.cell_count,
+            "iterations": round(self.iterations),
+            "layers": 0,
+            "poles": 0,
+        }
+
+    @property
+    def relative_errors(self) -> np.ndarray:
+        """Estimated relative error of each frequency, shape (modes,)."""
+        return self.errors.total + _ROUNDING
+
+
+def solve_volume(
+    tank: VolumeTank,
+    *,
+    tolerance: float,
+    count: int,
+    comm: MPI.Comm | None = None,
+    report: Report = lambda _message: None,
+) -> VolumeSolution:
+    """Solve a dimensionless tank on its volume (collective).
+
+    Args:
+        tank: the tank.
+        tolerance: largest relative error of the frequencies that is accepted.
+        count: number of modes, from the lowest.
+        comm: the processes over which the mesh is distributed; all by default.
+        report: receives messages on the progress.
+
+    Raises:
+        MeshError: if the volume cannot be meshed.
+        TooLargeError: if the first resolution does not fit into memory.
+    """
+    processes = comm or MPI.COMM_WORLD
+    attempts = numbered(1)
+    mirrors = volume_mirrors(tank)
+
+    def solve(resolution: VolumeResolution) -> VolumeSolution:
+        attempt = next(attempts)
+        mesh, geometry = distributed_volume(tank, resolution.sizes, mirrors, processes)
+        model = VolumeModel(tank=tank, resolution=resolution, mesh=mesh, mirrors=mirrors)
+        size = model.liquid.size
+        report(f"attempt {attempt}: {mesh.cell_count} cells, degree {resolution.degree}, {size} unknowns")
+        require_memory(size, resolution.degree, processes)
+        modes = solve_classes(model.pencils(partial(direct_or_multigrid, tolerance=tolerance)), count + 1, tolerance)
+
+        def errors_of(one: SymmetryClass, some: list[Mode]) -> np.ndarray:
+            edges, waves = _liquid_errors(one.pencil.liquid, some, resolution.sizes.edge)
+            edges *= _OF_EDGES if tank.plates else _OF_CORNERS
+            return np.array([model.images * edges, model.images * waves, _plate_errors(model.plates[one.parity], some)])
+
+        edges, waves, plates = merged_errors(modes, 3, errors_of)
+        coarser = replace(model, resolution=resolution.coarser)
+        solvers = [one.pencil.solver for one in modes.classes]
+        iterations = [one.iterations / max(one.solves, 1) for one in solvers if isinstance(one, MultigridSolver)]
+        return VolumeSolution(
+            model=model,
+            modes=modes,
+            errors=VolumeErrors(edges=edges, waves=waves, geometry=np.full(len(edges), geometry), plates=plates),
+            counted=count_is_confirmed(modes, lambda parity: coarser.pencil(parity, _no_solver)),
+            attempts=attempt,
+            iterations=float(np.mean(iterations)) if iterations else 0.0,
+        )
+
+    return adaptive_solve(
+        volume_resolution(tank, tolerance, count),
+        solve,
+        lambda solution: ErrorEstimate(
+            discretization=float(solution.relative_errors[:count].max(initial=0.0)), missing=int(not solution.counted)
+        ),
+        lambda _, solution: solution.model.resolution.refined(solution.errors.first(count), tolerance),
+        tolerance,
+        rounds=_MOST_ATTEMPTS,
+        failures=(TooLargeError,),
+    ).solution
+
+
+def distributed_volume(
+    tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors, comm: MPI.Comm
+) -> tuple[TankMesh, float]:
+    """Return the mesh over the processes, and an estimate of the relative error of ω by its curved walls (collective).
+
+    Raises:
+        MeshError: if the volume cannot be meshed.
+    """
+    made: VolumeMesh | MeshError | None = None
+    if comm.rank == 0:
+        try:
+            made = volume_mesh(tank, sizes, mirrors)
+        except MeshError as error:
+            made = error
+    failed, deviation = comm.bcast(
+        (made, 0.0)
+        if isinstance(made, MeshError)
+        else (None, abs(mesh_volume(made.noded) / made.volume - 1.0) if made else 0.0)
+    )
+    if failed is not None:
+        raise failed
+    return distribute_nodes(comm, made.noded if isinstance(made, VolumeMesh) else None), _GEOMETRY * deviation
+
+
+def require_memory(unknowns: int, degree: int, comm: MPI.Comm) -> None:
+    """Refuse a problem that does not fit into the memory of the first process's computer (collective).
+
+    Raises:
+        TooLargeError: with what is needed and what there is.
+    """
+    needed, free = memory_needed(unknowns, degree), comm.bcast(free_memory())
+    if free is not None and needed > free:
+        raise TooLargeError(
+            f"{unknowns} unknowns of degree {degree} need about {needed / 2**30:.1f} GiB, and {free / 2**30:.1f} GiB "
+            "are free: ask for a larger tolerance or fewer modes"
+        )
+
+
+def direct_or_multigrid(
+    liquid: LiquidSpace,
+    laplace: PETSc.Mat,
+    closed: tuple[ClosedLayer, ...],
+    images: int,
+    *,
+    tolerance: float,
+    largest: int = DIRECT_UNKNOWNS,
+) -> LiquidOperator:
+    """A factorization of small problems, multigrid of large ones (collective).
+
+    Args:
+        liquid: space of ψ.
+        laplace: A.
+        closed: the layers of constant volume.
+        images: number of parts that are alike, whose energies A has.
+        tolerance: of the frequencies.
+        largest: number of unknowns that are factorized.
+    """
+    if liquid.size <= largest:
+        return LiquidSolver(laplace, constrained_dofs(liquid), closed)
+    return MultigridSolver(liquid, laplace, closed, images, tolerance=_INNER * tolerance)
+
+
+def _no_solver(
+    _liquid: LiquidSpace, _laplace: PETSc.Mat, _closed: tuple[ClosedLayer, ...], _images: int
+) -> LiquidOperator:
+    """Of a problem that is only counted in."""
+    return _Unused()
+
+
+class _Unused:
+    solves = 0
+
+    def solve(self, load: PETSc.Vec, potential: PETSc.Vec) -> None:
+        raise NotImplementedError
+
+
+def _liquid_errors(liquid: LiquidSpace, modes: list[Mode], edge: float) -> tuple[np.ndarray, np.ndarray]:
+    """Relative errors of ω by ψ at edges and elsewhere, from the decay of ∇ψ with the degree (collective)."""
+    cells = cell_errors(liquid, [mode.potential for mode in modes])
+    mesh = liquid.tank.mesh
+    corners = cell_corners(mesh, owned_cells(mesh))
+    # The edge of the regular tetrahedron of the same volume.
+    sizes = np.cbrt(np.abs(np.linalg.det(corners[:, 1:] - corners[:, :1])) * np.sqrt(2.0))
+    small = sizes < _AT_EDGES * edge
+    parts = np.array([cells[:, small].sum(axis=1), cells[:, ~small].sum(axis=1)])
+    edges, waves = 0.5 * mesh.comm.allreduce(parts)
+    return edges, _OF_WAVES * waves
+
+
+def _plate_errors(plates: tuple[PlanPlate, ...], modes: list[Mode]) -> np.ndarray:
+    errors = np.zeros(len(modes))
+    first = 0
+    for plate in plates:
+        last = first + plate.body.size
+        amplitudes = np.array([mode.body_amplitudes[first:last] for mode in modes]).reshape(len(modes), last - first)
+        errors += plate.missing_energy(amplitudes)
+        first = last
+    return 0.5 * errors / np.array([mode.eigenvalue for mode in modes])

@@ -1,0 +1,152 @@
+"""Tetrahedra of gmsh as plain arrays, of any degree, with nodes in the order of dolfinx; their volume and Jacobians."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from itertools import combinations
+from math import comb
+
+import basix
+import gmsh
+import numpy as np
+from numpy.typing import NDArray
+
+from hydroelastic.meshes.distribute import NodedMesh
+from hydroelastic.meshes.geometry import LIQUID
+from hydroelastic.meshes.tagged_mesh import MeshError
+
+_TETRAHEDRON, _TRIANGLE = "tetrahedron", "triangle"
+# Smallest Jacobian of an accepted cell over that of the straight cell.
+_SMALLEST_JACOBIAN = 0.05
+# In which cells are straightened, and then their neighbours.
+_PASSES = 4
+
+
+@dataclass(frozen=True, kw_only=True)
+class VolumeMesh:
+    """The mesh of a volume with what tells its geometry's error.
+
+    Attributes:
+        noded: the mesh.
+        volume: the exact volume, of the part that is meshed.
+    """
+
+    noded: NodedMesh
+    volume: float
+
+
+def read_gmsh(degree: int, faces: dict[int, str]) -> NodedMesh:
+    """The mesh of the current model, with nodes in the order of dolfinx."""
+    tags, coordinates, _ = gmsh.model.mesh.getNodes()
+    order = np.zeros(int(tags.max()) + 1, dtype=np.int64)
+    order[tags.astype(np.int64)] = np.arange(len(tags))
+    kind = gmsh.model.mesh.getElementType(_TETRAHEDRON, degree)
+    _, nodes = gmsh.model.mesh.getElementsByType(kind)
+    places = np.array(gmsh.model.mesh.getElementProperties(kind)[4]).reshape(-1, 3)
+    cells = order[nodes.astype(np.int64)].reshape(-1, len(places))
+    even, warped = (
+        basix.create_element(basix.ElementFamily.P, basix.CellType.tetrahedron, degree, variant)
+        for variant in (basix.LagrangeVariant.equispaced, basix.LagrangeVariant.gll_warped)
+    )
+    # gmsh numbers the nodes of a cell otherwise; they are found by their places.
+    cells = cells[:, np.linalg.norm(places[None] - even.points[:, None], axis=2).argmin(axis=1)]
+    points = coordinates.reshape(-1, 3)
+    if degree > 2:
+        # gmsh's nodes on an edge are evenly spaced; those of dolfinx are not, from three on.
+        positions = even.tabulate(0, warped.points)[0, :, :, 0] @ points[cells]
+        points = points.copy()
+        points[cells] = positions
+    names = {name: number for number, name in enumerate(sorted(set(faces.values())), 1)}
+    triangle = gmsh.model.mesh.getElementType(_TRIANGLE, degree)
+    facets, marks = [np.empty((0, 3), np.int64)], [np.empty(0, np.int32)]
+    for tag, name in faces.items():
+        _, nodes = gmsh.model.mesh.getElementsByType(triangle, tag)
+        corners = order[nodes.astype(np.int64)].reshape(-1, (degree + 1) * (degree + 2) // 2)[:, :3]
+        facets.append(corners)
+        marks.append(np.full(len(corners), names[name], np.int32))
+    return _renumbered(
+        NodedMesh(
+            cell=_TETRAHEDRON,
+            degree=degree,
+            points=points,
+            cells=cells,
+            cell_tags=np.ones(len(cells), np.int32),
+            facets=np.concatenate(facets),
+            facet_tags=np.concatenate(marks),
+            cell_names={LIQUID: 1},
+            facet_names=names,
+        )
+    )
+
+
+def _renumbered(mesh: NodedMesh) -> NodedMesh:
+    """Without nodes that no cell has."""
+    used = np.unique(mesh.cells)
+    order = np.full(len(mesh.points), -1)
+    order[used] = np.arange(len(used))
+    return replace(mesh, points=mesh.points[used], cells=order[mesh.cells], facets=order[mesh.facets])
+
+
+def checked(mesh: NodedMesh) -> NodedMesh:
+    """Straighten cells that are inverted, as at the tip of a cone, whose shape tells nothing of a curve.
+
+    Raises:
+        MeshError: if cells are inverted all the same, or there is no still surface.
+    """
+    if not len(mesh.facets):
+        raise MeshError("the liquid has no still surface at z = 0")
+    straight = jacobians(replace(mesh, degree=1, cells=mesh.cells[:, :4]), 1)[:, :1]
+    for _ in range(_PASSES):
+        smallest = (jacobians(mesh, 2 * mesh.degree if mesh.degree > 1 else 1) / straight).min(axis=1)
+        (folded,) = np.nonzero(smallest < _SMALLEST_JACOBIAN)
+        if not len(folded):
+            return mesh
+        places = _element(mesh).points
+        corners = np.column_stack([1.0 - places.sum(axis=1), places])
+        points = mesh.points.copy()
+        points[mesh.cells[folded]] = corners @ mesh.points[mesh.cells[folded, :4]]
+        mesh = replace(mesh, points=points)
+    raise MeshError("a cell at a curved wall is inverted: ask for smaller cells")
+
+
+def jacobians(mesh: NodedMesh, lattice: int) -> NDArray[np.float64]:
+    """Return det J at points of the cells, shape (cells, points)."""
+    points = basix.create_lattice(basix.CellType.tetrahedron, lattice, basix.LatticeType.equispaced, True)
+    return _determinants(mesh, points)
+
+
+def mesh_volume(mesh: NodedMesh) -> float:
+    """Return ∫1 over the cells."""
+    return mesh_integral(mesh, lambda places: np.ones(len(places)))
+
+
+def mesh_integral(mesh: NodedMesh, function: Callable[[NDArray[np.float64]], NDArray[np.float64]]) -> float:
+    """∫f over the cells of f at places (n, 3)."""
+    points, weights = basix.make_quadrature(basix.CellType.tetrahedron, 3 * mesh.degree + 3)
+    table = _element(mesh).tabulate(0, points)[0, :, :, 0]
+    places = np.einsum("qn,cnd->cqd", table, mesh.points[mesh.cells], optimize=True)
+    values = function(places.reshape(-1, 3)).reshape(places.shape[:2])
+    return float(((values * np.abs(_determinants(mesh, points))) @ weights).sum())
+
+
+def _determinants(mesh: NodedMesh, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    slopes = _element(mesh).tabulate(1, points)[1:, :, :, 0]
+    frames = np.einsum("dqn,cng->cqgd", slopes, mesh.points[mesh.cells], optimize=True)
+    return np.asarray(np.linalg.det(frames))
+
+
+def _element(mesh: NodedMesh) -> basix.finite_element.FiniteElement:
+    return basix.create_element(
+        basix.ElementFamily.P, basix.CellType.tetrahedron, mesh.degree, basix.LagrangeVariant.gll_warped
+    )
+
+
+def unknown_count(mesh: NodedMesh, degree: int) -> int:
+    """Return the number of continuous polynomials of a degree: by the corners, edges, faces and cells."""
+    corners = np.sort(mesh.cells[:, :4], axis=1)
+    faces, edges = (
+        len(np.unique(corners[:, list(combinations(range(4), size))].reshape(-1, size), axis=0)) for size in (3, 2)
+    )
+    inner = [comb(degree - 1, dim) for dim in range(4)]
+    return int(np.dot(inner, [len(np.unique(corners)), edges, faces, len(corners)]))

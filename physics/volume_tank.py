@@ -1,0 +1,74 @@
+"""A tank that needs a mesh of its volume: a shaped bed, the shape of a file, or no reduction wanted."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TypeAlias
+
+from hydroelastic.physics.level_tank import FilePlan, LevelTank
+from hydroelastic.physics.plate import Point
+from hydroelastic.physics.scales import Scales
+from hydroelastic.physics.solid_floats import SolidFloat
+
+
+@dataclass(frozen=True, kw_only=True)
+class SlopingBed:
+    """A plane bed, z = −H + s·(x − x₀) with the middle x₀ of the box around the plan.
+
+    Attributes:
+        slope: s, rise of the bed per length along x and along y.
+    """
+
+    slope: Point
+
+    def scaled(self, _length: float) -> SlopingBed:
+        """Return it in units of a length: slopes have none."""
+        return self
+
+
+@dataclass(frozen=True, kw_only=True)
+class SurveyedBed:
+    """A bed through points, smooth between them; H is the depth over the lowest of them.
+
+    Attributes:
+        points: x, y and height above any level, m.
+    """
+
+    points: tuple[tuple[float, float, float], ...]
+
+    def scaled(self, length: float) -> SurveyedBed:
+        """Return it in units of a length."""
+        return replace(self, points=tuple((x / length, y / length, z / length) for x, y, z in self.points))
+
+
+Bed: TypeAlias = SlopingBed | SurveyedBed
+"""The bed of an upright tank that is not level."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class VolumeTank(LevelTank):
+    """One liquid in a tank whose volume is meshed; in SI units, or in those of `scaled`.
+
+    Attributes:
+        bed: of an upright tank; ``None`` where it is level, or part of a file.
+        floats: solids with draught; as bodies they come after the plates.
+    """
+
+    bed: Bed | None = None
+    floats: tuple[SolidFloat, ...] = ()
+
+    @property
+    def is_level(self) -> bool:
+        """Whether it is an upright tank with a level bed and plates all the same."""
+        return self.bed is None and not self.floats and not isinstance(self.plan, FilePlan)
+
+    def scaled(self) -> VolumeTank:
+        """Return the tank in its own units."""
+        units: Scales = self.units
+        level = super().scaled()
+        assert isinstance(level, VolumeTank)
+        return replace(
+            level,
+            bed=None if self.bed is None else self.bed.scaled(units.length),
+            floats=tuple(solid.scaled(units) for solid in self.floats),
+        )

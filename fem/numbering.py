@@ -93,10 +93,10 @@ class Numbering:
             np.add.at(entries[0], dofs, dofs.shape[1])
         most = self.summed(entries)[0].astype(PETSc.IntType)
         size = (own, PETSc.DETERMINE)
-        matrix = PETSc.Mat().createAIJ((size, size), nnz=most if comm.size == 1 else None, comm=comm)
-        if comm.size > 1:
-            others = matrix.getSize()[0] - own
-            matrix.setPreallocationNNZ((np.minimum(most, own), np.minimum(most, others)))
+        matrix = PETSc.Mat().createAIJ((size, size), comm=comm)
+        # Cells that share an unknown share others too: the bound may exceed the length of a row.
+        others = matrix.getSize()[0] - own
+        matrix.setPreallocationNNZ((np.minimum(most, own), np.minimum(most, others)))
         for dofs, values in blocks:
             for row, block in zip(self.numbers[dofs].astype(PETSc.IntType), values, strict=True):
                 matrix.setValues(row, row, block, addv=PETSc.InsertMode.ADD_VALUES)

@@ -11,7 +11,8 @@ from mpi4py import MPI
 from plan_tanks import CASES, WATER, frequencies, reference_tank
 
 from hydroelastic.fem.plan.plan import PlanSolution, solve_plan
-from hydroelastic.fem.plan.solve import level_model, solve_upright_tank
+from hydroelastic.fem.level_bed.choice import NotTreatedError, level_model
+from hydroelastic.fem.plan.solve import solve_upright_tank
 from hydroelastic.physics.level_tank import Box, Cylinder, LevelTank, PolygonPlan
 from hydroelastic.physics.plate import Disc, Plate, Polygon, Rectangle, Strip
 
@@ -143,8 +144,6 @@ def test_elevations_of_the_water_are_those_of_its_potential() -> None:
     ],
 )
 def test_what_no_model_takes_is_refused_in_words(plates: tuple[Strip | Disc | Polygon, ...], word: str) -> None:
-    from hydroelastic.fem.level_bed.solve import NotTreatedError
-
     bodies = tuple(Plate(outline=outline, flexural_rigidity=1e4, mass_per_area=10.0) for outline in plates)
     tank = LevelTank(plan=Box(length=10.0, width=6.0), depth=2.0, plates=bodies, **WATER)
     with pytest.raises(NotTreatedError, match=word):

@@ -74,11 +74,10 @@ class BoxResolution:
         return None if finer == self or (self.degree, self.layers) == (HIGHEST_DEGREE, MOST_LAYERS) else finer
 
 
-def box_resolution(tank: LevelTank, tolerance: float, count: int) -> BoxResolution:
-    """Return the resolution for some modes of a dimensionless tank."""
+def box_resolution(tank: LevelTank, tolerance: float, eigenvalue: float) -> BoxResolution:
+    """Return the resolution for the modes of a dimensionless tank up to some λ."""
     digits = -log10(tolerance)
     degree = min(max(ceil(0.5 + 0.75 * digits), 4), HIGHEST_DEGREE - 2)
-    eigenvalue = expected_eigenvalue(tank, count)
     wavenumbers = [plate_wavenumber(tank, plate, eigenvalue) for plate in tank.plates]
     shortest = max([water_wavenumber(tank, eigenvalue), *wavenumbers])
     polynomials = tuple(

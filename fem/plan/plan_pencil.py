@@ -233,11 +233,13 @@ class PoleOperator:
     Attributes:
         liquid: the unknowns.
         comm: the processes.
+        idle: whether it will answer no loads, and factorizes nothing.
         solves: how many loads were answered.
     """
 
     liquid: PlanLiquid
     comm: MPI.Comm
+    idle: bool = False
     solves: int = 0
     _solvers: list[tuple[int, PETSc.KSP, PETSc.Vec, PETSc.Vec]] = field(init=False)
     _constant: NDArray[np.float64] = field(init=False)
@@ -249,7 +251,7 @@ class PoleOperator:
         one.set(1.0)
         self._constant = (space.mass * one).array.copy()
         self._solvers = []
-        for number in range(self.comm.rank, len(poles.shifts), self.comm.size):
+        for number in range(self.comm.rank, 0 if self.idle else len(poles.shifts), self.comm.size):
             matrix = space.stiffness.copy()
             matrix.axpy(poles.shifts[number], space.mass, structure=PETSc.Mat.Structure.SAME_NONZERO_PATTERN)
             if poles.shifts[number] == 0.0 and space.closed:
@@ -290,7 +292,7 @@ class PoleOperator:
 
 
 def plan_pencil(
-    space: PlanSpace, poles: VerticalPoles, plates: tuple[PlanPlate, ...], *, waves: bool, comm: MPI.Comm
+    space: PlanSpace, poles: VerticalPoles, plates: tuple[PlanPlate, ...], *, waves: bool, comm: MPI.Comm | None
 ) -> CoupledPencil[PlanLiquid] | None:
     """Assemble the coupled problem, alike on each process; ``None`` where nothing moves (collective).
 
@@ -301,7 +303,7 @@ def plan_pencil(
         poles: of the depth.
         plates: the bodies.
         waves: whether the water beside the plates moves under gravity.
-        comm: the processes over which the poles are distributed.
+        comm: the processes over which the poles are distributed; ``None`` where another solver will be given.
     """
     liquid = PlanLiquid(space=space, poles=poles)
     loads, water = _blocks(space, plates, waves=waves)
@@ -316,7 +318,7 @@ def plan_pencil(
         if water is not None
         else [],
         laplace=space.stiffness,
-        solver=PoleOperator(liquid=liquid, comm=comm),
+        solver=PoleOperator(liquid=liquid, comm=comm or MPI.COMM_SELF, idle=comm is None),
         closed=(0,) if space.closed else (),
     )
 

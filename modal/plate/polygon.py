@@ -21,7 +21,7 @@ from scipy.linalg import eigh, qr, solve_triangular
 from hydroelastic.modal.plate.corner_functions import CornerFunction, corner_functions
 from hydroelastic.modal.plate.legendre import gauss, legendre_table
 from hydroelastic.modal.plate.rectangle import AxisParity
-from hydroelastic.physics.plate import Point
+from hydroelastic.physics.plate import Point, Polygon
 
 # r = uᵍ from a corner: r^{2λ − 2} r dr of λ > 1/2 becomes u^{2g λ − 1} du.
 _CORNER_POWER = 4
@@ -146,7 +146,7 @@ def polygon_modes(
         degree: of the polynomials in x and y together.
         parity: even (0) or odd (1) about the middle along x and y of a polygon that is symmetric about it.
     """
-    corners = anticlockwise(np.array(points))
+    corners = Polygon(points=points).corners
     low, high = corners.min(axis=0), corners.max(axis=0)
     middle = 0.5 * (low + high)
     # Of a symmetric polygon the corners on one side, for the functions of the others are their images.
@@ -195,13 +195,6 @@ def polygon_modes(
         orthonormal=orthonormal,
         bending=bending,
     )
-
-
-def anticlockwise(corners: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the corners of a polygon in anticlockwise order."""
-    ahead = np.roll(corners, -1, axis=0)
-    area = float((corners[:, 0] * ahead[:, 1] - corners[:, 1] * ahead[:, 0]).sum())
-    return corners if area > 0.0 else corners[::-1]
 
 
 def polygon_quadrature(corners: NDArray[np.float64], count: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -6,7 +6,6 @@ import numpy as np
 
 from hydroelastic.meshes.geometry import FREE_SURFACE
 from hydroelastic.meshes.plan_loops import UNGRADED, CircleLoop, Loop, Mirrors, PlanRegion, PolygonLoop
-from hydroelastic.modal.plate.polygon import anticlockwise
 from hydroelastic.physics.dofs import body_name
 from hydroelastic.physics.level_tank import Box, Cylinder, LevelTank
 from hydroelastic.physics.plate import Disc, Polygon, Rectangle
@@ -27,7 +26,7 @@ def _wall(tank: LevelTank) -> PlanRegion:
     if isinstance(plan, Box):
         corners = np.array([[0.0, 0.0], [plan.length, 0.0], [plan.length, plan.width], [0.0, plan.width]])
     else:
-        corners = anticlockwise(np.array(plan.points))
+        corners = plan.corners
     return PlanRegion(name=FREE_SURFACE, outside=PolygonLoop(corners=corners))
 
 
@@ -45,7 +44,7 @@ def _region(tank: LevelTank, index: int, wall: PlanRegion) -> PlanRegion:
         half = 0.5 * np.array([[-length, -width], [length, -width], [length, width], [-length, width]])
         return PlanRegion(name=name, outside=PolygonLoop(corners=np.array([x, y]) + half))
     assert isinstance(outline, Polygon)
-    return PlanRegion(name=name, outside=PolygonLoop(corners=anticlockwise(np.array(outline.points))))
+    return PlanRegion(name=name, outside=PolygonLoop(corners=outline.corners))
 
 
 def mirrors_of(wall: PlanRegion, plates: tuple[PlanRegion, ...]) -> Mirrors:

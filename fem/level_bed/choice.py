@@ -1,0 +1,65 @@
+"""The smallest model of a tank with a level bed: orders on a line, a box of two intervals, or a plan of triangles."""
+
+from __future__ import annotations
+
+from typing import Literal, TypeAlias
+
+import numpy as np
+
+from hydroelastic.fem.level_bed.separation import separated
+from hydroelastic.meshes.plan_regions import plan_regions
+from hydroelastic.physics.level_tank import Box, LevelTank
+from hydroelastic.physics.plate import Polygon, Rectangle, Strip
+
+
+class NotTreatedError(ValueError):
+    """No solver takes such a tank."""
+
+
+LevelModel: TypeAlias = Literal["orders", "box", "plan"]
+
+MODEL_WORDS: dict[LevelModel, str] = {
+    "orders": "upright tank with a level bed whose orders separate: one problem on a line for each, exact in depth",
+    "box": "upright box with a level bed and rectangular plates: products of two intervals, exact in depth",
+    "plan": "upright tank with a level bed: triangles on the plan, the depth by its poles",
+}
+"""What each model is, as summaries tell it."""
+
+# A plate this close to a wall touches it, in units of the tank.
+_TOUCHING = 1e-9
+
+
+def level_model(physical: LevelTank) -> LevelModel:
+    """Return the smallest model of a tank.
+
+    Raises:
+        NotTreatedError: if there is none.
+    """
+    tank = physical.scaled()
+    if separated(tank) is not None:
+        return "orders"
+    if any(plate.slats for plate in tank.plates):
+        raise NotTreatedError("beams side by side go with other such covers and strips of plate only")
+    if tank.top == "pressure_release" and tank.plates:
+        raise NotTreatedError("ψ = 0 on the water is for strips in a box, and discs and rings about a cylinder's axis")
+    if isinstance(tank.plan, Box) and all(isinstance(plate.outline, Rectangle | Strip) for plate in tank.plates):
+        return "box"
+    for index, plate in enumerate(tank.plates):
+        number = index + 1
+        if isinstance(plate.outline, Strip):
+            raise NotTreatedError(f"plate {number} is a strip, which goes with strips and rectangles only")
+        if isinstance(plate.outline, Polygon) and plate.edge != "free":
+            raise NotTreatedError(f"plate {number} is a polygon, whose edges are free")
+    wall, regions = plan_regions(tank)
+    for index, region in enumerate(regions):
+        if region.outside is wall.outside:
+            continue
+        if region.gap(wall) < _TOUCHING:
+            raise NotTreatedError(f"plate {index + 1} touches a wall, and covers only a part of the plan")
+        corner = region.outside.parallel(0.0, np.zeros(1))[0]
+        if not wall.outside.contains(corner) or any(hole.contains(corner) for hole in wall.inside):
+            raise NotTreatedError(f"plate {index + 1} does not lie inside the plan")
+        for other, earlier in enumerate(regions[:index]):
+            if region.gap(earlier) < _TOUCHING:
+                raise NotTreatedError(f"plates {other + 1} and {index + 1} touch each other")
+    return "plan"

@@ -33,6 +33,7 @@ from hydroelastic.scenes.command_options import (
 from hydroelastic.scenes.command_parts import NOT_TO_TOLERANCE, folder_of_results, is_first_rank, title_of_scene
 from hydroelastic.scenes.errors import SceneError, UnsolvedError
 from hydroelastic.scenes.kinds import checker_of, comparer_of, runner_of
+from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.program import PROGRAM
 from hydroelastic.scenes.progress import progress
 from hydroelastic.scenes.read import closed_tank, read_scene, scene_path, shipped_scenes
@@ -248,9 +249,19 @@ def study(
 
     plan = plan_from_options(options)
     checked = read_scene(scene, overrides)
-    tank = closed_tank(checked, "a study measures the errors of frequencies of closed tanks")
     folder = folder_of_results(scene, out, suffix="_study")
     replaces = read_manifest(folder) is not None
+    if isinstance(checked, LevelTankScene):
+        from hydroelastic.scenes.study.level_tank import level_study_table, study_level_tank, write_level_study
+
+        with progress(title_of_scene(checked), shown=sys.stderr.isatty()) as report:
+            level = study_level_tank(checked, plan, report=report)
+            if is_first_rank():
+                write_level_study(level, folder, picture_options(formats, dpi=dpi), scene_file=scene_path(scene))
+        click.echo(level_study_table(level))
+        click.echo(f"Written to {results_message(folder, replaces=replaces)}")
+        return
+    tank = closed_tank(checked, "a study measures the errors of frequencies of closed tanks")
     with progress(title_of_scene(checked), shown=sys.stderr.isatty()) as report:
         from hydroelastic.scenes.study.report import study_table, write_study
         from hydroelastic.scenes.study.run import study_scene

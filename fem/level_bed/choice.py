@@ -44,6 +44,12 @@ def level_model(physical: LevelTank) -> LevelModel:
         raise NotTreatedError("ψ = 0 on the water is for strips in a box, and discs and rings about a cylinder's axis")
     if isinstance(tank.plan, Box) and all(isinstance(plate.outline, Rectangle | Strip) for plate in tank.plates):
         return "box"
+    _require_plan(tank)
+    return "plan"
+
+
+def _require_plan(tank: LevelTank) -> None:
+    """Refuse a dimensionless tank that cannot be solved on its plan."""
     for index, plate in enumerate(tank.plates):
         number = index + 1
         if isinstance(plate.outline, Strip):
@@ -62,4 +68,24 @@ def level_model(physical: LevelTank) -> LevelModel:
         for other, earlier in enumerate(regions[:index]):
             if region.gap(earlier) < _TOUCHING:
                 raise NotTreatedError(f"plates {other + 1} and {index + 1} touch each other")
-    return "plan"
+
+
+def models_of(physical: LevelTank) -> tuple[LevelModel, ...]:
+    """Return all models that take a tank, the smallest one first.
+
+    Raises:
+        NotTreatedError: if there is none.
+    """
+    found = [level_model(physical)]
+    plates = physical.plates
+    if physical.top == "pressure_release" and plates:
+        return tuple(found)
+    if found[0] == "orders" and isinstance(physical.plan, Box) and not any(plate.slats for plate in plates):
+        found.append("box")
+    if found[-1] != "plan" and not any(isinstance(plate.outline, Strip) for plate in plates):
+        try:
+            _require_plan(physical.scaled())
+        except NotTreatedError:
+            return tuple(found)
+        found.append("plan")
+    return tuple(found)

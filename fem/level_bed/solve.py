@@ -45,7 +45,7 @@ class _Attempt:
 
 
 def solve_level_tank(
-    physical: LevelTank, *, tolerance: float, modes: int, report: Report = lambda _message: None
+    physical: LevelTank, *, tolerance: float, modes: int, tones: bool = True, report: Report = lambda _message: None
 ) -> LevelSolution:
     """Solve an upright tank with a level bed, alike on each process.
 
@@ -53,6 +53,7 @@ def solve_level_tank(
         physical: the tank, in SI units.
         tolerance: largest relative error of the frequencies that is accepted.
         modes: number of modes, from the lowest.
+        tones: whether the first elastic tones are sought.
         report: receives messages on the progress.
 
     Returns:
@@ -98,12 +99,12 @@ def solve_level_tank(
         aim,
         rounds=_MOST_ATTEMPTS,
     ).solution
-    tones = []
+    found_tones = []
     for index, plate in enumerate(tank.plates):
-        if plate.is_elastic:
+        if plate.is_elastic and tones:
             report(f"first elastic tone of plate {index + 1}")
             with watch.stage("elastic tone"):
-                tones.append(plate_tone(tank, separation, index, tolerance))
+                found_tones.append(plate_tone(tank, separation, index, tolerance))
     solution = LevelSolution(
         physical=physical,
         tank=tank,
@@ -118,7 +119,7 @@ def solve_level_tank(
             )
             for (order, place), error in zip(found.places, found.errors, strict=True)
         ),
-        tones=tuple(tones),
+        tones=tuple(found_tones),
         zero_modes=sum(one.multiplicity * one.modes.zero_modes for one in found.orders),
         counted=found.counted,
         size={

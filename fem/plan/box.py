@@ -61,9 +61,9 @@ class BoxModel:
         liquid, plates = (float(part.max(initial=0.0)) / (0.5 * tolerance) for part in errors)
         return resolution.refined(liquid, plates)
 
-    def start(self, tolerance: float, eigenvalue: float) -> BoxResolution:
+    def start(self, tolerance: float, eigenvalue: float, *, released: bool = False) -> BoxResolution:
         """See `ClassModel.start`."""
-        return box_resolution(self.tank, tolerance, eigenvalue)
+        return box_resolution(self.tank, tolerance, eigenvalue, released=released)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -74,12 +74,12 @@ class BoxResolution:
         return None if finer == self or (self.degree, self.layers) == (HIGHEST_DEGREE, MOST_LAYERS) else finer
 
 
-def box_resolution(tank: LevelTank, tolerance: float, eigenvalue: float) -> BoxResolution:
-    """Return the resolution for the modes of a dimensionless tank up to some λ."""
+def box_resolution(tank: LevelTank, tolerance: float, eigenvalue: float, *, released: bool = False) -> BoxResolution:
+    """Return the resolution for the modes of a dimensionless tank up to some λ, with waves or with ψ = 0 on the water."""
     digits = -log10(tolerance)
     degree = min(max(ceil(0.5 + 0.75 * digits), 4), HIGHEST_DEGREE - 2)
     wavenumbers = [plate_wavenumber(tank, plate, eigenvalue) for plate in tank.plates]
-    shortest = max([water_wavenumber(tank, eigenvalue), *wavenumbers])
+    shortest = max([0.0 if released else water_wavenumber(tank, eigenvalue), *wavenumbers, 1.0])
     polynomials = tuple(
         min(ceil(1.1 * wavenumber * max(rectangle_of(plate.outline).size) / pi + 1.2 * digits) + 4, MOST_POLYNOMIALS)
         for plate, wavenumber in zip(tank.plates, wavenumbers, strict=True)

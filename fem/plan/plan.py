@@ -33,6 +33,7 @@ from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.tank.resolution import radians
 from hydroelastic.meshes.distribute import distribute_mesh
 from hydroelastic.meshes.plan import plan_mesh
+from hydroelastic.meshes.plan_loops import RATIO as LAYER_RATIO
 from hydroelastic.meshes.plan_loops import Mirrors
 from hydroelastic.modal.liquid.vertical_poles import VerticalPoles, vertical_poles
 from hydroelastic.physics.level_tank import LevelTank
@@ -138,7 +139,9 @@ class PlanModel:
 
     def released(self, resolution: PlanResolution, parity: ClassParity) -> CoupledPencil[PlanLiquid]:
         """See `ClassModel.released`."""
-        parts = self.parts(resolution)
+        # ψ ~ r^{1/2} has a part in all waves as long as the innermost layer, which the poles have to follow.
+        innermost = 0.5 * resolution.size * LAYER_RATIO**resolution.layers
+        parts = self.parts(replace(resolution, wavenumber=1.0 / innermost))
         return released_plan_pencil(parts.space_of(parity), parts.poles, parts.plates(parity))
 
     def errors(
@@ -152,9 +155,9 @@ class PlanModel:
         """See `ClassModel.refined`."""
         return resolution.refined(errors, tolerance)
 
-    def start(self, tolerance: float, eigenvalue: float) -> PlanResolution:
+    def start(self, tolerance: float, eigenvalue: float, *, released: bool = False) -> PlanResolution:
         """See `ClassModel.start`."""
-        return plan_resolution(self.tank, tolerance, eigenvalue)
+        return plan_resolution(self.tank, tolerance, eigenvalue, released=released)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -265,12 +268,12 @@ def solve_plan(
     ).solution
 
 
-def plan_resolution(tank: LevelTank, tolerance: float, eigenvalue: float) -> PlanResolution:
-    """Return the resolution for the modes of a dimensionless tank up to some λ."""
+def plan_resolution(tank: LevelTank, tolerance: float, eigenvalue: float, *, released: bool = False) -> PlanResolution:
+    """Return the resolution for the modes of a dimensionless tank up to some λ, with waves or with ψ = 0 on the water."""
     digits = -log10(tolerance)
     degree = min(max(ceil(0.5 + 0.9 * digits), 5), HIGHEST_DEGREE - 1)
     wavenumbers = [plate_wavenumber(tank, plate, eigenvalue) for plate in tank.plates]
-    shortest = max([water_wavenumber(tank, eigenvalue), *wavenumbers])
+    shortest = max([0.0 if released else water_wavenumber(tank, eigenvalue), *wavenumbers, 1.0])
     return PlanResolution(
         degree=degree,
         size=min(1.3 * radians(degree, tolerance) / shortest, _OF_PLAN),

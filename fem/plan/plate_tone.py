@@ -32,7 +32,7 @@ _ROUNDS = 3
 # Of successive layers at an edge.
 _RATIO = 0.2
 # The tone with ψ = 0 is computed to this at most and at least.
-_RELEASED_FINEST, _RELEASED_COARSEST = 1e-6, 1e-3
+_RELEASED_FINEST, _RELEASED_COARSEST = 1e-5, 1e-3
 _FEW = 4
 # The three resolutions show the difference of the limits of the first two and of the last two, which are closer to each
 # other than to the truth where the series of powers of the thickness has not yet begun.
@@ -61,8 +61,8 @@ class ClassModel(Protocol, Generic[R]):
     def refined(self, resolution: R, errors: np.ndarray, tolerance: float) -> R | None:
         """Return the next resolution by these errors; ``None`` where it ends."""
 
-    def start(self, tolerance: float, eigenvalue: float) -> R:
-        """Return the resolution for modes up to some λ."""
+    def start(self, tolerance: float, eigenvalue: float, *, released: bool = False) -> R:
+        """Return the resolution for modes up to some λ, with waves or with ψ = 0 on the water."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -183,7 +183,7 @@ def _released_tone(
 ) -> tuple[float, float]:
     """λ of the tone with ψ = 0 on the water, and the relative error of its frequency."""
     aim = min(max(tolerance, _RELEASED_FINEST), _RELEASED_COARSEST)
-    start = model.start(aim, eigenvalue)
+    start = model.start(aim, eigenvalue, released=True)
     values = []
     for more in range(3):
         # The last one has a degree more, so that the error by the degree is seen too.

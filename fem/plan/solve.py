@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from mpi4py import MPI
 
-from hydroelastic.fem.level_bed.choice import MODEL_WORDS, level_model
+from hydroelastic.fem.level_bed.choice import MODEL_WORDS, LevelModel, level_model
 from hydroelastic.fem.level_bed.solution import LevelMode, LevelSolution, PlanProblem, shortcomings
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.physics.level_tank import Box, LevelTank
@@ -25,6 +25,8 @@ def solve_upright_tank(
     tolerance: float,
     modes: int,
     comm: MPI.Comm | None = None,
+    model: LevelModel | None = None,
+    tones: bool = True,
     report: Report = lambda _message: None,
 ) -> LevelSolution:
     """Solve an upright tank with a level bed in its smallest model (collective).
@@ -34,6 +36,8 @@ def solve_upright_tank(
         tolerance: largest relative error of the frequencies that is accepted.
         modes: number of modes, from the lowest.
         comm: the processes, all by default; each solves the same, but for the poles of a plan, which they share.
+        model: one that takes it; the smallest by default.
+        tones: whether the first elastic tones are sought.
         report: receives messages on the progress.
 
     Raises:
@@ -41,11 +45,11 @@ def solve_upright_tank(
         MeshError: if its plan cannot be meshed.
         EigenSolverError: if the eigen-solver fails.
     """
-    model = level_model(physical)
+    model = model or level_model(physical)
     if model == "orders":
         from hydroelastic.fem.level_bed.solve import solve_level_tank
 
-        return solve_level_tank(physical, tolerance=tolerance, modes=modes, report=report)
+        return solve_level_tank(physical, tolerance=tolerance, modes=modes, tones=tones, report=report)
     from hydroelastic.fem.plan.plate_tone import class_tone
 
     watch = Stopwatch()
@@ -79,13 +83,13 @@ def solve_upright_tank(
             tone_of = partial(class_tone, PlanModel(tank=tank, comm=comm or MPI.COMM_WORLD))
     errors = found.relative_errors
     classes = found.modes
-    tones = []
+    found_tones = []
     has_water = any(one.pencil.surfaces for one in classes.classes)
     for index, plate in enumerate(tank.plates):
-        if plate.is_elastic:
+        if plate.is_elastic and tones:
             report(f"first elastic tone of plate {index + 1}")
             with watch.stage("elastic tone"):
-                tones.append(tone_of(classes, errors, index, tolerance, has_water=has_water))
+                found_tones.append(tone_of(classes, errors, index, tolerance, has_water=has_water))
     solution = LevelSolution(
         physical=physical,
         tank=tank,
@@ -100,7 +104,7 @@ def solve_upright_tank(
             )
             for index in range(min(modes, len(errors)))
         ),
-        tones=tuple(tones),
+        tones=tuple(found_tones),
         zero_modes=sum(one.modes.zero_modes for one in classes.classes),
         counted=found.counted,
         size={

@@ -83,8 +83,7 @@ def solve_classes(pencils: dict[ClassParity, CoupledPencil], count: int, toleran
         return ClassModes(classes=(), eigenvalues=np.empty(0), origins=())
     share = count if len(pencils) == 1 else count // len(pencils) + 2
     classes = [
-        SymmetryClass(parity=parity, pencil=pencil, modes=solve(pencil, share))
-        for parity, pencil in pencils.items()
+        SymmetryClass(parity=parity, pencil=pencil, modes=solve(pencil, share)) for parity, pencil in pencils.items()
     ]
     shares = [share] * len(classes)
     while True:

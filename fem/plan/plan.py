@@ -238,9 +238,7 @@ def solve_plan(
 
         def coarse(parity: ClassParity) -> CoupledPencil | None:
             found = coarser()
-            return stacked_pencil(
-                found.space_of(parity), found.poles, found.plates(parity), waves=tank.top == "free"
-            )
+            return stacked_pencil(found.space_of(parity), found.poles, found.plates(parity), waves=tank.top == "free")
 
         coarser = cache(lambda: plan_parts(tank, resolution.coarser))
         return PlanSolution(

@@ -22,9 +22,11 @@ from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.box_resolution import water_wavenumber
 from hydroelastic.fem.plan.classes import ClassModes, SymmetryClass
 from hydroelastic.fem.plan.rectangle_body import ClassParity
+from hydroelastic.fem.surfaces import Body
 from hydroelastic.fem.tank.elastic_tone import ElasticTone, elastic_tone
 from hydroelastic.physics.dofs import FIRST_ELASTIC, body_name
 from hydroelastic.physics.level_tank import LevelTank
+from hydroelastic.physics.plate import Plate
 
 # More modes of one class up to the tone are not searched.
 _MOST_MODES = 120
@@ -100,8 +102,7 @@ def class_tone(
         plate=plate,
         order=None,
         dry=stiffness / max(mass, 1e-300),
-        # Elastic shapes have a mean square of 1.
-        squares=model.tank.plates[plate].outline.area,
+        squares=_squares(body, first, model.tank.plates[plate]),
         stiffness=stiffness,
         mass=mass,
         symmetry=one.label,
@@ -120,6 +121,15 @@ def class_tone(
             relative_error=float(errors[found.origins.index(index)]),
         )
     return _sought(model, one, place, tone, tolerance)
+
+
+def _squares(body: Body, first: int, plate: Plate) -> float:
+    """∫W² of a shape, from its mass or its hydrostatic stiffness; of a plate without both its shapes' mean square is 1."""
+    if plate.mass_per_area:
+        return float(body.mass[first, first]) / plate.mass_per_area
+    if plate.hydrostatic:
+        return float(body.stiffness[first] - body.bending_stiffness[first])
+    return plate.outline.area
 
 
 def _softest(found: ClassModes, plate: int) -> tuple[int, int, int]:
@@ -154,7 +164,13 @@ def _sought(model: ClassModel[R], one: SymmetryClass, place: int, tone: PlateTon
 
 
 def _resolved(
-    model: ClassModel[R], one: SymmetryClass, place: int, tone: PlateTone, eigenvalue: float, count: int, tolerance: float
+    model: ClassModel[R],
+    one: SymmetryClass,
+    place: int,
+    tone: PlateTone,
+    eigenvalue: float,
+    count: int,
+    tolerance: float,
 ) -> PlateTone:
     """The tone near a λ, to the tolerance."""
 
@@ -194,6 +210,7 @@ def _released_tone(
         found = elastic_tone(modes, pencil.bodies, place)
         values.append(float(modes.eigenvalues[found.index]))
     first, limit = (
-        thinner - (thicker - thinner) * _RATIO / (1.0 - _RATIO) for thicker, thinner in zip(values, values[1:], strict=False)
+        thinner - (thicker - thinner) * _RATIO / (1.0 - _RATIO)
+        for thicker, thinner in zip(values, values[1:], strict=False)
     )
     return limit, _SAFETY * 0.5 * abs(first / limit - 1.0)

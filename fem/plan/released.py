@@ -109,9 +109,7 @@ def _released_box(liquid: BoxLiquid, plates: tuple[RectangleBody, ...]) -> Relea
         found, first = np.empty_like(values), 0
         for block, (along, across), responses in blocks:
             part = values[first : first + block.size].reshape(block.shape)
-            found[first : first + block.size] = (
-                along @ (responses * (along.T @ part @ across)) @ across.T
-            ).ravel()
+            found[first : first + block.size] = (along @ (responses * (along.T @ part @ across)) @ across.T).ravel()
             first += block.size
         return found
 

@@ -104,7 +104,9 @@ class PolygonBasis:
         found = []
         for number, (along, across) in enumerate(((2, 0), (0, 2), (1, 1))):
             scale = self.half[0] ** along * self.half[1] ** across
-            found.append(self._ordered(self._products(points, along, across) / scale, [one[number] for one in singular]))
+            found.append(
+                self._ordered(self._products(points, along, across) / scale, [one[number] for one in singular])
+            )
         return found
 
     def _ordered(self, products: NDArray[np.float64], singular: list[NDArray[np.float64]]) -> NDArray[np.float64]:
@@ -113,8 +115,7 @@ class PolygonBasis:
     def _products(self, points: NDArray[np.float64], along: int, across: int) -> NDArray[np.float64]:
         local = (points - self.middle[:, None]) / self.half[:, None]
         first, second = (
-            legendre_table(self.degree + 1, places, order)
-            for places, order in zip(local, (along, across), strict=True)
+            legendre_table(self.degree + 1, places, order) for places, order in zip(local, (along, across), strict=True)
         )
         return np.array([first[m] * second[n] for m, n in self._powers])
 

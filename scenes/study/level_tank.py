@@ -56,9 +56,7 @@ class LevelStudy:
         )
 
 
-def study_level_tank(
-    scene: LevelTankScene, plan: StudyPlan, *, report: Report = lambda _message: None
-) -> LevelStudy:
+def study_level_tank(scene: LevelTankScene, plan: StudyPlan, *, report: Report = lambda _message: None) -> LevelStudy:
     """Solve a scene in each of its models to each tolerance (collective).
 
     Args:

@@ -58,7 +58,7 @@ def plan_mesh(
     def add(loop: Loop, inside: str, outside: str, *, is_wall: bool) -> None:
         largest = min(size(name) for name in (inside, outside) if name)
         if isinstance(loop, CircleLoop) and not covered:
-            # What is left between bands in a narrow gap is half as wide as a layer: an arc's sagitta is at most half of that.
+            # Between the bands of a narrow gap half of a layer is left; the sagitta of an arc is half of that at most.
             largest = min(largest, sqrt(2.0 * loop.radius * thick))
         towards = UNGRADED if is_wall else thick * RATIO ** np.arange(max(layers - 2, 1))[::-1]
         bands.extend(

@@ -237,6 +237,7 @@ def study(
 
     Prints tables with the observed rates of convergence beside those of theory, and writes study.csv, study.txt,
     study.png and summary.json. It takes about a minute. A LIST is separated by commas, and 1-4 is short for 1,2,3,4.
+    In three dimensions each model that takes the scene is asked for the tolerances.
 
     The family thinness compares the thin and the exact boundary of one float, narrower and narrower: thinness.csv and
     thinness.png.
@@ -313,7 +314,7 @@ def list_scenes() -> None:
 @click.option("--out", type=click.Path(path_type=Path), help="Folder; default results/benchmarks.")
 @click.option(
     "--problem",
-    type=click.Choice(["tanks", "circle", "string", "thread"]),
+    type=click.Choice(["tanks", "circle", "string", "thread", "basin"]),
     multiple=True,
     help="Only this one; all by default.",
 )
@@ -330,10 +331,11 @@ def bench(
     no_install: bool,
 ) -> None:
     """Measure error against seconds: tanks beside NGSolve, scikit-fem and a bare lower bound, a circle in open water
-    beside Capytaine, a hanging string by series and as a field, flexible threads beside MoorPy and MoorDyn.
+    beside Capytaine, a hanging string by series and as a field, flexible threads beside MoorPy and MoorDyn, a basin
+    in three dimensions beside NGSolve.
 
     The others are installed into the cache if they are missing. Writes speed_against_error, open_circle,
-    hanging_string and threads, each as .csv, .md and .png.
+    hanging_string, threads and basins, each as .csv, .md and .png.
 
     \b
     Example:

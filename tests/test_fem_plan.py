@@ -10,9 +10,9 @@ import pytest
 from mpi4py import MPI
 from plan_tanks import CASES, WATER, frequencies, reference_tank
 
+from hydroelastic.fem.level_bed.choice import NotTreatedError, level_model
 from hydroelastic.fem.plan import plan
 from hydroelastic.fem.plan.plan import PlanSolution, solve_plan
-from hydroelastic.fem.level_bed.choice import NotTreatedError, level_model
 from hydroelastic.fem.plan.solve import solve_upright_tank
 from hydroelastic.physics.level_tank import Box, Cylinder, LevelTank, PolygonPlan
 from hydroelastic.physics.plate import Disc, Plate, Polygon, Rectangle, Strip
@@ -241,8 +241,11 @@ def test_tones_of_a_disc_and_a_strip_are_those_of_their_orders() -> None:
             (tone.eigenvalue, tone.relative_error, exact.eigenvalue),
             (tone.pressure_release, tone.pressure_release_error, exact.pressure_release),
         ):
-            assert value is not None and error is not None and own is not None
+            assert value is not None
+            assert error is not None
+            assert own is not None
             assert abs(np.sqrt(value / own) - 1.0) < error < 2e-3
-        assert tone.tone is not None and exact.tone is not None
+        assert tone.tone is not None
+        assert exact.tone is not None
         assert tone.tone.participation == pytest.approx(exact.tone.participation, rel=2e-2)
         assert tone.stiffness / tone.squares == pytest.approx(exact.stiffness / exact.squares, rel=1e-6)

@@ -12,7 +12,7 @@ from hydroelastic.physics.plate import Plate, Rectangle
 
 TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
 # Degree, and size of the cells at the plate's edge in m.
-VOLUMES = ((2, 0.5), (3, 0.5), (3, 0.3))
+VOLUMES = ((2, 0.5), (3, 0.5), (3, 0.3), (3, 0.15))
 # Degree on the plan; layers follow from it.
 PLANS = (3, 4, 5)
 

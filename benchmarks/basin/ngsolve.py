@@ -1,7 +1,7 @@
 """The basin on NGSolve: tetrahedra of a quarter of the tank, or triangles of a quarter of its plan with the same poles.
 
-Both take this project's Ritz modes of the plate, and eigenvalues by SciPy's ARPACK on the surface unknowns. What is used
-of NGSolve: Netgen's OpenCASCADE geometry with small cells at the plate's edge, or its hp-refinement on the plan;
+Both take this project's Ritz modes of the plate, and eigenvalues by SciPy's ARPACK on the surface unknowns. What is
+used of NGSolve: Netgen's OpenCASCADE geometry with small cells at the plate's edge, or its hp-refinement on the plan;
 unknowns inside of elements condensed; its sparse Cholesky. Loads of the plate are one linear form for each product of
 Legendre polynomials, as a user would write them.
 """
@@ -98,9 +98,8 @@ def _plan_mesh(tank: LevelTank, degree: int) -> ngsolve.Mesh:
             edge.name = "middle_x"
         elif abs(y) < 1e-9:
             edge.name = "middle_y"
-        elif abs(x - half_length) < 1e-9 or abs(y - half_width) < 1e-9:
-            if x < half_length + 1e-9 and y < half_width + 1e-9:
-                edge.hpref = 1
+        elif x < half_length + 1e-9 and y < half_width + 1e-9:
+            edge.hpref = 1
     for vertex in whole.vertices:
         # Without its corner an edge is refined wrongly: ψ is then off by per cents.
         if abs(vertex.p.x - half_length) < 1e-9 and abs(vertex.p.y - half_width) < 1e-9:

@@ -104,6 +104,7 @@ class BoxStiffness:
     """A as a shell matrix: A = Σ (M u_i v_j) (M u_i v_j)ᵀ / f, 0 of the constant; with f over the number of images."""
 
     def __init__(self, liquid: BoxLiquid) -> None:
+        """Prepare the moments of the standing waves."""
         self._liquid = liquid
         self._moments = tuple(space.mass @ space.waves[1] for space in liquid.spaces)
         with np.errstate(divide="ignore"):

@@ -75,7 +75,14 @@ class BoxResolution:
 
 
 def box_resolution(tank: LevelTank, tolerance: float, eigenvalue: float, *, released: bool = False) -> BoxResolution:
-    """Return the resolution for the modes of a dimensionless tank up to some λ, with waves or with ψ = 0 on the water."""
+    """Return the resolution for the modes of a dimensionless tank up to some λ.
+
+    Args:
+        tank: the tank.
+        tolerance: largest relative error that is accepted.
+        eigenvalue: λ.
+        released: whether ψ = 0 on the water, else it has waves.
+    """
     digits = -log10(tolerance)
     degree = min(max(ceil(0.5 + 0.75 * digits), 4), HIGHEST_DEGREE - 2)
     wavenumbers = [plate_wavenumber(tank, plate, eigenvalue) for plate in tank.plates]

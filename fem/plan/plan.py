@@ -28,13 +28,13 @@ from hydroelastic.fem.plan.plan_pencil import (
 from hydroelastic.fem.plan.plates import plan_plate
 from hydroelastic.fem.plan.rectangle_body import ClassParity
 from hydroelastic.fem.plan.released import released_plan_pencil
-from hydroelastic.meshes.plan_regions import mirrors_of, plan_regions
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.tank.resolution import radians
 from hydroelastic.meshes.distribute import distribute_mesh
 from hydroelastic.meshes.plan import plan_mesh
 from hydroelastic.meshes.plan_loops import RATIO as LAYER_RATIO
 from hydroelastic.meshes.plan_loops import Mirrors
+from hydroelastic.meshes.plan_regions import mirrors_of, plan_regions
 from hydroelastic.modal.liquid.vertical_poles import VerticalPoles, vertical_poles
 from hydroelastic.physics.level_tank import LevelTank
 from hydroelastic.physics.plate import Disc, Plate, Polygon, Rectangle
@@ -267,7 +267,14 @@ def solve_plan(
 
 
 def plan_resolution(tank: LevelTank, tolerance: float, eigenvalue: float, *, released: bool = False) -> PlanResolution:
-    """Return the resolution for the modes of a dimensionless tank up to some λ, with waves or with ψ = 0 on the water."""
+    """Return the resolution for the modes of a dimensionless tank up to some λ.
+
+    Args:
+        tank: the tank.
+        tolerance: largest relative error that is accepted.
+        eigenvalue: λ.
+        released: whether ψ = 0 on the water, else it has waves.
+    """
     digits = -log10(tolerance)
     degree = min(max(ceil(0.5 + 0.9 * digits), 5), HIGHEST_DEGREE - 1)
     wavenumbers = [plate_wavenumber(tank, plate, eigenvalue) for plate in tank.plates]

@@ -1,14 +1,15 @@
 """The first elastic tone of a plate in a box or on a plan, and its companion with ψ = 0 on the water.
 
-It is the mode with the largest part of the plate's softest dry mode, in that shape's symmetry class. If it is not among
-the modes that were asked for, more of this class are solved, until no higher one can have a larger part.
+It is the mode with the largest part of the plate's softest dry mode, in that shape's symmetry class. If it is not
+among the modes that were asked for, more of this class are solved, until no higher one can have a larger part.
 
-With ψ = 0 on the water ψ ~ r^{1/2} at the edges, and the error falls like the thickness of the innermost layer: from two
-numbers of layers follows the limit, and from a third one its error.
+With ψ = 0 on the water ψ ~ r^{1/2} at the edges, and the error falls like the thickness of the innermost layer: from
+two numbers of layers follows the limit, and from a third one its error.
 """
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass, replace
 from math import ceil, pi
 from typing import Any, Generic, Protocol, TypeVar
@@ -124,7 +125,7 @@ def class_tone(
 
 
 def _squares(body: Body, first: int, plate: Plate) -> float:
-    """∫W² of a shape, from its mass or its hydrostatic stiffness; of a plate without both its shapes' mean square is 1."""
+    """∫W² of a shape, from its mass or its hydrostatic stiffness; else that of a mean square of 1."""
     if plate.mass_per_area:
         return float(body.mass[first, first]) / plate.mass_per_area
     if plate.hydrostatic:
@@ -133,7 +134,7 @@ def _squares(body: Body, first: int, plate: Plate) -> float:
 
 
 def _softest(found: ClassModes, plate: int) -> tuple[int, int, int]:
-    """The class of a plate's softest elastic dry mode, the place of the plate in it, and that of the mode in the plate."""
+    """The class of a plate's softest elastic dry mode, the place of the plate in it, and that of the mode."""
     candidates = [
         (float(body.bending_stiffness[body.dofs.index(FIRST_ELASTIC)]), number, place, body.dofs.index(FIRST_ELASTIC))
         for number, one in enumerate(found.classes)
@@ -210,7 +211,6 @@ def _released_tone(
         found = elastic_tone(modes, pencil.bodies, place)
         values.append(float(modes.eigenvalues[found.index]))
     first, limit = (
-        thinner - (thicker - thinner) * _RATIO / (1.0 - _RATIO)
-        for thicker, thinner in zip(values, values[1:], strict=False)
+        thinner - (thicker - thinner) * _RATIO / (1.0 - _RATIO) for thicker, thinner in itertools.pairwise(values)
     )
     return limit, _SAFETY * 0.5 * abs(first / limit - 1.0)

@@ -1,8 +1,8 @@
 """ψ = 0 on the water beside plates: the liquid under the plates alone, by conjugate gradients.
 
-With A = k tanh kH of the whole plan, ψ of a load on the plates is A⁻¹ of it among the functions that vanish on the water.
-On them A is as large as k tanh kH of the plates' own plan with ψ = 0 at their edges, but for a factor of order one:
-both are norms of H^{1/2} (Lions and Magenes). Its inverse P as preconditioner leaves 15 to 25 steps on any mesh.
+With A = k tanh kH of the whole plan, ψ of a load on the plates is A⁻¹ of it among the functions that vanish on the
+water. On them A is as large as k tanh kH of the plates' own plan with ψ = 0 at their edges, but for a factor of order
+one: both are norms of H^{1/2} (Lions and Magenes). Its inverse P as preconditioner leaves 15 to 25 steps on any mesh.
 """
 
 from __future__ import annotations
@@ -118,7 +118,7 @@ def _released_box(liquid: BoxLiquid, plates: tuple[RectangleBody, ...]) -> Relea
 
 @dataclass(frozen=True, kw_only=True)
 class _PoleStiffness:
-    """A = 1/f_h of the plan's Laplacian: α K₂ + β M₂ − Σ_i γ_i M₂ (K₂ + δ_i M₂)⁻¹ M₂, whose δ_i are the zeros of f_h."""
+    """A = 1/f_h of the plan's Laplacian: α K₂ + β M₂ − Σ_i γ_i M₂ (K₂ + δ_i M₂)⁻¹ M₂ with f_h(−δ_i) = 0."""
 
     liquid: PlanLiquid
 

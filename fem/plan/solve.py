@@ -6,7 +6,6 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
-import numpy as np
 from mpi4py import MPI
 
 from hydroelastic.fem.level_bed.choice import MODEL_WORDS, LevelModel, level_model

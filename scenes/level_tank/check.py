@@ -112,9 +112,9 @@ def _size(scene: LevelTankScene, tank: LevelTank) -> Iterator[str]:
 
 
 def _size_of_plan(tank: LevelTank, tolerance: float, modes: int) -> Iterator[str]:
+    from hydroelastic.fem.level_bed.choice import MODEL_WORDS, level_model
     from hydroelastic.fem.plan.box_resolution import box_resolution, expected_eigenvalue
     from hydroelastic.fem.plan.plan import plan_resolution
-    from hydroelastic.fem.level_bed.choice import MODEL_WORDS, level_model
 
     model = level_model(tank)
     words = MODEL_WORDS[model]

@@ -99,7 +99,7 @@ def level_study_table(study: LevelStudy) -> str:
         f"{study.scene.title or 'Untitled scene'}: error against cost",
         f"Reference: {reference.name}{certain}.",
         f"error: largest relative error of {study.scene.accuracy.modes} frequencies; ratio: estimate over error.",
-        "Seconds by stage without elastic tones and compiling; MB: highest resident memory, above what was held before.",
+        "Seconds without elastic tones and compiling; MB: highest resident memory, above what was held before.",
     ):
         console.print(line, markup=False)
     headings = ("asked", "degree", "layers", "poles", "problems", "tries", "unknowns", "error", "estimate", "ratio")

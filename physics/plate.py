@@ -117,7 +117,7 @@ class Polygon:
     @property
     def corners(self) -> FloatArray:
         """Its corners anticlockwise, shape (corners, 2)."""
-        corners = np.array(self.points)
+        corners: FloatArray = np.array(self.points, dtype=np.float64)
         ahead = np.roll(corners, -1, axis=0)
         area = float((corners[:, 0] * ahead[:, 1] - corners[:, 1] * ahead[:, 0]).sum())
         return corners if area > 0.0 else corners[::-1]

@@ -145,7 +145,7 @@ def _answers(tank: LevelTank, space: ngsolve.H1, case: Case, *, closed: bool) ->
 def _class_frequencies(
     tank: LevelTank,
     space: ngsolve.H1,
-    surface: Callable[[str], ngsolve.comp.DifferentialSymbol],
+    surface: Callable[..., ngsolve.comp.DifferentialSymbol],
     answer: Callable[[FloatArray], FloatArray],
     parity: tuple[int, int],
     polynomials: int,
@@ -170,20 +170,17 @@ def _class_frequencies(
     weight = tank.density * tank.gravity
     stiffness = sparse.block_diag([sparse.diags(bending + weight * squares), weight * mass[water]], "csc")
     solver = splu(stiffness)
-    volume = np.asarray(coupling.sum(axis=0)).ravel() if sum(parity) == 0 else None
-    if volume is not None:
-        vertices = np.zeros(space.ndof)
-        vertices[: space.mesh.nv] = 1.0
-        volume = coupling.T @ vertices
-    correction = None if volume is None else solver.solve(volume) / (volume @ solver.solve(volume))
+    # The constant has ones at the vertices; ∫ζ = 0 in the class that holds it.
+    vertices = np.zeros(space.ndof)
+    vertices[: space.mesh.nv] = 1.0
+    volume = coupling.T @ vertices
+    correction = solver.solve(volume) / (volume @ solver.solve(volume)) * float(sum(parity) == 0)
     inertia = np.concatenate([plate.mass_per_area * squares, np.zeros(len(water))])
 
     def kinetic(values: FloatArray) -> FloatArray:
-        kept = values.ravel()
-        if volume is not None:
-            kept = kept - correction * (volume @ kept)
+        kept = values.ravel() - correction * (volume @ values.ravel())
         moved: FloatArray = inertia * kept + tank.density * (coupling.T @ (answer(coupling @ kept) / 4.0))
-        return moved if volume is None else moved - volume * (correction @ moved)
+        return moved - volume * (correction @ moved)
 
     size = len(inertia)
     operator = LinearOperator((size, size), matvec=kinetic, dtype=float)
@@ -194,7 +191,7 @@ def _class_frequencies(
 
 def _loads(
     space: ngsolve.H1,
-    surface: Callable[[str], ngsolve.comp.DifferentialSymbol],
+    surface: Callable[..., ngsolve.comp.DifferentialSymbol],
     outline: Rectangle,
     coefficients: FloatArray,
 ) -> FloatArray:

@@ -26,8 +26,8 @@ from hydroelastic.fem.plan.plan_pencil import (
     stacked_pencil,
 )
 from hydroelastic.fem.plan.plates import plan_plate
-from hydroelastic.fem.plan.rectangle_body import ClassParity
-from hydroelastic.fem.plan.released import released_plan_pencil
+from hydroelastic.fem.plan.rectangle_body import AxisParity, ClassParity
+from hydroelastic.fem.plan.released_plan import released_plan_pencil
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.tank.resolution import radians
 from hydroelastic.meshes.distribute import distribute_mesh
@@ -323,7 +323,8 @@ class PlanParts:
     @property
     def classes(self) -> tuple[ClassParity, ...]:
         """Even and odd about each mirror plane."""
-        along, across = ((None,) if mirror is None else (0, 1) for mirror in self.mirrors)
+        both: tuple[AxisParity, ...] = (0, 1)
+        along, across = ((None,) if mirror is None else both for mirror in self.mirrors)
         return tuple(product(along, across))
 
     def space_of(self, parity: ClassParity) -> PlanSpace:

@@ -31,6 +31,7 @@ from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.meshes.geometry import FREE_SURFACE
 from hydroelastic.meshes.plan_loops import Mirrors
 from hydroelastic.modal.liquid.vertical_poles import VerticalPoles
+from hydroelastic.physics.arrays import FloatArray
 
 Deflection = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 """Shapes of a plate at points (2, n) → (shapes, n)."""
@@ -103,7 +104,7 @@ class PlanSpace:
         water = None if self.water is None else self.water[kept][:, kept].tocsr()
         return replace(self, stiffness=stiffness, mass=mass, water=water, kept=kept, closed=False)
 
-    def expanded(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+    def expanded(self, values: FloatArray) -> NDArray[np.float64]:
         """Return values of the kept unknowns (size, …) as those of all unknowns of the space."""
         whole = np.zeros((self.liquid.size, *values.shape[1:]))
         whole[self.kept] = values

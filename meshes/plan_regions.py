@@ -26,7 +26,7 @@ def _wall(tank: LevelTank) -> PlanRegion:
     if isinstance(plan, Box):
         corners = np.array([[0.0, 0.0], [plan.length, 0.0], [plan.length, plan.width], [0.0, plan.width]])
     else:
-        corners = plan.corners
+        corners = np.asarray(plan.corners, dtype=np.float64)
     return PlanRegion(name=FREE_SURFACE, outside=PolygonLoop(corners=corners))
 
 
@@ -44,7 +44,7 @@ def _region(tank: LevelTank, index: int, wall: PlanRegion) -> PlanRegion:
         half = 0.5 * np.array([[-length, -width], [length, -width], [length, width], [-length, width]])
         return PlanRegion(name=name, outside=PolygonLoop(corners=np.array([x, y]) + half))
     assert isinstance(outline, Polygon)
-    return PlanRegion(name=name, outside=PolygonLoop(corners=outline.corners))
+    return PlanRegion(name=name, outside=PolygonLoop(corners=np.asarray(outline.corners, dtype=np.float64)))
 
 
 def mirrors_of(wall: PlanRegion, plates: tuple[PlanRegion, ...]) -> Mirrors:

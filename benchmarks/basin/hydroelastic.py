@@ -5,6 +5,7 @@ from __future__ import annotations
 from hydroelastic.benchmarks.basin.cases import basin_named
 from hydroelastic.benchmarks.cases import Answer, Case
 from hydroelastic.benchmarks.tank.hydroelastic import versions as versions
+from hydroelastic.fem.level_bed.choice import LevelModel
 from hydroelastic.fem.plan.solve import solve_upright_tank
 
 
@@ -23,4 +24,4 @@ def solve(case: Case) -> Answer:
     )
 
 
-_MODELS = {"certified": None, "triangles": "plan"}
+_MODELS: dict[str, LevelModel | None] = {"certified": None, "triangles": "plan"}

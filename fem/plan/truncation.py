@@ -23,7 +23,9 @@ def geometric_tail(last: NDArray[np.float64], before: NDArray[np.float64]) -> ND
 
 
 def rectangle_energies(body: RectangleBody, amplitudes: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Estimate the strain energy that a rectangle's basis lacks.
+    """Estimate the potential energy, of bending and hydrostatic, that a rectangle's basis lacks.
+
+    Of a soft plate the hydrostatic part is the larger one.
 
     Args:
         body: the plate.
@@ -40,8 +42,8 @@ def rectangle_energies(body: RectangleBody, amplitudes: NDArray[np.float64]) -> 
 
 
 def _energies_beyond(body: RectangleBody, table: NDArray[np.float64], dropped: int) -> NDArray[np.float64]:
-    """Strain energy in the last polynomials along either side, shape (modes,)."""
+    """Potential energy in the last polynomials along either side, shape (modes,)."""
     rest = table.copy()
     rest[:, : table.shape[1] - dropped, : table.shape[2] - dropped] = 0.0
     energies = bending_energies(body.outline.size, body.plate.poisson_ratio, rest)
-    return energies * body.plate.flexural_rigidity
+    return energies * body.plate.flexural_rigidity + float(body.plate.hydrostatic) * (rest**2).sum(axis=(1, 2))

@@ -21,7 +21,6 @@ from scipy.linalg import eigh, qr, solve_triangular
 from hydroelastic.modal.plate.corner_functions import CornerFunction, corner_functions
 from hydroelastic.modal.plate.legendre import gauss, legendre_table
 from hydroelastic.modal.plate.rectangle import AxisParity
-from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.plate import Point, Polygon
 
 # r = uᵍ from a corner: r^{2λ − 2} r dr of λ > 1/2 becomes u^{2g λ − 1} du.
@@ -124,7 +123,7 @@ class PolygonBasis:
         self, points: NDArray[np.float64], evaluate: Callable[[NDArray[np.float64]], NDArray[np.float64]]
     ) -> NDArray[np.float64]:
         """A function and its images, so that it has the parity: values (n,), or derivatives xx, yy and xy (3, n)."""
-        total: FloatArray = np.zeros(points.shape[1])
+        total: NDArray[np.float64] = np.zeros((1, points.shape[1]))[0]
         middle = self.middle[:, None]
         for images in product(*((False,) if own is None else (False, True) for own in self.parity)):
             signs = np.where(images, -1.0, 1.0)
@@ -132,7 +131,7 @@ class PolygonBasis:
             if values.ndim == 2:
                 values = values * np.array([1.0, 1.0, signs.prod()])[:, None]
             odd = sum(image and own == 1 for image, own in zip(images, self.parity, strict=True))
-            total = total + (-1.0) ** odd * values
+            total = np.asarray(total + (-1.0) ** odd * values, dtype=np.float64)
         return total
 
 

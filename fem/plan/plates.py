@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from hydroelastic.fem.plan.plan_pencil import Deflection, PlanPlate
 from hydroelastic.fem.plan.rectangle_body import ClassParity, dofs_by_stiffness, rectangle_body
-from hydroelastic.fem.plan.truncation import geometric_tail, rectangle_energies
+from hydroelastic.fem.plan.truncation import geometric_tail, missing_after, rectangle_energies
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.modal.plate.line_modes import LineModes, PlateLine, dry_modes
 from hydroelastic.modal.plate.polygon import PolygonModes, polygon_modes
@@ -237,4 +237,4 @@ def _polygon_tail(
         return energy + level * (rest**2).sum(axis=1)
 
     last = beyond(2)
-    return 0.25 * geometric_tail(last, beyond(4) - last)
+    return missing_after(last, beyond(4) - last)

@@ -18,6 +18,7 @@ from hydroelastic.benchmarks.circle.cases import CIRCLE, circle_cases
 from hydroelastic.benchmarks.measure import cases_of, run_benchmark
 from hydroelastic.benchmarks.output import Output, OutputError, check_folder, write_results
 from hydroelastic.benchmarks.string.cases import MOTIONS, string_cases
+from hydroelastic.benchmarks.sweep.cases import SWEEPS, sweep_cases
 from hydroelastic.benchmarks.tank.cases import TANKS
 from hydroelastic.benchmarks.thread.cases import THREADS, thread_cases
 
@@ -45,6 +46,7 @@ class Problem:
 
 PROBLEMS = {
     "tanks": Problem(members=TANKS, cases=cases_of, repeats=7, output=output.TANKS),
+    "sweeps": Problem(members=tuple(SWEEPS), cases=sweep_cases, repeats=3, output=output.SWEEPS),
     # Half a minute for each round of each frequency.
     "circle": Problem(members=CIRCLE, cases=circle_cases, repeats=3, output=output.CIRCLE),
     "string": Problem(members=MOTIONS, cases=string_cases, repeats=3, output=output.STRING),
@@ -63,7 +65,8 @@ _QUICK_REPEATS = 3
 @click.option("--repeats", type=click.IntRange(min=1), help="Rounds that count; 7 of tanks, else or if quick 3.")
 @click.option("--no-install", is_flag=True, help="Leave out peers that are not installed.")
 def main(out: Path, problem: tuple[str, ...], quick: bool, repeats: int | None, no_install: bool) -> None:
-    """Measure error against seconds: tanks beside NGSolve, scikit-fem and a lower bound, a circle beside Capytaine, a
+    """Measure error against seconds: tanks beside NGSolve, scikit-fem and a lower bound, sweeps
+    beside a loop over NGSolve, a circle beside Capytaine, a
     hanging string by series and as a field, flexible threads beside MoorPy and MoorDyn.
 
     \b

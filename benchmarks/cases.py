@@ -7,9 +7,12 @@ from typing import Literal
 
 Code = Literal[
     "hydroelastic",
+    "hydroelastic modes",
     "ngsolve",
     "scikit-fem",
     "lower bound",
+    "sweep",
+    "ngsolve loop",
     "hydroelastic radiation",
     "capytaine",
     "string field",
@@ -24,7 +27,10 @@ Code = Literal[
     "ngsolve volume",
 ]
 Variant = Literal[
+    "one process",
+    "two processes",
     "certified",
+    "modes alone",
     "whole",
     "halves",
     "bare",
@@ -41,8 +47,10 @@ Variant = Literal[
     "triangles",
 ]
 
-CODES: tuple[Code, ...] = ("hydroelastic", "ngsolve", "scikit-fem", "lower bound")
+CODES: tuple[Code, ...] = ("hydroelastic", "hydroelastic modes", "ngsolve", "scikit-fem", "lower bound")
 """Those that solve the tanks."""
+SWEEP_CODES: tuple[Code, ...] = ("sweep", "ngsolve loop")
+"""Those that solve many tanks."""
 CIRCLE_CODES: tuple[Code, ...] = ("hydroelastic radiation", "capytaine")
 """Those that solve the circle in open water."""
 STRING_CODES: tuple[Code, ...] = ("string field", "string series", "string sum")
@@ -51,7 +59,7 @@ THREAD_CODES: tuple[Code, ...] = ("thread field", "thread catenary", "moorpy", "
 """Those that bring flexible threads to rest, or move them."""
 BASIN_CODES: tuple[Code, ...] = ("basin field", "ngsolve plan", "ngsolve volume")
 """Those that solve a tank in three dimensions."""
-ALL_CODES = (*CODES, *CIRCLE_CODES, *STRING_CODES, *THREAD_CODES, *BASIN_CODES)
+ALL_CODES = (*CODES, *SWEEP_CODES, *CIRCLE_CODES, *STRING_CODES, *THREAD_CODES, *BASIN_CODES)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -60,10 +68,12 @@ class Case:
 
     Attributes:
         code: by which code.
-        tank: name of the tank, of the frequency of the circle, of the motion of the string, or of the thread.
-        variant: ``certified`` with estimate, count and tones; ``whole`` tank or its two ``halves`` without them;
-            ``bare`` factorization and solutions alone; a cylinder of ``one length``, or ``two lengths`` and their
-            difference; a series ``cut sharply``; a thread moved in ``one run`` at a chosen resolution, at rest by a
+        tank: name of the tank, of the sweep, of the frequency of the circle, of the motion of the string, or of the
+            thread.
+        variant: a sweep on ``one process`` or ``two processes``; ``certified`` with estimate, count and tones;
+            ``whole`` tank or its two ``halves`` without them; ``modes alone``, the same for this solver; ``bare``
+            factorization and solutions alone; a cylinder of ``one length``, or ``two lengths`` and their difference;
+            a series ``cut sharply``; a thread moved in ``one run`` at a chosen resolution, at rest by a
             ``closed form`` or as several ``catenaries`` in a row, or ``lumped`` into point masses, at
             rest ``relaxed`` or ``relaxed in motion``; the ``quarters`` of a tank in three dimensions,
             or ``triangles`` on its plan, where the smallest model would be another.

@@ -1,4 +1,4 @@
-"""Writing the results: three files for each problem, each whole or not at all."""
+"""Writing the results: two or three files for each problem, each whole or not at all."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from hydroelastic.benchmarks.measure import Benchmark
 from hydroelastic.benchmarks.rows import Row
 from hydroelastic.benchmarks.string.figure import draw_strings
 from hydroelastic.benchmarks.string.report import strings_csv, strings_markdown
+from hydroelastic.benchmarks.sweep.report import sweeps_csv, sweeps_markdown
 from hydroelastic.benchmarks.tank.figure import draw_speed
 from hydroelastic.benchmarks.tank.report import speed_csv, speed_markdown
 from hydroelastic.benchmarks.thread.figure import draw_threads
@@ -31,16 +32,17 @@ class Output:
         name: of its files.
         rows: gives the rows as CSV.
         page: gives the page.
-        draw: draws the figure of a name.
+        draw: draws the figure of a name; ``None`` for none.
     """
 
     name: str
     rows: Callable[[Benchmark], str]
     page: Callable[[Benchmark], str]
-    draw: Callable[[Sequence[Row], Sheets, str], None]
+    draw: Callable[[Sequence[Row], Sheets, str], None] | None
 
 
 TANKS = Output(name="speed_against_error", rows=speed_csv, page=speed_markdown, draw=draw_speed)
+SWEEPS = Output(name="sweeps", rows=sweeps_csv, page=sweeps_markdown, draw=None)
 CIRCLE = Output(name="open_circle", rows=circle_csv, page=circle_markdown, draw=draw_circle)
 STRING = Output(name="hanging_string", rows=strings_csv, page=strings_markdown, draw=draw_strings)
 THREADS = Output(name="threads", rows=threads_csv, page=threads_markdown, draw=draw_threads)
@@ -77,7 +79,8 @@ def write_results(benchmark: Benchmark, folder: Path, output: Output) -> None:
             inside = Path(scratch)
             (inside / f"{output.name}.csv").write_text(output.rows(benchmark), encoding="utf-8")
             (inside / f"{output.name}.md").write_text(output.page(benchmark), encoding="utf-8")
-            output.draw(benchmark.rows, Sheets(folder=inside, title=""), output.name)
+            if output.draw is not None:
+                output.draw(benchmark.rows, Sheets(folder=inside, title=""), output.name)
             for file in sorted(inside.iterdir()):
                 os.replace(file, folder / file.name)
     except OSError as error:

@@ -14,9 +14,12 @@ from hydroelastic.benchmarks.rows import Row
 
 NAMES: dict[Code, str] = {
     "hydroelastic": "hydroelastic",
+    "hydroelastic modes": "its modes alone",
     "ngsolve": "NGSolve",
     "scikit-fem": "scikit-fem",
     "lower bound": "lower bound",
+    "sweep": "hydroelastic",
+    "ngsolve loop": "NGSolve",
     "hydroelastic radiation": "hydroelastic",
     "capytaine": "Capytaine",
     "string field": "field solution",
@@ -42,11 +45,11 @@ def page(title: str, method: str, picture: str, parts: Iterable[str], benchmark:
     Args:
         title: heading.
         method: what was measured and how.
-        picture: file of the figure.
+        picture: file of the figure; "" for none.
         parts: what stands between the figure and the machine.
         benchmark: names the machine, the day and the versions.
     """
-    head = [f"# {title}", method.rstrip(), f"![Error against seconds]({picture})"]
+    head = [f"# {title}", method.rstrip(), *([f"![Error against seconds]({picture})"] if picture else [])]
     return "\n\n".join([*head, *parts, "## Measured on", machine_list(benchmark)]) + "\n"
 
 

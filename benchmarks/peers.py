@@ -23,6 +23,7 @@ from hydroelastic.benchmarks.cases import Code
 
 PEER_MODULES: dict[Code, str] = {
     "ngsolve": "ngsolve",
+    "ngsolve loop": "ngsolve",
     "scikit-fem": "skfem",
     "capytaine": "capytaine",
     "moorpy": "moorpy",

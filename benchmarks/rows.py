@@ -2,15 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from statistics import median, quantiles
 
 import numpy as np
 
 from hydroelastic.benchmarks.basin.cases import basin_error
-from hydroelastic.benchmarks.cases import BASIN_CODES, CIRCLE_CODES, STRING_CODES, THREAD_CODES, Answer, Case
+from hydroelastic.benchmarks.cases import (
+    BASIN_CODES,
+    CIRCLE_CODES,
+    STRING_CODES,
+    SWEEP_CODES,
+    THREAD_CODES,
+    Answer,
+    Case,
+)
 from hydroelastic.benchmarks.circle.cases import circle_error
 from hydroelastic.benchmarks.string.cases import string_error
+from hydroelastic.benchmarks.sweep.cases import sweep_error
 from hydroelastic.benchmarks.tank.cases import tank_named
 from hydroelastic.benchmarks.thread.cases import thread_error
 
@@ -25,7 +35,7 @@ class Row:
         error: largest relative error of the ten lowest frequencies, of heave and sway of the circle, of the
             displacements of the string relative to the largest one, or that of a thread that `thread_error` tells.
         seconds: of each round.
-        stages: seconds by stage in the last round.
+        stages: seconds by stage, median of the rounds.
         note: what else the code says.
     """
 
@@ -50,19 +60,22 @@ class Row:
         return third - first
 
 
-def row_of(case: Case, answer: Answer, seconds: tuple[float, ...]) -> Row:
-    """The row of a case from its last answer."""
+def row_of(case: Case, answers: Sequence[Answer], seconds: tuple[float, ...]) -> Row:
+    """The row of a case from its answers, one for each round."""
+    answer = answers[-1]
     return Row(
         case=case,
         unknowns=answer.unknowns,
         error=_error(case, answer),
         seconds=seconds,
-        stages=answer.stages,
+        stages={stage: median(one.stages[stage] for one in answers) for stage in answer.stages},
         note=answer.note,
     )
 
 
 def _error(case: Case, answer: Answer) -> float:
+    if case.code in SWEEP_CODES:
+        return sweep_error(case.tank, answer.values)
     if case.code in CIRCLE_CODES:
         return circle_error(case.tank, answer.values)
     if case.code in STRING_CODES:

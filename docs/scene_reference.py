@@ -25,6 +25,7 @@ PAGES = {**SCENE_MODELS, "level_tank": LevelTankScene}
 """The model of each page; a tank in three dimensions has the kind of one in two."""
 TITLES = {
     "tank": "Keys of a tank or of open water",
+    "sea": "Keys of bodies in the sea",
     "level_tank": "Keys of a tank in three dimensions",
     "string": "Keys of a hanging string",
     "thread": "Keys of a flexible thread",
@@ -32,6 +33,7 @@ TITLES = {
 }
 GUIDES = {
     "tank": "scenes.md",
+    "sea": "scenes.md",
     "level_tank": "scenes_three_dimensions.md",
     "string": "scenes_strings_and_ships.md",
     "thread": "scenes_threads.md",
@@ -39,7 +41,7 @@ GUIDES = {
 }
 UNITS = (
     *("m", "s", "kg", "N", "1/s", "m²", "rad", "rad/s", "rad/m", "1/rad", "degrees", "m/s", "m/s²", "kg/m³", "kg/m²"),
-    *("kg/m", "kg/(m·s)", "N·m", "N·m/rad", "N·m²", "N/m", "N·s/m²", "N/m²"),
+    *("kg/m", "kg·m", "kg/(m·s)", "N·m", "N·m/rad", "N·m²", "N/m", "N·s/m²", "N/m²"),
 )
 UNIT = re.compile(rf"(?:^|, )({'|'.join(map(re.escape, sorted(UNITS, key=len, reverse=True)))})(?=$|[;,])")
 SWEEP_TITLE = "Values as a table"

@@ -6,10 +6,7 @@ import numpy as np
 from petsc4py import PETSc
 
 from hydroelastic.fem.direct import direct_solver
-from hydroelastic.fem.pencil import CoupledPencil, LiquidAnswer
-
-# A dense answer of the liquid that takes more memory is not kept, bytes.
-_MOST_MEMORY = 200e6
+from hydroelastic.fem.pencil import CoupledPencil
 
 
 def kinetic(pencil: CoupledPencil, displacement: PETSc.Vec, momentum: PETSc.Vec, potential: PETSc.Vec | None) -> None:
@@ -34,20 +31,12 @@ def _liquid_momentum(
     pencil.momentum.multTranspose(potential, momentum)
 
 
-def liquid_answer(pencil: CoupledPencil) -> LiquidAnswer | None:
-    """Return the answer of the liquid to all surface unknowns: n solutions of Laplace's equation, after which a
-    product with a matrix takes the place of each; ``None`` on several processes, or where it is too large."""
-    rows, columns = pencil.coupling.getSize()
-    if pencil.coupling.comm.size > 1 or 8.0 * rows * columns > _MOST_MEMORY:
-        return None
-    potentials, added_mass = np.empty((rows, columns), order="F"), np.empty((columns, columns))
-    unit, momentum = pencil.stiffness.createVecs()
-    potential = pencil.coupling.createVecLeft()
-    for column in range(columns):
-        _set_unit(unit, column)
-        _liquid_momentum(pencil, unit, momentum, potential)
-        potentials[:, column], added_mass[:, column] = potential.array_r, momentum.array_r
-    return LiquidAnswer(potentials=potentials, added_mass=added_mass)
+def dense(matrix: PETSc.Mat) -> np.ndarray:
+    """A matrix of one process as a dense array, in Fortran's order."""
+    # The array lives as long as the matrix.
+    full = matrix.convert("dense", PETSc.Mat())
+    values: np.ndarray = full.getDenseArray().copy(order="F")
+    return values
 
 
 def body_added_mass(pencil: CoupledPencil) -> np.ndarray:
@@ -179,6 +168,21 @@ class CondensedKinetics:
         set_entries(result, self.free_rigid, np.zeros(len(self.free_rigid)))
         for volume, pressure in zip(self._kept, [c.dot(result) for c in self._corrections], strict=True):
             result.axpy(-pressure, volume)
+
+    def matrix(self) -> np.ndarray:
+        """M_c itself, where the answer of the liquid is known, shape (n, n)."""
+        assert self.pencil.answer is not None
+        whole = dense(self.pencil.mass) + self.pencil.answer.added_mass
+        if self._columns:
+            columns = np.array([column.array_r for column in self._columns])
+            whole -= columns.T @ np.linalg.solve(self._dense, columns)
+        whole[self.free_rigid] = 0.0
+        whole[:, self.free_rigid] = 0.0
+        for correction, volume in zip(self._corrections, self._kept, strict=True):
+            # Each keeps one volume and leaves the others as they are.
+            whole -= np.outer(whole @ correction.array_r, volume.array_r)
+            whole -= np.outer(volume.array_r, correction.array_r @ whole)
+        return whole
 
     def _project(self, displacement: PETSc.Vec) -> None:
         """Project onto e: remove free rigid motions, and volume where a constraint acts on e."""

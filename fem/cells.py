@@ -31,7 +31,7 @@ def cell_positions(mesh: Mesh, cells: np.ndarray, reference: np.ndarray) -> np.n
     nodes = cell_nodes(mesh, cells)
     # Relative to a corner, so that rounding is that of the cell's distance from the origin.
     corner = nodes[:, :1]
-    points: np.ndarray = corner + np.einsum("qn,cnd->cqd", basis, nodes - corner, optimize=True)
+    points: np.ndarray = corner + basis @ (nodes - corner)
     return points
 
 
@@ -49,7 +49,9 @@ def cell_jacobians(mesh: Mesh, cells: np.ndarray, reference: np.ndarray) -> np.n
     if is_straight(mesh):
         reference = reference[:1]
     slopes = _coordinate_basis(mesh, reference, 1)[1:]
-    jacobians: np.ndarray = np.einsum("dqn,cng->cqgd", slopes, cell_nodes(mesh, cells), optimize=True)
+    dim, points, nodes = slopes.shape
+    products = slopes.reshape(-1, nodes) @ cell_nodes(mesh, cells)
+    jacobians: np.ndarray = products.reshape(len(cells), dim, points, -1).transpose(0, 2, 3, 1)
     return jacobians
 
 

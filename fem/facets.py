@@ -52,13 +52,15 @@ class FacetGroup:
         Returns:
             Shapes (facets, points, gdim) and (facets, points); on straight cells one point stands for all.
         """
-        jacobians = cell_jacobians(self.mesh, self.cells, reference)
+        jacobians = self.jacobians(reference)
         # Nanson's formula: n ds = det J J⁻ᵀ n₀ ds₀.
-        areas = np.abs(np.linalg.det(jacobians))[..., None] * np.einsum(
-            "fqdg,d->fqg", np.linalg.inv(jacobians), self.reference_normal
-        )
+        areas = np.abs(np.linalg.det(jacobians))[..., None] * (self.reference_normal @ np.linalg.inv(jacobians))
         measures = np.linalg.norm(areas, axis=-1)
         return areas / measures[..., None], measures
+
+    def jacobians(self, reference: np.ndarray) -> np.ndarray:
+        """See `cells.cell_jacobians`."""
+        return cell_jacobians(self.mesh, self.cells, reference)
 
     def subset(self, chosen: np.ndarray) -> FacetGroup:
         """Some of the facets, by a mask."""
@@ -79,11 +81,8 @@ def facet_groups(liquid: LiquidSpace, name: str, layer: int | None = None) -> It
     facets = liquid.tank.facets(name)
     facet_to_cell = mesh.topology.connectivity(dim - 1, dim)
     cell_to_facet = mesh.topology.connectivity(dim, dim - 1)
-    cells = np.array([facet_to_cell.links(facet)[0] for facet in facets], dtype=np.int64)
-    places = np.array(
-        [np.flatnonzero(cell_to_facet.links(cell) == facet)[0] for cell, facet in zip(cells, facets, strict=True)],
-        dtype=np.int64,
-    )
+    cells = facet_to_cell.array[facet_to_cell.offsets[facets]].astype(np.int64)
+    places = np.argmax(cell_to_facet.array.reshape(-1, dim + 1)[cells] == facets[:, None], axis=1)
     if layer is not None:
         inside = liquid.layer_of[liquid.space.dofmap.list[cells, 0]] == layer
         cells, places = cells[inside], places[inside]

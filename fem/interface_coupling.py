@@ -12,11 +12,9 @@ from __future__ import annotations
 
 import numpy as np
 from petsc4py import PETSc
-from scipy.spatial import cKDTree
 
 from hydroelastic.fem.facets import facet_groups
 from hydroelastic.fem.liquid import LiquidSpace
-from hydroelastic.fem.shape_loads import summed_over_processes
 from hydroelastic.fem.surfaces import LiquidSurface
 from hydroelastic.meshes.tagged_mesh import MeshError
 
@@ -66,9 +64,11 @@ def _pairs(liquid: LiquidSpace, name: str, above: PETSc.IS, below: PETSc.IS) -> 
     A place may be on one process below and on another above: every process sees the places below, which are those of a
     surface only.
     """
+    from scipy.spatial import cKDTree  # slow to import, so only where there is an interface
+
     comm = liquid.tank.mesh.comm
     places = _places(liquid, name)
-    first = liquid.space.dofmap.index_map.local_range[0]
+    first = liquid.numbering.first
     own_above, own_below = (places[indices.getIndices() - first] for indices in (above, below))
     places_below = np.vstack(comm.allgather(own_below))
     twins = cKDTree(places_below).query(own_above)[1] if len(own_above) and len(places_below) else np.empty(0, int)
@@ -92,15 +92,14 @@ def _places(liquid: LiquidSpace, name: str) -> np.ndarray:
     Shape (owned unknowns, gdim).
     """
     mesh = liquid.tank.mesh
-    index_map = liquid.space.dofmap.index_map
-    sums = np.zeros((1 + mesh.geometry.dim, index_map.size_local + index_map.num_ghosts))
+    sums = np.zeros((1 + mesh.geometry.dim, len(liquid.layer_of)))
     for group in facet_groups(liquid, name):
         middles = group.physical_points(group.reference_corners).mean(axis=1)
         dofs = liquid.space.dofmap.list[group.cells][:, liquid.facet_dofs(group.place)]
         for row, values in enumerate([np.ones(len(middles)), *middles.T]):
             np.add.at(sums[row], dofs, values[:, None])
-    count, *middle = summed_over_processes(liquid, sums)
-    points = liquid.space.tabulate_dof_coordinates()[: index_map.size_local, : mesh.geometry.dim]
+    count, *middle = liquid.numbering.summed(sums)
+    points = liquid.unknown_positions()
     drawn: np.ndarray = points + _DRAWN * (np.array(middle).T / np.maximum(count, 1.0)[:, None] - points)
     return drawn
 

@@ -14,20 +14,19 @@ whichever unknown that is.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
+import basix.ufl
 import numpy as np
-import ufl
 from dolfinx import fem
-from dolfinx.fem import petsc as fem_petsc
-from dolfinx.mesh import Mesh, meshtags
 from mpi4py import MPI
 from petsc4py import PETSc
 
-from hydroelastic.fem.cells import CURVED_QUADRATURE, is_straight, owned_cells
+from hydroelastic.fem.cell_matrices import CellMatrices
+from hydroelastic.fem.cells import owned_cells
 from hydroelastic.fem.direct import direct_solver
-from hydroelastic.fem.kernels import compiled_form
 from hydroelastic.fem.liquid_operator import first_dof
-from hydroelastic.meshes.compat import coordinate_degree
+from hydroelastic.fem.numbering import Numbering, numbered
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.meshes.geometry import LIQUID
 
@@ -56,11 +55,12 @@ class LiquidSpace:
     Attributes:
         tank: the mesh.
         space: the function space of ψ.
+        cells: matrices of its cells.
         degree: polynomial degree.
         zero_potential: names of the surfaces on which ψ = 0: pressure release, or the mirror plane of antisymmetric
             modes.
         layers: the liquids, from the bottom up.
-        layer_of: layer of each unknown of this process, owned ones first.
+        layer_of: layer of each degree of freedom of this process, owned ones first.
         continuous_pressure: the liquids, where the pressure ρψ is continuous across their interface, as it is at
             infinite frequency. ψ then stands for it, and there is one layer of unit density for all that takes ψ; in it
             A = ∫(1/ρ)∇ψ·∇q.
@@ -68,6 +68,7 @@ class LiquidSpace:
 
     tank: TankMesh
     space: fem.FunctionSpace
+    cells: CellMatrices
     degree: int
     zero_potential: tuple[str, ...]
     layers: tuple[Layer, ...]
@@ -76,8 +77,13 @@ class LiquidSpace:
 
     @property
     def size(self) -> int:
-        """Number of unknowns, those with a prescribed value included."""
+        """Number of degrees of freedom, those with a prescribed value and those inside of cells included."""
         return int(self.space.dofmap.index_map.size_global)
+
+    @property
+    def numbering(self) -> Numbering:
+        """Numbers of the unknowns."""
+        return self.cells.numbering
 
     @property
     def densities(self) -> tuple[float, ...]:
@@ -87,7 +93,7 @@ class LiquidSpace:
     @property
     def owned_layer_of(self) -> np.ndarray:
         """Layer of each unknown that this process owns."""
-        return self.layer_of[: self.space.dofmap.index_map.size_local]
+        return self.layer_of[self.numbering.owned_dofs]
 
     def zero_dofs(self) -> np.ndarray:
         """Owned unknowns on the surfaces with ψ = 0, as local indices (collective)."""
@@ -109,13 +115,17 @@ class LiquidSpace:
         return np.array(self.space.element.basix_element.entity_closure_dofs[dim][place])
 
     def surface_dofs(self, names: tuple[str, ...], layer: int | None = None) -> np.ndarray:
-        """Owned unknowns on the closure of named surfaces, of one layer or of all: sorted local indices."""
+        """Owned unknowns on the closure of named surfaces, of one layer or of all: sorted local numbers."""
         facets = np.concatenate([self.tank.facets(name) for name in names]) if names else np.empty(0, np.int32)
         dim = self.tank.mesh.topology.dim - 1
         # remote=True: a process may own an unknown of a surface none of whose facets it holds.
-        dofs = fem.locate_dofs_topological(self.space, dim, facets, remote=True)
-        dofs = np.sort(dofs[dofs < self.space.dofmap.index_map.size_local])
-        return dofs if layer is None else dofs[self.layer_of[dofs] == layer]
+        unknowns = self.numbering.owned_among(fem.locate_dofs_topological(self.space, dim, facets, remote=True))
+        return unknowns if layer is None else unknowns[self.owned_layer_of[unknowns] == layer]
+
+    def unknown_positions(self) -> np.ndarray:
+        """Coordinates of the owned unknowns, shape (owned unknowns, gdim)."""
+        mesh = self.tank.mesh
+        return self.space.tabulate_dof_coordinates()[self.numbering.owned_dofs, : mesh.geometry.dim]
 
 
 def liquid_space(
@@ -125,6 +135,7 @@ def liquid_space(
     layers: tuple[Layer, ...] = ONE_LIQUID,
     *,
     continuous_pressure: bool = False,
+    condensed: bool = False,
 ) -> LiquidSpace:
     """Space of ψ of the given degree; its degree does not depend on the mesh's (collective).
 
@@ -134,8 +145,9 @@ def liquid_space(
         zero_potential: names of the surfaces on which ψ = 0.
         layers: the liquids, from the bottom up.
         continuous_pressure: whether the pressure is continuous across their interface; the mesh is then not cut there.
+        condensed: whether unknowns inside of cells are condensed, where loads act on surfaces alone.
     """
-    space = fem.functionspace(tank.mesh, ("Lagrange", degree))
+    space = fem.functionspace(tank.mesh, _lagrange(tank.mesh.topology.cell_name(), degree))
     index_map = space.dofmap.index_map
     layer_of = np.zeros(index_map.size_local + index_map.num_ghosts, dtype=np.int8)
     for number, layer in enumerate(() if continuous_pressure else layers[1:], 1):
@@ -143,12 +155,18 @@ def liquid_space(
     return LiquidSpace(
         tank=tank,
         space=space,
+        cells=CellMatrices(numbering=numbered(space, condensed=condensed)),
         degree=degree,
         zero_potential=zero_potential,
         layers=ONE_LIQUID if continuous_pressure else layers,
         layer_of=layer_of,
         continuous_pressure=layers if continuous_pressure else (),
     )
+
+
+@lru_cache(maxsize=16)
+def _lagrange(cell_name: str, degree: int) -> basix.ufl._ElementBase:
+    return basix.ufl.element("Lagrange", cell_name, degree)
 
 
 def closed_layers(liquid: LiquidSpace) -> tuple[int, ...]:
@@ -162,126 +180,39 @@ def closed_layers(liquid: LiquidSpace) -> tuple[int, ...]:
     return tuple(layer for layer in layers if counts[layer] == 0)
 
 
-@dataclass(frozen=True, kw_only=True)
-class LiquidMatrices:
-    """Matrices on all unknowns of one space, the same on whichever surface ψ = 0.
+def cell_values(liquid: LiquidSpace, potentials: list[PETSc.Vec]) -> np.ndarray:
+    """Potentials at the degrees of freedom of each cell of this process, those inside of it too (collective).
 
-    Attributes:
-        laplace: A = ∫∇ψ·∇q.
-        surface_mass: S = ∫ψ q over the moving surfaces of the liquids, or ``None`` without one.
+    Returns:
+        Shape (potentials, cells, functions).
     """
-
-    laplace: PETSc.Mat
-    surface_mass: PETSc.Mat | None
-
-
-def liquid_matrices(liquid: LiquidSpace, surfaces: tuple[str, ...]) -> LiquidMatrices:
-    """Assemble what the problems on one space share (collective).
-
-    Args:
-        liquid: the space.
-        surfaces: names of the moving surfaces of the liquids.
-    """
-    surface_mass = surface_mass_matrix(liquid, surfaces) if surfaces else None
-    return LiquidMatrices(laplace=laplace_matrix(liquid), surface_mass=surface_mass)
+    numbering = liquid.numbering
+    local = numbering.spread(np.array([potential.array_r for potential in potentials]))
+    dofs = liquid.space.dofmap.list[: len(owned_cells(liquid.tank.mesh))]
+    values: np.ndarray = local[:, dofs]
+    if len(numbering.inside):
+        outside = np.ascontiguousarray(values[:, :, numbering.outside].transpose(1, 2, 0))
+        values[:, :, numbering.inside] = (liquid.cells.extension @ outside).transpose(2, 0, 1)
+    return values
 
 
 def as_functions(liquid: LiquidSpace, potentials: list[PETSc.Vec]) -> list[fem.Function]:
-    """Potentials as dolfinx functions with their ghost values."""
+    """Potentials as dolfinx functions with their ghost values, inside of cells too (collective)."""
     functions = []
-    for potential in potentials:
+    dofs = liquid.space.dofmap.list[: len(owned_cells(liquid.tank.mesh))]
+    for values in cell_values(liquid, potentials) if potentials else ():
         function = fem.Function(liquid.space)
-        function.x.array[: potential.getLocalSize()] = potential.array_r
+        function.x.array[dofs] = values
         function.x.scatter_forward()
         functions.append(function)
     return functions
 
 
-# Kernels that this process has compiled or loaded: a look-up by dolfinx takes a millisecond or two.
-_compiled: set[tuple[str, int, int, bool]] = set()
-
-
-def compile_form(tank: TankMesh, degree: int, *, continuous_pressure: bool = False) -> None:
-    """Compile the form of a degree on rank 0, unless the cache of dolfinx has it (collective).
-
-    Assembly would compile it as well; called before, it separates the time of compilation.
-    """
-    kernel = tank.mesh.topology.cell_name(), coordinate_degree(tank.mesh), degree, continuous_pressure
-    # Collective decision: one process may have solved on its own before.
-    if tank.mesh.comm.allreduce(kernel not in _compiled, op=MPI.LOR):
-        weight = fem.Function(fem.functionspace(tank.mesh, ("DG", 0))) if continuous_pressure else None
-        _form(fem.functionspace(tank.mesh, ("Lagrange", degree)), cells=NO_ENTITIES, facets=NO_ENTITIES, weight=weight)
-        _compiled.add(kernel)
-
-
-def laplace_matrix(liquid: LiquidSpace) -> PETSc.Mat:
-    """Assemble A = ∫∇ψ·∇q, or ∫(1/ρ)∇ψ·∇q of a continuous pressure, every unknown included."""
-    weight = _inverse_density(liquid) if liquid.continuous_pressure else None
-    return assembled(_form(liquid.space, cells=owned_cells(liquid.tank.mesh), facets=NO_ENTITIES, weight=weight))
-
-
-def _inverse_density(liquid: LiquidSpace) -> fem.Function:
-    weight = fem.Function(fem.functionspace(liquid.tank.mesh, ("DG", 0)))
-    for layer in liquid.continuous_pressure:
-        weight.x.array[weight.function_space.dofmap.list[liquid.tank.cells(layer.name)].ravel()] = 1.0 / layer.density
-    return weight
-
-
-def surface_mass_matrix(liquid: LiquidSpace, names: tuple[str, ...]) -> PETSc.Mat:
-    """Assemble S = ∫ψ q over named surfaces, every unknown included."""
-    facets = np.unique(np.concatenate([liquid.tank.facets(name) for name in names]))
-    return assembled(_form(liquid.space, cells=NO_ENTITIES, facets=facets))
-
-
-NO_ENTITIES = np.empty(0, dtype=np.int32)
-"""No cells, or no facets."""
-
-
-def _form(
-    space: fem.FunctionSpace, *, cells: np.ndarray, facets: np.ndarray, weight: fem.Function | None = None
-) -> fem.Form:
-    """∫w ∇ψ·∇q over some cells + ∫ψ q over some facets of the boundary; w = 1 unless it is given.
-
-    A and S are this one form, each without the other's part. To compile it takes hardly longer than to compile one of
-    them, for most of the time goes into starting the C compiler, reading Python's headers and linking. Which cells and
-    facets are meant does not enter the code, so that scenes share it.
-    """
-    mesh = space.mesh
-    potential, test = ufl.TrialFunction(space), ufl.TestFunction(space)
-    degree = space.element.basix_element.degree
-    more = 0 if is_straight(mesh) else CURVED_QUADRATURE
-    dx = chosen_measure("dx", mesh, mesh.topology.dim, cells, 2 * degree - 2 + more)
-    ds = chosen_measure("ds", mesh, mesh.topology.dim - 1, facets, 2 * degree + more)
-    energy = ufl.inner(ufl.grad(potential), ufl.grad(test))
-    form = (energy if weight is None else weight * energy) * dx + ufl.inner(potential, test) * ds
-    return compiled_form(form)
-
-
-def chosen_measure(kind: str, mesh: Mesh, dim: int, entities: np.ndarray, quadrature_degree: int) -> ufl.Measure:
-    """Measure of chosen cells ("dx") or boundary facets ("ds")."""
-    chosen = 1
-    return ufl.Measure(
-        kind,
-        domain=mesh,
-        subdomain_id=chosen,
-        subdomain_data=meshtags(mesh, dim, entities, np.full(len(entities), chosen, dtype=np.int32)),
-        metadata={"quadrature_degree": quadrature_degree},
-    )
-
-
-def assembled(form: fem.Form) -> PETSc.Mat:
-    """Assemble the matrix of a form (collective)."""
-    matrix = fem_petsc.assemble_matrix(form)
-    matrix.assemble()
-    return matrix
-
-
 def constrained_dofs(liquid: LiquidSpace) -> np.ndarray:
     """Owned unknowns whose value is zero: those of the surfaces with ψ = 0, and one of each closed layer
     (collective)."""
-    index_map = liquid.space.dofmap.index_map
     comm = liquid.tank.mesh.comm
-    held = [first_dof(liquid, layer, index_map.local_range, comm) for layer in closed_layers(liquid)]
+    held = [first_dof(liquid, layer, liquid.numbering.range, comm) for layer in closed_layers(liquid)]
     return np.unique(np.concatenate([liquid.zero_dofs(), *held])).astype(np.int32)
 
 
@@ -349,6 +280,22 @@ class LiquidSolver:
             for layer, mean in zip(self._closed, means, strict=True):
                 solution[layer.dofs] -= mean / layer.measure
         self.solves += 1
+
+    def solve_all(self, loads: np.ndarray) -> np.ndarray:
+        """Return A⁺ ``loads`` for many loads at once, on one process, both of shape (N, loads) in Fortran's order."""
+        for layer in self._closed:
+            own = loads[layer.dofs]
+            loads[layer.dofs] -= np.outer(layer.load, own.sum(axis=0) / layer.measure)
+        free, answers = self._local_free, np.zeros(loads.shape, order="F")
+        # The transposed array holds one load after the other.
+        right = PETSc.Mat().createDense((len(free), loads.shape[1]), array=loads.T[:, free].T)
+        result = right.duplicate()
+        self._solver.getPC().getFactorMatrix().matSolve(right, result)
+        answers.T[:, free] = result.getDenseArray().T
+        for layer in self._closed:
+            answers[layer.dofs] -= layer.load @ answers[layer.dofs] / layer.measure
+        self.solves += loads.shape[1]
+        return answers
 
     def _sums(self, values: list[float]) -> np.ndarray:
         """Sums over all processes."""

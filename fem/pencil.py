@@ -243,14 +243,11 @@ def loads_on_first(columns: Iterable[np.ndarray], count: int, laplace: PETSc.Mat
     first_rank = laplace.comm.rank == 0
     rows = laplace.getLocalSize()[0]
     matrix = PETSc.Mat().createAIJ(((rows, PETSc.DETERMINE), (count if first_rank else 0, count)), comm=laplace.comm)
-    # Collective, and evaluated here: not all processes take part in later evaluations.
     matrix.setUp()
-    first = laplace.getOwnershipRange()[0]
-    for column, load in enumerate(columns):
-        (nonzero,) = np.nonzero(load)
-        matrix.setValues(
-            (nonzero + first).astype(PETSc.IntType), [column], load[nonzero], addv=PETSc.InsertMode.INSERT_VALUES
-        )
+    loads = np.array(list(columns)).reshape(count, rows).T
+    (loaded,) = np.nonzero(loads.any(axis=1))
+    numbers = (loaded + laplace.getOwnershipRange()[0]).astype(PETSc.IntType)
+    matrix.setValues(numbers, np.arange(count, dtype=PETSc.IntType), loads[loaded])
     matrix.assemble()
     return matrix
 

@@ -12,7 +12,6 @@ from math import ceil
 
 import basix
 import numpy as np
-from dolfinx import la
 
 from hydroelastic.fem.facets import FacetGroup, facet_groups
 from hydroelastic.fem.liquid import LiquidSpace
@@ -34,13 +33,12 @@ def shape_loads(liquid: LiquidSpace, body: Body) -> np.ndarray:
     Returns:
         ∫φᵢ q, owned entries, shape (functions, owned unknowns) (collective).
     """
-    index_map = liquid.space.dofmap.index_map
-    loads = np.zeros((body.size, index_map.size_local + index_map.num_ghosts))
+    loads = np.zeros((body.size, len(liquid.layer_of)))
     for group in facet_groups(liquid, body.surface):
         at_corner = singular_corner(body, group)
         for corner in np.unique(at_corner):
             _add_loads(liquid, body, group.subset(at_corner == corner), int(corner), loads)
-    return summed_over_processes(liquid, loads)
+    return liquid.numbering.summed(loads)
 
 
 def surface_load(liquid: LiquidSpace, names: tuple[str, ...]) -> np.ndarray:
@@ -49,8 +47,7 @@ def surface_load(liquid: LiquidSpace, names: tuple[str, ...]) -> np.ndarray:
     Returns:
         ∫q, owned entries (collective).
     """
-    index_map = liquid.space.dofmap.index_map
-    load = np.zeros((1, index_map.size_local + index_map.num_ghosts))
+    load = np.zeros((1, len(liquid.layer_of)))
     for name in names:
         for group in facet_groups(liquid, name):
             local, weights = basix.make_quadrature(group.facet_type, 2 * liquid.degree)
@@ -58,7 +55,7 @@ def surface_load(liquid: LiquidSpace, names: tuple[str, ...]) -> np.ndarray:
             _, measures = group.normals(reference)
             dofs = liquid.space.dofmap.list[group.cells]
             np.add.at(load[0], dofs, (measures * weights) @ potential_basis(liquid, reference))
-    total: np.ndarray = summed_over_processes(liquid, load)[0]
+    total: np.ndarray = liquid.numbering.summed(load)[0]
     return total
 
 
@@ -140,19 +137,9 @@ def facet_quadrature(
 
 def _add_loads(liquid: LiquidSpace, body: Body, group: FacetGroup, singular_corner: int, loads: np.ndarray) -> None:
     quadrature = facet_quadrature(liquid, group, body.wavenumber, singular_corner)
-    basis = potential_basis(liquid, quadrature.reference)
-    dofs = liquid.space.dofmap.list[group.cells]
-    for number in range(body.size):
-        np.add.at(loads[number], dofs, (quadrature.weights * quadrature.values(body.shapes, number)) @ basis)
-
-
-def summed_over_processes(liquid: LiquidSpace, loads: np.ndarray) -> np.ndarray:
-    """Owned entries of several vectors of which each process has a part, (vectors, local unknowns) (collective)."""
-    index_map = liquid.space.dofmap.index_map
-    vector = la.vector(index_map)
-    owned = np.empty((len(loads), index_map.size_local))
-    for number, load in enumerate(loads):
-        vector.array[:] = load
-        vector.scatter_reverse(la.InsertMode.add)
-        owned[number] = vector.array[: index_map.size_local]
-    return owned
+    # Others vanish on the facet.
+    places = liquid.facet_dofs(group.place)
+    basis = potential_basis(liquid, quadrature.reference)[:, places]
+    values = np.array([quadrature.values(body.shapes, number) for number in range(body.size)])
+    parts = quadrature.weights * values @ basis
+    np.add.at(loads.T, liquid.space.dofmap.list[group.cells][:, places], parts.transpose(1, 2, 0))

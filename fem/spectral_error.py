@@ -24,7 +24,7 @@ import numpy as np
 from petsc4py import PETSc
 
 from hydroelastic.fem.cells import CURVED_QUADRATURE, cell_jacobians, is_straight, owned_cells
-from hydroelastic.fem.liquid import LiquidSpace, as_functions
+from hydroelastic.fem.liquid import LiquidSpace, cell_values
 
 LOWEST_DEGREE = 4
 """Four degrees of ∇ψ must be there to see a decay."""
@@ -58,12 +58,10 @@ def cell_errors(liquid: LiquidSpace, potentials: list[PETSc.Vec]) -> np.ndarray:
         raise ValueError(f"errors are seen from degree {LOWEST_DEGREE} on, got {liquid.degree}")
     mesh = liquid.tank.mesh
     cells = owned_cells(mesh)
-    dofs = liquid.space.dofmap.list[: len(cells)]
+    if not potentials:
+        return np.empty((0, len(cells)))
     energies = _straight_energies(liquid) if is_straight(mesh) else _curved_energies(liquid)
-    density = liquid.energy_densities()
-    errors = np.empty((len(potentials), len(cells)))
-    for number, function in enumerate(as_functions(liquid, potentials)):
-        errors[number] = density * _missing_energy(*energies(function.x.array[dofs]))
+    errors: np.ndarray = liquid.energy_densities() * _missing_energy(*energies(cell_values(liquid, potentials)))
     return errors
 
 
@@ -87,7 +85,8 @@ def _series(last: np.ndarray, ratio: np.ndarray) -> np.ndarray:
 
 
 Energies = Callable[[np.ndarray], list[np.ndarray]]
-"""From the values of ψ in each cell (cells, functions) to ∫|∇ψ|² (cells,) in the degrees p − 1 … p − 4."""
+"""From values of ψ in each cell (potentials, cells, functions) to ∫|∇ψ|² (potentials, cells) in the degrees p − 1 …
+p − 4."""
 
 
 def _straight_energies(liquid: LiquidSpace) -> Energies:
@@ -106,9 +105,9 @@ def _straight_energies(liquid: LiquidSpace) -> Energies:
 def _energy(values: np.ndarray, table: np.ndarray, inverse: np.ndarray, measure: np.ndarray) -> np.ndarray:
     """∫|∇ψ|² of each cell in the polynomials of one degree."""
     dim, polynomials, functions = table.shape
-    reference = (values @ table.reshape(-1, functions).T).reshape(-1, dim, polynomials)
-    slopes = np.einsum("cde,cdj->cej", inverse, reference)
-    energy: np.ndarray = measure * np.square(slopes).sum(axis=(1, 2))
+    reference = (values @ table.reshape(-1, functions).T).reshape(*values.shape[:2], dim, polynomials)
+    slopes = inverse.transpose(0, 2, 1) @ reference
+    energy: np.ndarray = measure * np.square(slopes).sum(axis=(2, 3))
     return energy
 
 
@@ -125,12 +124,13 @@ def _curved_energies(liquid: LiquidSpace) -> Energies:
     weighted = polynomials * weights
 
     def energies(values: np.ndarray) -> list[np.ndarray]:
-        reference = np.einsum("dqn,cn->cqd", slopes, values, optimize=True)
-        field = np.einsum("cqde,cqd->cqe", scaled, reference, optimize=True)
-        squares = np.square(np.einsum("jq,cqe->cje", weighted, field, optimize=True)).sum(axis=2)
-        return [
-            squares[:, sizes[k] : sizes[k + 1]].sum(axis=1) for k in range(liquid.degree - 1, liquid.degree - 5, -1)
-        ]
+        squares = np.empty((*values.shape[:2], len(weighted)))
+        for number, one in enumerate(values):
+            reference = np.einsum("dqn,cn->cqd", slopes, one, optimize=True)
+            field = np.einsum("cqde,cqd->cqe", scaled, reference, optimize=True)
+            squares[number] = np.square(np.einsum("jq,cqe->cje", weighted, field, optimize=True)).sum(axis=2)
+        degrees = range(liquid.degree - 1, liquid.degree - 5, -1)
+        return [squares[:, :, sizes[k] : sizes[k + 1]].sum(axis=2) for k in degrees]
 
     return energies
 

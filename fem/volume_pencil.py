@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from petsc4py import PETSc
 
-from hydroelastic.fem.interface_coupling import surface_blocks
+from hydroelastic.fem.added_mass import dense
 from hydroelastic.fem.liquid import (
-    LiquidMatrices,
     LiquidSolver,
     LiquidSpace,
     closed_layer,
     closed_layers,
     constrained_dofs,
 )
-from hydroelastic.fem.pencil import CoupledPencil, SurfaceBlocks, coupled_pencil, loads_on_first
+from hydroelastic.fem.liquid_matrices import LiquidMatrices
+from hydroelastic.fem.pencil import CoupledPencil, LiquidAnswer, coupled_pencil, loads_on_first
 from hydroelastic.fem.shape_loads import shape_loads, surface_load
 from hydroelastic.fem.surfaces import Body, LiquidSurface
+
+# Measured on one process: up to so many surface unknowns the answers to all of them at once, and dense linear algebra
+# after it, take less time than the answers that the Krylov–Schur method asks for one by one and a sparse count.
+_FEW = 300
 
 
 def build_pencil(
@@ -29,7 +35,7 @@ def build_pencil(
 
     Args:
         liquid: space of the potential.
-        matrices: A and S on that space.
+        matrices: A on that space, and the blocks of the surfaces.
         bodies: the floating bodies.
         surfaces: those of the liquids that move under gravity: free surface and interface.
 
@@ -37,29 +43,42 @@ def build_pencil(
         The matrices, with the liquid factorized (collective).
     """
     laplace = matrices.laplace
-    blocks = []
-    for surface in surfaces:
-        assert matrices.surface_mass is not None
-        coupling, stiffness = surface_blocks(liquid, surface, matrices.surface_mass)
-        blocks.append(SurfaceBlocks(coupling=coupling, stiffness=stiffness))
     names = tuple(dict.fromkeys([*(body.surface for body in bodies), *(surface.surface for surface in surfaces)]))
     layers = closed_layers(liquid)
     load = surface_load(liquid, names) if layers else None
     closed = () if load is None else tuple(closed_layer(liquid, layer, load) for layer in layers)
-    return coupled_pencil(
+    pencil = coupled_pencil(
         liquid,
         bodies=bodies,
         surfaces=surfaces,
         body_coupling=_body_coupling(liquid, bodies, laplace) if bodies else None,
-        surface_blocks=blocks,
+        surface_blocks=matrices.surfaces,
         laplace=laplace,
         # A layer without moving surfaces has no flux to balance.
         solver=LiquidSolver(laplace, constrained_dofs(liquid), tuple(layer for layer in closed if layer.measure > 0.0)),
         closed=layers,
     )
+    return replace(pencil, answer=liquid_answer(pencil, _FEW))
+
+
+def liquid_answer(pencil: CoupledPencil[LiquidSpace], most: int) -> LiquidAnswer | None:
+    """Return the answer of the liquid to all surface unknowns: n solutions of Laplace's equation at once, after which a
+    product with a matrix takes the place of each; ``None`` on several processes, or with more unknowns than that.
+
+    Args:
+        pencil: the coupled problem.
+        most: largest number of surface unknowns.
+    """
+    if pencil.coupling.comm.size > 1 or not 0 < pencil.size <= most:
+        return None
+    assert isinstance(pencil.solver, LiquidSolver)
+    potentials = pencil.solver.solve_all(dense(pencil.coupling))
+    momentum = pencil.momentum.transposeMatMult(PETSc.Mat().createDense(potentials.shape, array=potentials))
+    added_mass = momentum.getDenseArray()
+    return LiquidAnswer(potentials=potentials, added_mass=0.5 * (added_mass + added_mass.T))
 
 
 def _body_coupling(liquid: LiquidSpace, bodies: tuple[Body, ...], laplace: PETSc.Mat) -> PETSc.Mat:
     """Columns ∫φᵢ q over each body's wetted surface."""
-    loads = (load for body in bodies for load in shape_loads(liquid, body))
+    loads = [load for body in bodies for load in shape_loads(liquid, body)]
     return loads_on_first(loads, sum(body.size for body in bodies), laplace)

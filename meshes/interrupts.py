@@ -15,6 +15,8 @@ from types import FrameType
 UNFINISHED: set[Path] = set()
 """Folders that are being written, and that must not outlive the process."""
 
+_MESSAGES = ["no result folder was written."]
+
 
 def end_process(number: int, _frame: FrameType | None) -> None:
     """Handle a signal by ending the process, without unfinished folders.
@@ -27,7 +29,7 @@ def end_process(number: int, _frame: FrameType | None) -> None:
     if number == signal.SIGINT:
         # The signal may have interrupted a print, which then refuses another one.
         with suppress(RuntimeError, OSError):
-            print("Interrupted: no result folder was written.", file=sys.stderr, flush=True)
+            print(f"Interrupted: {_MESSAGES[-1]}", file=sys.stderr, flush=True)
     os._exit(128 + number)
 
 
@@ -40,6 +42,16 @@ def end_on_interrupt() -> None:
     if signal.getsignal(signal.SIGINT) != signal.SIG_IGN:
         signal.signal(signal.SIGINT, end_process)
     signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
+
+
+@contextmanager
+def interrupted_with(message: str) -> Iterator[None]:
+    """Let `end_process` say something else of what Ctrl-C left within the block."""
+    _MESSAGES.append(message)
+    try:
+        yield
+    finally:
+        _MESSAGES.pop()
 
 
 @contextmanager

@@ -11,8 +11,8 @@ from typing import TypeAlias
 Box: TypeAlias = tuple[float, float, float, float]
 """Left, right, low, high."""
 
-# Number of sources below which a box is not divided further.
-_FEW = 8
+FEW = 8
+"""Number of sources up to which a box is not divided further."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,7 +71,7 @@ class Sources:
     @cached_property
     def _halves(self) -> tuple[Sources, ...]:
         """The sources of both halves of the box; none if there are few."""
-        if len(self.sources) <= _FEW:
+        if len(self.sources) <= FEW:
             return ()
         left, right, low, high, _ = self._whole
         first, last = (0, 1) if right - left >= high - low else (2, 3)

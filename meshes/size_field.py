@@ -9,7 +9,7 @@ from math import hypot
 import numpy as np
 from numpy.typing import NDArray
 
-from hydroelastic.meshes.nearest import Source, Sources
+from hydroelastic.meshes.nearest import FEW, Source, Sources
 from hydroelastic.meshes.outline import Curve, Point, as_points
 
 # Number of discs evaluated at once: NumPy takes about as long for one.
@@ -70,10 +70,19 @@ class SizeField:
         sources += [_ring_source(centre, radius, growth) for centre, radius in rings]
         sources += [_bent_source(part, growth) for part in bends.parts(_TOGETHER)]
         self._sources = Sources(sources=sources, growth=growth)
+        # A few are evaluated faster than searched.
+        self._few = [source.value for source in sources] if len(sources) <= FEW else None
 
     def __call__(self, x: float, y: float) -> float:
         """Element size at a point."""
-        return self._sources.least(x, y, self._bulk_size)
+        if self._few is None:
+            return self._sources.least(x, y, self._bulk_size)
+        found = self._bulk_size
+        for value in self._few:
+            size = value(x, y)
+            if size < found:
+                found = size
+        return found
 
     def along(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Element size at points of shape (n, 2)."""

@@ -53,11 +53,12 @@ def columns_of(
         labels: of further dimensions.
     """
     arrays = {
-        part: np.asarray(part.of(record))
+        part: np.asarray(value)
         for part in group.parts
         if isinstance(part, Quantity)
         and (part.in_summary or part.column is not None)
         and (part.column is not None if not part.dimensions else set(part.dimensions) & set(rows))
+        and (value := part.of(record)) is not None
     }
     sizes = {name: size for part in arrays for name, size in zip(part.dimensions, arrays[part].shape, strict=True)}
     shape = [sizes[name] for name in rows]

@@ -9,8 +9,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import pi, tanh
 
-from scipy.optimize import brentq
-
 from hydroelastic.physics.beam_parts import Section
 from hydroelastic.physics.tank import Piece, StillLevel, Tank
 
@@ -54,6 +52,8 @@ class LevelPiece:
             high *= 4.0
         if high >= _WIDEST:
             return _WIDEST
+        from scipy.optimize import brentq  # slow to import, so only when used
+
         return float(brentq(lambda k: self.squared_frequency(k) - squared_frequency, shortest, high))
 
 
@@ -99,4 +99,6 @@ def squared_frequency_of_mode(pieces: tuple[LevelPiece, ...], number: int) -> fl
         high *= 4.0
     while modes_below(pieces, low) > wanted:
         low /= 256.0
+    from scipy.optimize import brentq
+
     return float(brentq(lambda value: modes_below(pieces, value) - wanted, low, high, rtol=1e-3))

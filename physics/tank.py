@@ -8,6 +8,7 @@ from functools import cached_property
 from math import inf
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
+from hydroelastic.physics.attachments import Attachment
 from hydroelastic.physics.beams import Beam
 from hydroelastic.physics.bodies import Body
 from hydroelastic.physics.motions import Level
@@ -131,6 +132,9 @@ class Tank:
         layers: from the bottom up.
         levels: the upper sides of the layers, from the bottom up.
         bodies: beams and floats.
+        start: abscissa of the left wall, or of the left end of that stretch, m.
+        phase_at: abscissa at which the crest of an incident wave is at t = 0, m.
+        attachments: springs and dampers that hold the bodies, in SI units.
     """
 
     length: float
@@ -139,6 +143,9 @@ class Tank:
     layers: tuple[Layer, ...]
     levels: tuple[StillLevel, ...]
     bodies: tuple[Body, ...]
+    start: float = 0.0
+    phase_at: float = 0.0
+    attachments: tuple[Attachment, ...] = ()
 
     @property
     def units(self) -> Scales:

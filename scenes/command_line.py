@@ -314,7 +314,7 @@ def list_scenes() -> None:
 @click.option("--out", type=click.Path(path_type=Path), help="Folder; default results/benchmarks.")
 @click.option(
     "--problem",
-    type=click.Choice(["tanks", "circle", "string", "thread", "basin"]),
+    type=click.Choice(["tanks", "sweeps", "circle", "string", "thread", "basin"]),
     multiple=True,
     help="Only this one; all by default.",
 )

@@ -9,6 +9,7 @@ from hydroelastic.output.outcome import Outcome
 from hydroelastic.output.sections import Section
 from hydroelastic.scenes.errors import Problem, SceneError, shown_value
 from hydroelastic.scenes.models.level_tank import LevelTankScene
+from hydroelastic.scenes.models.sea import SeaScene
 from hydroelastic.scenes.models.string import StringScene
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.thread import ThreadScene
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 
 def runner_of(scene: Scene) -> StagedRun[Any, Any]:
     """Return what runs a scene: ``run(scene, out=…, images=…, page=…, import_seconds=…, report=…)``."""
-    if isinstance(scene, TankScene):
+    if isinstance(scene, TankScene | SeaScene):
         if scene.is_open:
             from hydroelastic.scenes.open_water.run import run_open
 
@@ -81,7 +82,7 @@ def comparer_of(scene: Scene) -> Callable[..., Outcome]:
 
 def checker_of(scene: Scene) -> Callable[[Any], Iterator[Section]]:
     """Return the function that describes the model of a scene in tables and lines: ``check(scene)``."""
-    if isinstance(scene, TankScene):
+    if isinstance(scene, TankScene | SeaScene):
         if scene.is_open:
             from hydroelastic.scenes.open_water.check import check_open
 

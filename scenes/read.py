@@ -17,6 +17,7 @@ from hydroelastic.scenes.errors import Problem, SceneError, scene_error, shown_v
 from hydroelastic.scenes.models.level_tank import LevelTankScene, is_level_tank
 from hydroelastic.scenes.models.plain import plain
 from hydroelastic.scenes.models.roll import RollScene
+from hydroelastic.scenes.models.sea import SeaScene
 from hydroelastic.scenes.models.string import StringScene
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.thread import ThreadScene
@@ -26,10 +27,11 @@ from hydroelastic.scenes.words import nearest, proposal
 
 Document: TypeAlias = dict[str, Any]
 
-Scene: TypeAlias = TankScene | LevelTankScene | StringScene | ThreadScene | RollScene
+Scene: TypeAlias = TankScene | SeaScene | LevelTankScene | StringScene | ThreadScene | RollScene
 
 SCENE_MODELS: dict[str, type[Scene]] = {
     "tank": TankScene,
+    "sea": SeaScene,
     "string": StringScene,
     "thread": ThreadScene,
     "roll": RollScene,

@@ -56,14 +56,3 @@ def tanks() -> Any:
     from tanks import Tanks
 
     return Tanks()
-
-
-@pytest.fixture(scope="session")
-def renderer() -> None:
-    """Where nothing can render fields, a test that asks for it is skipped."""
-    from hydroelastic.output.pictures.rendering import NoRendererError, open_window
-
-    try:
-        open_window()
-    except NoRendererError as error:
-        pytest.skip(str(error))

@@ -39,7 +39,8 @@ BEAM = {"kind": "beam", "start": 3.0, "length": 4.0, "flexural_rigidity": 5e3, "
 @pytest.fixture(
     scope="module",
     params=[
-        pytest.param(kind, marks=pytest.mark.slow) if kind in ("open water", "string") else kind for kind in SCENES
+        pytest.param(kind, marks=pytest.mark.slow) if kind in ("open water", "string", "thread") else kind
+        for kind in SCENES
     ],
 )
 def solved(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> tuple[str, he.Result, Path]:

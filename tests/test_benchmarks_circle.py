@@ -57,6 +57,7 @@ def test_the_error_is_the_larger_one_of_both_motions() -> None:
     assert circle_error(exact.name, values) == pytest.approx(1e-3)
 
 
+@pytest.mark.slow_but("Ka = 1")
 @pytest.mark.parametrize("frequency", CIRCLE, ids=lambda frequency: frequency.name)
 def test_hydroelastic_keeps_the_tolerance(frequency) -> None:
     case = circle_cases(frequency, quick=True)[0]
@@ -92,6 +93,7 @@ def test_what_is_chosen_of_the_peer_and_what_is_set_beside_it() -> None:
     assert fastest_as_good(ROWS, peer_row(80.0, "two lengths", 9.0, 1e-7), OWN) is None
 
 
+@pytest.mark.slow
 def test_what_is_written(tmp_path: Path) -> None:
     run = Benchmark(rows=tuple(ROWS), not_measured={}, versions={"capytaine": {"Capytaine": "3.0"}}, repeats=1)
     table = list(csv.DictReader(io.StringIO(circle_csv(run))))

@@ -81,6 +81,7 @@ def process(*arguments: str, folder: Path) -> subprocess.CompletedProcess[str]:
     return subprocess.run(command, cwd=folder, capture_output=True, text=True, encoding="utf-8", timeout=60)
 
 
+@pytest.mark.slow
 def test_a_folder_that_cannot_be_written_is_one_line(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("", encoding="utf-8")
     ended = process("--out", "file", folder=tmp_path)
@@ -90,6 +91,7 @@ def test_a_folder_that_cannot_be_written_is_one_line(tmp_path: Path) -> None:
     assert "--out" in ended.stderr
 
 
+@pytest.mark.slow
 def test_both_commands_have_the_same_options(tmp_path: Path) -> None:
     inner = process("--help", folder=tmp_path).stdout
     outer = CliRunner().invoke(command_line.main, ["bench", "--help"]).stdout

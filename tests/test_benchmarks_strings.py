@@ -65,7 +65,7 @@ def test_the_error_is_relative_to_the_largest_displacement() -> None:
 )
 def test_each_method_comes_to_the_exact_values(case: Case, bound: float) -> None:
     answer = hydroelastic_string.solve(hydroelastic_string.prepare(case))
-    assert 1e-15 < row_of(case, answer, (1.0,)).error < bound
+    assert 1e-15 < row_of(case, [answer], (1.0,)).error < bound
 
 
 ROWS = [

@@ -50,6 +50,9 @@ NOT_RUN = {
     "./hydro bench": MINUTES,
     "./hydro bench --problem circle": MINUTES,
     "./hydro bench --quick": MINUTES,
+    "./hydro sweep floating_roof --vary body.1.thickness=0.02:0.05:4 --set accuracy.modes=4": (
+        "some seconds; tests/test_scenes_sweep.py sweeps by the command"
+    ),
     "./hydro study aquarium": "a quarter of a minute; results/regenerate.py keeps what it gives",
     "./hydro study float_parabola --families thinness": "half a minute; the page runs it with fewer widths",
     "HYDROELASTIC_SUITE=trixie ./hydro python requirements/lock.py": "from the network",

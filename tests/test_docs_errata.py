@@ -29,6 +29,7 @@ def test_errata_of_the_ship_are_on_the_page(erratum: Erratum) -> None:
     assert listed(erratum) in ROLL_PART
 
 
+@pytest.mark.slow_but("[!e]*")
 @pytest.mark.parametrize("number", STRING_NUMBERS, ids=lambda number: number.quantity)
 def test_numbers_of_the_string_are_those_of_both_formulas(number: Number) -> None:
     assert row(number) in STRING_PART

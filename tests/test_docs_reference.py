@@ -16,7 +16,7 @@ REMEDY = "write the reference anew: ./hydro python docs/scene_reference.py"
 DIMENSIONLESS = {
     *("count", "modes", "elastic_modes", "positions", "frames", "tolerance", "body", "tail", "largest_damping"),
     *("normal_drag", "tangential_drag", "taper", "clamp", "direction", "factors", "lift", "strouhal"),
-    *("spectral_radius", "damping_ratio", "poisson_ratio"),
+    *("spectral_radius", "damping_ratio", "poisson_ratio", "to", "peak_enhancement"),
 }
 
 

@@ -115,6 +115,7 @@ def test_refinement_never_makes_an_answer_worse_than_1e_9(on_graded_mesh: Any, t
         assert np.abs(on_graded_mesh(degree, tip_size)).max() <= 1e-9
 
 
+@pytest.mark.slow
 def test_more_dry_modes_never_make_an_answer_worse_than_1e_9(tanks: Any) -> None:
     """The stiffest of 120 shapes is 10⁷ times as stiff as the first: beams on the liquid's mesh would lose digits."""
     tank, tagged = tanks.graded_mesh(tanks.case_scene("base_s0"), size=0.1)

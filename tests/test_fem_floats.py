@@ -60,6 +60,7 @@ def symmetric(tanks: Any, scene: TankScene) -> tuple[np.ndarray, np.ndarray]:
     return np.array([solution.omega(mode.eigenvalue) for mode in modes]), np.array(masses)
 
 
+@pytest.mark.slow_but("box_2_wedge")
 @pytest.mark.slow_on_ranks_but
 @pytest.mark.mpi
 @pytest.mark.parametrize("name", BOXES)
@@ -247,6 +248,7 @@ def test_the_principal_motions_diagonalize_stiffness_and_inertia() -> None:
         )
 
 
+@pytest.mark.slow
 @pytest.mark.slow_on_ranks_but
 @pytest.mark.mpi
 def test_a_circle_that_turns_about_its_centre_moves_no_liquid(tanks: Any) -> None:
@@ -318,7 +320,7 @@ SYMMETRIC: dict[str, TankScene] = {
 }
 
 
-@pytest.mark.slow_but("rectangle")
+@pytest.mark.slow
 @pytest.mark.slow_on_ranks_but
 @pytest.mark.mpi
 @pytest.mark.parametrize("name", SYMMETRIC)

@@ -74,6 +74,7 @@ def test_a_damaged_kernel_is_compiled_anew_with_one_line_of_notice(compiled: Pat
     assert integrated(compiled) == (THIRD, "")
 
 
+@pytest.mark.slow
 def test_a_kernel_that_another_process_compiles_is_waited_for(compiled: Path, tmp_path: Path) -> None:
     with subprocess.Popen(COMMAND, env=variables(tmp_path), stdout=subprocess.PIPE, text=True) as first:
         while not list(tmp_path.glob("fenics/*.c")):
@@ -93,6 +94,7 @@ def test_a_process_killed_while_it_compiles_delays_nobody(tmp_path: Path) -> Non
     assert "unfinished" in said
 
 
+@pytest.mark.slow
 def test_a_kernel_that_another_program_is_compiling_is_left_alone(compiled: Path) -> None:
     foreign = compiled / "fenics" / "libffcx_forms_0.c"
     foreign.touch()
@@ -101,6 +103,7 @@ def test_a_kernel_that_another_program_is_compiling_is_left_alone(compiled: Path
     foreign.unlink()
 
 
+@pytest.mark.slow
 def test_kernels_of_other_programs_are_left_alone(tmp_path: Path) -> None:
     foreign = tmp_path / "fenics" / "libffcx_forms_0.c"
     foreign.parent.mkdir()

@@ -32,6 +32,7 @@ def errors(name: str, tolerance: float) -> np.ndarray:
     return np.array(omega) / CASES[name]["omega"] - 1.0
 
 
+@pytest.mark.slow_but("annulus_s0", "disc_base_s0", "disc_full_s0", "disc_rigid_s0", "strip_at_wall", "strip_slats_s1")
 @pytest.mark.mpi
 @pytest.mark.slow_on_ranks_but("disc_base_s0")
 @pytest.mark.parametrize("name", SEPARATED)
@@ -83,6 +84,7 @@ def test_a_covered_cylinder_is_closed_for_order_zero() -> None:
     assert len(found) >= 2
 
 
+@pytest.mark.slow_but("False")
 @pytest.mark.parametrize("slats", [False, True])
 def test_a_strip_without_cross_waves_is_the_beam_of_the_section(slats: bool) -> None:
     stiffness, mass = 5e3, 50.0

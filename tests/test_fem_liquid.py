@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from math import pi, tanh
 from typing import Any
 
@@ -11,8 +12,12 @@ import pytest
 from dolfinx import fem
 from petsc4py import PETSc
 
-from hydroelastic.fem.liquid import LiquidSolver, closed_layer
+from hydroelastic.fem.cell_matrices import CellMatrices
+from hydroelastic.fem.liquid import LiquidSolver, cell_values, closed_layer, constrained_dofs
+from hydroelastic.fem.liquid_matrices import laplace_matrix
+from hydroelastic.fem.numbering import numbered
 from hydroelastic.fem.pencil import CoupledPencil
+from hydroelastic.fem.shape_loads import surface_load as surface_load_of
 from hydroelastic.modal.beam.dry_modes import free_free_shape, free_free_wavenumber
 
 pytestmark = pytest.mark.mpi
@@ -25,7 +30,7 @@ def as_vector(pencil: CoupledPencil, values: Callable[[np.ndarray], np.ndarray])
     function = fem.Function(pencil.liquid.space)
     function.interpolate(values)
     vector = pencil.coupling.createVecLeft()
-    vector.array[:] = function.x.array[: vector.getLocalSize()]
+    vector.array[:] = function.x.array[pencil.liquid.numbering.owned_dofs]
     return vector
 
 
@@ -205,3 +210,27 @@ def test_loads_on_a_single_element_are_exact(beam: CoupledPencil, index: int, po
     loads = beam.coupling.createVecRight()
     beam.coupling.multTranspose(as_vector(beam, lambda x: np.maximum(x[0] - 0.5, 0.0) ** power), loads)
     assert beam.body_values(loads)[index] == pytest.approx(expected, abs=2e-14)
+
+
+def test_condensed_unknowns_inside_of_cells_follow_as_solved(tanks: Any) -> None:
+    """Against the same matrix with all unknowns: the answer to one load, on the boundaries of cells and inside."""
+    pencil = tanks.pencil(tanks.scene(tanks.beam()), degree=6, size=0.25)
+    condensed = pencil.liquid
+    liquid = replace(condensed, cells=CellMatrices(numbering=numbered(condensed.space, condensed=False)))
+    load = as_vector(pencil, lambda x: x[0])
+    moved = pencil.coupling.createVecRight()
+    pencil.coupling.multTranspose(load, moved)
+    pencil.coupling.mult(moved, load)
+    matrix = laplace_matrix(liquid)
+    whole, answer = matrix.createVecs()
+    whole.array[condensed.numbering.owned_dofs] = load.array_r
+    # The constant carries flux; its projection needs ∫q on each set of unknowns.
+    surface = tuple(dict.fromkeys([one.surface for one in (*pencil.bodies, *pencil.surfaces)]))
+    solver = LiquidSolver(
+        matrix, constrained_dofs(liquid), (closed_layer(liquid, 0, surface_load_of(liquid, surface)),)
+    )
+    solver.solve(whole, answer)
+    (expected,) = cell_values(liquid, [answer])
+    (found,) = cell_values(condensed, [solved(pencil, load)])
+    # The operator's condition times a double's rounding.
+    assert np.abs(found - expected).max() <= ROUND_OFF * np.abs(expected).max()

@@ -42,7 +42,7 @@ KINDS = pytest.mark.parametrize("kind", ["one", "one, hydrostatic", "two", "lid"
 
 
 @pytest.mark.slow_but("one", "lid", "water alone")
-@pytest.mark.slow_on_ranks_but("one", "water alone")
+@pytest.mark.slow_on_ranks_but("water alone")
 @pytest.mark.mpi
 @KINDS
 def test_between_two_modes_the_inertia_counts_those_below(tanks: Any, kind: str) -> None:
@@ -298,7 +298,7 @@ def test_a_wave_of_the_nth_mode_has_n_half_waves(tanks: Any) -> None:
     """The potential of the water alone is cos kx: its values at the wall and at L/n tell the mode's number."""
     pencil: CoupledPencil = tanks.pencil(tanks.scene(), degree=8, size=0.125)
     dofs = pencil.liquid.surface_dofs(("free_surface",))
-    x = pencil.liquid.space.tabulate_dof_coordinates()[dofs, 0]
+    x = pencil.liquid.unknown_positions()[dofs, 0]
     for number, mode in enumerate(solve_modes(pencil, 4).modes, 1):
         elevation = mode.displacement.array_r[pencil.body_size :]
         wave = np.cos(number * pi * x)

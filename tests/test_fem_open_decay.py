@@ -101,6 +101,7 @@ def test_few_factorizations_and_one_alive(monkeypatch: pytest.MonkeyPatch) -> No
 
 
 # Processor time and peak memory of decay analyses, measured on one core.
+@pytest.mark.slow_but("open_interface-0.0001-*")
 @pytest.mark.parametrize(
     ("name", "tolerance", "seconds", "memory"),
     [("open_interface", 1e-6, 26.0, 782 * 2**20), ("open_interface", 1e-4, 12.0, 435 * 2**20)],

@@ -228,6 +228,7 @@ def test_what_thickness_does_to_an_ellipse() -> None:
     np.testing.assert_allclose((exact.imag / thin.imag - 1.0) / 0.1, [-0.465, -0.398, -0.108], rtol=0, atol=1.5e-3)
 
 
+@pytest.mark.slow
 def test_place_in_the_scene_changes_phases_alone() -> None:
     row = SECTIONS[6]
     here, there = (radiation(section(row, 1e-4, position), row["omega"]) for position in (4.0, 7.3))

@@ -40,7 +40,7 @@ def test_circle(tolerance: float) -> None:
     assert not list(resonance_reasons(found))
 
 
-@pytest.mark.slow_but("wedge-water")
+@pytest.mark.slow
 @pytest.mark.parametrize("liquids", THIN_LIQUIDS)
 @pytest.mark.parametrize("shape", ["wedge", "parabola", "ellipse"])
 def test_thin_floats(shape: Any, liquids: str) -> None:

@@ -133,6 +133,7 @@ def test_transmission_is_the_same_from_either_side(number: int) -> None:
     assert right.reflection[0, 0, 0] == pytest.approx(turned.reflection[0, 0, 0] * phase, abs=2e-4)
 
 
+@pytest.mark.slow
 def test_two_waves_are_reciprocal() -> None:
     row = TWO_LIQUIDS[1]
     scene = two_liquids(row, 1e-6, start=2.0)
@@ -151,6 +152,7 @@ def test_two_waves_are_reciprocal() -> None:
     assert abs(there[0, 1]) > 1e-3
 
 
+@pytest.mark.slow
 def test_place_of_the_plate_changes_phases_alone() -> None:
     row, start = PLATES[10], 4.0
     here, there = (response(plate(row, 1e-6, place), row["omega"]).table for place in (0.0, start))
@@ -193,6 +195,7 @@ def test_sweep_of_a_plate_is_as_accurate_as_it_says() -> None:
     assert np.abs(table.energy_residual).max() <= 1e-7
 
 
+@pytest.mark.slow
 def test_what_does_not_disturb_the_water_sends_no_waves() -> None:
     # A beam that weighs and bends next to nothing moves with the water.
     light = beam([{"length": 2.0, "rigidity": 1e-6, "mass": 1e-6}], []) | {"start": 1.0}

@@ -81,11 +81,11 @@ def test_sloshing_has_its_closed_form(name: str) -> None:
 def test_a_basin_with_a_reentrant_corner_has_the_known_wavenumber() -> None:
     corners = ((0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0))
     tank = LevelTank(plan=PolygonPlan(points=corners), depth=0.5, **WATER)
-    solution, omega = _solved(tank, 1e-6, 3)
+    solution, omega = _solved(tank, 1e-5, 3)
     # Lowest Neumann eigenvalue of the L-shaped domain, Dauge's benchmark of Maxwell eigenvalues, 11 digits.
     k = np.sqrt(1.47562182408)
     error = omega[0] / np.sqrt(9.81 * k * np.tanh(0.5 * k)) - 1.0
-    assert 0.0 < error < solution.relative_errors[0] < 1e-6
+    assert 0.0 < error < solution.relative_errors[0] < 1e-5
 
 
 def test_a_rectangle_is_a_polygon_and_the_poles_are_the_depth() -> None:
@@ -101,6 +101,7 @@ def test_a_rectangle_is_a_polygon_and_the_poles_are_the_depth() -> None:
     assert np.all(errors < [one.relative_error for one in found.modes])
 
 
+@pytest.mark.slow
 def test_a_disc_beside_the_axis_approaches_the_one_on_it() -> None:
     tank = reference_tank("disc_heavy_s1")
     moved = replace(tank, plates=(replace(tank.plates[0], outline=Disc(radius=2.0, position=(1e-6, 0.0))),))
@@ -151,6 +152,7 @@ def test_what_no_model_takes_is_refused_in_words(plates: tuple[Strip | Disc | Po
         level_model(tank)
 
 
+@pytest.mark.only_on_ranks
 @pytest.mark.mpi
 def test_processes_share_the_poles() -> None:
     plate = Plate(outline=Disc(radius=0.8, position=(0.4, 0.2)), flexural_rigidity=200.0, mass_per_area=10.0)

@@ -79,9 +79,9 @@ def test_a_tank_without_symmetry_has_the_same_modes() -> None:
     outline = plate.outline
     assert isinstance(outline, Rectangle)
     moved = replace(tank, plates=(replace(plate, outline=replace(outline, position=(5.0 + 2e-8, 4.0 - 2e-8))),))
-    _, whole = _solved(moved, 1e-4, 6)
-    # Both within their tolerance; measured 1e-6.
-    assert whole == pytest.approx(frequencies("rectangle_base_s0")[:6], rel=2e-5)
+    _, whole = _solved(moved, 1e-3, 6)
+    # The tolerance asked; measured 4e-4.
+    assert whole == pytest.approx(frequencies("rectangle_base_s0")[:6], rel=1e-3)
 
 
 def test_the_inertia_of_a_dense_problem_counts_as_many_modes() -> None:

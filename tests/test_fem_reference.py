@@ -13,7 +13,7 @@ import scipy.sparse.linalg
 from petsc4py import PETSc
 
 from hydroelastic.fem.added_mass import body_added_mass
-from hydroelastic.fem.liquid import surface_mass_matrix
+from hydroelastic.fem.liquid_matrices import surface_mass_matrix
 from hydroelastic.modal.liquid.sloshing import guided_cover_frequencies, sloshing_frequencies
 from hydroelastic.modal.tank_estimates import floating_beam
 from hydroelastic.scenes.models.physical import physical_tank

@@ -47,7 +47,7 @@ def test_order_in_time(name: str, damping: float, stages: int) -> None:
     assert -np.polyfit(np.log(counts), np.log(errors), 1)[0] == pytest.approx(2 * stages, abs=0.25)
 
 
-@pytest.mark.slow_but("ramp-1.5-1", "step-0.5-2")
+@pytest.mark.slow_but("ramp-1.5-1")
 @pytest.mark.parametrize("degree", [1, 2, 4])
 @pytest.mark.parametrize(("name", "regularity"), [("smooth", 2.5), ("ramp", 1.5), ("step", 0.5)])
 def test_order_in_space_is_that_of_the_front(name: str, regularity: float, degree: int) -> None:

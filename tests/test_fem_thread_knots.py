@@ -107,7 +107,7 @@ def in_a_tabulated_stream(interpolation: str, seed: int) -> tuple[ThreadScene, F
 @pytest.mark.parametrize(
     ("interpolation", "seed"),
     [
-        ("linear", 1),
+        pytest.param("linear", 1, marks=pytest.mark.slow),
         pytest.param("linear", 4, marks=pytest.mark.slow),
         pytest.param("monotone", 1, marks=pytest.mark.slow),
         pytest.param("spline", 1, marks=pytest.mark.slow),

@@ -35,10 +35,10 @@ def away(motion: ThreadMotion) -> float:
 
 def test_steps_follow_their_errors() -> None:
     """A tolerance a tenth as large leaves a smaller error, with more steps, which end at the output times."""
-    motions = [follow(chain(**liquid()), 10, swing(), TIMES, 0.1, degree=3, tolerance=size) for size in (1e-5, 1e-6)]
+    motions = [follow(chain(**liquid()), 10, swing(), TIMES, 0.1, degree=3, tolerance=size) for size in (1e-4, 1e-5)]
     # Each step adds an error: that of the end is many times the tolerance, and falls like its power 2/3.
     errors = np.array([away(motion) for motion in motions])
-    assert np.all(errors < [5e-4, 1e-4])
+    assert np.all(errors < [2.5e-3, 5e-4])
     assert errors[1] < 0.5 * errors[0]
     counts = [len(motion.history.solutions) for motion in motions]
     assert counts[0] < counts[1] < 300
@@ -86,6 +86,7 @@ def test_step_control() -> None:
     assert not StepControl(0.3, 1e-6).is_acceptable(2e-6)
 
 
+@pytest.mark.slow_but("inf")
 @pytest.mark.parametrize("rigidity", [np.inf, 400.0])
 def test_generalised_alpha(rigidity: float) -> None:
     """In liquid too it tends to what the midpoint rule tends to."""

@@ -85,6 +85,7 @@ def test_both_branches_of_a_free_top_are_found(tanks: Any, density: float) -> No
     check(tanks, scene, exact(scene), 1e-9)
 
 
+@pytest.mark.slow_but("True-*", "False-free")
 @pytest.mark.slow_on_ranks_but("True-rigid")
 @pytest.mark.mpi
 @pytest.mark.parametrize("top", TOPS)
@@ -152,7 +153,7 @@ def test_a_lighter_and_lighter_upper_liquid_becomes_air(tanks: Any, kind: str) -
     assert 2.0 * once - twice == pytest.approx(air, rel=1e-9)
 
 
-@pytest.mark.slow_but("free-beam", "free-circle")
+@pytest.mark.slow_but("free-beam")
 @pytest.mark.parametrize("kind", THIN_AIR)
 @pytest.mark.parametrize("top", TOPS)
 def test_an_upper_liquid_without_density_is_air(tanks: Any, kind: str, top: LayerTop) -> None:
@@ -172,8 +173,8 @@ SYMMETRIC = {
 }
 
 
-@pytest.mark.slow_on_ranks_but("free top")
-@pytest.mark.slow_but("beam", "free top")
+@pytest.mark.slow_on_ranks_but
+@pytest.mark.slow_but("free top")
 @pytest.mark.mpi
 @pytest.mark.parametrize("kind", SYMMETRIC)
 def test_halves_give_the_modes_of_the_whole_tank(tanks: Any, kind: str) -> None:
@@ -197,7 +198,7 @@ def test_the_mirror_image_has_the_same_frequencies(tanks: Any) -> None:
     assert tanks.omega(left) == pytest.approx(tanks.omega(right), rel=2e-8)
 
 
-@pytest.mark.slow_but("0.001-10.0")
+@pytest.mark.slow
 @pytest.mark.parametrize(("size", "density"), [(1e-3, 1.0), (1e3, 1.0), (1.0, 10.0), (1e-3, 10.0)])
 def test_metres_millimetres_and_heavier_liquids_give_the_same_digits(tanks: Any, size: float, density: float) -> None:
     """ω²L/g is a function of ratios of densities, of lengths, of EI/ρgL⁴ and m/ρL."""
@@ -263,7 +264,7 @@ LOADED = {
 
 
 @pytest.mark.slow_but("loose beam-rigid", "slit-free", "float-pressure_release")
-@pytest.mark.slow_on_ranks_but("slit-free", "loose beam-rigid")
+@pytest.mark.slow_on_ranks_but("slit-free")
 @pytest.mark.mpi
 @pytest.mark.parametrize("top", TOPS)
 @pytest.mark.parametrize("kind", LOADED)
@@ -299,13 +300,13 @@ def test_unknowns_of_the_two_sides_of_a_slit_are_told_apart() -> None:
     """
     (pencil,) = pencils(SLIT)
     body = pencil.body_size if pencil.stiffness.comm.rank == 0 else 0
-    points = pencil.liquid.space.tabulate_dof_coordinates()
+    points = pencil.liquid.unknown_positions()
     dofs = pencil.liquid.surface_dofs(("interface",), 0)
-    at_slit = np.flatnonzero(np.all(points[dofs, :2] == [0.4, 0.0], axis=1))
+    at_slit = np.flatnonzero(np.all(points[dofs] == [0.4, 0.0], axis=1))
     comm = pencil.liquid.tank.mesh.comm
     assert comm.allreduce(len(at_slit)) == 2
     unit, load = pencil.stiffness.createVecRight(), pencil.coupling.createVecLeft()
-    from_slit = points[: load.getLocalSize(), 0] - 0.4
+    from_slit = points[:, 0] - 0.4
     starts = np.array(comm.allgather(unit.getOwnershipRange()[0] + body))
     for rank in range(comm.size):
         for node in comm.bcast(at_slit, root=rank):
@@ -322,6 +323,7 @@ def test_unknowns_of_the_two_sides_of_a_slit_are_told_apart() -> None:
             assert sides[1] == pytest.approx(-sides[0], rel=1e-12)
 
 
+@pytest.mark.slow
 def test_a_slit_beside_the_tip_of_a_beam_is_paired_too(tanks: Any) -> None:
     """A thin float that touches nothing else: the two halves of a tank with the slit in the middle, and the whole."""
     scene = layered(rigid("parabola", 0.5, half_width=0.01, half_height=0.1, boundary="thin"), modes=7)

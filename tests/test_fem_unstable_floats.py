@@ -24,8 +24,8 @@ LOOSE = {
 }
 
 
-@pytest.mark.slow_but("2-free-all motions", "1-free-heave", "2-rigid-circle", "1-pressure_release-sway")
-@pytest.mark.slow_on_ranks_but("2-free-all motions")
+@pytest.mark.slow_but("2-free-all motions", "1-free-heave", "1-pressure_release-sway")
+@pytest.mark.slow_on_ranks_but
 @pytest.mark.mpi
 @pytest.mark.parametrize("kind", LOOSE)
 @pytest.mark.parametrize("top", ["rigid", "free", "pressure_release"])

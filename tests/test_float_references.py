@@ -113,6 +113,7 @@ def test_added_mass_of_half_immersed_ellipses() -> None:
     assert heave == pytest.approx(alone, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_roll_of_a_circle_is_sway_of_its_centre() -> None:
     """A circle does not push the liquid when it turns about its own centre."""
     matrix = high_frequency_added_mass(float_tank(FLOATS["circle_off_centre"]["scene"])).matrix

@@ -173,7 +173,7 @@ def check_tank(scene: TankScene, reference: list[float], tones: list[dict[str, f
     return wrong_tones(found, tones or [None] * len(scene.body), scene.accuracy.tolerance, hidden=False)
 
 
-@pytest.mark.slow_but("[0-3]")
+@pytest.mark.slow_but("[0-1]")
 @pytest.mark.parametrize("entry", REFERENCE["random"], ids=range(len(REFERENCE["random"])))
 def test_tanks_at_random_keep_their_tolerance(entry: dict[str, Any]) -> None:
     assert check_tank(TankScene.model_validate(entry["scene"]), entry["omega"], entry["pressure_release"]) == ""
@@ -253,7 +253,7 @@ def check_refinement(errors: np.ndarray) -> None:
     assert np.diff(errors, axis=0).max() <= 1e-9
 
 
-@pytest.mark.slow_but("base")
+@pytest.mark.slow
 @pytest.mark.parametrize("name", HARD_TANKS)
 def test_a_higher_degree_never_makes_an_answer_worse(tanks: Any, name: str) -> None:
     for tip_size in (TIP_SIZES[0], TIP_SIZES[-1]):

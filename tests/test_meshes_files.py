@@ -140,6 +140,7 @@ def test_a_triangle_with_a_node_that_is_not_there_is_refused(content: meshio.Mes
         load_mesh(write(content, tmp_path / "tank.msh"))
 
 
+@pytest.mark.slow
 @settings(
     derandomize=True, deadline=None, max_examples=150, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )

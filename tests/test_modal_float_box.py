@@ -273,6 +273,7 @@ def test_a_float_close_to_the_bottom() -> None:
         assert steps[2] < steps[0] / 100
 
 
+@pytest.mark.slow
 def test_the_float_mode_is_found_in_a_long_tank() -> None:
     # Dense spectrum: the resonance is spread over many modes, and its centre does not move.
     mode = float_mode(box(length=600.0))
@@ -281,6 +282,7 @@ def test_the_float_mode_is_found_in_a_long_tank() -> None:
     assert mode.omega == pytest.approx(float_mode(box(length=1200.0)).omega, rel=5e-3)
 
 
+@pytest.mark.slow
 def test_no_later_mode_takes_more_of_the_heave() -> None:
     # Shallow liquid: 46 waves more than deep ones would be are slower than the float, so that the search must go on.
     body = box(half_width=1.0, half_height=1.13, depths=(2.0, 1.17), density_above=0.9, length=1000.0)

@@ -71,7 +71,7 @@ ALL_MOTIONS = [
 ]
 
 
-@pytest.mark.slow_but("motion[016]")
+@pytest.mark.slow_but("motion[01]")
 @pytest.mark.parametrize("motion", ALL_MOTIONS)
 def test_errors_are_honest(motion: Ramp | Sine | Smooth | Step) -> None:
     errors, estimates = [], []

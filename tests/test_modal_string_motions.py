@@ -60,7 +60,7 @@ def test_values_of_motions() -> None:
     assert table.breaks == pytest.approx([0.0, 1.0])
 
 
-@pytest.mark.slow_but("_sine*-0.5", "_step*-0.0", "_smooth*-3.7*")
+@pytest.mark.slow
 @pytest.mark.parametrize("damping", [0.0, 0.5, 3.766067388420842, 30.0])
 @pytest.mark.parametrize(
     ("function", "motion"),
@@ -74,6 +74,7 @@ def test_functions_move_the_string_as_closed_forms_do(function: object, motion: 
     assert found.values == pytest.approx(exact.values, abs=6e-8)
 
 
+@pytest.mark.slow_but("0.0-linear", "200.0-cubic")
 @pytest.mark.parametrize("interpolation", ["linear", "cubic"])
 @pytest.mark.parametrize("damping", [0.0, 3.0, 200.0])
 def test_a_table_of_a_ramp_is_the_ramp(interpolation: str, damping: float) -> None:
@@ -100,6 +101,7 @@ def test_rounding_of_a_long_table_is_told() -> None:
     assert found.errors.max() < 30 * error.max()
 
 
+@pytest.mark.slow_but("cubic-4")
 @pytest.mark.parametrize(("interpolation", "order"), [("linear", 2), ("cubic", 4)])
 def test_tables_converge(interpolation: str, order: int) -> None:
     string = uniform_string(damping=1.0)

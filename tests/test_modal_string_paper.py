@@ -136,6 +136,7 @@ def test_smooth_motion(damping: float, rate: float, difference: float | None) ->
         assert found > 0.2
 
 
+@pytest.mark.slow
 def test_smooth_motion_without_damping_is_right() -> None:
     assert (
         _largest([paper.smooth_motion(_string(0.0), Smooth(amplitude=1.0, rate=4.0), x, t) for x, t in POINTS]) < 1e-12
@@ -152,7 +153,7 @@ def test_step_is_half_there_before_its_front() -> None:
     assert value == paper.PrintedAndCorrected(printed=0.5, corrected=0.0)
 
 
-@pytest.mark.slow_but("motion[03]-*")
+@pytest.mark.slow_but("motion3-*")
 @pytest.mark.parametrize(
     ("motion", "damping", "terms", "error"),
     [

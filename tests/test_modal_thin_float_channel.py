@@ -80,6 +80,7 @@ def test_equal_depths_are_one_liquid_with_reduced_gravity() -> None:
     np.testing.assert_allclose(*motions, rtol=0, atol=1e-11)
 
 
+@pytest.mark.slow
 def test_channel_resonance_is_the_late_motion() -> None:
     """Two late values of f fall as e^{−iωt} does: without a tail it is all that is left."""
     profile = thin("parabola", 0.1)

@@ -215,6 +215,7 @@ def test_both_plans_of_the_ray_agree(monkeypatch: pytest.MonkeyPatch) -> None:
     decay._plan.cache_clear()
 
 
+@pytest.mark.slow
 def test_slender_floats_and_late_times() -> None:
     """τθ fixed while τ → 0: f → e^{−τθ/4} cos θ for the exponential, with a rounding of the phase of θ·ulp."""
     for slenderness in (1e-3, 1e-5, 1e-7):

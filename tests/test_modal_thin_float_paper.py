@@ -60,6 +60,7 @@ def test_added_mass_of_the_section_itself() -> None:
         assert getattr(values["omega"], kind) == pytest.approx(math.sqrt(9.81 / 9 / ratio), rel=1e-14)
 
 
+@pytest.mark.slow
 def test_motion_in_a_long_tank_is_that_of_the_corrected_coupling() -> None:
     """Before its waves come back from the walls a float moves as in unbounded liquid, with the coupling of its τ."""
     for name in ("f_exp_eps0.1", "f_exp_eps0.01"):

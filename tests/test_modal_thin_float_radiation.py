@@ -61,7 +61,7 @@ def test_limits_of_added_mass_and_damping(shape: FloatShape) -> None:
     np.testing.assert_allclose(damping[2:], 4 * moment[2:] ** 2, rtol=1e-5)
 
 
-@pytest.mark.slow_but("deep-*", "channel-exponential")
+@pytest.mark.slow_but("deep-*")
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("layers", [UNIT, CHANNEL], ids=["deep", "channel"])
 def test_added_mass_and_damping_are_a_hilbert_pair(shape: FloatShape, layers: TwoLayers) -> None:

@@ -75,6 +75,7 @@ def test_tension_dominated_orders(axial_rigidity: float) -> None:
     assert [order_of(HALVES, errors[order]) for order in (0, 1, 2)] == pytest.approx([1, 2, 3], abs=0.1)
 
 
+@pytest.mark.slow
 def test_tension_dominated_in_a_table_and_in_a_veer() -> None:
     # A table with its break on the thread is as good as the exact profile of the two parts: errors of third order.
     table = TabulatedStream((0.0, 0.43, 1.0), ((0.6, 0.0, 0.0), (0.9, 0.1, 0.0), (0.2, 0.5, 0.0)))
@@ -155,7 +156,7 @@ def test_drag_dominated_orders(given: str) -> None:
         load, force = drag_case(weight)
         for order, list_of_errors in errors.items():
             found = drag_dominated(load, force, **{given: 1.0}, order=order)  # type: ignore[arg-type]
-            exact = march_back(load, float(found.shape.s[-1]), force, tolerance=1e-11)
+            exact = march_back(load, float(found.shape.s[-1]), force, tolerance=1e-9)
             off = float(np.linalg.norm(found.shape.positions[-1] - exact.positions[-1]))
             list_of_errors.append(off)
             assert off < 3 * found.position_truncation

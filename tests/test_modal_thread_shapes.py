@@ -65,6 +65,7 @@ def test_free_tail() -> None:
     assert math.atan2(-tangent[2], tangent[0]) == pytest.approx(0.4028989545145, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_free_tail_in_shear_is_the_limit_of_small_end_forces() -> None:
     load = ThreadLoad(
         weight=4.0, normal_drag=13.0, tangential_drag=0.3, stream=ShearedStream((2.0, 0.5, 0.0), (0.01, 0.0, 0.0))
@@ -231,6 +232,7 @@ def test_taut_thread_without_a_tension_of_its_own() -> None:
         taut_tension(1.0, 0.0, 1.0)
 
 
+@pytest.mark.slow_but("S12")
 @pytest.mark.parametrize("name", ["S12", "S17"])
 def test_shooting_between_fixed_ends(name: str) -> None:
     given = inputs(name)

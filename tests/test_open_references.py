@@ -141,7 +141,7 @@ def test_kernel_of_two_liquids_is_its_series(ratio: float, lid: bool) -> None:
         np.testing.assert_allclose(level.kernel(6.0)(x), wave_series(level, rates, x), rtol=0, atol=1e-11)
 
 
-@pytest.mark.slow_but("Liu_flat60-0.6")
+@pytest.mark.slow
 @pytest.mark.parametrize("row", PUBLISHED["plates"]["rows"], ids=lambda row: f"{row['case']}-{row['omega_rad_s']}")
 def test_plates_as_published(row: dict[str, Any]) -> None:
     level = one_liquid(row["omega_rad_s"], density=1025.0, depth=row["H_m"])
@@ -219,6 +219,7 @@ def test_stored_two_liquids_are_made_anew(row: dict[str, Any]) -> None:
     np.testing.assert_allclose(np.diag(impedance.imag) * row["omega"], row["rigid"]["damping"], rtol=1e-9)
 
 
+@pytest.mark.slow
 def test_light_upper_liquid_is_one_liquid() -> None:
     # The upper liquid adds terms of the order of its density.
     below = one_liquid(3.0, density=1000.0, depth=1.2)

@@ -17,8 +17,6 @@ from hydroelastic.output.pictures.tank import drawn_vectors
 from hydroelastic.output.pictures.view import view_of
 from hydroelastic.scenes.tank.shapes import animated_modes
 
-pytestmark = pytest.mark.usefixtures("renderer")
-
 WIDTH = 800
 UNIT = WIDTH / 1600
 HALF = FRAMES // 2
@@ -36,7 +34,7 @@ def tank_part(page: np.ndarray) -> np.ndarray:
 
 
 @pytest.fixture(scope="module")
-def sloshing(tmp_path_factory: pytest.TempPathFactory, renderer: None) -> tuple[Path, list[np.ndarray]]:
+def sloshing(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, list[np.ndarray]]:
     folder = tmp_path_factory.mktemp("sloshing")
     return folder / "mode.gif", animated(sloshing_picture(), folder)
 

@@ -73,6 +73,7 @@ def test_the_readers_own_settings_change_nothing(tmp_path: Path) -> None:
     assert (tmp_path / "one" / "curve.png").read_bytes() == (tmp_path / "two" / "curve.png").read_bytes()
 
 
+@pytest.mark.slow
 def test_scale_changes_the_page_and_not_the_letters(tmp_path: Path) -> None:
     draw(tmp_path / "one", PictureOptions(formats=("svg",)))
     draw(tmp_path / "two", PictureOptions(formats=("svg",), scale=2.0))

@@ -16,8 +16,6 @@ from hydroelastic.output.pictures.modes import draw_mode, draw_overview
 from hydroelastic.output.pictures.notes import scale_notes
 from hydroelastic.output.pictures.view import view_of
 
-pytestmark = pytest.mark.usefixtures("renderer")
-
 WIDTH = 800
 UNIT = WIDTH / 1600
 FOOTER = round(285 * UNIT)

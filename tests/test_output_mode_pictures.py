@@ -8,7 +8,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import pyvista
 from eyes import EYES, lab
 from matplotlib import colormaps
 from mode_pictures import has_colour, heave_picture, pixels, sloshing_picture
@@ -21,11 +20,10 @@ from hydroelastic.output.pictures.modes import draw_mode, draw_overview
 from hydroelastic.output.pictures.notes import scale_notes, short_number
 from hydroelastic.output.pictures.page import new_page, round_ticks, save, tick_labels
 from hydroelastic.output.pictures.page import pixels as pixels_of_page
-from hydroelastic.output.pictures.rendering import NoRendererError, render_field
+from hydroelastic.output.pictures.raster import Raster
+from hydroelastic.output.pictures.rendering import NoRendererError
 from hydroelastic.output.pictures.tank import drawn_vectors, iso_levels
 from hydroelastic.output.pictures.view import view_of
-
-pytestmark = pytest.mark.usefixtures("renderer")
 
 WIDTH = 800
 UNIT = WIDTH / 1600
@@ -241,37 +239,36 @@ def test_a_page_shows_nothing_of_the_page_before(tmp_path: Path) -> None:
 
 
 def test_the_field_has_no_holes_where_cells_are_cut_differently() -> None:
-    for turn in np.arange(0.05, 6.2, 0.4):
-        image = render_field(coarse_beside_fine(turn), 1.0, (0.0, 1600.0, 0.0, 1200.0), (1600, 1200))
+    for turn in np.arange(0.05, 6.2, 1.3):
+        raster = coarse_beside_fine(turn)
+        image = raster.coloured(np.full(len(raster.points), 0.9), 1.0, mode_colours())
         # What shows through is white in all three channels.
-        assert (image[near_the_edge(turn)].min(axis=1) < 200).all()
+        assert (image[near_the_edge(turn), :3].min(axis=1) < 200).all()
 
 
 def near_the_edge(turn: float) -> np.ndarray:
     """Pixels well within the triangles, but near the edge that they share."""
     y, x = np.mgrid[:1200, :1600]
-    x, y = x - 800.3 + 0.5, 1200 - y - 0.5 - 600.7
+    x, y = x - 800.3 + 0.5, y + 0.5 - 600.7
     along, across = x * np.cos(turn) + y * np.sin(turn), y * np.cos(turn) - x * np.sin(turn)
     return np.asarray((along > 60.0) & (along < 480.0) & (np.abs(across) < 5.0))
 
 
-def coarse_beside_fine(turn: float) -> pyvista.PolyData:
+def coarse_beside_fine(turn: float) -> Raster:
     """A large triangle and many small ones that share an edge, from the middle of the page outwards."""
     sharp, middle = 0.19, np.array([800.3, 600.7])
     start, left, right = (np.array([np.cos(turn + by), np.sin(turn + by)]) for by in (0.0, -sharp, sharp))
     edge = middle + np.linspace(0.0, 1.0, 61)[:, None] * 590.0 * start
     points = np.vstack([edge, [middle + 590.0 * left, middle + 590.0 * right]])
     triangles = np.array([*([62, place, place + 1] for place in range(60)), [0, 61, 60]])
-    mesh = pyvista.PolyData.from_regular_faces(np.column_stack([points, np.zeros(len(points))]), triangles)
-    mesh["field"] = np.full(len(points), 0.9)
-    return mesh
+    return Raster(points=points, triangles=triangles, size=(1600, 1200))
 
 
 def test_fields_are_where_the_page_says_and_colours_are_those_of_the_values() -> None:
-    square = pyvista.Plane(center=(15.0, 10.0, 0.0), i_size=10.0, j_size=10.0, i_resolution=1, j_resolution=1)
-    square = square.triangulate()
-    square["field"] = square.points[:, 1] - 10.0
-    image = render_field(square, 5.0, (0.0, 60.0, 0.0, 40.0), (60, 40))[:, :, :3]
+    corners = np.array([[10.0, 25.0], [20.0, 25.0], [20.0, 35.0], [10.0, 35.0]])
+    square = Raster(points=corners, triangles=np.array([[0, 1, 2], [0, 2, 3]]), size=(60, 40))
+    height = 30.0 - corners[:, 1]
+    image = square.coloured(height, 5.0, mode_colours())[:, :, :3]
     rows, columns = np.nonzero((image < 240).any(axis=2))
     # Rows are counted from above.
     assert (rows.min(), rows.max(), columns.min(), columns.max()) == (25, 34, 10, 19)
@@ -279,6 +276,10 @@ def test_fields_are_where_the_page_says_and_colours_are_those_of_the_values() ->
     for row, value in ((25, 4.5), (34, -4.5)):
         # Neighbouring colours of the scale differ by a few shades.
         assert image[row, 15] == pytest.approx(scale[round(255 * (0.5 + 0.1 * value))], abs=4)
+    # Between the corners too, and nowhere else.
+    sampled = square.at(np.array([[12.0, 26.0], [19.0, 34.5], [30.0, 30.0]]), np.column_stack([height, corners[:, 0]]))
+    assert sampled[:2] == pytest.approx(np.array([[4.0, 12.0], [-4.5, 19.0]]), rel=1e-12)
+    assert np.isnan(sampled[2]).all()
 
 
 def test_pictures_are_in_full_colour_and_letters_are_as_they_are(tmp_path: Path) -> None:

@@ -83,7 +83,7 @@ def test_cosines_are_eigenfunctions_of_the_operator(depth: float) -> None:
 WITHOUT_GUIDES = [name for name, case in AQUARIUM.items() if case["inputs"]["ends"] != "guided"]
 
 
-@pytest.mark.slow_but("base_s0", "full_free_s0")
+@pytest.mark.slow_but("full_free_s0")
 @pytest.mark.parametrize("name", some_slow(WITHOUT_GUIDES, {"base_s0", "narrow_s1", "full_free_s0", "vlfs_dock_s1"}))
 def test_frequencies_are_those_of_the_older_references(name: str) -> None:
     # These have 11 to 14 certain digits; measured 2e-14, and 2e-13 for full_free_s0, whose λ span five decades.
@@ -104,6 +104,7 @@ def test_pressure_release_tones_are_those_of_the_older_references(name: str) -> 
     assert omega == pytest.approx(AQUARIUM[name]["psi0"]["elastic_omega"], rel=1e-12 if given["x1"] else 1e-9)
 
 
+@pytest.mark.slow
 def test_participations_and_kinds_are_those_of_the_older_references() -> None:
     modes = reference_modes(aquarium_tank("base_s0"), 8)
     np.testing.assert_allclose(modes.participations[0], AQUARIUM["base_s0"]["p_dry1"], atol=1e-12)

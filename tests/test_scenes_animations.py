@@ -23,9 +23,6 @@ HALF = FRAMES // 2
 MOTION = '{kind="motion",times=[0.0,0.1,0.2],move=[{end="b",amplitude=[0.2,0.0,0.0],omega=3.0}]}'
 
 
-pytestmark = pytest.mark.usefixtures("renderer")
-
-
 def animations(folder: Path) -> list[str]:
     return sorted(path.name for path in (folder / "images").glob("*.gif"))
 

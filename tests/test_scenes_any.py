@@ -29,7 +29,7 @@ REPRODUCIBLE = settings(
     database=None,
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
 )
-QUICK = settings(REPRODUCIBLE, max_examples=25)
+QUICK = settings(REPRODUCIBLE, max_examples=15)
 MANY = settings(REPRODUCIBLE, max_examples=2500)
 
 # What Python and its libraries say of values and errors.

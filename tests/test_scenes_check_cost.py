@@ -87,6 +87,7 @@ def test_waves_are_counted_for_a_few_of_many_tones() -> None:
     assert growth_of(plan, 25, 50) < 2.4
 
 
+@pytest.mark.slow
 def test_the_mesh_asks_only_what_is_near_for_the_size_of_an_element() -> None:
     """Measured 1.9 for twice the pieces; asking each source for each node gave 3.2."""
 

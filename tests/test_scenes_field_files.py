@@ -233,6 +233,7 @@ def test_paraview_plays_a_string(folder_of: Callable[[str], Path]) -> None:
         np.testing.assert_array_equal(line.point_data["absolute_error"], dataset.absolute_error.sel(time=time))
 
 
+@pytest.mark.slow
 def test_paraview_plays_a_thread(folder_of: Callable[[str], Path]) -> None:
     folder = folder_of("released_chain")
     dataset, summary = results(folder)

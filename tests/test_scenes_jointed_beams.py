@@ -63,6 +63,7 @@ def test_welds_change_nothing(tanks: Tanks) -> None:
         assert solution.tank.nodes_of(0)
 
 
+@pytest.mark.slow
 def test_a_hinge_makes_the_plate_softer_and_a_joint_lies_between(tanks: Tanks) -> None:
     """Rayleigh: each frequency rises with the stiffness of the joint."""
     beams = (tanks.beam(hydrostatic=True, joints=[joint(2.0, k)]) for k in (0.0, 1e3, 1e5))
@@ -73,6 +74,7 @@ def test_a_hinge_makes_the_plate_softer_and_a_joint_lies_between(tanks: Tanks) -
         assert np.any(softer < stiffer * (1.0 - 1e-4))
 
 
+@pytest.mark.slow_but("2.0")
 @pytest.mark.parametrize("at", [0.5, 2.0])
 def test_what_a_hinge_does_vanishes_where_the_beam_has_no_moment(tanks: Tanks, at: float) -> None:
     """In the middle of a centred beam it leaves the antisymmetric modes as they are; elsewhere it does not."""
@@ -104,7 +106,7 @@ SYMMETRIC = {
 }
 
 
-@pytest.mark.slow_but("stepped")
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SYMMETRIC)
 def test_halves_of_a_symmetric_tank_give_the_whole(tanks: Tanks, name: str) -> None:
     scene = tanks.scene(*SYMMETRIC[name], tolerance=1e-8, modes=12)
@@ -166,6 +168,7 @@ def test_errors_are_estimated_honestly(tanks: Tanks, name: str) -> None:
         assert np.all(estimated[seen] < 30.0 * true[seen])
 
 
+@pytest.mark.slow
 def test_beams_on_an_interface_may_be_jointed(tanks: Tanks) -> None:
     """A welded joint again, between two liquids."""
     liquids = (Liquid(density=1000.0, depth=4.0), Liquid(density=800.0, depth=3.0))

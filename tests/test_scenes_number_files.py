@@ -38,7 +38,7 @@ READERS = {
 }
 
 
-@pytest.mark.slow_but("outline", "stream")
+@pytest.mark.slow_but("outline")
 @pytest.mark.parametrize("reader", READERS)
 def test_a_table_is_not_read_beyond_the_most_rows(reader: str, tmp_path: Path) -> None:
     """What stands after too many rows is no number, and that is not found."""

@@ -30,6 +30,7 @@ def phases(position: float, omega: float, *, waves_from: str) -> tuple[np.ndarra
     return np.array(RESPONSE.evaluated(table)["phase_at_body"])[0, 0], np.degrees(np.angle(table.amplitudes[0, 0]))
 
 
+@pytest.mark.slow_but("left")
 @pytest.mark.parametrize("waves_from", ["left", "right"])
 def test_a_body_that_is_moved_keeps_its_phases(waves_from: str) -> None:
     # Deep water, k = ω²/g.

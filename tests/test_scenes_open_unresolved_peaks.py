@@ -44,7 +44,7 @@ def solved(scene: TankScene) -> OpenSolution:
 
 @pytest.fixture(scope="module")
 def coarse() -> OpenSolution:
-    return solved(barge({"start": 0.3, "stop": 1.7, "number": 15}, {"kind": "resonance"}))
+    return solved(barge({"start": 0.5, "stop": 1.1, "number": 7}, {"kind": "resonance"}))
 
 
 def peak_of(solution: OpenSolution) -> UnresolvedPeak:

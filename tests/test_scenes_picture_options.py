@@ -120,7 +120,7 @@ def test_a_tank_says_which_option_it_has(tmp_path: Path) -> None:
     assert all("--image-width" in line for line in complaints)
 
 
-@pytest.mark.slow_but("catenary*")
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "change", "words"),
     [

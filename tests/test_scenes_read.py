@@ -104,7 +104,7 @@ def test_the_kind_comes_first(tmp_path: Path) -> None:
     assert 'key "kind" = "drum"' in message(path)
     assert 'Allowed: "tank"' in message(path)
     path.write_text(BEAM_IN_TANK.replace("kind", "knd"), encoding="utf-8")
-    kinds = 'kind = "tank" or kind = "string" or kind = "thread" or kind = "roll"'
+    kinds = 'kind = "tank" or kind = "sea" or kind = "string" or kind = "thread" or kind = "roll"'
     assert f'key "kind": it is missing. Allowed: {kinds}. Instead there is "knd".' in message(path)
 
 

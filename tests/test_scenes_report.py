@@ -34,7 +34,6 @@ PARTS = ["Answer", "Results", "Beside estimates and closed forms", "What was mod
 # What is the only thing of its kind is a sentence among the results, not a part of its own.
 ALONE = {"open": "There is no comparison with older theories", "string": "This is the closed form"}
 
-
 Reports = Callable[[str], tuple[Outcome, str]]
 
 
@@ -44,15 +43,14 @@ def reports(tmp_path_factory: pytest.TempPathFactory) -> Reports:
 
     @cache
     def made(kind: str) -> tuple[Outcome, str]:
-        name, overrides = SCENES[kind]
         folder = tmp_path_factory.mktemp("reports") / kind
-        outcome = run_scene(read_scene(name, overrides), out=folder, images=None, page=True)
+        outcome = run_scene(read_scene(*SCENES[kind]), out=folder, images=None, page=True)
         return outcome, (folder / "report.html").read_text(encoding="utf-8")
 
     return made
 
 
-@pytest.mark.slow_but("tank", "string", "roll")
+@pytest.mark.slow_but("tank", "roll")
 @pytest.mark.parametrize("kind", SCENES)
 def test_a_page_is_whole(reports: Reports, kind: str) -> None:
     outcome, html = reports(kind)
@@ -113,7 +111,7 @@ def test_the_first_picture_belongs_to_the_answer(tmp_path: Path) -> None:
     assert '<h2 id="pictures"' not in html
 
 
-@pytest.mark.slow_but("tank", "string", "roll")
+@pytest.mark.slow_but("tank", "roll")
 @pytest.mark.parametrize("kind", SCENES)
 def test_a_page_is_accessible_and_needs_nothing_else(reports: Reports, kind: str) -> None:
     page = parsed(reports(kind)[1])
@@ -149,7 +147,7 @@ KNOWN = {
 }
 
 
-@pytest.mark.slow_but("tank", "string", "roll")
+@pytest.mark.slow_but("tank", "roll")
 @pytest.mark.parametrize("kind", SCENES)
 def test_a_page_says_what_is_known_of_the_scene(reports: Reports, kind: str) -> None:
     text = parsed(reports(kind)[1]).text
@@ -283,13 +281,13 @@ def test_a_page_that_fails_leaves_no_folder(tmp_path: Path, monkeypatch: pytest.
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.slow_on_ranks_but("tank")
 @pytest.mark.only_on_ranks
 @pytest.mark.mpi
 @pytest.mark.parametrize("kind", ["tank", "thread"])
 def test_one_process_writes_the_page(tmp_path: Path, kind: str) -> None:
-    name, overrides = SCENES[kind]
     folder = MPI.COMM_WORLD.bcast(tmp_path / "out", root=0)
-    run_scene(read_scene(name, overrides), out=folder, images=None, page=True)
+    run_scene(read_scene(*SCENES[kind]), out=folder, images=None, page=True)
     assert parsed((folder / "report.html").read_text(encoding="utf-8")).headings
     MPI.COMM_WORLD.barrier()
 
@@ -343,11 +341,11 @@ def noise(file: Path, width: int, height: int) -> None:
 
 
 def test_pictures_are_made_small(tmp_path: Path) -> None:
-    noise(tmp_path / "equilibrium.png", 2400, 1200)
+    noise(tmp_path / "equilibrium.png", 2400, 240)
     (picture,), left_out = pictures_of(tmp_path, {})
     image = Image.open(io.BytesIO(base64.b64decode(picture.source.partition(",")[2])))
     assert picture.source.startswith("data:image/webp;base64,")
-    assert image.size == (picture.width, picture.height) == (1600, 800)
+    assert image.size == (picture.width, picture.height) == (1600, 160)
     assert not left_out
 
 
@@ -362,9 +360,9 @@ def test_what_a_page_cannot_show_is_named(tmp_path: Path) -> None:
 
 def test_a_very_high_picture_fits(tmp_path: Path) -> None:
     """WebP ends at 16383 pixels."""
-    Image.new("RGB", (1600, 17_000), "white").save(tmp_path / "overview.png")
+    Image.new("RGB", (160, 17_000), "white").save(tmp_path / "overview.png")
     ((picture,), _) = pictures_of(tmp_path, {})
-    assert (picture.width, picture.height) == (753, 8000)
+    assert (picture.width, picture.height) == (75, 8000)
 
 
 def test_drawings_are_taken_before_pixels(tmp_path: Path) -> None:

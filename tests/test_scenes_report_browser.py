@@ -133,7 +133,7 @@ def test_a_page_is_shown(browser: Browser, reports: Reports, kind: str) -> None:
     assert file.stat().st_size < 5e6
 
 
-@pytest.mark.slow_but("tank", "roll")
+@pytest.mark.slow_but("tank")
 @pytest.mark.parametrize("kind", SCENES)
 def test_every_picture_has_a_caption_of_its_own(reports: Reports, kind: str) -> None:
     outcome, _ = reports(kind)
@@ -145,7 +145,7 @@ def test_every_picture_has_a_caption_of_its_own(reports: Reports, kind: str) -> 
     assert len({caption for _, caption in found}) == len(found)
 
 
-@pytest.mark.slow_but("tank", "roll")
+@pytest.mark.slow_but("tank")
 @pytest.mark.parametrize("kind", SCENES)
 def test_nothing_sticks_out(browser: Browser, reports: Reports, kind: str) -> None:
     browser.show(reports(kind)[1])
@@ -175,7 +175,7 @@ NUMBERS = {
 }
 
 
-@pytest.mark.slow_but("tank", "roll")
+@pytest.mark.slow_but("tank")
 @pytest.mark.parametrize("kind", SCENES)
 def test_numbers_are_read(browser: Browser, reports: Reports, kind: str) -> None:
     outcome, file = reports(kind)
@@ -205,6 +205,7 @@ def _brightness(colour: str) -> float:
     return sum(float(part) for part in re.findall(r"[\d.]+", colour)[:3]) / (3 * 255)
 
 
+@pytest.mark.slow_but("tank")
 @pytest.mark.parametrize("kind", ["tank", "roll"])
 def test_a_page_can_be_printed(browser: Browser, reports: Reports, kind: str) -> None:
     browser.show(reports(kind)[1])

@@ -12,8 +12,6 @@ import pytest
 from hydroelastic.fem.pictures.mode import SurfaceCurve
 from hydroelastic.fem.shape_curves import largest_of
 from hydroelastic.fem.tank.mode_shapes import ModeShapes, sample_shapes
-from hydroelastic.output.pictures.options import PictureOptions
-from hydroelastic.output.pictures.rendering import NoRendererError, open_window
 from hydroelastic.scenes.models.bodies import Beam, Float
 from hydroelastic.scenes.models.body_kinds import Body
 from hydroelastic.scenes.models.tank import TankScene
@@ -75,7 +73,9 @@ def test_a_heaving_circle_moves_as_a_whole_by_its_amplitude(tanks: Any) -> None:
 @pytest.mark.parametrize("halves", [True, False])
 def test_the_interface_makes_room_for_the_float(tanks: Any, boundary: Any, halves: bool) -> None:
     """Under a lid ∫η = −2b a for a heave a of a float 2b wide: the lower liquid keeps its volume."""
-    solution = tanks.solve(scene(Float(**LENS, position=5.0, boundary=boundary), top="rigid"), halves=halves)
+    solution = tanks.solve(
+        scene(Float(**LENS, position=5.0, boundary=boundary), top="rigid", tolerance=1e-6), halves=halves
+    )
     shapes = sample(solution)
     assert solution.field.half is halves
     moved = 0
@@ -114,7 +114,7 @@ def test_halves_give_the_floats_and_surfaces_of_the_whole_tank(tanks: Any) -> No
 @pytest.mark.parametrize("body", [BOX | ALL, KEEL], ids=["box", "keel"])
 def test_the_liquid_follows_the_side_of_a_float(tanks: Any, body: dict[str, Any]) -> None:
     """∂ψ/∂x is the float's displacement to the right on its upright side, in both liquids."""
-    shapes = sample(tanks.solve(scene(Float(**body, position=3.7))))
+    shapes = sample(tanks.solve(scene(Float(**body, position=3.7), tolerance=1e-6)))
     points = shapes.liquid.points
     for number, (section,) in enumerate(shapes.floats):
         left = section.contour[:, 0].min()
@@ -125,12 +125,12 @@ def test_the_liquid_follows_the_side_of_a_float(tanks: Any, body: dict[str, Any]
         assert len(on) > 20
         expected = np.interp(points[on, 1], section.contour[side, 1], section.displacement[side, 0])
         flow = shapes.liquid.displacement[number, on, 0]
-        # Gradients err like the root of the frequency's error, 1e-8; measured 9e-5.
-        assert np.abs(flow - expected).max() <= 5e-4 * np.abs(section.displacement).max()
+        # Gradients err like the root of the frequency's error, 1e-6; measured 4e-4.
+        assert np.abs(flow - expected).max() <= 2e-3 * np.abs(section.displacement).max()
 
 
 def test_the_section_of_a_float_stays_rigid(tanks: Any) -> None:
-    for (section,) in sample(tanks.solve(scene(Float(**KEEL, position=3.7)))).floats:
+    for (section,) in sample(tanks.solve(scene(Float(**KEEL, position=3.7), tolerance=1e-6))).floats:
         x, y = section.contour.T
         ones, zeros = np.ones_like(x), np.zeros_like(x)
         motions = np.vstack([np.column_stack([ones, zeros, -y]), np.column_stack([zeros, ones, x])])
@@ -172,9 +172,10 @@ def test_both_liquids_follow_the_interface_and_the_upper_one_the_top(tanks: Any)
         assert largest_of(interface.displacement) > 0.0
 
 
+@pytest.mark.slow
 def test_beams_lie_on_their_levels(tanks: Any) -> None:
     beam = {"length": 4.0, "flexural_rigidity": 5e3, "mass_per_length": 50.0}
-    solution = tanks.solve(scene(Beam(start=1.0, **beam), Beam(start=5.0, at="surface", **beam), tolerance=1e-4))
+    solution = tanks.solve(scene(Beam(start=1.0, **beam), Beam(start=5.0, at="surface", **beam), tolerance=1e-2))
     for curves in sample(solution).curves:
         assert [curve.level for curve in of_kind(curves, "body")] == [0.0, UPPER[1]]
         bounds = [tuple(curve.x[[0, -1]].round(9)) for curve in of_kind(curves, "interface")]
@@ -188,12 +189,7 @@ def test_beams_lie_on_their_levels(tanks: Any) -> None:
 def unstable(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A slender box that capsizes, run to its folder."""
     folder = tmp_path_factory.mktemp("shapes") / "result"
-    try:
-        open_window()
-        images = PictureOptions()
-    except NoRendererError:
-        images = None
-    run_scene(scene(Float(**TALL, position=3.7), top="rigid", modes=2, tolerance=1e-5), out=folder, images=images)
+    run_scene(scene(Float(**TALL, position=3.7), top="rigid", modes=2, tolerance=1e-5), out=folder)
     return folder
 
 
@@ -215,8 +211,6 @@ def test_growing_modes_have_names_of_their_own(unstable: Path) -> None:
     grid = meshio.read(unstable / "fields" / "modes.vtu")
     names = ("001", "002", "growing_001")
     assert set(grid.point_data) == {f"{kind}_{name}" for kind in ("potential", "displacement") for name in names}
-    if not (unstable / "images").exists():
-        pytest.skip("nothing renders here")
     images = sorted((unstable / "images").iterdir())
     assert [path.name for path in images] == ["growing_001.png", "mode_001.png", "mode_002.png", "overview.png"]
     assert all(path.stat().st_size > 10_000 for path in images)
@@ -224,7 +218,7 @@ def test_growing_modes_have_names_of_their_own(unstable: Path) -> None:
 
 def test_a_growing_roll_turns_anticlockwise_and_hardly_moves_the_water(tanks: Any) -> None:
     """The half and the whole agree on it."""
-    asked = scene(Float(**TALL, position=5.0), layers=(LOWER,), modes=2)
+    asked = scene(Float(**TALL, position=5.0), layers=(LOWER,), modes=2, tolerance=1e-5)
     found = []
     for halves in (True, False):
         shapes = sample(tanks.solve(asked, halves=halves))
@@ -236,7 +230,7 @@ def test_a_growing_roll_turns_anticlockwise_and_hardly_moves_the_water(tanks: An
         waves = max(np.abs(curve.displacement).max() for curve in curves)
         assert 0.0 < waves < 0.2 * section.largest
         found.append(section.displacement)
-    assert found[0] == pytest.approx(found[1], abs=1e-7 * np.abs(found[1]).max())
+    assert found[0] == pytest.approx(found[1], abs=1e-4 * np.abs(found[1]).max())
 
 
 def test_rounding_does_not_choose_the_sign_of_a_mode() -> None:

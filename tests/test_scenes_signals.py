@@ -36,8 +36,8 @@ WRITING = [("open", "response.csv"), ("open", "dataset.nc"), ("open", "manifest.
 ENDING = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
 
 
-def ended_at(event: str, name: str, number: int) -> subprocess.CompletedProcess[str]:
-    program = PROGRAM.format(event=event, name=name, number=int(number), arguments=RUN)
+def ended_at(event: str, name: str, number: int, arguments: list[str] = RUN) -> subprocess.CompletedProcess[str]:
+    program = PROGRAM.format(event=event, name=name, number=int(number), arguments=arguments)
     return subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False, timeout=100)
 
 
@@ -53,6 +53,28 @@ def test_ctrl_c_is_one_line_and_leaves_nothing(tmp_path: Path, event: str, name:
     assert ended.stderr == "Interrupted: no result folder was written.\n"
     assert (ended.returncode, ended.stdout) == (128 + signal.SIGINT, "")
     assert list(tmp_path.rglob("*.partial")) + list(tmp_path.rglob("*.csv")) == []
+
+
+def test_ctrl_c_in_a_sweep_says_that_solved_points_are_kept(tmp_path: Path) -> None:
+    given = ["sweep", "swell", "--vary", "roll.damping_ratio=0.2,0.4", "--out", "result", "--no-images"]
+    ended = ended_at("open", "sweep.csv", signal.SIGINT, given)
+    kept = "Interrupted: the points solved so far are kept in result/; the same command goes on from there.\n"
+    assert (ended.returncode, ended.stdout, ended.stderr) == (128 + signal.SIGINT, "", kept)
+    assert len((tmp_path / "result" / "sweep.journal").read_text(encoding="utf-8").split()) > 2
+    assert not (tmp_path / "result" / "sweep.csv").exists()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("scene", ["open_circle", "aquarium"])
+def test_a_reader_that_stops_is_no_crash(scene: str) -> None:
+    """PETSc takes the signal of a broken pipe for one, and says so."""
+    command = [sys.executable, "-m", "hydroelastic.scenes", "check", scene]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        process.stdout.close()
+        assert process.stderr is not None
+        assert process.stderr.read() == ""
+    assert process.returncode == 1
 
 
 def test_ctrl_c_before_python_has_started_is_one_line() -> None:

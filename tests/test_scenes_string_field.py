@@ -13,6 +13,8 @@ from hydroelastic.scenes.models.string import StringScene
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.string.solve import solve_series, solve_string_field
 
+# Of free motions alone.
+NO_MOTION = "output.times=[0.0, 0.01]"
 SHORT = "output={positions=[0.0, 0.09, 0.36, 0.81, 1.0], times={start=0, stop=1.5, number=16}}"
 
 
@@ -61,7 +63,7 @@ def test_smooth_motion_to_seven_digits() -> None:
 
 def test_free_motions_of_both_methods_are_one_list() -> None:
     # Heavy damping: two aperiodic modes, both of whose roots count.
-    overrides = ("string.resistance=0.5", SHORT, "accuracy.tolerance=1e-3", "accuracy.modes=8")
+    overrides = ("string.resistance=0.5", NO_MOTION, "accuracy.tolerance=1e-3", "accuracy.modes=8")
     by_field, by_series = (
         field(scene_of("string_smooth", *overrides)),
         solve_series(scene_of("string_smooth", *overrides)),
@@ -75,7 +77,13 @@ def test_free_motions_of_both_methods_are_one_list() -> None:
 @pytest.mark.slow_on_ranks_but
 @pytest.mark.mpi
 def test_a_load_on_the_end_changes_frequencies_as_bessel_functions_say() -> None:
-    overrides = ("string.resistance=0", SHORT, "accuracy.tolerance=1e-3", "accuracy.modes=6", "string.tip_mass=0.02")
+    overrides = (
+        "string.resistance=0",
+        NO_MOTION,
+        "accuracy.tolerance=1e-3",
+        "accuracy.modes=6",
+        "string.tip_mass=0.02",
+    )
     found = field(scene_of("string_smooth", *overrides)).free_motions.frequencies
     # φ = A J₀(z) + B Y₀(z), z = 2ω√((x + M/ρ)/g): zero above, and −ω²Mφ = Mg φ' at the load.
     length, gravity, shift = 1.0, 9.81, 0.02 / 0.05
@@ -96,6 +104,7 @@ def test_a_load_on_the_end_changes_frequencies_as_bessel_functions_say() -> None
     assert found == pytest.approx(exact[:6], rel=1e-10)
 
 
+@pytest.mark.slow
 def test_a_heavy_load_swings_like_a_pendulum() -> None:
     # M ≫ ρl: ω² → g/l (1 + …ρl/M).
     # Waves run along a string so tight in 0.001 s.
@@ -117,12 +126,13 @@ def test_slightly_varied_resistance_is_first_order() -> None:
     assert first.real > 0.0
 
 
+@pytest.mark.slow
 def test_resistance_below_counts_more_than_above() -> None:
     below = field(
-        scene_of("string_smooth", "string.resistance={bottom=0.1, top=0.0}", SHORT, "accuracy.tolerance=1e-3")
+        scene_of("string_smooth", "string.resistance={bottom=0.1, top=0.0}", NO_MOTION, "accuracy.tolerance=1e-3")
     )
     above = field(
-        scene_of("string_smooth", "string.resistance={bottom=0.0, top=0.1}", SHORT, "accuracy.tolerance=1e-3")
+        scene_of("string_smooth", "string.resistance={bottom=0.0, top=0.1}", NO_MOTION, "accuracy.tolerance=1e-3")
     )
     assert below.free_motions.roots[0].real < 1.5 * above.free_motions.roots[0].real
 
@@ -140,6 +150,7 @@ def test_compare_sets_both_side_by_side() -> None:
     assert "no series to compare with" in refused.output
 
 
+@pytest.mark.slow
 @pytest.mark.slow_on_ranks_but
 @pytest.mark.mpi
 def test_nothing_moves_before_the_front_in_a_field_either() -> None:

@@ -5,11 +5,13 @@ from __future__ import annotations
 import csv
 import io
 import json
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from hydroelastic.fem.study import steady
 from hydroelastic.fem.study.meshes import full_order
 from hydroelastic.fem.study.rates import Rate
 from hydroelastic.fem.study.row import Family
@@ -33,6 +35,14 @@ BEAM = WATER.model_copy(
 RELEASED = BEAM.model_copy(update={"tank": Tank(length=2.0, top="pressure_release")})
 PLAN = StudyPlan(degrees=(1, 2), geometric_degrees=(5, 6, 7), tolerances=(1e-3, 1e-6), most_unknowns=6000)
 MESHES: tuple[Family, ...] = ("uniform", "algebraic", "geometric")
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _solved_once() -> Iterator[None]:
+    """Short solutions are not repeated for their seconds."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(steady, "_REPEATS", 0)
+        yield
 
 
 @pytest.fixture(scope="module")
@@ -143,20 +153,22 @@ def test_errors_are_positive_until_they_are_rounding(water: Study, beam: Study) 
                 assert min(row.errors) > -row.floor
 
 
-def test_tolerances_are_kept_and_estimates_are_honest(water: Study, beam: Study) -> None:
-    for study in (water, beam):
-        rows = [row for row in study.rows if row.family == "tolerance"]
-        assert [row.tolerance for row in rows] == [1e-3, 1e-6]
-        for row in rows:
-            assert row.estimate is not None
-            assert row.tolerance is not None
-            assert row.error <= row.tolerance
-            assert row.estimate <= row.tolerance
-            if row.error > row.floor:
-                assert row.error / 3.0 <= row.estimate <= 30.0 * row.error
-            assert not row.reasons
-            assert row.attempts >= 1
-        assert study.reasons == ()
+@pytest.mark.slow_but("beam")
+@pytest.mark.parametrize("name", ["water", "beam"])
+def test_tolerances_are_kept_and_estimates_are_honest(name: str, request: pytest.FixtureRequest) -> None:
+    study: Study = request.getfixturevalue(name)
+    rows = [row for row in study.rows if row.family == "tolerance"]
+    assert [row.tolerance for row in rows] == [1e-3, 1e-6]
+    for row in rows:
+        assert row.estimate is not None
+        assert row.tolerance is not None
+        assert row.error <= row.tolerance
+        assert row.estimate <= row.tolerance
+        if row.error > row.floor:
+            assert row.error / 3.0 <= row.estimate <= 30.0 * row.error
+        assert not row.reasons
+        assert row.attempts >= 1
+    assert study.reasons == ()
 
 
 def test_the_reference_is_finer_than_what_it_judges(beam: Study) -> None:
@@ -175,6 +187,7 @@ def test_meshes_stay_within_the_unknowns_of_the_plan(beam: Study) -> None:
     assert [row.element_size for row in nested[:4]] == [0.125 / 2**k for k in range(4)]
 
 
+@pytest.mark.slow
 def test_a_tank_is_solved_as_halves_in_every_family_or_in_none(beam: Study) -> None:
     assert beam.halves
     assert "as two halves" in study_table(beam)

@@ -3,7 +3,10 @@ again."""
 
 import csv
 import json
+from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,6 +15,7 @@ from scene_files import BEAM_IN_TANK
 from tanks import Tanks
 
 import hydroelastic.scenes.sweep.workers as workers
+from hydroelastic.fem.sweep.encounters import Encounter
 from hydroelastic.fem.tank.liquids import liquid_key
 from hydroelastic.fem.tank.mode_vectors import mode_vectors
 from hydroelastic.scenes.command_line import main
@@ -51,9 +55,10 @@ def lowest(tanks: Tanks, start: float, rigidity: float, *, symmetry: str | None 
 
 
 def test_points_that_share_their_liquid_are_those_of_single_solutions(centred: Sweep, tanks: Tanks) -> None:
-    for rigidity, row in zip(RIGIDITIES, centred.dataset["omega"].values, strict=True):
-        # Within the errors of both.
-        assert row == pytest.approx(lowest(tanks, 3.0, rigidity), rel=2 * TOLERANCE)
+    # Of the first point the liquid is made, the last one takes it over; within the errors of both.
+    for number in (0, -1):
+        row = centred.dataset["omega"].values[number]
+        assert row == pytest.approx(lowest(tanks, 3.0, RIGIDITIES[number]), rel=2 * TOLERANCE)
 
 
 @pytest.mark.parametrize(
@@ -75,10 +80,10 @@ def test_only_what_does_not_touch_the_liquid_shares_it(key: str, value: float | 
 
 def test_mass_gravity_and_restoring_are_those_of_the_point(tanks: Tanks) -> None:
     scene = tanks.scene(tanks.beam(), modes=3, tolerance=TOLERANCE)
-    changes = {"body.1.mass_per_length": [20.0, 400.0], "tank.gravity": [3.7], "body.1.hydrostatic": [False, True]}
+    changes = {"body.1.mass_per_length": [20.0, 400.0], "tank.gravity": [3.7], "body.1.hydrostatic": [True]}
     found = sweep(scene, changes)
     heavy = tanks.scene(tanks.beam(mass_per_length=400.0, hydrostatic=True), gravity=3.7, modes=3, tolerance=TOLERANCE)
-    assert found.dataset["omega"].values[1, 0, 1] == pytest.approx(solve(heavy).modes.omega, rel=2 * TOLERANCE)
+    assert found.dataset["omega"].values[1, 0, 0] == pytest.approx(solve(heavy).modes.omega, rel=2 * TOLERANCE)
     # With the mass of another point the errors would be too large, and another attempt would follow.
     assert np.all(found.dataset["solver_attempts"].values == 1)
 
@@ -99,11 +104,11 @@ def test_a_small_asymmetry_turns_the_crossing_into_a_narrow_veering(off_centre: 
     (veering,) = [row for row in off_centre.encounters.to_dict("records") if row["gap"] < 0.01]
     assert veering["kind"] == "veering"
     assert veering["gap"] > 3 * veering["gap_error"]
-    # The gap of single solutions, five of them across the veering, with no following.
-    gaps = [np.diff(lowest(tanks, 3.001, veering[RIGIDITY] + shift)[1:3])[0] for shift in (-0.4, -0.2, 0.0, 0.2, 0.4)]
+    # The gap of single solutions, three of them across the veering, with no following.
+    gaps = [np.diff(lowest(tanks, 3.001, veering[RIGIDITY] + shift)[1:3])[0] for shift in (-0.4, 0.0, 0.4)]
     # Between them it is up to 5 % smaller.
     assert min(gaps) == pytest.approx(veering["gap"], rel=0.05)
-    assert int(np.argmin(gaps)) in (1, 2, 3)
+    assert int(np.argmin(gaps)) == 1
 
 
 def test_modes_of_halves_are_those_of_the_whole_tank(tanks: Tanks) -> None:
@@ -127,10 +132,11 @@ def test_branches_are_continuous_and_hold_the_elastic_tone(name: str, request: p
     assert found.dataset["participation_sum"].values == pytest.approx(1.0, abs=0.02)
 
 
+@pytest.mark.only_on_ranks
 @pytest.mark.mpi
 def test_ranks_solve_the_points_together(tanks: Tanks) -> None:
     scene = tanks.scene(tanks.beam(), modes=1, tolerance=1e-3)
-    found = sweep(scene, {RIGIDITY: [5e3, 5.5e3, 6e3, 6.5e3]})
+    found = sweep(scene, {RIGIDITY: [5e3, 6e3]})
     assert found.dataset["omega"].values[0] == pytest.approx(solve(scene).modes.omega, rel=2e-3)
     assert found.status == "ok"
 
@@ -143,6 +149,25 @@ def test_other_kinds_of_scenes_are_swept_over_several_keys() -> None:
     assert found.dataset["response_largest_angle"].values[1, 0] == expected
     assert found.table["response_largest_angle"].tolist()[3] == expected
     assert found.plot("response_largest_angle").width > 500
+
+
+def test_modes_that_are_not_resolved_are_told_like_a_missed_tolerance() -> None:
+    solved = sweep("swell", {"roll.damping_ratio": [0.2, 0.4]}).solved
+    assert (solved.status, solved.reasons) == ("ok", [])
+    meeting = Encounter(
+        kind="unresolved", at=0.3, omega=2.5, gap=0.1, gap_error=0.0, branches=(0, 1), reason="the shape changes"
+    )
+    line: Any = SimpleNamespace(others={}, encounters=(meeting,), followed=SimpleNamespace(exhausted=True))
+    doubtful = replace(solved, lines=(line,))
+    assert doubtful.status == "unconverged"
+    assert doubtful.reasons == [
+        "roll.damping_ratio = 0.3: modes not resolved at ω = 2.5: the shape changes",
+        "following the modes needs more points than were allowed",
+    ]
+    crossing: Any = SimpleNamespace(
+        others={}, encounters=(replace(meeting, kind="crossing"),), followed=SimpleNamespace(exhausted=False)
+    )
+    assert replace(solved, lines=(crossing,)).status == "ok"
 
 
 @pytest.fixture

@@ -187,6 +187,7 @@ def test_a_thread_held_at_its_other_end_is_estimated_the_same() -> None:
         assert one["position"]["difference"] == pytest.approx(other["position"]["difference"], abs=1e-8)
 
 
+@pytest.mark.slow
 def test_a_body_that_pulls_down_is_the_mirror_image() -> None:
     def ends(up: float) -> dict[str, Any]:
         held = {"kind": "fixed", "position": [0.0, 0.0, -3.0 * up]}
@@ -286,6 +287,7 @@ def test_a_towed_body_comes_to_the_critical_line_as_it_must() -> None:
     assert reason(found, "tension-dominated, order 1") == "the load is 5.93 of the tension: it must be below 0.5"
 
 
+@pytest.mark.slow
 def test_a_moored_buoy_is_dominated_by_drag() -> None:
     found = compared(scene_of("moored_buoy", "analysis=[]"))
     zero, first = (named(found, f"drag-dominated, order {order}") for order in (0, 1))

@@ -64,6 +64,7 @@ LIGHT = {
 }
 
 
+@pytest.mark.slow
 def test_a_line_that_would_hang_in_two_parts_in_still_liquid() -> None:
     """At the start of the motion nothing pulls the buoy aside, and the line is longer than it is deep."""
     with pytest.raises(UnsolvedError) as unsolved:

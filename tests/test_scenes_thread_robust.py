@@ -163,6 +163,7 @@ def test_nearly_inextensible() -> None:
     np.testing.assert_allclose(soft.tension_at(s), rigid.tension_at(s), rtol=1e-9)
 
 
+@pytest.mark.slow
 def test_current_that_turns_round() -> None:
     """u_t changes its sign inside the thread, where the load has a kink."""
     data = scene_of(100.0, 0.1, free(force=(50.0, 0.0, 400.0)), {"velocity": (1.0, 0.0), "shear": (-0.03, 0.0)})

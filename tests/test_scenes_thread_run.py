@@ -132,6 +132,7 @@ def test_ends_can_change_their_names() -> None:
     assert swapped.rest.forces[::-1] == pytest.approx(-plain.rest.forces, abs=1e-8 * 1800.0)
 
 
+@pytest.mark.slow
 def test_a_plane_need_not_pass_through_the_origin() -> None:
     overrides = ("output.frames=0", 'analysis=[{kind = "motion", times = [0.0, 0.1], step = 0.05, tolerance = 0.1}]')
     plain = solve(thread_scene("released_chain", *overrides))
@@ -175,6 +176,7 @@ def test_clamps_leave_a_thread_its_stretch() -> None:
     assert slope == pytest.approx(-1.0, abs=0.015)
 
 
+@pytest.mark.slow
 def test_modes_of_a_clamped_thread_that_stretches() -> None:
     """Undamped, and those of a thread that does not stretch but for the strain."""
     asked = {"analysis": [{"kind": "modes", "count": 4}], "accuracy": {"tolerance": 1e-6}}

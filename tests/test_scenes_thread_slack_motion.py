@@ -71,6 +71,7 @@ def falling(**motion: Any) -> ThreadScene:
     )
 
 
+@pytest.mark.slow
 def test_a_motion_that_refinement_makes_worse_is_given_at_its_best(monkeypatch: pytest.MonkeyPatch) -> None:
     """Short waves of a thread without tension grow by themselves, and a finer mesh holds shorter ones."""
     errors = iter([2e-3, 3e-3])

@@ -51,6 +51,7 @@ def staircase(steps: int) -> dict[str, Any]:
     return {"kind": "beam", "start": 2.0, "sections": sections}
 
 
+@pytest.mark.slow
 def test_a_beam_of_eight_steps_is_nearly_the_same() -> None:
     exact, steps = (frequencies(scene(body, tolerance=1e-5, modes=4)) for body in (plate(), staircase(8)))
     # Measured −1.5e-5 to −3.6e-4: of second order in the length of the steps, and a quarter of it with sixteen.
@@ -75,6 +76,7 @@ def test_it_is_the_limit_of_beams_of_many_steps() -> None:
     assert np.abs(limit).max() < 0.02 * np.abs(errors[2]).max()
 
 
+@pytest.mark.slow
 @pytest.mark.slow_on_ranks_but
 @pytest.mark.mpi
 def test_a_plate_that_is_its_own_mirror_image_is_solved_as_two_halves() -> None:
@@ -87,6 +89,7 @@ def test_a_plate_that_is_its_own_mirror_image_is_solved_as_two_halves() -> None:
     assert found == pytest.approx(frequencies(given, halves=False), rel=2e-8)
 
 
+@pytest.mark.slow
 def test_a_mirrored_plate_has_the_same_frequencies() -> None:
     mirrored = [(4.0 - x, value) for x, value in reversed(THICKNESS)]
     assert frequencies(scene(plate(start=4.0, thickness=mirrored))) == pytest.approx(
@@ -94,6 +97,7 @@ def test_a_mirrored_plate_has_the_same_frequencies() -> None:
     )
 
 
+@pytest.mark.slow
 def test_rigidity_and_mass_may_be_given_instead_of_a_thickness() -> None:
     uniform = {"kind": "beam", "start": 3.0, "length": 4.0, "flexural_rigidity": 5e3, "mass_per_length": 50.0}
     tables = {"flexural_rigidity": [(0.0, 5e3), (1.0, 5e3), (4.0, 5e3)], "mass_per_length": [(0.0, 50.0), (4.0, 50.0)]}

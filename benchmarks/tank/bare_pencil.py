@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse
@@ -11,7 +11,10 @@ import scipy.sparse.linalg
 from petsc4py import PETSc
 
 from hydroelastic.benchmarks.tank.surface_modes import SurfaceModes, SurfaceProblem, lowest_eigenvalues
+from hydroelastic.fem.cell_matrices import CellMatrices
 from hydroelastic.fem.liquid import constrained_dofs
+from hydroelastic.fem.liquid_matrices import laplace_matrix
+from hydroelastic.fem.numbering import numbered
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.physics.arrays import FloatArray
 
@@ -46,9 +49,15 @@ class BarePencil:
 
     @staticmethod
     def of(pencil: CoupledPencil) -> BarePencil:
-        """Copy the matrices of a pencil."""
-        laplace, coupling = _csr(pencil.laplace), _csr(pencil.coupling)
-        free = np.setdiff1d(np.arange(laplace.shape[0]), constrained_dofs(pencil.liquid))
+        """Copy the matrices of a pencil, on all unknowns: those inside of cells are not condensed."""
+        condensed = pencil.liquid
+        everything = CellMatrices(numbering=numbered(condensed.space, condensed=False))
+        liquid = replace(condensed, cells=everything)
+        laplace = _csr(laplace_matrix(liquid))
+        coupling = scipy.sparse.lil_matrix((laplace.shape[0], pencil.size))
+        coupling[condensed.numbering.owned_dofs] = _csr(pencil.coupling)
+        coupling = coupling.tocsr()
+        free = np.setdiff1d(np.arange(laplace.shape[0]), constrained_dofs(liquid))
         return BarePencil(
             stiffness=_csr(pencil.stiffness),
             mass=_csr(pencil.mass),

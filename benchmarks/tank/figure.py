@@ -18,6 +18,10 @@ _STYLES: dict[tuple[Code, Variant], tuple[CurveStyle, str]] = {
         CurveStyle(colour=VERMILLION, marker="o"),
         "with estimate, count and\npressure-release tone",
     ),
+    ("hydroelastic modes", "modes alone"): (
+        CurveStyle(colour=VERMILLION, marker="o", dashes=":", hollow=True),
+        "mesh to modes",
+    ),
     ("ngsolve", "whole"): (CurveStyle(colour=BLUE, marker="s"), "whole tank"),
     ("ngsolve", "halves"): (CurveStyle(colour=BLUE, marker="s", dashes=":", hollow=True), "two halves"),
     ("scikit-fem", "whole"): (CurveStyle(colour=GREEN, marker="^"), "whole tank"),

@@ -40,10 +40,14 @@ def versions() -> dict[str, str]:
 
 def solve(case: Case) -> Answer:
     """The ten lowest frequencies of a tank, from the mesh on."""
-    tank, halves = tank_named(case.tank), case.variant == "halves"
-    resolution = peer_resolution(tank, case.degree, _RULE)
+    return solve_tank(tank_named(case.tank), case.degree, halves=case.variant == "halves")
+
+
+def solve_tank(tank: BenchmarkTank, degree: int, *, halves: bool) -> Answer:
+    """As `solve`, of a tank at a degree."""
+    resolution = peer_resolution(tank, degree, _RULE)
     mesh = _mesh(tank, resolution, halves=halves)
-    space = ngsolve.H1(mesh, order=case.degree)
+    space = ngsolve.H1(mesh, order=degree)
     trial, test = space.TnT()
     laplace = ngsolve.BilinearForm(space, symmetric=True, condense=True, keep_internal=False)
     laplace += ngsolve.grad(trial) * ngsolve.grad(test) * ngsolve.dx

@@ -1,9 +1,9 @@
 """Number of resonances in a region by the argument principle, without searching for them.
 
-The dynamic stiffness D(λ) = K − λ(M_b + H(λ)) of the bodies is singular at resonances, and has poles at the resonances
-of the water around fixed bodies. Along the boundary of a region the argument of det D increases by 2π for every zero
-within and decreases by 2π for every pole; the poles of H in `damped` are zeros of another determinant, which is
-included as a factor. H comes from solutions on the boundary, on a reduced basis, and not from any eigenvector.
+The dynamic stiffness D(λ) = K − iωB − λ(M_b + H(λ)) of the bodies is singular at resonances, and has poles at the
+resonances of the water around fixed bodies. Along the boundary of a region the argument of det D increases by 2π for
+every zero within and decreases by 2π for every pole; the poles of H in `damped` are zeros of another determinant, which
+is included as a factor. H comes from solutions on the boundary, on a reduced basis, and not from any eigenvector.
 """
 
 from __future__ import annotations
@@ -88,7 +88,8 @@ def _phases(solver: Solver, omegas: np.ndarray) -> np.ndarray:
         added, water = solver.hydrodynamics(squares), np.ones(len(squares))
     else:
         added, water = solver.continued(squares)
-    dynamics = solver.model.stiffness - squares[:, None, None] * (solver.model.mass + added)
+    restoring = np.array([solver.model.restoring(square) for square in squares])
+    dynamics = restoring - squares[:, None, None] * (solver.model.mass + added)
     # Rows and columns of unlike motions are brought to one scale, which changes no phase.
     scales = 1.0 / np.sqrt(np.abs(np.einsum("nii->ni", dynamics)))
     determinants = np.linalg.det(dynamics * scales[:, None] * scales[:, :, None])

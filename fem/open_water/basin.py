@@ -46,6 +46,7 @@ class OpenBasin:
         tank: the basin as a closed tank, in units of its length.
         units: units of `tank`.
         origin: abscissa of the basin's left side in the open water, m.
+        phase_at: abscissa in the open water at which the crest of an incident wave is at t = 0, m.
         layers: the liquids of the open water, in SI units.
         depths: depths of the liquids of the open water, from the bottom up, in basin lengths; may be infinite.
     """
@@ -53,6 +54,7 @@ class OpenBasin:
     tank: Tank
     units: Scales
     origin: float
+    phase_at: float
     layers: TwoLayers
     depths: tuple[float, ...]
 
@@ -118,7 +120,10 @@ def open_basin(water: Tank, shortest: float, *, drawn: float | None = None) -> O
     if drawn is not None:
         most = max(margin, drawn / shortest if shortest else inf)
         least = _LEAST_MARGIN * extent
-        margins = (min(max(left, least), most), min(max(water.length - right, least), most))
+        margins = (
+            min(max(left - water.start, least), most),
+            min(max(water.start + water.length - right, least), most),
+        )
     length = right - left + sum(margins)
     margin = max(margin, _DRAWN_DEPTH * length) if drawn is not None else margin
     distances = (margin - low, margin + high)
@@ -142,6 +147,7 @@ def open_basin(water: Tank, shortest: float, *, drawn: float | None = None) -> O
         tank=basin.scaled(),
         units=basin.units,
         origin=origin,
+        phase_at=water.phase_at,
         layers=two_layers(water),
         depths=tuple(depth / length for depth in depths),
     )

@@ -21,8 +21,8 @@ from dolfinx.mesh import Mesh
 from petsc4py import PETSc
 
 from hydroelastic.fem.cells import CURVED_QUADRATURE, cell_corners, is_straight, owned_cells
-from hydroelastic.fem.kernels import compiled_form
-from hydroelastic.fem.liquid import NO_ENTITIES, LiquidSpace, assembled, chosen_measure
+from hydroelastic.fem.kernels import NO_ENTITIES, assembled, chosen_measure, compiled_form
+from hydroelastic.fem.liquid import LiquidSpace
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -199,7 +199,8 @@ class DampedSolver:
             own, *around = self.hydrodynamics(squared * np.array([1.0, 1.0 - _DIFFERENCE, 1.0 + _DIFFERENCE]))
             inertia = self.model.mass + own
             slope = inertia + (around[1] - around[0]) / (2.0 * _DIFFERENCE)
-            steps, vectors = eig(self.model.stiffness - squared * inertia, slope)
+            slope = slope + 0.5j / np.sqrt(squared) * self.model.outside.damping
+            steps, vectors = eig(self.model.restoring(squared) - squared * inertia, slope)
             nearest = int(np.argmin(np.where(np.isfinite(steps), np.abs(steps), np.inf)))
             # All processes must take the same branch in spite of rounding.
             step, bodies = self.model.pencil.comm.bcast((complex(steps[nearest]), vectors[:, nearest]))

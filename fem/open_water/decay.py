@@ -2,7 +2,8 @@
 
 With p for d/dt and λ = −p², from a displacement a₀
 
-    [p²(M + H) + K] S(p) = p (M + H) a₀,    a(t) = 2 Re Σ rⱼ e^{pⱼt} + (1/π) Im ∫₀^∞ E(re^{iφ}) e^{iφ} e^{re^{iφ}t} dr :
+    [p²(M + H) + pB + K] S(p) = [p (M + H) + B] a₀,
+    a(t) = 2 Re Σ rⱼ e^{pⱼt} + (1/π) Im ∫₀^∞ E(re^{iφ}) e^{iφ} e^{re^{iφ}t} dr :
 
 the resonances between the imaginary axis and the ray arg p = φ, and an integral along that ray, see `ray`. Each part
 has a mesh of its own: the phase error of a resonance grows over many periods, but its waves have one length; the
@@ -232,7 +233,7 @@ def _resonant_motion(
     def solve(resolution: Resolution) -> Attempt[_ResonantMotion]:
         model = open_model(problem, band, resolution, angle=ANGLE)
         with problem.watch.stage("resonances"):
-            search = ResonanceSearch(model.pencil, model.stiffness, model.mass)
+            search = ResonanceSearch(model.pencil, model.stiffness, model.mass, model.outside.damping)
             poles = [search.refined(model.squared_frequency(omega)) for omega in resonances]
         with problem.watch.stage("errors"):
             causes = resonance_errors(model, poles)

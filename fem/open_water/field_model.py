@@ -16,6 +16,7 @@ from hydroelastic.fem.open_water.basin import CUT, AbsorbingLayer, OpenBasin, op
 from hydroelastic.fem.open_water.complex_scaling import ComplexScaling, compile_scaled_form
 from hydroelastic.fem.open_water.far_field import FarField
 from hydroelastic.fem.open_water.motion_scale import MotionScale, motion_scale
+from hydroelastic.fem.open_water.outside import outside_of
 from hydroelastic.fem.open_water.pencil import OpenPencil, build_open_pencil
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.wetted_surface import WettedSurface
@@ -38,6 +39,7 @@ from hydroelastic.meshes.open_sea import extended, with_far_ends
 from hydroelastic.meshes.tagged_mesh import TaggedMesh
 from hydroelastic.modal.liquid.travelling_waves import travelling_waves
 from hydroelastic.modal.tank_estimates import two_layers
+from hydroelastic.physics.attachments import Attachment, OutsideForces
 from hydroelastic.physics.local_waves import moving_parts
 from hydroelastic.physics.tank import Tank
 
@@ -96,6 +98,7 @@ class OpenModel:
         shortest: largest wavenumber of the outgoing waves, in units of the basin.
         tolerance: largest relative error that is accepted.
         pencil: the dimensionless problem, in units of the basin.
+        attachments: springs and dampers that hold the bodies, in SI units.
     """
 
     basin: OpenBasin
@@ -104,6 +107,7 @@ class OpenModel:
     shortest: float
     tolerance: float
     pencil: OpenPencil
+    attachments: tuple[Attachment, ...] = ()
 
     def squared_frequency(self, omega: complex) -> complex:
         """Dimensionless λ = ω² of an ω in rad/s."""
@@ -126,8 +130,20 @@ class OpenModel:
 
     @cached_property
     def stiffness(self) -> np.ndarray:
-        """K of the bodies, shape (body unknowns, body unknowns)."""
-        return np.diag(np.concatenate([body.stiffness for body in self.pencil.bodies]))
+        """K of the bodies and of what holds them, shape (body unknowns, body unknowns)."""
+        own = np.diag(np.concatenate([body.stiffness for body in self.pencil.bodies]))
+        stiffness: np.ndarray = own + self.outside.stiffness
+        return stiffness
+
+    @cached_property
+    def outside(self) -> OutsideForces:
+        """Forces from outside on the body unknowns."""
+        return outside_of(self.basin, self.pencil.bodies, self.attachments)
+
+    def restoring(self, squared: complex) -> np.ndarray:
+        """K − iωB at λ = ω², Re ω ≥ 0, with the damping B from outside, shape (body unknowns, body unknowns)."""
+        restoring: np.ndarray = self.stiffness - 1j * np.sqrt(complex(squared)) * self.outside.damping
+        return restoring
 
     @cached_property
     def mass(self) -> np.ndarray:
@@ -265,6 +281,7 @@ def open_model(
         shortest=band.wavenumbers(problem.tank)[1] * basin.units.length,
         tolerance=problem.tolerance,
         pencil=pencil,
+        attachments=problem.tank.attachments,
     )
 
 

@@ -5,7 +5,7 @@ therefore solved for once more, in a basin of that length, to the accuracy of a 
 the tables:
 
     radiation    for each motion of a body, where its damping is largest
-    response     where the motion of a body is largest, for the incident wave that causes it
+    response     where the motion of a body is largest, for the incident wave that causes it, or as asked
     resonance    each of the resonances of lowest |ω|
 """
 
@@ -131,19 +131,26 @@ def _radiated(problem: OpenWaterProblem, table: RadiationTable, number: int) -> 
 def _responding(problem: OpenWaterProblem, table: ResponseTable, number: int) -> Iterator[OpenField]:
     """Incident waves with the motions and scattered waves that they cause, per metre of incident elevation."""
     row, wave = _largest_response(problem.tank.length, table)
-    omega = float(table.omega[row])
-    model = _model(problem, omega, omega, motions=0)
+    omegas = table.fields_at or (float(table.omega[row]),)
+    model = _model(problem, min(omegas), max(omegas), motions=0)
     solver = OpenSolver(model, problem.watch)
-    count = len(table.waves)
+    for place, omega in enumerate(omegas, 1):
+        name = f"response_{number}" + (f"_{place:03d}" if len(omegas) > 1 else "")
+        yield _in_waves(solver, table, omega, wave, name)
+
+
+def _in_waves(solver: OpenSolver, table: ResponseTable, omega: float, wave: int, name: str) -> OpenField:
+    """The field of incident waves of a frequency ω, rad/s."""
+    model, count = solver.model, len(table.waves)
     place = wave + (0 if table.waves_from == "left" else count)
     found = solver.response(omega, [place])
     incidence = found.incidence
     # The crest of the incident wave passes x = 0 of the scene at t = 0.
     unit = 1.0 / (incidence.elevations[place] * np.exp(1j * incidence.phases_at_origin(model.basin)[place]))
     kind = f"{table.waves[wave]} waves" if count > 1 else "waves"
-    why = _why("motion is largest", table)
-    yield OpenField(
-        name=f"response_{number}",
+    why = "" if table.fields_at else _why("motion is largest", table)
+    return OpenField(
+        name=name,
         title=f"Response to {kind} from the {table.waves_from} at ω = {omega:.5g} rad/s{why}",
         amplitude="incident wave of 1 m",
         model=model,
@@ -178,7 +185,7 @@ def _resonant(problem: OpenWaterProblem, table: ResonanceTable, number: int) -> 
     fastest = max(-2.0 * omega.imag / omega.real for omega in omegas)
     radians = min(_RADIANS, log(_GROWTH) / fastest)
     model = _model(problem, min(sizes), max(sizes), motions=motions, radians=radians, angle=ANGLE)
-    search = ResonanceSearch(model.pencil, model.stiffness, model.mass)
+    search = ResonanceSearch(model.pencil, model.stiffness, model.mass, model.outside.damping)
     for place, omega in shown.items():
         label = table.labels[place]
         pair = _found_again(search, model.squared_frequency(omega), problem.watch)

@@ -14,7 +14,9 @@ Amplitudes of outgoing waves are those of `incident_waves`.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -33,22 +35,28 @@ class OpenFrequency:
         model: the problem.
         squared: λ.
         incidence: the travelling waves, first those to the right, then those to the left.
-        radiated: ψ of a unit of each body unknown, shape (body unknowns, free unknowns).
-        diffracted: φ_D of each incident wave, shape (waves, free unknowns).
         hydrodynamic: H, shape (body unknowns, body unknowns).
+        diffraction: Fᵀφ_D of each incident wave, shape (waves, body unknowns).
+        potentials: returns ψ of a unit of each body unknown, shape (body unknowns, free unknowns).
     """
 
     model: OpenModel
     squared: complex
     incidence: Incidence
-    radiated: np.ndarray
-    diffracted: np.ndarray
     hydrodynamic: np.ndarray
+    diffraction: np.ndarray
+    potentials: Callable[[], np.ndarray]
+
+    @cached_property
+    def radiated(self) -> np.ndarray:
+        """ψ of a unit of each body unknown, shape (body unknowns, free unknowns)."""
+        return self.potentials()
 
     @property
     def diffraction_force(self) -> np.ndarray:
-        """λFᵀφ_D for each incident wave, shape (waves, body unknowns) (collective)."""
-        return self.squared * self.model.pencil.products(self.diffracted, self.model.pencil.loads.astype(complex))
+        """λFᵀφ_D for each incident wave, shape (waves, body unknowns)."""
+        force: np.ndarray = self.squared * self.diffraction
+        return force
 
     @property
     def froude_krylov_force(self) -> np.ndarray:
@@ -87,6 +95,25 @@ class OpenFrequency:
 
 
 @dataclass(frozen=True, kw_only=True)
+class BodyEquations:
+    """Equations of motion of the bodies at one λ, from which a response to waves follows with any further damping.
+
+    Shapes: m body unknowns, w waves.
+
+    Attributes:
+        dynamic: K − iωB − λ(M_b + H), shape (m, m).
+        forces: X of each wave, shape (w, m).
+        radiated: gᵀψ of a unit of each unknown, shape (w, m).
+        diffracted: gᵀφ_D of each wave, shape (w, w).
+    """
+
+    dynamic: np.ndarray
+    forces: np.ndarray
+    radiated: np.ndarray
+    diffracted: np.ndarray
+
+
+@dataclass(frozen=True, kw_only=True)
 class OpenResponse:
     """Bodies that move freely in waves, at one λ.
 
@@ -95,29 +122,68 @@ class OpenResponse:
         squared: λ.
         incidence: the travelling waves, first those to the right, then those to the left.
         incident: indices of the incident waves.
-        scattered: ψ of radiated and diffracted waves for each, shape (incident, free unknowns).
+        fluxes: gᵀψ of the radiated and diffracted waves of each, shape (waves, incident).
+        potentials: returns ψ of these waves, shape (incident, free unknowns).
         motions: body unknowns, shape (incident, body unknowns).
+        absorbed: power that damping from outside takes, over ½ω³, shape (incident,).
+        equations: from which the motions follow, without drag.
     """
 
     model: OpenModel
     squared: complex
     incidence: Incidence
     incident: list[int]
-    scattered: np.ndarray
+    fluxes: np.ndarray
+    potentials: Callable[[], np.ndarray]
     motions: np.ndarray
+    absorbed: np.ndarray
+    equations: BodyEquations
+
+    @cached_property
+    def scattered(self) -> np.ndarray:
+        """ψ of radiated and diffracted waves of each incident wave, shape (incident, free unknowns)."""
+        return self.potentials()
 
     def outgoing(self) -> np.ndarray:
-        """c of all outgoing waves, the incident one included, shape (outgoing waves, incident) (collective)."""
+        """c of all outgoing waves, the incident one included, shape (outgoing waves, incident)."""
+        return self._outgoing(self.motions, self.fluxes)
+
+    def _outgoing(self, motions: np.ndarray, scattered: np.ndarray) -> np.ndarray:
         incidence = self.incidence
-        fluxes = (
-            incidence.pressures @ self.motions.T
-            - incidence.own[:, self.incident]
-            - self.model.pencil.products(incidence.fluxes, self.scattered)
-        )
+        fluxes = incidence.pressures @ motions.T - incidence.own[:, self.incident] - scattered
         return incidence.amplitudes(fluxes) + np.eye(len(incidence.planes))[:, self.incident]
 
+    def drift_force(self, motions: np.ndarray | None = None) -> np.ndarray:
+        """Return the mean force along x, of second order in the waves, per |c|² of each incident wave, dimensionless,
+        shape (incident,).
+
+        Each wave train carries momentum kP/ω, P its power, towards the bodies or away: with waves of amplitude A from
+        the left, F = ρgA² (c_g/2c)(1 + |R|² − |T|²), in deep water without absorption ½ρgA²|R|² (Maruo 1960;
+        Longuet-Higgins 1977, Proc. R. Soc. Lond. A 352, 463).
+
+        Args:
+            motions: other motions than those of the response, shape (incident, body unknowns), as with further damping.
+        """
+        outgoing = self.outgoing()
+        if motions is not None:
+            scattered = self.equations.diffracted[:, self.incident] + self.equations.radiated @ motions.T
+            outgoing = self._outgoing(motions, scattered)
+        planes, powers = self.incidence.planes, self.incidence.powers
+        momenta = 0.5 * self.squared.real * np.array([plane.wave.wavenumber for plane in planes]) * powers
+        directions = np.array([plane.direction for plane in planes])
+        # Waves that leave to the left push to the right.
+        force: np.ndarray = (-directions * momenta) @ np.abs(outgoing) ** 2 + (directions * momenta)[self.incident]
+        return force
+
+    @property
+    def absorption(self) -> np.ndarray:
+        """Power that damping from outside takes, over incident power, shape (incident,)."""
+        absorption: np.ndarray = self.absorbed / self.incidence.powers[self.incident]
+        return absorption
+
     def energy_residual(self) -> np.ndarray:
-        """Outgoing power over incident power, less one, shape (incident,) (collective)."""
+        """Outgoing and absorbed power over incident power, less one, shape (incident,)."""
         powers = self.incidence.powers
-        residual: np.ndarray = powers @ np.abs(self.outgoing()) ** 2 / powers[self.incident] - 1.0
+        outgoing = powers @ np.abs(self.outgoing()) ** 2 / powers[self.incident]
+        residual: np.ndarray = outgoing + self.absorption - 1.0
         return residual

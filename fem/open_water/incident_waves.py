@@ -110,12 +110,12 @@ class Incidence:
         return np.array([plane.elevation for plane in self.planes])
 
     def phases_at_origin(self, basin: OpenBasin) -> np.ndarray:
-        """Return the negative phase, rad, that each wave of zero phase at x = 0 of the open water has at the left side
-        of the basin, shape (waves,).
+        """Return the negative phase, rad, that each wave of zero phase at `OpenBasin.phase_at` has at the left side of
+        the basin, shape (waves,).
 
-        A wave e^{±ikx} of the open water is e^{±ikx₀} times that of the basin, whose x begins at x₀.
+        A wave e^{±ik(x − xₚ)} of the open water is e^{±ik(x₀ − xₚ)} times that of the basin, whose x begins at x₀.
         """
-        origin = basin.origin / basin.units.length
+        origin = (basin.origin - basin.phase_at) / basin.units.length
         return np.array([-plane.direction * plane.wave.wavenumber * origin for plane in self.planes])
 
     def amplitudes(self, fluxes: np.ndarray) -> np.ndarray:

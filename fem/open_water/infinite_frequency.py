@@ -9,10 +9,10 @@ import numpy as np
 from scipy.linalg import block_diag
 
 from hydroelastic.fem.added_mass import body_responses
-from hydroelastic.fem.liquid import compile_form
 from hydroelastic.fem.open_water.attempts import best_in_basin
 from hydroelastic.fem.open_water.basin import open_basin, sized_absorbing_layer
 from hydroelastic.fem.open_water.field_model import ANGLE, GROWTH, NO_WATER, open_mesh
+from hydroelastic.fem.open_water.outside import outside_of
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.tank.attempts import Attempt
 from hydroelastic.fem.tank.error_estimates import added_mass_errors
@@ -23,6 +23,8 @@ from hydroelastic.physics.scales import Scales
 
 # Elastic dry modes of each beam for approximate frequencies.
 _SHAPES = 14
+# Stiffness below this part of the largest is rounding.
+_NEUTRAL = 1e-11
 # Wavenumber that stands for the size of the basin, as there are no waves.
 _NO_WAVE = 1.0
 
@@ -53,9 +55,16 @@ class BodiesAtInfiniteFrequency:
         Args:
             floats: whether only the floats move.
         """
-        chosen = self.of_floats if floats else np.ones(len(self.stiffness), dtype=bool)
-        restoring, whole = np.diag(self.stiffness), self.mass + self.added_mass
-        restored, loose = np.flatnonzero(chosen & (restoring > 0.0)), np.flatnonzero(chosen & (restoring <= 0.0))
+        chosen = np.flatnonzero(self.of_floats) if floats else np.arange(len(self.stiffness))
+        stiffness, whole = self.stiffness[np.ix_(chosen, chosen)], (self.mass + self.added_mass)[np.ix_(chosen, chosen)]
+        if np.abs(stiffness - np.diag(np.diag(stiffness))).any():
+            # Springs couple the motions: unknowns in which the stiffness is diagonal replace them.
+            stiffness, vectors = np.linalg.eigh(scaled_stiffness(stiffness, whole))
+            stiffness[np.abs(stiffness) < _NEUTRAL * np.abs(stiffness).max()] = 0.0
+            roots = np.sqrt(np.diag(whole))
+            stiffness, whole = np.diag(stiffness), vectors.T @ (whole / np.outer(roots, roots)) @ vectors
+        restoring = np.diag(stiffness)
+        restored, loose = np.flatnonzero(restoring > 0.0), np.flatnonzero(restoring <= 0.0)
         if not len(restored):
             return []
         # Unknowns without stiffness are eliminated. As the largest 1/λ, low frequencies beside high ones keep their
@@ -67,6 +76,14 @@ class BodiesAtInfiniteFrequency:
         return [self.units.frequency / sqrt(value) for value in inverse if value > 0.0]
 
 
+def scaled_stiffness(stiffness: np.ndarray, inertia: np.ndarray | None = None) -> np.ndarray:
+    """Return a stiffness between unknowns of one scale: of unit inertia, or else of unit stiffness."""
+    sizes = np.abs(np.diag(stiffness if inertia is None else inertia))
+    roots = np.sqrt(np.where(sizes > 0.0, sizes, 1.0))
+    scaled: np.ndarray = stiffness / np.outer(roots, roots)
+    return scaled
+
+
 def bodies_at_infinite_frequency(problem: OpenWaterProblem) -> BodiesAtInfiniteFrequency:
     """Return the bodies with as many dry modes as approximate natural frequencies need (collective)."""
     basin = open_basin(problem.tank, 0.0)
@@ -75,7 +92,8 @@ def bodies_at_infinite_frequency(problem: OpenWaterProblem) -> BodiesAtInfiniteF
     bodies = whole_bodies(basin.tank, shapes)
     return BodiesAtInfiniteFrequency(
         units=basin.units,
-        stiffness=np.diag(np.concatenate([body.stiffness for body in bodies])),
+        stiffness=np.diag(np.concatenate([body.stiffness for body in bodies]))
+        + outside_of(basin, bodies, problem.tank.attachments).stiffness,
         mass=block_diag(*(body.mass for body in bodies)),
         added_mass=added,
         motions=tuple((index, dof) for index, body in enumerate(bodies) for dof in body.dofs),
@@ -106,8 +124,6 @@ def infinite_frequency_added_mass(problem: OpenWaterProblem, shapes: tuple[int, 
             mesh = distributed_mesh(
                 problem.comm, lambda: open_mesh(basin, resolution, absorbing_layer, infinite_frequency=True)
             )
-        with watch.stage("forms"):
-            compile_form(mesh, resolution.degree, continuous_pressure=tank.has_continuous_pressure)
         with watch.stage("added mass"):
             pencil = build_field_model(mesh, tank, degree=resolution.degree, shapes=shapes, infinite_frequency=True)
             matrix, potentials = body_responses(pencil)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from collections.abc import Hashable
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
 
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.physics.tank import Tank
@@ -12,6 +13,9 @@ if TYPE_CHECKING:
     # A scene is checked without starting MPI.
     from mpi4py import MPI
 
+# A band is widened to that of another analysis down to this part of its lowest and up to this multiple of its highest
+# frequency: both analyses then share mesh, matrices and solutions.
+_LOWER, _HIGHER = 0.4, 1.35
 # Tolerance of solutions that give initial values only.
 _ROUGH = 1e-3
 
@@ -25,13 +29,28 @@ class OpenWaterProblem:
         tank: open water in SI units, with at least one body.
         tolerance: largest relative error that is accepted.
         watch: records the time by stage.
+        bands: lowest and highest frequency of each analysis, rad/s.
+        solvers: the last solver, by what it was made for: several analyses of the same frequencies share it.
     """
 
     comm: MPI.Comm
     tank: Tank
     tolerance: float
     watch: Stopwatch
+    bands: tuple[tuple[float, float], ...] = ()
+    solvers: dict[Hashable, Any] = field(default_factory=dict, compare=False, repr=False)
+
+    def shared_band(self, lowest: float, highest: float) -> tuple[float, float]:
+        """Return the range of frequencies of an analysis, rad/s, widened to those of others that hardly cost more.
+
+        Args:
+            lowest: of the analysis.
+            highest: of the analysis.
+        """
+        near = [band for band in self.bands if band[0] >= _LOWER * lowest and band[1] <= _HIGHER * highest]
+        lows, highs = zip((lowest, highest), *near, strict=True)
+        return min(lows), max(highs)
 
     def rough(self) -> OpenWaterProblem:
         """Return the same problem with a coarse tolerance, for initial values."""
-        return replace(self, tolerance=_ROUGH)
+        return replace(self, tolerance=_ROUGH, solvers={})

@@ -10,14 +10,14 @@ from scipy.linalg import block_diag
 
 from hydroelastic.fem.open_water.attempts import best_over_band
 from hydroelastic.fem.open_water.basin import open_basin
-from hydroelastic.fem.open_water.field_model import Band, OpenModel, open_model
+from hydroelastic.fem.open_water.field_model import Band, OpenModel
 from hydroelastic.fem.open_water.frequency import OpenFrequency
 from hydroelastic.fem.open_water.infinite_frequency import infinite_frequency_added_mass
 from hydroelastic.fem.open_water.motion_scale import motion_scale
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.requests import RadiationRequest
 from hydroelastic.fem.open_water.results import DIRECTIONS, RadiationTable
-from hydroelastic.fem.open_water.solver import OpenSolver
+from hydroelastic.fem.open_water.solver import shared_solver
 from hydroelastic.fem.open_water.sweep import Problem, Swept, sweep
 from hydroelastic.fem.tank.attempts import Attempt
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors, joined_errors
@@ -77,11 +77,12 @@ class _Sweep:
 
 
 def _swept(problem: OpenWaterProblem, omegas: np.ndarray, shapes: tuple[int, ...]) -> Attempt[_Sweep]:
-    band = Band(lowest=float(omegas.min()), highest=float(omegas.max()))
+    low, high = problem.shared_band(float(omegas.min()), float(omegas.max()))
+    band = Band(lowest=low, highest=high)
 
     def solve(resolution: Resolution) -> Attempt[_Sweep]:
-        model = open_model(problem, band, replace(resolution, shapes=shapes))
-        solver = OpenSolver(model, problem.watch)
+        solver = shared_solver(problem, band, replace(resolution, shapes=shapes))
+        before = solver.factorizations
         frequencies = Problem(
             full=lambda omega: solver.frequency(omega.real),
             reduced=lambda omega: solver.frequency_between(omega.real),
@@ -93,7 +94,9 @@ def _swept(problem: OpenWaterProblem, omegas: np.ndarray, shapes: tuple[int, ...
             causes = [_causes(swept.solutions[place]) for place in places]
         errors = between(omegas, places, np.array([cause.total.max() for cause in causes])) + swept.errors
         return Attempt(
-            result=_Sweep(model=model, swept=swept, errors=errors, factorizations=solver.factorizations),
+            result=_Sweep(
+                model=solver.model, swept=swept, errors=errors, factorizations=solver.factorizations - before
+            ),
             causes=joined_errors(causes, float(swept.errors.max())),
             resolution=resolution,
         )

@@ -199,8 +199,9 @@ class RayIntegral:
         def own(matrices: np.ndarray) -> np.ndarray:
             return matrices[..., restored, :][..., restored]
 
-        stiffness = own(self._model.stiffness)
-        inverse = np.linalg.inv(stiffness - omegas[:, None, None] ** 2 * own(self._model.mass + added))
+        stiffness, rates = own(self._model.stiffness), -1j * omegas[:, None, None]
+        inertia = rates * own(self._model.mass + added) + own(self._model.outside.damping)
+        inverse = np.linalg.inv(stiffness + rates * inertia)
         pushed = np.abs(inverse @ (stiffness @ self._initial[restored]))
         moved: np.ndarray = np.einsum("nij,njk,nk->ni", np.abs(inverse), own(errors), pushed) * np.abs(omegas)[:, None]
         return moved
@@ -225,9 +226,11 @@ class RayIntegral:
         """E at p = conj(−iω), shape (points, body unknowns)."""
         model = self._model
         p = (-1j * radii * self._ray.turned)[:, None, None]
+        limit = np.broadcast_to(model.mass + self._limit, added.shape)
+        # Without damping the limit has its poles on the imaginary axis, to the right of the ray.
         whole, high = (
-            np.linalg.solve(p**2 * mass + model.stiffness, (p * mass) @ self._initial[:, None])[..., 0]
-            for mass in (model.mass + added, np.broadcast_to(model.mass + self._limit, added.shape))
+            np.linalg.solve(p * momentum + model.stiffness, momentum @ self._initial[:, None])[..., 0]
+            for momentum in (p * (model.mass + added) + model.outside.damping, p * limit)
         )
         values: np.ndarray = np.conj(whole - high)
         return values

@@ -10,6 +10,10 @@ interpolation by projection); Y. Maday et al. on reduced bases.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+
 import numpy as np
 from mpi4py import MPI
 
@@ -20,6 +24,21 @@ from hydroelastic.fem.open_water.pencil import OpenPencil
 _DEPENDENT = 1e-11
 # Part of the largest response below which one is rounding.
 _NO_RESPONSE = 1e-8
+
+
+@dataclass(frozen=True, kw_only=True)
+class LoadProducts:
+    """Products of loads f with each other and with a basis V.
+
+    Attributes:
+        projected: fᵀV, shape (loads, basis).
+        gram: f̄D⁻¹f, shape (loads, loads).
+        images: products of D⁻¹AV̄ and D⁻¹MV̄ with f, shape (2, basis, loads).
+    """
+
+    projected: np.ndarray
+    gram: np.ndarray
+    images: np.ndarray
 
 
 class ReducedPencil:
@@ -39,6 +58,9 @@ class ReducedPencil:
         # Products AV and MV, and the projections VᵀAV and VᵀMV.
         self._images: list[np.ndarray] = [self._basis, self._basis]
         self._projected: list[np.ndarray] = [np.zeros((0, 0), dtype=complex)] * 2
+        # D^{-1/2}AV and D^{-1/2}MV, and their products with each other, VᵀĀD⁻¹AV …, shape (2, basis, 2, basis).
+        self._weighed = np.zeros((2, 0, own), dtype=complex)
+        self._gram = np.zeros((2, 0, 2, 0), dtype=complex)
 
     @property
     def size(self) -> int:
@@ -59,7 +81,17 @@ class ReducedPencil:
         masses = np.array([complex_product(self._pencil.mass, potential) for potential in potentials])
         for columns in zip(potentials, eigenvalue * masses + loads, masses, strict=True):
             self._append(np.array(columns))
+        known, size = self._weighed.shape[1], self.size
         self._projected = [self._pencil.products(self._basis, image) for image in self._images]
+        added = np.array([image[known:] * self._weights for image in self._images])
+        self._weighed = np.concatenate([self._weighed, added], axis=1)
+        gram = np.zeros((2, size, 2, size), dtype=complex)
+        gram[:, :known, :, :known] = self._gram
+        rows = self._weighed.reshape(2 * size, -1)
+        further = self._pencil.products(rows.conj(), added.reshape(-1, rows.shape[1]))
+        gram[:, :, :, known:] = further.reshape(2, size, 2, -1)
+        gram[:, known:, :, :] = gram[:, :, :, known:].transpose(2, 3, 0, 1).conj()
+        self._gram = gram
 
     def _append(self, columns: np.ndarray) -> None:
         """Add a solution ψ with Aψ and Mψ, shape (3, own free unknowns), after orthogonalization."""
@@ -93,21 +125,63 @@ class ReducedPencil:
         potentials: np.ndarray = coordinates @ self._basis
         return potentials
 
+    def lifted(self, coordinates: np.ndarray) -> Callable[[], np.ndarray]:
+        """Return a function that returns `potentials` on the basis as it is now."""
+        return partial(np.matmul, coordinates, self._basis)
+
     def residuals(self, eigenvalue: complex, loads: np.ndarray, coordinates: np.ndarray) -> np.ndarray:
         """Return relative residuals |rᵀ D⁻¹ r̄|^{1/2}/|fᵀψ|^{1/2} with the residual r and D = |diag A|, shape (loads,).
 
         With (A − λM)⁻¹ instead of D⁻¹ the square would be the relative error of fᵀψ (collective).
         """
-        responses = np.abs(np.einsum("lv,lv->l", self.project(loads), coordinates))
-        # Loads that move hardly any water are compared with the others.
-        floor = max(_NO_RESPONSE * float(responses.max(initial=0.0)), np.finfo(float).tiny)
-        return self.misfits(eigenvalue, loads, coordinates) / np.sqrt(np.maximum(responses, floor))
+        responses = np.einsum("lv,lv->l", self.project(loads), coordinates)
+        return self._relative(self.misfits(eigenvalue, loads, coordinates), responses)
 
     def misfits(self, eigenvalue: complex, loads: np.ndarray, coordinates: np.ndarray) -> np.ndarray:
         """Return |rᵀ D⁻¹ r̄|^{1/2} of solutions, shape (loads,) (collective)."""
         laplace, mass = self._images
         rest = (loads - coordinates @ (laplace - eigenvalue * mass)) * self._weights
         return np.array([self._norm(left) for left in rest])
+
+    def load_products(self, loads: np.ndarray) -> LoadProducts:
+        """Return products of loads, shape (loads, own free unknowns), with each other and with the basis
+        (collective)."""
+        wet = np.flatnonzero(loads.any(axis=0))
+        weighed, rows = loads[:, wet] * self._weights[wet], self._weighed[:, :, wet].reshape(-1, len(wet))
+        found = self._pencil.products(np.vstack([weighed, rows]).conj(), weighed)
+        return LoadProducts(
+            projected=self._pencil.products(loads[:, wet], self._basis[:, wet]),
+            gram=found[: len(loads)],
+            images=found[len(loads) :].reshape(2, self.size, len(loads)),
+        )
+
+    def known_residuals(
+        self, eigenvalue: complex, products: LoadProducts, parts: np.ndarray, coordinates: np.ndarray
+    ) -> np.ndarray:
+        """Return `residuals` from products alone; below 1e-8 they are rounding.
+
+        Args:
+            eigenvalue: λ.
+            products: of some loads.
+            parts: combinations of these, shape (combinations, loads).
+            coordinates: y of each combination, shape (combinations, basis).
+        """
+        # r = Pf − y(A − λM): −1 and λ are the factors of A and M.
+        factors = np.stack([-coordinates, eigenvalue * coordinates], axis=1)
+        flat, size = factors.reshape(len(parts), -1), 2 * self.size
+        squares = (parts.conj() @ products.gram * parts).sum(axis=1)
+        squares += (flat.conj() @ self._gram.reshape(size, size) * flat).sum(axis=1)
+        squares += 2.0 * (flat.conj() @ products.images.reshape(size, -1) * parts).sum(axis=1)
+        misfits = np.sqrt(np.maximum(squares.real, 0.0))
+        return self._relative(misfits, (parts @ products.projected * coordinates).sum(axis=1))
+
+    @staticmethod
+    def _relative(misfits: np.ndarray, responses: np.ndarray) -> np.ndarray:
+        sizes = np.abs(responses)
+        # Loads that move hardly any water are compared with the others.
+        floor = max(_NO_RESPONSE * float(sizes.max(initial=0.0)), np.finfo(float).tiny)
+        relative: np.ndarray = misfits / np.sqrt(np.maximum(sizes, floor))
+        return relative
 
     def _norm(self, vector: np.ndarray) -> float:
         return float(np.sqrt(self._pencil.comm.allreduce(np.vdot(vector, vector).real, op=MPI.SUM)))

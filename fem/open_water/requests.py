@@ -3,7 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar, Literal, TypeAlias
+from math import inf
+from typing import TYPE_CHECKING, ClassVar, Literal, TypeAlias
+
+if TYPE_CHECKING:
+    # Spectra need SciPy, whose import is slow.
+    from hydroelastic.physics.wave_spectrum import WaveSpectrum
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -19,6 +24,12 @@ class RadiationRequest:
     omega: tuple[float, ...]
     elastic_modes: int = 4
 
+    @property
+    def band(self) -> tuple[float, float] | None:
+        """Lowest and highest frequency of waves, rad/s; ``None`` of limits alone."""
+        finite = [omega for omega in self.omega if 0.0 < omega < inf]
+        return (min(finite), max(finite)) if finite else None
+
 
 @dataclass(frozen=True, kw_only=True)
 class ResponseRequest:
@@ -28,12 +39,23 @@ class ResponseRequest:
         omega: frequencies, rad/s, positive and finite.
         waves_from: the side from which the waves are incident.
         positions: number of points along each beam at which its deflection is reported.
+        elevation: amplitude of the incident waves, m, on which the damping by drag depends.
+        hull_pressures: whether pressures along hulls are reported, and the drift force by them.
+        fields_at: frequencies at which fields are written and drawn, rad/s; empty for that of the largest motion.
     """
 
     kind: ClassVar = "response"
     omega: tuple[float, ...]
     waves_from: Literal["left", "right"] = "left"
     positions: int = 101
+    elevation: float = 0.0
+    hull_pressures: bool = False
+    fields_at: tuple[float, ...] = ()
+
+    @property
+    def band(self) -> tuple[float, float]:
+        """Lowest and highest frequency, rad/s."""
+        return min(self.omega), max(self.omega)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,4 +93,36 @@ class DecayRequest:
     times: tuple[float, ...]
 
 
-Request: TypeAlias = RadiationRequest | ResponseRequest | ResonanceRequest | DecayRequest
+@dataclass(frozen=True, kw_only=True)
+class SpectrumRequest:
+    """Statistics of the response to irregular waves.
+
+    Attributes:
+        spectrum: of the waves.
+        words: description of the waves.
+        waves_from: the side from which the waves are incident.
+        duration: of the sea state, s.
+        highest: highest frequency, rad/s; ``None`` for that of the spectrum.
+        points: points of bodies at which motions are reported, (index of the body, (x, y) in m).
+        positions: number of points along each beam.
+        thickness: of beams, m, for their stresses 6M/h²; ``None`` for no stresses.
+    """
+
+    kind: ClassVar = "spectrum"
+    spectrum: WaveSpectrum
+    words: str
+    waves_from: Literal["left", "right"] = "left"
+    duration: float = 10800.0
+    highest: float | None = None
+    points: tuple[tuple[int, tuple[float, float]], ...] = ()
+    positions: int = 51
+    thickness: float | None = None
+
+    @property
+    def band(self) -> tuple[float, float]:
+        """Lowest and highest frequency, rad/s."""
+        low, high = self.spectrum.band
+        return low, min(high, self.highest or high)
+
+
+Request: TypeAlias = RadiationRequest | ResponseRequest | ResonanceRequest | DecayRequest | SpectrumRequest

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from math import sqrt
 
 import numpy as np
 
+from hydroelastic.fem.modes import EigenSolverError
 from hydroelastic.fem.open_water.argument_principle import Solver, zeros_in
 from hydroelastic.fem.open_water.attempts import best_over_band
 from hydroelastic.fem.open_water.basin import open_basin
 from hydroelastic.fem.open_water.damped import DampedSolver, damped_resonances, mirror_angle
 from hydroelastic.fem.open_water.field_model import LAYER_WEIGHT, Band, OpenModel, first_resolution, open_model
-from hydroelastic.fem.open_water.infinite_frequency import bodies_at_infinite_frequency
+from hydroelastic.fem.open_water.infinite_frequency import bodies_at_infinite_frequency, scaled_stiffness
 from hydroelastic.fem.open_water.motion_scale import motion_scale
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.region import MOST_DAMPING_ANYWHERE, Region
@@ -50,6 +53,8 @@ _SPACINGS = (0.1, 0.05, 0.025)
 _AROUND = 1.1
 # Relative difference of ω below which two targets have found the same resonance.
 _SAME = 1e-6
+# Part of the stiffness of a motion below which a negative one of several together is rounding.
+_UNSTABLE = 1e-12
 # Bodies with a smaller participation are at rest in a resonance of the water.
 _AT_REST = 1e-8
 
@@ -124,7 +129,7 @@ def solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> Res
         model=found.model,
         error=attempt.error,
         known=sum(map(closed.holds, known)),
-        unstable=bool(np.any(np.diag(found.model.stiffness) < 0.0)),
+        unstable=bool(np.linalg.eigvalsh(scaled_stiffness(found.model.stiffness)).min(initial=0.0) < -_UNSTABLE),
     )
 
 
@@ -172,7 +177,7 @@ def _around(values: list[complex], region: Region) -> tuple[Band, float]:
 
 
 def _outgoing_search(model: OpenModel) -> ResonanceSearch:
-    return ResonanceSearch(model.pencil, model.stiffness, model.mass)
+    return ResonanceSearch(model.pencil, model.stiffness, model.mass, model.outside.damping)
 
 
 def rough_resonances(
@@ -209,12 +214,22 @@ def _search(model: OpenModel, targets: list[float], region: Region) -> list[comp
     found: list[complex] = []
     for target in targets:
         # Beside the real axis, where the continuous spectrum begins.
-        for pair in search.near(model.squared_frequency(target * (1.0 - 0.05j)), _PER_TARGET):
+        for pair in _nearest(search, model.squared_frequency(target * (1.0 - 0.05j))):
             omega = complex(np.sqrt(pair.eigenvalue)) * unit
             known = any(abs(omega - other) <= _SAME * abs(omega) for other in found)
             if not known and pair.drift < _STILL and pair.participation > _AT_REST and region.holds(omega):
                 found.append(omega)
     return sorted(found, key=abs)
+
+
+def _nearest(search: ResonanceSearch, target: complex) -> Iterator[Eigenpair]:
+    """Yield eigenpairs near a target; with damping from outside, those of it at the frequency of each (collective)."""
+    for pair in search.near(target, _PER_TARGET):
+        if not search.is_damped or pair.drift >= _STILL or pair.participation <= _AT_REST:
+            yield pair
+            continue
+        with suppress(EigenSolverError):
+            yield search.refined(pair.eigenvalue)
 
 
 def _damped_resonances(

@@ -41,7 +41,7 @@ class Eigenpair:
         eigenvalue: λ = ω².
         bodies: a, on every process, shape (body unknowns,).
         potential: ψ on own free unknowns, shape (free unknowns,).
-        norm: xᵀT'(λ)x of the symmetric form T = [[λ(A − λM), −λF], [−λFᵀ, K − λM_b]].
+        norm: xᵀT'(λ)x of the symmetric form T = [[λ(A − λM), −λF], [−λFᵀ, K − iωB − λM_b]].
         drift: |dλ/dα|/|λ|.
         participation: |λaᵀM_b a|/|λ xᵀT'x|, zero for resonances of the water around bodies at rest.
         residual: relative: of the first equation as SLEPc leaves it, or the last step of Newton's method.
@@ -63,18 +63,27 @@ class ResonanceSearch:
         pencil: the liquid and the loads of the bodies.
         stiffness: K of the bodies, shape (body unknowns, body unknowns); shape (0, 0) for fixed bodies.
         mass: M_b, of the same shape.
+        damping: B of forces from outside, of the same shape; ``None`` for none.
     """
 
-    def __init__(self, pencil: OpenPencil, stiffness: np.ndarray, mass: np.ndarray) -> None:
+    def __init__(
+        self, pencil: OpenPencil, stiffness: np.ndarray, mass: np.ndarray, damping: np.ndarray | None = None
+    ) -> None:
         """Assemble the derivatives with respect to α (collective)."""
         self._pencil = pencil
+        self._damping = np.zeros_like(stiffness) if damping is None else damping
         self._stiffness, self._mass = stiffness, mass
         self._loads = pencil.loads[: len(stiffness)].astype(complex)
         self._solver: ShiftedSolver = pencil.solver()
         self._turning = pencil.turning()
 
+    @property
+    def is_damped(self) -> bool:
+        """Whether there is damping from outside."""
+        return bool(self._damping.any())
+
     def near(self, target: complex, count: int, tolerance: float = 1e-9) -> list[Eigenpair]:
-        """Return the eigenpairs nearest to a target (collective).
+        """Return the eigenpairs nearest to a target, with the damping of its frequency (collective).
 
         Args:
             target: σ.
@@ -84,7 +93,8 @@ class ResonanceSearch:
         Raises:
             EigenSolverError: if SLEPc stops before enough pairs have converged.
         """
-        operator = _InvertedOperator(self._pencil, self._solver, self._loads, self._stiffness, self._mass, target)
+        restoring = self._stiffness - 1j * np.sqrt(target) * self._damping
+        operator = _InvertedOperator(self._pencil, self._solver, self._loads, restoring, self._mass, target)
         solver = SLEPc.EPS().create(self._pencil.comm)
         solver.setOperators(operator.matrix)
         solver.setProblemType(SLEPc.EPS.ProblemType.NHEP)
@@ -113,7 +123,7 @@ class ResonanceSearch:
         """Return the resonance next to a value λ, by Newton's method on the dynamic stiffness of the bodies
         (collective).
 
-        Of D(λ) = K − λ(M_b + H(λ)), with dH/dλ = ΨᵀMΨ and Ψ = (A − λM)⁻¹F, the step δ solves (D + δD') a = 0.
+        Of D(λ) = K − iωB − λ(M_b + H(λ)), with dH/dλ = ΨᵀMΨ and Ψ = (A − λM)⁻¹F, the step δ solves (D + δD') a = 0.
 
         Args:
             eigenvalue: approximate λ of a resonance in which bodies move.
@@ -127,8 +137,10 @@ class ResonanceSearch:
             radiated = np.array([self._solver.solve(load) for load in self._loads])
             images = np.array([complex_product(self._pencil.mass, potential) for potential in radiated])
             added, slope = products(self._loads, radiated), products(radiated, images)
-            dynamic = self._stiffness - eigenvalue * (self._mass + added)
-            steps, vectors = eig(dynamic, self._mass + added + eigenvalue * slope)
+            omega = np.sqrt(eigenvalue)
+            dynamic = self._stiffness - 1j * omega * self._damping - eigenvalue * (self._mass + added)
+            change = self._mass + added + eigenvalue * slope + 0.5j / omega * self._damping
+            steps, vectors = eig(dynamic, change)
             nearest = int(np.argmin(np.abs(steps)))
             step, bodies = complex(steps[nearest]), vectors[:, nearest]
             eigenvalue += step
@@ -147,7 +159,9 @@ class ResonanceSearch:
             return complex(pencil.products(potential[None], other[None])[0, 0])
 
         own = complex(bodies @ self._mass @ bodies)
-        norm = with_potential(laplace) - 2.0 * eigenvalue * with_potential(mass) - 2.0 * with_potential(load) - own
+        damped = 0.5j / np.sqrt(eigenvalue) * complex(bodies @ self._damping @ bodies)
+        norm = with_potential(laplace) - 2.0 * eigenvalue * with_potential(mass) - 2.0 * with_potential(load)
+        norm -= own + damped
         drift = (with_potential(turned[0]) - eigenvalue * with_potential(turned[1])) / norm
         rest = laplace - eigenvalue * mass - load
         sizes = [np.sqrt(pencil.comm.allreduce(np.vdot(part, part).real, op=MPI.SUM)) for part in (rest, load, laplace)]

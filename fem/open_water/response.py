@@ -4,24 +4,28 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from math import nan
+from typing import Any
 
 import numpy as np
 
 from hydroelastic.fem.open_water.attempts import best_over_band
-from hydroelastic.fem.open_water.field_model import Band, OpenModel, open_model
+from hydroelastic.fem.open_water.curves import refined_curves
+from hydroelastic.fem.open_water.field_model import Band, OpenModel
 from hydroelastic.fem.open_water.frequency import OpenResponse
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import between, estimated_places, relative_difference
 from hydroelastic.fem.open_water.requests import ResponseRequest
-from hydroelastic.fem.open_water.results import PlateDeflection, ResponseTable, UnresolvedPeak
-from hydroelastic.fem.open_water.solver import OpenSolver
+from hydroelastic.fem.open_water.results import HullPressure, PlateDeflection, ResponseTable, UnresolvedPeak
+from hydroelastic.fem.open_water.solver import OpenSolver, shared_solver
 from hydroelastic.fem.open_water.sweep import FEW, Problem, Swept, sweep
 from hydroelastic.fem.open_water.unresolved_peaks import unresolved_peaks
-from hydroelastic.fem.surfaces import Body
 from hydroelastic.fem.tank.attempts import Attempt
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors, boundary_error, joined_errors
 from hydroelastic.fem.tank.resolution import Resolution, rounding_error
+from hydroelastic.modal.beam.beam_shapes import beam_shapes
 
+# Largest part of a motion by which its drawn curve may miss it.
+_DRAWN = 1e-3
 # Deflection of all omitted dry modes, per mode in use, over the last two amplitudes: at the tips they add like Σ n⁻⁵.
 _TAIL = 0.25
 
@@ -58,21 +62,22 @@ def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Respo
         request: frequencies and direction of the incident waves.
     """
     omegas = np.array(request.omega)
-    band = Band(lowest=float(omegas.min()), highest=float(omegas.max()))
+    low, high = problem.shared_band(float(omegas.min()), float(omegas.max()))
+    band = Band(lowest=low, highest=high)
 
     def solve(resolution: Resolution) -> Attempt[_Sweep]:
-        model = open_model(problem, band, resolution)
-        solver = OpenSolver(model, problem.watch)
-        incident = _incident(model, request)
+        solver = shared_solver(problem, band, resolution)
+        solver.elevation, solver.damping = request.elevation, np.zeros_like(solver.model.mass)
+        incident = _incident(solver.model, request)
         frequencies = Problem(
             full=lambda omega: solver.response(omega.real, incident),
             reduced=lambda omega: solver.response_between(omega.real, incident),
-            difference=lambda one, other: relative_difference(_outcome(one), _outcome(other)),
+            difference=lambda one, other: relative_difference(outcome(one), outcome(other)),
         )
         swept = sweep(frequencies, omegas, problem.tolerance)
         with problem.watch.stage("errors"):
             places = estimated_places(omegas)
-            causes = [_errors(swept.solutions[place]) for place in places]
+            causes = [response_errors(swept.solutions[place]) for place in places]
         errors = between(omegas, places, np.array([cause.total.max() for cause in causes])) + swept.errors
         return Attempt(
             result=_Sweep(solver=solver, swept=swept, errors=errors),
@@ -84,9 +89,37 @@ def solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> Respo
     found = attempt.result
     model = found.solver.model
     table = _table(request, model, omegas, found.swept.solutions, found.errors)
+    if request.hull_pressures:
+        table = replace(table, **_on_hulls(found.swept.solutions))
     if len(omegas) > FEW:
-        table = replace(table, missed_peaks=_unresolved(request, found.solver, table))
+        incident = _incident(model, request)
+        curves = refined_curves(found.solver, incident, omegas, found.swept, max(_DRAWN, problem.tolerance))
+        table = replace(
+            table,
+            missed_peaks=_unresolved(request, found.solver, table),
+            curve=_table(request, model, curves.omegas, curves.responses, curves.errors),
+        )
     return ResponseSolution(table=table, model=model, error=attempt.error)
+
+
+def _on_hulls(solutions: list[OpenResponse]) -> dict[str, Any]:
+    """Pressures along hulls, and the drift force by them (collective)."""
+    from hydroelastic.fem.open_water.hull import hull_pressures, near_field_drift
+
+    tank = solutions[0].model.basin.tank
+    hulls = [(index, *hull_pressures(solutions, index)) for index, hull in tank.hulls.items() if not hull.is_thin]
+    found: dict[str, Any] = {
+        "hulls": tuple(HullPressure(body=index, points=points, pressure=values) for index, points, values in hulls)
+    }
+    if len(hulls) == len(tank.bodies) == len(tank.layers) == 1:
+        units = solutions[0].model.basin.units
+        forces = [
+            [near_field_drift(one, 0, place) for place in range(len(one.incident))]
+            / one.incidence.elevations[one.incident] ** 2
+            for one in solutions
+        ]
+        found["near_field_drift"] = units.density * units.gravity * np.array(forces)
+    return found
 
 
 def _unresolved(request: ResponseRequest, solver: OpenSolver, table: ResponseTable) -> tuple[UnresolvedPeak, ...]:
@@ -106,8 +139,8 @@ def _incident(model: OpenModel, request: ResponseRequest) -> list[int]:
     return list(range(count)) if request.waves_from == "left" else list(range(count, 2 * count))
 
 
-def _outcome(solution: OpenResponse) -> np.ndarray:
-    """The quantities whose error is kept below the tolerance: elevations of the outgoing waves, and motions, per
+def outcome(solution: OpenResponse) -> np.ndarray:
+    """Return the quantities whose error is kept below the tolerance: elevations of the outgoing waves, and motions, per
     incident elevation."""
     elevations = solution.incidence.elevations
     incident = elevations[solution.incident]
@@ -115,8 +148,8 @@ def _outcome(solution: OpenResponse) -> np.ndarray:
     return np.vstack([waves, (solution.motions / incident[:, None]).T])
 
 
-def _errors(solution: OpenResponse) -> FrequencyErrors:
-    """Errors relative to the incident wave: the energy error of the scattered field over the power of that wave,
+def response_errors(solution: OpenResponse) -> FrequencyErrors:
+    """Return errors relative to the incident wave: the energy error of the scattered field over the power of that wave,
     and omitted dry modes over the largest deflection (collective)."""
     model, powers = solution.model, solution.incidence.powers[solution.incident]
     away, tips = model.energies_missed(solution.scattered)
@@ -162,9 +195,12 @@ def _table(
         amplitudes=model.scale.amplitudes(motions),
         reflection=waves[:, :, back],
         transmission=waves[:, :, forward],
+        absorption=np.array([solution.absorption for solution in solutions]),
+        drift_force=drift_forces(solutions),
         energy_residual=np.array([solution.energy_residual() for solution in solutions]),
         relative_error=errors,
         plates=tuple(_plates(request, model, motions)),
+        fields_at=request.fields_at,
     )
 
 
@@ -177,6 +213,13 @@ def _waves(solution: OpenResponse) -> np.ndarray:
     scaled = incidence.elevations * phases
     ratios: np.ndarray = (solution.outgoing() * scaled[:, None] / scaled[solution.incident]).T
     return ratios
+
+
+def drift_forces(solutions: list[OpenResponse]) -> np.ndarray:
+    """Return the mean force along x per square of the elevation of each incident wave, N/m³, shape (n, incident)."""
+    units = solutions[0].model.basin.units
+    forces = [one.drift_force() / one.incidence.elevations[one.incident] ** 2 for one in solutions]
+    return units.density * units.gravity * np.array(forces)
 
 
 def _motions(solution: OpenResponse) -> np.ndarray:
@@ -194,18 +237,34 @@ def _plates(request: ResponseRequest, model: OpenModel, motions: np.ndarray) -> 
         first += body.size
         if model.basin.tank.bodies[index].is_elastic:
             piece, length = model.basin.tank.piece_of(index), model.basin.units.length
-            x = np.linspace(piece.start, piece.end, request.positions)
+            x: np.ndarray = np.linspace(0.0, piece.length, request.positions)
+            deflections, moments, shears = along_beam(model, index, body.size, x)
             plates.append(
                 PlateDeflection(
                     body=index,
-                    positions=model.basin.origin + length * x,
-                    deflection=own @ _shapes(body, x),
+                    positions=model.basin.origin + length * (piece.start + x),
+                    deflection=own @ deflections,
+                    bending_moment=own @ moments,
+                    shear_force=own @ shears,
                 )
             )
     return plates
 
 
-def _shapes(body: Body, x: np.ndarray) -> np.ndarray:
-    """Deflections of a beam in each of its shapes, shape (shapes, points)."""
-    points, upwards = np.vstack([x, np.zeros_like(x)]), np.vstack([np.zeros_like(x), np.ones_like(x)])
-    return np.array([body.shapes(points, upwards, number) for number in range(body.size)])
+def along_beam(model: OpenModel, index: int, count: int, x: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Return deflection, bending moment and shear force of a beam by a unit of each of its unknowns per dimensionless
+    elevation: per metre of elevation in m, N and N/m, each of shape (unknowns, points).
+
+    Args:
+        model: the problem.
+        index: of the beam among the bodies.
+        count: number of its unknowns.
+        x: distances from its left end, dimensionless, shape (points,).
+    """
+    units, shapes = model.basin.units, beam_shapes(model.basin.tank.beams[index], count)
+    weight = units.density * units.gravity * units.length
+    return (
+        shapes.tabulated(x, 0),
+        np.multiply(weight * units.length, shapes.moments(x)),
+        np.multiply(weight, shapes.shears(x)),
+    )

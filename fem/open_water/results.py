@@ -72,11 +72,30 @@ class PlateDeflection:
         body: its index among the bodies.
         positions: (p,) abscissas, m.
         deflection: (n, w, p) upwards, per unit elevation of the incident wave.
+        bending_moment: (n, w, p) EI w″ per metre of elevation, N/m.
+        shear_force: (n, w, p) (EI w″)′ per metre of elevation, N/m².
     """
 
     body: int
     positions: Floats
     deflection: Complexes
+    bending_moment: Complexes
+    shear_force: Complexes
+
+
+@dataclass(frozen=True, kw_only=True)
+class HullPressure:
+    """The pressure of all waves along the hull of a float, at points that do not move.
+
+    Attributes:
+        body: its index among the bodies.
+        points: (p, 2) x and y from the left end of the waterplane around the hull, m.
+        pressure: (n, w, p) complex amplitudes per metre of elevation, Pa/m.
+    """
+
+    body: int
+    points: Floats
+    pressure: Complexes
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -113,9 +132,16 @@ class ResponseTable:
         amplitudes: (n, w, m) of the motions, m/m or rad/m.
         reflection: (n, w in, w out) ratio of elevations.
         transmission: (n, w in, w out) ratio of elevations.
-        energy_residual: (n, w) relative difference of incident and outgoing power.
+        absorption: (n, w) power that damping from outside takes, over incident power.
+        drift_force: (n, w) mean force on the bodies along x, per square of the amplitude of the waves, N/m³.
+        energy_residual: (n, w) relative difference of incident power and outgoing and absorbed power.
         relative_error: (n,) estimated relative error of the amplitudes.
         plates: one for each beam.
+        hulls: one for each float, if pressures were requested.
+        near_field_drift: (n, w) the drift force by the pressures on the hull, N/m³; of a lone float in one liquid, if
+            pressures were requested.
+        fields_at: frequencies at which fields are wanted, rad/s; empty for that of the largest motion.
+        curve: the same at frequencies between which nothing is missed, of more than six frequencies, to be drawn.
         missed_peaks: peaks that curves over ω do not show, found on a reduced basis.
     """
 
@@ -127,9 +153,15 @@ class ResponseTable:
     amplitudes: Complexes
     reflection: Complexes
     transmission: Complexes
+    absorption: Floats
+    drift_force: Floats
     energy_residual: Floats
     relative_error: Floats
     plates: tuple[PlateDeflection, ...]
+    hulls: tuple[HullPressure, ...] = ()
+    near_field_drift: Floats | None = None
+    fields_at: tuple[float, ...] = ()
+    curve: ResponseTable | None = None
     missed_peaks: tuple[UnresolvedPeak, ...] = ()
 
 
@@ -179,3 +211,92 @@ class DecayTable:
     absolute_error: Floats
     tail: float | None
     certified_until: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class IrregularResponse:
+    """Statistics of one response to irregular waves; amplitudes have its unit.
+
+    Attributes:
+        quantity: which.
+        unit: m, rad or m/s².
+        significant_amplitude: mean of the highest third of the amplitudes.
+        largest_amplitude: most probable largest amplitude in the duration.
+        zero_crossing_period: s.
+        relative_error: estimated relative error of the significant amplitude by all causes.
+        sampling_error: by the sampling of the transfer function.
+        truncation_error: by waves beyond the frequencies.
+        transfer_error: by the errors of the transfer function.
+    """
+
+    quantity: str
+    unit: str
+    significant_amplitude: float
+    largest_amplitude: float
+    zero_crossing_period: float
+    relative_error: float
+    sampling_error: float
+    truncation_error: float
+    transfer_error: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlateStatistics:
+    """Statistics along a beam in irregular waves, per metre of width. Each is of shape (p,).
+
+    Attributes:
+        body: its index among the bodies.
+        positions: abscissas, m.
+        significant_deflection: m.
+        significant_bending_moment: N.
+        largest_bending_moment: most probable largest in the duration, N.
+        significant_shear_force: N/m.
+        largest_stress: most probable largest stress at its faces, N/m²; ``None`` without a thickness.
+    """
+
+    body: int
+    positions: Floats
+    significant_deflection: Floats
+    significant_bending_moment: Floats
+    largest_bending_moment: Floats
+    significant_shear_force: Floats
+    largest_stress: Floats | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class SpectrumTable:
+    """Responses to irregular waves. Shapes: n frequencies, q quantities, m motions.
+
+    Attributes:
+        waves: description of the waves.
+        waves_from: the side from which they come.
+        significant_height: Hs, m.
+        duration: of the sea state, s.
+        omega: (n,) frequencies chosen by the solver, rad/s.
+        density: (n,) spectrum of the waves, m² s/rad.
+        quantities: q names.
+        transfer: (n, q) responses per unit elevation.
+        response_density: (n, q) spectra of the responses.
+        relative_error: (n,) estimated relative error of the transfer functions.
+        responses: statistics of each quantity.
+        dofs: m degrees of freedom.
+        mean_drift_force: mean force on the bodies along x, N/m.
+        equivalent_damping: (m, m) linear damping in place of drag, kg/(m s), kg/s, kg m/s.
+        plates: one for each beam.
+    """
+
+    waves: str
+    waves_from: Literal["left", "right"]
+    significant_height: float
+    duration: float
+    omega: Floats
+    density: Floats
+    quantities: tuple[str, ...]
+    transfer: Complexes
+    response_density: Floats
+    relative_error: Floats
+    responses: tuple[IrregularResponse, ...]
+    dofs: tuple[Dof, ...]
+    mean_drift_force: float
+    equivalent_damping: Floats
+    plates: tuple[PlateStatistics, ...]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
 import numpy as np
@@ -13,16 +13,29 @@ from hydroelastic.fem.memory import release_memory
 from hydroelastic.fem.open_water.decay import DecaySolution, solve_decay
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import RadiationSolution, solve_radiation
-from hydroelastic.fem.open_water.requests import DecayRequest, RadiationRequest, Request, ResponseRequest
+from hydroelastic.fem.open_water.requests import (
+    DecayRequest,
+    RadiationRequest,
+    Request,
+    ResponseRequest,
+    SpectrumRequest,
+)
 from hydroelastic.fem.open_water.resonance import ResonanceSolution, solve_resonance
 from hydroelastic.fem.open_water.response import ResponseSolution, solve_response
-from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, ResonanceTable, ResponseTable
+from hydroelastic.fem.open_water.results import (
+    DecayTable,
+    RadiationTable,
+    ResonanceTable,
+    ResponseTable,
+    SpectrumTable,
+)
+from hydroelastic.fem.open_water.spectrum import SpectrumSolution, solve_spectrum
 from hydroelastic.fem.stopwatch import Report
 
 # Factor of the tolerance for energy and Haskind residuals, which are of first order in the error of the field.
 _POWER = 10.0
 
-_Solution: TypeAlias = RadiationSolution | ResponseSolution | ResonanceSolution | DecaySolution
+_Solution: TypeAlias = RadiationSolution | ResponseSolution | ResonanceSolution | DecaySolution | SpectrumSolution
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,6 +47,7 @@ class OpenWaterSolution:
         response: one for each response analysis.
         resonance: one for each resonance analysis.
         decay: one for each decay analysis.
+        spectrum: one for each spectrum analysis.
         size: "cells", "dofs" (unknowns of ψ) and "degree" of the largest problem that was solved.
         seconds: time by stage.
         reasons: why the solution does not keep the tolerance or is incomplete; empty if it does.
@@ -43,6 +57,7 @@ class OpenWaterSolution:
     response: tuple[ResponseTable, ...] = ()
     resonance: tuple[ResonanceTable, ...] = ()
     decay: tuple[DecayTable, ...] = ()
+    spectrum: tuple[SpectrumTable, ...] = ()
     size: dict[str, int]
     seconds: dict[str, float]
     reasons: tuple[str, ...] = ()
@@ -72,9 +87,11 @@ def solve_open_water(
         UnstableFloatError: if a float that is released would capsize.
         DriftingFloatError: if a float that is released would drift away.
     """
-    tables: list[RadiationTable | ResponseTable | ResonanceTable | DecayTable] = []
+    tables: list[RadiationTable | ResponseTable | ResonanceTable | DecayTable | SpectrumTable] = []
     size = {"cells": 0, "dofs": 0, "degree": 0}
     reasons: list[str] = []
+    found = [one.band for one in requests if isinstance(one, RadiationRequest | ResponseRequest | SpectrumRequest)]
+    problem = replace(problem, bands=tuple(band for band in found if band is not None))
     for number, request in enumerate(requests, 1):
         report(f"analysis {number}: {request.kind}")
         solution = _solved(problem, request)
@@ -91,6 +108,7 @@ def solve_open_water(
         response=tuple(one for one in tables if isinstance(one, ResponseTable)),
         resonance=tuple(one for one in tables if isinstance(one, ResonanceTable)),
         decay=tuple(one for one in tables if isinstance(one, DecayTable)),
+        spectrum=tuple(one for one in tables if isinstance(one, SpectrumTable)),
         size=size,
         seconds=dict(problem.watch.seconds),
         reasons=tuple(reasons),
@@ -105,6 +123,8 @@ def _solved(problem: OpenWaterProblem, request: Request) -> _Solution:
             return solve_response(problem, request)
         case DecayRequest():
             return solve_decay(problem, request)
+        case SpectrumRequest():
+            return solve_spectrum(problem, request)
         case _:
             return solve_resonance(problem, request)
 

@@ -2,15 +2,31 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 from scipy.linalg import eigvals
 
 from hydroelastic.fem.open_water.complex_direct import ShiftedSolver
-from hydroelastic.fem.open_water.field_model import OpenModel
-from hydroelastic.fem.open_water.frequency import OpenFrequency, OpenResponse
+from hydroelastic.fem.open_water.field_model import Band, OpenModel, open_model
+from hydroelastic.fem.open_water.frequency import BodyEquations, OpenFrequency, OpenResponse
 from hydroelastic.fem.open_water.incident_waves import Incidence, incidence, planes
-from hydroelastic.fem.open_water.reduced_pencil import ReducedPencil
+from hydroelastic.fem.open_water.problem import OpenWaterProblem
+from hydroelastic.fem.open_water.reduced_pencil import LoadProducts, ReducedPencil
 from hydroelastic.fem.stopwatch import Stopwatch
+from hydroelastic.fem.tank.resolution import Resolution
+from hydroelastic.physics.attachments import REGULAR
+
+
+def shared_solver(problem: OpenWaterProblem, band: Band, resolution: Resolution) -> OpenSolver:
+    """Return the solver of a band and a resolution, with its basis: that of the last analysis if it is the same
+    (collective)."""
+    solver: OpenSolver | None = problem.solvers.get((band, resolution))
+    if solver is None:
+        problem.solvers.clear()
+        solver = OpenSolver(open_model(problem, band, resolution), problem.watch)
+        problem.solvers[band, resolution] = solver
+    return solver
 
 
 class OpenSolver:
@@ -19,19 +35,26 @@ class OpenSolver:
     Args:
         model: the problem.
         watch: records the time by stage.
+
+    Attributes:
+        model: the problem.
+        elevation: amplitude of regular waves, m, on which the damping by drag depends; 0 for none.
+        damping: further damping of the body unknowns, in place of drag in irregular waves, dimensionless.
     """
 
     def __init__(self, model: OpenModel, watch: Stopwatch) -> None:
         """Prepare (collective)."""
         self.model = model
+        self.elevation, self.damping = 0.0, np.zeros_like(model.mass)
         self._watch = watch
         with watch.stage("solve"):
             self._direct: ShiftedSolver = model.pencil.solver()
         self._reduced = ReducedPencil(model.pencil)
         self._loads = model.pencil.loads.astype(complex)
-        self._projected = np.zeros((len(self._loads), 0), dtype=complex)
-        # A sweep evaluates a frequency several times.
+        self._known = self._reduced.load_products(self._loads)
+        # A sweep evaluates a frequency several times, and so do several analyses.
         self._waves: dict[float, Incidence] = {}
+        self._solutions: dict[float, tuple[np.ndarray, np.ndarray]] = {}
 
     @property
     def factorizations(self) -> int:
@@ -64,7 +87,7 @@ class OpenSolver:
     def hydrodynamics(self, squares: np.ndarray) -> np.ndarray:
         """H at many λ on the basis, shape (λ, body unknowns, body unknowns) (collective)."""
         with self._watch.stage("reduce"):
-            projected = self._projected_loads()
+            projected = self._known_loads().projected
             return np.array([projected @ self._reduced.solve(square, projected).T for square in squares])
 
     def hydrodynamic(self, squared: complex) -> tuple[np.ndarray, float]:
@@ -73,49 +96,66 @@ class OpenSolver:
         The residual is that of one combination of all motions.
         """
         with self._watch.stage("reduce"):
-            projected = self._projected_loads()
-            coordinates = self._reduced.solve(squared, projected)
+            known = self._known_loads()
+            coordinates = self._reduced.solve(squared, known.projected)
             # Factors without simple ratios, so that no parts cancel by symmetry.
-            parts = np.cos(1.0 + np.arange(len(projected)))[None]
-            residual = self._reduced.residuals(squared, parts @ self._loads, parts @ coordinates)[0]
-            return projected @ coordinates.T, float(residual)
+            parts = np.cos(1.0 + np.arange(len(coordinates)))[None]
+            residual = self._reduced.known_residuals(squared, known, parts, parts @ coordinates)[0]
+            return known.projected @ coordinates.T, float(residual)
 
     def frequency(self, omega: float) -> OpenFrequency:
         """Return radiation and diffraction at ω in rad/s by a factorization; the solutions extend the basis
         (collective)."""
         squared = self.model.squared_frequency(omega)
         waves = self.incidence(omega)
-        radiated = self.radiation(squared)
-        with self._watch.stage("solve"):
-            diffracted = self._solved(-waves.fluxes)
-        with self._watch.stage("reduce"):
-            self._reduced.add(squared, diffracted, -waves.fluxes)
-        return self._frequency(squared, waves, radiated, diffracted)
+        radiated, diffracted = self._at(omega)
+        if self.model.basin.tank.elastic:
+            with self._watch.stage("reduce"):
+                self._reduced.add(squared, np.vstack([radiated, diffracted]), np.vstack([self._loads, -waves.fluxes]))
+        products = self.model.pencil.products
+        return OpenFrequency(
+            model=self.model,
+            squared=squared,
+            incidence=waves,
+            hydrodynamic=products(self._loads, radiated),
+            diffraction=products(diffracted, self._loads),
+            potentials=lambda: radiated,
+        )
+
+    def _at(self, omega: float) -> tuple[np.ndarray, np.ndarray]:
+        """Return radiated and diffracted ψ at ω in rad/s by a factorization (collective).
+
+        Of rigid bodies they extend the basis. Beams have many shapes: their basis is extended by sums of them.
+        """
+        if omega not in self._solutions:
+            squared, waves = self.model.squared_frequency(omega), self.incidence(omega)
+            with self._watch.stage("solve"):
+                self._direct.shift(squared)
+                found = self._solved(self._loads), self._solved(-waves.fluxes)
+            if not self.model.basin.tank.elastic:
+                with self._watch.stage("reduce"):
+                    self._reduced.add(squared, np.vstack(found), np.vstack([self._loads, -waves.fluxes]))
+            self._solutions[omega] = found
+        return self._solutions[omega]
 
     def frequency_between(self, omega: float) -> tuple[OpenFrequency, float]:
         """The same on the basis, and its largest relative residual (collective)."""
         squared = self.model.squared_frequency(omega)
         waves = self.incidence(omega)
         with self._watch.stage("reduce"):
-            loads = np.vstack([self._loads, -waves.fluxes])
-            projected = np.vstack([self._projected_loads(), -self._reduced.project(waves.fluxes)])
-            coordinates = self._reduced.solve(squared, projected)
-            residual = self._reduced.residuals(squared, loads, coordinates).max()
-            potentials = self._reduced.potentials(coordinates)
-        count = len(self._loads)
-        return self._frequency(squared, waves, potentials[:count], potentials[count:]), float(residual)
-
-    def _frequency(
-        self, squared: complex, waves: Incidence, radiated: np.ndarray, diffracted: np.ndarray
-    ) -> OpenFrequency:
+            known, count = self._reduced.load_products(np.vstack([self._loads, -waves.fluxes])), len(self._loads)
+            found = self._reduced.solve(squared, known.projected)
+            residual = self._reduced.known_residuals(squared, known, np.eye(len(found)), found).max()
+            lifted = self._reduced.lifted(found[:count])
+        coupling = known.projected[:count]
         return OpenFrequency(
             model=self.model,
             squared=squared,
             incidence=waves,
-            radiated=radiated,
-            diffracted=diffracted,
-            hydrodynamic=self.model.pencil.products(self._loads, radiated),
-        )
+            hydrodynamic=coupling @ found[:count].T,
+            diffraction=found[count:] @ coupling.T,
+            potentials=lifted,
+        ), float(residual)
 
     def response(self, omega: float, incident: list[int]) -> OpenResponse:
         """Return the response of free bodies by a factorization; the scattered waves extend the basis (collective).
@@ -126,35 +166,100 @@ class OpenSolver:
         """
         squared = self.model.squared_frequency(omega)
         waves = self.incidence(omega)
-        with self._watch.stage("solve"):
-            self._direct.shift(squared)
-            radiated, diffracted = self._solved(self._loads), self._solved(-waves.fluxes)
+        radiated, diffracted = self._at(omega)
         products = self.model.pencil.products
-        dynamic = self.model.stiffness - squared * (self.model.mass + products(self._loads, radiated))
-        forces = squared * (waves.pressures + products(diffracted, self._loads))
-        motions = np.linalg.solve(dynamic, forces.T).T
+        equations = self._equations(
+            squared,
+            waves,
+            products(self._loads, radiated),
+            products(diffracted, self._loads),
+            (products(waves.fluxes, radiated), products(waves.fluxes, diffracted)),
+        )
+        motions, absorbed = self._motions(squared, waves, equations)
         scattered = diffracted + motions @ radiated
-        with self._watch.stage("reduce"):
-            # Waves from the other side are the dual problem of amplitudes: with them these are of second order.
-            self._reduced.add(squared, scattered, motions @ self._loads - waves.fluxes)
-        return self._response(squared, waves, incident, scattered[incident], motions[incident])
+        if self.model.basin.tank.elastic:
+            with self._watch.stage("reduce"):
+                # Waves from the other side are the dual problem of amplitudes: with them these are of second order.
+                self._reduced.add(squared, scattered, motions @ self._loads - waves.fluxes)
+        return OpenResponse(
+            model=self.model,
+            squared=squared,
+            incidence=waves,
+            incident=incident,
+            fluxes=products(waves.fluxes, scattered[incident]),
+            potentials=lambda: scattered[incident],
+            motions=motions[incident],
+            absorbed=absorbed[incident],
+            equations=equations,
+        )
 
     def response_between(self, omega: float, incident: list[int]) -> tuple[OpenResponse, float]:
         """The same on the basis, and its largest relative residual (collective).
 
-        The bodies keep all their unknowns: (VᵀAV − λVᵀMV) y − VᵀF a = −Vᵀg, −λFᵀV y + (K − λM_b) a = λ∫ρφφᵢ.
+        The bodies keep all their unknowns.
         """
         squared = self.model.squared_frequency(omega)
         waves = self.incidence(omega)
         with self._watch.stage("reduce"):
-            operator = self._coupled(squared)
-            loads = -waves.fluxes[incident]
-            right = np.hstack([self._reduced.project(loads), squared * waves.pressures[incident]])
-            unknowns = np.linalg.solve(operator, right.T).T
-            coordinates, motions = unknowns[:, : self.basis_size], unknowns[:, self.basis_size :]
-            residual = self._reduced.residuals(squared, loads + motions @ self._loads, coordinates).max()
-            scattered = self._reduced.potentials(coordinates)
-        return self._response(squared, waves, incident, scattered, motions), float(residual)
+            known, count = self._reduced.load_products(np.vstack([self._loads, -waves.fluxes])), len(self._loads)
+            found = self._reduced.solve(squared, known.projected)
+            radiated, diffracted, coupling = found[:count], found[count:], known.projected[:count]
+            fluxes = -known.projected[count:]
+            equations = self._equations(
+                squared,
+                waves,
+                coupling @ radiated.T,
+                diffracted @ coupling.T,
+                (fluxes @ radiated.T, fluxes @ diffracted.T),
+            )
+            motions, absorbed = (part[incident] for part in self._motions(squared, waves, equations))
+            coordinates = diffracted[incident] + motions @ radiated
+            parts = np.hstack([motions, np.eye(len(diffracted))[incident]])
+            residual = self._reduced.known_residuals(squared, known, parts, coordinates).max()
+        return OpenResponse(
+            model=self.model,
+            squared=squared,
+            incidence=waves,
+            incident=incident,
+            fluxes=fluxes @ coordinates.T,
+            potentials=self._reduced.lifted(coordinates),
+            motions=motions,
+            absorbed=absorbed,
+            equations=equations,
+        ), float(residual)
+
+    def _equations(
+        self,
+        squared: complex,
+        waves: Incidence,
+        hydrodynamic: np.ndarray,
+        diffraction: np.ndarray,
+        fluxes: tuple[np.ndarray, np.ndarray],
+    ) -> BodyEquations:
+        """Return the equations of motion from H, Fᵀφ_D, and gᵀψ of radiation and diffraction."""
+        return BodyEquations(
+            dynamic=self.model.restoring(squared) - squared * (self.model.mass + hydrodynamic),
+            forces=squared * (waves.pressures + diffraction),
+            radiated=fluxes[0],
+            diffracted=fluxes[1],
+        )
+
+    def _motions(self, squared: complex, waves: Incidence, equations: BodyEquations) -> tuple[np.ndarray, np.ndarray]:
+        """Return the motions in each wave, shape (waves, body unknowns), and aᴴBa/ω, the power that B takes over ½ω³,
+        shape (waves,)."""
+        outside, omega = self.model.outside, float(np.sqrt(squared).real)
+        dynamic, forces = equations.dynamic - 1j * omega * self.damping, equations.forces
+        motions: np.ndarray = np.linalg.solve(dynamic, forces.T).T
+        dampings = np.repeat((outside.damping + self.damping)[None], len(motions), axis=0)
+        if self.elevation:
+            # Drag depends on the height of the wave: each has a damping of its own.
+            heights = self.elevation / self.model.basin.units.length / waves.elevations
+            for place, (height, force) in enumerate(zip(heights, forces, strict=True)):
+                speeds = partial(_speeds, outside.paths, omega, dynamic, height * force)
+                damping = outside.equivalent_damping(speeds, REGULAR)
+                motions[place] = _moved(omega, dynamic, force, damping)
+                dampings[place] += damping
+        return motions, np.einsum("wi,wij,wj->w", motions.conj(), dampings, motions).real / omega
 
     def resonances_between(self) -> np.ndarray:
         """Return ω of bodies and liquid on the basis, rad/s, Re ω ≥ 0, with those of the continuous spectrum
@@ -169,31 +274,31 @@ class OpenSolver:
 
     def _coupled(self, squared: complex) -> np.ndarray:
         """The operator of bodies and liquid on the basis, linear in λ (collective)."""
-        coupling = self._projected_loads()
+        coupling = self._known_loads().projected
         return np.block(
             [
                 [self._reduced.operator(squared), -coupling.T],
-                [-squared * coupling, self.model.stiffness - squared * self.model.mass],
+                [-squared * coupling, self.model.restoring(squared) - squared * self.model.mass],
             ]
         )
 
-    def _response(
-        self, squared: complex, waves: Incidence, incident: list[int], scattered: np.ndarray, motions: np.ndarray
-    ) -> OpenResponse:
-        return OpenResponse(
-            model=self.model,
-            squared=squared,
-            incidence=waves,
-            incident=incident,
-            scattered=scattered,
-            motions=motions,
-        )
-
-    def _projected_loads(self) -> np.ndarray:
-        """VᵀF, for the basis as it is (collective)."""
-        if self._projected.shape[1] != self._reduced.size:
-            self._projected = self._reduced.project(self._loads)
-        return self._projected
+    def _known_loads(self) -> LoadProducts:
+        """Products of F, for the basis as it is (collective)."""
+        if self._known.projected.shape[1] != self._reduced.size:
+            self._known = self._reduced.load_products(self._loads)
+        return self._known
 
     def _solved(self, loads: np.ndarray) -> np.ndarray:
         return np.array([self._direct.solve(load) for load in loads]).reshape(loads.shape)
+
+
+def _moved(omega: float, dynamic: np.ndarray, force: np.ndarray, damping: np.ndarray) -> np.ndarray:
+    """Motions by a force with further damping, shape (body unknowns,)."""
+    motions: np.ndarray = np.linalg.solve(dynamic - 1j * omega * damping, force)
+    return motions
+
+
+def _speeds(paths: np.ndarray, omega: float, dynamic: np.ndarray, force: np.ndarray, damping: np.ndarray) -> np.ndarray:
+    """Amplitudes of the velocities along paths, shape (paths,)."""
+    speeds: np.ndarray = omega * np.abs(paths @ _moved(omega, dynamic, force, damping))
+    return speeds

@@ -54,11 +54,13 @@ class Swept(Generic[Solution]):
         solutions: in the order of the frequencies.
         errors: estimated relative errors by the reduced basis, shape (frequencies,); zero for full solutions.
         in_full: whether each solution is a full one.
+        ratio: relative error over the square of the residual, with its safety factor.
     """
 
     solutions: list[Solution]
     errors: np.ndarray
     in_full: list[bool]
+    ratio: float
 
 
 def sweep(problem: Problem[Solution], omegas: np.ndarray, tolerance: float) -> Swept[Solution]:
@@ -74,6 +76,7 @@ def sweep(problem: Problem[Solution], omegas: np.ndarray, tolerance: float) -> S
             solutions=[problem.full(complex(omega)) for omega in omegas],
             errors=np.zeros(len(omegas)),
             in_full=[True] * len(omegas),
+            ratio=0.0,
         )
     order = [int(place) for place in np.argsort(np.abs(omegas))]
     full = {place: problem.full(complex(omegas[place])) for place in (order[0], order[len(order) // 2], order[-1])}
@@ -103,4 +106,9 @@ def sweep(problem: Problem[Solution], omegas: np.ndarray, tolerance: float) -> S
         else:
             solutions.append(found[place][0])
             errors[place] = error(place)
-    return Swept(solutions=solutions, errors=errors, in_full=[place in full for place in range(len(omegas))])
+    return Swept(
+        solutions=solutions,
+        errors=errors,
+        in_full=[place in full for place in range(len(omegas))],
+        ratio=_SAFETY * max(ratios, default=0.0),
+    )

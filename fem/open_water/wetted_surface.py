@@ -7,7 +7,7 @@ from mpi4py import MPI
 
 from hydroelastic.fem.facets import facet_groups
 from hydroelastic.fem.liquid import LiquidSpace
-from hydroelastic.fem.shape_loads import facet_quadrature, potential_basis, singular_corner, summed_over_processes
+from hydroelastic.fem.shape_loads import facet_quadrature, potential_basis, singular_corner
 from hydroelastic.fem.surfaces import Body
 
 
@@ -56,16 +56,15 @@ class WettedSurface:
     def loads(self, fluxes: np.ndarray) -> np.ndarray:
         """Return ∫ρ f q of complex functions f, shape (functions, points), on own unknowns: shape (functions, unknowns)
         (collective)."""
-        index_map = self._liquid.space.dofmap.index_map
         parts = np.vstack([fluxes.real, fluxes.imag]) * self._weights
-        loads = np.zeros((len(parts), index_map.size_local + index_map.num_ghosts))
+        loads = np.zeros((len(parts), len(self._liquid.layer_of)))
         first = 0
         for dofs, basis, count in self._groups:
             local = parts[:, first : first + count].reshape(len(parts), len(dofs), -1) @ basis
             for load, values in zip(loads, local, strict=True):
                 np.add.at(load, dofs, values)
             first += count
-        own = summed_over_processes(self._liquid, loads)
+        own = self._liquid.numbering.summed(loads)
         complex_loads: np.ndarray = own[: len(fluxes)] + 1j * own[len(fluxes) :]
         return complex_loads
 

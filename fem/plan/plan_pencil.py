@@ -21,8 +21,9 @@ from scipy import sparse
 
 from hydroelastic.fem.cells import CURVED_QUADRATURE, cell_jacobians, cell_positions, is_straight
 from hydroelastic.fem.direct import direct_solver
-from hydroelastic.fem.kernels import compiled_form
-from hydroelastic.fem.liquid import LiquidSpace, assembled, chosen_measure, laplace_matrix, liquid_space
+from hydroelastic.fem.kernels import assembled, chosen_measure, compiled_form
+from hydroelastic.fem.liquid import LiquidSpace, liquid_space
+from hydroelastic.fem.liquid_matrices import laplace_matrix
 from hydroelastic.fem.pencil import CoupledPencil, SurfaceBlocks, coupled_pencil
 from hydroelastic.fem.plan.box_pencil import as_matrix
 from hydroelastic.fem.plan.rectangle_body import ClassParity

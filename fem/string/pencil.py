@@ -16,8 +16,7 @@ from mpi4py import MPI
 from numpy.typing import NDArray
 from petsc4py import PETSc
 
-from hydroelastic.fem.kernels import compiled_form
-from hydroelastic.fem.liquid import assembled
+from hydroelastic.fem.kernels import assembled, compiled_form
 from hydroelastic.meshes.line import graded_nodes, line_mesh, travel_nodes
 from hydroelastic.physics.string import HangingString
 

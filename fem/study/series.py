@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import Literal
 
 from mpi4py import MPI
 
-from hydroelastic.fem.liquid import compile_form
 from hydroelastic.fem.modes import EigenSolverError
-from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.fem.study.meshes import coarsest_size, full_order_gradings, nested_meshes
 from hydroelastic.fem.study.row import StudyRow
 from hydroelastic.fem.study.rows import mesh_row, tolerance_row
@@ -19,15 +17,11 @@ from hydroelastic.fem.study.singular_points import has_curved_contours, sharpest
 from hydroelastic.fem.study.steady import steadily_timed
 from hydroelastic.fem.study.studied_tank import StudiedTank
 from hydroelastic.fem.tank.field_model import build_mesh, distributed_mesh
-from hydroelastic.fem.tank.field_solution import solve_field
 from hydroelastic.fem.tank.mesh import unknown_count
-from hydroelastic.fem.tank.resolution import SMALLEST_TIP, initial_resolution
+from hydroelastic.fem.tank.resolution import SMALLEST_TIP
 from hydroelastic.meshes.grading import Grading
 
 _mesh_row, _tolerance_row = steadily_timed(mesh_row), steadily_timed(tolerance_row)
-
-# Tolerance of solutions that serve only to compile forms.
-_ROUGH = 1e-3
 
 
 def nested_rows(
@@ -102,15 +96,3 @@ def geometric_rows(studied: StudiedTank, degrees: Sequence[int]) -> Iterator[Stu
 def tolerance_rows(studied: StudiedTank, tolerances: Sequence[float]) -> Iterator[StudyRow]:
     """Solve to each of some relative tolerances (collective)."""
     return (_tolerance_row(studied, tolerance) for tolerance in tolerances)
-
-
-def compile_forms(studied: StudiedTank, degrees: Iterable[int]) -> None:
-    """Solve once with each degree, so that the rows of a study do not include the time of compilation (collective)."""
-    coarse = initial_resolution(studied.tank, _ROUGH, modes=1)
-    for degree in sorted(set(degrees)):
-        resolution = replace(coarse, degree=degree)
-        # Cells at curved contours are of the same degree, and have a form of their own.
-        mesh = build_mesh(MPI.COMM_WORLD, studied.tank, resolution, half=studied.half)
-        solve_field(mesh, studied.tank, resolution, 1, Stopwatch(), half=studied.half)
-        if len(studied.tank.layers) > 1:
-            compile_form(mesh, degree, continuous_pressure=True)

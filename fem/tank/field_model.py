@@ -8,7 +8,8 @@ from dataclasses import replace
 from mpi4py import MPI
 
 from hydroelastic.fem.bodies.registry import body_model
-from hydroelastic.fem.liquid import Layer, liquid_matrices, liquid_space
+from hydroelastic.fem.liquid import Layer, liquid_space
+from hydroelastic.fem.liquid_matrices import liquid_matrices
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.surfaces import Body, LiquidSurface
 from hydroelastic.fem.tank.mesh import check_mesh, make_mesh
@@ -141,9 +142,14 @@ def _field_models(
         Layer(name=name, density=layer.density) for name, layer in zip(layer_names(tank), tank.layers, strict=True)
     )
     liquid = liquid_space(
-        mesh, degree, zero_potential, layers, continuous_pressure=infinite_frequency and tank.has_continuous_pressure
+        mesh,
+        degree,
+        zero_potential,
+        layers,
+        continuous_pressure=infinite_frequency and tank.has_continuous_pressure,
+        condensed=True,
     )
-    matrices = liquid_matrices(liquid, tuple(surface.surface for surface in surfaces))
+    matrices = liquid_matrices(liquid, surfaces)
     pencils = []
     for parity in parities:
         plane = (SYMMETRY_PLANE,) if parity == "antisymmetric" else ()

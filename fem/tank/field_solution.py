@@ -11,7 +11,6 @@ from itertools import pairwise
 
 import numpy as np
 
-from hydroelastic.fem.liquid import compile_form
 from hydroelastic.fem.modes import HIDDEN, Mode, ModeSet, count_below, solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.stopwatch import Stopwatch
@@ -112,15 +111,13 @@ def solve_field(
         tank: the dimensionless tank.
         resolution: degree and number of dry modes.
         count: number of modes; fewer are returned if the model has fewer.
-        watch: records the time of compiling the form, of assembly and of solution.
+        watch: records the time of assembly and of solution.
         half: whether a symmetric tank is solved as two halves.
         models: what assembles the problems, with the arguments of `part_models`, which is the default.
 
     Raises:
         EigenSolverError: if SLEPc stops before enough pairs have converged.
     """
-    with watch.stage("forms"):
-        compile_form(mesh, resolution.degree)
     with watch.stage("assemble"):
         pencils = (models or part_models)(mesh, tank, resolution.degree, resolution.shapes, half=half)
     with watch.stage("solve"):

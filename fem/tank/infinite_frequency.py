@@ -15,7 +15,6 @@ from mpi4py import MPI
 from scipy.linalg import block_diag
 
 from hydroelastic.fem.added_mass import body_responses
-from hydroelastic.fem.liquid import compile_form
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.fem.tank.attempts import Attempt, best_attempt
@@ -134,8 +133,6 @@ def infinite_frequency_limit(
     def solve(resolution: Resolution) -> Attempt[InfiniteFrequencyLimit]:
         with watch.stage(stage):
             mesh = user_mesh or liquids.mesh(comm, tank, resolution, half=half, infinite_frequency=True)
-        with watch.stage("forms"):
-            compile_form(mesh, resolution.degree, continuous_pressure=tank.has_continuous_pressure)
         shapes = resolution.shapes if has_tones else (0,) * len(tank.bodies)
         with watch.stage(stage):
             pencils = liquids.pencils(mesh, tank, resolution.degree, shapes, half=half, infinite_frequency=True)

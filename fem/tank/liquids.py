@@ -12,16 +12,19 @@ from dataclasses import dataclass, field, replace
 
 from mpi4py import MPI
 
-from hydroelastic.fem.added_mass import liquid_answer
 from hydroelastic.fem.pencil import with_bodies
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.fem.tank.field_model import build_mesh, half_bodies, whole_bodies
 from hydroelastic.fem.tank.field_solution import PartPencils, part_models
 from hydroelastic.fem.tank.resolution import Resolution
+from hydroelastic.fem.volume_pencil import liquid_answer
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.physics.beams import Beam
 from hydroelastic.physics.symmetry import Parity, shapes_of_twins
 from hydroelastic.physics.tank import Tank
+
+# A dense answer of the liquid that takes more memory is not kept, bytes.
+_MOST_MEMORY = 200e6
 
 
 class Liquids:
@@ -100,7 +103,12 @@ class SharedLiquids(Liquids):
         if key not in self._pencils:
             made = super().pencils(mesh, tank, degree, shapes, half=half, infinite_frequency=infinite_frequency)
             self._pencils[key] = {
-                parity: replace(pencil, answer=liquid_answer(pencil)) for parity, pencil in made.items()
+                parity: replace(
+                    pencil,
+                    answer=pencil.answer
+                    or liquid_answer(pencil, int(_MOST_MEMORY / (8.0 * pencil.coupling.getSize()[0]))),
+                )
+                for parity, pencil in made.items()
             }
         return {
             parity: with_bodies(pencil, _bodies(tank, shapes, parity)) for parity, pencil in self._pencils[key].items()

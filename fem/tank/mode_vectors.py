@@ -91,7 +91,7 @@ def _elevations(solution: TankSolution, level: StillLevel, shapes: list[np.ndarr
     number = next(place for place, one in enumerate(pencil.surfaces) if _is_on(one, level))
     surface, liquid, comm = pencil.surfaces[number], pencil.liquid, pencil.liquid.tank.mesh.comm
     dofs = liquid.surface_dofs((surface.surface,), surface.below)
-    x = np.concatenate(comm.allgather(liquid.space.tabulate_dof_coordinates()[dofs, 0]))
+    x = np.concatenate(comm.allgather(liquid.unknown_positions()[dofs, 0]))
     order = np.argsort(x, kind="stable")
     behind = sum(pencil.surface_sizes[number:])
     rows = []

@@ -18,8 +18,7 @@ from mpi4py import MPI
 from numpy.typing import NDArray
 from petsc4py import PETSc
 
-from hydroelastic.fem.kernels import compiled_form
-from hydroelastic.fem.liquid import assembled
+from hydroelastic.fem.kernels import assembled, compiled_form
 from hydroelastic.fem.thread.equilibrium import Equilibrium, split_state
 from hydroelastic.fem.thread.forms import ThreadForms, ThreadState, tangent
 from hydroelastic.fem.thread.table import line_table

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from hydroelastic.modal.beam.dry_modes import free_free_shape, free_free_wavenumber
+from hydroelastic.modal.beam.dry_modes import free_free_shape, free_free_shapes, free_free_wavenumber
 from hydroelastic.modal.beam.guided_modes import guided_shape, guided_wavenumber
 from hydroelastic.modal.beam.jointed_modes import JointedModes, jointed_modes
 from hydroelastic.physics.beams import Beam
@@ -30,6 +30,10 @@ class BeamShapes:
         dofs: degree of freedom of each.
         parities: +1 or −1: the mirror image of a shape about the middle of its beam is ± a shape of the mirrored beam.
         deflection: number of the shape and distances from the left end → w.
+        tabulated: distances from the left end, within the beam, and order 0 … 3 of the derivative → that of all shapes,
+            shape (shapes, points); of free ends.
+        moments: the same points → bending moments EI w″ of all shapes, shape (shapes, points).
+        shears: the same points → shear forces (EI w″)′, shape (shapes, points).
         bending: twice the strain energy of each, in units of the beam, shape (shapes,).
         mass: ∫m wᵢwⱼ, shape (shapes, shapes).
         wavenumber: the largest wavenumber among them, 1/m or dimensionless as the beam.
@@ -38,6 +42,9 @@ class BeamShapes:
     dofs: tuple[Dof, ...]
     parities: tuple[int, ...]
     deflection: Callable[[int, Array], Array]
+    tabulated: Callable[[Array, int], Array]
+    moments: Callable[[Array], Array]
+    shears: Callable[[Array], Array]
     bending: Array
     mass: Array
     wavenumber: float
@@ -53,14 +60,22 @@ def _closed_shapes(beam: Beam, count: int) -> BeamShapes:
     wavenumber = guided_wavenumber if guided else free_free_wavenumber
     roots = np.array([wavenumber(number) for number in range(count)])
 
-    def deflection(number: int, x: Array) -> Array:
-        values = guided_shape(number, x / length) if guided else free_free_shape(number, x / length)
-        return np.asarray(values, dtype=np.float64)
+    def deflections(x: Array) -> Array:
+        if guided:
+            return np.array([guided_shape(number, x / length) for number in range(count)], dtype=np.float64)
+        return np.asarray(free_free_shapes(count, x / length), dtype=np.float64)
+
+    def tabulated(x: Array, derivative: int) -> Array:
+        values = [free_free_shape(number, np.clip(x / length, 0.0, 1.0), derivative) for number in range(count)]
+        return np.asarray(np.array(values).reshape(count, len(x)) / length**derivative, dtype=np.float64)
 
     return BeamShapes(
         dofs=beam.dofs(count),
         parities=tuple(1 - 2 * (number % 2) for number in range(count)),
-        deflection=deflection,
+        deflection=_AllAtOnce(deflections),
+        tabulated=tabulated,
+        moments=lambda x: beam.flexural_rigidity * tabulated(x, 2),
+        shears=lambda x: beam.flexural_rigidity * tabulated(x, 3),
         bending=beam.flexural_rigidity * (roots / length) ** 4 * length,
         mass=np.diag(np.full(count, beam.mass_per_length * length)),
         wavenumber=float(roots.max(initial=0.0)) / length,
@@ -76,7 +91,11 @@ def _computed_shapes(beam: Beam, count: int) -> BeamShapes:
     return BeamShapes(
         dofs=modes.dofs,
         parities=modes.parities,
-        deflection=_AllAtOnce(modes, scale),
+        # Lengths in units of the tank end within rounding of each other.
+        deflection=_AllAtOnce(lambda x: scale * modes.shapes(np.minimum(x, length))),
+        tabulated=lambda x, derivative: scale * modes.shapes(np.clip(x, 0.0, modes.beam.length), derivative),
+        moments=lambda x: scale * modes.bending_moments(np.clip(x, 0.0, modes.beam.length)),
+        shears=lambda x: scale * modes.shear_forces(np.clip(x, 0.0, modes.beam.length)),
         bending=modes.squared_frequencies * length,
         mass=mass * length,
         wavenumber=float(modes.wavenumbers.max()),
@@ -86,15 +105,14 @@ def _computed_shapes(beam: Beam, count: int) -> BeamShapes:
 class _AllAtOnce:
     """Evaluates all shapes at some points for the first of them: one is asked for after the other."""
 
-    def __init__(self, modes: JointedModes, scale: float) -> None:
-        self._modes, self._scale = modes, scale
+    def __init__(self, deflections: Callable[[Array], Array]) -> None:
+        self._deflections = deflections
         self._points: Array = np.empty(0)
         self._values: Array = np.empty((0, 0))
 
     def __call__(self, number: int, x: Array) -> Array:
         if not np.array_equal(x, self._points):
-            # Lengths in units of the tank end within rounding of each other.
-            self._values = self._scale * self._modes.shapes(np.minimum(x, self._modes.beam.length))
+            self._values = self._deflections(x)
             self._points = x.copy()
         values: Array = self._values[number]
         return values

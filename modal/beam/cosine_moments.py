@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import math
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
@@ -12,6 +13,7 @@ from hydroelastic.modal.beam.floating_beam import FloatingBeam
 from hydroelastic.physics.arrays import FloatArray
 
 _RESONANCE = 1e-3
+_POINTS = 32
 
 
 def cosine_moments(beam: FloatingBeam, index: int, wavenumbers: FloatArray) -> FloatArray:
@@ -61,8 +63,12 @@ def _closed_form(beam: FloatingBeam, index: int, kappa: float, k: FloatArray) ->
 
 
 def _integrated(beam: FloatingBeam, index: int, k: FloatArray) -> FloatArray:
-    nodes, weights = leggauss(24 + 2 * index)
+    # In steps: finding the points takes longer than the integrals.
+    nodes, weights = _gauss_points(_POINTS * math.ceil((24 + 2 * index) / _POINTS))
     s = (nodes + 1) / 2
     waves = np.cos(np.outer(k, beam.start + beam.length * s))
     moments: FloatArray = beam.length / 2 * waves @ (weights * free_free_shape(index, s))
     return moments
+
+
+_gauss_points = functools.cache(leggauss)

@@ -103,7 +103,14 @@ def free_free_shape(index: int, s: npt.ArrayLike | SupportsFloat, derivative: in
         raise ValueError("s must lie in [0, 1]")
     if index < RIGID_SHAPES:
         return _rigid_shape(index, position, derivative)
-    return _elastic_shape(index - 1, position, derivative)
+    return _elastic_shapes(np.array([index - 1]), position.ravel(), derivative).reshape(position.shape)
+
+
+def free_free_shapes(count: int, s: FloatArray) -> FloatArray:
+    """Return the first shapes of `free_free_shape` at positions z/l in [0, 1], shape (count, positions)."""
+    rigid = [_rigid_shape(index, s, 0) for index in range(min(count, RIGID_SHAPES))]
+    elastic = _elastic_shapes(np.arange(1, max(count - 1, 1)), s, 0)
+    return np.concatenate([np.array(rigid).reshape(-1, len(s)), elastic])
 
 
 def _check_index(index: int) -> None:
@@ -119,25 +126,29 @@ def _rigid_shape(index: int, s: FloatArray, derivative: int) -> FloatArray:
     return np.sqrt(3.0) * (2 * s - 1) if derivative == 0 else np.full_like(s, 2 * np.sqrt(3.0))
 
 
-def _elastic_shape(number: int, s: FloatArray, derivative: int) -> FloatArray:
-    parity = 1.0 if number % 2 == 1 else -1.0
+def _elastic_shapes(numbers: npt.NDArray[np.int64], s: FloatArray, derivative: int) -> FloatArray:
+    """Elastic shapes j, shape (numbers, positions)."""
+    parity = np.where(numbers % 2 == 1, 1.0, -1.0)[:, None]
     far_half = s > 0.5
     near = np.where(far_half, 1 - s, s)
-    value = _elastic_shape_near(number, parity, near, derivative)
+    value = _elastic_shapes_near(numbers, parity, near, derivative)
     mirrored: FloatArray = np.where(far_half, parity * (-1.0) ** derivative * value, value)
     return mirrored
 
 
-def _elastic_shape_near(number: int, parity: float, s: FloatArray, derivative: int) -> FloatArray:
-    """Evaluate the shape for s ≤ 1/2, where every term is bounded by one or two."""
-    offset = _single_root_offset(number)
-    root = (number + 0.5) * np.pi + offset
+def _elastic_shapes_near(
+    numbers: npt.NDArray[np.int64], parity: FloatArray, s: FloatArray, derivative: int
+) -> FloatArray:
+    """Evaluate shapes for s ≤ 1/2, where every term is bounded by one or two."""
+    offset = np.array([_single_root_offset(number) for number in map(int, numbers)])[:, None]
+    half_waves = numbers[:, None] + 0.5
+    root = half_waves * np.pi + offset
     ratio = parity * np.exp(-root)
     decaying = (parity * np.exp(-root * (1 - s)) + (-1.0) ** derivative * np.exp(-root * s)) / (1 + ratio)
     sigma = (1 - ratio) / (1 + ratio)
     # A quarter of the bits of s times the half-integer is exact, so turns are dropped without rounding.
     leading = s.astype(np.float32).astype(np.float64)
-    turns = np.fmod((number + 0.5) * leading, 2.0) + (number + 0.5) * (s - leading)
+    turns = np.fmod(half_waves * leading, 2.0) + half_waves * (s - leading)
     phase = np.pi * turns + offset * s
     cosine, sine = np.cos(phase), np.sin(phase)
     # d/dθ turns (cos, sin) into (−sin, cos).

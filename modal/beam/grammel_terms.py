@@ -45,21 +45,13 @@ def one_term_root(beam: FloatingBeam, number: int) -> float:
     constant = k * math.tanh(k * scaled.depth) * scaled.tank_length / 2 + rigid
     surface = float(_surface_overlap(scaled, np.array([k]))[0, 0])
 
-    if len(poles) == 0:
-        return beam.frequency_unit * math.sqrt(constant / surface)
-    first = float(poles.min())
-    others = poles > first
-    weight = float(weights[~others].sum())
-
-    def cleared(squared: float) -> float:
-        """F_n times (first pole − λ), finite at that pole."""
-        regular = constant - squared * surface - squared * np.sum(weights[others] / (poles[others] - squared))
-        return float(regular * (first - squared) - squared * weight)
-
-    from scipy.optimize import brentq  # slow to import, so only when used
-
-    root = brentq(cleared, 0.0, first, xtol=1e-300, rtol=1e-14)
-    return beam.frequency_unit * math.sqrt(root)
+    # F_n(λ) = 0 is diag(constant, poles) x = λ M x; 1/λ is the largest eigenvalue of the scaled M, to rounding.
+    couplings = np.sqrt(weights / poles)
+    mass = np.eye(1 + len(poles))
+    mass[0, 0] = surface + float(couplings @ couplings)
+    mass[0, 1:] = mass[1:, 0] = couplings
+    scale = 1.0 / np.sqrt(np.append(constant, poles))
+    return beam.frequency_unit / math.sqrt(float(np.linalg.eigvalsh(scale[:, None] * mass * scale)[-1]))
 
 
 def _compliance(scaled: FloatingBeam, number: int) -> tuple[FloatArray, FloatArray, float]:

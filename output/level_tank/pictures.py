@@ -26,7 +26,7 @@ from hydroelastic.output.pictures.page import (
     write_caption,
     write_title,
 )
-from hydroelastic.output.pictures.rendering import open_window
+from hydroelastic.output.pictures.rendering import require_renderer
 from hydroelastic.output.provenance import Summary
 
 if TYPE_CHECKING:
@@ -105,7 +105,7 @@ def mode_page(sample: SampledModes, shape: int, title: str, *, width: int, facto
 def _view(sample: SampledModes, relative: NDArray[np.float64], size: tuple[int, int]) -> NDArray[np.uint8]:
     """The displaced surface in the light, plates with their edges."""
     # Without a library that renders, VTK would end the process.
-    open_window()
+    require_renderer()
     import pyvista
 
     extent = float(np.ptp(sample.points, axis=0).max())

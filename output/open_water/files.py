@@ -8,15 +8,46 @@ from typing import Any
 
 from hydroelastic.output.columns import Column, columns_of, csv_columns
 from hydroelastic.output.csv_files import write_csv
-from hydroelastic.output.open_water.quantities import ALONG_BEAM, DECAY, PLATES, RADIATION, RESONANCE, RESPONSE
+from hydroelastic.output.open_water.irregular import SPECTRUM
+from hydroelastic.output.open_water.quantities import (
+    ALONG_BEAM,
+    ALONG_HULL,
+    DECAY,
+    HULLS,
+    PLATES,
+    RADIATION,
+    RESONANCE,
+    RESPONSE,
+)
 from hydroelastic.output.quantities import Group
 
-ROWS = {"radiation": ("omega",), "response": ("omega", "wave"), "resonance": ("resonance",), "decay": ("time",)}
+ROWS = {
+    "radiation": ("omega",),
+    "response": ("omega", "wave"),
+    "resonance": ("resonance",),
+    "decay": ("time",),
+    "spectrum": ("spectrum_omega",),
+}
 """Dimensions whose places are the rows of the tables of an analysis."""
 _DEFLECTION = Group(
     "deflection",
     "deflection of a beam",
-    (PLATES["body"], RESPONSE["omega"], RESPONSE["waves"], PLATES["positions"], PLATES["deflection"]),
+    (
+        PLATES["body"],
+        RESPONSE["omega"],
+        RESPONSE["waves"],
+        PLATES["positions"],
+        PLATES["deflection"],
+        PLATES["bending_moment"],
+        PLATES["shear_force"],
+    ),
+)
+
+
+_PRESSURE = Group(
+    "pressure",
+    "pressure along a hull",
+    (HULLS["body"], RESPONSE["omega"], RESPONSE["waves"], HULLS["x"], HULLS["y"], HULLS["pressure"]),
 )
 
 
@@ -24,23 +55,25 @@ def open_columns(group: Group, table: Any) -> Iterator[Column]:
     """Yield the columns of the table of an analysis."""
     motions = dict.fromkeys(("influenced_dof", "radiating_dof", "dof"), table.dofs)
     waves = dict.fromkeys(("wave", "outgoing_wave"), getattr(table, "waves", ()))
+    motions["spectrum_quantity"] = getattr(table, "quantities", ())
     labels = {**motions, **waves, "wave_direction": ("from_left", "from_right")}
     return columns_of(group, table, ROWS[group.key], labels)
 
 
 def write_open_csv(solution: Any, folder: Path) -> None:
-    """Write ``radiation.csv``, ``response.csv``, ``deflection.csv``, ``resonance.csv`` and ``decay.csv``.
+    """Write ``radiation.csv``, ``response.csv``, ``deflection.csv``, ``pressure.csv``, ``resonance.csv``,
+    ``decay.csv`` and ``spectrum.csv``.
 
     Those without rows are left out. The column ``analysis`` counts analyses of a kind from 1; ``re_`` and ``im_`` are
     the parts of a complex number; of a matrix, the first name is the force and the second the motion, or the wave that
-    comes and the wave that leaves. Phases are those beside an incident wave whose crest is at x = 0 of the scene at
-    t = 0, but for ``phase_at_body``.
+    comes and the wave that leaves. Phases are those beside an incident wave whose crest is at x = 0 of the scene, or
+    at ``sea.phase_at``, at t = 0, but for ``phase_at_body``.
 
     Args:
         solution: the solution.
         folder: an existing folder.
     """
-    groups = (RADIATION, RESPONSE, RESONANCE, DECAY)
+    groups = (RADIATION, RESPONSE, RESONANCE, DECAY, SPECTRUM)
     files = {
         group.key: csv_columns((number, open_columns(group, one)) for number, one in enumerate(group.of(solution), 1))
         for group in groups
@@ -49,6 +82,11 @@ def write_open_csv(solution: Any, folder: Path) -> None:
         (number, columns_of(_DEFLECTION, plate, ("omega", "wave", ALONG_BEAM), {}))
         for number, table in enumerate(RESPONSE.of(solution), 1)
         for plate in table.deflections
+    )
+    files["pressure"] = csv_columns(
+        (number, columns_of(_PRESSURE, hull, ("omega", "wave", ALONG_HULL), {}))
+        for number, table in enumerate(RESPONSE.of(solution), 1)
+        for hull in table.pressures
     )
     for name, columns in files.items():
         if columns["analysis"]:

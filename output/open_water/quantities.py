@@ -14,15 +14,17 @@ import numpy as np
 
 from hydroelastic.fem.open_water.region import Region
 from hydroelastic.fem.open_water.results import DIRECTIONS, Complexes, Floats, ResponseTable
+from hydroelastic.output.open_water.bodies import BODIES
+from hydroelastic.output.open_water.declarations import CREST, DOFS, NUMBERED, OF_BODIES, joined_array, own_array
+from hydroelastic.output.open_water.irregular import SPECTRUM
 from hydroelastic.output.provenance import PROCESSES
 from hydroelastic.output.quantities import Group, Quantity
 from hydroelastic.physics.dofs import Dof, body_name
 
-_CREST = "beside an incident wave whose crest is at x = 0 of the scene at t = 0"
 _INERTIA: dict[str, Any] = {"unit": "kg/m", "of_roll": ("kg", "kg m")}
-_FORCE: dict[str, Any] = {"unit": "N/m^2", "of_roll": ("N/m",), "phase": _CREST}
+_FORCE: dict[str, Any] = {"unit": "N/m^2", "of_roll": ("N/m",), "phase": CREST}
 _MOTION: dict[str, Any] = {"unit": "m", "of_roll": ("rad",)}
-_PER_ELEVATION: dict[str, Any] = {"unit": "m/m", "of_roll": ("rad/m",), "phase": _CREST}
+_PER_ELEVATION: dict[str, Any] = {"unit": "m/m", "of_roll": ("rad/m",), "phase": CREST}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,6 +36,20 @@ class Deflection:
     waves: tuple[str, ...]
     positions: Floats
     deflection: Complexes
+    bending_moment: Complexes
+    shear_force: Complexes
+
+
+@dataclass(frozen=True, kw_only=True)
+class Pressure:
+    """The pressure along a hull in waves: `number` of the body, from 1, and `HullPressure` with the waves."""
+
+    number: int
+    omega: Floats
+    waves: tuple[str, ...]
+    x: Floats
+    y: Floats
+    pressure: Complexes
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,7 +57,7 @@ class WavesAndMotions(ResponseTable):
     """A response with the bodies.
 
     Attributes:
-        centres: x of the middle of the waterplane of each body, m.
+        centres: x of the middle of the waterplane of each body, from where the phase of the wave is 0, m.
         motions: those of the radiation analyses; of this response if there is none.
     """
 
@@ -68,7 +84,16 @@ class WavesAndMotions(ResponseTable):
                 waves=self.waves,
                 positions=plate.positions,
                 deflection=plate.deflection,
+                bending_moment=plate.bending_moment,
+                shear_force=plate.shear_force,
             )
+
+    @property
+    def pressures(self) -> Iterator[Pressure]:
+        """The pressure along each hull."""
+        for hull in self.hulls:
+            x, y = hull.points.T
+            yield Pressure(number=hull.body + 1, omega=self.omega, waves=self.waves, x=x, y=y, pressure=hull.pressure)
 
 
 def region_words(region: Region | None) -> str:
@@ -80,7 +105,7 @@ def region_words(region: Region | None) -> str:
 
 def _responses(solution: Any) -> list[WavesAndMotions]:
     motions = motions_of(*solution.radiation) or motions_of(*solution.response)
-    centres = tuple(sum(body.waterplane) / 2.0 for body in solution.tank.bodies)
+    centres = tuple(sum(body.waterplane) / 2.0 - solution.tank.phase_at for body in solution.tank.bodies)
     return [WavesAndMotions(**vars(table), centres=centres, motions=motions) for table in solution.response]
 
 
@@ -92,9 +117,9 @@ def motions_of(*tables: Any) -> tuple[Dof, ...]:
 def _phase_at_body(table: WavesAndMotions) -> Floats:
     """Return θ, degrees, of the motion |a| cos(ωt − θ) of a body that the crest of the incident wave passes at t = 0.
 
-    The phase of a is beside the crest at x = 0, and waves e^{±ikx − iωt} are e^{±ikx_b} at the middle x_b of the
-    waterplane: θ = arg(a e^{∓ikx_b}), upper signs for waves from the left. NaN where |a| is not larger than its error,
-    which is relative to the largest of the displacements, or of the rotations.
+    The phase of a is beside the crest at x_p, and waves e^{±ik(x − x_p) − iωt} are e^{±ikx_b} at the middle of the
+    waterplane, x_b from there: θ = arg(a e^{∓ikx_b}), upper signs for waves from the left. NaN where |a| is not larger
+    than its error, which is relative to the largest of the displacements, or of the rotations.
     """
     centres = np.array([table.centres[(dof.body or 1) - 1] for dof in table.dofs])
     towards = 1.0 if table.waves_from == "left" else -1.0
@@ -104,16 +129,6 @@ def _phase_at_body(table: WavesAndMotions) -> Floats:
     is_known = np.abs(table.amplitudes) > table.relative_error[:, None, None] * sizes.max(axis=-1, initial=0.0)
     # No negative zero.
     return np.where(is_known, np.degrees(np.angle(at_body)) + 0.0, np.nan)
-
-
-def _joined(key: str, meaning: str, dimensions: str, order: str = "", **more: Any) -> Quantity:
-    """An array that all analyses of a kind have together, in another order of its dimensions if there is one."""
-    names = tuple(dimensions.split())
-    return Quantity(key, meaning, dimensions=names, joined=tuple(order.split()) or names, **more)
-
-
-def _array(key: str, meaning: str, dimensions: str, value: Callable[[Any], Any], **more: Any) -> Quantity:
-    return _joined(key, meaning, dimensions, value=value, in_summary=False, **more)
 
 
 def _inverse(name: str) -> Callable[[Any], Floats]:
@@ -127,52 +142,50 @@ def _inverse(name: str) -> Callable[[Any], Floats]:
 
 # fmt: off
 # A table: as many arguments on a line as fit.
-_OMEGA = _joined("omega", "angular frequency", "omega", unit="rad/s", symbol="ω", shown=".6g")
+_OMEGA = joined_array("omega", "angular frequency", "omega", unit="rad/s", symbol="ω", shown=".6g")
 _WAVES = (
-    _joined("waves", "branch of the dispersion relation", "wave", short="wave", variable="wave", column="wave",
+    joined_array("waves", "branch of the dispersion relation", "wave", short="wave", variable="wave", column="wave",
         note="a dimension only where waves travel on two levels"),
-    _joined("wavenumbers", "wavenumber", "omega wave", unit="1/m", symbol="k", shown=".6g", variable="wavenumber",
+    joined_array("wavenumbers", "wavenumber", "omega wave", unit="1/m", symbol="k", shown=".6g", variable="wavenumber",
         column="wavenumber", is_coordinate=True),
-    _array("wavelength", "wavelength", "omega wave", _inverse("wavenumbers"), unit="m", is_coordinate=True),
-    _array("period", "period", "omega", _inverse("omega"), unit="s", is_coordinate=True),
+    own_array("wavelength", "wavelength", "omega wave", _inverse("wavenumbers"), unit="m", is_coordinate=True),
+    own_array("period", "period", "omega", _inverse("omega"), unit="s", is_coordinate=True),
 )
-_DOFS = Quantity("dofs", "names of the motions", dimensions=("dof",), variable="")
 
 
 def _capitalised(name: str, meaning: str = "motion") -> Quantity:
-    return _array(name, meaning, name, lambda table: [dof.capitalised for dof in table.dofs])
+    return own_array(name, meaning, name, lambda table: [dof.capitalised for dof in table.dofs])
 
 
 _MATRIX = "omega influenced_dof radiating_dof", "omega radiating_dof influenced_dof"  # Capytaine puts the motion first.
 _FORCES = "omega wave wave_direction influenced_dof"
-_OF_BODIES = "influenced_dof radiating_dof"
 RADIATION = Group("radiation", "radiated and incident waves, by analysis; matrices are force by motion", (
     _OMEGA,
     *_WAVES,
-    _DOFS,
+    DOFS,
     _capitalised("radiating_dof", "motion that radiates"),
     _capitalised("influenced_dof", "motion that a force excites"),
-    _joined("wave_direction", "direction in which incident waves travel", "wave_direction", unit="rad",
+    joined_array("wave_direction", "direction in which incident waves travel", "wave_direction", unit="rad",
         value=lambda _: DIRECTIONS, printed=False),
-    _joined("added_mass", "added mass", *_MATRIX, symbol="a", error="relative_error", **_INERTIA),
-    _joined("radiation_damping", "radiation damping", *_MATRIX, unit="kg/(m s)", of_roll=("kg/s", "kg m/s"),
+    joined_array("added_mass", "added mass", *_MATRIX, symbol="a", error="relative_error", **_INERTIA),
+    joined_array("radiation_damping", "radiation damping", *_MATRIX, unit="kg/(m s)", of_roll=("kg/s", "kg m/s"),
         symbol="b", error="relative_error"),
-    _joined("excitation_force", "excitation force per unit elevation", _FORCES, symbol="|f|",
+    joined_array("excitation_force", "excitation force per unit elevation", _FORCES, symbol="|f|",
         error="relative_error", **_FORCE),
-    _joined("froude_krylov_force", "force of the incident wave per unit elevation", _FORCES,
+    joined_array("froude_krylov_force", "force of the incident wave per unit elevation", _FORCES,
         variable="Froude_Krylov_force", printed=False, **_FORCE),
-    _joined("diffraction_force", "force of the scattered waves per unit elevation", _FORCES, printed=False,
+    joined_array("diffraction_force", "force of the scattered waves per unit elevation", _FORCES, printed=False,
         **_FORCE),
-    _joined("relative_error", "estimated relative error of added mass and damping", "omega", unit="1",
+    joined_array("relative_error", "estimated relative error of added mass and damping", "omega", unit="1",
         short="relative error", shown=".1e", variable="radiation_relative_error"),
-    _joined("energy_residual", "relative difference of damping and the radiated power", "omega", unit="1",
+    joined_array("energy_residual", "relative difference of damping and the radiated power", "omega", unit="1",
         printed=False, variable="radiation_energy_residual"),
-    _joined("haskind_residual", "relative difference of the excitation and its value by Haskind's relation",
+    joined_array("haskind_residual", "relative difference of the excitation and its value by Haskind's relation",
         "omega", unit="1", printed=False),
-    _joined("inertia", "inertia of the bodies", _OF_BODIES, variable="inertia_matrix", **_INERTIA),
-    _joined("stiffness", "stiffness of bodies and hydrostatics", _OF_BODIES, variable="hydrostatic_stiffness",
+    joined_array("inertia", "inertia of the bodies", OF_BODIES, variable="inertia_matrix", **_INERTIA),
+    joined_array("stiffness", "stiffness of bodies and hydrostatics", OF_BODIES, variable="hydrostatic_stiffness",
         unit="N/m^2", of_roll=("N/m", "N")),
-    _joined("infinite_frequency_added_mass", "added mass at infinite frequency", _OF_BODIES,
+    joined_array("infinite_frequency_added_mass", "added mass at infinite frequency", OF_BODIES,
         note="`null` if it was not requested", **_INERTIA),
     Quantity("factorizations", "number of factorizations", "1"),
 ), dimension="radiation_analysis")
@@ -182,43 +195,70 @@ ALONG_BEAM = "position_on_body_{.number}"
 """The dimension of the places along a beam."""
 PLATES = Group("plates", "the deflection of each beam", (
     Quantity("body", "number of the body", "1", value=lambda it: it.number, variable="", column="body"),
-    _joined("positions", "position on body {.number}", ALONG_BEAM, unit="m", variable=ALONG_BEAM, column="x"),
-    _joined("deflection", "deflection of body {.number}", f"omega wave {ALONG_BEAM}",
+    joined_array("positions", "position on body {.number}", ALONG_BEAM, unit="m", variable=ALONG_BEAM, column="x"),
+    joined_array("deflection", "deflection of body {.number}", f"omega wave {ALONG_BEAM}",
         f"omega wave_direction wave {ALONG_BEAM}", unit="m/m", variable="deflection_of_body_{.number}",
-        phase=_CREST),
+        phase=CREST),
+    joined_array("bending_moment", "bending moment of body {.number} per metre of width", f"omega wave {ALONG_BEAM}",
+        f"omega wave_direction wave {ALONG_BEAM}", unit="N/m", variable="bending_moment_of_body_{.number}",
+        phase=CREST),
+    joined_array("shear_force", "shear force of body {.number} per metre of width", f"omega wave {ALONG_BEAM}",
+        f"omega wave_direction wave {ALONG_BEAM}", unit="N/m^2", variable="shear_force_of_body_{.number}",
+        phase=CREST),
 ), record=lambda table: list(table.deflections), dimension="plate")
+ALONG_HULL = "point_on_body_{.number}"
+HULLS = Group("hulls", "the pressure along the hull of each float", (
+    Quantity("body", "number of the body", "1", value=lambda it: it.number, variable="", column="body"),
+    own_array("x", "x of points along the hull of body {.number}", ALONG_HULL, lambda it: it.x, unit="m",
+        variable="x_of_points_on_body_{.number}", column="x"),
+    own_array("y", "y of points along the hull of body {.number}", ALONG_HULL, lambda it: it.y, unit="m",
+        variable="y_of_points_on_body_{.number}", column="y"),
+    own_array("pressure", "pressure along the hull of body {.number}, by all waves, at points that do not move",
+        f"omega wave {ALONG_HULL}", lambda it: it.pressure, order=f"omega wave_direction wave {ALONG_HULL}",
+        unit="Pa/m", variable="pressure_on_body_{.number}", column="pressure", phase=CREST),
+), record=lambda table: list(table.pressures), dimension="hull", note="if `hull_pressures`")
 RESPONSE = Group("response", "motions and waves per unit elevation of the incident wave, by analysis", (
     _OMEGA,
     Quantity("waves_from", 'side from which the waves come, `"left"` or `"right"`', variable="",
         column="waves_from"),
     *_WAVES,
-    _DOFS,
+    DOFS,
     _capitalised("radiating_dof", "motion that radiates"),
-    _array("shape", "further shape", "shape", lambda it: [it.dofs[place].capitalised for place in it.further]),
-    _array("outgoing_wave", "branch of the outgoing wave", "outgoing_wave", lambda it: it.waves),
-    _array("wave_direction", "direction in which incident waves travel", "wave_direction",
+    own_array("shape", "further shape", "shape", lambda it: [it.dofs[place].capitalised for place in it.further]),
+    own_array("outgoing_wave", "branch of the outgoing wave", "outgoing_wave", lambda it: it.waves),
+    own_array("wave_direction", "direction in which incident waves travel", "wave_direction",
         lambda it: [it.direction], unit="rad"),
-    _joined("reflection", "elevation of the reflected wave over that of the incident one", *_RATIOS, unit="1",
-        symbol="|R|", error="relative_error", variable="reflection_coefficient", phase=_CREST),
-    _joined("transmission", "elevation of the transmitted wave over that of the incident one", *_RATIOS, unit="1",
-        symbol="|T|", error="relative_error", variable="transmission_coefficient", phase=_CREST),
-    _joined("amplitudes", "motion per unit elevation of the incident wave", *_AMPLITUDES, error="relative_error",
+    joined_array("reflection", "elevation of the reflected wave over that of the incident one", *_RATIOS, unit="1",
+        symbol="|R|", error="relative_error", variable="reflection_coefficient", phase=CREST),
+    joined_array("transmission", "elevation of the transmitted wave over that of the incident one", *_RATIOS, unit="1",
+        symbol="|T|", error="relative_error", variable="transmission_coefficient", phase=CREST),
+    joined_array("amplitudes", "motion per unit elevation of the incident wave", *_AMPLITUDES, error="relative_error",
         variable="RAO", column="", **_PER_ELEVATION),
-    _joined("phase_at_body",
+    joined_array("phase_at_body",
         "phase of the motion beside the crest of the incident wave at the middle of the body's waterplane",
         *_AMPLITUDES, unit="degree", value=_phase_at_body, shown=".1f", variable="RAO_phase_at_body",
         note="positive where it comes after the crest, `null` where the motion is not larger than its error"),
-    _array("shape_amplitude", "amplitude of a further shape per unit elevation", "omega wave shape",
+    own_array("shape_amplitude", "amplitude of a further shape per unit elevation", "omega wave shape",
         lambda it: it.amplitudes[:, :, it.further] if it.further else None, order="omega wave_direction wave shape",
-        unit="1", phase=_CREST),
-    _array("shape_phase_at_body", "phase of a further shape, as `RAO_phase_at_body`", "omega wave shape",
+        unit="1", phase=CREST),
+    own_array("shape_phase_at_body", "phase of a further shape, as `RAO_phase_at_body`", "omega wave shape",
         lambda it: _phase_at_body(it)[:, :, it.further] if it.further else None,
         order="omega wave_direction wave shape", unit="degree"),
-    _joined("energy_residual", "relative difference of incident and outgoing power", "omega wave",
-        "omega wave_direction wave", unit="1", short="energy", shown=".1e", variable="response_energy_residual"),
-    _joined("relative_error", "estimated relative error of the motions", "omega", "omega wave_direction", unit="1",
+    joined_array("absorption", "power that damping from outside takes, over that of the incident wave", "omega wave",
+        "omega wave_direction wave", unit="1", short="absorbed", shown=".4g",
+        variable="absorbed_power_fraction"),
+    joined_array("drift_force", "mean force along x over the square of the amplitude of the waves", "omega wave",
+        "omega wave_direction wave", unit="N/m^3", short="drift/A²", error="relative_error"),
+    joined_array("near_field_drift", "the same by pressures on the hull, as a check", "omega wave",
+        "omega wave_direction wave", unit="N/m^3",
+        note="`null` unless `hull_pressures`, of a lone float in one liquid; sharp corners leave some per cent"),
+    joined_array("energy_residual", "relative difference of incident power, and outgoing and absorbed power",
+        "omega wave", "omega wave_direction wave", unit="1", short="energy", shown=".1e",
+        variable="response_energy_residual"),
+    joined_array("relative_error", "estimated relative error of the motions", "omega", "omega wave_direction", unit="1",
         short="error/largest", shown=".1e", variable="response_relative_error"),
     PLATES,
+    HULLS,
     Group("missed_peaks", "resonances between two frequencies that the curve does not show", (
         Quantity("below", "frequency below", "rad/s"),
         Quantity("above", "frequency above", "rad/s"),
@@ -229,41 +269,40 @@ RESPONSE = Group("response", "motions and waves per unit elevation of the incide
     ), dimension="missed_peak", prefix="missed_peak",
         note="those that differ by a tenth of the largest or more, of sweeps of more than six frequencies"),
 ), record=_responses, dimension="response_analysis")
-_NUMBERED = "several have one more dimension, `analysis`, in `dataset.nc`"
 RESONANCE = Group("resonance", "resonances e^{−iωt}, by analysis", (
-    _array("resonance", "number of the resonance", "resonance",
+    own_array("resonance", "number of the resonance", "resonance",
         lambda table: np.arange(1, len(table.omega) + 1, dtype=np.int32), column="resonance"),
     Quantity("labels", "dominant motion of a resonance", dimensions=("resonance",), variable="", column="label"),
-    _array("resonance_motion", "dominant motion of a resonance", "resonance",
+    own_array("resonance_motion", "dominant motion of a resonance", "resonance",
         lambda table: np.array([dof.capitalised for dof in table.labels], dtype=np.str_)),
-    _joined("omega", "complex frequency of a resonance", "resonance", unit="rad/s", symbol="ω",
+    joined_array("omega", "complex frequency of a resonance", "resonance", unit="rad/s", symbol="ω",
         variable="resonance_omega", note="with Im ω < 0"),
-    _DOFS,
+    DOFS,
     _capitalised("dof"),
-    _joined("body_amplitudes", "motion in a resonance, the dominant one 1", "resonance dof", unit="1",
+    joined_array("body_amplitudes", "motion in a resonance, the dominant one 1", "resonance dof", unit="1",
         variable="resonance_amplitude", column=""),
-    _joined("relative_error", "estimated relative error of the frequency of a resonance", "resonance", unit="1",
+    joined_array("relative_error", "estimated relative error of the frequency of a resonance", "resonance", unit="1",
         shown=".1e", variable="resonance_relative_error"),
-    _joined("residuals", "relative residual of the equations", "resonance", unit="1", shown=".1e",
+    joined_array("residuals", "relative residual of the equations", "resonance", unit="1", shown=".1e",
         variable="resonance_residual", column="residual"),
     Quantity("counted", "number of resonances in the region by an independent count", "1", note="`null` if not"),
     Quantity("region", "region of ω in which they were counted", value=lambda table: region_words(table.region)),
-), dimension="resonance_analysis", note=_NUMBERED)
+), dimension="resonance_analysis", note=NUMBERED)
 DECAY = Group("decay", "motion after release, by analysis", (
-    _joined("times", "time after release", "time", unit="s", symbol="t", shown=".6g", variable="time",
+    joined_array("times", "time after release", "time", unit="s", symbol="t", shown=".6g", variable="time",
         column="time"),
-    _DOFS,
+    DOFS,
     _capitalised("dof"),
-    _joined("displacement", "motion after release", "time dof", variable="decay_displacement", column="",
+    joined_array("displacement", "motion after release", "time dof", variable="decay_displacement", column="",
         **_MOTION),
-    _joined("initial", "motion at release", "dof", variable="decay_initial", **_MOTION),
-    _joined("absolute_error", "estimated error of the motion after release", "time",
+    joined_array("initial", "motion at release", "dof", variable="decay_initial", **_MOTION),
+    joined_array("absolute_error", "estimated error of the motion after release", "time",
         variable="decay_absolute_error", shown=".1e", **_MOTION),
-    _joined("tail", "asymptotic coefficient of 1/t^2", "", variable="decay_tail", unit="m s^2",
+    joined_array("tail", "asymptotic coefficient of 1/t^2", "", variable="decay_tail", unit="m s^2",
         of_roll=("rad s^2",), note="`null` where no tail is known"),
-    _joined("certified_until", "time to which the error of the motion after release holds", "", unit="s",
+    joined_array("certified_until", "time to which the error of the motion after release holds", "", unit="s",
         variable="decay_certified_until"),
-), dimension="decay_analysis", note=_NUMBERED)
+), dimension="decay_analysis", note=NUMBERED)
 THIN_FLOAT_ROWS = Group("rows", "values by the thin-float theory and by the field solution", (
     Quantity("quantity", "quantity"),
     Quantity("theory", "by the theory"),
@@ -296,7 +335,7 @@ def _of_scene(key: str, meaning: str, value: Callable[[Any], Any], unit: str | N
 
 
 OPEN_WATER = Group("", "open water", (
-    RADIATION, RESPONSE, RESONANCE, DECAY, ESTIMATES,
+    BODIES, RADIATION, RESPONSE, RESONANCE, DECAY, SPECTRUM, ESTIMATES,
     Group("size", "size of the largest problem", (
         Quantity("cells", "number of cells", "1"),
         Quantity("dofs", "number of unknowns of ψ", "1"),

@@ -8,11 +8,19 @@ from typing import Any
 
 import numpy as np
 
-from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, ResonanceTable, UnresolvedPeak
+from hydroelastic.fem.open_water.results import (
+    DecayTable,
+    RadiationTable,
+    ResonanceTable,
+    SpectrumTable,
+    UnresolvedPeak,
+)
 from hydroelastic.modal.floats.infinite_draught import InfiniteDraughtFloat
 from hydroelastic.output.columns import Column, headings_of, rows_of
 from hydroelastic.output.digits import beyond_error, number, per_cent, with_certain_digits
+from hydroelastic.output.open_water.bodies import bodies_section
 from hydroelastic.output.open_water.files import open_columns
+from hydroelastic.output.open_water.irregular import SPECTRUM
 from hydroelastic.output.open_water.quantities import (
     DECAY,
     RADIATION,
@@ -32,12 +40,13 @@ _MOST_MOTIONS = 4
 
 
 def open_sections(solution: Any, summary: Summary) -> Iterator[Section]:
-    """Yield the tables by analysis, and the comparison with the thin-float theory.
+    """Yield the bodies at rest, the tables by analysis, and the comparison with the thin-float theory.
 
     Args:
         solution: the solution.
         summary: content of ``summary.json``.
     """
+    yield bodies_section(solution)
     for radiation in solution.radiation:
         yield from _radiation(radiation)
     for response in RESPONSE.of(solution):
@@ -46,6 +55,8 @@ def open_sections(solution: Any, summary: Summary) -> Iterator[Section]:
         yield _resonance(resonance)
     for decay in solution.decay:
         yield _decay(decay)
+    for spectrum in SPECTRUM.of(solution):
+        yield from _spectrum(spectrum)
     if solution.left_out:
         yield Section(title="Left out of the model", lines=solution.left_out)
     yield from _estimates(solution.endless_float, summary)
@@ -137,7 +148,10 @@ def _response(table: WavesAndMotions) -> Iterator[Section]:
     for column in open_columns(RESPONSE, table):
         found.setdefault(column.quantity.key, []).append(column)
     first = [*found["omega"], *(found["waves"] if count > 1 else ())]
-    keys = ("wavenumbers", "reflection", "transmission", "energy_residual", "relative_error")
+    absorbed = ("absorption",) if table.absorption.any() else ()
+    # Of two waves the table is as wide as a terminal without it.
+    drift = ("drift_force",) if count == 1 else ()
+    keys = ("wavenumbers", "reflection", "transmission", *absorbed, *drift, "energy_residual", "relative_error")
     ratios = [*first, *(column for key in keys for column in found[key])]
     yield Section(
         title=f"Waves from the {table.waves_from}: ratios of elevations",
@@ -232,6 +246,30 @@ def _decay(table: DecayTable) -> Section:
             f"The estimated errors hold up to the last time, t = {table.certified_until:.6g} s.",
         ),
     )
+
+
+def _spectrum(table: SpectrumTable) -> Iterator[Section]:
+    """Statistics of the responses to irregular waves, and of loads along beams."""
+    responses, plates = SPECTRUM["responses"], SPECTRUM["plates"]
+    about = (
+        f"Mean drift force along x: {table.mean_drift_force:.4g} N/m.",
+        f"{table.waves}; {table.duration:g} s from the {table.waves_from}. Amplitudes are half of heights.",
+        f"{len(table.omega)} frequencies from {table.omega[0]:.4g} to {table.omega[-1]:.4g} rad/s, chosen so that no "
+        "peak lies between them: spectrum.csv.",
+    )
+    for group, title, lines in (
+        (responses, "Responses to irregular waves", about),
+        (plates, "Largest loads along beams in irregular waves, per metre of width", ()),
+    ):
+        found = [group.evaluated(one) for one in group.records(table)]
+        parts = [part for part in group.parts if part.printed and any(one[part.key] is not None for one in found)]
+        if found:
+            yield Section(
+                title=title,
+                headings=tuple(part.heading for part in parts),
+                rows=[tuple(part.cell(one, group) for part in parts) for one in found],
+                lines=lines,
+            )
 
 
 def _shown(count: int, what: str, file: str, places: int = MOST_ROWS) -> tuple[list[int], tuple[str, ...]]:

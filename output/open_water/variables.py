@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 from hydroelastic.output.joined_variables import joined, numbered_along, record_variables
+from hydroelastic.output.open_water.irregular import SPECTRUM
 from hydroelastic.output.open_water.quantities import (
     DECAY,
     OPEN_WATER,
@@ -26,14 +27,14 @@ def open_variables(solution: Any) -> list[Variable]:
     A dimension `wave` is there only where waves travel on two levels, `analysis` only with several resonance or decay
     analyses.
     """
-    motions = motions_of(*solution.radiation) or motions_of(*solution.response)
+    motions = motions_of(*solution.radiation) or motions_of(*solution.response, *solution.spectrum)
     others = motions_of(*solution.resonance, *solution.decay)
     with_rolls = any(dof.is_rotation for dof in (*motions, *others))
     parts = {
         group.key: [list(record_variables(group, one, with_rolls=with_rolls)) for one in group.of(solution)]
-        for group in (RADIATION, RESPONSE, RESONANCE, DECAY)
+        for group in (RADIATION, RESPONSE, RESONANCE, DECAY, SPECTRUM)
     }
-    for kind in ("resonance", "decay"):
+    for kind in ("resonance", "decay", "spectrum"):
         if len(parts[kind]) > 1:
             parts[kind] = [list(numbered_along("analysis", part, number)) for number, part in enumerate(parts[kind], 1)]
     names, other_names = ([dof.capitalised for dof in dofs] for dofs in (motions, others))

@@ -1,1 +1,1 @@
-"""Pictures: fields rendered by VTK without a screen, curves, lines in space and all frames by matplotlib."""
+"""Pictures: fields on triangles as pixels; curves, lines in space, frames by matplotlib; surfaces in space by VTK."""

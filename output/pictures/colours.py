@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -23,6 +24,7 @@ SEQUENCE = "viridis"
 _SHADES = 256
 
 
+@cache
 def mode_colours() -> ListedColormap:
     """Colours of ψ from negative to positive: purple, white, green of ColorBrewer's scheme PRGn.
 

@@ -31,9 +31,9 @@ from hydroelastic.output.pictures.page import (
     save,
     shrink,
     tick_labels,
+    titled,
     write_caption,
     write_keys,
-    write_title,
 )
 from hydroelastic.output.pictures.tank import WALL, draw_tank, erase_tank, key_names, keys
 from hydroelastic.output.pictures.view import View, colour_limit, view_of
@@ -62,10 +62,9 @@ def draw_mode(picture: ModePicture, path: Path | str, *, width: int = 1600, larg
     Raises:
         FileNotFoundError: the folder of the file does not exist.
         ValueError: the file's name does not end in .png, or the width is below 400.
-        NoRendererError: no library of this computer can render.
     """
     path = _checked_path(path, width, ".png")
-    save(_mode_pixels(picture, width, largest), path)
+    save(_mode_pages(picture, [picture.title], width, largest)[0], path)
 
 
 def animate_mode(picture: ModePicture, path: Path | str, *, width: int = 800) -> None:
@@ -79,13 +78,16 @@ def animate_mode(picture: ModePicture, path: Path | str, *, width: int = 800) ->
     Raises:
         FileNotFoundError: the folder of the file does not exist.
         ValueError: the file's name does not end in .gif, or the width is below 400.
-        NoRendererError: no library of this computer can render.
     """
-    instants = [
-        replace(picture.times(np.cos(2.0 * np.pi * part)), title=f"{picture.title}, {phase_words(part)}")
-        for part in np.arange(FRAMES) / FRAMES
-    ]
-    animate_motion(instants, picture, path, width=width)
+    path = _checked_path(path, width, ".gif")
+    pages: dict[int, NDArray[np.uint8]] = {}
+    for frame in range(FRAMES // 2 + 1):
+        # The way back shows the same, at other times.
+        frames = sorted({frame, -frame % FRAMES})
+        titles = [f"{picture.title}, {phase_words(number / FRAMES)}" for number in frames]
+        instant = picture.times(np.cos(2.0 * np.pi * frame / FRAMES))
+        pages.update(zip(frames, _mode_pages(instant, titles, width, picture), strict=True))
+    write_gif([pages[number] for number in range(FRAMES)], path, seconds=SECONDS, kept=mode_colours())
 
 
 def phase_words(part: float) -> str:
@@ -107,10 +109,9 @@ def animate_motion(
     Raises:
         FileNotFoundError: the folder of the file does not exist.
         ValueError: the file's name does not end in .gif, or the width is below 400.
-        NoRendererError: no library of this computer can render.
     """
     path = _checked_path(path, width, ".gif")
-    pages = [_mode_pixels(instant, width, largest) for instant in instants]
+    pages = [_mode_pages(instant, [instant.title], width, largest)[0] for instant in instants]
     write_gif(pages, path, seconds=SECONDS, kept=mode_colours())
 
 
@@ -128,7 +129,6 @@ def draw_overview(
     Raises:
         FileNotFoundError: the folder of the file does not exist.
         ValueError: no picture, no column, a wrong file name or a width below 400.
-        NoRendererError: no library of this computer can render.
     """
     path = _checked_path(path, width, ".png")
     if not pictures:
@@ -168,14 +168,16 @@ def draw_overview(
     save(page, path)
 
 
-def _mode_pixels(picture: ModePicture, width: int, largest: ModePicture | None = None) -> NDArray[np.uint8]:
-    """A mode, or an instant of its motion in the scales of its largest values."""
+def _mode_pages(
+    picture: ModePicture, titles: Sequence[str], width: int, largest: ModePicture | None
+) -> list[NDArray[np.uint8]]:
+    """A mode, or an instant of its motion in the scales of its largest values, under each of the titles."""
     scales = largest or picture
     view = view_of(scales)
     names = key_names([picture], field_name(picture), vectors=True)
     # What of a view differs from mode to mode is not of the page.
     page = _page(replace(view, surface_scale=0.0), picture.start, picture.densities, names, picture.amplitude, width)
-    return page.drawn(picture, view, largest)
+    return page.drawn(picture, titles, view, largest)
 
 
 class _Page:
@@ -202,17 +204,18 @@ class _Page:
         measure = f"{_UNITS[name]}, {amplitude}"
         self._bar = ColourBar(self._figure, mode_colours(), meaning=meaning, measure=measure)
 
-    def drawn(self, picture: ModePicture, view: View, largest: ModePicture | None) -> NDArray[np.uint8]:
-        """Draw a mode in place of the one before."""
+    def drawn(
+        self, picture: ModePicture, titles: Sequence[str], view: View, largest: ModePicture | None
+    ) -> list[NDArray[np.uint8]]:
+        """Draw a mode in place of the one before, under each of the titles."""
         limit = colour_limit(largest or picture)
         self._bar.span(-limit, limit)
         draw_tank(self._tank, picture, view, largest=largest)
-        words = write_title(self._figure, picture.title), write_caption(self._figure, scale_notes(view, picture))
-        page = pixels(self._figure).copy()
-        for text in words:
-            text.remove()
+        caption = write_caption(self._figure, scale_notes(view, picture))
+        pages = titled(self._figure, titles)
+        caption.remove()
         erase_tank(self._tank)
-        return page
+        return pages
 
 
 _page = lru_cache(maxsize=1)(_Page)

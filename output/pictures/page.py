@@ -7,17 +7,16 @@ from __future__ import annotations
 
 import struct
 import zlib
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-from matplotlib import rc_context
+from matplotlib import colormaps, rcParams
 from matplotlib.artist import Artist
 from matplotlib.backend_bases import RendererBase
 from matplotlib.backends.backend_agg import FigureCanvasAgg, RendererAgg
-from matplotlib.cm import ScalarMappable
-from matplotlib.colors import Colormap, Normalize
+from matplotlib.colors import Colormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.markers import MarkerStyle
@@ -25,7 +24,6 @@ from matplotlib.path import Path as PathOfMarker
 from matplotlib.text import Text
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
-from PIL import Image
 from PIL.PngImagePlugin import putchunk
 
 from hydroelastic.output.pictures.colours import GREY, INK
@@ -38,8 +36,6 @@ POINT = 0.72
 """Points, in which matplotlib measures strokes and letters, of a pixel."""
 
 _PER_INCH = 72.0 / POINT
-# Hinting would move small letters to whole pixels, a quarter nearer to each other.
-_LETTERS: Any = {"text.hinting": "no_hinting"}
 # Letters of DejaVu Sans are so wide in the mean, over their height.
 _LETTER = 0.6
 
@@ -90,9 +86,23 @@ def pixels(figure: Figure) -> NDArray[np.uint8]:
     """
     canvas = figure.canvas
     assert isinstance(canvas, FigureCanvasAgg)
-    with rc_context(_LETTERS):
+    with _letters():
         canvas.draw()
     return np.asarray(canvas.buffer_rgba())
+
+
+def titled(figure: Figure, titles: Sequence[str]) -> list[NDArray[np.uint8]]:
+    """The pixels of a page under one title after the other, drawn anew for none of them."""
+    page = pixels(figure)
+    untitled, pages = page.copy(), []
+    for title in titles:
+        page[:] = untitled
+        line = write_title(figure, title)
+        with _letters():
+            figure.draw_artist(line)
+        line.remove()
+        pages.append(page.copy())
+    return pages
 
 
 def save(page: NDArray[np.uint8], path: Path, *, compression: int = 3) -> None:
@@ -102,14 +112,29 @@ def save(page: NDArray[np.uint8], path: Path, *, compression: int = 3) -> None:
     They repeat in these pictures: a compression of 4 takes twice as long as 3 and saves 2 %.
     """
     height, width, _ = page.shape
-    colours = np.asarray(Image.fromarray(page).convert("RGB")).reshape(height, -1)
     # Each row begins with its filter: none.
-    rows = zlib.compress(np.pad(colours, ((0, 0), (1, 0))), compression)
+    rows = np.zeros((height, 1 + 3 * width), dtype=np.uint8)
+    for channel in range(3):
+        rows[:, 1 + channel :: 3] = page[:, :, channel]
     with path.open("wb") as file:
         file.write(b"\x89PNG\r\n\x1a\n")
         putchunk(file, b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0))
-        putchunk(file, b"IDAT", rows)
+        putchunk(file, b"IDAT", zlib.compress(rows, compression))
         putchunk(file, b"IEND")
+
+
+@contextmanager
+def _letters() -> Iterator[None]:
+    """Draw letters where they belong: hinting would move small ones to whole pixels, a quarter nearer to each other.
+
+    The context of matplotlib copies all settings, which takes longer than a line of text.
+    """
+    hinting = rcParams["text.hinting"]
+    rcParams["text.hinting"] = "no_hinting"
+    try:
+        yield
+    finally:
+        rcParams["text.hinting"] = hinting
 
 
 def write(figure: Figure, text: str, y: float, *, size: float, colour: str = INK) -> Text:
@@ -124,7 +149,7 @@ def write(figure: Figure, text: str, y: float, *, size: float, colour: str = INK
 
 def shrink(line: Text, room: float) -> None:
     """Make a line of text as small as fits into so many pixels of the image."""
-    with rc_context(_LETTERS):
+    with _letters():
         width = max(line.get_window_extent().width, 1.0)
     line.set_fontsize(float(line.get_fontsize()) * min(1.0, room / width))
 
@@ -193,8 +218,11 @@ class ColourBar:
         width, gap = 640.0, 40.0
         left = 0.5 * (WIDTH - width - gap - _LETTER * 21.0 * len(f"{meaning} ({measure})"))
         self._axes = figure.add_axes(place(figure, left, 102.0, width, 20.0))
-        bar = figure.colorbar(ScalarMappable(Normalize(), colours), cax=self._axes, orientation="horizontal")
-        bar.set_ticks([])
+        self._axes.patch.set_visible(False)
+        self._axes.yaxis.set_visible(False)
+        (x, y), (right, top) = np.round(self._axes.bbox.min).astype(int), np.round(self._axes.bbox.max).astype(int)
+        row = colormaps.get_cmap(colours)(np.linspace(0.0, 1.0, right - x), bytes=True)
+        figure.add_artist(FieldImage(np.tile(row, (top - y, 1, 1)), x, y))
         self._axes.tick_params(labelsize=20.0 * POINT, length=7.0 * POINT)
         size = 21.0 * POINT
         self._label = self._axes.text(

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
+from functools import cache, lru_cache
 from typing import Any
 
 import numpy as np
-import pyvista
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.collections import LineCollection, PathCollection, PolyCollection
+from matplotlib.colors import to_rgba_array
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.path import Path
 from matplotlib.patheffects import withStroke
 from matplotlib.tri import Triangulation
 from numpy.typing import ArrayLike
@@ -25,10 +29,11 @@ from hydroelastic.output.pictures.colours import (
     INTERFACE,
     LOWER_WASH,
     UPPER_WASH,
+    mode_colours,
 )
 from hydroelastic.output.pictures.floats import up_to_floats
 from hydroelastic.output.pictures.page import POINT, FieldImage, arrow_key, round_ticks
-from hydroelastic.output.pictures.rendering import render_field
+from hydroelastic.output.pictures.raster import Raster, Same
 from hydroelastic.output.pictures.view import View, colour_limit
 
 WALL = 5.0
@@ -70,39 +75,42 @@ def draw_tank(
     # Metres of a pixel of the page to which sizes refer.
     pixel = thin * POINT * view.length / (axes.bbox.width * 72.0 / axes.figure.dpi)
     limit = colour_limit(largest or picture)
-    mesh = _mesh(picture, view)
-    corners = (0.0, view.length, low, high)
     # Whole pixels, up to walls and surfaces.
     (left, base), (right, ceiling) = np.floor(axes.bbox.min).astype(int), np.ceil(axes.bbox.max).astype(int)
-    image = render_field(mesh, limit, corners, (int(right - left), int(ceiling - base)))
-    axes.add_artist(FieldImage(image, int(left), int(base)))
+    raster = _raster(
+        Same(picture.points), Same(picture.triangles), replace(view, surface_scale=0.0),
+        (int(right - left), int(ceiling - base)),
+    )  # fmt: skip
+    axes.add_artist(FieldImage(raster.coloured(picture.drawn_field, limit, mode_colours()), int(left), int(base)))
     axes.patch.set_visible(False)
-    _draw_iso_lines(axes, picture, mesh, limit, view, thin)
+    iso_lines = _iso_lines(Same(picture), view, limit)
+    axes.add_collection(
+        PathCollection(
+            iso_lines, facecolors="none", edgecolors=_ISO_LINE, linewidths=1.1 * POINT * thin, zorder=1.0
+        ),
+        autolim=False,
+    )  # fmt: skip
     if vectors:
         columns, rows = (max(round(side / (SPACING * pixel)), 2) for side in (view.length, top - bottom))
         x, y = (
             view.length * (np.arange(columns) + 0.5) / columns,
             bottom + (top - bottom) * (np.arange(rows) + 0.5) / rows,
         )
-        _draw_vectors(axes, mesh, mesh if largest is None else _mesh(largest, view), x, y, SPACING * pixel, view)
+        _draw_vectors(axes, raster, picture, largest, x, y, SPACING * pixel, view)
     surfaces = tuple(up_to_floats(curve, picture.floats, view) for curve in picture.surfaces)
     _draw_wash(axes, picture, surfaces, view)
     for section in picture.floats:
         _draw_resting(axes, section, view, thin)
     _draw_walls(axes, picture, view, pixel, thin)
-    levels = [0.0]
-    if picture.has_two_liquids and not view.upper_cut and view.headroom > 0:
-        levels.append(float(top))
-    _stroke(axes, [[(0.0, y), (view.length, y)] for y in levels], 1.4 * thin, INK, dashes=_DASHES)
     # Surfaces of liquids first: a body's ends cover theirs.
     for curve in sorted(surfaces, key=lambda curve: curve.kind == "body"):
         axes.add_line(_surface(curve.kind, curve.x, view.heights(curve, curve.displacement), thin))
     for section in picture.floats:
         opacity = 1.0 if section.slit is None else 0.45
         moved = view.displaced(section)
-        _fill(axes, moved, 2.0, facecolor=(BODY, opacity), edgecolor=BODY_EDGE, linewidth=3.5 * POINT * thin)
+        _fill(axes, [moved], 2.0, facecolors=(BODY, opacity), edgecolors=BODY_EDGE, linewidths=3.5 * POINT * thin)
         resting = np.column_stack([section.contour[:, 0], view.drawn(section.contour[:, 1])])
-        _stroke(axes, [[*resting, resting[0]]], 1.6 * thin, INK, dashes=_DASHES)
+        _stroke(axes, ([[*resting, resting[0]]], 1.6 * thin, INK, _DASHES))
 
 
 def erase_tank(axes: Axes) -> None:
@@ -159,47 +167,56 @@ def iso_levels(limit: float) -> Array:
     return levels + np.where(levels == 0.0, 1e-6 * limit, 0.0)
 
 
-def _mesh(picture: ModePicture, view: View) -> pyvista.PolyData:
-    """The triangles as they are drawn, with the field and ∇ψ."""
-    heights = view.drawn(picture.points[:, 1])
-    points = np.column_stack([picture.points[:, 0], heights, np.zeros(len(heights))])
-    mesh = pyvista.PolyData.from_regular_faces(points, picture.triangles)
-    mesh["displacement"] = picture.displacement
-    mesh["field"] = picture.drawn_field
-    mesh.set_active_scalars("field")
-    return mesh
+@lru_cache(maxsize=8)
+def _raster(points: Same, triangles: Same, view: View, size: tuple[int, int]) -> Raster:
+    """The triangles as they are drawn, the same for all modes."""
+    x, y = points.thing.T
+    low, high = view.drawn(np.array([-view.depth, view.upper_depth + view.headroom]))
+    corners = np.column_stack([x / view.length * size[0], (high - view.drawn(y)) / (high - low) * size[1]])
+    return Raster(points=corners, triangles=triangles.thing, size=size)
 
 
-def _draw_iso_lines(
-    axes: Axes, picture: ModePicture, mesh: pyvista.PolyData, limit: float, view: View, thin: float
-) -> None:
-    """Lines of equal ψ, or ρψ.
+@lru_cache(maxsize=32)
+def _iso_lines(picture: Same, view: View, limit: float) -> list[Path]:
+    """Lines of equal ψ, or ρψ; a sheet of modes shows them again.
 
     They are left out where it hardly changes: rounding errors would decide on the course of ψ = 0 in still water.
     """
-    steepness = picture.weight * np.hypot(*picture.displacement.T)
-    steep = picture.triangles[steepness[picture.triangles].max(axis=1) > 0.01 * limit / view.length]
-    if len(steep):
-        x, y, _ = mesh.points.T
-        axes.tricontour(
-            Triangulation(x, y, steep), picture.drawn_field, iso_levels(limit),
-            zorder=1.0, colors=_ISO_LINE, linewidths=1.1 * POINT * thin, linestyles="solid",
-        )  # fmt: skip
+    mode: ModePicture = picture.thing
+    steepness = mode.weight * np.hypot(*mode.displacement.T)
+    steep = mode.triangles[steepness[mode.triangles].max(axis=1) > 0.01 * limit / view.length]
+    if not len(steep):
+        return []
+    triangles = Triangulation(mode.points[:, 0], view.drawn(mode.points[:, 1]), steep)
+    # One colour is found faster than a scale of them.
+    lines = _unseen().tricontour(triangles, mode.drawn_field, iso_levels(limit), colors=_ISO_LINE)
+    lines.remove()
+    return list(lines.get_paths())
+
+
+@cache
+def _unseen() -> Axes:
+    """Axes in which matplotlib finds lines that are drawn elsewhere."""
+    return Figure().add_subplot()
 
 
 def _draw_vectors(
-    axes: Axes, mesh: pyvista.PolyData, longest: pyvista.PolyData, x: Array, y: Array, spacing: float, view: View
-) -> None:
+    axes: Axes, raster: Raster, picture: ModePicture, largest: ModePicture | None, x: Array, y: Array, spacing: float,
+    view: View,
+) -> None:  # fmt: skip
     """∇ψ on a regular grid, stretched like the tank and scaled like the longest displacements."""
     across, up = (grid.ravel() for grid in np.meshgrid(x, y))
-    places = pyvista.PolyData(np.column_stack([across, up, np.zeros(across.size)]))
-    sampled = places.sample(mesh)
-    inside = sampled["vtkValidPointMask"] == 1
-    stretches = np.column_stack([np.ones(across.size), np.where(up > 0.0, view.upper_stretch, view.stretch)])[inside]
-    lengths = None
-    if longest is not mesh:
-        lengths = np.hypot(*(places.sample(longest)["displacement"][inside] * stretches).T)
-    vectors = drawn_vectors(sampled["displacement"][inside] * stretches, spacing, lengths)
+    (low, high), (width, height) = axes.get_ylim(), raster.size
+    places = np.column_stack([across / view.length * width, (high - up) / (high - low) * height])
+    stretches = np.column_stack([np.ones(across.size), np.where(up > 0.0, view.upper_stretch, view.stretch)])
+
+    def at_places(of: ModePicture) -> Array:
+        return raster.at(places, of.displacement) * stretches
+
+    sampled = at_places(picture)
+    inside = np.isfinite(sampled[:, 0])
+    lengths = None if largest is None else np.hypot(*at_places(largest)[inside].T)
+    vectors = drawn_vectors(sampled[inside], spacing, lengths)
     seen = np.hypot(*vectors.T) > 0.1 * spacing
     axes.quiver(
         across[inside][seen], up[inside][seen], *vectors[seen].T,
@@ -210,6 +227,7 @@ def _draw_vectors(
 
 def _draw_wash(axes: Axes, picture: ModePicture, surfaces: tuple[SurfaceCurve, ...], view: View) -> None:
     """Tint the liquid that passed a still level; where air came in, fade the field."""
+    shapes, colours = [], []
     for sign in (1.0, -1.0):
         for curve in surfaces:
             height = sign * np.maximum(sign * curve.displacement, 0.0)
@@ -217,10 +235,10 @@ def _draw_wash(axes: Axes, picture: ModePicture, surfaces: tuple[SurfaceCurve, .
                 inner = not picture.is_at_top(curve)
                 of_lower = inner or not picture.has_two_liquids
                 risen = LOWER_WASH if of_lower else UPPER_WASH
-                colour, opacity = (risen, 0.55) if sign > 0 else (UPPER_WASH, 0.55) if inner else ("white", 0.5)
+                colours.append((risen, 0.55) if sign > 0 else (UPPER_WASH, 0.55) if inner else ("white", 0.5))
                 level, surface = (view.heights(curve, y) for y in (0.0 * height, height))
-                corners = np.column_stack([np.append(curve.x, curve.x[::-1]), np.append(surface, level[::-1])])
-                _fill(axes, corners, 1.5, facecolor=colour, alpha=opacity, linewidth=0.0)
+                shapes.append(np.column_stack([np.append(curve.x, curve.x[::-1]), np.append(surface, level[::-1])]))
+    _fill(axes, shapes, 1.5, facecolors=to_rgba_array(colours), linewidths=0.0)
 
 
 def _draw_resting(axes: Axes, section: FloatSection, view: View, thin: float) -> None:
@@ -228,17 +246,18 @@ def _draw_resting(axes: Axes, section: FloatSection, view: View, thin: float) ->
     x, y = (section.contour if section.slit is None else section.slit).T
     points = np.column_stack([x, view.drawn(y)])
     if section.slit is None:
-        _fill(axes, points, 1.6, facecolor=_RESTING)
+        _fill(axes, [points], 1.6, facecolors=_RESTING)
     else:
-        _stroke(axes, [points], 5.0 * thin, BODY_EDGE)
+        _stroke(axes, ([points], 5.0 * thin, BODY_EDGE, None))
 
 
 def _draw_walls(axes: Axes, picture: ModePicture, view: View, pixel: float, thin: float) -> None:
+    """Walls, ends of what is shown, and still levels."""
     wall = WALL * pixel
     edge, right = 0.5 * wall, view.length
     bottom, ceiling, top = view.drawn(np.array([-view.depth, view.upper_depth, view.upper_depth + view.headroom]))
     top = ceiling + wall if picture.lid else top
-    walls, goes_on = [], []
+    walls, goes_on, levels = [], [], [0.0]
     if "sides" in picture.goes_on:
         goes_on += [[(x, bottom), (x, ceiling)] for x in (0.0, right)]
     else:
@@ -254,23 +273,39 @@ def _draw_walls(axes: Axes, picture: ModePicture, view: View, pixel: float, thin
             # Where a piece of the lid meets a wall, it joins it.
             first, last = -wall if start <= 0.0 else start, right + wall if end >= right else end
             walls.append([(first, ceiling + edge), (last, ceiling + edge)])
-    _stroke(axes, walls, WALL * thin, _WALL)
-    _stroke(axes, goes_on, 1.5 * thin, GREY, dashes=_DOTS)
+    if picture.has_two_liquids and not view.upper_cut and view.headroom > 0:
+        levels.append(float(ceiling))
+    still = [[(0.0, y), (right, y)] for y in levels]
+    _stroke(
+        axes,
+        (walls, WALL * thin, _WALL, None),
+        (goes_on, 1.5 * thin, GREY, _DOTS),
+        (still, 1.4 * thin, INK, _DASHES),
+    )
 
 
-def _fill(axes: Axes, corners: Array, zorder: float, **style: Any) -> None:
-    """A polygon: a patch would take long to find limits of the axes that it does not change."""
-    axes.add_collection(PolyCollection([corners], clip_on=False, zorder=zorder, **style), autolim=False)
+def _fill(axes: Axes, polygons: Sequence[Array], zorder: float, **style: Any) -> None:
+    """Polygons: patches would take long to find limits of the axes that they do not change."""
+    axes.add_collection(PolyCollection(polygons, clip_on=False, zorder=zorder, **style), autolim=False)
 
 
-def _stroke(
-    axes: Axes, lines: Sequence[Any], width: float, colour: str, *, dashes: tuple[float, float] | None = None
-) -> None:
-    """Straight strokes and polygons; widths in pixels of a page."""
-    style = "solid" if dashes is None else _dashed(dashes, width)
+def _stroke(axes: Axes, *strokes: tuple[Sequence[Any], float, str, tuple[float, float] | None]) -> None:
+    """Lines and polygons in one collection, which draws many as fast as one.
+
+    Args:
+        axes: receive them.
+        strokes: lines, with their width in pixels of a page, colour and dashes.
+    """
+    styles = [(line, *style) for lines, *style in strokes for line in lines]
     axes.add_collection(
         LineCollection(
-            lines, linewidths=width * POINT, colors=colour, linestyles=style, capstyle="butt", clip_on=False, zorder=2.0
+            [line for line, *_ in styles],
+            linewidths=[width * POINT for _, width, _, _ in styles],
+            colors=[colour for _, _, colour, _ in styles],
+            linestyles=["solid" if dashes is None else _dashed(dashes, width) for _, width, _, dashes in styles],
+            capstyle="butt",
+            clip_on=False,
+            zorder=2.0,
         ),
         autolim=False,
     )

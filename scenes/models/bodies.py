@@ -66,7 +66,7 @@ class SceneModel(BaseModel, metaclass=_Keyworded):
             ``pydantic.ValidationError`` instead.
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False, defer_build=True)
 
 
 class BeamSection(SceneModel):
@@ -263,13 +263,22 @@ class Float(SceneModel):
         default=None,
         description="mass, kg/m, by which it is immersed; by default the reference level lies at the still level",
     )
+    draught: PositiveNumber | None = Field(
+        default=None, description="depth of its lowest point below the still level, m; instead of mass, or beside it"
+    )
     centre_of_mass: AnyNumber | None = Field(
         default=None,
         description="height of the centre of mass above the reference level, m; by default that of the area",
     )
+    vertical_centre_of_gravity: AnyNumber | None = Field(
+        default=None, description="height of the centre of mass above the still level, m; instead of centre_of_mass"
+    )
     radius_of_gyration: PositiveNumber | None = Field(
         default=None,
         description="radius of gyration about the centre of mass, m; by default that of the homogeneous section",
+    )
+    inertia: PositiveNumber | None = Field(
+        default=None, description="moment of inertia about the centre of mass, kg·m; instead of radius_of_gyration"
     )
     motions: tuple[Motion, ...] = Field(
         default=("heave",), min_length=1, max_length=3, description="its free motions, each once"
@@ -297,6 +306,11 @@ class Float(SceneModel):
         """The key that defines the section."""
         return {"polygon": "vertices", "outline": "file"}.get(self.shape, "half_width")
 
+    @model_serializer(mode="wrap")
+    def _as_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        """Serialize a float without the keys that may stand in place of others, unless they are given."""
+        return {key: value for key, value in write(self).items() if key not in SUBSTITUTES or value is not None}
+
     @model_validator(mode="after")
     def _keys_fit(self) -> Float:
         problems = [*_keys_of_the_shape(self), *_motions_differ(self), *_thin_floats(self)]
@@ -304,6 +318,9 @@ class Float(SceneModel):
             raise ValidationError.from_exception_data(type(self).__name__, problems)
         return self
 
+
+SUBSTITUTES = {"draught": "mass", "vertical_centre_of_gravity": "centre_of_mass", "inertia": "radius_of_gyration"}
+"""Keys of a float at rest, each with the one in whose place it may stand."""
 
 _PROFILE = ("half_width", "half_height")
 NEEDED_KEYS: dict[Shape, tuple[str, ...]] = {

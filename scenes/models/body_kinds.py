@@ -13,14 +13,14 @@ AnyBeam: TypeAlias = Beam | VaryingBeam
 """A body that bends."""
 
 
-def _kind_of(body: Any) -> str:
-    """The model with which a body is read; that of the beam refuses what is not a table."""
+def kind_of_body(body: Any) -> str:
+    """Return the kind of the model with which a body is read; that of the beam refuses what is not a table."""
     kind = body.get("kind", "beam") if isinstance(body, dict) else getattr(body, "kind", "beam")
     return str(kind)
 
 
 Body: TypeAlias = Annotated[
     Annotated[Beam, Tag("beam")] | Annotated[VaryingBeam, Tag("varying_beam")] | Annotated[Float, Tag("float")],
-    Discriminator(_kind_of),
+    Discriminator(kind_of_body),
 ]
 """Any body: the key ``kind`` tells which, a beam where it is left out."""

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from pydantic_core import InitErrorDetails
 
-from hydroelastic.scenes.models.bodies import THIN_SHAPES, Float
+from hydroelastic.scenes.models.bodies import SUBSTITUTES, THIN_SHAPES, Float
 from hydroelastic.scenes.models.body_kinds import AnyBeam
 from hydroelastic.scenes.models.open_checks import length_scale_of_bodies
 from hydroelastic.scenes.models.problems import problem_at
@@ -15,6 +15,7 @@ from hydroelastic.scenes.models.problems import problem_at
 # Contours need NumPy and SciPy, whose import is slow: they are imported by the functions that are called for floats.
 if TYPE_CHECKING:
     from hydroelastic.physics.contours import Contour
+    from hydroelastic.physics.floats import RigidFloat
     from hydroelastic.scenes.models.tank_parts import TankParts
 
 SLENDERNESS = {"exact": (1e-3, 1e3), "thin": (1e-9, 1e3)}
@@ -35,6 +36,9 @@ SMALLEST_PART = 1e-6
 LONGEST_ARM = 1e3
 """Sizes of the section: a centre of mass or a radius of gyration beyond it leaves nothing of the section's own."""
 
+AGREEMENT = 1e-3
+"""Relative difference up to which two keys for the same quantity agree: what is given twice is rounded."""
+
 _Box: TypeAlias = tuple[float, float, float, float]
 
 
@@ -47,7 +51,7 @@ def floats_are_in_equilibrium(scene: TankParts) -> Iterator[InitErrorDetails]:
 
 
 def _problems_of(scene: TankParts, index: int, body: Float) -> Iterator[InitErrorDetails]:
-    from hydroelastic.scenes.models.floats import float_contour, placed_float, still_level
+    from hydroelastic.scenes.models.floats import float_contour, level_at_rest, placed_float
 
     if body.vertices is not None:
         yield from _vertices_make_a_polygon(index, body.vertices)
@@ -67,7 +71,7 @@ def _problems_of(scene: TankParts, index: int, body: Float) -> Iterator[InitErro
     yield from _sizes_fit(scene, index, body, contour)
     densities = scene.densities_at(scene.level_of(body))
     try:
-        level = still_level(contour, body.mass, densities)
+        level = level_at_rest(body, contour, densities)
     except ValueError:
         yield _floats_elsewhere(index, body, contour.moments().area, densities)
         return
@@ -76,12 +80,13 @@ def _problems_of(scene: TankParts, index: int, body: Float) -> Iterator[InitErro
         placed = placed_float(scene, index)
     except ValueError as error:
         yield problem_at(
-            ("body", index, "mass" if body.mass is not None else body.shape_key),
-            body.mass,
+            ("body", index, next((key for key in ("mass", "draught") if getattr(body, key)), body.shape_key)),
+            body.mass or body.draught,
             f"{error}; that level is y = {level:g} m in the float's frame",
             allowed="a section that the still level cuts once, into one part below and one above",
         )
         return
+    yield from _keys_agree(index, body, placed)
     yield from _has_room(scene, index, body, placed.hull.bounds)
     yield from _arms_fit(index, body, placed.hull.bounds)
 
@@ -160,7 +165,14 @@ def _floats_elsewhere(index: int, body: Float, area: float, densities: tuple[flo
 def _parts_on_both_sides(index: int, body: Float, contour: Contour, level: float) -> Iterator[InitErrorDetails]:
     _, _, low, high = contour.bounds
     least = SMALLEST_PART * (high - low)
-    if body.mass is not None and not low + least <= level <= high - least:
+    if body.mass is None and body.draught is not None and not level <= high - least:
+        yield problem_at(
+            ("body", index, "draught"),
+            body.draught,
+            f"the section is {high - low:g} m high",
+            allowed=f"less than {high - low - least:g} m",
+        )
+    elif body.mass is not None and not low + least <= level <= high - least:
         yield problem_at(
             ("body", index, "mass"),
             body.mass,
@@ -168,6 +180,25 @@ def _parts_on_both_sides(index: int, body: Float, contour: Contour, level: float
             f"{'below' if level < low + least else 'above'} the still level",
             allowed=f"a mass that leaves {least:g} m on either side",
         )
+
+
+def _keys_agree(index: int, body: Float, placed: RigidFloat) -> Iterator[InitErrorDetails]:
+    """Yield values at rest that contradict those in whose place they may stand."""
+    rest, (_, _, low, high) = placed.hydrostatics, placed.hull.bounds
+    found = {
+        "draught": (rest.level - low, high - low),
+        "vertical_centre_of_gravity": (rest.centre_of_mass[1] - rest.level, high - low),
+        "inertia": (rest.inertia[2], rest.inertia[2]),
+    }
+    for key, (value, scale) in found.items():
+        given = getattr(body, key)
+        if given is not None and abs(given - value) > AGREEMENT * scale:
+            yield problem_at(
+                ("body", index, key),
+                given,
+                f"it contradicts {SUBSTITUTES[key]}, with which it is {value:.6g}",
+                remedy=f"Leave out {key} or {SUBSTITUTES[key]}",
+            )
 
 
 def _has_room(scene: TankParts, index: int, body: Float, bounds: _Box) -> Iterator[InitErrorDetails]:
@@ -211,8 +242,8 @@ def _has_room(scene: TankParts, index: int, body: Float, bounds: _Box) -> Iterat
 
 
 def _lies_in_the_stretch(scene: TankParts, index: int, body: Float) -> Iterator[InitErrorDetails]:
-    """Floats in open water lie within the drawn length."""
-    if body.position > scene.tank.length:
+    """Floats in open water of a drawn length lie within it."""
+    if scene.kind == "tank" and body.position > scene.tank.length:
         yield problem_at(
             ("body", index, "position"),
             body.position,
@@ -310,10 +341,11 @@ def _floats_are_stable(scene: TankParts) -> Iterator[InitErrorDetails]:
         arm = stiffness / (at_rest.mass * scene.tank.gravity)
         metacentre = at_rest.centre_of_mass[1] - at_rest.reference_level + arm
         height = at_rest.centre_of_mass[1] - at_rest.reference_level
-        given = body.centre_of_mass is not None
+        keys = ("centre_of_mass", "vertical_centre_of_gravity")
+        given = next((key for key in keys if getattr(body, key) is not None), None)
         yield problem_at(
-            ("body", index, "centre_of_mass" if given else "motions"),
-            body.centre_of_mass if given else ", ".join(body.motions),
+            ("body", index, given or "motions"),
+            getattr(body, given) if given else ", ".join(body.motions),
             f"the float capsizes: its centre of mass lies {height:g} m above its reference level, and the metacentre "
             f"{height - metacentre:.3g} m lower",
             allowed=f"a centre_of_mass of at most {metacentre:g} m",

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import lru_cache
+from math import sqrt
 from pathlib import Path
 
 from hydroelastic.physics.contours import Contour
@@ -47,6 +49,22 @@ def float_contour(body: Float, folder: Path) -> Contour:
     return polygon_contour(body.vertices or ())
 
 
+def level_at_rest(body: Float, contour: Contour, densities: tuple[float, float]) -> float:
+    """Return the ordinate of the still level in a float's frame, m: by its mass, or by its draught without one.
+
+    Args:
+        body: the float.
+        contour: in the float's frame, m.
+        densities: below and above the level, kg/m³.
+
+    Raises:
+        ValueError: if its mass is too small or too large to float at the level.
+    """
+    if body.mass is None and body.draught is not None:
+        return contour.bounds[2] + body.draught
+    return still_level(contour, body.mass, densities)
+
+
 def placed_float(scene: TankParts, index: int) -> RigidFloat:
     """Return a float of a scene at rest, in the frame of the tank, m.
 
@@ -85,17 +103,22 @@ def _placed(
     _state: tuple[int, int] | None,
 ) -> RigidFloat:
     contour = float_contour(body, folder)
-    immersion = still_level(contour, body.mass, densities)
+    immersion = level_at_rest(body, contour, densities)
     # Still level and position are the origin while anything is computed: far from it, digits are lost.
     contour = contour.moved((0.0, -immersion))
+    centre = body.centre_of_mass
+    if centre is None and body.vertical_centre_of_gravity is not None:
+        centre = body.vertical_centre_of_gravity + immersion
     at_rest = hydrostatics(
         contour,
         immersion=immersion,
         densities=densities,
         gravity=gravity,
-        centre_of_mass=body.centre_of_mass,
+        centre_of_mass=centre,
         radius_of_gyration=body.radius_of_gyration,
     )
+    if body.radius_of_gyration is None and body.inertia is not None:
+        at_rest = replace(at_rest, radius_of_gyration=sqrt(body.inertia / at_rest.mass))
     place = (body.position, height)
     at_rest, thin = at_rest.moved(place), body.boundary == "thin"
     return RigidFloat(

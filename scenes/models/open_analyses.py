@@ -8,8 +8,10 @@ from pydantic import (
     BeforeValidator,
     Discriminator,
     Field,
+    SerializerFunctionWrapHandler,
     Strict,
     Tag,
+    model_serializer,
     model_validator,
 )
 
@@ -17,7 +19,11 @@ from hydroelastic.fem.open_water.requests import DecayRequest, RadiationRequest,
 from hydroelastic.scenes.models.bodies import AnyNumber, PositiveNumber, SceneModel
 from hydroelastic.scenes.models.infinity import ZeroOrMoreOrInfinite
 from hydroelastic.scenes.models.problems import problem
+from hydroelastic.scenes.models.sea_states import Spectrum
 from hydroelastic.scenes.models.values import DISTINCT, MOST_VALUES, OR_SWEEP, NumberFromZero, kind_of
+
+MOST_FIELDS = 20
+"""Frequencies of one analysis whose fields are written and drawn."""
 
 
 class Radiation(SceneModel):
@@ -46,11 +52,35 @@ class Response(SceneModel):
     positions: Annotated[int, Strict(), Field(ge=2, le=MOST_VALUES)] = Field(
         default=101, description="points along each beam at which its deflection is reported"
     )
+    wave_amplitude: PositiveNumber | None = Field(
+        default=None,
+        description="amplitude of the waves, m; needed beside quadratic damping, without effect elsewhere",
+    )
+    hull_pressures: Annotated[bool, Strict()] = Field(
+        default=False, description="whether pressures along the hulls of floats are reported, and the drift by them"
+    )
+    fields_at: Annotated[tuple[PositiveNumber, ...], Field(max_length=MOST_FIELDS)] = Field(
+        default=(),
+        description="frequencies, rad/s, at which fields are written and drawn; by default where a motion is largest",
+    )
 
     @property
     def request(self) -> ResponseRequest:
         """What the solver is asked for."""
-        return ResponseRequest(omega=self.omega, waves_from=self.waves_from, positions=self.positions)
+        return ResponseRequest(
+            omega=self.omega,
+            waves_from=self.waves_from,
+            positions=self.positions,
+            elevation=self.wave_amplitude or 0.0,
+            hull_pressures=self.hull_pressures,
+            fields_at=self.fields_at,
+        )
+
+    @model_serializer(mode="wrap")
+    def _as_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        """Serialize without further keys that are not given."""
+        idle = {"wave_amplitude": None, "hull_pressures": False, "fields_at": ()}
+        return {key: value for key, value in write(self).items() if key not in idle or value != idle[key]}
 
 
 class Resonance(SceneModel):
@@ -114,7 +144,8 @@ Analysis: TypeAlias = Annotated[
     Annotated[Radiation, Tag("radiation")]
     | Annotated[Response, Tag("response")]
     | Annotated[Resonance, Tag("resonance")]
-    | Annotated[Decay, Tag("decay")],
+    | Annotated[Decay, Tag("decay")]
+    | Annotated[Spectrum, Tag("spectrum")],
     Discriminator(kind_of),
 ]
 """Any analysis: the key ``kind`` tells which."""

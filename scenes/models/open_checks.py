@@ -9,7 +9,7 @@ from pydantic_core import InitErrorDetails
 
 from hydroelastic.fem.open_water.region import MOST_DAMPING_ANYWHERE
 from hydroelastic.scenes.models.bodies import Float
-from hydroelastic.scenes.models.open_analyses import Decay, Resonance
+from hydroelastic.scenes.models.open_analyses import Decay, Resonance, Response
 from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.tank_parts import TankParts
 
@@ -56,11 +56,13 @@ def open_water_is_complete(scene: TankParts) -> Iterator[InitErrorDetails]:
         )
     if len(scene.layers) == 1 and scene.top != "free":
         yield problem_at(
-            ("tank", "top"),
+            (scene.kind, "top"),
             scene.top,
             "without a free surface or an interface there are no waves",
             allowed='"free"',
-            remedy='Set ends = "walls", or add a second [[liquid]]',
+            remedy="Add a second [[liquid]]"
+            if scene.kind == "sea"
+            else 'Set ends = "walls", or add a second [[liquid]]',
         )
     # A default that is written out, as in summaries, is accepted.
     if scene.accuracy.modes != type(scene.accuracy).model_fields["modes"].default:
@@ -87,7 +89,7 @@ def frequencies_and_times_can_be_resolved(scene: TankParts) -> Iterator[InitErro
                 yield problem_at(
                     ("analysis", index, key),
                     wrong[0],
-                    "its waves are too long or too short relative to the drawn length for one mesh to resolve both",
+                    f"its waves are too long or too short relative to {_drawn(scene)} for one mesh to resolve both",
                     allowed=f"{slowest:.3g} to {fastest:.3g} rad/s",
                 )
         late = [time for time in getattr(analysis, "times", ()) if time * slowest > 1.0]
@@ -95,9 +97,13 @@ def frequencies_and_times_can_be_resolved(scene: TankParts) -> Iterator[InitErro
             yield problem_at(
                 ("analysis", index, "times"),
                 late[0],
-                "the waves at such late times are too long relative to the drawn length",
+                f"the waves at such late times are too long relative to {_drawn(scene)}",
                 allowed=f"0 to {1.0 / slowest:.3g} s",
             )
+
+
+def _drawn(scene: TankParts) -> str:
+    return "the bodies" if scene.kind == "sea" else "the drawn length"
 
 
 def resonance_regions_are_covered_by_theory(scene: TankParts) -> Iterator[InitErrorDetails]:
@@ -119,7 +125,7 @@ def _nothing_lies_above_an_infinite_liquid(scene: TankParts) -> Iterator[InitErr
         return
     if scene.tank.top != "free":
         yield problem_at(
-            ("tank", "top"),
+            (scene.kind, "top"),
             scene.tank.top,
             "the upper liquid is infinitely deep, so this has no effect",
             remedy="Leave it out, or give the upper liquid a finite depth",
@@ -171,6 +177,27 @@ def decaying_bodies_are_floats(scene: TankParts) -> Iterator[InitErrorDetails]:
                     f"[[body]] number {analysis.body} does not move so: its motions are {', '.join(body.motions)}",
                     remedy=f'Add "{motion}" to its motions, or release it from another displacement',
                 )
+
+
+def drag_is_heeded(scene: TankParts) -> Iterator[InitErrorDetails]:
+    """Yield analyses whose motion has no known amplitude, on which quadratic damping depends."""
+    if not any(any(one.quadratic_damping) for one in scene.attachment):
+        return
+    for index, analysis in enumerate(scene.analyses):
+        if isinstance(analysis, Response) and analysis.wave_amplitude is None:
+            yield problem_at(
+                ("analysis", index, "wave_amplitude"),
+                None,
+                "it is missing, and quadratic damping depends on it",
+                allowed="the amplitude of the waves, m",
+            )
+        elif isinstance(analysis, Decay | Resonance):
+            yield problem_at(
+                ("analysis", index, "kind") if scene.analysis else ("analysis",),
+                analysis.kind,
+                "a free motion with quadratic damping is not a sum of exponentials",
+                remedy="Leave out quadratic_damping, or ask for a response or a spectrum",
+            )
 
 
 def length_scale_of_bodies(scene: TankParts) -> float:

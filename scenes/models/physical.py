@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from hydroelastic.physics import attachments as physics
 from hydroelastic.physics.beams import Beam
 from hydroelastic.physics.tank import Tank, tank
+from hydroelastic.scenes.models.attachments import Attachment
 from hydroelastic.scenes.models.bodies import Float
 from hydroelastic.scenes.models.tank_parts import TankParts
 
@@ -19,13 +22,36 @@ def physical_tank(scene: TankParts) -> Tank:
     Raises:
         ValueError: if a float cannot float at its level.
     """
-    return tank(
+    found = tank(
         length=scene.tank.length,
         gravity=scene.tank.gravity,
         is_open=scene.is_open,
         liquids=tuple((layer.density, layer.depth) for layer in scene.layers),
         top=scene.top,
         bodies=tuple(_body(scene, index) for index in range(len(scene.body))),
+    )
+    return replace(
+        found,
+        start=scene.stretch[0],
+        phase_at=scene.phase_at,
+        attachments=tuple(_attachment(scene, one) for one in scene.attachment),
+    )
+
+
+def _attachment(scene: TankParts, one: Attachment) -> physics.Attachment:
+    point = one.at
+    if point is None:
+        from hydroelastic.scenes.models.floats import placed_float
+
+        # Without a point it holds a float, at its centre of mass.
+        point = placed_float(scene, one.body - 1).hydrostatics.centre_of_mass
+    return physics.Attachment(
+        body=one.body - 1,
+        other=None if one.to is None else one.to - 1,
+        point=point,
+        stiffness=one.stiffness,
+        damping=one.damping,
+        drag=one.quadratic_damping,
     )
 
 

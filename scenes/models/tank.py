@@ -1,12 +1,18 @@
-"""The scene of a closed tank, or of open water: its model with all checks."""
+"""The scene of a closed tank, or of open water of a drawn length: its model with all checks."""
 
 from __future__ import annotations
 
-from pydantic import model_validator
+from typing import Literal
 
+from pydantic import Field, model_validator
+
+from hydroelastic.scenes.models.bodies import MOST_BODIES
+from hydroelastic.scenes.models.body_kinds import Body
+from hydroelastic.scenes.models.open_analyses import Analysis
 from hydroelastic.scenes.models.problems import require_fit
 from hydroelastic.scenes.models.tank_checks import STAGES
-from hydroelastic.scenes.models.tank_parts import TankParts
+from hydroelastic.scenes.models.tank_parts import Accuracy, Liquids, MeshFile, Tank, TankParts
+from hydroelastic.scenes.models.title import Title
 
 
 class TankScene(TankParts):
@@ -15,6 +21,26 @@ class TankScene(TankParts):
     Raises:
         SceneError: if a value is not allowed or the parts do not fit together.
     """
+
+    kind: Literal["tank"] = Field(default="tank", description="kind of the scene")
+    title: Title = Field(default="", description="title of tables and images")
+    tank: Tank = Field(description="the tank")
+    liquid: Liquids
+    body: tuple[Body, ...] = Field(
+        default=(),
+        max_length=MOST_BODIES,
+        description=f"up to {MOST_BODIES} bodies, in any order; none for sloshing alone",
+    )
+    analysis: tuple[Analysis, ...] = Field(
+        default=(), description='what is asked of open water, one resonance analysis if empty; none with ends = "walls"'
+    )
+    accuracy: Accuracy = Field(default=Accuracy(), description="what is asked of the answer")
+    mesh: MeshFile | None = Field(default=None, description="a mesh of your own")
+
+    @property
+    def attachment(self) -> tuple[()]:
+        """None: springs and dampers hold bodies in the sea."""
+        return ()
 
     @model_validator(mode="after")
     def _parts_fit(self) -> TankScene:

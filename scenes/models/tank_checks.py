@@ -21,6 +21,7 @@ from hydroelastic.scenes.models.open_checks import (
     resonance_regions_are_covered_by_theory,
 )
 from hydroelastic.scenes.models.problems import problem_at
+from hydroelastic.scenes.models.sea_checks import sea_points_lie_on_bodies
 from hydroelastic.scenes.models.tank_parts import TankParts
 
 DEPTH_TO_LENGTH = (1e-4, 1e3)
@@ -144,6 +145,8 @@ def _depths_fit_the_bodies(scene: TankParts) -> Iterator[InitErrorDetails]:
 
 
 def _beams_lie_in_the_tank(scene: TankParts) -> Iterator[InitErrorDetails]:
+    if scene.kind == "sea":
+        return
     length = scene.tank.length
     place = "stretch that is drawn" if scene.is_open else "tank"
     for index, beam in scene.beams:
@@ -324,6 +327,7 @@ STAGES: tuple[tuple[_Check, ...], ...] = (
         decaying_bodies_are_floats,
         frequencies_and_times_can_be_resolved,
         resonance_regions_are_covered_by_theory,
+        sea_points_lie_on_bodies,
     ),
     (
         _depths_fit_the_length,

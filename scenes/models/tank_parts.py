@@ -1,10 +1,10 @@
-"""The parts of the scene of a closed tank, or of open water, as frozen values. SI units; 2-D, so per metre of width."""
+"""The parts of the scene of a closed tank or of open water, as frozen values. SI units; 2-D, so per metre of width."""
 
 from __future__ import annotations
 
 from math import isinf
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
 from pydantic import (
     Field,
@@ -16,20 +16,19 @@ from pydantic import (
 )
 
 from hydroelastic.meshes.formats import FORMATS
+from hydroelastic.scenes.models.attachments import Attachment
 from hydroelastic.scenes.models.bodies import (
     LARGEST,
-    MOST_BODIES,
     SMALLEST,
     Float,
     Level,
     PositiveNumber,
     SceneModel,
 )
-from hydroelastic.scenes.models.body_kinds import AnyBeam, Body
+from hydroelastic.scenes.models.body_kinds import AnyBeam
 from hydroelastic.scenes.models.infinity import PositiveOrInfinite
 from hydroelastic.scenes.models.open_analyses import Analysis, Resonance
 from hydroelastic.scenes.models.problems import problem
-from hydroelastic.scenes.models.title import Title
 
 
 class Tank(SceneModel):
@@ -93,26 +92,59 @@ class MeshFile(SceneModel):
         return file
 
 
-class TankParts(SceneModel):
-    """The parts of the scene of a tank, each valid by itself; `TankScene` checks their consistency."""
+Liquids: TypeAlias = Annotated[
+    tuple[Liquid, ...],
+    Field(min_length=1, max_length=2, description="one liquid or two, from the bottom up"),
+]
+"""The liquids of a scene."""
 
-    kind: Literal["tank"] = Field(default="tank", description="kind of the scene")
-    title: Title = Field(default="", description="title of tables and images")
-    tank: Tank = Field(description="the tank")
-    liquid: tuple[Liquid, ...] = Field(min_length=1, max_length=2, description="one liquid or two, from the bottom up")
-    body: tuple[Body, ...] = Field(
-        default=(),
-        max_length=MOST_BODIES,
-        description=f"up to {MOST_BODIES} bodies, in any order; none for sloshing alone",
-    )
-    analysis: tuple[Analysis, ...] = Field(
-        default=(), description='what is asked of open water, one resonance analysis if empty; none with ends = "walls"'
-    )
-    accuracy: Accuracy = Field(default=Accuracy(), description="what is asked of the answer")
-    mesh: MeshFile | None = Field(default=None, description="a mesh of your own")
+
+class TankParts(SceneModel):
+    """What the scenes of a tank and of the sea share: their liquids, bodies and analyses.
+
+    Each part is valid by itself; `TankScene` and `SeaScene` check their consistency.
+    """
 
     _folder: Path = PrivateAttr(default=Path())
     _source: str | None = PrivateAttr(default=None)
+
+    if TYPE_CHECKING:
+
+        @property
+        def kind(self) -> Literal["tank", "sea"]:
+            """Kind of the scene, and name of its table."""
+
+        @property
+        def title(self) -> str:
+            """Title of tables and images."""
+
+        @property
+        def tank(self) -> Tank:
+            """The tank, or the stretch of the sea that is drawn."""
+
+        @property
+        def liquid(self) -> tuple[Liquid, ...]:
+            """The liquids, from the bottom up."""
+
+        @property
+        def body(self) -> tuple[AnyBeam | Float, ...]:
+            """The bodies."""
+
+        @property
+        def attachment(self) -> tuple[Attachment, ...]:
+            """Springs and dampers that hold the bodies."""
+
+        @property
+        def analysis(self) -> tuple[Analysis, ...]:
+            """What is asked of open water."""
+
+        @property
+        def accuracy(self) -> Accuracy:
+            """The accuracy that is asked."""
+
+        @property
+        def mesh(self) -> MeshFile | None:
+            """A mesh by the user."""
 
     def model_post_init(self, context: Any) -> None:
         """Keep the folder of the scene file, to which paths of outlines are relative, and the file's name in messages.
@@ -125,6 +157,16 @@ class TankParts(SceneModel):
             self._folder = context["folder"]
         if self.mesh is not None:
             self._source = context.get("source")
+
+    @property
+    def stretch(self) -> tuple[float, float]:
+        """Abscissae of both ends of the tank, or of the stretch of open water that is drawn, m."""
+        return 0.0, self.tank.length
+
+    @property
+    def phase_at(self) -> float:
+        """Abscissa at which the crest of an incident wave is at t = 0, m."""
+        return 0.0
 
     @property
     def folder(self) -> Path:

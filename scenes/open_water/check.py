@@ -11,12 +11,13 @@ from hydroelastic.output.open_water.tables import infinite_draught_message
 from hydroelastic.output.sections import Section
 from hydroelastic.scenes.models.open_analyses import Analysis, Decay, Radiation, Resonance, Response
 from hydroelastic.scenes.models.physical import physical_tank
-from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.models.sea_states import Spectrum
+from hydroelastic.scenes.models.tank_parts import TankParts
 from hydroelastic.scenes.open_water.estimates import infinite_draught_comparison
 from hydroelastic.scenes.tank.check import modelled_tank
 
 
-def check_open(scene: TankScene) -> Iterator[Section]:
+def check_open(scene: TankParts) -> Iterator[Section]:
     """Yield the description of open water, the analyses and the outgoing waves; a decay is meshed, to estimate its
     cost.
 
@@ -27,7 +28,7 @@ def check_open(scene: TankScene) -> Iterator[Section]:
     return modelled_tank(scene, requests=open_requests(scene), scale=waves)
 
 
-def open_requests(scene: TankScene) -> Iterator[str]:
+def open_requests(scene: TankParts) -> Iterator[str]:
     """Yield a line for each analysis of a scene with open ends."""
     yield f"Open water, to a relative error of {scene.accuracy.tolerance:g}:"
     for number, analysis in enumerate(scene.analyses, 1):
@@ -39,7 +40,7 @@ def open_requests(scene: TankScene) -> Iterator[str]:
         yield infinite_draught_message(infinite)
 
 
-def decay_cost_words(scene: TankScene, analysis: Decay) -> str:
+def decay_cost_words(scene: TankParts, analysis: Decay) -> str:
     """Return the estimated cost of a decay analysis; its first mesh is made."""
     # This needs dolfinx, which takes a second to import.
     from hydroelastic.fem.open_water.cost import WITHIN, decay_cost
@@ -52,7 +53,7 @@ def decay_cost_words(scene: TankScene, analysis: Decay) -> str:
     )
 
 
-def _request(scene: TankScene, analysis: Analysis) -> str:
+def _request(scene: TankParts, analysis: Analysis) -> str:
     if isinstance(analysis, Radiation):
         shapes = f"; of beams in heave, pitch and {analysis.elastic_modes} elastic shapes" if scene.beams else ""
         return (
@@ -72,6 +73,11 @@ def _request(scene: TankScene, analysis: Analysis) -> str:
             if value
         ]
         return f"decay: float {analysis.body} is released at {' and '.join(motions)}; {_span(analysis.times, 'time')} s"
+    if isinstance(analysis, Spectrum):
+        return (
+            f"spectrum: statistics of the responses in {analysis.duration:g} s of irregular waves from the "
+            f"{analysis.waves_from}, {analysis.words}"
+        )
     return _resonances(analysis)
 
 
@@ -88,7 +94,7 @@ def _span(values: tuple[float, ...], what: str) -> str:
     return f"{len(values)} {plural} from {min(values):g} to {max(values):g}"
 
 
-def open_waves(scene: TankScene) -> Iterator[str]:
+def open_waves(scene: TankParts) -> Iterator[str]:
     """Yield the lengths of the outgoing waves, m, at the lowest and the highest requested frequency."""
     asked = [
         omega
@@ -101,4 +107,5 @@ def open_waves(scene: TankScene) -> Iterator[str]:
     for omega in sorted({min(asked), max(asked)}) if asked else ():
         lengths = [f"{wave.branch} {2.0 * pi / wave.wavenumber:.4g} m" for wave in travelling_waves(layers, omega)]
         yield f"Lengths of outgoing waves at {omega:g} rad/s: {', '.join(lengths)}."
-    yield "The length of the tank is that of the drawn region: results do not depend on it."
+    if scene.kind == "tank":
+        yield "The length of the tank is that of the drawn region: results do not depend on it."

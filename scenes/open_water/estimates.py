@@ -9,10 +9,10 @@ from hydroelastic.modal.floats.thin_float_radiation import is_deep
 from hydroelastic.modal.tank_estimates import two_layers
 from hydroelastic.scenes.models.open_analyses import Decay, Resonance
 from hydroelastic.scenes.models.physical import physical_tank
-from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.models.tank_parts import TankParts
 
 
-def infinite_draught_comparison(scene: TankScene) -> InfiniteDraughtFloat | None:
+def infinite_draught_comparison(scene: TankParts) -> InfiniteDraughtFloat | None:
     """Return the float of infinite draught for a single exponential released in infinitely deep liquids; else
     ``None``."""
     tank = physical_tank(scene)

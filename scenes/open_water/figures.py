@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, ResonanceTable, ResponseTable
+from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, ResonanceTable, ResponseTable, SpectrumTable
 from hydroelastic.output.pictures.colours import BLUE
 from hydroelastic.output.pictures.curves import COLOURS, GREY, Sheets, label_axes, plot_curve, sequence_colours
 from hydroelastic.output.pictures.options import PictureOptions
@@ -41,13 +41,30 @@ def draw_open(solution: OpenSolution, folder: Path, options: PictureOptions) -> 
     for number, radiation in enumerate(solution.radiation, 1):
         _draw_radiation(radiation, sheets, f"radiation_{number}")
     for number, response in enumerate(solution.response, 1):
-        _draw_response(response, sheets, f"response_{number}")
+        _draw_response(response.curve or response, sheets, f"response_{number}")
         for place, plate in enumerate(response.plates):
             _draw_deflection(response, place, sheets, f"deflection_{number}_body_{plate.body + 1}")
     for number, resonance in enumerate(solution.resonance, 1):
         _draw_resonances(resonance, sheets, f"resonance_{number}")
     for number, decay in enumerate(solution.decay, 1):
         _draw_decay(decay, sheets, f"decay_{number}")
+    for number, spectrum in enumerate(solution.spectrum, 1):
+        _draw_spectrum(spectrum, sheets, f"spectrum_{number}")
+
+
+def _draw_spectrum(table: SpectrumTable, sheets: Sheets, name: str) -> None:
+    """Spectra of the waves and of the responses, those of one unit together."""
+    units = list(dict.fromkeys(one.unit for one in table.responses))
+    with sheets.sheet(name, table.waves, width=5.5 * (1 + len(units)), height=6.0) as figure:
+        first, *others = figure.subplots(1, 1 + len(units), squeeze=False)[0]
+        plot_curve(first, table.omega, table.density, 0, "waves")
+        label_axes(first, _FREQUENCY, "S, m²·s/rad")
+        for axes, unit in zip(others, units, strict=True):
+            own = [place for place, one in enumerate(table.responses) if one.unit == unit][:_MOST_CURVES]
+            for number, place in enumerate(own):
+                words = Dof(table.quantities[place]).words
+                plot_curve(axes, table.omega, table.response_density[:, place], number, words)
+            label_axes(axes, _FREQUENCY, f"spectrum of the response, ({unit})²·s/rad")
 
 
 def _by_unit(dofs: tuple[Dof, ...]) -> list[tuple[bool, list[int]]]:

@@ -7,9 +7,9 @@ from mpi4py import MPI
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.stopwatch import Stopwatch
 from hydroelastic.scenes.models.physical import physical_tank
-from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.models.tank_parts import TankParts
 
 
-def open_water_problem(scene: TankScene, comm: MPI.Comm, watch: Stopwatch) -> OpenWaterProblem:
+def open_water_problem(scene: TankParts, comm: MPI.Comm, watch: Stopwatch) -> OpenWaterProblem:
     """Return the open water of a scene, to be solved to its tolerance."""
     return OpenWaterProblem(comm=comm, tank=physical_tank(scene), tolerance=scene.accuracy.tolerance, watch=watch)

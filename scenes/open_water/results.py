@@ -10,7 +10,7 @@ from hydroelastic.fem.open_water.thin_float_theory import Comparison, thin_float
 from hydroelastic.modal.floats.infinite_draught import InfiniteDraughtFloat
 from hydroelastic.physics.tank import Tank
 from hydroelastic.scenes.models.physical import physical_tank
-from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.models.tank_parts import TankParts
 from hydroelastic.scenes.open_water.estimates import infinite_draught_comparison
 from hydroelastic.scenes.tank.check_hints import draughts_left_out
 
@@ -23,7 +23,7 @@ class OpenSolution(OpenWaterSolution):
         scene: the scene.
     """
 
-    scene: TankScene
+    scene: TankParts
 
     @cached_property
     def tank(self) -> Tank:

@@ -10,12 +10,12 @@ from hydroelastic.fem.open_water.solve import solve_open_water
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
-from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.models.tank_parts import TankParts
 from hydroelastic.scenes.open_water.physics import open_water_problem
 from hydroelastic.scenes.open_water.results import OpenSolution
 
 
-def solve_open(scene: TankScene, comm: MPI.Comm, report: Report) -> OpenSolution:
+def solve_open(scene: TankParts, comm: MPI.Comm, report: Report) -> OpenSolution:
     """Solve all analyses of a scene with open ends (collective).
 
     Raises:

@@ -26,7 +26,7 @@ def answer(summary: Summary) -> Section:
         summary: content of ``summary.json``.
     """
     scene = summary["scene"]
-    rows = {"tank": _tank, "string": _string, "thread": _thread, "roll": _roll}[scene["kind"]]
+    rows = {"tank": _tank, "sea": _open_water, "string": _string, "thread": _thread, "roll": _roll}[scene["kind"]]
     if scene["kind"] == "tank" and scene["tank"]["ends"] == "open":
         rows = _open_water
     elif is_level_tank(scene):

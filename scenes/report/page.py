@@ -82,7 +82,9 @@ def kind_of(summary: Summary) -> str:
     scene = summary["scene"]
     if scene["kind"] == "tank":
         return "open water" if scene["tank"]["ends"] == "open" else "closed tank"
-    return {"string": "hanging string", "thread": "thread in a stream", "roll": "rolling ship"}[scene["kind"]]
+    return {"sea": "open water", "string": "hanging string", "thread": "thread in a stream", "roll": "rolling ship"}[
+        scene["kind"]
+    ]
 
 
 def is_numeric(cells: Iterable[str]) -> bool:

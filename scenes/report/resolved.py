@@ -16,7 +16,7 @@ def resolved(summary: Summary) -> Section:
         summary: content of ``summary.json``.
     """
     scene = summary["scene"]
-    lines = {"tank": _tank, "string": _string, "thread": _thread, "roll": _roll}[scene["kind"]]
+    lines = {"tank": _tank, "sea": _open_water, "string": _string, "thread": _thread, "roll": _roll}[scene["kind"]]
     if scene["kind"] == "tank" and scene["tank"]["ends"] == "open":
         lines = _open_water
     elif is_level_tank(scene):

@@ -31,7 +31,7 @@ from hydroelastic.scenes.study.run import Study
 from hydroelastic.scenes.study.thinness_figure import draw_thinness
 from hydroelastic.scenes.study.thinness_report import print_thinness, thinness_csv
 
-STAGES = ("plan", "mesh", "forms", "assemble", "solve", "count", "errors", "pressure release")
+STAGES = ("plan", "mesh", "assemble", "solve", "count", "errors", "pressure release")
 """Stages of a solution in their order; other timed stages follow them."""
 
 _SHORT = {"pressure release": "ψ=0", "added mass": "m_a"}

@@ -16,15 +16,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from hydroelastic.fem.modes import EigenSolverError
-from hydroelastic.fem.spectral_error import LOWEST_DEGREE
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.study.rates import Gain, Rate, fitted_gain, fitted_rates
 from hydroelastic.fem.study.reference import Reference
 from hydroelastic.fem.study.row import Family, StudyRow
-from hydroelastic.fem.study.series import compile_forms, geometric_rows, nested_rows, tolerance_rows
+from hydroelastic.fem.study.series import geometric_rows, nested_rows, tolerance_rows
 from hydroelastic.fem.study.studied_tank import StudiedTank
 from hydroelastic.fem.study.thinness import ThinnessRow, thinness_rows
-from hydroelastic.fem.tank.resolution import HIGHEST_DEGREE
 from hydroelastic.meshes.tagged_mesh import MeshError
 from hydroelastic.physics.tank import Tank
 from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
@@ -109,14 +107,6 @@ def _study(scene: TankScene, plan: StudyPlan, report: Report) -> Study:
         return study
     report("reference solution")
     parities = studied.reference.parities
-    report("forms")
-    needed: dict[Family, tuple[int, ...]] = {
-        "uniform": plan.degrees,
-        "algebraic": plan.degrees,
-        "geometric": plan.geometric_degrees,
-        "tolerance": tuple(range(LOWEST_DEGREE, HIGHEST_DEGREE + 1)),
-    }
-    compile_forms(studied, (degree for family in plan.families for degree in needed.get(family, ())))
     rows = []
     for family in plan.families:
         for row in _rows(studied, plan, family):

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import click
 
+from hydroelastic.meshes.interrupts import interrupted_with
 from hydroelastic.output.manifest import read_manifest
 from hydroelastic.output.pictures.options import CurveFormat
 from hydroelastic.scenes.command_options import (
@@ -68,7 +69,7 @@ def sweep(
     """Solve SCENE for many values of its keys, and write curves, a table and a dataset.
 
     Points that are solved are kept in the folder: the same command goes on after an interruption. Points that fail
-    stay in the table with their reason, and the exit code is then 3.
+    stay in the table with their reason, and the exit code is then 3, as where followed modes are not resolved.
 
     \b
     Example:
@@ -81,7 +82,10 @@ def sweep(
     folder = folder_of_results(scene, out, suffix="_sweep")
     replaces = read_manifest(folder) is not None
     title = source.document.get("title") or "Untitled scene"
-    with progress(str(title), shown=not quiet and sys.stderr.isatty()) as report:
+    with (
+        interrupted_with(f"the points solved so far are kept in {folder}/; the same command goes on from there."),
+        progress(str(title), shown=not quiet and sys.stderr.isatty()) as report,
+    ):
         from hydroelastic.scenes.sweep.files import write_sweep
         from hydroelastic.scenes.sweep.report import sweep_report
         from hydroelastic.scenes.sweep.result import Sweep
@@ -96,9 +100,8 @@ def sweep(
     if not quiet:
         click.echo(sweep_report(found, show, folder, replaces=replaces))
     if found.status != "ok":
-        for line in (
-            f"{len(found.solved.complaints)} of {len(found.solved.points)} points are not ok:",
-            *found.solved.complaints,
-        ):
+        if found.solved.complaints:
+            click.echo(f"{len(found.solved.complaints)} of {len(found.solved.points)} points are not ok:", err=True)
+        for line in found.solved.reasons:
             click.echo(line, err=True)
         context.exit(NOT_TO_TOLERANCE)

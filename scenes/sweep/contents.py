@@ -24,7 +24,7 @@ class SweepContents:
 
     @property
     def status(self) -> str:
-        """The worst status of all points: "ok", "unconverged" or "failed"."""
+        """The status of the sweep: "ok", "unconverged" or "failed"."""
         return self.solved.status
 
     @cached_property

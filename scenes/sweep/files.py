@@ -65,7 +65,7 @@ def sweep_summary(sweep: SweepContents) -> dict[str, Any]:
     return {
         "scene": solved.scene.model_dump(mode="json"),
         "status": solved.status,
-        "reasons": solved.complaints,
+        "reasons": solved.reasons,
         "vary": {axis.key: axis.values for axis in solved.grid.axes},
         "points": {status: found.count(status) for status in ("ok", "unconverged", "failed")},
         "followed": followed_summary(solved),

@@ -86,8 +86,8 @@ class SolvedSweep:
 
     @property
     def status(self) -> str:
-        """The worst status of all points."""
-        found = {point.status for point in self.points}
+        """The worst status of all points, "unconverged" at best where followed modes are not resolved."""
+        found = {point.status for point in self.points} | ({"unconverged"} if self.unresolved else set())
         return next((status for status in ("failed", "unconverged") if status in found), "ok")
 
     @property
@@ -98,6 +98,27 @@ class SolvedSweep:
             for values, point in zip(self.grid.points, self.points, strict=True)
             if point.status != "ok"
         ]
+
+    @property
+    def unresolved(self) -> list[str]:
+        """A line for each encounter of followed modes that the points do not resolve, and where more were wanted."""
+        from hydroelastic.scenes.sweep.lines import place_of
+
+        axis = self.grid.axes[0]
+        return [
+            f"{point_text({axis.key: place_of(one, axis)} | line.others)}: modes not resolved at ω = {one.omega:.6g}: "
+            f"{one.reason}"
+            for line in self.lines
+            for one in line.encounters
+            if one.kind == "unresolved"
+        ] + ["following the modes needs more points than were allowed"] * any(
+            line.followed.exhausted for line in self.lines
+        )
+
+    @property
+    def reasons(self) -> list[str]:
+        """Why the status is not "ok"."""
+        return self.complaints + self.unresolved
 
 
 class _Solver:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from hydroelastic.physics.motions import Level
-from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.models.tank_parts import TankParts
 from hydroelastic.scenes.tank.symbols import Group
 
 
@@ -23,7 +23,7 @@ class BodyWords(ABC):
         name: what it is.
     """
 
-    scene: TankScene
+    scene: TankParts
     index: int
     symbol: ClassVar[str]
     name: ClassVar[str]

@@ -16,12 +16,12 @@ from hydroelastic.output.sections import Section
 from hydroelastic.physics.symmetry import is_mirror_image
 from hydroelastic.physics.tank import Tank
 from hydroelastic.scenes.models.physical import physical_tank
-from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.models.tank_parts import TankParts
 from hydroelastic.scenes.tank.check_hints import hints
 from hydroelastic.scenes.tank.check_tables import boundary_table, group_table, hydrostatics_table, unknown_table
 
 
-def check_tank(scene: TankScene) -> Iterator[Section]:
+def check_tank(scene: TankParts) -> Iterator[Section]:
     """Yield the description of a closed tank, the size of its model, and hints; only the built-in meshes are made.
 
     Args:
@@ -33,7 +33,7 @@ def check_tank(scene: TankScene) -> Iterator[Section]:
     return modelled_tank(scene, requests=(_request(scene),), scale=Section(title="Size", lines=tuple(_sizes(scene))))
 
 
-def modelled_tank(scene: TankScene, *, requests: Iterable[str], scale: Section) -> Iterator[Section]:
+def modelled_tank(scene: TankParts, *, requests: Iterable[str], scale: Section) -> Iterator[Section]:
     """Yield the surfaces, the unknown fields, the dimensionless groups, hydrostatics of floats, and hints.
 
     Args:
@@ -54,7 +54,7 @@ def modelled_tank(scene: TankScene, *, requests: Iterable[str], scale: Section) 
         yield Section(title="What to expect", notes=expected)
 
 
-def _sizes(scene: TankScene) -> Iterator[str]:
+def _sizes(scene: TankParts) -> Iterator[str]:
     """Yield the first attempt, and why it should be enough; the built-in meshes are made to count their unknowns."""
     tank, user_mesh = physical_tank(scene).scaled(), _user_mesh(scene)
     tolerance = scene.accuracy.tolerance
@@ -93,7 +93,7 @@ def _sizes(scene: TankScene) -> Iterator[str]:
         yield "  There are no waves to resolve, but a stronger singularity at the tips."
 
 
-def _user_mesh(scene: TankScene) -> TaggedMesh | None:
+def _user_mesh(scene: TankParts) -> TaggedMesh | None:
     if scene.mesh is None:
         return None
     # Only scenes with a user mesh need this import.
@@ -126,7 +126,7 @@ def _size(
     return ", ".join(parts)
 
 
-def _request(scene: TankScene) -> str:
+def _request(scene: TankParts) -> str:
     source = "built-in mesh" if scene.mesh is None else f"mesh {scene.mesh.file}"
     return (
         f"The lowest {scene.accuracy.modes} modes to a relative error of {scene.accuracy.tolerance:g} "

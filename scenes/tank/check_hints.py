@@ -10,7 +10,7 @@ from hydroelastic.modal.beam.beam_shapes import first_bending
 from hydroelastic.physics.rigid_motions import mode_count, zero_mode_count, zero_stiffness_motions
 from hydroelastic.physics.symmetry import is_mirror_image
 from hydroelastic.scenes.models.physical import physical_tank
-from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.models.tank_parts import TankParts
 
 # Half width over half height from which the thin-float condition has an error of more than some per cent.
 _THICK = 0.1
@@ -19,12 +19,12 @@ _THICK = 0.1
 _DEEP = 0.05
 
 
-def hints(scene: TankScene) -> tuple[str, ...]:
+def hints(scene: TankParts) -> tuple[str, ...]:
     """Return hints on the results, of a sentence or two each."""
     return tuple(hint for find in (_HINTS_OF_OPEN_WATER if scene.is_open else _HINTS) for hint in find(scene))
 
 
-def _air(scene: TankScene) -> Iterator[str]:
+def _air(scene: TankParts) -> Iterator[str]:
     if len(scene.layers) < len(scene.liquid):
         yield (
             "The upper layer has density 0: it is air, which is not modelled. The interface is an ordinary free "
@@ -32,7 +32,7 @@ def _air(scene: TankScene) -> Iterator[str]:
         )
 
 
-def _symmetry(scene: TankScene) -> Iterator[str]:
+def _symmetry(scene: TankParts) -> Iterator[str]:
     if is_mirror_image(physical_tank(scene).scaled()):
         yield (
             "The scene is its own mirror image: modes are symmetric (∂ψ/∂x = 0 in the middle) or antisymmetric "
@@ -40,7 +40,7 @@ def _symmetry(scene: TankScene) -> Iterator[str]:
         )
 
 
-def _zero_modes(scene: TankScene) -> Iterator[str]:
+def _zero_modes(scene: TankParts) -> Iterator[str]:
     tank = physical_tank(scene)
     count = zero_mode_count(tank)
     if count == 0:
@@ -53,7 +53,7 @@ def _zero_modes(scene: TankScene) -> Iterator[str]:
     yield f"Without stiffness: {names}{but}. That leaves {modes} not reported."
 
 
-def _few_modes(scene: TankScene) -> Iterator[str]:
+def _few_modes(scene: TankParts) -> Iterator[str]:
     count = mode_count(physical_tank(scene))
     if count is not None and count < scene.accuracy.modes:
         yield (
@@ -62,7 +62,7 @@ def _few_modes(scene: TankScene) -> Iterator[str]:
         )
 
 
-def _sloshing(scene: TankScene) -> Iterator[str]:
+def _sloshing(scene: TankParts) -> Iterator[str]:
     if scene.body:
         return
     if len(scene.layers) == 1:
@@ -84,7 +84,7 @@ def _sloshing(scene: TankScene) -> Iterator[str]:
         )
 
 
-def _walls(scene: TankScene) -> Iterator[str]:
+def _walls(scene: TankParts) -> Iterator[str]:
     for level in physical_tank(scene).levels_from_top:
         if not level.is_open:
             if level.above is None and scene.top != "free":
@@ -95,7 +95,7 @@ def _walls(scene: TankScene) -> Iterator[str]:
                 yield f"Beam {piece.body + 1} touches the {wall} wall: its end slides along it without friction."
 
 
-def _shared_tone(scene: TankScene) -> Iterator[str]:
+def _shared_tone(scene: TankParts) -> Iterator[str]:
     """Yield hints on tones that couple with sloshing modes, unless they are slow or the beam is heavy (docs, aquarium,
     § 4)."""
     tank = physical_tank(scene)
@@ -111,7 +111,7 @@ def _shared_tone(scene: TankScene) -> Iterator[str]:
             )
 
 
-def _hydrostatics(scene: TankScene) -> Iterator[str]:
+def _hydrostatics(scene: TankParts) -> Iterator[str]:
     for index, beam in physical_tank(scene).beams.items():
         below, above = scene.densities_at(beam.level)
         ratio = (below - above) * scene.tank.gravity / first_bending(beam)
@@ -128,7 +128,7 @@ def _hydrostatics(scene: TankScene) -> Iterator[str]:
             )
 
 
-def draughts_left_out(scene: TankScene) -> Iterator[str]:
+def draughts_left_out(scene: TankParts) -> Iterator[str]:
     """Yield hints on beams whose draught, mass over density, is not negligible; the model neglects it."""
     for index, beam in physical_tank(scene).beams.items():
         draught = beam.mass_per_length / scene.densities_at(beam.level)[0]
@@ -142,13 +142,13 @@ def draughts_left_out(scene: TankScene) -> Iterator[str]:
             )
 
 
-def _unstable(scene: TankScene) -> Iterator[str]:
+def _unstable(scene: TankParts) -> Iterator[str]:
     for index, body in physical_tank(scene).floats.items():
         if "roll" in body.motions and body.roll_stiffness < 0.0:
             yield f"Float {index + 1} is unstable: its roll grows instead of oscillating, a mode with ω² < 0."
 
 
-def _thin(scene: TankScene) -> Iterator[str]:
+def _thin(scene: TankParts) -> Iterator[str]:
     for index, body in scene.floats:
         if body.boundary == "thin" and body.half_width is not None and body.half_height is not None:
             ratio = body.half_width / body.half_height
@@ -160,7 +160,7 @@ def _thin(scene: TankScene) -> Iterator[str]:
             )
 
 
-_Hints: TypeAlias = Callable[[TankScene], Iterator[str]]
+_Hints: TypeAlias = Callable[[TankParts], Iterator[str]]
 _HINTS: tuple[_Hints, ...] = (
     _air,
     _symmetry,

@@ -10,7 +10,7 @@ from hydroelastic.physics.rigid_motions import heave_is_excluded
 from hydroelastic.physics.tank import Piece, StillLevel
 from hydroelastic.scenes.models.bodies import Float
 from hydroelastic.scenes.models.physical import physical_tank
-from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.models.tank_parts import TankParts
 from hydroelastic.scenes.tank.beam_words import BeamWords
 from hydroelastic.scenes.tank.body_words import BodyWords
 from hydroelastic.scenes.tank.float_words import FloatWords
@@ -24,7 +24,7 @@ SURFACE_NAMES = {
 }
 
 
-def boundary_table(scene: TankScene) -> Section:
+def boundary_table(scene: TankParts) -> Section:
     """Return the boundaries of the liquids, from the top down and from left to right, with their conditions."""
     several = len(scene.layers) == 2
     title = "Boundaries of the liquids (levels" if several else "Boundary of the liquid (top"
@@ -45,14 +45,14 @@ def boundary_table(scene: TankScene) -> Section:
     )
 
 
-def _walls(scene: TankScene) -> Iterator[tuple[str, str, str, str]]:
+def _walls(scene: TankParts) -> Iterator[tuple[str, str, str, str]]:
     length = f"{scene.tank.length:g}"
     slopes = " = ".join(f"∂{potential_of(scene, layer)}/∂x" for layer in reversed(range(len(scene.layers))))
     yield "walls", "0", length, f"{slopes} = 0"
     yield f"bottom, y = {-scene.liquid[0].depth:g} m", "0", length, f"∂{potential_of(scene, 0)}/∂y = 0"
 
 
-def _open_ends(scene: TankScene) -> Iterator[tuple[str, str, str, str]]:
+def _open_ends(scene: TankParts) -> Iterator[tuple[str, str, str, str]]:
     yield "open ends", "-inf", "inf", "outgoing waves only"
     potential = potential_of(scene, 0)
     if isinf(scene.liquid[0].depth):
@@ -63,14 +63,14 @@ def _open_ends(scene: TankScene) -> Iterator[tuple[str, str, str, str]]:
         yield "high above", "-inf", "inf", f"∇{potential_of(scene, 1)} → 0 as y → ∞"
 
 
-def _surface_name(scene: TankScene, level: StillLevel, piece: Piece) -> str:
+def _surface_name(scene: TankParts, level: StillLevel, piece: Piece) -> str:
     if piece.body is not None:
         return f"{scene.body[piece.body].kind.replace('_', ' ')} {piece.body + 1}"
     name = SURFACE_NAMES[level.kind]
     return f"{name}, y = {level.height:g} m" if len(scene.layers) == 2 else name
 
 
-def _open_condition(scene: TankScene, level: StillLevel) -> str:
+def _open_condition(scene: TankParts, level: StillLevel) -> str:
     if level.kind == "interface":
         return "∂ψᵤ/∂y = ∂ψₗ/∂y = η, (ρₗ − ρᵤ) g η = ω² (ρₗ ψₗ − ρᵤ ψᵤ)"
     potential, elevation = potential_of(scene, len(scene.layers) - 1), _surface_elevation(scene)
@@ -81,16 +81,16 @@ def _open_condition(scene: TankScene, level: StillLevel) -> str:
     }[level.kind]
 
 
-def _surface_elevation(scene: TankScene) -> str:
+def _surface_elevation(scene: TankParts) -> str:
     return "η" if len(scene.layers) == 1 else "ηᵤ"
 
 
-def unknown_table(scene: TankScene) -> Section:
+def unknown_table(scene: TankParts) -> Section:
     """Return the unknown fields, with their domain and the reason for them."""
     return Section(title="Unknown fields", headings=("field", "where", "why"), rows=tuple(_unknowns(scene)))
 
 
-def _unknowns(scene: TankScene) -> Iterator[Row]:
+def _unknowns(scene: TankParts) -> Iterator[Row]:
     why = "displacement potential, ∇ψ is the displacement: Laplace's equation, pressure ω² ρ ψ"
     if len(scene.layers) == 1:
         yield "ψ", "liquid", why
@@ -106,7 +106,7 @@ def _unknowns(scene: TankScene) -> Iterator[Row]:
         yield f"{words.symbol} of {name}", name, words.basis(is_held=heave_is_excluded(tank, index))
 
 
-def _elevation_row(scene: TankScene, level: StillLevel) -> tuple[str, str, str]:
+def _elevation_row(scene: TankParts, level: StillLevel) -> tuple[str, str, str]:
     if not level.is_open:
         return "η: none", "–", "the beam covers the whole liquid"
     spans = "" if scene.is_open else "; with the bodies it spans the eigenproblem"
@@ -129,7 +129,7 @@ def _elevation_row(scene: TankScene, level: StillLevel) -> tuple[str, str, str]:
     return reasons[scene.top]
 
 
-def group_table(scene: TankScene) -> Section:
+def group_table(scene: TankParts) -> Section:
     """Return the dimensionless groups that determine the scene."""
     return Section(
         title="Dimensionless groups",
@@ -138,7 +138,7 @@ def group_table(scene: TankScene) -> Section:
     )
 
 
-def _groups(scene: TankScene) -> Iterator[Group]:
+def _groups(scene: TankParts) -> Iterator[Group]:
     length = scene.tank.length
     if len(scene.layers) == 2:
         lower, upper = scene.layers
@@ -154,7 +154,7 @@ def _groups(scene: TankScene) -> Iterator[Group]:
         yield from _words_of(scene, index).groups()
 
 
-def hydrostatics_table(scene: TankScene) -> Section:
+def hydrostatics_table(scene: TankParts) -> Section:
     """Return hydrostatics and stiffness of each float; no rows without floats."""
     columns = {index: found for index in range(len(scene.body)) if (found := _words_of(scene, index).at_rest())}
     quantities = next(iter(columns.values()), {})
@@ -165,7 +165,7 @@ def hydrostatics_table(scene: TankScene) -> Section:
     )
 
 
-def _words_of(scene: TankScene, index: int) -> BodyWords:
+def _words_of(scene: TankParts, index: int) -> BodyWords:
     body = scene.body[index]
     if isinstance(body, Float):
         return FloatWords(scene=scene, index=index, body=body)

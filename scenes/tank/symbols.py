@@ -6,25 +6,25 @@ from collections.abc import Iterator
 from math import isinf
 
 from hydroelastic.physics.motions import Level
-from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.models.tank_parts import TankParts
 
 Group = tuple[str, float, str]
 """A dimensionless group: its symbol, its value and what it means."""
 
 
-def potential_of(scene: TankScene, layer: int) -> str:
+def potential_of(scene: TankParts, layer: int) -> str:
     """Return the name of the potential in a layer: as the liquids, 1 is above and 2 below."""
     return "ψ" if len(scene.layers) == 1 else ("ψₗ", "ψᵤ")[layer]
 
 
-def jump_of(scene: TankScene, level: Level) -> str:
+def jump_of(scene: TankParts, level: Level) -> str:
     """Return the symbol of the density difference across a level."""
     if len(scene.layers) == 1:
         return "ρ"
     return "(ρₗ − ρᵤ)" if level == "interface" else "ρᵤ"
 
 
-def depth_group(scene: TankScene, name: str, length: float, meaning: str) -> Iterator[Group]:
+def depth_group(scene: TankParts, name: str, length: float, meaning: str) -> Iterator[Group]:
     """Yield the depth of the lowest liquid over a length of a body, where it is finite."""
     depth = scene.layers[0].depth
     if not isinf(depth):

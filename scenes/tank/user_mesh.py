@@ -9,10 +9,10 @@ from hydroelastic.meshes.files import load_mesh
 from hydroelastic.meshes.tagged_mesh import MeshError, TaggedMesh
 from hydroelastic.scenes.errors import Problem, SceneError
 from hydroelastic.scenes.models.physical import physical_tank
-from hydroelastic.scenes.models.tank import TankScene
+from hydroelastic.scenes.models.tank_parts import TankParts
 
 
-def read_user_mesh(scene: TankScene) -> TaggedMesh | None:
+def read_user_mesh(scene: TankParts) -> TaggedMesh | None:
     """Return the user mesh of a scene, in m; ``None`` without one.
 
     Raises:
@@ -28,7 +28,7 @@ def read_user_mesh(scene: TankScene) -> TaggedMesh | None:
     return mesh
 
 
-def user_mesh(scene: TankScene, comm: MPI.Comm) -> TaggedMesh | None:
+def user_mesh(scene: TankParts, comm: MPI.Comm) -> TaggedMesh | None:
     """Return the user mesh of a scene on rank 0, in m; ``None`` elsewhere, and without one (collective).
 
     Raises:
@@ -51,7 +51,7 @@ def user_mesh(scene: TankScene, comm: MPI.Comm) -> TaggedMesh | None:
     return mesh
 
 
-def mesh_refused(scene: TankScene, wrong: str) -> SceneError:
+def mesh_refused(scene: TankParts, wrong: str) -> SceneError:
     """Return the error for a mesh that cannot be used, the user's or the built-in one."""
     if scene.mesh is None:
         return SceneError(Problem(wrong=f"no mesh could be made: {wrong}", remedy="Please report this scene"))

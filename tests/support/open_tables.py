@@ -126,6 +126,8 @@ def _response(scene: TankScene, analysis: Response, numbers: np.random.Generator
             body=index,
             positions=np.linspace(beam.start, beam.end, analysis.positions),
             deflection=_complex(numbers, count, len(waves), analysis.positions),
+            bending_moment=_complex(numbers, count, len(waves), analysis.positions),
+            shear_force=_complex(numbers, count, len(waves), analysis.positions),
         )
         for index, beam in scene.beams
     ]
@@ -138,6 +140,8 @@ def _response(scene: TankScene, analysis: Response, numbers: np.random.Generator
         amplitudes=_complex(numbers, count, len(waves), len(dofs)),
         reflection=_complex(numbers, count, len(waves), len(waves)),
         transmission=_complex(numbers, count, len(waves), len(waves)),
+        absorption=np.zeros((count, len(waves))),
+        drift_force=np.ones((count, len(waves))),
         energy_residual=np.full((count, len(waves)), 1e-9),
         relative_error=np.full(count, 1e-7),
         plates=tuple(plates),

@@ -1,0 +1,113 @@
+"""Matrices of Laplace's equation on single cells, with the unknowns inside of the cells condensed.
+
+On a straight cell all integrals are those of the reference cell, up to dim² numbers:
+
+    A_e = Σ_ab G_ab R_ab,    G = |det J| J⁻¹J⁻ᵀ,    R_ab = ∫∂_aφ ∂_bφ over the reference cell
+
+On a curved one they are integrated by quadrature. No load acts on an unknown inside (i) of a cell: it follows from
+those on the cell's boundary (o), which alone remain in the matrix (static condensation):
+
+    ψ_i = E ψ_o,    E = −A_ii⁻¹A_io,    A = A_oo + A_oi E
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+import basix
+import basix.ufl
+import numpy as np
+
+from hydroelastic.fem.cells import CURVED_QUADRATURE, cell_jacobians, is_straight, owned_cells
+from hydroelastic.fem.numbering import Numbering
+
+# Cells whose full matrices are held at once.
+_TOGETHER = 512
+
+
+@dataclass(frozen=True, kw_only=True)
+class CellMatrices:
+    """∫∇ψ·∇q on the cells that this process owns.
+
+    Attributes:
+        numbering: of the unknowns, which says what is condensed.
+    """
+
+    numbering: Numbering
+
+    @property
+    def laplace(self) -> np.ndarray:
+        """A on the unknowns of each cell, shape (cells, unknowns, unknowns)."""
+        return self._condensed[0]
+
+    @property
+    def extension(self) -> np.ndarray:
+        """E, from the unknowns of each cell to ψ inside of it, shape (cells, inside, unknowns)."""
+        return self._condensed[1]
+
+    @cached_property
+    def _condensed(self) -> tuple[np.ndarray, np.ndarray]:
+        numbering = self.numbering
+        cells = owned_cells(numbering.space.mesh)
+        outside, inside = len(numbering.outside), len(numbering.inside)
+        laplace, extension = np.empty((len(cells), outside, outside)), np.empty((len(cells), inside, outside))
+        for first in range(0, len(cells), _TOGETHER):
+            some = slice(first, first + _TOGETHER)
+            laplace[some], extension[some] = condensed(self._full(cells[some]), outside)
+        return laplace, extension
+
+    def _full(self, cells: np.ndarray) -> np.ndarray:
+        """All of the matrices, the unknowns before those inside."""
+        mesh, element = self.numbering.space.mesh, self.numbering.space.element.basix_element
+        order = tuple(map(int, (*self.numbering.outside, *self.numbering.inside)))
+        if is_straight(mesh):
+            reference = _reference_laplace(element.cell_type, element.degree, order)
+            jacobian = cell_jacobians(mesh, cells, np.zeros((1, mesh.topology.dim)))[:, 0]
+            inverse = np.linalg.inv(jacobian)
+            metric = np.abs(np.linalg.det(jacobian))[:, None, None] * (inverse @ inverse.transpose(0, 2, 1))
+            full = metric.reshape(len(cells), -1) @ reference
+            return full.reshape(len(cells), len(order), len(order))
+        slopes, weights = _slopes(element.cell_type, element.degree, order, CURVED_QUADRATURE)
+        jacobians = cell_jacobians(mesh, cells, _points(element.cell_type, element.degree, CURVED_QUADRATURE)[0])
+        roots = np.sqrt(weights * np.abs(np.linalg.det(jacobians)))
+        scaled = np.linalg.inv(jacobians).transpose(0, 1, 3, 2) * roots[..., None, None]
+        gradients = (scaled @ slopes).reshape(len(cells), -1, len(order))
+        product: np.ndarray = gradients.transpose(0, 2, 1) @ gradients
+        return product
+
+
+def condensed(matrices: np.ndarray, outside: int) -> tuple[np.ndarray, np.ndarray]:
+    """Condense the last unknowns of symmetric matrices.
+
+    Args:
+        matrices: shape (cells, n, n).
+        outside: number of the unknowns that remain, which come first.
+
+    Returns:
+        A, shape (cells, outside, outside), and E, shape (cells, n − outside, outside).
+    """
+    extension = -np.linalg.solve(matrices[:, outside:, outside:], matrices[:, outside:, :outside])
+    return matrices[:, :outside, :outside] + matrices[:, :outside, outside:] @ extension, extension
+
+
+def _points(cell_type: basix.CellType, degree: int, more: int) -> tuple[np.ndarray, np.ndarray]:
+    """Points and weights on the reference cell, exact for ∇ψ·∇q on straight cells and ``more`` degrees."""
+    points, weights = basix.make_quadrature(cell_type, 2 * degree - 2 + more)
+    return points, weights
+
+
+@lru_cache(maxsize=16)
+def _slopes(cell_type: basix.CellType, degree: int, order: tuple[int, ...], more: int) -> tuple[np.ndarray, np.ndarray]:
+    """Reference gradients of the basis at the points, shape (points, dim, functions), and the weights."""
+    points, weights = _points(cell_type, degree, more)
+    table = basix.ufl.element("Lagrange", cell_type.name, degree).basix_element.tabulate(1, points)
+    return np.ascontiguousarray(table[1:, :, order, 0].transpose(1, 0, 2)), weights
+
+
+@lru_cache(maxsize=16)
+def _reference_laplace(cell_type: basix.CellType, degree: int, order: tuple[int, ...]) -> np.ndarray:
+    """R, shape (dim², functions²)."""
+    slopes, weights = _slopes(cell_type, degree, order, 0)
+    tensor = np.einsum("q,qan,qbm->abnm", weights, slopes, slopes, optimize=True)
+    return tensor.reshape(slopes.shape[1] ** 2, -1)

@@ -1,0 +1,112 @@
+"""Curves of responses over the frequency that miss nothing, from the reduced basis of a sweep.
+
+Frequencies begin at those of the sweep and about each resonance of bodies and liquid together, and the intervals
+between them are halved until cubic splines through the motions meet the next ones.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from hydroelastic.fem.open_water.frequency import OpenResponse
+from hydroelastic.fem.open_water.solver import OpenSolver
+from hydroelastic.fem.open_water.sweep import Swept
+
+# Most frequencies in the end.
+_MOST = 1500
+# Frequencies about a resonance ω − iγ, in γ from ω.
+_ABOUT = (-4.0, -2.0, -1.0, 0.0, 1.0, 2.0, 4.0)
+# Least distance of a motion from the spline, relative to the largest motion, that counts as missed.
+_LEAST_MISSED = 1e-6
+
+
+@dataclass(frozen=True, kw_only=True)
+class Curves:
+    """Responses at many frequencies.
+
+    Attributes:
+        solver: by which they were found.
+        omegas: ascending, rad/s, shape (n,).
+        responses: at these.
+        errors: estimated relative errors, shape (n,).
+    """
+
+    solver: OpenSolver
+    omegas: np.ndarray
+    responses: list[OpenResponse]
+    errors: np.ndarray
+
+
+def refined_curves(
+    solver: OpenSolver, incident: list[int], omegas: np.ndarray, swept: Swept[OpenResponse], missed: float
+) -> Curves:
+    """Add frequencies to a sweep until splines meet the next ones (collective).
+
+    Args:
+        solver: with the reduced basis of the sweep.
+        incident: indices of the incident waves.
+        omegas: of the sweep, rad/s, shape (n,).
+        swept: the sweep.
+        missed: largest distance of a motion from the spline, relative to the largest motion of the same unit.
+    """
+    found = {float(omega): one for omega, one in zip(omegas, swept.solutions, strict=True)}
+    errors = {float(omega): float(error) for omega, error in zip(omegas, swept.errors, strict=True)}
+    turns = np.array([dof.is_rotation for dof in solver.model.scale.dofs])
+
+    def added(asked: Iterable[float]) -> None:
+        for omega in asked:
+            if omega not in found:
+                found[omega], residual = solver.response_between(omega, incident)
+                errors[omega] = swept.ratio * residual**2
+
+    added(_about(solver.resonances_between(), np.sort(omegas)))
+    intervals = list(zip(sorted(found), sorted(found)[1:], strict=False))
+    while intervals and len(found) < _MOST:
+        known = np.array(sorted(found))
+        motions = np.array([_motions_of(found[omega]) for omega in known])
+        sizes = np.abs(motions).max(axis=(0, 1))
+        # Of beams few shapes matter: motions of one unit are compared with the largest of them.
+        largest = np.array([sizes[turns == turn].max() for turn in turns])
+        middles = [float(0.5 * (low + high)) for low, high in intervals]
+        expected = CubicSpline(known, motions)(middles)
+        added(middles)
+        halves = []
+        for (low, high), middle, guess in zip(intervals, middles, expected, strict=True):
+            if np.any(np.abs(_motions_of(found[middle]) - guess) > max(missed, _LEAST_MISSED) * largest):
+                halves += [(low, middle), (middle, high)]
+        intervals = halves
+    known = np.array(sorted(found))
+    return Curves(
+        solver=solver,
+        omegas=known,
+        responses=[found[omega] for omega in known],
+        errors=np.array([errors[omega] for omega in known]),
+    )
+
+
+def elevation_of(response: OpenResponse, incident: int = 0) -> complex:
+    """Return the elevation of an incident wave, by its number in the response, where its phase is told, per unit c."""
+    place = response.incident[incident]
+    phase = np.exp(1j * response.incidence.phases_at_origin(response.model.basin)[place])
+    return complex(response.incidence.elevations[place] * phase)
+
+
+def _motions_of(response: OpenResponse) -> np.ndarray:
+    """Motions per elevation, shape (incident, body unknowns)."""
+    elevations = [elevation_of(response, number) for number in range(len(response.incident))]
+    motions: np.ndarray = response.motions / np.array(elevations)[:, None]
+    return motions
+
+
+def _about(resonances: np.ndarray, omegas: np.ndarray) -> Iterator[float]:
+    """Frequencies about resonances that the others may not resolve."""
+    for resonance in resonances:
+        width = abs(resonance.imag)
+        place = int(np.searchsorted(omegas, resonance.real))
+        if 0 < place < len(omegas) and 0.0 < width < omegas[place] - omegas[place - 1]:
+            near = [float(resonance.real + factor * width) for factor in _ABOUT]
+            yield from (omega for omega in near if omegas[0] < omega < omegas[-1])

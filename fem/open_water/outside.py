@@ -1,0 +1,56 @@
+"""Forces from outside on the body unknowns of a basin, dimensionless; see `physics/attachments.py`."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hydroelastic.fem.open_water.basin import OpenBasin
+from hydroelastic.fem.surfaces import Body
+from hydroelastic.modal.beam.beam_shapes import beam_shapes
+from hydroelastic.physics.attachments import Attachment, OutsideForces, outside_forces
+
+
+def outside_of(basin: OpenBasin, bodies: tuple[Body, ...], attachments: tuple[Attachment, ...]) -> OutsideForces:
+    """Return the forces from outside on all body unknowns.
+
+    Args:
+        basin: the basin.
+        bodies: all of its bodies, in their order.
+        attachments: in SI units, in the coordinates of the open water.
+    """
+    starts = np.cumsum([0, *(body.size for body in bodies)])
+    maps = []
+    for attachment in attachments:
+        path = np.zeros((3, starts[-1]))
+        for index, sign in ((attachment.body, 1.0), (attachment.other, -1.0)):
+            if index is not None:
+                path[:, starts[index] : starts[index + 1]] += sign * displacement_at(
+                    basin, bodies[index], index, attachment.point
+                )
+        maps.append(path)
+    return outside_forces(maps, [one.scaled(basin.units) for one in attachments], int(starts[-1]))
+
+
+def displacement_at(basin: OpenBasin, body: Body, index: int, point: tuple[float, float]) -> np.ndarray:
+    """Return heave, sway and rotation of a point that moves with a body, by a unit of each of its unknowns, shape
+    (3, unknowns).
+
+    Args:
+        basin: the basin.
+        body: the body.
+        index: of it in the basin.
+        point: (x, y) in the coordinates of the open water, m.
+    """
+    length = basin.units.length
+    x, y = (point[0] - basin.origin) / length, point[1] / length
+    if basin.tank.bodies[index].is_elastic:
+        beam, piece = basin.tank.beams[index], basin.tank.piece_of(index)
+        place = np.array([min(max(x - piece.start, 0.0), piece.length)])
+        shapes = beam_shapes(beam, body.size)
+        deflection, slope = (shapes.tabulated(place, derivative)[:, 0] for derivative in (0, 1))
+        return np.array([deflection, np.zeros(body.size), slope])
+    placed = basin.tank.floats[index]
+    moved = [placed.displacement(motion, np.array([[x], [y]]))[:, 0] for motion in placed.motions]
+    rows = np.array([[up, right, float(dof.is_rotation)] for (right, up), dof in zip(moved, body.dofs, strict=True)])
+    displacement: np.ndarray = rows.T @ body.motions
+    return displacement

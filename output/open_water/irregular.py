@@ -1,0 +1,69 @@
+"""Quantities of responses to irregular waves, each declared once."""
+
+from __future__ import annotations
+
+from hydroelastic.output.open_water.declarations import CREST, DOFS, NUMBERED, OF_BODIES, joined_array, own_array
+from hydroelastic.output.quantities import Group, Quantity
+
+# fmt: off
+# A table: as many arguments on a line as fit.
+_CURVE = "spectrum_omega spectrum_quantity"
+SPECTRUM = Group("spectrum", "responses to irregular waves, by analysis", (
+    Quantity("waves", "spectrum of the waves", variable="spectrum_of_waves"),
+    Quantity("waves_from", 'side from which the waves come, `"left"` or `"right"`', variable=""),
+    joined_array("significant_height", "significant height of the waves", "", unit="m", symbol="Hs",
+        variable="significant_wave_height"),
+    joined_array("duration", "duration of the sea state", "", unit="s", variable="sea_state_duration"),
+    own_array("omega", "frequencies chosen by the solver", "spectrum_omega", lambda it: it.omega, unit="rad/s",
+        variable="spectrum_omega", column="omega"),
+    own_array("density", "spectrum of the waves", "spectrum_omega", lambda it: it.density, unit="m^2 s/rad",
+        variable="wave_spectrum", column="wave_spectrum"),
+    own_array("quantities", "responses", "spectrum_quantity", lambda it: it.quantities, variable="spectrum_quantity"),
+    own_array("transfer", "response per unit elevation, in its unit per m", _CURVE, lambda it: it.transfer,
+        variable="spectrum_transfer_function", column="", phase=CREST),
+    own_array("response_density", "spectrum of a response, in the square of its unit times s/rad", _CURVE,
+        lambda it: it.response_density, variable="response_spectrum", column="response_spectrum"),
+    own_array("relative_error", "estimated relative error of the transfer functions", "spectrum_omega",
+        lambda it: it.relative_error, unit="1", variable="spectrum_relative_error", column="relative_error"),
+    Group("responses", "statistics of each response, in its unit", (
+        Quantity("quantity", "response"),
+        Quantity("unit", "its unit", short="unit"),
+        Quantity("significant_amplitude", "significant amplitude", short="significant", error="relative_error"),
+        Quantity("largest_amplitude", "most probable largest amplitude in the duration", short="largest",
+            error="relative_error"),
+        Quantity("zero_crossing_period", "zero-crossing period", "s", symbol="Tz", error="relative_error"),
+        Quantity("relative_error", "estimated relative error of the significant amplitude", "1",
+            short="relative error", shown=".1e"),
+        Quantity("sampling_error", "part of it by the sampling of the transfer function", "1", shown=".1e",
+            printed=False),
+        Quantity("truncation_error", "part of it by waves beyond the frequencies", "1", shown=".1e",
+            printed=False),
+        Quantity("transfer_error", "part of it by errors of the transfer function", "1", shown=".1e",
+            printed=False),
+    ), dimension="irregular_response", prefix="irregular_response"),
+    joined_array("mean_drift_force", "mean force on the bodies along x", "", unit="N/m"),
+    DOFS,
+    joined_array("equivalent_damping", "linear damping in place of quadratic damping", OF_BODIES, unit="kg/(m s)",
+        of_roll=("kg/s", "kg m/s")),
+    Group("plates", "largest loads along each beam", (
+        Quantity("body", "number of the body", "1", value=lambda it: it.body + 1, short="body"),
+        Quantity("largest_bending_moment", "most probable largest bending moment anywhere in the duration", "N",
+            short="largest moment",
+            value=lambda it: float(it.largest_bending_moment.max())),
+        Quantity("at", "where that is", "m", symbol="x",
+            value=lambda it: float(it.positions[it.largest_bending_moment.argmax()])),
+        Quantity("significant_bending_moment", "largest significant amplitude of the bending moment", "N",
+            short="significant moment",
+            value=lambda it: float(it.significant_bending_moment.max())),
+        Quantity("significant_shear_force", "largest significant amplitude of the shear force", "N/m",
+            short="significant shear",
+            value=lambda it: float(it.significant_shear_force.max())),
+        Quantity("significant_deflection", "largest significant amplitude of the deflection", "m",
+            short="significant deflection",
+            value=lambda it: float(it.significant_deflection.max())),
+        Quantity("largest_stress", "most probable largest stress in the duration", "N/m^2", short="largest stress",
+            value=lambda it: None if it.largest_stress is None else float(it.largest_stress.max()),
+            note="`null` without a thickness"),
+    ), dimension="spectrum_plate", prefix="spectrum_plate"),
+), dimension="spectrum_analysis", note=NUMBERED)
+# fmt: on

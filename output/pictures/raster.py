@@ -1,0 +1,130 @@
+"""Fields on plane triangles as pixels: which triangle each pixel shows is found once for all fields on a mesh."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from matplotlib.colors import Colormap
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+# Triangles are larger by this part of a pixel: where a cell is cut more finely than its neighbour, their triangles
+# would leave out a pixel here and there.
+_SLACK = 0.05
+# Rows of pixels that are coloured at a time: what belongs to them stays in the processor's cache.
+_ROWS = 64
+# Shades of a scale that has one more at its end, for what rounding takes beyond it.
+_BEYOND = 8
+_WHITE = np.full(4, 255, dtype=np.uint8)
+
+
+class Same:
+    """A thing as the key of a cache: only itself equals it."""
+
+    def __init__(self, thing: Any) -> None:
+        """Keep the thing, so that no other one gets its place in memory."""
+        self.thing = thing
+
+    def __hash__(self) -> int:
+        """Return what tells things apart that exist at the same time."""
+        return id(self.thing)
+
+    def __eq__(self, other: object) -> bool:
+        """Return whether both are of the same thing, not of equal ones."""
+        return isinstance(other, Same) and other.thing is self.thing
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Raster:
+    """Triangles in a rectangle of pixels.
+
+    Attributes:
+        points: corners in pixels from the upper left corner of the rectangle, x to the right, y downwards; shape
+            (points, 2).
+        triangles: shape (triangles, 3).
+        size: width and height in pixels.
+    """
+
+    points: Array
+    triangles: NDArray[np.integer]
+    size: tuple[int, int]
+
+    @cached_property
+    def _owners(self) -> NDArray[np.intp]:
+        """The number of the triangle at the middle of each pixel, or −1; shape (height, width)."""
+        width, height = self.size
+        owners = np.full(width * height, -1, dtype=np.intp)
+        # Middles of pixels at whole numbers.
+        corners = (self.points - 0.5)[self.triangles]
+        low, high = corners[:, :, 1].min(axis=1), corners[:, :, 1].max(axis=1)
+        triangle, row = _ranges(low, high, height)
+        start, end = corners[triangle], np.roll(corners, -1, axis=1)[triangle]
+        level = np.clip(row, low[triangle], high[triangle])[:, None]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            part = (level - start[:, :, 1]) / (end[:, :, 1] - start[:, :, 1])
+            crossing = start[:, :, 0] + part * (end[:, :, 0] - start[:, :, 0])
+        crosses = (part >= 0.0) & (part <= 1.0)
+        left = np.where(crosses, crossing, np.inf).min(axis=1)
+        right = np.where(crosses, crossing, -np.inf).max(axis=1)
+        stroke, column = _ranges(left, right, width)
+        owners[row[stroke] * width + column] = triangle[stroke]
+        return owners.reshape(height, width)
+
+    def _planes(self, triangles: NDArray[np.integer], values: Array) -> Array:
+        """a, b and c of a + bx + cy on triangles, for values at the points; shape (triangles, 3)."""
+        first, *others = self.points[triangles].transpose(1, 2, 0)
+        (x1, y1), (x2, y2) = (other - first for other in others)
+        value, value1, value2 = values[triangles].T
+        rise1, rise2, area = value1 - value, value2 - value, x1 * y2 - x2 * y1
+        # A triangle without an area shows one value.
+        area[area == 0.0] = np.inf
+        b, c = (rise1 * y2 - rise2 * y1) / area, (rise2 * x1 - rise1 * x2) / area
+        return np.stack([value - b * first[0] - c * first[1], b, c], axis=1)
+
+    def at(self, places: Array, values: Array) -> Array:
+        """Interpolate vectors at the points, shape (points, n), to places in pixels; NaN beside the triangles.
+
+        Args:
+            places: shape (places, 2).
+            values: shape (points, n).
+        """
+        column, row = np.floor(places).astype(int).T
+        owner = self._owners[row, column]
+        terms = np.column_stack([np.where(owner < 0, np.nan, 1.0), places])
+        planes = (self._planes(self.triangles[owner], component) for component in values.T)
+        return np.column_stack([(plane * terms).sum(axis=1) for plane in planes])
+
+    def coloured(self, values: Array, limit: float, colours: Colormap) -> NDArray[np.uint8]:
+        """Colour the values at the points, from −limit to limit.
+
+        Returns:
+            Red, green, blue and opacity in 0…255, shape (height, width, 4), the uppermost row first; white beside the
+            triangles.
+        """
+        # Rounding leaves the ends of the scale by a little. What belongs to no triangle, the last one, is white.
+        scale = colours(np.arange(colours.N + _BEYOND), bytes=True)
+        shades = np.vstack([scale, _WHITE]).view(np.uint32).ravel()
+        planes = self._planes(self.triangles, 0.5 * colours.N * (1.0 + values / limit))
+        planes = np.vstack([planes, [len(shades), 0.0, 0.0]])
+        x = np.arange(self.size[0]) + 0.5
+        image = np.empty(self._owners.shape, dtype=np.uint32)
+        for top in range(0, len(image), _ROWS):
+            owners = self._owners[top : top + _ROWS]
+            plane = planes.take(owners, axis=0, mode="wrap")
+            y = (top + 0.5 + np.arange(len(owners)))[:, None]
+            shade = plane[:, :, 0] + plane[:, :, 1] * x + plane[:, :, 2] * y
+            shades.take(shade.astype(np.intp), mode="clip", out=image[top : top + _ROWS])
+        return image.view(np.uint8).reshape(*image.shape, 4)
+
+
+def _ranges(low: Array, high: Array, count: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """All of 0 … count − 1 that lie from low to high, and the places of the ranges to which they belong."""
+    first = np.ceil(np.clip(low - _SLACK, 0.0, count)).astype(np.intp)
+    last = np.floor(np.clip(high + _SLACK, -1.0, count - 1.0)).astype(np.intp)
+    lengths = np.maximum(last - first + 1, 0)
+    place = np.repeat(np.arange(len(low)), lengths)
+    return place, np.arange(len(place)) + (first - np.cumsum(lengths) + lengths)[place]

@@ -1,0 +1,51 @@
+"""Springs and dampers that hold floating bodies, as frozen values. SI units, per metre of width."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, TypeAlias
+
+from pydantic import BeforeValidator, Field, SerializerFunctionWrapHandler, Strict, model_serializer
+
+from hydroelastic.scenes.models.bodies import LARGEST, AnyNumber, SceneModel
+
+_NOTHING = ((0.0, 0.0, 0.0),) * 3
+
+
+def _as_matrix(value: Any) -> Any:
+    """Three numbers are a diagonal."""
+    if isinstance(value, list | tuple) and len(value) == 3 and not any(isinstance(row, list | tuple) for row in value):
+        return tuple(tuple(entry if row == place else 0.0 for place in range(3)) for row, entry in enumerate(value))
+    return value
+
+
+Triple: TypeAlias = tuple[AnyNumber, AnyNumber, AnyNumber]
+Matrix: TypeAlias = Annotated[tuple[Triple, Triple, Triple], BeforeValidator(_as_matrix)]
+NotNegative: TypeAlias = Annotated[float, Strict(), Field(ge=0, le=LARGEST)]
+
+
+class Attachment(SceneModel):
+    """A spring and damper at a point of a body: a mooring, a fender, bilge keels, a power take-off."""
+
+    body: Annotated[int, Strict(), Field(ge=1, le=1000)] = Field(default=1, description="number of the body, from 1")
+    to: Annotated[int, Strict(), Field(ge=1, le=1000)] | None = Field(
+        default=None, description="number of the body at its other end; by default that end is fixed"
+    )
+    at: tuple[AnyNumber, AnyNumber] | None = Field(
+        default=None, description="[x, y] of the point, m; by default the centre of mass of a float"
+    )
+    stiffness: Matrix = Field(
+        default=_NOTHING,
+        description="three numbers for [heave, sway, roll] about the point, or a symmetric matrix of three rows; "
+        "forces in N/m and moments in N by displacements in m and rad",
+    )
+    damping: Matrix = Field(
+        default=_NOTHING, description="the same by velocities in m/s and rad/s; it must not add power"
+    )
+    quadratic_damping: tuple[NotNegative, NotNegative, NotNegative] = Field(
+        default=(0.0, 0.0, 0.0),
+        description="β of [heave, sway, roll] about the point: forces β |v| v by velocities v in m/s and rad/s",
+    )
+
+    @model_serializer(mode="wrap")
+    def _as_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        return {key: value for key, value in write(self).items() if value is not None}

@@ -1,0 +1,105 @@
+"""Checks of what holds bodies in the sea, and of analyses of irregular waves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from pydantic_core import InitErrorDetails
+
+from hydroelastic.physics import attachments as physics
+from hydroelastic.scenes.models.attachments import Attachment
+from hydroelastic.scenes.models.bodies import Float
+from hydroelastic.scenes.models.problems import problem_at
+from hydroelastic.scenes.models.sea_states import Spectrum
+from hydroelastic.scenes.models.tank_parts import TankParts
+
+
+def attachments_hold_bodies(scene: TankParts) -> Iterator[InitErrorDetails]:
+    """Yield attachments of bodies that there are not, or that add power."""
+    for index, one in enumerate(scene.attachment):
+        yield from _ends_are_bodies(scene, index, one)
+        for key in ("stiffness", "damping"):
+            if not physics.is_symmetric(getattr(one, key)):
+                yield problem_at(
+                    ("attachment", index, key),
+                    None,
+                    "it is not symmetric, so that a closed path of motions would gain or lose energy",
+                    allowed="three numbers, or a symmetric matrix of three rows",
+                )
+        if physics.is_symmetric(one.damping) and not physics.is_passive(one.damping):
+            yield problem_at(
+                ("attachment", index, "damping"),
+                None,
+                "in some motion it adds power instead of taking it",
+                allowed="a matrix without negative eigenvalues",
+            )
+
+
+def _ends_are_bodies(scene: TankParts, index: int, one: Attachment) -> Iterator[InitErrorDetails]:
+    for key, number in (("body", one.body), ("to", one.to)):
+        if number is not None and number > len(scene.body):
+            yield problem_at(
+                ("attachment", index, key), number, "there is no body of that number", allowed=f"1 to {len(scene.body)}"
+            )
+            return
+    if one.to == one.body:
+        yield problem_at(
+            ("attachment", index, "to"),
+            one.to,
+            "both ends hold the same body, and never move apart",
+            remedy="Leave it out for an end that is fixed",
+        )
+    for number in (one.body, one.to):
+        if number is None:
+            continue
+        body = scene.body[number - 1]
+        if isinstance(body, Float):
+            continue
+        if one.at is None:
+            yield problem_at(
+                ("attachment", index, "at"), None, "it is missing, and a beam needs it", allowed="[x, y], m"
+            )
+        elif not body.start <= one.at[0] <= body.end:
+            yield problem_at(
+                ("attachment", index, "at"),
+                None,
+                f"x = {one.at[0]:g} m does not lie on the beam, [[body]] number {number}",
+                allowed=f"x from {body.start:g} to {body.end:g} m",
+            )
+        if any(matrix[1][1] for matrix in (one.stiffness, one.damping)) or one.quadratic_damping[1]:
+            yield problem_at(
+                ("attachment", index, "stiffness"),
+                None,
+                "a beam does not sway, so that forces in sway have no effect on it",
+                remedy="Make the numbers of sway zero",
+            )
+
+
+def sea_points_lie_on_bodies(scene: TankParts) -> Iterator[InitErrorDetails]:
+    """Yield points of bodies that there are not, or that do not lie on their beam, and bands without waves."""
+    for index, analysis in enumerate(scene.analysis):
+        if not isinstance(analysis, Spectrum):
+            continue
+        for number, point in enumerate(analysis.points):
+            where = ("analysis", index, "points", number)
+            if point.body > len(scene.body):
+                yield problem_at(
+                    (*where, "body"), point.body, "there is no body of that number", allowed=f"1 to {len(scene.body)}"
+                )
+                continue
+            body = scene.body[point.body - 1]
+            if not isinstance(body, Float) and not body.start <= point.at[0] <= body.end:
+                yield problem_at(
+                    (*where, "at"),
+                    None,
+                    f"x = {point.at[0]:g} m does not lie on the beam, [[body]] number {point.body}",
+                    allowed=f"x from {body.start:g} to {body.end:g} m",
+                )
+        low = analysis.spectrum.band[0]
+        if analysis.highest_omega is not None and analysis.highest_omega <= 1.1 * low:
+            yield problem_at(
+                ("analysis", index, "highest_omega"),
+                analysis.highest_omega,
+                "hardly any waves are below it",
+                allowed=f"more than {1.1 * low:.4g} rad/s",
+            )

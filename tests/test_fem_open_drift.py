@@ -1,0 +1,89 @@
+"""Mean forces of second order: far field against near field, and the formula of Maruo."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from open_cases import problem_of
+
+from hydroelastic.fem.open_water.field_model import Band, first_resolution, open_model
+from hydroelastic.fem.open_water.hull import hull_pressures, near_field_drift
+from hydroelastic.fem.open_water.response import drift_forces
+from hydroelastic.fem.open_water.solver import OpenSolver
+from hydroelastic.scenes.models import SeaScene
+
+CIRCLE: dict[str, Any] = {"kind": "float", "shape": "ellipse", "half_width": 1.0, "half_height": 1.0}
+BARGE: dict[str, Any] = {
+    "kind": "float",
+    "shape": "rectangle",
+    "half_width": 1.0,
+    "half_height": 0.5,
+    "vertical_centre_of_gravity": 0.1,
+    "radius_of_gyration": 0.8,
+    "motions": ["heave", "sway", "roll"],
+}
+
+
+def solver_of(body: dict[str, Any], omega: float, tolerance: float, depth: float, *held: dict[str, Any]) -> OpenSolver:
+    scene = SeaScene(
+        liquid=[{"density": 1000.0, "depth": depth}],
+        body=[body],
+        attachment=list(held),
+        accuracy={"tolerance": tolerance},
+    )
+    problem, band = problem_of(scene), Band(lowest=omega, highest=omega)
+    model = open_model(problem, band, first_resolution(problem.tank, tolerance, band))
+    return OpenSolver(model, problem.watch)
+
+
+@pytest.mark.parametrize(
+    ("body", "depth", "tolerance", "difference"),
+    [
+        (CIRCLE | {"motions": ["heave", "sway"]}, float("inf"), 1e-10, 1e-6),
+        (CIRCLE | {"motions": ["heave", "sway"]}, 3.0, 1e-10, 1e-6),
+        # At its corners |∇Ψ|² goes like r^{-2/3}: the cells there, of 1e-8, leave r^{1/3} of its integral.
+        (BARGE, 2.0, 1e-8, 5e-3),
+    ],
+)
+def test_far_field_and_near_field_agree(
+    body: dict[str, Any], depth: float, tolerance: float, difference: float
+) -> None:
+    solver = solver_of(body, 3.0, tolerance, depth)
+    for place in (0, 1):
+        found = solver.response(3.0, [place])
+        far = found.drift_force()[0]
+        assert near_field_drift(found, 0) == pytest.approx(far, rel=difference)
+        assert (far > 0.0) == (place == 0)
+
+
+def test_far_field_and_near_field_agree_with_springs_and_dampers() -> None:
+    mooring = {"at": [1.0, 0.0], "stiffness": [500.0, 2000.0, 0.0], "damping": [100.0, 300.0, 50.0]}
+    solver = solver_of(BARGE, 2.5, 1e-8, float("inf"), mooring)
+    found = solver.response(2.5, [0])
+    assert found.absorption[0] > 0.01
+    assert near_field_drift(found, 0) == pytest.approx(found.drift_force()[0], rel=5e-3)
+
+
+def test_maruo() -> None:
+    solver = solver_of(CIRCLE | {"motions": ["heave", "sway"]}, 3.0, 1e-8, float("inf"))
+    found = solver.response(3.0, [0])
+    reflection = abs(found.outgoing()[1, 0])
+    assert drift_forces([found])[0, 0] == pytest.approx(0.5 * 1000.0 * 9.81 * reflection**2, rel=1e-6)
+
+
+def test_pressures_along_the_hull_give_the_forces() -> None:
+    solver = solver_of(BARGE, 2.5, 1e-5, float("inf"))
+    found = solver.response(2.5, [0])
+    points, pressures = hull_pressures([found], 0)
+    # From the left contact point down, along the bottom, and up on the right; heave by the pressure on the bottom.
+    assert points[0] == pytest.approx([-1.0, 0.0], abs=1e-9)
+    assert points[-1, 0] == pytest.approx(1.0, abs=1e-9)
+    bottom = np.abs(points[:, 1] + 0.5) < 1e-9
+    lift = np.trapezoid(pressures[0, 0, bottom], points[bottom, 0])
+    scale, model = solver.model.scale, solver.model
+    inertia = scale.masses(model.mass)[0, 0]
+    stiffness = scale.stiffnesses(model.stiffness)[0, 0]
+    elevation = found.incidence.elevations[0] * np.exp(1j * found.incidence.phases_at_origin(model.basin)[0])
+    heave = scale.amplitudes(found.motions / elevation)[0, 0]
+    # (c − ω²m) s is the dynamic pressure's force; the trapezoidal rule leaves some 1e-3.
+    assert lift == pytest.approx((stiffness - 2.5**2 * inertia) * heave, rel=5e-3)

@@ -12,6 +12,7 @@ from typing import Any, NoReturn
 import click
 
 from hydroelastic.benchmarks import output
+from hydroelastic.benchmarks.basin.cases import BASINS, basin_cases
 from hydroelastic.benchmarks.cases import Case
 from hydroelastic.benchmarks.circle.cases import CIRCLE, circle_cases
 from hydroelastic.benchmarks.measure import cases_of, run_benchmark
@@ -50,6 +51,7 @@ PROBLEMS = {
     "circle": Problem(members=CIRCLE, cases=circle_cases, repeats=3, output=output.CIRCLE),
     "string": Problem(members=MOTIONS, cases=string_cases, repeats=3, output=output.STRING),
     "thread": Problem(members=THREADS, cases=thread_cases, repeats=3, output=output.THREADS),
+    "basin": Problem(members=BASINS, cases=basin_cases, repeats=3, output=output.BASINS),
 }
 _QUICK_REPEATS = 3
 

@@ -22,6 +22,9 @@ Code = Literal[
     "thread catenary",
     "moorpy",
     "moordyn",
+    "basin field",
+    "ngsolve plan",
+    "ngsolve volume",
 ]
 Variant = Literal[
     "one process",
@@ -40,6 +43,8 @@ Variant = Literal[
     "lumped",
     "relaxed",
     "relaxed in motion",
+    "quarters",
+    "triangles",
 ]
 
 CODES: tuple[Code, ...] = ("hydroelastic", "hydroelastic modes", "ngsolve", "scikit-fem", "lower bound")
@@ -52,7 +57,9 @@ STRING_CODES: tuple[Code, ...] = ("string field", "string series", "string sum")
 """Those that move the hanging string."""
 THREAD_CODES: tuple[Code, ...] = ("thread field", "thread catenary", "moorpy", "moordyn")
 """Those that bring flexible threads to rest, or move them."""
-ALL_CODES = (*CODES, *SWEEP_CODES, *CIRCLE_CODES, *STRING_CODES, *THREAD_CODES)
+BASIN_CODES: tuple[Code, ...] = ("basin field", "ngsolve plan", "ngsolve volume")
+"""Those that solve a tank in three dimensions."""
+ALL_CODES = (*CODES, *SWEEP_CODES, *CIRCLE_CODES, *STRING_CODES, *THREAD_CODES, *BASIN_CODES)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,7 +75,8 @@ class Case:
             factorization and solutions alone; a cylinder of ``one length``, or ``two lengths`` and their difference;
             a series ``cut sharply``; a thread moved in ``one run`` at a chosen resolution, at rest by a
             ``closed form`` or as several ``catenaries`` in a row, or ``lumped`` into point masses, at
-            rest ``relaxed`` or ``relaxed in motion``.
+            rest ``relaxed`` or ``relaxed in motion``; the ``quarters`` of a tank in three dimensions,
+            or ``triangles`` on its plan, where the smallest model would be another.
         degree: polynomial degree, where it is chosen; else 0.
         tolerance: asked relative error, where it is chosen; else 0.
         panels: along a quarter of the circle, where they are chosen; else 0.
@@ -76,6 +84,7 @@ class Case:
         terms: of a series that is cut sharply; else 0.
         segments: or elements, or catenaries, of a thread, where they are chosen; else 0.
         step: in time, s, where it is chosen; else 0.
+        size: of the cells of a volume at the edge of a plate, m, where it is chosen; else 0.
     """
 
     code: Code
@@ -88,6 +97,7 @@ class Case:
     terms: int = 0
     segments: int = 0
     step: float = 0.0
+    size: float = 0.0
 
     @property
     def resolution(self) -> str:
@@ -105,6 +115,8 @@ class Case:
             if self.variant == "catenaries":
                 return "1 catenary" if self.segments == 1 else f"{self.segments} catenaries"
             return f"{self.segments} segments"
+        if self.size:
+            return f"degree {self.degree}, cells of {self.size:g} m"
         if self.degree:
             return f"degree {self.degree}"
         return f"tolerance {self.tolerance:.0e}" if self.tolerance else "exact"

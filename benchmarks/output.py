@@ -8,6 +8,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from hydroelastic.benchmarks.basin.figure import draw_basins
+from hydroelastic.benchmarks.basin.report import basins_csv, basins_markdown
 from hydroelastic.benchmarks.circle.figure import draw_circle
 from hydroelastic.benchmarks.circle.report import circle_csv, circle_markdown
 from hydroelastic.benchmarks.measure import Benchmark
@@ -44,6 +46,7 @@ SWEEPS = Output(name="sweeps", rows=sweeps_csv, page=sweeps_markdown, draw=None)
 CIRCLE = Output(name="open_circle", rows=circle_csv, page=circle_markdown, draw=draw_circle)
 STRING = Output(name="hanging_string", rows=strings_csv, page=strings_markdown, draw=draw_strings)
 THREADS = Output(name="threads", rows=threads_csv, page=threads_markdown, draw=draw_threads)
+BASINS = Output(name="basins", rows=basins_csv, page=basins_markdown, draw=draw_basins)
 
 
 class OutputError(Exception):

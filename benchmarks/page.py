@@ -30,6 +30,9 @@ NAMES: dict[Code, str] = {
     "thread catenary": "hydroelastic, closed form",
     "moorpy": "MoorPy",
     "moordyn": "MoorDyn",
+    "basin field": "hydroelastic",
+    "ngsolve plan": "NGSolve, plan",
+    "ngsolve volume": "NGSolve, volume",
 }
 
 Cells = Callable[[Row], Sequence[str]]

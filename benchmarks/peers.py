@@ -28,6 +28,8 @@ PEER_MODULES: dict[Code, str] = {
     "capytaine": "capytaine",
     "moorpy": "moorpy",
     "moordyn": "moordyn",
+    "ngsolve plan": "ngsolve",
+    "ngsolve volume": "ngsolve",
 }
 EXTRA = "bench"
 _KEPT = ("numpy", "scipy")
@@ -54,7 +56,8 @@ def peer_folder(code: Code, *, install: bool, report: Callable[[str], None]) -> 
     """
     if find_spec(PEER_MODULES[code]) is not None:
         return None
-    requirement = _requirement(code)
+    # The same package in another way has its name first.
+    requirement = _requirement(code.split()[0])
     folder = cache_folder() / f"benchmark-peers-{_fingerprint(requirement)}"
     if not folder.is_dir():
         if not install:
@@ -71,8 +74,8 @@ def cache_folder() -> Path:
     return Path(named).absolute() if named else Path(above) / "hydroelastic"
 
 
-def _requirement(code: Code) -> str:
-    """The requirement of a peer, as the metadata of this package have it."""
+def _requirement(package: str) -> str:
+    """The requirement of a peer's package, as the metadata of this package have it."""
     try:
         declared = requires("hydroelastic") or []
     except PackageNotFoundError:
@@ -80,9 +83,9 @@ def _requirement(code: Code) -> str:
     for line in declared:
         requirement, _, marker = line.partition(";")
         name = re.match(r"[A-Za-z0-9._-]+", requirement.strip())
-        if name and name[0].lower() == code.partition(" ")[0] and re.search(rf"extra\s*==\s*['\"]{EXTRA}['\"]", marker):
+        if name and name[0].lower() == package and re.search(rf"extra\s*==\s*['\"]{EXTRA}['\"]", marker):
             return requirement.strip()
-    raise PeerError(f"the metadata of hydroelastic do not name {code}; start with ./hydro, or install the package")
+    raise PeerError(f"the metadata of hydroelastic do not name {package}; start with ./hydro, or install the package")
 
 
 def _fingerprint(requirement: str) -> str:

@@ -8,7 +8,16 @@ from statistics import median, quantiles
 
 import numpy as np
 
-from hydroelastic.benchmarks.cases import CIRCLE_CODES, STRING_CODES, SWEEP_CODES, THREAD_CODES, Answer, Case
+from hydroelastic.benchmarks.basin.cases import basin_error
+from hydroelastic.benchmarks.cases import (
+    BASIN_CODES,
+    CIRCLE_CODES,
+    STRING_CODES,
+    SWEEP_CODES,
+    THREAD_CODES,
+    Answer,
+    Case,
+)
 from hydroelastic.benchmarks.circle.cases import circle_error
 from hydroelastic.benchmarks.string.cases import string_error
 from hydroelastic.benchmarks.sweep.cases import sweep_error
@@ -71,6 +80,8 @@ def _error(case: Case, answer: Answer) -> float:
         return circle_error(case.tank, answer.values)
     if case.code in STRING_CODES:
         return string_error(case.tank, answer.values)
+    if case.code in BASIN_CODES:
+        return basin_error(case.tank, answer.values)
     if case.code in THREAD_CODES:
         return thread_error(case.tank, answer.values)
     return float(np.abs(np.array(answer.values) / np.array(tank_named(case.tank).frequencies) - 1.0).max())

@@ -39,6 +39,9 @@ MODULES = {
     "thread catenary": "thread.hydroelastic",
     "moorpy": "thread.moorpy",
     "moordyn": "thread.moordyn",
+    "basin field": "basin.hydroelastic",
+    "ngsolve plan": "basin.ngsolve",
+    "ngsolve volume": "basin.ngsolve",
 }
 
 

@@ -9,6 +9,7 @@ for layers thinner than the sagitta of their arcs would else fold.
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import sqrt
 
 import numpy as np
 
@@ -16,7 +17,7 @@ from hydroelastic.meshes.filling import gmsh_model
 from hydroelastic.meshes.plan_arcs import curved_cells
 from hydroelastic.meshes.plan_bands import Band, bands_around
 from hydroelastic.meshes.plan_faces import faces_between, filled
-from hydroelastic.meshes.plan_loops import RATIO, UNGRADED, Loop, Mirrors, PlanRegion, kept_by, room_between
+from hydroelastic.meshes.plan_loops import RATIO, UNGRADED, CircleLoop, Loop, Mirrors, PlanRegion, kept_by, room_between
 from hydroelastic.meshes.tagged_mesh import TaggedMesh
 
 # Ratio of successive nodes' distances from a re-entrant corner of a wall.
@@ -56,6 +57,9 @@ def plan_mesh(
 
     def add(loop: Loop, inside: str, outside: str, *, is_wall: bool) -> None:
         largest = min(size(name) for name in (inside, outside) if name)
+        if isinstance(loop, CircleLoop) and not covered:
+            # Between the bands of a narrow gap half of a layer is left; the sagitta of an arc is half of that at most.
+            largest = min(largest, sqrt(2.0 * loop.radius * thick))
         towards = UNGRADED if is_wall else thick * RATIO ** np.arange(max(layers - 2, 1))[::-1]
         bands.extend(
             bands_around(

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from hydroelastic.meshes.interrupts import interrupts_deferred
 from hydroelastic.meshes.plan_bands import Band
-from hydroelastic.meshes.plan_loops import Mirrors, PlanRegion, PolygonLoop, kept_by
+from hydroelastic.meshes.plan_loops import Mirrors, PlanRegion, PolygonLoop
 
 # Size of cells at a distance from a re-entrant corner.
 _CORNER_GROWTH = 0.7

@@ -6,6 +6,9 @@ from dataclasses import dataclass, replace
 from math import inf, isfinite, pi
 from typing import Literal, TypeAlias
 
+import numpy as np
+
+from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.scales import Scales
 
 Edge: TypeAlias = Literal["free", "hinged", "clamped", "sliding"]
@@ -110,6 +113,14 @@ class Polygon:
         """Its area, m²."""
         following = (*self.points[1:], self.points[0])
         return 0.5 * abs(sum(x * v - u * y for (x, y), (u, v) in zip(self.points, following, strict=True)))
+
+    @property
+    def corners(self) -> FloatArray:
+        """Its corners anticlockwise, shape (corners, 2)."""
+        corners: FloatArray = np.array(self.points, dtype=np.float64)
+        ahead = np.roll(corners, -1, axis=0)
+        area = float((corners[:, 0] * ahead[:, 1] - corners[:, 1] * ahead[:, 0]).sum())
+        return corners if area > 0.0 else corners[::-1]
 
     def scaled(self, length: float) -> Polygon:
         """Return it in units of a length."""

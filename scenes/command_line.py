@@ -39,6 +39,7 @@ from hydroelastic.scenes.command_parts import (
 )
 from hydroelastic.scenes.errors import SceneError, UnsolvedError
 from hydroelastic.scenes.kinds import checker_of, comparer_of, runner_of
+from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.program import PROGRAM
 from hydroelastic.scenes.progress import progress
 from hydroelastic.scenes.read import closed_tank, read_scene, shipped_scenes
@@ -242,6 +243,7 @@ def study(
 
     Prints tables with the observed rates of convergence beside those of theory, and writes study.csv, study.txt,
     study.png and summary.json. It takes about a minute. A LIST is separated by commas, and 1-4 is short for 1,2,3,4.
+    In three dimensions each model that takes the scene is asked for the tolerances.
 
     The family thinness compares the thin and the exact boundary of one float, narrower and narrower: thinness.csv and
     thinness.png.
@@ -254,9 +256,19 @@ def study(
 
     plan = plan_from_options(options)
     checked = read_scene(scene, overrides)
-    tank = closed_tank(checked, "a study measures the errors of frequencies of closed tanks")
     folder = folder_of_results(scene, out, suffix="_study")
     replaces = read_manifest(folder) is not None
+    if isinstance(checked, LevelTankScene):
+        from hydroelastic.scenes.study.level_tank import level_study_table, study_level_tank, write_level_study
+
+        with progress(title_of_scene(checked), shown=sys.stderr.isatty()) as report:
+            level = study_level_tank(checked, plan, report=report)
+            if is_first_rank():
+                write_level_study(level, folder, picture_options(formats, dpi=dpi), scene_file=file_of_scene(scene))
+        click.echo(level_study_table(level))
+        click.echo(f"Written to {results_message(folder, replaces=replaces)}")
+        return
+    tank = closed_tank(checked, "a study measures the errors of frequencies of closed tanks")
     with progress(title_of_scene(checked), shown=sys.stderr.isatty()) as report:
         from hydroelastic.scenes.study.report import study_table, write_study
         from hydroelastic.scenes.study.run import study_scene
@@ -321,7 +333,7 @@ def list_scenes() -> None:
 @click.option("--out", type=click.Path(path_type=Path), help="Folder; default results/benchmarks.")
 @click.option(
     "--problem",
-    type=click.Choice(["tanks", "sweeps", "circle", "string", "thread"]),
+    type=click.Choice(["tanks", "sweeps", "circle", "string", "thread", "basin"]),
     multiple=True,
     help="Only this one; all by default.",
 )
@@ -339,10 +351,10 @@ def bench(
 ) -> None:
     """Measure error against seconds: tanks beside NGSolve, scikit-fem and a bare lower bound, sweeps beside a loop
     over NGSolve, a circle in open water beside Capytaine, a hanging string by series and as a field, flexible threads
-    beside MoorPy and MoorDyn.
+    beside MoorPy and MoorDyn, a basin in three dimensions beside NGSolve.
 
     The others are installed into the cache if they are missing. Writes speed_against_error, sweeps, open_circle,
-    hanging_string and threads, each as .csv and .md, all but sweeps as .png too.
+    hanging_string, threads and basins, each as .csv and .md, all but sweeps as .png too.
 
     \b
     Example:

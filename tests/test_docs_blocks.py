@@ -63,6 +63,7 @@ NOT_RUN = {
     "./hydro python results/start_up.py": MINUTES,
     "./hydro python results/hard_cases.py": MINUTES,
     "./hydro python results/float_cases.py": MINUTES,
+    "./hydro python results/level_cases.py": MINUTES,
     "./hydro python results/thread_cases.py": MINUTES,
     "./hydro python results/sweeps.py": MINUTES,
     "./hydro sweep aquarium --vary body.1.start=0:6:41 --jobs 2": "results/sweeps.py keeps what it gives",

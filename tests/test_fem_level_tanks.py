@@ -55,7 +55,7 @@ def test_frequencies_keep_a_narrow_tolerance(name: str) -> None:
     separation = separated(tank)
     assert separation is not None
     highest = (CASES[name]["omega"][11] / reference_tank(name).units.frequency) ** 2
-    orders = solve_orders(tank, separation, line_resolution(tank, separation, 1e-8, highest), 12)
+    orders = solve_orders(tank, separation, line_resolution(tank, separation, 1e-10, highest), 12)
     values = np.sort(np.concatenate([one.modes.eigenvalues for one in orders]))[:12]
     omega = np.sqrt(values) * reference_tank(name).units.frequency
     # Measured: 6e-12, below the digits of the references of discs.

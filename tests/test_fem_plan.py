@@ -10,8 +10,10 @@ import pytest
 from mpi4py import MPI
 from plan_tanks import CASES, WATER, frequencies, reference_tank
 
+from hydroelastic.fem.level_bed.choice import NotTreatedError, level_model
+from hydroelastic.fem.plan import plan
 from hydroelastic.fem.plan.plan import PlanSolution, solve_plan
-from hydroelastic.fem.plan.solve import level_model, solve_upright_tank
+from hydroelastic.fem.plan.solve import solve_upright_tank
 from hydroelastic.physics.level_tank import Box, Cylinder, LevelTank, PolygonPlan
 from hydroelastic.physics.plate import Disc, Plate, Polygon, Rectangle, Strip
 
@@ -144,8 +146,6 @@ def test_elevations_of_the_water_are_those_of_its_potential() -> None:
     ],
 )
 def test_what_no_model_takes_is_refused_in_words(plates: tuple[Strip | Disc | Polygon, ...], word: str) -> None:
-    from hydroelastic.fem.level_bed.solve import NotTreatedError
-
     bodies = tuple(Plate(outline=outline, flexural_rigidity=1e4, mass_per_area=10.0) for outline in plates)
     tank = LevelTank(plan=Box(length=10.0, width=6.0), depth=2.0, plates=bodies, **WATER)
     with pytest.raises(NotTreatedError, match=word):
@@ -196,3 +196,58 @@ def test_shapes_of_a_disc_lie_about_its_centre(inner: float) -> None:
     names = list(body.body.dofs)
     for name, wanted in (("heave", np.ones(960)), ("pitch", (places[0] - 2.0) / 0.8), ("roll", places[1] + 1.0)):
         assert shapes[names.index(name)] == pytest.approx(wanted, abs=1e-10)
+
+
+def test_parts_of_a_plan_have_the_modes_of_the_whole(monkeypatch: pytest.MonkeyPatch) -> None:
+    corners = ((-1.0, 0.0), (0.0, -0.8), (1.0, 0.0), (0.0, 0.8))
+    plate = Plate(outline=Polygon(points=corners), flexural_rigidity=300.0, mass_per_area=20.0)
+    tank = LevelTank(plan=Cylinder(radius=2.0), depth=1.0, plates=(plate,), **WATER)
+    parts, omega = _solved(tank, 1e-3, 8)
+    assert len(parts.modes.classes) == 4
+    monkeypatch.setattr(plan, "mirrors_of", lambda _wall, _plates: (None, None))
+    whole = solve_plan(tank.scaled(), tolerance=1e-3, count=8)
+    monkeypatch.undo()
+    expected = np.sqrt(whole.modes.eigenvalues[:8]) * tank.units.frequency
+    assert np.all(np.abs(omega / expected - 1.0) < parts.relative_errors[:8] + whole.relative_errors[:8])
+    # Energies are those of the whole tank, and a mode has the parity of its class on all of it.
+    assert parts.modes.completed(0).energy.sum() == pytest.approx(1.0)
+    found = solve_upright_tank(tank, tolerance=1e-3, modes=4, tones=False)
+    x, y = np.array([0.3, -0.3, 0.7, -0.7]), np.array([0.1, 0.1, -0.3, -0.3])
+    for one in found.modes:
+        sampled = one.problem.sampled(one.mode, x, y, second=False)
+        sign = -1.0 if "xA" in one.problem.symmetry else 1.0
+        for values in (sampled.elevation, sampled.potential(-0.1, found.tank.depth)):
+            assert values[1::2] == pytest.approx(sign * values[::2], abs=1e-12)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-5])
+def test_a_plate_with_a_reentrant_corner_keeps_its_tolerance(tolerance: float) -> None:
+    corners = ((2.0, 1.5), (8.0, 1.5), (8.0, 3.5), (5.0, 3.5), (5.0, 6.0), (2.0, 6.0))
+    plate = Plate(outline=Polygon(points=corners), flexural_rigidity=5e3, mass_per_area=50.0)
+    tank = LevelTank(plan=Box(length=10.0, width=8.0), depth=3.0, plates=(plate,), **WATER)
+    solution, omega = _solved(tank, tolerance, 8)
+    _, finer = _solved(tank, 1e-7, 8)
+    errors = omega / finer - 1.0
+    assert errors.min() > -1e-7
+    assert 1.0 <= solution.relative_errors[:8].max() / errors.max() < 30.0
+
+
+def test_tones_of_a_disc_and_a_strip_are_those_of_their_orders() -> None:
+    for name, model in (("disc_base_s0", "plan"), ("strip_base_s1", "box")):
+        tank = reference_tank(name)
+        (exact,) = solve_upright_tank(tank, tolerance=1e-5, modes=4).tones
+        # Above the one mode that is asked for.
+        (tone,) = solve_upright_tank(tank, tolerance=1e-3, modes=1, model=model).tones
+        for value, error, own in (
+            (tone.eigenvalue, tone.relative_error, exact.eigenvalue),
+            (tone.pressure_release, tone.pressure_release_error, exact.pressure_release),
+        ):
+            assert value is not None
+            assert error is not None
+            assert own is not None
+            assert abs(np.sqrt(value / own) - 1.0) < error < 2e-3
+        assert tone.tone is not None
+        assert exact.tone is not None
+        assert tone.tone.participation == pytest.approx(exact.tone.participation, rel=2e-2)
+        assert tone.stiffness / tone.squares == pytest.approx(exact.stiffness / exact.squares, rel=1e-6)

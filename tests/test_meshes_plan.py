@@ -106,7 +106,18 @@ SYMMETRIC = {
         PlanRegion(
             name="plate",
             outside=PolygonLoop(
-                corners=np.array([[0.0, -0.4], [0.1, -0.1], [0.5, 0.0], [0.1, 0.1], [0.0, 0.4], [-0.1, 0.1], [-0.5, 0.0], [-0.1, -0.1]])
+                corners=np.array(
+                    [
+                        [0.0, -0.4],
+                        [0.1, -0.1],
+                        [0.5, 0.0],
+                        [0.1, 0.1],
+                        [0.0, 0.4],
+                        [-0.1, 0.1],
+                        [-0.5, 0.0],
+                        [-0.1, -0.1],
+                    ]
+                )
             ),
         ),
     ),
@@ -135,3 +146,9 @@ def test_a_plate_beside_a_mirror_plane_is_meshed_on_one_side() -> None:
     part = _meshed(wall, *plates, mirrors=(0.0, None))
     assert _area(part, "plate 0.5") == pytest.approx(0.04 * np.pi, rel=1e-10)
     assert "plate -0.5" not in part.cell_names
+
+
+def test_a_narrow_gap_between_circles_is_meshed() -> None:
+    # Without shorter arcs the sagitta of a quarter's chord is wider than the gap.
+    mesh = _meshed(_circle(1.0), PlanRegion(name="plate", outside=_circle(0.98)))
+    assert _area(mesh, "water") == pytest.approx((1.0 - 0.98**2) * np.pi, rel=1e-9)

@@ -62,7 +62,7 @@ def test_a_square_is_a_polygon() -> None:
     assert np.sqrt(modes.stiffness[3:8]) == pytest.approx(FREE_SQUARE, rel=1e-6)
     points, weights = polygon_quadrature(SQUARE, 30)
     shapes = modes.deflection(points)[:20]
-    assert (shapes * weights) @ shapes.T == pytest.approx(np.eye(20), abs=1e-11)
+    assert (shapes * weights) @ shapes.T == pytest.approx(np.eye(20), abs=1e-10)
 
 
 def test_a_turned_square_has_the_same_modes() -> None:
@@ -79,3 +79,31 @@ def test_a_concave_polygon_is_integrated_exactly() -> None:
     # ∫x³y² over [0, 2]² less that over [1, 2]².
     assert weights.sum() == pytest.approx(3.0, rel=1e-14)
     assert (points[0] ** 3 * points[1] ** 2) @ weights == pytest.approx(4.0 * 8.0 / 3.0 - 3.75 * 7.0 / 3.0, rel=1e-13)
+
+
+# Three unit squares, ν = 0.3. A second method, C¹ rectangles of degree 7 graded to the corner, gives 3.9272176,
+# 4.2509065, 6.8049961 and 8.4038388 from above.
+L_SHAPE = ((0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0))
+L_FREQUENCIES = np.array([3.92721582, 4.25089381, 6.80499379, 8.4038228])
+
+
+def test_a_plate_with_a_reentrant_corner_has_its_modes_to_seven_digits() -> None:
+    modes = polygon_modes(L_SHAPE, 0.3, 12)
+    excess = np.sqrt(modes.stiffness[3:7]) / L_FREQUENCIES - 1.0
+    # From above; measured 1e-8 to 4e-7. Polynomials alone have 1e-4.
+    assert excess.min() > -1e-9
+    assert excess.max() < 6e-7
+    assert np.all(modes.stiffness[:3] == 0.0)
+
+
+def test_parts_of_a_symmetric_polygon_have_the_modes_of_the_whole() -> None:
+    # With corners on both planes of symmetry, where functions of one parity vanish.
+    rhombus = ((1.0, 0.0), (0.0, 0.6), (-1.0, 0.0), (0.0, -0.6))
+    parts = [polygon_modes(rhombus, 0.3, 10, (x, y)) for x in (0, 1) for y in (0, 1)]
+    together = np.sort(np.concatenate([part.stiffness for part in parts]))
+    assert together[:20] == pytest.approx(polygon_modes(rhombus, 0.3, 10).stiffness[:20], rel=1e-8, abs=1e-9)
+    points = np.array([[0.3, 0.1], [0.1, 0.2]]).T
+    for part in parts:
+        sign = -1.0 if part.basis.parity[0] == 1 else 1.0
+        mirrored = points * np.array([[-1.0], [1.0]])
+        assert part.deflection(mirrored) == pytest.approx(sign * part.deflection(points), abs=1e-7)

@@ -70,6 +70,20 @@ def test_tanks_keep_their_tolerances(folder: str) -> None:
     assert all(f"| `{name}` |" in page for name in names)
 
 
+def test_tanks_in_three_dimensions_keep_their_tolerances() -> None:
+    rows = rows_of("level_cases/level_cases.csv")
+    cases = script("level_cases").CASES
+    assert [(row["case"], float(row["tolerance"])) for row in rows] == [
+        (name, tolerance) for name, case in cases.items() for tolerance in case.tolerances
+    ]
+    for row in rows:
+        assert row["status"] == "ok", row
+        assert float(row["true_error"]) <= float(row["tolerance"])
+        assert float(row["estimate"]) >= float(row["true_error"]) / 3.0
+    page = (RESULTS / "level_cases" / "level_cases.md").read_text(encoding="utf-8")
+    assert all(f"| {name} |" in page for name in cases)
+
+
 def test_a_hard_case_measured_anew() -> None:
     case = next(case for case in hard_cases.CASES if case.name == "tip_1e-04_from_the_wall")
     reference = json.loads((ROOT / "tests" / "reference" / "hard_cases.json").read_text(encoding="utf-8"))["cases"]

@@ -62,3 +62,40 @@ def test_two_plates_are_written_and_drawn(tmp_path: Path) -> None:
     # Converged to 1e-7 by another refinement.
     assert [mode["omega"] for mode in summary["modes"][:2]] == pytest.approx([1.30905794, 2.00166244], rel=1e-6)
     assert {path.name for path in (folder / "fields").iterdir()} == {"surface.vtu", "volume.vtu"}
+
+
+def test_orders_and_boxes_import_no_mesher_and_no_dolfinx() -> None:
+    import subprocess
+    import sys
+
+    program = (
+        "import sys; from mpi4py import MPI; from hydroelastic.scenes.read import read_scene;"
+        "from hydroelastic.scenes.level_tank.solve import solve_level_scene;"
+        "scene = read_scene('rectangular_cover', ('accuracy.tolerance=1e-2', 'accuracy.modes=1'));"
+        "solve_level_scene(scene, MPI.COMM_SELF, lambda _: None);"
+        "print([name for name in ('dolfinx', 'ufl', 'basix', 'gmsh') if name in sys.modules])"
+    )
+    ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert ended.stdout.strip() == "[]"
+
+
+def test_a_study_asks_each_model_for_tolerances(tmp_path: Path) -> None:
+    from click.testing import CliRunner
+
+    from hydroelastic.scenes.command_line import main
+
+    folder = tmp_path / "study"
+    arguments = ["study", "rectangular_cover", "--out", str(folder), "--tolerances", "1e-2,1e-3"]
+    ended = CliRunner().invoke(main, [*arguments, "--set", "accuracy.modes=3"])
+    assert ended.exit_code == 0, ended.output
+    rows = json.loads((folder / "summary.json").read_text(encoding="utf-8"))["rows"]
+    assert [(row["model"], row["tolerance"]) for row in rows] == [
+        (model, tolerance) for model in ("box", "plan") for tolerance in (1e-2, 1e-3)
+    ]
+    for row in rows:
+        assert max(map(abs, row["errors"])) <= row["estimate"] <= row["tolerance"]
+    assert (folder / "study.csv").is_file()
+    assert (folder / "study.png").is_file()
+    refused = CliRunner().invoke(main, [*arguments, "--families", "uniform"])
+    assert refused.exit_code == 2
+    assert "tolerance" in refused.output

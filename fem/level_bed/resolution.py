@@ -95,7 +95,7 @@ def line_resolution(
         waves: whether there are waves on the water.
     """
     # Cheapest for each tolerance in tanks with known modes, as in two dimensions; a line may have a degree more.
-    degree = min(max(ceil(2.5 - 0.75 * log10(tolerance)), 5), HIGHEST_DEGREE - 2)
+    degree = min(max(ceil(1.5 - 0.75 * log10(tolerance)), 5), HIGHEST_DEGREE - 2)
     sizes, shapes = [], [0] * len(tank.plates)
     for left, right in pairwise(breakpoints(separation)):
         plate = plate_at(separation, 0.5 * (left + right))
@@ -111,7 +111,8 @@ def line_resolution(
                 needed = max(needed, ceil(half_waves - 0.5 * log(tolerance) / log(z + sqrt(z * z - 1.0))) + 6)
             shapes[plate] = min(needed, MOST_SHAPES)
     # The error falls like the thickness of the innermost layer to the power 2α.
-    layers = ceil(log((5.0 + 10.0 * exponent) * tolerance ** (0.5 / exponent)) / log(LAYER_RATIO))
+    thinnest = (85.0 if exponent == 1.0 else 10.0) * tolerance ** (0.5 / exponent)
+    layers = ceil(log(thinnest) / log(LAYER_RATIO))
     return LineResolution(degree=degree, sizes=tuple(sizes), layers=max(layers, 2), shapes=tuple(shapes))
 
 

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, Protocol
 
 import numpy as np
 
 from hydroelastic.fem.closed_solution import ClosedSolution
+from hydroelastic.fem.kept_tolerance import kept_tolerance
 from hydroelastic.fem.modes import Mode, ModeSet
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.surfaces import Body
@@ -105,6 +107,7 @@ class PlateTone:
         squares: ∫W² of its shape over the plate.
         stiffness: its generalized stiffness.
         mass: its generalized mass.
+        symmetry: name of the symmetry of that mode, "" without one.
         tone: the mode of largest participation; ``None`` where it is not attributed to one of the modes.
         eigenvalue: its dimensionless λ.
         relative_error: estimated, of its frequency.
@@ -119,6 +122,7 @@ class PlateTone:
     squares: float
     stiffness: float
     mass: float
+    symmetry: str = ""
     tone: ElasticTone | None = None
     eigenvalue: float | None = None
     relative_error: float | None = None
@@ -152,3 +156,42 @@ class LevelSolution(ClosedSolution[LevelTank]):
     def residual(self) -> float:
         """Largest residual of the modes."""
         return max((one.mode.residual for one in self.modes), default=0.0)
+
+
+def shift_above(eigenvalues: np.ndarray) -> float:
+    """Return the middle of the widest of the last gaps between λ, where the number of modes is counted.
+
+    Args:
+        eigenvalues: λ of the lowest modes of all problems, ascending.
+    """
+    if len(eigenvalues) < 2:
+        return 2.0 * float(eigenvalues[-1]) if len(eigenvalues) else 1.0
+    gaps = eigenvalues[1:] / eigenvalues[:-1]
+    first = max(0, len(gaps) - 4)
+    widest = first + int(np.argmax(gaps[first:]))
+    return float(np.sqrt(eigenvalues[widest] * eigenvalues[widest + 1]))
+
+
+def shortcomings(solution: LevelSolution) -> Iterator[str]:
+    """Yield messages on why a solution does not keep the tolerance or is incomplete."""
+
+    def excess(quantity: str, error: float | None) -> Iterator[str]:
+        if error is not None and error > solution.tolerance:
+            yield (
+                f"{quantity} has an estimated relative error of {error:.1e}, above the tolerance "
+                f"{solution.tolerance:g}; {kept_tolerance(error)}"
+            )
+
+    errors = [one.relative_error for one in solution.modes]
+    if errors:
+        yield from excess(f"mode {int(np.argmax(errors)) + 1}", max(errors))
+    if not solution.counted:
+        yield "an independent count of the modes by inertia disagrees: a mode may be missing"
+    for tone in solution.tones:
+        plate = f"of plate {tone.plate + 1}"
+        if tone.tone is not None and not tone.tone.certain:
+            yield f"the first elastic tone {plate} may lie above the modes computed"
+        yield from excess(f"the first elastic tone {plate}", tone.relative_error)
+        # In boxes and plans it is a companion of fewer digits, told with its error.
+        if tone.order is not None:
+            yield from excess(f"the pressure-release tone {plate}", tone.pressure_release_error)

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import count as counting
-from itertools import pairwise
 
 import numpy as np
 
 from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
-from hydroelastic.fem.kept_tolerance import kept_tolerance
+from hydroelastic.fem.level_bed.choice import NotTreatedError
 from hydroelastic.fem.level_bed.orders import OrderSolution, solve_order, solve_orders
 from hydroelastic.fem.level_bed.plate_tone import ROUNDING, SAFETY, plate_tone
 from hydroelastic.fem.level_bed.resolution import LineResolution, expected_eigenvalue, line_resolution, workable
 from hydroelastic.fem.level_bed.separation import Separation, separated
-from hydroelastic.fem.level_bed.solution import LevelMode, LevelSolution
+from hydroelastic.fem.level_bed.solution import LevelMode, LevelSolution, shift_above, shortcomings
 from hydroelastic.fem.modes import count_below
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.physics.level_tank import LevelTank
@@ -23,10 +21,6 @@ from hydroelastic.physics.level_tank import LevelTank
 _MOST_ATTEMPTS = 5
 # The highest mode may lie this much above the expected one before the resolution is made anew.
 _HIGHER = 1.3
-
-
-class NotTreatedError(ValueError):
-    """No solver takes such a tank."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,7 +45,7 @@ class _Attempt:
 
 
 def solve_level_tank(
-    physical: LevelTank, *, tolerance: float, modes: int, report: Report = lambda _message: None
+    physical: LevelTank, *, tolerance: float, modes: int, tones: bool = True, report: Report = lambda _message: None
 ) -> LevelSolution:
     """Solve an upright tank with a level bed, alike on each process.
 
@@ -59,6 +53,7 @@ def solve_level_tank(
         physical: the tank, in SI units.
         tolerance: largest relative error of the frequencies that is accepted.
         modes: number of modes, from the lowest.
+        tones: whether the first elastic tones are sought.
         report: receives messages on the progress.
 
     Returns:
@@ -104,12 +99,12 @@ def solve_level_tank(
         aim,
         rounds=_MOST_ATTEMPTS,
     ).solution
-    tones = []
+    found_tones = []
     for index, plate in enumerate(tank.plates):
-        if plate.is_elastic:
+        if plate.is_elastic and tones:
             report(f"first elastic tone of plate {index + 1}")
             with watch.stage("elastic tone"):
-                tones.append(plate_tone(tank, separation, index, tolerance))
+                found_tones.append(plate_tone(tank, separation, index, tolerance))
     solution = LevelSolution(
         physical=physical,
         tank=tank,
@@ -124,7 +119,7 @@ def solve_level_tank(
             )
             for (order, place), error in zip(found.places, found.errors, strict=True)
         ),
-        tones=tuple(tones),
+        tones=tuple(found_tones),
         zero_modes=sum(one.multiplicity * one.modes.zero_modes for one in found.orders),
         counted=found.counted,
         size={
@@ -141,7 +136,7 @@ def solve_level_tank(
         reasons=(),
         seconds=dict(watch.seconds),
     )
-    return replace(solution, reasons=tuple(_reasons(solution)))
+    return replace(solution, reasons=tuple(shortcomings(solution)))
 
 
 def _model(separation: Separation) -> str:
@@ -168,7 +163,8 @@ def _attempt(
         finer = {order: _values(tank, separation, resolution.finer(), order, most) for order, most in last.items()}
     exact = np.array([finer[orders[order].order][place] for _, order, place in asked])
     with watch.stage("count"):
-        counted = _count_is_confirmed(orders, values)
+        shift = shift_above(values)
+        counted = all(count_below(one.pencil, shift) == int(np.sum(one.modes.eigenvalues < shift)) for one in orders)
     values = values[: len(asked)]
     return _Attempt(
         resolution=resolution,
@@ -184,39 +180,3 @@ def _values(tank: LevelTank, separation: Separation, resolution: LineResolution,
     solved = solve_order(tank, separation, resolution, order, count)
     assert solved is not None
     return solved.modes.eigenvalues
-
-
-def _count_is_confirmed(orders: tuple[OrderSolution, ...], values: np.ndarray) -> bool:
-    """Whether the inertia of K − σM of each order confirms its number of modes below σ, in the widest of the last
-    gaps."""
-    if len(values) < 2:
-        shift = 2.0 * float(values[-1]) if len(values) else 1.0
-    else:
-        gaps = [upper / lower for lower, upper in pairwise(values)]
-        first = max(0, len(gaps) - 4)
-        widest = first + int(np.argmax(gaps[first:]))
-        shift = float(np.sqrt(values[widest] * values[widest + 1]))
-    return all(count_below(one.pencil, shift) == int(np.sum(one.modes.eigenvalues < shift)) for one in orders)
-
-
-def _reasons(solution: LevelSolution) -> Iterator[str]:
-    """Yield messages on why a solution does not keep the tolerance or is incomplete."""
-
-    def excess(quantity: str, error: float | None) -> Iterator[str]:
-        if error is not None and error > solution.tolerance:
-            yield (
-                f"{quantity} has an estimated relative error of {error:.1e}, above the tolerance "
-                f"{solution.tolerance:g}; {kept_tolerance(error)}"
-            )
-
-    errors = [one.relative_error for one in solution.modes]
-    if errors:
-        yield from excess(f"mode {int(np.argmax(errors)) + 1}", max(errors))
-    if not solution.counted:
-        yield "an independent count of the modes by inertia disagrees: a mode may be missing"
-    for tone in solution.tones:
-        plate = f"of plate {tone.plate + 1}"
-        if tone.tone is not None and not tone.tone.certain:
-            yield f"the first elastic tone {plate} may lie above the modes computed"
-        yield from excess(f"the first elastic tone {plate}", tone.relative_error)
-        yield from excess(f"the pressure-release tone {plate}", tone.pressure_release_error)

@@ -12,9 +12,10 @@ from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
 from hydroelastic.fem.modes import Mode
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.box_pencil import BoxLiquid, box_pencil, plate_loads, water_columns, water_masses
-from hydroelastic.fem.plan.box_resolution import BoxResolution, axis_space, box_resolution
+from hydroelastic.fem.plan.box_resolution import BoxResolution, axis_space, box_resolution, expected_eigenvalue
 from hydroelastic.fem.plan.classes import ClassModes, SymmetryClass, count_is_confirmed, merged_errors, solve_classes
 from hydroelastic.fem.plan.rectangle_body import AxisParity, ClassParity, RectangleBody, rectangle_body, rectangle_of
+from hydroelastic.fem.plan.released import released_box_pencil
 from hydroelastic.fem.plan.truncation import rectangle_energies
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.physics.level_tank import Box, LevelTank
@@ -27,6 +28,42 @@ _SAFETY = 1.3
 # Relative rounding of frequencies without and with elastic plates, measured; the stiffest shape of a plate is 10⁹
 # times as stiff as the softest.
 _ROUNDING, _ROUNDING_OF_PLATES = 3e-13, 5e-11
+
+
+@dataclass(frozen=True, kw_only=True)
+class BoxModel:
+    """The problems of a box; see `ClassModel`.
+
+    Attributes:
+        tank: the dimensionless box.
+    """
+
+    tank: LevelTank
+
+    def problem(
+        self, resolution: BoxResolution, parity: ClassParity
+    ) -> tuple[CoupledPencil[BoxLiquid] | None, tuple[RectangleBody, ...]]:
+        """See `ClassModel.problem`."""
+        return box_problem(self.tank, resolution, parity)
+
+    def released(self, resolution: BoxResolution, parity: ClassParity) -> CoupledPencil[BoxLiquid]:
+        """See `ClassModel.released`."""
+        return released_box_pencil(_liquid(self.tank, resolution, parity), _bodies(self.tank, resolution, parity))
+
+    def errors(
+        self, resolution: BoxResolution, one: SymmetryClass, plates: tuple[RectangleBody, ...], modes: list[Mode]
+    ) -> np.ndarray:
+        """See `ClassModel.errors`: by the liquid and by the plates."""
+        return np.array([_liquid_errors(self.tank, resolution, one, plates, modes), _plate_errors(plates, modes)])
+
+    def refined(self, resolution: BoxResolution, errors: np.ndarray, tolerance: float) -> BoxResolution | None:
+        """See `ClassModel.refined`."""
+        liquid, plates = (float(part.max(initial=0.0)) / (0.5 * tolerance) for part in errors)
+        return resolution.refined(liquid, plates)
+
+    def start(self, tolerance: float, eigenvalue: float, *, released: bool = False) -> BoxResolution:
+        """See `ClassModel.start`."""
+        return box_resolution(self.tank, tolerance, eigenvalue, released=released)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -91,22 +128,16 @@ def solve_box(tank: LevelTank, *, tolerance: float, count: int, report: Report =
         count: number of modes, from the lowest.
         report: receives messages on the progress.
     """
-    attempts = numbered(1)
+    attempts, model = numbered(1), BoxModel(tank=tank)
 
     def solve(resolution: BoxResolution) -> BoxSolution:
         attempt = next(attempts)
         report(f"attempt {attempt}: degree {resolution.degree}, {resolution.layers} layers")
-        problems = {parity: box_problem(tank, resolution, parity) for parity in symmetries(tank)}
-        modes = solve_classes({parity: one for parity, (one, _) in problems.items() if one is not None}, count + 1, tolerance)
+        problems = {parity: model.problem(resolution, parity) for parity in symmetries(tank)}
+        pencils = {parity: one for parity, (one, _) in problems.items() if one is not None}
+        modes = solve_classes(pencils, count + 1, tolerance)
         liquid, plates = merged_errors(
-            modes,
-            2,
-            lambda one, own: np.array(
-                [
-                    _liquid_errors(tank, resolution, one, problems[one.parity][1], own),
-                    _plate_errors(problems[one.parity][1], own),
-                ]
-            ),
+            modes, 2, lambda one, own: model.errors(resolution, one, problems[one.parity][1], own)
         )
         coarser = resolution.coarser()
         return BoxSolution(
@@ -120,15 +151,12 @@ def solve_box(tank: LevelTank, *, tolerance: float, count: int, report: Report =
             attempts=attempt,
         )
 
-    def refine(_: BoxResolution, solution: BoxSolution) -> BoxResolution | None:
-        share = 0.5 * tolerance
-        return solution.resolution.refined(
-            float(solution.liquid_errors[:count].max(initial=0.0)) / share,
-            float(solution.plate_errors[:count].max(initial=0.0)) / share,
-        )
+    def refine(resolution: BoxResolution, solution: BoxSolution) -> BoxResolution | None:
+        errors = np.array([solution.liquid_errors[:count], solution.plate_errors[:count]])
+        return model.refined(resolution, errors, tolerance)
 
     return adaptive_solve(
-        box_resolution(tank, tolerance, count),
+        box_resolution(tank, tolerance, expected_eigenvalue(tank, count)),
         solve,
         lambda solution: ErrorEstimate(
             discretization=float(solution.relative_errors[:count].max(initial=0.0)), missing=int(not solution.counted)
@@ -157,6 +185,14 @@ def _liquid(tank: LevelTank, resolution: BoxResolution, parity: ClassParity) -> 
     return BoxLiquid(spaces=(spaces[0], spaces[1]), depth=tank.depth, images=images)
 
 
+def _bodies(tank: LevelTank, resolution: BoxResolution, parity: ClassParity) -> tuple[RectangleBody, ...]:
+    assert isinstance(tank.plan, Box)
+    return tuple(
+        rectangle_body(tank.plan, index, plate, resolution.polynomials[index], parity)
+        for index, plate in enumerate(tank.plates)
+    )
+
+
 def box_problem(
     tank: LevelTank, resolution: BoxResolution, parity: ClassParity, *, dense: bool = False
 ) -> tuple[CoupledPencil[BoxLiquid] | None, tuple[RectangleBody, ...]]:
@@ -168,11 +204,7 @@ def box_problem(
         parity: the class.
         dense: whether A is made as a matrix, of which the inertia can be had.
     """
-    assert isinstance(tank.plan, Box)
-    bodies = tuple(
-        rectangle_body(tank.plan, index, plate, resolution.polynomials[index], parity)
-        for index, plate in enumerate(tank.plates)
-    )
+    bodies = _bodies(tank, resolution, parity)
     liquid = _liquid(tank, resolution, parity)
     return box_pencil(liquid, bodies, waves=tank.top == "free", dense=dense), bodies
 

@@ -100,10 +100,11 @@ class BoxOperator:
         self.solves += 1
 
 
-class _Stiffness:
+class BoxStiffness:
     """A as a shell matrix: A = Σ (M u_i v_j) (M u_i v_j)ᵀ / f, 0 of the constant; with f over the number of images."""
 
     def __init__(self, liquid: BoxLiquid) -> None:
+        """Prepare the moments of the standing waves."""
         self._liquid = liquid
         self._moments = tuple(space.mass @ space.waves[1] for space in liquid.spaces)
         with np.errstate(divide="ignore"):
@@ -112,9 +113,14 @@ class _Stiffness:
 
     def mult(self, _matrix: PETSc.Mat, potential: PETSc.Vec, load: PETSc.Vec) -> None:
         """``load`` ← A ``potential``."""
+        load.array[:] = self.product(potential.array_r)
+
+    def product(self, potential: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return A ψ, shape (N,)."""
         along, across = self._moments
-        values = potential.array_r.reshape(self._liquid.shape)
-        load.array[:] = (along @ (self._inverses * (along.T @ values @ across)) @ across.T).ravel()
+        values = potential.reshape(self._liquid.shape)
+        load: NDArray[np.float64] = (along @ (self._inverses * (along.T @ values @ across)) @ across.T).ravel()
+        return load
 
     @property
     def dense(self) -> NDArray[np.float64]:
@@ -141,7 +147,7 @@ def box_pencil(
     water = _water(liquid, plates) if waves else None
     if not moving and water is None:
         return None
-    operator = _Stiffness(liquid)
+    operator = BoxStiffness(liquid)
     if dense:
         laplace = as_matrix(sparse.csr_matrix(operator.dense))
     else:

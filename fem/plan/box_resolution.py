@@ -74,13 +74,19 @@ class BoxResolution:
         return None if finer == self or (self.degree, self.layers) == (HIGHEST_DEGREE, MOST_LAYERS) else finer
 
 
-def box_resolution(tank: LevelTank, tolerance: float, count: int) -> BoxResolution:
-    """Return the resolution for some modes of a dimensionless tank."""
+def box_resolution(tank: LevelTank, tolerance: float, eigenvalue: float, *, released: bool = False) -> BoxResolution:
+    """Return the resolution for the modes of a dimensionless tank up to some λ.
+
+    Args:
+        tank: the tank.
+        tolerance: largest relative error that is accepted.
+        eigenvalue: λ.
+        released: whether ψ = 0 on the water, else it has waves.
+    """
     digits = -log10(tolerance)
     degree = min(max(ceil(0.5 + 0.75 * digits), 4), HIGHEST_DEGREE - 2)
-    eigenvalue = expected_eigenvalue(tank, count)
     wavenumbers = [plate_wavenumber(tank, plate, eigenvalue) for plate in tank.plates]
-    shortest = max([water_wavenumber(tank, eigenvalue), *wavenumbers])
+    shortest = max([0.0 if released else water_wavenumber(tank, eigenvalue), *wavenumbers, 1.0])
     polynomials = tuple(
         min(ceil(1.1 * wavenumber * max(rectangle_of(plate.outline).size) / pi + 1.2 * digits) + 4, MOST_POLYNOMIALS)
         for plate, wavenumber in zip(tank.plates, wavenumbers, strict=True)

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
-from itertools import pairwise
 
 import numpy as np
 
+from hydroelastic.fem.level_bed.solution import shift_above
 from hydroelastic.fem.modes import HIDDEN, Mode, ModeSet, count_below, solve_modes
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.rectangle_body import ClassParity
@@ -83,8 +83,7 @@ def solve_classes(pencils: dict[ClassParity, CoupledPencil], count: int, toleran
         return ClassModes(classes=(), eigenvalues=np.empty(0), origins=())
     share = count if len(pencils) == 1 else count // len(pencils) + 2
     classes = [
-        SymmetryClass(parity=parity, pencil=pencil, modes=solve(pencil, share))
-        for parity, pencil in pencils.items()
+        SymmetryClass(parity=parity, pencil=pencil, modes=solve(pencil, share)) for parity, pencil in pencils.items()
     ]
     shares = [share] * len(classes)
     while True:
@@ -127,10 +126,7 @@ def count_is_confirmed(solution: ClassModes, coarse: Callable[[ClassParity], Cou
     values = solution.eigenvalues
     if len(values) < 2:
         return True
-    gaps = [upper / lower for lower, upper in pairwise(values)]
-    first = max(0, len(gaps) - 4)
-    widest = first + int(np.argmax(gaps[first:]))
-    shift = float(np.sqrt(values[widest] * values[widest + 1]))
+    shift = shift_above(values)
     for one in solution.classes:
         pencil = coarse(one.parity)
         assert pencil is not None

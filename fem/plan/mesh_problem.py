@@ -135,7 +135,9 @@ class MeshProblem:
         return SampledSurface(
             elevation=elevation,
             wavenumbers=np.append(wavenumbers, wavenumbers[-1]),
-            potentials=np.column_stack([known[key] * parts, sign[:, None] * _evaluated(space, rest[:, None], folded, every)]),
+            potentials=np.column_stack(
+                [known[key] * parts, sign[:, None] * _evaluated(space, rest[:, None], folded, every)]
+            ),
         )
 
 

@@ -7,12 +7,12 @@ from itertools import pairwise, product
 
 import numpy as np
 
+from hydroelastic.fem.level_bed.choice import level_model
 from hydroelastic.fem.level_bed.patches import Patch, line_patches
 from hydroelastic.fem.level_bed.separation import separated
 from hydroelastic.fem.plan.rectangle_body import rectangle_of
-from hydroelastic.fem.plan.regions import plan_regions
-from hydroelastic.fem.plan.solve import level_model
 from hydroelastic.meshes.plan import plan_mesh
+from hydroelastic.meshes.plan_regions import plan_regions
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.dofs import body_name
 from hydroelastic.physics.level_tank import Box, LevelTank

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, cached_property
 from itertools import count as numbered
 from itertools import product
 from math import ceil, log10, pi, sqrt
@@ -17,15 +17,24 @@ from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.box_resolution import expected_eigenvalue, plate_wavenumber, water_wavenumber
 from hydroelastic.fem.plan.classes import ClassModes, SymmetryClass, count_is_confirmed, merged_errors, solve_classes
 from hydroelastic.fem.plan.plan_errors import liquid_and_pole_errors
-from hydroelastic.fem.plan.plan_pencil import PlanPlate, PlanSpace, plan_pencil, plan_space, stacked_pencil
+from hydroelastic.fem.plan.plan_pencil import (
+    PlanLiquid,
+    PlanPlate,
+    PlanSpace,
+    plan_pencil,
+    plan_space,
+    stacked_pencil,
+)
 from hydroelastic.fem.plan.plates import plan_plate
-from hydroelastic.fem.plan.rectangle_body import ClassParity
-from hydroelastic.fem.plan.regions import mirrors_of, plan_regions
+from hydroelastic.fem.plan.rectangle_body import AxisParity, ClassParity
+from hydroelastic.fem.plan.released_plan import released_plan_pencil
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.tank.resolution import radians
 from hydroelastic.meshes.distribute import distribute_mesh
 from hydroelastic.meshes.plan import plan_mesh
+from hydroelastic.meshes.plan_loops import RATIO as LAYER_RATIO
 from hydroelastic.meshes.plan_loops import Mirrors
+from hydroelastic.meshes.plan_regions import mirrors_of, plan_regions
 from hydroelastic.modal.liquid.vertical_poles import VerticalPoles, vertical_poles
 from hydroelastic.physics.level_tank import LevelTank
 from hydroelastic.physics.plate import Disc, Plate, Polygon, Rectangle
@@ -75,12 +84,10 @@ class PlanResolution:
             polynomials=tuple(max(6, count - 6) for count in self.polynomials),
         )
 
-    def refined(self, errors: PlanErrors, tolerance: float) -> PlanResolution | None:
-        """Return the next resolution by the parts of the error; ``None`` where it ends."""
+    def refined(self, errors: np.ndarray, tolerance: float) -> PlanResolution | None:
+        """Return the next resolution by the errors of the liquid, the poles and the plates; ``None`` where it ends."""
         share, finer = tolerance / 3.0, self
-        liquid, poles, plates = (
-            float(part.max(initial=0.0)) / share for part in (errors.liquid, errors.poles, errors.plates)
-        )
+        liquid, poles, plates = (float(part.max(initial=0.0)) / share for part in errors)
         if liquid > 1.0:
             more = 1 + int(liquid > 30.0)
             finer = replace(
@@ -100,28 +107,57 @@ class PlanResolution:
 
 
 @dataclass(frozen=True, kw_only=True)
-class PlanErrors:
-    """Relative errors of the frequencies by cause, each of shape (modes,).
+class PlanModel:
+    """The problems of a plan; see `ClassModel`.
 
     Attributes:
-        liquid: by the space of ψ.
-        poles: a bound of that by the poles of the depth.
-        plates: by the polynomials of the plates.
+        tank: the dimensionless tank.
+        comm: the processes over which the poles are distributed.
     """
 
-    liquid: np.ndarray
-    poles: np.ndarray
-    plates: np.ndarray
+    tank: LevelTank
+    comm: MPI.Comm
 
-    @property
-    def total(self) -> np.ndarray:
-        """Their sum, and rounding."""
-        errors: np.ndarray = self.liquid + self.poles + self.plates + _ROUNDING
-        return errors
+    @cached_property
+    def _parts(self) -> dict[PlanResolution, PlanParts]:
+        return {}
 
-    def first(self, count: int) -> PlanErrors:
-        """Return those of the first modes."""
-        return PlanErrors(liquid=self.liquid[:count], poles=self.poles[:count], plates=self.plates[:count])
+    def parts(self, resolution: PlanResolution) -> PlanParts:
+        """Return what all classes share; that of the last resolution is kept."""
+        if resolution not in self._parts:
+            self._parts.clear()
+            self._parts[resolution] = plan_parts(self.tank, resolution)
+        return self._parts[resolution]
+
+    def problem(
+        self, resolution: PlanResolution, parity: ClassParity
+    ) -> tuple[CoupledPencil[PlanLiquid] | None, tuple[PlanPlate, ...]]:
+        """See `ClassModel.problem`."""
+        parts, plates = self.parts(resolution), self.parts(resolution).plates(parity)
+        waves = self.tank.top == "free"
+        return plan_pencil(parts.space_of(parity), parts.poles, plates, waves=waves, comm=self.comm), plates
+
+    def released(self, resolution: PlanResolution, parity: ClassParity) -> CoupledPencil[PlanLiquid]:
+        """See `ClassModel.released`."""
+        # ψ ~ r^{1/2} has a part in all waves as long as the innermost layer, which the poles have to follow.
+        innermost = 0.5 * resolution.size * LAYER_RATIO**resolution.layers
+        parts = self.parts(replace(resolution, wavenumber=1.0 / innermost))
+        return released_plan_pencil(parts.space_of(parity), parts.poles, parts.plates(parity))
+
+    def errors(
+        self, _resolution: PlanResolution, one: SymmetryClass, plates: tuple[PlanPlate, ...], modes: list[Mode]
+    ) -> np.ndarray:
+        """See `ClassModel.errors`: by the liquid, the poles and the plates."""
+        gradients, missing = liquid_and_pole_errors(one.pencil, modes, self.tank.depth, _LOWEST)
+        return np.array([0.5 * _WITH_MASS * gradients, 0.5 * missing, _plate_errors(plates, modes)])
+
+    def refined(self, resolution: PlanResolution, errors: np.ndarray, tolerance: float) -> PlanResolution | None:
+        """See `ClassModel.refined`."""
+        return resolution.refined(errors, tolerance)
+
+    def start(self, tolerance: float, eigenvalue: float, *, released: bool = False) -> PlanResolution:
+        """See `ClassModel.start`."""
+        return plan_resolution(self.tank, tolerance, eigenvalue, released=released)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -136,7 +172,7 @@ class PlanSolution:
         plates: the plates as bodies, in the shapes of each symmetry class.
         poles: of the depth.
         modes: the lowest modes, one more than asked for.
-        errors: of their frequencies.
+        errors: relative errors of their frequencies by the liquid, the poles and the plates, shape (3, modes).
         counted: whether a coarser model confirms the number of modes.
         attempts: number of resolutions that were solved.
     """
@@ -148,7 +184,7 @@ class PlanSolution:
     plates: dict[ClassParity, tuple[PlanPlate, ...]]
     poles: VerticalPoles
     modes: ClassModes
-    errors: PlanErrors
+    errors: np.ndarray
     counted: bool
     attempts: int
 
@@ -165,7 +201,8 @@ class PlanSolution:
     @property
     def relative_errors(self) -> np.ndarray:
         """Estimated relative error of each frequency, shape (modes,)."""
-        return self.errors.total
+        errors: np.ndarray = self.errors.sum(axis=0) + _ROUNDING
+        return errors
 
 
 def solve_plan(
@@ -188,26 +225,20 @@ def solve_plan(
     Raises:
         MeshError: if the plan cannot be meshed.
     """
-    processes = comm or MPI.COMM_WORLD
-    attempts = numbered(1)
+    attempts, model = numbered(1), PlanModel(tank=tank, comm=comm or MPI.COMM_WORLD)
 
     def solve(resolution: PlanResolution) -> PlanSolution:
         attempt = next(attempts)
         report(f"attempt {attempt}: degree {resolution.degree}, {resolution.layers} layers")
-        parts = plan_parts(tank, resolution)
-        plates = {parity: parts.plates(parity) for parity in parts.classes}
-        pencils = {
-            parity: plan_pencil(parts.space_of(parity), parts.poles, own, waves=tank.top == "free", comm=processes)
-            for parity, own in plates.items()
-        }
-        modes = solve_classes({parity: one for parity, one in pencils.items() if one is not None}, count + 1, tolerance)
-        errors = merged_errors(modes, 3, lambda one, own: _errors(tank, one, plates[one.parity], own))
+        parts = model.parts(resolution)
+        problems = {parity: model.problem(resolution, parity) for parity in parts.classes}
+        pencils = {parity: one for parity, (one, _) in problems.items() if one is not None}
+        modes = solve_classes(pencils, count + 1, tolerance)
+        errors = merged_errors(modes, 3, lambda one, own: model.errors(resolution, one, problems[one.parity][1], own))
 
         def coarse(parity: ClassParity) -> CoupledPencil | None:
             found = coarser()
-            return stacked_pencil(
-                found.space_of(parity), found.poles, found.plates(parity), waves=tank.top == "free"
-            )
+            return stacked_pencil(found.space_of(parity), found.poles, found.plates(parity), waves=tank.top == "free")
 
         coarser = cache(lambda: plan_parts(tank, resolution.coarser))
         return PlanSolution(
@@ -215,33 +246,39 @@ def solve_plan(
             resolution=resolution,
             space=parts.space,
             mirrors=parts.mirrors,
-            plates=plates,
+            plates={parity: plates for parity, (_, plates) in problems.items()},
             poles=parts.poles,
             modes=modes,
-            errors=PlanErrors(liquid=errors[0], poles=errors[1], plates=errors[2]),
+            errors=errors,
             counted=count_is_confirmed(modes, coarse),
             attempts=attempt,
         )
 
     return adaptive_solve(
-        plan_resolution(tank, tolerance, count),
+        plan_resolution(tank, tolerance, expected_eigenvalue(tank, count)),
         solve,
         lambda solution: ErrorEstimate(
             discretization=float(solution.relative_errors[:count].max(initial=0.0)), missing=int(not solution.counted)
         ),
-        lambda _, solution: solution.resolution.refined(solution.errors.first(count), tolerance),
+        lambda _, solution: solution.resolution.refined(solution.errors[:, :count], tolerance),
         tolerance,
         rounds=_MOST_ATTEMPTS,
     ).solution
 
 
-def plan_resolution(tank: LevelTank, tolerance: float, count: int) -> PlanResolution:
-    """Return the resolution for some modes of a dimensionless tank."""
+def plan_resolution(tank: LevelTank, tolerance: float, eigenvalue: float, *, released: bool = False) -> PlanResolution:
+    """Return the resolution for the modes of a dimensionless tank up to some λ.
+
+    Args:
+        tank: the tank.
+        tolerance: largest relative error that is accepted.
+        eigenvalue: λ.
+        released: whether ψ = 0 on the water, else it has waves.
+    """
     digits = -log10(tolerance)
     degree = min(max(ceil(0.5 + 0.9 * digits), 5), HIGHEST_DEGREE - 1)
-    eigenvalue = expected_eigenvalue(tank, count)
     wavenumbers = [plate_wavenumber(tank, plate, eigenvalue) for plate in tank.plates]
-    shortest = max([water_wavenumber(tank, eigenvalue), *wavenumbers])
+    shortest = max([0.0 if released else water_wavenumber(tank, eigenvalue), *wavenumbers, 1.0])
     return PlanResolution(
         degree=degree,
         size=min(1.3 * radians(degree, tolerance) / shortest, _OF_PLAN),
@@ -286,7 +323,8 @@ class PlanParts:
     @property
     def classes(self) -> tuple[ClassParity, ...]:
         """Even and odd about each mirror plane."""
-        along, across = ((None,) if mirror is None else (0, 1) for mirror in self.mirrors)
+        both: tuple[AxisParity, ...] = (0, 1)
+        along, across = ((None,) if mirror is None else both for mirror in self.mirrors)
         return tuple(product(along, across))
 
     def space_of(self, parity: ClassParity) -> PlanSpace:
@@ -326,12 +364,6 @@ def plan_parts(tank: LevelTank, resolution: PlanResolution) -> PlanParts:
         space=plan_space(distribute_mesh(MPI.COMM_SELF, mesh), resolution.degree, images),
         poles=vertical_poles(tank.depth, resolution.wavenumber, resolution.pole_error, lowest=_LOWEST),
     )
-
-
-def _errors(tank: LevelTank, one: SymmetryClass, plates: tuple[PlanPlate, ...], modes: list[Mode]) -> np.ndarray:
-    """Errors of modes of a class by the liquid, the poles and the plates, shape (3, modes)."""
-    gradients, missing = liquid_and_pole_errors(one.pencil, modes, tank.depth, _LOWEST)
-    return np.array([0.5 * _WITH_MASS * gradients, 0.5 * missing, _plate_errors(plates, modes)])
 
 
 def _plate_errors(plates: tuple[PlanPlate, ...], modes: list[Mode]) -> np.ndarray:

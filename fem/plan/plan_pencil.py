@@ -32,6 +32,7 @@ from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.meshes.geometry import FREE_SURFACE
 from hydroelastic.meshes.plan_loops import Mirrors
 from hydroelastic.modal.liquid.vertical_poles import VerticalPoles
+from hydroelastic.physics.arrays import FloatArray
 
 Deflection = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 """Shapes of a plate at points (2, n) → (shapes, n)."""
@@ -104,7 +105,7 @@ class PlanSpace:
         water = None if self.water is None else self.water[kept][:, kept].tocsr()
         return replace(self, stiffness=stiffness, mass=mass, water=water, kept=kept, closed=False)
 
-    def expanded(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+    def expanded(self, values: FloatArray) -> NDArray[np.float64]:
         """Return values of the kept unknowns (size, …) as those of all unknowns of the space."""
         whole = np.zeros((self.liquid.size, *values.shape[1:]))
         whole[self.kept] = values
@@ -234,11 +235,13 @@ class PoleOperator:
     Attributes:
         liquid: the unknowns.
         comm: the processes.
+        idle: whether it will answer no loads, and factorizes nothing.
         solves: how many loads were answered.
     """
 
     liquid: PlanLiquid
     comm: MPI.Comm
+    idle: bool = False
     solves: int = 0
     _solvers: list[tuple[int, PETSc.KSP, PETSc.Vec, PETSc.Vec]] = field(init=False)
     _constant: NDArray[np.float64] = field(init=False)
@@ -250,7 +253,7 @@ class PoleOperator:
         one.set(1.0)
         self._constant = (space.mass * one).array.copy()
         self._solvers = []
-        for number in range(self.comm.rank, len(poles.shifts), self.comm.size):
+        for number in range(self.comm.rank, 0 if self.idle else len(poles.shifts), self.comm.size):
             matrix = space.stiffness.copy()
             matrix.axpy(poles.shifts[number], space.mass, structure=PETSc.Mat.Structure.SAME_NONZERO_PATTERN)
             if poles.shifts[number] == 0.0 and space.closed:
@@ -291,7 +294,7 @@ class PoleOperator:
 
 
 def plan_pencil(
-    space: PlanSpace, poles: VerticalPoles, plates: tuple[PlanPlate, ...], *, waves: bool, comm: MPI.Comm
+    space: PlanSpace, poles: VerticalPoles, plates: tuple[PlanPlate, ...], *, waves: bool, comm: MPI.Comm | None
 ) -> CoupledPencil[PlanLiquid] | None:
     """Assemble the coupled problem, alike on each process; ``None`` where nothing moves (collective).
 
@@ -302,7 +305,7 @@ def plan_pencil(
         poles: of the depth.
         plates: the bodies.
         waves: whether the water beside the plates moves under gravity.
-        comm: the processes over which the poles are distributed.
+        comm: the processes over which the poles are distributed; ``None`` where another solver will be given.
     """
     liquid = PlanLiquid(space=space, poles=poles)
     loads, water = _blocks(space, plates, waves=waves)
@@ -317,7 +320,7 @@ def plan_pencil(
         if water is not None
         else [],
         laplace=space.stiffness,
-        solver=PoleOperator(liquid=liquid, comm=comm),
+        solver=PoleOperator(liquid=liquid, comm=comm or MPI.COMM_SELF, idle=comm is None),
         closed=(0,) if space.closed else (),
     )
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from hydroelastic.fem.plan.plan_pencil import Deflection, PlanPlate
 from hydroelastic.fem.plan.rectangle_body import ClassParity, dofs_by_stiffness, rectangle_body, rectangle_of
-from hydroelastic.fem.plan.truncation import geometric_tail, rectangle_energies
+from hydroelastic.fem.plan.truncation import geometric_tail, missing_after, rectangle_energies
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.modal.plate.line_modes import LineModes, PlateLine, dry_modes
 from hydroelastic.modal.plate.polygon import PolygonModes, polygon_modes
@@ -174,7 +174,7 @@ def _covers(tank: LevelTank, disc: Disc) -> bool:
 
 def _disc_tail(body: Body, shapes: _DiscShapes, amplitudes: NDArray[np.float64]) -> NDArray[np.float64]:
     """Energy of the orders and radial polynomials left out, from that of the last ones."""
-    energies = body.bending_stiffness * amplitudes**2
+    energies = body.stiffness * amplitudes**2
     rigid_free = body.bending_stiffness > 0.0
     of_order = np.zeros((len(amplitudes), max(order for order, _ in shapes.orders) + 1))
     radial = np.zeros(len(amplitudes))
@@ -186,7 +186,7 @@ def _disc_tail(body: Body, shapes: _DiscShapes, amplitudes: NDArray[np.float64])
             # From dry modes back to the polynomials, by ascending degree.
             inverse = np.linalg.pinv(modes.coefficients)
             parts = amplitudes[:, own] @ modes.coefficients.T
-            stiffness = (inverse.T * body.bending_stiffness[own]) @ inverse
+            stiffness = (inverse.T * body.stiffness[own]) @ inverse
             last, before = (
                 ((parts[:, -kept:] @ stiffness[-kept:, -kept:]) * parts[:, -kept:]).sum(axis=1) for kept in (1, 2)
             )
@@ -217,12 +217,14 @@ def _polygon(plate: Plate, index: int, outline: Polygon, polynomials: int, parit
         body=_body(plate, index, deflection, names, bending, squares),
         deflection=deflection,
         wavenumber=0.8 * modes.basis.degree / float(modes.basis.half.min()),
-        missing_energy=partial(_polygon_tail, modes, rigidity * outline.area),
+        missing_energy=partial(_polygon_tail, modes, rigidity * outline.area, float(plate.hydrostatic) * outline.area),
     )
 
 
-def _polygon_tail(modes: PolygonModes, factor: float, amplitudes: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Energy of the degrees left out, from that of the last two."""
+def _polygon_tail(
+    modes: PolygonModes, factor: float, level: float, amplitudes: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Potential energy of the degrees left out, from that of the last two."""
     if amplitudes.shape[1] < len(modes.stiffness) or not factor:
         return np.zeros(len(amplitudes))
     # Of the functions made orthonormal one after the other, those of the last degrees.
@@ -232,7 +234,7 @@ def _polygon_tail(modes: PolygonModes, factor: float, amplitudes: NDArray[np.flo
     def beyond(dropped: int) -> NDArray[np.float64]:
         rest = parts * (degrees > degree - dropped)
         energy: NDArray[np.float64] = factor * ((rest @ modes.bending) * rest).sum(axis=1)
-        return energy
+        return energy + level * (rest**2).sum(axis=1)
 
     last = beyond(2)
-    return 0.25 * geometric_tail(last, beyond(4) - last)
+    return missing_after(last, beyond(4) - last)

@@ -12,7 +12,6 @@ from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.plan.plan_pencil import PlanPlate
 from hydroelastic.fem.plan.plates import plan_plate
 from hydroelastic.fem.plan.rectangle_body import AxisParity, ClassParity, rectangle_of
-from hydroelastic.fem.plan.regions import mirrors_of, plan_regions
 from hydroelastic.fem.volume.floats import float_body
 from hydroelastic.fem.volume.matrices import volume_matrices
 from hydroelastic.fem.volume.pencil import SolverOf, moving_water, volume_pencil
@@ -20,6 +19,7 @@ from hydroelastic.fem.volume.resolution import VolumeResolution
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.meshes.geometry import FREE_SURFACE
 from hydroelastic.meshes.plan_loops import Mirrors
+from hydroelastic.meshes.plan_regions import mirrors_of, plan_regions
 from hydroelastic.meshes.volume import MIRRORS
 from hydroelastic.physics.dofs import body_name
 from hydroelastic.physics.level_tank import FilePlan

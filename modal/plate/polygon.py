@@ -2,9 +2,9 @@
 
     a(w, w) = ∫ w_xx² + w_yy² + 2ν w_xx w_yy + 2(1 − ν) w_xy²
 
-Products of Legendre polynomials of the box around the polygon, up to a degree in x and y together, and `corner_functions`
-are made orthonormal on the polygon. Convex or not, the error falls exponentially with the degree: the first frequency of
-a free square has 9 digits at degree 8 and 12 at 12, that of an L 7 and 9.
+Products of Legendre polynomials of the box around the polygon, up to a degree in x and y together, and
+`corner_functions` are made orthonormal on the polygon. Convex or not, the error falls exponentially with the degree:
+that of the first frequency of a free square is 1e-7 at degree 8 and 1e-10 at 12, of an L 3e-7 and 1e-8.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from scipy.linalg import eigh, qr, solve_triangular
 from hydroelastic.modal.plate.corner_functions import CornerFunction, corner_functions
 from hydroelastic.modal.plate.legendre import gauss, legendre_table
 from hydroelastic.modal.plate.rectangle import AxisParity
-from hydroelastic.physics.plate import Point
+from hydroelastic.physics.plate import Point, Polygon
 
 # r = uᵍ from a corner: r^{2λ − 2} r dr of λ > 1/2 becomes u^{2g λ − 1} du.
 _CORNER_POWER = 4
@@ -104,7 +104,9 @@ class PolygonBasis:
         found = []
         for number, (along, across) in enumerate(((2, 0), (0, 2), (1, 1))):
             scale = self.half[0] ** along * self.half[1] ** across
-            found.append(self._ordered(self._products(points, along, across) / scale, [one[number] for one in singular]))
+            found.append(
+                self._ordered(self._products(points, along, across) / scale, [one[number] for one in singular])
+            )
         return found
 
     def _ordered(self, products: NDArray[np.float64], singular: list[NDArray[np.float64]]) -> NDArray[np.float64]:
@@ -113,8 +115,7 @@ class PolygonBasis:
     def _products(self, points: NDArray[np.float64], along: int, across: int) -> NDArray[np.float64]:
         local = (points - self.middle[:, None]) / self.half[:, None]
         first, second = (
-            legendre_table(self.degree + 1, places, order)
-            for places, order in zip(local, (along, across), strict=True)
+            legendre_table(self.degree + 1, places, order) for places, order in zip(local, (along, across), strict=True)
         )
         return np.array([first[m] * second[n] for m, n in self._powers])
 
@@ -122,7 +123,7 @@ class PolygonBasis:
         self, points: NDArray[np.float64], evaluate: Callable[[NDArray[np.float64]], NDArray[np.float64]]
     ) -> NDArray[np.float64]:
         """A function and its images, so that it has the parity: values (n,), or derivatives xx, yy and xy (3, n)."""
-        total = np.zeros(points.shape[1])
+        total: NDArray[np.float64] = np.zeros((1, points.shape[1]))[0]
         middle = self.middle[:, None]
         for images in product(*((False,) if own is None else (False, True) for own in self.parity)):
             signs = np.where(images, -1.0, 1.0)
@@ -130,7 +131,7 @@ class PolygonBasis:
             if values.ndim == 2:
                 values = values * np.array([1.0, 1.0, signs.prod()])[:, None]
             odd = sum(image and own == 1 for image, own in zip(images, self.parity, strict=True))
-            total = total + (-1.0) ** odd * values
+            total = np.asarray(total + (-1.0) ** odd * values, dtype=np.float64)
         return total
 
 
@@ -146,7 +147,7 @@ def polygon_modes(
         degree: of the polynomials in x and y together.
         parity: even (0) or odd (1) about the middle along x and y of a polygon that is symmetric about it.
     """
-    corners = anticlockwise(np.array(points))
+    corners: NDArray[np.float64] = np.asarray(Polygon(points=points).corners, dtype=np.float64)
     low, high = corners.min(axis=0), corners.max(axis=0)
     middle = 0.5 * (low + high)
     # Of a symmetric polygon the corners on one side, for the functions of the others are their images.
@@ -197,15 +198,8 @@ def polygon_modes(
     )
 
 
-def anticlockwise(corners: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the corners of a polygon in anticlockwise order."""
-    ahead = np.roll(corners, -1, axis=0)
-    area = float((corners[:, 0] * ahead[:, 1] - corners[:, 1] * ahead[:, 0]).sum())
-    return corners if area > 0.0 else corners[::-1]
-
-
 def polygon_quadrature(corners: NDArray[np.float64], count: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return points (2, n) and weights for polynomials of degree 2·count − 2 on a polygon, and functions of its corners.
+    """Return points (2, n) and weights for polynomials of degree 2·count − 2 and functions of the corners.
 
     Each triangle of it is cut in four, so that it has one corner of the polygon at most; it is the image of a square,
     one side of which becomes that corner, with nodes denser towards it.
@@ -219,7 +213,7 @@ def polygon_quadrature(corners: NDArray[np.float64], count: int) -> tuple[NDArra
     points, weights = [], []
     for triangle in _triangles(corners):
         middles = 0.5 * (triangle + np.roll(triangle, -1, axis=0))
-        cut = [(triangle[place], middles[place], middles[place - 1]) for place in range(3)]
+        cut = [np.array([triangle[place], middles[place], middles[place - 1]]) for place in range(3)]
         for number, (first, second, third) in enumerate([*cut, middles]):
             along, along_weights = (towards, towards_weights) if number < 3 else (across, across_weights)
             edge, other = second - first, third - second

@@ -129,14 +129,15 @@ def _size(scene: LevelTankScene, tank: LevelTank) -> Iterator[str]:
 
 
 def _size_of_plan(tank: LevelTank, tolerance: float, modes: int) -> Iterator[str]:
-    from hydroelastic.fem.plan.box_resolution import box_resolution
+    from hydroelastic.fem.level_bed.choice import MODEL_WORDS, level_model
+    from hydroelastic.fem.plan.box_resolution import box_resolution, expected_eigenvalue
     from hydroelastic.fem.plan.plan import plan_resolution
-    from hydroelastic.fem.plan.solve import MODEL_WORDS, level_model
 
     model = level_model(tank)
     words = MODEL_WORDS[model]
     yield f"{words[0].upper()}{words[1:]}; no volume mesh."
-    resolution = box_resolution(tank, tolerance, modes) if model == "box" else plan_resolution(tank, tolerance, modes)
+    highest = expected_eigenvalue(tank, modes)
+    resolution = (box_resolution if model == "box" else plan_resolution)(tank, tolerance, highest)
     layers = f"{resolution.layers} layers on each side of an edge"
     polynomials = " + ".join(map(str, resolution.polynomials))
     shapes = f", {polynomials} polynomials along each direction of the plates" if polynomials else ""
@@ -149,7 +150,7 @@ def _size_of_plan(tank: LevelTank, tolerance: float, modes: int) -> Iterator[str
 
 
 def _size_of_volume(tank: VolumeTank, tolerance: float, modes: int) -> Iterator[str]:
-    from hydroelastic.fem.plan.solve import MODEL_WORDS
+    from hydroelastic.fem.level_bed.choice import MODEL_WORDS
     from hydroelastic.fem.volume.memory import DIRECT_UNKNOWNS, free_memory, memory_needed
     from hydroelastic.fem.volume.model import volume_mirrors
     from hydroelastic.fem.volume.resolution import volume_resolution

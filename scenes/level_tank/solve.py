@@ -85,8 +85,7 @@ def require_treated(scene: LevelTankScene) -> None:
     Raises:
         SceneError: if no model takes it.
     """
-    from hydroelastic.fem.level_bed.solve import NotTreatedError
-    from hydroelastic.fem.plan.solve import level_model
+    from hydroelastic.fem.level_bed.choice import NotTreatedError, level_model
 
     try:
         level_model(physical_level_tank(scene))

@@ -6,7 +6,6 @@ import numpy as np
 
 from hydroelastic.meshes.geometry import FREE_SURFACE
 from hydroelastic.meshes.plan_loops import UNGRADED, CircleLoop, Loop, Mirrors, PlanRegion, PolygonLoop
-from hydroelastic.modal.plate.polygon import anticlockwise
 from hydroelastic.physics.dofs import body_name
 from hydroelastic.physics.level_tank import Box, Cylinder, LevelTank, PolygonPlan
 from hydroelastic.physics.plate import Disc, Polygon, Rectangle
@@ -28,7 +27,7 @@ def _wall(tank: LevelTank) -> PlanRegion:
         corners = np.array([[0.0, 0.0], [plan.length, 0.0], [plan.length, plan.width], [0.0, plan.width]])
     else:
         assert isinstance(plan, PolygonPlan)
-        corners = anticlockwise(np.array(plan.points))
+        corners = np.asarray(plan.corners, dtype=np.float64)
     return PlanRegion(name=FREE_SURFACE, outside=PolygonLoop(corners=corners))
 
 
@@ -46,7 +45,7 @@ def _region(tank: LevelTank, index: int, wall: PlanRegion) -> PlanRegion:
         half = 0.5 * np.array([[-length, -width], [length, -width], [length, width], [-length, width]])
         return PlanRegion(name=name, outside=PolygonLoop(corners=np.array([x, y]) + half))
     assert isinstance(outline, Polygon)
-    return PlanRegion(name=name, outside=PolygonLoop(corners=anticlockwise(np.array(outline.points))))
+    return PlanRegion(name=name, outside=PolygonLoop(corners=np.asarray(outline.corners, dtype=np.float64)))
 
 
 def mirrors_of(wall: PlanRegion, plates: tuple[PlanRegion, ...]) -> Mirrors:

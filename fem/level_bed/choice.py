@@ -1,0 +1,97 @@
+"""The smallest model of a tank: orders on a line, a box of two intervals, a plan of triangles, or its volume."""
+
+from __future__ import annotations
+
+from typing import Literal, TypeAlias
+
+import numpy as np
+
+from hydroelastic.fem.level_bed.separation import separated
+from hydroelastic.meshes.plan_regions import plan_regions
+from hydroelastic.physics.level_tank import Box, LevelTank
+from hydroelastic.physics.plate import Polygon, Rectangle, Strip
+from hydroelastic.physics.volume_tank import VolumeTank
+
+
+class NotTreatedError(ValueError):
+    """No solver takes such a tank."""
+
+
+LevelModel: TypeAlias = Literal["orders", "box", "plan", "volume"]
+
+MODEL_WORDS: dict[LevelModel, str] = {
+    "orders": "upright tank with a level bed whose orders separate: one problem on a line for each, exact in depth",
+    "box": "upright box with a level bed and rectangular plates: products of two intervals, exact in depth",
+    "plan": "upright tank with a level bed: triangles on the plan, the depth by its poles",
+    "volume": "volume: tetrahedra in all of the liquid",
+}
+"""What each model is, as summaries tell it."""
+
+# A plate this close to a wall touches it, in units of the tank.
+_TOUCHING = 1e-9
+
+
+def level_model(physical: LevelTank) -> LevelModel:
+    """Return the smallest model of a tank.
+
+    Raises:
+        NotTreatedError: if there is none.
+    """
+    if isinstance(physical, VolumeTank):
+        return "volume"
+    tank = physical.scaled()
+    if separated(tank) is not None:
+        return "orders"
+    if any(plate.slats for plate in tank.plates):
+        raise NotTreatedError("beams side by side go with other such covers and strips of plate only")
+    if tank.top == "pressure_release" and tank.plates:
+        raise NotTreatedError("ψ = 0 on the water is for strips in a box, and discs and rings about a cylinder's axis")
+    if isinstance(tank.plan, Box) and all(isinstance(plate.outline, Rectangle | Strip) for plate in tank.plates):
+        return "box"
+    _require_plan(tank)
+    return "plan"
+
+
+def _require_plan(tank: LevelTank) -> None:
+    """Refuse a dimensionless tank that cannot be solved on its plan."""
+    for index, plate in enumerate(tank.plates):
+        number = index + 1
+        if isinstance(plate.outline, Strip):
+            raise NotTreatedError(f"plate {number} is a strip, which goes with strips and rectangles only")
+        if isinstance(plate.outline, Polygon) and plate.edge != "free":
+            raise NotTreatedError(f"plate {number} is a polygon, whose edges are free")
+    wall, regions = plan_regions(tank)
+    for index, region in enumerate(regions):
+        if region.outside is wall.outside:
+            continue
+        if region.gap(wall) < _TOUCHING:
+            raise NotTreatedError(f"plate {index + 1} touches a wall, and covers only a part of the plan")
+        corner = region.outside.parallel(0.0, np.zeros(1))[0]
+        if not wall.outside.contains(corner) or any(hole.contains(corner) for hole in wall.inside):
+            raise NotTreatedError(f"plate {index + 1} does not lie inside the plan")
+        for other, earlier in enumerate(regions[:index]):
+            if region.gap(earlier) < _TOUCHING:
+                raise NotTreatedError(f"plates {other + 1} and {index + 1} touch each other")
+
+
+def models_of(physical: LevelTank) -> tuple[LevelModel, ...]:
+    """Return all models that take a tank, the smallest one first.
+
+    Raises:
+        NotTreatedError: if there is none.
+    """
+    found = [level_model(physical)]
+    plates = physical.plates
+    if found[0] == "volume":
+        return tuple(found)
+    if physical.top == "pressure_release" and plates:
+        return tuple(found)
+    if found[0] == "orders" and isinstance(physical.plan, Box) and not any(plate.slats for plate in plates):
+        found.append("box")
+    if found[-1] != "plan" and not any(isinstance(plate.outline, Strip) for plate in plates):
+        try:
+            _require_plan(physical.scaled())
+        except NotTreatedError:
+            return tuple(found)
+        found.append("plan")
+    return tuple(found)

@@ -1,0 +1,244 @@
+"""The first elastic tone of a plate in a box or on a plan, and its companion with ψ = 0 on the water.
+
+It is the mode with the largest part of the plate's softest dry mode, in that shape's symmetry class. If it is not
+among the modes that were asked for, more of this class are solved, until no higher one can have a larger part.
+
+With ψ = 0 on the water ψ ~ r^{1/2} at the edges, and the error falls like the thickness of the innermost layer: from
+two numbers of layers follows the limit, and from a third one its error.
+"""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass, replace
+from math import ceil, pi
+from typing import Any, Generic, Protocol, TypeVar
+
+import numpy as np
+
+from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
+from hydroelastic.fem.level_bed.solution import PlateTone
+from hydroelastic.fem.modes import Mode, ModeSet, solve_modes
+from hydroelastic.fem.pencil import CoupledPencil
+from hydroelastic.fem.plan.box_resolution import water_wavenumber
+from hydroelastic.fem.plan.classes import ClassModes, SymmetryClass
+from hydroelastic.fem.plan.rectangle_body import ClassParity
+from hydroelastic.fem.surfaces import Body
+from hydroelastic.fem.tank.elastic_tone import ElasticTone, elastic_tone
+from hydroelastic.physics.dofs import FIRST_ELASTIC, body_name
+from hydroelastic.physics.level_tank import LevelTank
+from hydroelastic.physics.plate import Plate
+
+# More modes of one class up to the tone are not searched.
+_MOST_MODES = 120
+_ROUNDS = 3
+# Of successive layers at an edge.
+_RATIO = 0.2
+# The tone with ψ = 0 is computed to this at most and at least.
+_RELEASED_FINEST, _RELEASED_COARSEST = 1e-5, 1e-3
+_FEW = 4
+# The three resolutions show the difference of the limits of the first two and of the last two, which are closer to each
+# other than to the truth where the series of powers of the thickness has not yet begun.
+_SAFETY = 2.0
+
+
+R = TypeVar("R", bound=Any)
+
+
+class ClassModel(Protocol, Generic[R]):
+    """A tank that falls into symmetry classes, each of which is solved at some resolution."""
+
+    @property
+    def tank(self) -> LevelTank:
+        """The dimensionless tank."""
+
+    def problem(self, resolution: R, parity: ClassParity) -> tuple[CoupledPencil | None, Any]:
+        """Return the problem of a class, ``None`` where nothing moves in it, and the plates in its shapes."""
+
+    def released(self, resolution: R, parity: ClassParity) -> CoupledPencil:
+        """Return the problem of a class with ψ = 0 on the water."""
+
+    def errors(self, resolution: R, one: SymmetryClass, plates: Any, modes: list[Mode]) -> np.ndarray:
+        """Return the relative errors of frequencies by cause, shape (causes, modes)."""
+
+    def refined(self, resolution: R, errors: np.ndarray, tolerance: float) -> R | None:
+        """Return the next resolution by these errors; ``None`` where it ends."""
+
+    def start(self, tolerance: float, eigenvalue: float, *, released: bool = False) -> R:
+        """Return the resolution for modes up to some λ, with waves or with ψ = 0 on the water."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Found:
+    """A tone at one resolution: the modes of its class, and the errors by cause, shape (causes, 1)."""
+
+    tone: ElasticTone
+    eigenvalue: float
+    errors: np.ndarray
+
+    @property
+    def relative_error(self) -> float:
+        """Of its frequency."""
+        return float(self.errors.sum())
+
+
+def class_tone(
+    model: ClassModel[R], found: ClassModes, errors: np.ndarray, plate: int, tolerance: float, *, has_water: bool
+) -> PlateTone:
+    """Return the first elastic tone of a plate (collective).
+
+    Args:
+        model: the tank's.
+        found: the modes that were asked for.
+        errors: relative errors of their frequencies.
+        plate: index of the plate.
+        tolerance: largest relative error of the frequencies that is accepted.
+        has_water: whether there is water beside the plates, with waves.
+    """
+    number, place, tone = _dry_tone(model.tank, found, plate)
+    one = found.classes[number]
+    if has_water:
+        eigenvalue = tone.stiffness / (tone.mass + tone.squares)
+        release, error = _released_tone(model, one.parity, plate, tolerance, eigenvalue)
+        tone = replace(tone, pressure_release=release, pressure_release_error=error)
+    return _listed(found, errors, number, place, tone) or _sought(model, one, place, tone, tolerance)
+
+
+def listed_tone(
+    tank: LevelTank, found: ClassModes, errors: np.ndarray, plate: int, _tolerance: float, *, has_water: bool
+) -> PlateTone:
+    """Return the first elastic tone of a plate if it is among the modes that were solved; see `class_tone`."""
+    number, place, tone = _dry_tone(tank, found, plate)
+    return _listed(found, errors, number, place, tone) or replace(
+        tone, reason="it may lie above the modes that were solved; more modes show it"
+    )
+
+
+def _dry_tone(tank: LevelTank, found: ClassModes, plate: int) -> tuple[int, int, PlateTone]:
+    """The class of a plate's softest dry mode, the place of the plate in it, and what is known of the tone dry."""
+    number, place, first = _softest(found, plate)
+    one = found.classes[number]
+    body = one.pencil.bodies[place]
+    stiffness, mass = float(body.stiffness[first]), float(body.mass[first, first])
+    return (
+        number,
+        place,
+        PlateTone(
+            plate=plate,
+            order=None,
+            dry=stiffness / max(mass, 1e-300),
+            squares=_squares(body, first, tank.plates[plate]),
+            stiffness=stiffness,
+            mass=mass,
+            symmetry=one.label,
+        ),
+    )
+
+
+def _listed(found: ClassModes, errors: np.ndarray, number: int, place: int, tone: PlateTone) -> PlateTone | None:
+    """The tone among the modes that were asked for; ``None`` if it is not certain to be there."""
+    one = found.classes[number]
+    if not len(one.modes.eigenvalues):
+        return None
+    known = elastic_tone(one.modes, one.pencil.bodies, place, pressure_release=tone.pressure_release)
+    index = (number, known.index)
+    if not known.certain or index not in found.origins:
+        return None
+    return replace(
+        tone,
+        tone=known,
+        eigenvalue=float(one.modes.eigenvalues[known.index]),
+        relative_error=float(errors[found.origins.index(index)]),
+    )
+
+
+def _squares(body: Body, first: int, plate: Plate) -> float:
+    """∫W² of a shape, from its mass or its hydrostatic stiffness; else that of a mean square of 1."""
+    if plate.mass_per_area:
+        return float(body.mass[first, first]) / plate.mass_per_area
+    if plate.hydrostatic:
+        return float(body.stiffness[first] - body.bending_stiffness[first])
+    return plate.outline.area
+
+
+def _softest(found: ClassModes, plate: int) -> tuple[int, int, int]:
+    """The class of a plate's softest elastic dry mode, the place of the plate in it, and that of the mode."""
+    candidates = [
+        (float(body.bending_stiffness[body.dofs.index(FIRST_ELASTIC)]), number, place, body.dofs.index(FIRST_ELASTIC))
+        for number, one in enumerate(found.classes)
+        for place, body in enumerate(one.pencil.bodies)
+        if body.surface == body_name(plate + 1) and FIRST_ELASTIC in body.dofs
+    ]
+    return min(candidates)[1:]
+
+
+def _sought(model: ClassModel[R], one: SymmetryClass, place: int, tone: PlateTone, tolerance: float) -> PlateTone:
+    """The tone among more modes of its class."""
+    release = tone.pressure_release
+    area = model.tank.plan.area / 2.0 ** sum(own is not None for own in one.parity)
+    count = len(one.modes.eigenvalues)
+    if release is not None:
+        # Weyl's law for water; waves in stiff plates are fewer.
+        count = max(count, ceil(1.1 * area * water_wavenumber(model.tank, release) ** 2 / (4.0 * pi)) + 6)
+    while count <= _MOST_MODES:
+        modes = solve_modes(one.pencil, count, shapes=0, tolerance=1e-8)
+        guess = elastic_tone(modes, one.pencil.bodies, place, pressure_release=release)
+        if guess.certain:
+            return _resolved(model, one, place, tone, float(modes.eigenvalues[guess.index]), count, tolerance)
+        if len(modes.eigenvalues) < count:
+            break
+        count = ceil(1.6 * count)
+    reason = f"it lies above more than {_MOST_MODES} modes of its symmetry, or is spread over them"
+    return replace(tone, reason=reason if release is None else f"{reason}; see the pressure-release tone")
+
+
+def _resolved(
+    model: ClassModel[R],
+    one: SymmetryClass,
+    place: int,
+    tone: PlateTone,
+    eigenvalue: float,
+    count: int,
+    tolerance: float,
+) -> PlateTone:
+    """The tone near a λ, to the tolerance."""
+
+    def solve(resolution: R) -> _Found:
+        pencil, plates = model.problem(resolution, one.parity)
+        assert pencil is not None
+        modes: ModeSet = solve_modes(pencil, count, shapes=0, tolerance=max(1e-3 * tolerance, 1e-12))
+        found = elastic_tone(modes, pencil.bodies, place, pressure_release=tone.pressure_release)
+        again = replace(one, pencil=pencil, modes=modes)
+        errors = model.errors(resolution, again, plates, [modes.completed(found.index)])
+        return _Found(tone=found, eigenvalue=float(modes.eigenvalues[found.index]), errors=errors)
+
+    best = adaptive_solve(
+        model.start(tolerance, eigenvalue),
+        solve,
+        lambda found: ErrorEstimate(discretization=found.relative_error),
+        lambda resolution, found: model.refined(resolution, found.errors, tolerance),
+        tolerance,
+        rounds=_ROUNDS,
+    ).solution
+    return replace(tone, tone=best.tone, eigenvalue=best.eigenvalue, relative_error=best.relative_error)
+
+
+def _released_tone(
+    model: ClassModel[R], parity: ClassParity, plate: int, tolerance: float, eigenvalue: float
+) -> tuple[float, float]:
+    """λ of the tone with ψ = 0 on the water, and the relative error of its frequency."""
+    aim = min(max(tolerance, _RELEASED_FINEST), _RELEASED_COARSEST)
+    start = model.start(aim, eigenvalue, released=True)
+    values = []
+    for more in range(3):
+        # The last one has a degree more, so that the error by the degree is seen too.
+        resolution = replace(start, layers=start.layers + more, degree=start.degree + int(more == 2))
+        pencil = model.released(resolution, parity)
+        modes = solve_modes(pencil, min(_FEW, pencil.size), shapes=0, tolerance=1e-9)
+        place = next(at for at, body in enumerate(pencil.bodies) if body.surface == body_name(plate + 1))
+        found = elastic_tone(modes, pencil.bodies, place)
+        values.append(float(modes.eigenvalues[found.index]))
+    first, limit = (
+        thinner - (thicker - thinner) * _RATIO / (1.0 - _RATIO) for thicker, thinner in itertools.pairwise(values)
+    )
+    return limit, _SAFETY * 0.5 * abs(first / limit - 1.0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import platform
 from collections.abc import Callable, Iterable, Sequence
 from datetime import date
@@ -129,6 +130,9 @@ def machine_list(benchmark: Benchmark) -> str:
         f"{processor()}, {cores()} cores, of which one is used at a time; {platform.system()}",
         f"{date.today().isoformat()}, {benchmark.repeats} rounds that count; Python {platform.python_version()}",
     ]
+    load = os.getloadavg()[0]
+    if load > 1.5 * cores():
+        lines.append(f"other work kept the machine busy: a load of {load:.0f} at the end")
     for code, versions in benchmark.versions.items():
         lines.append(f"{NAMES[code]}: " + ", ".join(f"{name} {version}" for name, version in versions.items()))
     lines += [f"{NAMES[code]}: **not measured**: {reason}" for code, reason in benchmark.not_measured.items()]

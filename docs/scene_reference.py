@@ -17,16 +17,18 @@ from pydantic.fields import FieldInfo
 
 from hydroelastic.scenes.models.bodies import LARGEST, SMALLEST
 from hydroelastic.scenes.models.level_tank import LevelTankScene
+from hydroelastic.scenes.models.round_tank import RoundTankScene
 from hydroelastic.scenes.models.values import OR_SWEEP, Sweep
 from hydroelastic.scenes.read import SCENE_MODELS
 
 FOLDER = Path(__file__).parent / "reference"
-PAGES = {**SCENE_MODELS, "level_tank": LevelTankScene}
+PAGES = {**SCENE_MODELS, "level_tank": LevelTankScene, "round_tank": RoundTankScene}
 """The model of each page; a tank in three dimensions has the kind of one in two."""
 TITLES = {
     "tank": "Keys of a tank or of open water",
     "sea": "Keys of bodies in the sea",
     "level_tank": "Keys of a tank in three dimensions",
+    "round_tank": "Keys of a tank of revolution with floats or a shaped bed",
     "string": "Keys of a hanging string",
     "thread": "Keys of a flexible thread",
     "roll": "Keys of a ship on a swell",
@@ -35,13 +37,14 @@ GUIDES = {
     "tank": "scenes.md",
     "sea": "scenes.md",
     "level_tank": "scenes_three_dimensions.md",
+    "round_tank": "scenes_three_dimensions.md",
     "string": "scenes_strings_and_ships.md",
     "thread": "scenes_threads.md",
     "roll": "scenes_strings_and_ships.md",
 }
 UNITS = (
     *("m", "s", "kg", "N", "1/s", "m²", "rad", "rad/s", "rad/m", "1/rad", "degrees", "m/s", "m/s²", "kg/m³", "kg/m²"),
-    *("kg/m", "kg·m", "kg/(m·s)", "N·m", "N·m/rad", "N·m²", "N/m", "N·s/m²", "N/m²"),
+    *("kg/m", "kg·m", "kg·m²", "m²·s/rad", "kg/(m·s)", "N·m", "N·m/rad", "N·m²", "N/m", "N·s/m²", "N/m²"),
 )
 UNIT = re.compile(rf"(?:^|, )({'|'.join(map(re.escape, sorted(UNITS, key=len, reverse=True)))})(?=$|[;,])")
 SWEEP_TITLE = "Values as a table"

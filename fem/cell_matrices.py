@@ -4,7 +4,8 @@ On a straight cell all integrals are those of the reference cell, up to dim² nu
 
     A_e = Σ_ab G_ab R_ab,    G = |det J| J⁻¹J⁻ᵀ,    R_ab = ∫∂_aφ ∂_bφ over the reference cell
 
-On a curved one they are integrated by quadrature. No load acts on an unknown inside (i) of a cell: it follows from
+On a curved one, and in the geometries of `physics.geometry` with a weight w or a term m² ψq, they are integrated by
+quadrature. No load acts on an unknown inside (i) of a cell: it follows from
 those on the cell's boundary (o), which alone remain in the matrix (static condensation):
 
     ψ_i = E ψ_o,    E = −A_ii⁻¹A_io,    A = A_oo + A_oi E
@@ -19,8 +20,12 @@ import basix
 import basix.ufl
 import numpy as np
 
-from hydroelastic.fem.cells import CURVED_QUADRATURE, cell_jacobians, is_straight, owned_cells
+from hydroelastic.fem.cells import CURVED_QUADRATURE, cell_jacobians, cell_positions, is_straight, owned_cells
 from hydroelastic.fem.numbering import Numbering
+from hydroelastic.physics.geometry import PLANE, Geometry
+
+TRANSVERSE_QUADRATURE = 4
+"""The term m² ψq has two degrees more than ∇ψ·∇q, and 1/r is no polynomial; beside the axis ψq/r is one."""
 
 # Cells whose full matrices are held at once.
 _TOGETHER = 512
@@ -32,9 +37,11 @@ class CellMatrices:
 
     Attributes:
         numbering: of the unknowns, which says what is condensed.
+        geometry: what the plane of the mesh stands for.
     """
 
     numbering: Numbering
+    geometry: Geometry = PLANE
 
     @property
     def laplace(self) -> np.ndarray:
@@ -61,19 +68,27 @@ class CellMatrices:
         """All of the matrices, the unknowns before those inside."""
         mesh, element = self.numbering.space.mesh, self.numbering.space.element.basix_element
         order = tuple(map(int, (*self.numbering.outside, *self.numbering.inside)))
-        if is_straight(mesh):
+        straight, plane = is_straight(mesh), self.geometry.kind == "plane"
+        if straight and plane:
             reference = _reference_laplace(element.cell_type, element.degree, order)
             jacobian = cell_jacobians(mesh, cells, np.zeros((1, mesh.topology.dim)))[:, 0]
             inverse = np.linalg.inv(jacobian)
             metric = np.abs(np.linalg.det(jacobian))[:, None, None] * (inverse @ inverse.transpose(0, 2, 1))
             full = metric.reshape(len(cells), -1) @ reference
             return full.reshape(len(cells), len(order), len(order))
-        slopes, weights = _slopes(element.cell_type, element.degree, order, CURVED_QUADRATURE)
-        jacobians = cell_jacobians(mesh, cells, _points(element.cell_type, element.degree, CURVED_QUADRATURE)[0])
-        roots = np.sqrt(weights * np.abs(np.linalg.det(jacobians)))
+        more = (0 if straight else CURVED_QUADRATURE) + (0 if plane else TRANSVERSE_QUADRATURE)
+        slopes, weights = _slopes(element.cell_type, element.degree, order, more)
+        points = _points(element.cell_type, element.degree, more)[0]
+        jacobians = cell_jacobians(mesh, cells, points)
+        measures = weights * np.abs(np.linalg.det(jacobians))
+        factors = np.ones(1) if plane else self.geometry.weight(cell_positions(mesh, cells, points)[..., 0])
+        roots = np.sqrt(measures * factors)
         scaled = np.linalg.inv(jacobians).transpose(0, 1, 3, 2) * roots[..., None, None]
         gradients = (scaled @ slopes).reshape(len(cells), -1, len(order))
         product: np.ndarray = gradients.transpose(0, 2, 1) @ gradients
+        if self.geometry.transverse:
+            basis = element.tabulate(0, points)[0, :, order, 0].T
+            product += basis.T @ ((measures * self.geometry.transverse / factors)[..., None] * basis)
         return product
 
 

@@ -2,6 +2,7 @@
 
     ∫∇ψ·∇q = ∫ζ q        walls are natural boundaries
 
+in a section, and in the half-plane of a solid of revolution or an extruded section the form of `physics.geometry`.
 Each layer of liquid has its own ψ: on the interface of two layers their meshes touch, and share no node. A layer on
 whose boundary ψ = 0 nowhere fixes ψ up to a constant and keeps its volume. One unknown of it is then set to zero, which
 is exact for loads of zero total flux; loads and solutions are projected so that the solution operator
@@ -23,12 +24,13 @@ from mpi4py import MPI
 from petsc4py import PETSc
 
 from hydroelastic.fem.cell_matrices import CellMatrices
-from hydroelastic.fem.cells import owned_cells
+from hydroelastic.fem.cells import cell_corners, owned_cells
 from hydroelastic.fem.direct import direct_solver
 from hydroelastic.fem.liquid_operator import first_dof
 from hydroelastic.fem.numbering import Numbering, numbered
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.meshes.geometry import LIQUID
+from hydroelastic.physics.geometry import PLANE, Geometry
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,6 +66,7 @@ class LiquidSpace:
         continuous_pressure: the liquids, where the pressure ρψ is continuous across their interface, as it is at
             infinite frequency. ψ then stands for it, and there is one layer of unit density for all that takes ψ; in it
             A = ∫(1/ρ)∇ψ·∇q.
+        geometry: what the plane of the mesh stands for.
     """
 
     tank: TankMesh
@@ -74,6 +77,7 @@ class LiquidSpace:
     layers: tuple[Layer, ...]
     layer_of: np.ndarray
     continuous_pressure: tuple[Layer, ...] = ()
+    geometry: Geometry = PLANE
 
     @property
     def size(self) -> int:
@@ -100,7 +104,14 @@ class LiquidSpace:
         return self.surface_dofs(self.zero_potential) if self.zero_potential else np.empty(0, dtype=np.int32)
 
     def energy_densities(self) -> np.ndarray:
-        """Kinetic energy over ½ω²|∇ψ|² in each owned cell: ρ, or 1/ρ where ψ stands for the pressure."""
+        """Kinetic energy over ½ω²|∇ψ|² in each owned cell: `cell_densities` times the weight of the geometry at the
+        cell's middle."""
+        middles = cell_corners(self.tank.mesh, owned_cells(self.tank.mesh))[..., 0].mean(axis=1)
+        densities: np.ndarray = self.cell_densities() * self.geometry.weight(middles)
+        return densities
+
+    def cell_densities(self) -> np.ndarray:
+        """ρ in each owned cell, or 1/ρ where ψ stands for the pressure."""
         densities = np.full(len(owned_cells(self.tank.mesh)), self.layers[0].density)
         for layer in self.continuous_pressure or self.layers[1:]:
             cells = self.tank.cells(layer.name)
@@ -136,6 +147,7 @@ def liquid_space(
     *,
     continuous_pressure: bool = False,
     condensed: bool = False,
+    geometry: Geometry = PLANE,
 ) -> LiquidSpace:
     """Space of ψ of the given degree; its degree does not depend on the mesh's (collective).
 
@@ -146,6 +158,7 @@ def liquid_space(
         layers: the liquids, from the bottom up.
         continuous_pressure: whether the pressure is continuous across their interface; the mesh is then not cut there.
         condensed: whether unknowns inside of cells are condensed, where loads act on surfaces alone.
+        geometry: what the plane of the mesh stands for.
     """
     space = fem.functionspace(tank.mesh, _lagrange(tank.mesh.topology.cell_name(), degree))
     index_map = space.dofmap.index_map
@@ -155,12 +168,13 @@ def liquid_space(
     return LiquidSpace(
         tank=tank,
         space=space,
-        cells=CellMatrices(numbering=numbered(space, condensed=condensed)),
+        cells=CellMatrices(numbering=numbered(space, condensed=condensed), geometry=geometry),
         degree=degree,
         zero_potential=zero_potential,
         layers=ONE_LIQUID if continuous_pressure else layers,
         layer_of=layer_of,
         continuous_pressure=layers if continuous_pressure else (),
+        geometry=geometry,
     )
 
 
@@ -172,6 +186,9 @@ def _lagrange(cell_name: str, degree: int) -> basix.ufl._ElementBase:
 def closed_layers(liquid: LiquidSpace) -> tuple[int, ...]:
     """The layers on whose boundary ψ = 0 nowhere, so that ∫ζ = 0 over their surfaces (collective)."""
     layers = range(len(liquid.layers))
+    if liquid.geometry.transverse:
+        # A constant across the section is none along it.
+        return ()
     if not liquid.zero_potential:
         return tuple(layers)
     layers_of_zeros = liquid.owned_layer_of[liquid.zero_dofs()]

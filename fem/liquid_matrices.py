@@ -47,7 +47,7 @@ def laplace_matrix(liquid: LiquidSpace) -> PETSc.Mat:
     """Assemble A = ∫∇ψ·∇q, or ∫(1/ρ)∇ψ·∇q of a continuous pressure, every unknown included (collective)."""
     cells, numbering = liquid.cells.laplace, liquid.numbering
     if liquid.continuous_pressure:
-        cells = cells * liquid.energy_densities()[:, None, None]
+        cells = cells * liquid.cell_densities()[:, None, None]
     dofs = liquid.space.dofmap.list[: len(owned_cells(liquid.tank.mesh)), numbering.outside]
     return numbering.assembled([(dofs, cells)])
 
@@ -62,6 +62,7 @@ def surface_mass_matrix(liquid: LiquidSpace, names: tuple[str, ...]) -> PETSc.Ma
         _, measures = group.normals(reference)
         places = liquid.facet_dofs(group.place)
         basis = liquid.space.element.basix_element.tabulate(0, reference)[0][:, places, 0]
+        weights = weights * liquid.geometry.weight(group.physical_points(reference)[..., 0])
         weighed = (measures * weights)[:, :, None] * basis
         blocks.append((liquid.space.dofmap.list[group.cells][:, places], basis.T @ weighed))
     return liquid.numbering.assembled(blocks)

@@ -54,6 +54,7 @@ def surface_load(liquid: LiquidSpace, names: tuple[str, ...]) -> np.ndarray:
             reference = group.reference_points(local)
             _, measures = group.normals(reference)
             dofs = liquid.space.dofmap.list[group.cells]
+            weights = weights * liquid.geometry.weight(group.physical_points(reference)[..., 0])
             np.add.at(load[0], dofs, (measures * weights) @ potential_basis(liquid, reference))
     total: np.ndarray = liquid.numbering.summed(load)[0]
     return total
@@ -92,7 +93,8 @@ class FacetQuadrature:
         reference: points on the reference cell, shape (points, dim).
         points: the same on each facet, in the unit of the mesh, shape (gdim, facets × points).
         normals: outward unit normals of the liquid there, of the same shape.
-        weights: quadrature weights times the measure of the facets, in the unit of the mesh, shape (facets, points).
+        weights: quadrature weights times the measure of the facets, in the unit of the mesh, and the weight of the
+            geometry, shape (facets, points).
     """
 
     reference: np.ndarray
@@ -131,7 +133,7 @@ def facet_quadrature(
         reference=reference,
         points=points.reshape(-1, points.shape[-1]).T,
         normals=normals.reshape(-1, points.shape[-1]).T,
-        weights=np.broadcast_to(measures * weights, points.shape[:2]),
+        weights=measures * weights * liquid.geometry.weight(points[..., 0]),
     )
 
 

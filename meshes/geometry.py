@@ -14,6 +14,7 @@ BOTTOM = "bottom"
 LEFT_WALL = "left_wall"
 RIGHT_WALL = "right_wall"
 SYMMETRY_PLANE = "symmetry_plane"
+AXIS = "axis"
 FAR_END = "far_end"
 
 

@@ -44,6 +44,8 @@ def columns_of(
 ) -> Iterator[Column]:
     """Yield the columns of a record: of all arrays along the rows, and of single values that have a column declared.
 
+    What the record does not have has none.
+
     Columns of successive quantities with the same one further dimension alternate.
 
     Args:

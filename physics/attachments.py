@@ -7,7 +7,7 @@ the same loss of energy or the least mean square difference, so that b follows f
     b = 8/(3π) β |u̇|          in a regular wave, u̇ of amplitude |u̇|
     b = √(8/π) β σ            in irregular waves, u̇ normally distributed with standard deviation σ
 
-Source: O. M. Faltinsen, Sea Loads on Ships and Offshore Structures (1990), § 5; N. M. Newman (1977), § 6.
+Source: O. M. Faltinsen, Sea Loads on Ships and Offshore Structures, 1990.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ _MOST_STEPS = 200
 
 @dataclass(frozen=True, kw_only=True)
 class Attachment:
-    """A spring and damper at a point, in SI units per metre of width or in those of a scaled problem.
+    """A spring and damper at a point, in SI units per metre of width, of whole solids with one metre more.
 
     Attributes:
         body: index of the body.
@@ -60,7 +60,7 @@ class Attachment:
         """Return its matrices in units in which ρ = g = L = 1; roll stays in rad."""
         length = units.length
         arms = np.array([length, length, 1.0])
-        force = units.density * units.gravity * length**3
+        force = units.density * units.gravity * units.volume * length
         return ScaledAttachment(
             stiffness=np.array(self.stiffness) * np.outer(arms, arms) / force,
             damping=np.array(self.damping) * np.outer(arms, arms) * (units.frequency / force),

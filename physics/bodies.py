@@ -55,6 +55,15 @@ class Body(ABC):
     def scaled(self, units: Scales, start: float, end: float) -> Self:
         """Return the body in other units, between given ends of its waterplane in these units."""
 
+    @property
+    def orders(self) -> tuple[int, ...]:
+        """Azimuthal orders of the motions of a solid of revolution."""
+        return (0,)
+
+    def of_order(self, order: int) -> Self:
+        """Return the same body with the motions of one azimuthal order alone."""
+        return self
+
     @abstractmethod
     def is_mirror_image_of(self, other: object) -> bool:
         """Whether it is the mirror image of another body up to rounding, wherever both float."""

@@ -252,10 +252,16 @@ class Contour:
             level: ordinate of the level; None takes the whole section.
             side: which part is meant.
         """
-        if level is None:
-            return _moments(self.arcs, 0.0)
+        return _moments(self.arcs, 0.0) if level is None else _moments(self.part_of(level, side), level)
+
+    def part_of(self, level: float, side: Literal["below", "above"]) -> Iterator[Arc]:
+        """The pieces of the contour on one side of a level, which may cut it in any number of points."""
         wanted = -1 if side == "below" else 1
-        return _moments((arc for sign, arc in self._pieces(level) if sign == wanted), level)
+        return (arc for sign, arc in self._pieces(level) if sign == wanted)
+
+    def waterplane(self, left: float, right: float) -> tuple[float, float]:
+        """Width of the waterplane between two contact points, and its second moment about its middle."""
+        return right - left, (right - left) ** 3 / 12.0
 
 
 _Stop: TypeAlias = tuple[float, Point]
@@ -289,14 +295,20 @@ def _by_side(arc: Arc, stops: list[_Stop], level: float) -> Iterator[tuple[int, 
         yield sign, arc.part(first, last, start=start, end=stop)
 
 
+def arc_quadrature(arc: Arc) -> tuple[Array, Array, Array, Array]:
+    """Gauss points x and y of an arc, and dx and dy with the weights, each of shape (points,)."""
+    edges = np.array([0.0, *arc.knots, 1.0])
+    half = 0.5 * np.diff(edges)[:, None]
+    t = (edges[:-1, None] + half * (1.0 + _GAUSS_POINTS)).ravel()
+    x, y = arc.curve(t).T
+    dx, dy = (half * _GAUSS_WEIGHTS).ravel() * arc.velocity(t).T
+    return x, y, dx, dy
+
+
 def _moments(arcs: Iterable[Arc], level: float) -> AreaMoments:
     sums = np.zeros(5)
     for arc in arcs:
-        edges = np.array([0.0, *arc.knots, 1.0])
-        half = 0.5 * np.diff(edges)[:, None]
-        t = (edges[:-1, None] + half * (1.0 + _GAUSS_POINTS)).ravel()
-        x, y = arc.curve(t).T
-        dx, dy = (half * _GAUSS_WEIGHTS).ravel() * arc.velocity(t).T
+        x, y, dx, dy = arc_quadrature(arc)
         y = y - level
         sums += -(y @ dx), 0.5 * (x * x) @ dy, -0.5 * (y * y) @ dx, (x**3) @ dy / 3.0, -(y**3) @ dx / 3.0
     area, x1, y1, x2, y2 = map(float, sums)

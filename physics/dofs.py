@@ -28,7 +28,7 @@ class Dof(str):
 
     def of_body(self, number: int) -> Dof:
         """The same degree of freedom of one of several bodies, counted from 1."""
-        return Dof(f"{body_name(number)}{_JOINT}{self}")
+        return type(self)(f"{body_name(number)}{_JOINT}{self}")
 
     @property
     def body(self) -> int | None:
@@ -38,7 +38,7 @@ class Dof(str):
     @property
     def motion(self) -> Dof:
         """The name without the body."""
-        return Dof(self.rpartition(_JOINT)[2])
+        return type(self)(self.rpartition(_JOINT)[2])
 
     @property
     def kind(self) -> str:
@@ -67,6 +67,17 @@ class Dof(str):
         return self.replace(_JOINT, " ").replace("_", " ")
 
 
+class Turn(Dof):
+    """The pitch of a solid, which is an angle."""
+
+    __slots__ = ()
+
+    @property
+    def is_rotation(self) -> bool:
+        """See `Dof.is_rotation`."""
+        return True
+
+
 FIRST_ELASTIC = Dof.elastic(1)
 """The lowest elastic dry mode."""
 
@@ -77,7 +88,7 @@ def dof_names(motions: Iterable[Iterable[str]]) -> tuple[Dof, ...]:
     Args:
         motions: those of each body, in the scene's order; empty for a body that does not move.
     """
-    bodies = [tuple(map(Dof, own)) for own in motions]
+    bodies = [tuple(name if isinstance(name, Dof) else Dof(name) for name in own) for own in motions]
     return tuple(dof.of_body(number) if len(bodies) > 1 else dof for number, own in enumerate(bodies, 1) for dof in own)
 
 

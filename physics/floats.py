@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.physics.bodies import Body
-from hydroelastic.physics.dofs import Dof
+from hydroelastic.physics.dofs import Dof, Turn
 from hydroelastic.physics.hulls import Hull
 from hydroelastic.physics.hydrostatics import Hydrostatics
-from hydroelastic.physics.motions import Level, Motion
+from hydroelastic.physics.motions import PLACES, Level, Motion
 from hydroelastic.physics.scales import Scales
 
 
@@ -24,7 +24,7 @@ class RigidFloat(Body):
         hull: its contour in the liquids.
         hydrostatics: where it floats, its inertia and stiffness.
         level: at which it floats.
-        motions: its free motions, in the order of `MOTIONS`.
+        motions: its free motions, in the order of `PLACES`.
     """
 
     hull: Hull = field()
@@ -40,17 +40,32 @@ class RigidFloat(Body):
     @property
     def rigid_motions(self) -> tuple[Dof, ...]:
         """Its free motions."""
-        return tuple(map(Dof, self.motions))
+        return tuple(map(dof_of_motion, self.motions))
+
+    @property
+    def _by_place(self) -> dict[int, Dof]:
+        """Its motions by their index in stiffness and inertia."""
+        return {PLACES[motion]: dof for motion, dof in zip(self.motions, self.rigid_motions, strict=True)}
+
+    @property
+    def orders(self) -> tuple[int, ...]:
+        """See `Body.orders`: heave does not depend on the azimuth, surge and pitch are of order 1."""
+        return tuple(dict.fromkeys(map(azimuthal_order, self.motions)))
+
+    def of_order(self, order: int) -> RigidFloat:
+        """See `Body.of_order`."""
+        return replace(self, motions=tuple(motion for motion in self.motions if azimuthal_order(motion) == order))
 
     def zero_stiffness_motions(self) -> Iterator[tuple[Dof, bool]]:
         """A float sways without energy, and rolls without energy if its roll stiffness is zero.
 
         With free heave, the heave in this roll makes the heave force, and the displaced volume, zero.
         """
-        if "sway" in self.motions:
-            yield Dof("sway"), False
-        if "roll" in self.motions and self.roll_stiffness == 0.0:
-            yield Dof("roll"), "heave" not in self.motions and self.hydrostatics.coupling_stiffness != 0.0
+        motions = self._by_place
+        if 1 in motions:
+            yield motions[1], False
+        if 2 in motions and self.roll_stiffness == 0.0:
+            yield motions[2], 0 not in motions and self.hydrostatics.coupling_stiffness != 0.0
 
     @property
     def displaces_volume(self) -> bool:
@@ -63,7 +78,9 @@ class RigidFloat(Body):
 
     def scaled(self, units: Scales, start: float, end: float) -> RigidFloat:
         """Return the float in other units, between given contact points in these units."""
-        hull = self.hull.scaled(units.length, start, end)
+        # On the axis of a solid the contour goes on to its other half.
+        on_axis = start == 0.0 == self.hull.middle
+        hull = self.hull.scaled(units.length, -end if on_axis else start, end)
         return replace(self, hull=hull, hydrostatics=self.hydrostatics.scaled(units))
 
     def is_mirror_image_of(self, other: object) -> bool:
@@ -103,6 +120,8 @@ class RigidFloat(Body):
     def displacement(self, motion: Motion, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Displacement by a unit of a motion: upwards, to the right, anticlockwise about the centre of mass.
 
+        Of a solid these are the displacements in its plane θ = 0.
+
         Args:
             motion: which.
             points: shape (2, n).
@@ -111,9 +130,18 @@ class RigidFloat(Body):
             Shape (2, n).
         """
         zero, one = np.zeros(points.shape[1]), np.ones(points.shape[1])
-        if motion == "heave":
-            return np.array([zero, one])
-        if motion == "sway":
-            return np.array([one, zero])
+        place = PLACES[motion]
+        if place < 2:
+            return np.array([zero, one] if place == 0 else [one, zero])
         x, y = self.hydrostatics.centre_of_mass
         return np.array([y - points[1], points[0] - x])
+
+
+def dof_of_motion(motion: Motion) -> Dof:
+    """Return the degree of freedom of a motion."""
+    return Turn(motion) if motion == "pitch" else Dof(motion)
+
+
+def azimuthal_order(motion: Motion) -> int:
+    """Return n of the factor cos nθ of the normal displacement by a motion of a solid of revolution."""
+    return 0 if motion == "heave" else 1

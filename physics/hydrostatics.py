@@ -1,4 +1,4 @@
-"""A rigid section at rest at a still level: its equilibrium by Archimedes' law, and its hydrostatic stiffness."""
+"""A rigid section, or solid of revolution, at rest at a still level: equilibrium by Archimedes' law, and stiffness."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.physics.contours import Contour, Point, root
+from hydroelastic.physics.revolution import SolidOfRevolution
 from hydroelastic.physics.scales import Scales
 
 NEUTRAL = 1e-12
@@ -20,7 +21,7 @@ not exact."""
 
 @dataclass(frozen=True, kw_only=True)
 class Hydrostatics:
-    """A float at rest, per metre of width.
+    """A float at rest, per metre of width, or a whole solid of revolution: its units have one metre more.
 
     Points lie in the frame of the tank: x from the left wall, y from the still interface, or from the still surface
     of one liquid. Heave is counted upwards, roll anticlockwise about the centre of mass G.
@@ -29,12 +30,12 @@ class Hydrostatics:
         mass: m, kg/m.
         level: ordinate of the still level at which it floats, m.
         reference_level: ordinate of the shape's reference level, m.
-        areas: of the section below and above the level, m².
+        areas: of the section below and above the level, m²; volumes of a solid.
         centroids: of these parts, the centres of buoyancy, m.
         waterplane: x of the left and of the right contact point, m.
         centre_of_mass: G, m.
         radius_of_gyration: about G, m.
-        heave_stiffness: c33 = Δρ g B, N/m².
+        heave_stiffness: c33 = Δρ g B, N/m², with the width, or area, B of the waterplane.
         coupling_stiffness: c35 = c53 = Δρ g ∫(x − x_G) dx over the waterplane, N/m.
         roll_stiffness: c55 = Δρ g ∫(x − x_G)² dx + g Σ ρⱼ Aⱼ (y_Bⱼ − y_G), N.
         free_roll_stiffness: c55 − c35²/c33, the stiffness of roll with free heave, N.
@@ -68,22 +69,22 @@ class Hydrostatics:
 
     def scaled(self, units: Scales) -> Hydrostatics:
         """Return the same float in other units."""
-        length, pressure = units.length, units.density * units.gravity
+        length, volume, pressure = units.length, units.volume, units.density * units.gravity
         one, other = ((x / length, y / length) for x, y in self.centroids)
         x, y = self.centre_of_mass
         return Hydrostatics(
-            mass=self.mass / (units.density * length**2),
+            mass=self.mass / (units.density * volume),
             level=self.level / length,
             reference_level=self.reference_level / length,
-            areas=(self.areas[0] / length**2, self.areas[1] / length**2),
+            areas=(self.areas[0] / volume, self.areas[1] / volume),
             centroids=(one, other),
             waterplane=(self.waterplane[0] / length, self.waterplane[1] / length),
             centre_of_mass=(x / length, y / length),
             radius_of_gyration=self.radius_of_gyration / length,
-            heave_stiffness=self.heave_stiffness / (pressure * length),
-            coupling_stiffness=self.coupling_stiffness / (pressure * length**2),
-            roll_stiffness=self.roll_stiffness / (pressure * length**3),
-            free_roll_stiffness=self.free_roll_stiffness / (pressure * length**3),
+            heave_stiffness=self.heave_stiffness / (pressure * volume / length),
+            coupling_stiffness=self.coupling_stiffness / (pressure * volume),
+            roll_stiffness=self.roll_stiffness / (pressure * volume * length),
+            free_roll_stiffness=self.free_roll_stiffness / (pressure * volume * length),
         )
 
     @property
@@ -98,12 +99,12 @@ class Hydrostatics:
         return self.mass * np.array([1.0, 1.0, self.radius_of_gyration**2])
 
 
-def still_level(contour: Contour, mass: float | None, densities: tuple[float, float]) -> float:
+def still_level(contour: Contour | SolidOfRevolution, mass: float | None, densities: tuple[float, float]) -> float:
     """Return the ordinate of the still level in a float's frame, by Archimedes: ρ₂ A₂ + ρ₁ A₁ = m.
 
     Args:
         contour: in the float's frame, m.
-        mass: m, kg/m; None floats with the reference level y = 0 at the still level.
+        mass: m, kg/m, or kg of a solid; None floats with the reference level y = 0 at the still level.
         densities: ρ₂ below and ρ₁ above the level, kg/m³.
 
     Raises:
@@ -114,7 +115,8 @@ def still_level(contour: Contour, mass: float | None, densities: tuple[float, fl
     below, above = densities
     area = contour.moments().area
     if not above * area < mass < below * area:
-        raise ValueError(f"a mass between {above * area:g} and {below * area:g} kg/m floats at this level")
+        unit = "kg" if isinstance(contour, SolidOfRevolution) else "kg/m"
+        raise ValueError(f"a mass between {above * area:g} and {below * area:g} {unit} floats at this level")
     _, _, low, high = contour.bounds
     immersed = (mass - above * area) / (below - above)
     level = root(lambda y: contour.moments(y).area - immersed, low, high)
@@ -123,7 +125,7 @@ def still_level(contour: Contour, mass: float | None, densities: tuple[float, fl
 
 
 def hydrostatics(
-    contour: Contour,
+    contour: Contour | SolidOfRevolution,
     *,
     immersion: float,
     densities: tuple[float, float],
@@ -151,8 +153,10 @@ def hydrostatics(
     x_mass = sum(density * part.first[0] for density, part in zip(densities, parts, strict=True)) / mass
     y_mass = whole.centroid[1] if centre_of_mass is None else centre_of_mass - immersion
     restoring = gravity * (densities[0] - densities[1])
-    width, middle = right - left, _sum_or_zero(0.5 * left, 0.5 * right, -x_mass)
-    about_middle = restoring * width**3 / 12.0
+    width, second = contour.waterplane(left, right)
+    is_solid = isinstance(contour, SolidOfRevolution)
+    middle = 0.0 if is_solid else _sum_or_zero(0.5 * left, 0.5 * right, -x_mass)
+    about_middle = restoring * second
     lever = [gravity * density * part.first[1] for density, part in zip(densities, parts, strict=True)]
     lever.append(-gravity * mass * y_mass)
     about_mass = about_middle + restoring * width * middle**2

@@ -8,17 +8,24 @@ from math import pi, sqrt
 
 @dataclass(frozen=True, kw_only=True)
 class Scales:
-    """Units of the dimensionless tank; everything is per metre of width.
+    """Units of the dimensionless tank; everything is per metre of width, or whole.
 
     Attributes:
         length: L, m.
         density: ρ, kg/m³.
         gravity: g, m/s².
+        dimensions: 2 where masses and forces are those of a metre of width, 3 where they are whole.
     """
 
     length: float
     density: float
     gravity: float
+    dimensions: int = 2
+
+    @property
+    def volume(self) -> float:
+        """Unit of displaced volume, m³, or m² per metre of width."""
+        return self.length**self.dimensions
 
     @property
     def frequency(self) -> float:

@@ -17,13 +17,17 @@ PARITIES: tuple[Parity, Parity] = ("symmetric", "antisymmetric")
 
 
 def is_mirror_image(tank: Tank) -> bool:
-    """Whether a tank of unit length is its own mirror image."""
-    return all(
-        abs(piece.start - (1.0 - image.end)) <= ROUNDING
-        and abs(piece.end - (1.0 - image.start)) <= ROUNDING
-        and (piece.body is image.body is None or _mirrored(tank, piece, image))
-        for level in tank.levels
-        for piece, image in zip(level.pieces, reversed(level.pieces), strict=True)
+    """Whether a tank of unit length is its own mirror image; a half-plane of revolution is not."""
+    return (
+        not tank.geometry.is_revolved
+        and tank.bed is None
+        and all(
+            abs(piece.start - (1.0 - image.end)) <= ROUNDING
+            and abs(piece.end - (1.0 - image.start)) <= ROUNDING
+            and (piece.body is image.body is None or _mirrored(tank, piece, image))
+            for level in tank.levels
+            for piece, image in zip(level.pieces, reversed(level.pieces), strict=True)
+        )
     )
 
 

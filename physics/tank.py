@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 from hydroelastic.physics.attachments import Attachment
 from hydroelastic.physics.beams import Beam
 from hydroelastic.physics.bodies import Body
+from hydroelastic.physics.geometry import PLANE, Geometry
 from hydroelastic.physics.motions import Level
 from hydroelastic.physics.scales import Scales
 
@@ -26,6 +27,9 @@ ROUND_OFF = 1e-9
 
 MIDDLE = 0.5
 """Abscissa of the mirror plane of a symmetric tank, in tank lengths."""
+
+# An order in which no rigid body moves.
+_NO_MOTION = 2
 
 ROUNDING = 1e-14
 """Lengths that decimal input means to be equal differ by a few units of the last place."""
@@ -123,10 +127,10 @@ class StillLevel:
 
 @dataclass(frozen=True, kw_only=True)
 class Tank:
-    """Liquids at rest with floating bodies, per metre of width; in SI units, or in those of `scaled`.
+    """Liquids at rest with floating bodies, per metre of width or of revolution; in SI units, or in those of `scaled`.
 
     Attributes:
-        length: between the walls, or of the stretch of open water that is of interest, m.
+        length: between the walls, or of the stretch of open water that is of interest, m; of revolution the radius.
         gravity: g, m/s².
         is_open: whether waves leave to both sides, instead of being reflected by walls.
         layers: from the bottom up.
@@ -135,6 +139,8 @@ class Tank:
         start: abscissa of the left wall, or of the left end of that stretch, m.
         phase_at: abscissa at which the crest of an incident wave is at t = 0, m.
         attachments: springs and dampers that hold the bodies, in SI units.
+        geometry: what the section stands for; of revolution, x is the distance from the axis.
+        bed: corners (x, y) of the bed from the left to the right wall, m; ``None`` where it is level.
     """
 
     length: float
@@ -146,11 +152,35 @@ class Tank:
     start: float = 0.0
     phase_at: float = 0.0
     attachments: tuple[Attachment, ...] = ()
+    geometry: Geometry = PLANE
+    bed: tuple[tuple[float, float], ...] | None = None
 
     @property
     def units(self) -> Scales:
         """The units in which length, gravity and the density of the lowest layer are 1."""
-        return Scales(length=self.length, density=self.layers[0].density, gravity=self.gravity)
+        dimensions = 3 if self.geometry.is_whole else 2
+        return Scales(length=self.length, density=self.layers[0].density, gravity=self.gravity, dimensions=dimensions)
+
+    @property
+    def orders(self) -> tuple[int, ...]:
+        """Azimuthal orders of the bodies' motions, ascending; a section has one, 0."""
+        if not self.geometry.is_revolved:
+            return (0,)
+        return tuple(sorted({order for body in self.bodies for order in body.orders}))
+
+    def of_order(self, order: int) -> Tank:
+        """Return the problem of one azimuthal order, or of one number of half waves across an extruded section.
+
+        Rigid bodies have the motions of that order alone; across the whole width they move in order 0 only.
+        """
+        if self.geometry.kind == "plane":
+            return self
+        is_fixed = order > 0 and not self.geometry.is_revolved
+        bodies = tuple(
+            body.of_order(_NO_MOTION if is_fixed else order) if self.geometry.is_revolved or is_fixed else body
+            for body in self.bodies
+        )
+        return replace(self, bodies=bodies, geometry=replace(self.geometry, order=order))
 
     def scaled(self) -> Tank:
         """Return the tank in these units."""
@@ -171,6 +201,8 @@ class Tank:
             gravity=1.0,
             layers=layers,
             levels=levels,
+            geometry=replace(self.geometry, width=self.geometry.width / units.length),
+            bed=None if self.bed is None else tuple((x / units.length, y / units.length) for x, y in self.bed),
             bodies=tuple(
                 body.scaled(units, places[index].start, places[index].end) for index, body in enumerate(self.bodies)
             ),
@@ -279,6 +311,7 @@ def tank(
     liquids: tuple[tuple[float, float], ...],
     top: Top,
     bodies: tuple[Body, ...],
+    geometry: Geometry = PLANE,
 ) -> Tank:
     """Cut the still levels of a tank into pieces.
 
@@ -289,12 +322,16 @@ def tank(
         liquids: density, kg/m³, and depth, m, from the bottom up; the second lies on y = 0.
         top: boundary condition of the uppermost liquid beside the bodies.
         bodies: in any order, each at its level, without overlap.
+        geometry: what the section stands for.
     """
     floors = [-liquids[0][1], 0.0]
     layers = tuple(
         Layer(density=density, floor=floor, depth=depth)
         for (density, depth), floor in zip(liquids, floors, strict=False)
     )
+    ends = (-inf, inf) if is_open else (0.0, length)
+    if geometry.is_revolved:
+        ends = (0.0, ends[1])
     names: tuple[Level, ...] = ("surface",) if len(layers) == 1 else ("interface", "surface")
     levels = []
     for number, name in enumerate(names):
@@ -306,26 +343,33 @@ def tank(
                 above=above,
                 kind=top if above is None else "interface",
                 jump=density_jump(layers, number),
-                pieces=tuple(_pieces(bodies, name, length, is_open=is_open)),
+                pieces=tuple(_pieces(bodies, name, ends, 0.0 if is_open else ROUND_OFF * length)),
             )
         )
-    return Tank(length=length, gravity=gravity, is_open=is_open, layers=layers, levels=tuple(levels), bodies=bodies)
+    return Tank(
+        length=length,
+        gravity=gravity,
+        is_open=is_open,
+        layers=layers,
+        levels=tuple(levels),
+        bodies=bodies,
+        geometry=geometry,
+    )
 
 
-def _pieces(bodies: tuple[Body, ...], name: Level, length: float, *, is_open: bool) -> Iterator[Piece]:
-    """A still level from wall to wall, or from −∞ to ∞ in open water, without gaps.
+def _pieces(bodies: tuple[Body, ...], name: Level, ends: tuple[float, float], negligible: float) -> Iterator[Piece]:
+    """A still level from end to end, which are infinite in open water, without gaps.
 
-    A body takes up its waterplane. One whose end is within `ROUND_OFF` of a wall ends exactly there.
+    A body takes up its waterplane. One whose end is within a negligible distance of an end ends exactly there, and one
+    on the axis of revolution begins there.
     """
-    left, right = (-inf, inf) if is_open else (0.0, length)
-    negligible = 0.0 if is_open else ROUND_OFF * length
+    left, right = ends
     places = []
     for index, body in enumerate(bodies):
         if body.level != name:
             continue
         start, end = body.waterplane
-        start = start if is_open or start > negligible else 0.0
-        places.append((start, end if is_open or end < length - negligible else length, index))
+        places.append((start if start > left + negligible else left, end if end < right - negligible else right, index))
     reached = left
     for start, end, index in sorted(places):
         if start > reached:

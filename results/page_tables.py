@@ -2,7 +2,8 @@
 
     ./hydro python results/page_tables.py
 
-Run it after `./hydro bench`, for docs/speed_against_error.md, and after results/start_up.py, for docs/performance.md.
+Run it after `./hydro bench`, for docs/speed_against_error.md, and after results/start_up.py and
+results/start_up_shares.py, for docs/performance.md.
 It replaces what stands between the marks of each table on a page, and nothing else.
 """
 
@@ -19,6 +20,7 @@ from hydroelastic.benchmarks.page import milliseconds, table
 ROOT = Path(__file__).parent.parent
 BENCHMARKS = ROOT / "results" / "benchmarks"
 START_UP = ROOT / "results" / "start_up" / "start_up.csv"
+SHARES = START_UP.with_name("shares.csv")
 
 # MoorPy's last digits are exact; logarithms are taken.
 _LEAST_ERROR = 1e-16
@@ -154,6 +156,13 @@ def start_up_text() -> str:
     return table(["stage", "cold", "warm"], [[row["stage"], *both] for row, both in zip(rows, seconds, strict=True)])
 
 
+def shares_text() -> str:
+    """The Markdown of processor times beside that of the import of libraries."""
+    with SHARES.open(encoding="utf-8", newline="") as file:
+        rows = [tuple(row.values()) for row in csv.DictReader(file)]
+    return table(["process", "processor time, s", "over that of the import"], rows)
+
+
 def pages() -> dict[Path, str]:
     """Each page with its tables as the measurements have them now.
 
@@ -163,7 +172,10 @@ def pages() -> dict[Path, str]:
     benchmarks = {f"results/benchmarks/{problem.file}.csv": table_text(problem) for problem in TABLES}
     tables = {
         "speed_against_error.md": {"the pages in results/benchmarks": machines_text(), **benchmarks},
-        "performance.md": {"results/start_up/start_up.csv": start_up_text()},
+        "performance.md": {
+            "results/start_up/start_up.csv": start_up_text(),
+            "results/start_up/shares.csv": shares_text(),
+        },
     }
     return {ROOT / "docs" / name: _with_tables(ROOT / "docs" / name, texts) for name, texts in tables.items()}
 

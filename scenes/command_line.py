@@ -318,11 +318,12 @@ def bench(
     repeats: int | None,
     no_install: bool,
 ) -> None:
-    """Measure error against seconds: tanks beside NGSolve, scikit-fem and a bare lower bound, a circle in open water
-    beside Capytaine, a hanging string by series and as a field, flexible threads beside MoorPy and MoorDyn.
+    """Measure error against seconds: tanks beside NGSolve, scikit-fem and a bare lower bound, sweeps beside a loop
+    over NGSolve, a circle in open water beside Capytaine, a hanging string by series and as a field, flexible threads
+    beside MoorPy and MoorDyn.
 
-    The others are installed into the cache if they are missing. Writes speed_against_error, open_circle,
-    hanging_string and threads, each as .csv, .md and .png.
+    The others are installed into the cache if they are missing. Writes speed_against_error, sweeps, open_circle,
+    hanging_string and threads, each as .csv and .md, all but sweeps as .png too.
 
     \b
     Example:

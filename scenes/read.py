@@ -17,6 +17,7 @@ from hydroelastic.scenes.errors import Problem, SceneError, scene_error, shown_v
 from hydroelastic.scenes.models.level_tank import LevelTankScene, is_level_tank
 from hydroelastic.scenes.models.plain import plain
 from hydroelastic.scenes.models.roll import RollScene
+from hydroelastic.scenes.models.round_tank import RoundTankScene, is_round_tank
 from hydroelastic.scenes.models.sea import SeaScene
 from hydroelastic.scenes.models.string import StringScene
 from hydroelastic.scenes.models.tank import TankScene
@@ -27,7 +28,7 @@ from hydroelastic.scenes.words import nearest, proposal
 
 Document: TypeAlias = dict[str, Any]
 
-Scene: TypeAlias = TankScene | SeaScene | LevelTankScene | StringScene | ThreadScene | RollScene
+Scene: TypeAlias = TankScene | SeaScene | LevelTankScene | RoundTankScene | StringScene | ThreadScene | RollScene
 
 SCENE_MODELS: dict[str, type[Scene]] = {
     "tank": TankScene,
@@ -186,7 +187,7 @@ def closed_tank(scene: Scene, because: str) -> TankScene:
     Raises:
         SceneError: if it is of another kind, or the ends of the tank are open.
     """
-    if isinstance(scene, LevelTankScene):
+    if isinstance(scene, LevelTankScene | RoundTankScene):
         remedy = "The command run takes three dimensions, with an error estimate at any accuracy.tolerance"
         raise SceneError(Problem(key="[tank]", wrong=f"{because} per metre of width", remedy=remedy))
     if not isinstance(scene, TankScene):
@@ -264,6 +265,8 @@ def _model_of(document: Document, label: str) -> type[Scene]:
             remedy=proposal(str(kind), SCENE_MODELS),
         )
         raise SceneError(problem, file=label)
+    if kind == "tank" and is_round_tank(document):
+        return RoundTankScene
     return LevelTankScene if kind == "tank" and is_level_tank(document) else SCENE_MODELS[kind]
 
 

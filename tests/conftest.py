@@ -11,7 +11,8 @@ import pytest
 
 RANKS = [int(os.environ.get(name, "1")) for name in ("OMPI_COMM_WORLD_SIZE", "PMI_SIZE")]
 ON_RANKS = max(RANKS) > 1
-SLOWEST = Path(__file__).parent / "slowest.csv"
+SLOWEST = Path(__file__).with_name("slowest.csv")
+FOLDER = str(Path(__file__).parent)
 
 
 @pytest.hookimpl(tryfirst=True)
@@ -50,9 +51,19 @@ def pytest_collection_finish() -> None:
     gc.freeze()
 
 
-@pytest.fixture(scope="session")
+@pytest.hookimpl(trylast=True)
+def pytest_runtest_teardown(item: pytest.Item, nextitem: pytest.Item | None) -> None:
+    """After the last test of a file forget what its functions keep: all solutions together take gigabytes."""
+    if nextitem is None or nextitem.path != item.path:
+        for value in vars(getattr(item, "module", None) or object).values():
+            code = getattr(getattr(value, "__wrapped__", None), "__code__", None)
+            if code is not None and code.co_filename.startswith(FOLDER) and hasattr(value, "cache_clear"):
+                value.cache_clear()
+
+
+@pytest.fixture(scope="module")
 def tanks() -> Any:
-    """The tanks of `tanks.py`, each solved once; imported here because most tests need no dolfinx."""
+    """The tanks of `tanks.py`, each solved once in a file; imported here because most tests need no dolfinx."""
     from tanks import Tanks
 
     return Tanks()

@@ -40,6 +40,7 @@ def amplitudes(table: SpectrumTable) -> dict[str, float]:
     return {one.quantity: one.significant_amplitude for one in table.responses}
 
 
+@pytest.mark.slow
 def test_a_narrow_resonance_is_not_missed() -> None:
     body = BARGE | {"motions": ["heave", "sway", "roll"]}
     asked = {"kind": "response", "omega": np.linspace(0.7, 1.0, 601).tolist()}

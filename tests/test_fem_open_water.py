@@ -13,11 +13,12 @@ from petsc4py import PETSc
 from hydroelastic.fem.open_water.complex_direct import ShiftedSolver
 from hydroelastic.fem.open_water.complex_scaling import ComplexMatrix, complex_product
 from hydroelastic.fem.open_water.field_model import Band, OpenModel, first_resolution, open_model
-from hydroelastic.fem.open_water.incident_waves import incidence, planes
+from hydroelastic.fem.open_water.incident_waves import incidence, incident_waves
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.reduced_pencil import ReducedPencil
 from hydroelastic.fem.open_water.solver import OpenSolver
 from hydroelastic.fem.stopwatch import Stopwatch
+from hydroelastic.physics.geometry import PLANE
 from hydroelastic.scenes.models.tank import TankScene
 
 SECTION_ROWS = stored("open_sections.json")["cases"]
@@ -134,7 +135,7 @@ def test_derivatives_by_the_angle(name: str, request: pytest.FixtureRequest) -> 
 def test_fluxes_of_waves_by_themselves(name: str, request: pytest.FixtureRequest) -> None:
     model = request.getfixturevalue(name)
     omega = (SECTION_ROWS[6] if name == "rectangle" else TWO_LIQUIDS[1])["omega"]
-    waves = planes(model.basin.waves(omega / model.basin.units.frequency))
+    waves = incident_waves(model.basin.waves(omega / model.basin.units.frequency), PLANE)
     met = incidence(model, waves)
     count = len(waves) // 2
     # A wave is no source within the bodies: ∫ρ(φ∂φ'/∂n − φ'∂φ/∂n) vanishes around each.

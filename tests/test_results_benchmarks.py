@@ -12,6 +12,8 @@ from hydroelastic.benchmarks.circle.report import CIRCLE_COLUMNS
 from hydroelastic.benchmarks.measure import cases_of
 from hydroelastic.benchmarks.string.cases import MOTIONS, string_cases
 from hydroelastic.benchmarks.string.report import STRING_COLUMNS
+from hydroelastic.benchmarks.sweep.cases import SWEEPS, sweep_cases
+from hydroelastic.benchmarks.sweep.report import SWEEP_COLUMNS
 from hydroelastic.benchmarks.tank.cases import TANKS
 from hydroelastic.benchmarks.tank.report import CSV_COLUMNS
 from hydroelastic.benchmarks.thread.cases import THREADS, thread_cases
@@ -47,6 +49,16 @@ def test_hydroelastic_kept_every_tolerance_asked(rows: list[dict[str, str]]) -> 
 def test_page_and_figure_are_there() -> None:
     assert "Milliseconds at equal error" in (FOLDER / f"{output.TANKS.name}.md").read_text(encoding="utf-8")
     assert (FOLDER / f"{output.TANKS.name}.png").stat().st_size > 10_000
+
+
+def test_every_case_of_sweeps_was_measured_and_kept_its_tolerance() -> None:
+    with (FOLDER / f"{output.SWEEPS.name}.csv").open(encoding="utf-8", newline="") as file:
+        found = list(csv.DictReader(file))
+    assert tuple(found[0]) == SWEEP_COLUMNS
+    assert [(row["code"], row["sweep"], row["variant"]) for row in found] == [
+        (case.code, case.tank, case.variant) for sweep in SWEEPS for case in sweep_cases(sweep, quick=False)
+    ]
+    assert all(float(row["error"]) <= float(row["tolerance"]) for row in found if row["code"] == "sweep")
 
 
 @pytest.fixture(scope="module")

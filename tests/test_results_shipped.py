@@ -18,11 +18,12 @@ from hydroelastic.scenes.run import run_scene
 SHIPPED = Path(__file__).parent.parent / "results" / "shipped"
 ALL_NAMES = [scene.name for scene in shipped_scenes()]
 OF_KIND = {
-    kind: [name for name in ALL_NAMES if read_scene(name).kind == kind] for kind in ("tank", "string", "thread", "roll")
+    kind: [name for name in ALL_NAMES if read_scene(name).kind == kind]
+    for kind in ("tank", "sea", "string", "thread", "roll")
 }
 LEVEL_NAMES = [name for name in OF_KIND["tank"] if isinstance(read_scene(name), LevelTankScene)]
 SECTIONS = [(name, scene) for name in OF_KIND["tank"] if isinstance(scene := read_scene(name), TankScene)]
-OPEN_NAMES = [name for name, scene in SECTIONS if scene.is_open]
+OPEN_NAMES = [*(name for name, scene in SECTIONS if scene.is_open), *OF_KIND["sea"]]
 NAMES = [name for name, scene in SECTIONS if not scene.is_open]
 
 

@@ -11,9 +11,9 @@ from scipy.linalg import eigh
 
 from hydroelastic.fem.bodies.model import FAR_ENOUGH, BodyModel
 from hydroelastic.fem.surfaces import Body
-from hydroelastic.physics.dofs import Dof, body_name
-from hydroelastic.physics.floats import RigidFloat
-from hydroelastic.physics.motions import MOTIONS, Motion
+from hydroelastic.physics.dofs import body_name
+from hydroelastic.physics.floats import RigidFloat, dof_of_motion
+from hydroelastic.physics.motions import PLACES, Motion
 from hydroelastic.physics.symmetry import Parity, motion_parity
 
 # Coupling and stiffness below this part of the largest are rounding.
@@ -34,8 +34,9 @@ class FloatModel(BodyModel):
         body, level = self.tank.floats[self.index], self.tank.level_of(self.index)
         width = body.stiffness[0, 0] / level.jump
         ends = []
-        for place, motion in enumerate(MOTIONS):
-            if motion in body.motions and body.stiffness[place, place] > 0.0:
+        for motion in body.motions:
+            place = PLACES[motion]
+            if body.stiffness[place, place] > 0.0:
                 added = _ADDED_IN_HEAVE * self.tank.density_at(level) * width**2 if motion == "heave" else 0.0
                 expected = float(body.stiffness[place, place] / (body.inertia[place] + added))
                 ends.append(FAR_ENOUGH * expected)
@@ -61,7 +62,7 @@ def in_principal_motions(body: RigidFloat, index: int, parity: Parity | None) ->
         surface=body_name(index + 1),
         shapes=partial(_thin_shape if body.hull.is_thin else _exact_shape, body, motions, turn),
         wavenumber=0.0,
-        dofs=tuple(map(Dof, motions)),
+        dofs=tuple(map(dof_of_motion, motions)),
         parities=tuple(map(motion_parity, motions)),
         motions=turn,
         stiffness=part * stiffness,
@@ -83,11 +84,11 @@ def principal_motions(
     Returns:
         Their parts in the given motions as columns, shape (n, n), their stiffness and their inertia, shape (n,).
     """
-    places = [MOTIONS.index(motion) for motion in motions]
+    places = [PLACES[motion] for motion in motions]
     stiffness, inertia = body.stiffness[np.ix_(places, places)], body.inertia[places]
     turn = np.eye(len(motions))
     # Roll is scaled by the displacement of the float's rim, to be comparable with heave.
-    units = np.array([1.0 / body.hull.smallest_extent if motion == "roll" else 1.0 for motion in motions])
+    units = np.array([1.0 / body.hull.smallest_extent if place == 2 else 1.0 for place in places])
     alike = np.abs(stiffness * units * units[:, None])
     if (alike - np.diag(np.diag(alike))).max(initial=0.0) > _NEGLIGIBLE * alike.max(initial=0.0):
         pair = [motions.index("heave"), motions.index("roll")]

@@ -7,13 +7,13 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from hydroelastic.fem.closed_solution import ClosedSolution
 from hydroelastic.fem.modes import Mode, ModeSet
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.fem.tank.elastic_tone import ElasticTone
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.level_tank import LevelTank
-from hydroelastic.physics.scales import Scales
 
 
 class PlanProblem(Protocol):
@@ -128,52 +128,27 @@ class PlateTone:
 
 
 @dataclass(frozen=True, kw_only=True)
-class LevelSolution:
-    """The dimensionless solution of an upright tank.
+class LevelSolution(ClosedSolution[LevelTank]):
+    """The solution of an upright tank; what it adds to those of all closed tanks.
 
     Attributes:
-        physical: the tank, in SI units.
-        tank: the same in its own units.
         model: how its plan was solved, in words.
-        tolerance: requested relative error of the frequencies.
-        count: number of requested modes.
         modes: the lowest modes, ascending; two of the same shape but for a turn about the axis are one with the
             multiplicity 2.
         tones: one for each elastic plate.
         zero_modes: motions without stiffness, which are not modes.
-        counted: whether an independent count confirms that no mode is missing.
         size: numbers of unknowns and the like, by name.
         solves: applications of the liquid operator.
-        attempts: number of resolutions that were solved.
-        reasons: why the solution does not keep the tolerance or is incomplete; empty if it does.
-        seconds: time by stage, s.
     """
 
-    physical: LevelTank
-    tank: LevelTank
     model: str
-    tolerance: float
-    count: int
     modes: tuple[LevelMode, ...]
     tones: tuple[PlateTone, ...]
     zero_modes: int
-    counted: bool
     size: dict[str, int]
     solves: int
-    attempts: int
-    reasons: tuple[str, ...]
-    seconds: dict[str, float]
-
-    @property
-    def units(self) -> Scales:
-        """Units of the dimensionless tank."""
-        return self.physical.units
 
     @property
     def residual(self) -> float:
         """Largest residual of the modes."""
         return max((one.mode.residual for one in self.modes), default=0.0)
-
-    def omega(self, eigenvalue: float) -> float:
-        """Return ω in rad/s of a dimensionless λ."""
-        return float(np.sqrt(eigenvalue)) * self.units.frequency

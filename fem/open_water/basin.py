@@ -59,10 +59,15 @@ class OpenBasin:
     depths: tuple[float, ...]
 
     @property
+    def walls(self) -> tuple[str, ...]:
+        """Names of the vertical sides, through which waves leave: one of them where the other is an axis."""
+        return (RIGHT_WALL,) if self.tank.geometry.is_revolved else (LEFT_WALL, RIGHT_WALL)
+
+    @property
     def sides(self) -> tuple[str, ...]:
         """Names of the sides of the basin that the absorbing layer extends."""
         deeper = [depth > layer.depth for depth, layer in zip(self.depths, self.tank.layers, strict=True)]
-        return (LEFT_WALL, RIGHT_WALL) + (BOTTOM,) * deeper[0] + (LID,) * (len(deeper) > 1 and deeper[-1])
+        return self.walls + (BOTTOM,) * deeper[0] + (LID,) * (len(deeper) > 1 and deeper[-1])
 
     @property
     def scaled_layers(self) -> TwoLayers:
@@ -89,13 +94,13 @@ class OpenBasin:
             floor = -inf
         if not isinf(self.depths[-1]):
             ceiling = inf
-        return (0.0, floor), (1.0, ceiling)
+        return (-inf if self.tank.geometry.is_revolved else 0.0, floor), (1.0, ceiling)
 
     @property
     def far_sides(self) -> tuple[str, ...]:
         """Names of the outer sides of the absorbing layer that lie in a liquid, on which ψ = 0."""
         deep = (BOTTOM,) * isinf(self.depths[0]) + (LID,) * (len(self.depths) > 1 and isinf(self.depths[-1]))
-        return (LEFT_WALL, RIGHT_WALL, *deep)
+        return (*self.walls, *deep)
 
     def waves(self, omega: float) -> tuple[TravellingWave, ...]:
         """The travelling waves at a dimensionless frequency ω, in units of the basin."""
@@ -112,7 +117,8 @@ def open_basin(water: Tank, shortest: float, *, drawn: float | None = None) -> O
             bodies to each side, in radians of the shortest wave. ``None`` for forces and motions alone.
     """
     left, right, low, high = _extent(water)
-    extent = max(0.5 * (right - left), -low, high)
+    solid = water.geometry.is_revolved
+    extent = max(right if solid else 0.5 * (right - left), -low, high)
     margin = _MARGIN * extent
     if shortest * margin > _MARGIN_IN_RADIANS:
         margin = max(_MARGIN_IN_RADIANS / shortest, _LEAST_MARGIN * extent)
@@ -124,6 +130,8 @@ def open_basin(water: Tank, shortest: float, *, drawn: float | None = None) -> O
             min(max(left - water.start, least), most),
             min(max(water.start + water.length - right, least), most),
         )
+    if solid:
+        left, margins = 0.0, (0.0, margins[1])
     length = right - left + sum(margins)
     margin = max(margin, _DRAWN_DEPTH * length) if drawn is not None else margin
     distances = (margin - low, margin + high)
@@ -142,6 +150,7 @@ def open_basin(water: Tank, shortest: float, *, drawn: float | None = None) -> O
         liquids=tuple((layer.density, depth) for layer, depth in zip(water.layers, kept, strict=True)),
         top=water.top,
         bodies=tuple(body.moved(-origin) for body in water.bodies),
+        geometry=water.geometry,
     )
     return OpenBasin(
         tank=basin.scaled(),
@@ -198,7 +207,7 @@ class AbsorbingLayer:
         open_sides = {side: further[side] for side in (BOTTOM, LID) if side in basin.sides}
         stages, start = [], 0.0
         while len(distances):
-            sides = (LEFT_WALL, RIGHT_WALL, *open_sides)
+            sides = (*basin.walls, *open_sides)
             count = int(np.searchsorted(distances, min(open_sides.values(), default=inf))) + 1
             sideways, distances = distances[:count] - start, distances[count:]
             ended = {side: end for side, end in open_sides.items() if end <= _NEARLY * (start + sideways[-1])}

@@ -208,7 +208,7 @@ def _check_release(limit: BodiesAtInfiniteFrequency, request: DecayRequest) -> N
     if np.any(restoring[limit.of_floats] < 0.0):
         raise UnstableFloatError("a float is unstable and would capsize")
     loose = restoring == 0.0
-    given = {"heave": request.heave, "roll": request.roll}
+    given = {"heave": request.heave, "roll": request.roll, "pitch": request.roll}
     initial = np.array([given.get(dof, 0.0) if body == request.body else 0.0 for body, dof in limit.motions])
     pushed = (limit.mass + limit.added_mass) @ initial
     if np.any(np.abs(pushed[loose]) > _PUSHED * np.abs(pushed).max()):
@@ -273,7 +273,7 @@ def _infinite_frequency_added_mass(problem: OpenWaterProblem, resolution: Resolu
 def _initial(model: OpenModel, request: DecayRequest) -> np.ndarray:
     """a₀ in body unknowns."""
     scale = model.scale
-    given = {"heave": request.heave, "roll": request.roll}
+    given = {"heave": request.heave, "roll": request.roll, "pitch": request.roll}
     released = (None, request.body + 1)
     motions = np.array([given.get(dof.motion, 0.0) if dof.body in released else 0.0 for dof in scale.dofs])
     unknowns: np.ndarray = np.linalg.solve(scale.turn, motions / scale.lengths)
@@ -299,10 +299,10 @@ def _table(
 
 
 def _tail(request: DecayRequest, model: OpenModel, slow: np.ndarray | None) -> float | None:
-    """T of the asymptotic tail a ~ T/t² of the released motion, m s² or rad s²; ``None`` over a bed, or if two motions
-    were released."""
+    """T of the asymptotic tail a ~ T/t² of the released motion, m s² or rad s²; ``None`` over a bed, if two motions
+    were released, and of solids, whose waves spread and leave a shorter tail."""
     mixed = request.heave != 0.0 and request.roll != 0.0
-    if mixed or slow is None:
+    if mixed or slow is None or model.basin.tank.geometry.is_revolved:
         return None
     initial = _initial(model, request)
     restored = np.flatnonzero(np.diag(model.stiffness) > 0.0)

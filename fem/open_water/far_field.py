@@ -53,7 +53,7 @@ class FarField:
         self._points = cell_positions(mesh, self._cells, points)
         jacobians = cell_jacobians(mesh, self._cells, points)
         self._inverse = np.broadcast_to(np.linalg.inv(jacobians), (*self._points.shape[:2], *jacobians.shape[2:]))
-        self._measure = np.abs(np.linalg.det(jacobians))
+        self._measure = np.abs(np.linalg.det(jacobians)) * liquid.geometry.weight(self._points[..., 0])
         # The corners of straight cells; those at the basin's sides lie on straight ones.
         reference = basix.geometry(element.cell_type)
         linear = np.vstack([np.ones(len(reference)), reference.T])

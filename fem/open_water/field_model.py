@@ -11,7 +11,7 @@ from mpi4py import MPI
 from scipy.linalg import block_diag
 
 from hydroelastic.fem.cells import cell_corners, cells_at, owned_cells
-from hydroelastic.fem.liquid import Layer, LiquidSpace, liquid_space
+from hydroelastic.fem.liquid import LiquidSpace, liquid_space
 from hydroelastic.fem.open_water.basin import CUT, AbsorbingLayer, OpenBasin, open_basin, sized_absorbing_layer
 from hydroelastic.fem.open_water.complex_scaling import ComplexScaling, compile_scaled_form
 from hydroelastic.fem.open_water.far_field import FarField
@@ -22,9 +22,9 @@ from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.wetted_surface import WettedSurface
 from hydroelastic.fem.spectral_error import cell_errors
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors, boundary_error
-from hydroelastic.fem.tank.field_model import distributed_mesh, moving_surfaces, whole_bodies
+from hydroelastic.fem.tank.field_model import distributed_mesh, moving_surfaces, tank_layers, whole_bodies
 from hydroelastic.fem.tank.mesh import graded_outline, tip_points
-from hydroelastic.fem.tank.outline import layer_names, zero_potential_surfaces
+from hydroelastic.fem.tank.outline import zero_on_axis, zero_potential_surfaces
 from hydroelastic.fem.tank.resolution import (
     Resolution,
     radians,
@@ -322,12 +322,9 @@ def _laid(
 
 
 def _liquid(basin: OpenBasin, resolution: Resolution, mesh: TankMesh) -> LiquidSpace:
-    layers = tuple(
-        Layer(name=name, density=layer.density)
-        for name, layer in zip(layer_names(basin.tank), basin.tank.layers, strict=True)
-    )
-    zero_potential = (FAR_END, *zero_potential_surfaces(basin.tank, infinite_frequency=False))
-    return liquid_space(mesh, resolution.degree, zero_potential, layers)
+    tank = basin.tank
+    zero_potential = (FAR_END, *zero_potential_surfaces(tank, infinite_frequency=False), *zero_on_axis(tank))
+    return liquid_space(mesh, resolution.degree, zero_potential, tank_layers(tank), geometry=tank.geometry)
 
 
 def open_mesh(

@@ -158,7 +158,7 @@ def _in_waves(solver: OpenSolver, table: ResponseTable, omega: float, wave: int,
         potential=unit * found.scattered[0],
         bodies=unit * found.motions[0],
         metres=1.0,
-        incident=(incidence.planes[place], complex(unit)),
+        incident=(plane, complex(unit)) if isinstance(plane := incidence.planes[place], Plane) else None,
     )
 
 

@@ -21,7 +21,7 @@ from functools import cached_property
 import numpy as np
 
 from hydroelastic.fem.open_water.field_model import OpenModel
-from hydroelastic.fem.open_water.incident_waves import Incidence
+from hydroelastic.fem.open_water.incident_waves import Incidence, Plane
 
 # Forces below this part of the largest, in units of the basin, are compared with that part.
 _NO_FORCE = 1e-4
@@ -91,6 +91,9 @@ class OpenFrequency:
         differences = np.abs(direct - by_far_field).max(axis=0)
         # Waves exert no moment on a circle about its centre; such a computed force is rounding.
         floor = max(_NO_FORCE * scale.max(initial=0.0), np.finfo(float).tiny)
+        # Nor do they heave a deep spar: its force is compared with that of a body that radiates as much as it moves.
+        radiating = np.sqrt(self.incidence.powers.max() * np.abs(np.diag(self.hydrodynamic)))
+        floor = np.maximum(floor, _NO_FORCE * abs(self.squared) * radiating)
         return float(np.max(differences / np.maximum(scale, floor), initial=0.0))
 
 
@@ -151,7 +154,7 @@ class OpenResponse:
     def _outgoing(self, motions: np.ndarray, scattered: np.ndarray) -> np.ndarray:
         incidence = self.incidence
         fluxes = incidence.pressures @ motions.T - incidence.own[:, self.incident] - scattered
-        return incidence.amplitudes(fluxes) + np.eye(len(incidence.planes))[:, self.incident]
+        return incidence.amplitudes(fluxes) + incidence.incoming * np.eye(len(incidence.planes))[:, self.incident]
 
     def drift_force(self, motions: np.ndarray | None = None) -> np.ndarray:
         """Return the mean force along x, of second order in the waves, per |c|² of each incident wave, dimensionless,
@@ -165,12 +168,15 @@ class OpenResponse:
             motions: other motions than those of the response, shape (incident, body unknowns), as with further damping.
         """
         outgoing = self.outgoing()
+        if self.incidence.directions == 1:
+            # One order alone has none: see `orders`.
+            return np.zeros(len(self.incident))
         if motions is not None:
             scattered = self.equations.diffracted[:, self.incident] + self.equations.radiated @ motions.T
             outgoing = self._outgoing(motions, scattered)
         planes, powers = self.incidence.planes, self.incidence.powers
         momenta = 0.5 * self.squared.real * np.array([plane.wave.wavenumber for plane in planes]) * powers
-        directions = np.array([plane.direction for plane in planes])
+        directions = np.array([plane.direction for plane in planes if isinstance(plane, Plane)])
         # Waves that leave to the left push to the right.
         force: np.ndarray = (-directions * momenta) @ np.abs(outgoing) ** 2 + (directions * momenta)[self.incident]
         return force
@@ -178,12 +184,13 @@ class OpenResponse:
     @property
     def absorption(self) -> np.ndarray:
         """Power that damping from outside takes, over incident power, shape (incident,)."""
-        absorption: np.ndarray = self.absorbed / self.incidence.powers[self.incident]
+        incoming = self.incidence.incoming
+        absorption: np.ndarray = self.absorbed / (self.incidence.powers[self.incident] * incoming**2)
         return absorption
 
     def energy_residual(self) -> np.ndarray:
         """Outgoing and absorbed power over incident power, less one, shape (incident,)."""
-        powers = self.incidence.powers
-        outgoing = powers @ np.abs(self.outgoing()) ** 2 / powers[self.incident]
+        powers, incoming = self.incidence.powers, self.incidence.incoming
+        outgoing = powers @ np.abs(self.outgoing()) ** 2 / (powers[self.incident] * incoming**2)
         residual: np.ndarray = outgoing + self.absorption - 1.0
         return residual

@@ -8,20 +8,30 @@ A wave φ± = e^{±ikx} Z(y) travels to the right or to the left. With the fluxe
 and by Green's theorem on the bodies, with g = ∫ρ (∂φ/∂n) q and ∂ψ/∂n = ζ there,
 
     I(φ) = ∫ρφ ζ − gᵀψ.
+
+About an axis the order n has the regular wave φ = J_n(kr) Z(z) in place of both, and ψ ~ C H_n(kr) Z far away, with
+
+    C = i I(φ)/P,    P = (2/π) c_n N,    Im H = P |C|²,
+
+where I contains the factor c_n of the geometry. A plane wave of elevation A cos(kx − ωt) is the sum of εₙ iⁿ φ cos nθ
+with ε₀ = 1 and else εₙ = 2.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import sqrt
+from math import pi, sqrt
+from typing import TypeAlias
 
 import numpy as np
+from scipy.special import jv, jvp
 
 from hydroelastic.fem.open_water.basin import OpenBasin
 from hydroelastic.fem.open_water.field_model import OpenModel
 from hydroelastic.modal.liquid.deep_water_wave import DeepWaterWave
 from hydroelastic.modal.liquid.travelling_waves import TravellingWave
+from hydroelastic.physics.geometry import Geometry
 
 RIGHTWARD, LEFTWARD = 1, -1
 
@@ -48,7 +58,12 @@ class Plane:
     @property
     def elevation(self) -> float:
         """Elevation of the surface on which the wave travels, for c = 1."""
-        return self.wave.top_elevation if self.wave.on_top else self.wave.elevation
+        return elevation(self.wave)
+
+    @property
+    def power(self) -> float:
+        """kN, its power over ½ω³|c|²."""
+        return self.wave.wavenumber * self.wave.energy
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,8 +87,50 @@ class Standing:
         return phase * value, np.stack([along * value, phase * slope], axis=-1)
 
 
-def planes(waves: tuple[TravellingWave, ...]) -> list[Plane]:
-    """Return each wave to the right, then each to the left."""
+@dataclass(frozen=True, kw_only=True)
+class Circular:
+    """The regular wave J_n(kr) Z(z) cos nθ about an axis, in units of the basin."""
+
+    wave: TravellingWave
+    geometry: Geometry
+
+    def field(self, points: np.ndarray, layers: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """See `Plane.field`."""
+        value, slope = self.wave.profile(points[..., 1], above=layers > 0)
+        k, order = self.wave.wavenumber, self.geometry.order
+        radial = jv(order, k * points[..., 0])
+        along = k * jvp(order, k * points[..., 0])
+        return (radial * value).astype(complex), np.stack([along * value, radial * slope], axis=-1).astype(complex)
+
+    @property
+    def elevation(self) -> float:
+        """See `Plane.elevation`."""
+        return elevation(self.wave)
+
+    @property
+    def power(self) -> float:
+        """P, by which Im H = P |C|²."""
+        return 2.0 / pi * self.geometry.measure * self.wave.energy
+
+    def part(self, direction: int, basin: OpenBasin) -> complex:
+        """Return εₙ iⁿ of a plane wave towards +x (1), or of one towards −x (−1), with its phase at `phase_at`."""
+        order, origin = self.geometry.order, basin.phase_at / basin.units.length
+        phase = np.exp(-1j * direction * self.wave.wavenumber * origin)
+        return complex((1.0 if order == 0 else 2.0) * (direction * 1j) ** order * phase)
+
+
+Wave: TypeAlias = Plane | Circular
+
+
+def elevation(wave: TravellingWave) -> float:
+    """Return the elevation of the surface on which a wave travels, for Z as it is scaled."""
+    return wave.top_elevation if wave.on_top else wave.elevation
+
+
+def incident_waves(waves: tuple[TravellingWave, ...], geometry: Geometry) -> list[Wave]:
+    """Return each wave to the right, then each to the left; about an axis each wave once."""
+    if geometry.is_revolved:
+        return [Circular(wave=wave, geometry=geometry) for wave in waves]
     return [Plane(wave=wave, direction=direction) for direction in (RIGHTWARD, LEFTWARD) for wave in waves]
 
 
@@ -88,7 +145,7 @@ class Incidence:
         own: ∫ρ φ ∂φ'/∂n over the bodies' surfaces, shape (waves φ, waves φ').
     """
 
-    planes: list[Plane]
+    planes: Sequence[Wave]
     fluxes: np.ndarray
     pressures: np.ndarray
     own: np.ndarray
@@ -97,12 +154,22 @@ class Incidence:
     def reversed(self) -> np.ndarray:
         """Index of the wave of opposite direction for each wave, shape (waves,)."""
         count = len(self.planes)
-        return np.roll(np.arange(count), count // 2)
+        return np.roll(np.arange(count), count // self.directions)
+
+    @property
+    def directions(self) -> int:
+        """In how many directions each wave of the dispersion relation is among the waves: two, or one about an axis."""
+        return 1 if isinstance(self.planes[0], Circular) else 2
+
+    @property
+    def incoming(self) -> float:
+        """Amplitude of the incoming part of a wave: J_n is half of an incoming and half of an outgoing wave."""
+        return 0.5 * self.directions
 
     @property
     def powers(self) -> np.ndarray:
-        """kN of each wave, its power over ½ω³|c|², shape (waves,)."""
-        return np.array([plane.wave.wavenumber * plane.wave.energy for plane in self.planes])
+        """Power of each outgoing wave over ½ω³|c|², shape (waves,)."""
+        return np.array([plane.power for plane in self.planes])
 
     @property
     def elevations(self) -> np.ndarray:
@@ -116,26 +183,49 @@ class Incidence:
         A wave e^{±ik(x − xₚ)} of the open water is e^{±ik(x₀ − xₚ)} times that of the basin, whose x begins at x₀.
         """
         origin = (basin.origin - basin.phase_at) / basin.units.length
-        return np.array([-plane.direction * plane.wave.wavenumber * origin for plane in self.planes])
+        directions = [plane.direction if isinstance(plane, Plane) else 0 for plane in self.planes]
+        wavenumbers = np.array([plane.wave.wavenumber for plane in self.planes])
+        phases: np.ndarray = -np.array(directions) * wavenumbers * origin
+        return phases
+
+    def plane_forces(self, basin: OpenBasin, values: np.ndarray) -> np.ndarray:
+        """Forces per elevation of plane waves with phase 0 at x = 0 of the open water.
+
+        Args:
+            basin: the basin.
+            values: forces of the waves as they are, shape (waves, body unknowns).
+
+        Returns:
+            Shape (directions, waves of the dispersion relation, body unknowns), to the right and to the left.
+        """
+        scaled = values * (np.exp(-1j * self.phases_at_origin(basin)) / self.elevations)[:, None]
+        if self.directions == 2:
+            return scaled.reshape(2, len(scaled) // 2, -1)
+        parts = [
+            [plane.part(way, basin) for plane in self.planes if isinstance(plane, Circular)]
+            for way in (RIGHTWARD, LEFTWARD)
+        ]
+        forces: np.ndarray = np.array(parts)[..., None] * scaled
+        return forces
 
     def amplitudes(self, fluxes: np.ndarray) -> np.ndarray:
         """c of the outgoing waves, from I(φ) of each wave φ, both of shape (waves, …)."""
-        amplitudes: np.ndarray = 0.5j / self.powers[:, None] * fluxes[self.reversed]
+        amplitudes: np.ndarray = 1j / (self.directions * self.powers[:, None]) * fluxes[self.reversed]
         return amplitudes
 
     def fluxes_of(self, amplitudes: np.ndarray) -> np.ndarray:
         """I(φ) of each wave φ, from c of the outgoing waves, both of shape (waves, …)."""
-        fluxes: np.ndarray = (-2j * self.powers[:, None] * amplitudes)[self.reversed]
+        fluxes: np.ndarray = (-1j * self.directions * self.powers[:, None] * amplitudes)[self.reversed]
         return fluxes
 
 
-def incidence(model: OpenModel, waves: list[Plane]) -> Incidence:
-    """Integrate plane waves over the surfaces of the bodies (collective)."""
+def incidence(model: OpenModel, waves: Sequence[Wave]) -> Incidence:
+    """Integrate waves over the surfaces of the bodies (collective)."""
     fluxes, pressures, own = surface_integrals(model, waves)
     return Incidence(planes=waves, fluxes=fluxes, pressures=pressures, own=own)
 
 
-def surface_integrals(model: OpenModel, waves: Sequence[Plane | Standing]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def surface_integrals(model: OpenModel, waves: Sequence[Wave | Standing]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Integrate waves over the bodies' surfaces: fluxes, pressures and own of `Incidence` (collective)."""
     pencil = model.pencil
     fluxes = np.zeros((len(waves), len(pencil.free)), dtype=complex)

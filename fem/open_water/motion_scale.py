@@ -15,7 +15,7 @@ from hydroelastic.physics.scales import Scales
 
 @dataclass(frozen=True, kw_only=True)
 class MotionScale:
-    """Units of the motions of all bodies.
+    """Units of the motions of all bodies, per metre of width; those of whole solids have one metre more.
 
     Attributes:
         units: units of the dimensionless problem.
@@ -32,22 +32,26 @@ class MotionScale:
 
     def masses(self, matrix: np.ndarray) -> np.ndarray:
         """Convert a matrix of (added) masses, shape (m, m), to kg/m, to kg for roll with heave, to kg m for roll."""
-        return self.units.density * self.units.length**4 * self._in_motions(matrix)
+        return self.units.density * self.units.volume * self.units.length**2 * self._in_motions(matrix)
 
     def unknown_masses(self, masses: np.ndarray) -> np.ndarray:
         """Convert masses in SI units, shape (m, m), to those of the dimensionless body unknowns."""
         forth = self.turn * self.lengths[:, None]
-        unknowns: np.ndarray = forth.T @ masses @ forth / (self.units.density * self.units.length**4)
+        unknowns: np.ndarray = (
+            forth.T @ masses @ forth / (self.units.density * self.units.volume * self.units.length**2)
+        )
         return unknowns
 
     def stiffnesses(self, matrix: np.ndarray) -> np.ndarray:
         """Convert a matrix of stiffnesses, shape (m, m), to N/m², to N/m for roll with heave, to N for roll."""
-        return self.units.density * self.units.gravity * self.units.length**3 * self._in_motions(matrix)
+        return (
+            self.units.density * self.units.gravity * self.units.volume * self.units.length * self._in_motions(matrix)
+        )
 
     def forces(self, forces: np.ndarray) -> np.ndarray:
         """Convert forces per dimensionless elevation, shape (…, body unknowns), to N/m², of moments to N/m, per
         metre."""
-        unit = self.units.density * self.units.gravity * self.units.length**2
+        unit = self.units.density * self.units.gravity * self.units.volume
         scaled: np.ndarray = unit * (forces @ np.linalg.inv(self.turn)) / self.lengths
         return scaled
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
@@ -30,7 +29,8 @@ class OpenWaterProblem:
         tolerance: largest relative error that is accepted.
         watch: records the time by stage.
         bands: lowest and highest frequency of each analysis, rad/s.
-        solvers: the last solver, by what it was made for: several analyses of the same frequencies share it.
+        solvers: the last solver of each azimuthal order, of sections order 0, with what it was made for: several
+            analyses of the same frequencies share it.
     """
 
     comm: MPI.Comm
@@ -38,7 +38,11 @@ class OpenWaterProblem:
     tolerance: float
     watch: Stopwatch
     bands: tuple[tuple[float, float], ...] = ()
-    solvers: dict[Hashable, Any] = field(default_factory=dict, compare=False, repr=False)
+    solvers: dict[int, Any] = field(default_factory=dict, compare=False, repr=False)
+
+    def of_order(self, order: int) -> OpenWaterProblem:
+        """Return the problem of one azimuthal order; a section is its own."""
+        return replace(self, tank=self.tank.of_order(order))
 
     def shared_band(self, lowest: float, highest: float) -> tuple[float, float]:
         """Return the range of frequencies of an analysis, rad/s, widened to those of others that hardly cost more.

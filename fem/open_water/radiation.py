@@ -19,6 +19,7 @@ from hydroelastic.fem.open_water.requests import RadiationRequest
 from hydroelastic.fem.open_water.results import DIRECTIONS, RadiationTable
 from hydroelastic.fem.open_water.solver import shared_solver
 from hydroelastic.fem.open_water.sweep import Problem, Swept, sweep
+from hydroelastic.fem.open_water.zero_frequency import zero_frequency_added_mass
 from hydroelastic.fem.tank.attempts import Attempt
 from hydroelastic.fem.tank.error_estimates import FrequencyErrors, joined_errors
 from hydroelastic.fem.tank.field_model import whole_bodies
@@ -205,13 +206,11 @@ class _Row:
 def _row(omega: float, found: OpenFrequency, error: float, in_full: bool) -> _Row:
     model, waves = found.model, found.incidence
     masses = model.scale.masses(found.hydrodynamic)
-    shift = np.exp(-1j * waves.phases_at_origin(model.basin))
-    count = len(waves.planes) // 2
+    count = len(waves.planes) // waves.directions
 
     def forces(values: np.ndarray) -> np.ndarray:
-        per_metre = model.scale.forces(values * (shift / waves.elevations)[:, None])
         # From (direction, wave) to (wave, direction).
-        moved: np.ndarray = per_metre.reshape(len(DIRECTIONS), count, -1).swapaxes(0, 1)
+        moved: np.ndarray = model.scale.forces(waves.plane_forces(model.basin, values)).swapaxes(0, 1)
         return moved
 
     return _Row(
@@ -246,6 +245,9 @@ def _limit_row(omega: float, added_mass: np.ndarray, waves: int, error: float) -
 
 def _slow_row(problem: OpenWaterProblem, shapes: tuple[int, ...], waves: int) -> _Row:
     """Return the row of ω = 0; entries of the added mass that grow like −ln ω, as in deep water, are infinite."""
+    if problem.tank.geometry.is_revolved:
+        matrix, error = zero_frequency_added_mass(problem)
+        return replace(_limit_row(0.0, matrix, waves, error), wavenumbers=np.zeros(waves))
     unit = open_basin(problem.tank, 0.0).units.frequency
     omegas = np.array([factor * unit for factor in _SLOW])
     attempt = _swept(problem, omegas, shapes)

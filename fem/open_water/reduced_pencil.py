@@ -147,7 +147,7 @@ class ReducedPencil:
         """Return products of loads, shape (loads, own free unknowns), with each other and with the basis
         (collective)."""
         wet = np.flatnonzero(loads.any(axis=0))
-        weighed, rows = loads[:, wet] * self._weights[wet], self._weighed[:, :, wet].reshape(-1, len(wet))
+        weighed, rows = loads[:, wet] * self._weights[wet], self._weighed[:, :, wet].reshape(2 * self.size, len(wet))
         found = self._pencil.products(np.vstack([weighed, rows]).conj(), weighed)
         return LoadProducts(
             projected=self._pencil.products(loads[:, wet], self._basis[:, wet]),

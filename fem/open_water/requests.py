@@ -82,7 +82,7 @@ class DecayRequest:
     Attributes:
         body: index of the float among the bodies.
         heave: its initial displacement upwards, m.
-        roll: its initial rotation anticlockwise, rad.
+        roll: its initial rotation anticlockwise, the roll of a section or the pitch of a solid, rad.
         times: times after the release, s.
     """
 

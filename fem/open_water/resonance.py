@@ -55,6 +55,8 @@ _AROUND = 1.1
 _SAME = 1e-6
 # Part of the stiffness of a motion below which a negative one of several together is rounding.
 _UNSTABLE = 1e-12
+# The same with a coarse mesh, on which SLEPc leaves larger errors, and the number of targets in a region.
+_SAME_ROUGHLY, _TARGETS_IN_WATER = 1e-4, 4
 # Bodies with a smaller participation are at rest in a resonance of the water.
 _AT_REST = 1e-8
 
@@ -124,6 +126,9 @@ def solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> Res
     with watch.stage("count"):
         solver = damped or OpenSolver(coarse, watch)
         closed, counted = _counted(solver, _closed_region(region, found, request))
+        if counted is not None and counted < sum(map(closed.holds, known)) and damped is None:
+            # Poles of H count as less.
+            counted += len(_resonances_of_the_water(coarse, closed))
     return ResonanceSolution(
         table=_table(found, attempt.causes, counted, closed),
         model=found.model,
@@ -158,6 +163,23 @@ def _counted(solver: Solver, region: Region) -> tuple[Region, int | None]:
         if counted is not None:
             return narrower, counted
     return region, None
+
+
+def _resonances_of_the_water(model: OpenModel, region: Region) -> list[complex]:
+    """ω in a region of the resonances of the water around fixed bodies, rad/s (collective).
+
+    A vertical cylinder has one at ka = 0.50 − 0.64i in waves of azimuthal order 1, where H₁′(ka) = 0.
+    """
+    unit = model.basin.units.frequency
+    search = ResonanceSearch(model.pencil, np.zeros((0, 0)), np.zeros((0, 0)))
+    found: list[complex] = []
+    for target in np.geomspace(region.lowest, region.highest, _TARGETS_IN_WATER) * (1.0 - 0.7j * region.damping):
+        for pair in search.near(model.squared_frequency(complex(target)), _PER_TARGET):
+            omega = complex(np.sqrt(pair.eigenvalue)) * unit
+            known = any(abs(omega - other) <= _SAME_ROUGHLY * abs(omega) for other in found)
+            if not known and pair.drift < _STILL and region.holds(omega):
+                found.append(omega)
+    return found
 
 
 def _region(expected: list[float], request: ResonanceRequest) -> Region:

@@ -12,6 +12,7 @@ from hydroelastic.fem.open_water.attempts import best_over_band
 from hydroelastic.fem.open_water.curves import refined_curves
 from hydroelastic.fem.open_water.field_model import Band, OpenModel
 from hydroelastic.fem.open_water.frequency import OpenResponse
+from hydroelastic.fem.open_water.incident_waves import Circular
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.radiation import between, estimated_places, relative_difference
 from hydroelastic.fem.open_water.requests import ResponseRequest
@@ -136,6 +137,8 @@ def _unresolved(request: ResponseRequest, solver: OpenSolver, table: ResponseTab
 def _incident(model: OpenModel, request: ResponseRequest) -> list[int]:
     """Indices of the incident waves: those to the right are first."""
     count = len(model.basin.scaled_layers.branches)
+    if model.basin.tank.geometry.is_revolved:
+        return list(range(count))
     return list(range(count)) if request.waves_from == "left" else list(range(count, 2 * count))
 
 
@@ -164,7 +167,7 @@ def response_errors(solution: OpenResponse) -> FrequencyErrors:
 
 def _truncation(motions: np.ndarray, model: OpenModel) -> float:
     """Deflection in the omitted dry modes, relative to the largest motion."""
-    largest = np.abs(motions).max()
+    largest = np.abs(motions).max(initial=0.0)
     if not largest:
         return 0.0
     worst, first = 0.0, 0
@@ -184,7 +187,9 @@ def _table(
     waves = np.array([_waves(solution) for solution in solutions])
     forward = first.incident
     back = [int(first.incidence.reversed[place]) for place in forward]
-    motions = np.array([_motions(solution) for solution in solutions])
+    towards = 1 if request.waves_from == "left" else -1
+    motions = np.array([_motions(solution, towards) for solution in solutions])
+    is_round = model.basin.tank.geometry.is_revolved
     return ResponseTable(
         omega=omegas,
         waves=tuple(plane.wave.branch for plane in first.incidence.planes[:count]),
@@ -193,8 +198,11 @@ def _table(
         dofs=model.scale.dofs,
         waves_from=request.waves_from,
         amplitudes=model.scale.amplitudes(motions),
-        reflection=waves[:, :, back],
-        transmission=waves[:, :, forward],
+        reflection=None if is_round else waves[:, :, back],
+        transmission=None if is_round else waves[:, :, forward],
+        partial_waves=(waves - first.incidence.incoming * np.eye(count))[..., None].astype(complex)
+        if is_round
+        else None,
         absorption=np.array([solution.absorption for solution in solutions]),
         drift_force=drift_forces(solutions),
         energy_residual=np.array([solution.energy_residual() for solution in solutions]),
@@ -222,11 +230,18 @@ def drift_forces(solutions: list[OpenResponse]) -> np.ndarray:
     return units.density * units.gravity * np.array(forces)
 
 
-def _motions(solution: OpenResponse) -> np.ndarray:
-    """Body unknowns per elevation of a unit of length with its phase at x = 0, shape (incident, body unknowns)."""
+def _motions(solution: OpenResponse, towards: int) -> np.ndarray:
+    """Body unknowns per elevation of a unit of length with its phase at x = 0, shape (incident, body unknowns), of
+    waves towards +x (1) or −x (−1)."""
     incidence = solution.incidence
     phases = np.exp(1j * incidence.phases_at_origin(solution.model.basin))
-    motions: np.ndarray = solution.motions / (incidence.elevations * phases)[solution.incident][:, None]
+    parts = np.array(
+        [
+            plane.part(towards, solution.model.basin) if isinstance(plane, Circular) else 1.0
+            for plane in incidence.planes
+        ]
+    )
+    motions: np.ndarray = solution.motions * (parts / (incidence.elevations * phases))[solution.incident][:, None]
     return motions
 
 

@@ -1,5 +1,7 @@
 """Results of the analyses of open water, per metre of width in SI units, with the time factor e^{−iωt}.
 
+Those of solids of revolution are whole, and their units have one metre more.
+
 Bodies move in their degrees of freedom `dofs`. Waves are the branches of the dispersion relation, "surface" and
 "internal".
 """
@@ -130,9 +132,10 @@ class ResponseTable:
         dofs: m degrees of freedom.
         waves_from: the side from which the waves are incident.
         amplitudes: (n, w, m) of the motions, m/m or rad/m.
-        reflection: (n, w in, w out) ratio of elevations.
-        transmission: (n, w in, w out) ratio of elevations.
-        absorption: (n, w) power that damping from outside takes, over incident power.
+        reflection: (n, w in, w out) ratio of elevations; ``None`` about an axis.
+        transmission: (n, w in, w out) ratio of elevations; ``None`` about an axis.
+        absorption: (n, w) power that damping from outside takes, over incident power; about an axis over that of 1/k of
+            the crest.
         drift_force: (n, w) mean force on the bodies along x, per square of the amplitude of the waves, N/m³.
         energy_residual: (n, w) relative difference of incident power and outgoing and absorbed power.
         relative_error: (n,) estimated relative error of the amplitudes.
@@ -143,6 +146,8 @@ class ResponseTable:
         fields_at: frequencies at which fields are wanted, rad/s; empty for that of the largest motion.
         curve: the same at frequencies between which nothing is missed, of more than six frequencies, to be drawn.
         missed_peaks: peaks that curves over ω do not show, found on a reduced basis.
+        partial_waves: (n, w in, w out, orders) aⱼ of the elevation εⱼ iʲ [Jⱼ(kr) + aⱼ Hⱼ(kr)] cos jθ of each azimuthal
+            order j about an axis, j = 0, 1 …; ``None`` of a section.
     """
 
     omega: Floats
@@ -151,8 +156,8 @@ class ResponseTable:
     dofs: tuple[Dof, ...]
     waves_from: Literal["left", "right"]
     amplitudes: Complexes
-    reflection: Complexes
-    transmission: Complexes
+    reflection: Complexes | None
+    transmission: Complexes | None
     absorption: Floats
     drift_force: Floats
     energy_residual: Floats
@@ -163,6 +168,7 @@ class ResponseTable:
     fields_at: tuple[float, ...] = ()
     curve: ResponseTable | None = None
     missed_peaks: tuple[UnresolvedPeak, ...] = ()
+    partial_waves: Complexes | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -103,6 +103,9 @@ def solve_open_water(
         reasons += _reasons(problem.tolerance, number, request.kind, solution)
         del solution
         release_memory()
+    # All processes free the last solver together.
+    problem.solvers.clear()
+    release_memory()
     return OpenWaterSolution(
         radiation=tuple(one for one in tables if isinstance(one, RadiationTable)),
         response=tuple(one for one in tables if isinstance(one, ResponseTable)),
@@ -116,6 +119,10 @@ def solve_open_water(
 
 
 def _solved(problem: OpenWaterProblem, request: Request) -> _Solution:
+    if problem.tank.geometry.is_revolved:
+        from hydroelastic.fem.open_water.orders import solve_by_order
+
+        return solve_by_order(problem, request)
     match request:
         case RadiationRequest():
             return solve_radiation(problem, request)

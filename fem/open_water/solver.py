@@ -10,7 +10,7 @@ from scipy.linalg import eigvals
 from hydroelastic.fem.open_water.complex_direct import ShiftedSolver
 from hydroelastic.fem.open_water.field_model import Band, OpenModel, open_model
 from hydroelastic.fem.open_water.frequency import BodyEquations, OpenFrequency, OpenResponse
-from hydroelastic.fem.open_water.incident_waves import Incidence, incidence, planes
+from hydroelastic.fem.open_water.incident_waves import Incidence, incidence, incident_waves
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
 from hydroelastic.fem.open_water.reduced_pencil import LoadProducts, ReducedPencil
 from hydroelastic.fem.stopwatch import Stopwatch
@@ -21,12 +21,14 @@ from hydroelastic.physics.attachments import REGULAR
 def shared_solver(problem: OpenWaterProblem, band: Band, resolution: Resolution) -> OpenSolver:
     """Return the solver of a band and a resolution, with its basis: that of the last analysis if it is the same
     (collective)."""
-    solver: OpenSolver | None = problem.solvers.get((band, resolution))
-    if solver is None:
-        problem.solvers.clear()
-        solver = OpenSolver(open_model(problem, band, resolution), problem.watch)
-        problem.solvers[band, resolution] = solver
-    return solver
+    order = problem.tank.geometry.order
+    known: tuple[tuple[Band, Resolution], OpenSolver] | None = problem.solvers.get(order)
+    if known is None or known[0] != (band, resolution):
+        problem.solvers.pop(order, None)
+        model = open_model(problem, band, resolution)
+        known = (band, resolution), OpenSolver(model, problem.watch)
+        problem.solvers[order] = known
+    return known[1]
 
 
 class OpenSolver:
@@ -70,8 +72,9 @@ class OpenSolver:
         """Return the travelling waves at ω in rad/s (collective)."""
         if omega not in self._waves:
             with self._watch.stage("waves"):
-                scaled = omega / self.model.basin.units.frequency
-                self._waves[omega] = incidence(self.model, planes(self.model.basin.waves(scaled)))
+                basin = self.model.basin
+                scaled = omega / basin.units.frequency
+                self._waves[omega] = incidence(self.model, incident_waves(basin.waves(scaled), basin.tank.geometry))
         return self._waves[omega]
 
     def radiation(self, squared: complex) -> np.ndarray:

@@ -86,6 +86,10 @@ def _motions(table: ResponseTable, peaks: ResponseTable) -> Iterator[_Curve]:
 
 
 def _ratios(table: ResponseTable, peaks: ResponseTable) -> Iterator[_Curve]:
+    if table.reflection is None or table.transmission is None:
+        return
+    assert peaks.reflection is not None
+    assert peaks.transmission is not None
     for name, shown, found in (
         ("|R|", np.abs(table.reflection), np.abs(peaks.reflection)),
         ("|T|", np.abs(table.transmission), np.abs(peaks.transmission)),

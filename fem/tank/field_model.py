@@ -13,7 +13,7 @@ from hydroelastic.fem.liquid_matrices import liquid_matrices
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.surfaces import Body, LiquidSurface
 from hydroelastic.fem.tank.mesh import check_mesh, make_mesh
-from hydroelastic.fem.tank.outline import layer_names, zero_potential_surfaces
+from hydroelastic.fem.tank.outline import layer_names, zero_on_axis, zero_potential_surfaces
 from hydroelastic.fem.tank.resolution import Resolution
 from hydroelastic.fem.volume_pencil import build_pencil
 from hydroelastic.meshes.distribute import TankMesh, distribute_mesh
@@ -136,17 +136,16 @@ def _field_models(
     surfaces = () if infinite_frequency else moving_surfaces(mesh, tank)
     zero_potential = (
         *zero_potential_surfaces(tank, infinite_frequency=infinite_frequency),
+        *zero_on_axis(tank),
         *((FAR_END,) if FAR_END in mesh.facet_names else ()),
-    )
-    layers = tuple(
-        Layer(name=name, density=layer.density) for name, layer in zip(layer_names(tank), tank.layers, strict=True)
     )
     liquid = liquid_space(
         mesh,
         degree,
         zero_potential,
-        layers,
+        tank_layers(tank),
         continuous_pressure=infinite_frequency and tank.has_continuous_pressure,
+        geometry=tank.geometry,
         condensed=True,
     )
     matrices = liquid_matrices(liquid, surfaces)
@@ -159,6 +158,17 @@ def _field_models(
         moving = tuple(body for body in bodies if body.size)
         pencils.append(build_pencil(part, matrices, bodies=moving, surfaces=surfaces))
     return tuple(pencils)
+
+
+def tank_layers(tank: Tank) -> tuple[Layer, ...]:
+    """Return the liquids of a tank as layers of the field model, from the bottom up.
+
+    A and all that is made of the liquid are linear in the densities: these contain the factor c of the geometry.
+    """
+    return tuple(
+        Layer(name=name, density=tank.geometry.measure * layer.density)
+        for name, layer in zip(layer_names(tank), tank.layers, strict=True)
+    )
 
 
 def moving_surfaces(mesh: TankMesh, tank: Tank) -> tuple[LiquidSurface, ...]:

@@ -121,7 +121,9 @@ def infinite_frequency_limit(
     Returns:
         The results; empty where there is no such limit.
     """
-    has_tones, has_added_mass = tank.elastic and tank.has_waves, tank.rigid and tank.has_infinite_frequency_limit
+    # About an axis nothing moves in some orders.
+    moving = [index for index in tank.rigid if tank.bodies[index].rigid_motions]
+    has_tones, has_added_mass = tank.elastic and tank.has_waves, moving and tank.has_infinite_frequency_limit
     if not has_tones and not has_added_mass:
         return InfiniteFrequencyLimit()
     if has_tones:

@@ -104,6 +104,8 @@ def tip_points(tank: Tank, *, half: bool, infinite_frequency: bool = False) -> n
 
 def is_plain(tank: Tank) -> bool:
     """Whether the liquid is a single rectangle, with beams without joints or steps on its top."""
+    if tank.geometry.is_revolved or tank.bed is not None:
+        return False
     return len(tank.layers) == 1 and not tank.hulls and not any(body.nodes for body in tank.bodies)
 
 

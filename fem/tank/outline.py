@@ -15,6 +15,7 @@ from math import inf
 import numpy as np
 
 from hydroelastic.meshes.geometry import (
+    AXIS,
     BOTTOM,
     FREE_SURFACE,
     INTERFACE,
@@ -60,6 +61,11 @@ def zero_potential_surfaces(tank: Tank, *, infinite_frequency: bool) -> tuple[st
     one."""
     is_zero = tank.top == "pressure_release" or (infinite_frequency and tank.top == "free")
     return (FREE_SURFACE,) if is_zero and tank.levels[-1].is_open else ()
+
+
+def zero_on_axis(tank: Tank) -> tuple[str, ...]:
+    """Return the name of the axis of revolution where ψ = 0 on it, as finite energy asks but for order 0."""
+    return (AXIS,) if tank.geometry.is_revolved and tank.geometry.order else ()
 
 
 def tank_outline(tank: Tank, sizes: Sizes, *, half: bool = False, infinite_frequency: bool = False) -> Outline:
@@ -119,6 +125,8 @@ class _Builder:
         """The lower side of a layer from left to right."""
         if number > 0:
             return self._level(self.tank.levels[number - 1], marks, upper_side=True)
+        if self.tank.bed is not None:
+            return [(self._curve(BOTTOM, *ends), True) for ends in pairwise(self.tank.bed)]
         y = self.tank.layers[0].floor
         stops = [0.0, *(x for x in marks if x < self.right), self.right]
         return [(self._curve(BOTTOM, (start, y), (end, y)), True) for start, end in pairwise(stops)]
@@ -166,11 +174,14 @@ class _Builder:
         if hull.is_thin:
             return []
         low, high = hull.bounds[:2]
+        on_axis = self.tank.geometry.is_revolved and low < 0.0
         if any(low < x < high for x in stops):
             raise MeshError(f"a thin float needs free liquid above and below it: body {piece.body + 1} is in its way")
         arcs = hull.above if upper_side else hull.below
         if self.half and high > self.right:
-            arcs = _left_of(arcs, self.right)
+            arcs = _beside(arcs, self.right, -1.0)
+        if on_axis:
+            arcs = _beside(arcs, 0.0, 1.0)
         size, name = self.sizes.contours[piece.body], body_name(piece.body + 1)
         path = [
             (self._curve(name, smooth.start, smooth.end, arc=None if smooth.straight else smooth, size=size), True)
@@ -182,7 +193,7 @@ class _Builder:
 
     def _side(self, number: int, x: float, bottom: Point, top: Point, splits: dict[float, list[int]]) -> list[Directed]:
         """The vertical line at x from the floor to the ceiling: a wall, the mirror plane, or a line through slits."""
-        name = "" if 0.0 < x < self.right else LEFT_WALL if x == 0.0 else SYMMETRY_PLANE if self.half else RIGHT_WALL
+        name = "" if 0.0 < x < self.right else self._left if x == 0.0 else SYMMETRY_PLANE if self.half else RIGHT_WALL
         pieces = [(bottom, top, name)]
         # From the floor up: one slit may begin at the floor, another end at the ceiling.
         for index in sorted(splits.get(x, []), key=lambda index: self.tank.level_of(index).below == number):
@@ -195,6 +206,8 @@ class _Builder:
             pieces += [(start, first, name)] if hangs else []
             pieces += [(*ends, body_name(index + 1)) for ends in pairwise(stops)]
             pieces += [] if hangs else [(last, end, name)]
+        # A shaped bed may rise to the level, and leave no wall.
+        pieces = [piece for piece in pieces if piece[0] != piece[1]]
         return [
             (
                 self._curve(
@@ -204,6 +217,10 @@ class _Builder:
             )
             for start, end, part in pieces
         ]
+
+    @property
+    def _left(self) -> str:
+        return AXIS if self.tank.geometry.is_revolved else LEFT_WALL
 
     def _slit_size(self, name: str, start: Point, end: Point) -> float:
         number = body_number(name)
@@ -261,20 +278,22 @@ def _smooth_pieces(arc: Arc) -> Iterator[Arc]:
         yield arc.part(first, last, start=start, end=end)
 
 
-def _left_of(arcs: tuple[Arc, ...], x: float) -> tuple[Arc, ...]:
-    """The part of a contour left of the mirror plane; the contour is its own image and meets the plane once."""
-    left = []
+def _beside(arcs: tuple[Arc, ...], x: float, side: float) -> tuple[Arc, ...]:
+    """The part of a contour left (−1) or right (1) of the mirror plane; the contour is its own image and meets it
+    once."""
+    kept = []
     for arc in (_onto(arc, x) for arc in arcs):
-        if max(arc.start[0], arc.end[0]) <= x:
-            left.append(arc)
-        elif min(arc.start[0], arc.end[0]) < x:
+        start, end = (side * (point[0] - x) for point in (arc.start, arc.end))
+        if min(start, end) >= 0.0:
+            kept.append(arc)
+        elif max(start, end) > 0.0:
             t = _meets(arc, x)
             on_plane = x, float(arc.curve(np.array([t]))[0, 1])
-            if arc.start[0] < x:
-                left.append(arc.part(0.0, t, start=arc.start, end=on_plane))
+            if start > 0.0:
+                kept.append(arc.part(0.0, t, start=arc.start, end=on_plane))
             else:
-                left.append(arc.part(t, 1.0, start=on_plane, end=arc.end))
-    return tuple(left)
+                kept.append(arc.part(t, 1.0, start=on_plane, end=arc.end))
+    return tuple(kept)
 
 
 def _meets(arc: Arc, x: float) -> float:

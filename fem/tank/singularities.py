@@ -14,12 +14,14 @@ from math import atan2, dist, inf, pi
 import numpy as np
 
 from hydroelastic.fem.tank.outline import Sizes, tank_outline, zero_potential_surfaces
-from hydroelastic.meshes.geometry import LEFT_WALL, RIGHT_WALL, SYMMETRY_PLANE
+from hydroelastic.meshes.geometry import AXIS, BOTTOM, LEFT_WALL, RIGHT_WALL, SYMMETRY_PLANE
 from hydroelastic.meshes.outline import Outline, Point
 from hydroelastic.physics.dofs import body_number
 from hydroelastic.physics.tank import Tank
 
-_MIRRORS = (LEFT_WALL, RIGHT_WALL, SYMMETRY_PLANE)
+_MIRRORS = (AXIS, LEFT_WALL, RIGHT_WALL, SYMMETRY_PLANE)
+
+_WALLS = {BOTTOM, *_MIRRORS}
 
 # Largest change of direction at a joint of arcs that counts as smooth, rad.
 _SMOOTH = 1e-6
@@ -132,11 +134,12 @@ def _sectors(outline: Outline, around: list[_Wedge]) -> Iterator[_Sector]:
 
 def _exponent(sector: _Sector, zero_potential: tuple[str, ...], continuous_pressure: bool) -> float:
     """α in a sector; infinite where ψ is smooth."""
-    if not any(body_number(name) for name in sector.names):
-        return inf
     # A wall is a mirror: the sector continues as its image.
     angle = sector.angle * (2.0 if any(name in _MIRRORS for name in sector.names) else 1.0)
-    if (len(set(sector.names)) == 1 or SYMMETRY_PLANE in sector.names) and abs(angle - pi) < _SMOOTH:
+    if not any(body_number(name) for name in sector.names):
+        # Between walls ψ is singular at corners of the bed that point into the liquid.
+        return pi / angle if set(sector.names) <= _WALLS and angle > pi + _SMOOTH else inf
+    if (len(set(sector.names)) == 1 or {AXIS, SYMMETRY_PLANE} & {*sector.names}) and abs(angle - pi) < _SMOOTH:
         # Where two liquids meet a smooth body the slope of ψ jumps.
         return _JUMP if continuous_pressure and sector.crossed else inf
     return (0.5 if any(name in zero_potential for name in sector.names) else 1.0) * pi / angle

@@ -17,6 +17,7 @@ from mpi4py import MPI
 
 from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
 from hydroelastic.fem.bodies.registry import ends_of_motions, expected_tones
+from hydroelastic.fem.closed_solution import ClosedSolution
 from hydroelastic.fem.kept_tolerance import kept_tolerance
 from hydroelastic.fem.modes import Mode, ModeSet
 from hydroelastic.fem.stopwatch import Report, Stopwatch
@@ -42,7 +43,6 @@ from hydroelastic.fem.tank.resolution import (
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.meshes.tagged_mesh import TaggedMesh
 from hydroelastic.physics.rigid_motions import mode_count
-from hydroelastic.physics.scales import Scales
 from hydroelastic.physics.symmetry import is_mirror_image
 from hydroelastic.physics.tank import Tank
 
@@ -71,14 +71,10 @@ class ToneSolution:
 
 
 @dataclass(frozen=True, kw_only=True)
-class TankSolution:
-    """The dimensionless solution of a tank.
+class TankSolution(ClosedSolution[Tank]):
+    """The solution of a tank in two dimensions; what it adds to those of all closed tanks.
 
     Attributes:
-        physical: the tank, in SI units.
-        tank: the same in its own units.
-        tolerance: requested relative error of the frequencies.
-        count: number of requested modes.
         resolution: the resolution of the last attempt.
         field: its mesh, matrices and modes; one mode more than planned.
         asked: the requested modes, with their shapes.
@@ -86,37 +82,20 @@ class TankSolution:
             estimated.
         growing_errors: estimated relative error of the growth rate of each growing mode, shape (growing modes,).
         causes: errors by cause of the modes with an estimate, then of the growing ones.
-        counted: whether the inertia of an independent factorization confirms that no mode is missing.
         tones: one for each beam.
         float_modes: one for each motion of a float with restoring force.
         added_mass: added mass of the floats at infinite frequency; ``None`` without floats, or under a lid.
-        attempts: number of resolutions that were solved.
-        reasons: why the solution does not keep the tolerance or is incomplete; empty if it does.
-        seconds: time by stage, s.
     """
 
-    physical: Tank
-    tank: Tank
-    tolerance: float
-    count: int
     resolution: Resolution
     field: FieldSolution
     asked: tuple[Mode, ...]
     relative_errors: np.ndarray
     growing_errors: np.ndarray
     causes: FrequencyErrors
-    counted: bool
     tones: tuple[ToneSolution, ...]
     float_modes: tuple[FloatMode, ...]
     added_mass: InfiniteFrequencyAddedMass | None
-    attempts: int
-    reasons: tuple[str, ...]
-    seconds: dict[str, float]
-
-    @property
-    def units(self) -> Scales:
-        """Units of the dimensionless tank."""
-        return self.physical.units
 
     @property
     def modes(self) -> ModeSet:
@@ -127,10 +106,6 @@ class TankSolution:
     def largest_error(self) -> float:
         """The largest relative error of requested modes, tones, modes of floats and growth rates."""
         return float(np.nanmax([0.0, *self.relative_errors, *self.growing_errors]))
-
-    def omega(self, eigenvalue: float) -> float:
-        """Return ω in rad/s of a dimensionless λ."""
-        return float(np.sqrt(eigenvalue)) * self.units.frequency
 
 
 def solve_tank(

@@ -15,13 +15,18 @@ from hydroelastic.output.quantities import Quantity
 
 def write_level_tank(tank: SampledTank, folder: Path) -> None:
     """Write ``modes.csv`` and ``fields/`` into an existing folder; SI units."""
+    write_modes(tank, folder)
+    (folder / "fields").mkdir()
+    write_surface(tank.sample, folder / "fields" / "surface.vtu")
+    write_volume(tank.sample, folder / "fields" / "volume.vtu")
+
+
+def write_modes(tank: SampledTank, folder: Path) -> None:
+    """Write ``modes.csv`` into an existing folder; SI units."""
     keys = [part.key for part in MODES.parts if isinstance(part, Quantity)]
     modes = tank.summary["modes"]
     columns = {key: ["" if mode[key] is None else mode[key] for mode in modes] for key in keys}
     write_csv(folder / "modes.csv", {"mode": np.arange(1, len(modes) + 1), **columns})
-    (folder / "fields").mkdir()
-    write_surface(tank.sample, folder / "fields" / "surface.vtu")
-    write_volume(tank.sample, folder / "fields" / "volume.vtu")
 
 
 def write_surface(sample: SampledModes, file: Path) -> None:

@@ -139,65 +139,24 @@ def _exact(result: EstimatedLevelTank) -> Iterator[dict[str, Any]]:
         }
 
 
-MODES = Group(
-    "modes",
-    "natural modes by ascending frequency",
-    (
-        Quantity("omega", "natural frequency", "rad/s", "ω", error="relative_error", digits=12, variable="omega"),
-        Quantity(
-            "frequency_hz", "frequency of a mode", "Hz", "f", value=lambda mode: mode.omega / (2.0 * pi), shown=".6g"
-        ),
-        Quantity(
-            "relative_error", "estimated relative error", "1", value=lambda mode: mode.one.relative_error, shown=".1e"
-        ),
-        Quantity(
-            "order",
-            "order",
-            "1",
-            "n",
-            value=lambda mode: mode.one.problem.order,
-            note="of cos nθ about the axis, of cos nπy/B across a box; `null` where it is not separated",
-        ),
-        Quantity(
-            "symmetry",
-            "symmetry",
-            value=lambda mode: mode.one.problem.symmetry,
-            printed=False,
-            note='`""` where none is used',
-        ),
-        Quantity(
-            "multiplicity",
-            "multiplicity",
-            "1",
-            value=lambda mode: mode.one.problem.multiplicity,
-            note="2 of modes that may be turned about the axis, cos nθ and sin nθ",
-        ),
-        Quantity(
-            "kind",
-            "kind",
-            value=_kind,
-            note="what has most of the potential energy",
-        ),
-        Quantity(
-            "elastic_energy_fraction",
-            "bending energy over the potential energy",
-            "1",
-            "bending",
-            value=lambda mode: bending_fraction(mode.one.mode, mode.one.bodies),
-            shown=".3f",
-        ),
-        Quantity(
-            "residual",
-            "relative residual of the eigenpair",
-            "1",
-            value=lambda mode: mode.one.mode.residual,
-            printed=False,
-        ),
-    ),
-    record=_modes,
-    dimension="mode",
-    prefix="mode",
-)
+# fmt: off
+# A table: as many arguments on a line as fit.
+MODES = Group("modes", "natural modes by ascending frequency", (
+    Quantity("omega", "natural frequency", "rad/s", "ω", error="relative_error", digits=12, variable="omega"),
+    Quantity("frequency_hz", "frequency of a mode", "Hz", "f", value=lambda it: it.omega / (2.0 * pi), shown=".6g"),
+    Quantity("relative_error", "estimated relative error", "1", value=lambda it: it.one.relative_error, shown=".1e"),
+    Quantity("order", "order", "1", "n", value=lambda it: it.one.problem.order,
+        note="of cos nθ about the axis, of cos nπy/B across a box; `null` where it is not separated"),
+    Quantity("symmetry", "symmetry", value=lambda it: it.one.problem.symmetry, printed=False,
+        note='`""` where none is used'),
+    Quantity("multiplicity", "multiplicity", "1", value=lambda it: it.one.problem.multiplicity,
+        note="2 of modes that may be turned about the axis, cos nθ and sin nθ"),
+    Quantity("kind", "kind", value=_kind, note="what has most of the potential energy"),
+    Quantity("elastic_energy_fraction", "bending energy over the potential energy", "1", "bending",
+        value=lambda it: bending_fraction(it.one.mode, it.one.bodies), shown=".3f"),
+    Quantity("residual", "relative residual of the eigenpair", "1", value=lambda it: it.one.mode.residual,
+        printed=False),
+), record=_modes, dimension="mode", prefix="mode")
 _TONE_PARTS = (
     Quantity("body", "number of the plate", "1"),
     Quantity("order", "order of its lowest elastic dry mode", "1", "n"),
@@ -209,147 +168,72 @@ _TONE_PARTS = (
     Quantity("runner_up", "next largest participation", "1", shown=".3f"),
     Quantity("shared", "whether hybrid modes share the tone"),
     Quantity("one_mode", "whether the tone is attributed to one mode", printed=False),
-    Quantity(
-        "added_mass_per_area",
-        "added mass per area of the first dry mode",
-        "kg/m^2",
-        "m_a",
-        error="added_mass_relative_error",
-        note="(stiffness/ω² − mass) over ∫W²",
-    ),
-    Quantity(
-        "added_mass_relative_error", "estimated relative error of the added mass", "1", shown=".1e", printed=False
-    ),
-    Quantity(
-        "dry_omega", "frequency of the dry mode with the hydrostatic restoring", "rad/s", note="`null` without mass"
-    ),
-    Quantity(
-        "pressure_release_omega",
-        "frequency with ψ = 0 on the water",
-        "rad/s",
-        error="pressure_release_relative_error",
-        note="`null` without open water",
-    ),
-    Quantity(
-        "pressure_release_relative_error", "estimated relative error of that frequency", "1", shown=".1e", printed=False
-    ),
+    Quantity("added_mass_per_area", "added mass per area of the first dry mode", "kg/m^2", "m_a",
+        error="added_mass_relative_error", note="(stiffness/ω² − mass) over ∫W²"),
+    Quantity("added_mass_relative_error", "estimated relative error of the added mass", "1", shown=".1e",
+        printed=False),
+    Quantity("dry_omega", "frequency of the dry mode with the hydrostatic restoring", "rad/s",
+        note="`null` without mass"),
+    Quantity("pressure_release_omega", "frequency with ψ = 0 on the water", "rad/s",
+        error="pressure_release_relative_error", note="`null` without open water"),
+    Quantity("pressure_release_relative_error", "estimated relative error of that frequency", "1", shown=".1e",
+        printed=False),
     Quantity("note", "remark", printed=False),
 )
 FIRST_ELASTIC = Group("first_elastic", "first elastic tone of the first elastic plate", _TONE_PARTS, record=_first)
-TONES = Group(
-    "first_elastic_by_body",
-    "first elastic tone of each elastic plate",
-    _TONE_PARTS,
-    record=_tones,
-    dimension="elastic_plate",
-    prefix="elastic_plate",
-)
-ESTIMATES = Group(
-    "estimates",
-    "estimates of the first elastic tone of plates, and of heave and pitch of rigid ones",
-    (
-        Quantity("body", "number of the plate", "1", short="plate"),
-        Quantity("motion", "motion that is estimated", short="motion"),
-        Quantity("omega", "estimated frequency", "rad/s", "ω", shown=".6g"),
-        Quantity("added_mass_per_area", "estimated added mass per area", "kg/m^2", "m_a", shown=".6g"),
-        Quantity("difference", "relative difference from the tone or the mode", "1", "Δω/ω", shown="+.2e"),
-        Quantity(
-            "difference_to_pressure_release",
-            "relative difference from the pressure-release tone",
-            "1",
-            "Δω/ω₀",
-            shown="+.2e",
-        ),
-        Quantity("note", "what it is", printed=False),
-    ),
-    record=_estimates,
-    dimension="estimate",
-)
-EXACT = Group(
-    "exact",
-    "frequencies of a closed form",
-    (
-        Quantity("formula", "formula", printed=False),
-        Quantity("order", "order", "1", "n"),
-        Quantity("omega", "exact frequency", "rad/s", "ω", shown=".12g"),
-        Quantity("difference", "relative difference of the solution", "1", shown="+.1e"),
-    ),
-    record=_exact,
-    dimension="exact_mode",
-)
-SOLVER = Group(
-    "solver",
-    "how the modes were found",
-    (
-        Quantity("model", "how the plan is solved", value=lambda tank: tank.model),
-        Quantity("attempts", "resolutions that were solved", "1"),
-        Quantity(
-            "count_confirmed_by_inertia",
-            "whether an independent count confirms the modes",
-            value=lambda tank: tank.counted,
-        ),
-        Quantity("largest_residual", "largest residual of a mode", "1", value=lambda tank: tank.residual),
-        Quantity("laplace_solutions", "applications of the liquid's operator", "1", value=lambda tank: tank.solves),
-    ),
-    record=lambda result: result.tank,
-)
-SIZE = Group(
-    "size",
-    "size of the problem",
-    (
-        Quantity("problems", "orders or symmetry classes that were solved, each a problem of its own", "1"),
-        Quantity("degree", "polynomial degree of ψ", "1"),
-        Quantity("layers", "layers at each edge", "1"),
-        Quantity("poles", "poles of the depth; 0 where it is exact", "1"),
-        Quantity("cells", "tetrahedra of a volume; 0 of other models", "1", value=lambda size: size.get("cells", 0)),
-        Quantity(
-            "iterations",
-            "iterations of each solution of Laplace's equation by multigrid, in the mean; 0 of a factorization",
-            "1",
-            value=lambda size: size.get("iterations", 0),
-        ),
-        Quantity("dofs", "unknowns of all problems", "1"),
-        Quantity("surface_unknowns", "unknowns of plates and water", "1"),
-        Quantity("plate_shapes", "dry modes of the plates, of all problems", "1"),
-        PROCESSES,
-    ),
-    record=lambda result: result.tank.size,
-)
-
-
+TONES = Group("first_elastic_by_body", "first elastic tone of each elastic plate", _TONE_PARTS, record=_tones,
+    dimension="elastic_plate", prefix="elastic_plate")
+ESTIMATES = Group("estimates", "estimates of the first elastic tone of plates, and of heave and pitch of rigid ones", (
+    Quantity("body", "number of the plate", "1", short="plate"),
+    Quantity("motion", "motion that is estimated", short="motion"),
+    Quantity("omega", "estimated frequency", "rad/s", "ω", shown=".6g"),
+    Quantity("added_mass_per_area", "estimated added mass per area", "kg/m^2", "m_a", shown=".6g"),
+    Quantity("difference", "relative difference from the tone or the mode", "1", "Δω/ω", shown="+.2e"),
+    Quantity("difference_to_pressure_release", "relative difference from the pressure-release tone", "1", "Δω/ω₀",
+        shown="+.2e"),
+    Quantity("note", "what it is", printed=False),
+), record=_estimates, dimension="estimate")
+EXACT = Group("exact", "frequencies of a closed form", (
+    Quantity("formula", "formula", printed=False),
+    Quantity("order", "order", "1", "n"),
+    Quantity("omega", "exact frequency", "rad/s", "ω", shown=".12g"),
+    Quantity("difference", "relative difference of the solution", "1", shown="+.1e"),
+), record=_exact, dimension="exact_mode")
+SOLVER = Group("solver", "how the modes were found", (
+    Quantity("model", "how the plan is solved", value=lambda tank: tank.model),
+    Quantity("attempts", "resolutions that were solved", "1"),
+    Quantity("count_confirmed_by_inertia", "whether an independent count confirms the modes",
+        value=lambda tank: tank.counted),
+    Quantity("largest_residual", "largest residual of a mode", "1", value=lambda tank: tank.residual),
+    Quantity("laplace_solutions", "applications of the liquid's operator", "1", value=lambda tank: tank.solves),
+), record=lambda it: it.tank)
+SIZE = Group("size", "size of the problem", (
+    Quantity("problems", "orders or symmetry classes that were solved, each a problem of its own", "1"),
+    Quantity("degree", "polynomial degree of ψ", "1"),
+    Quantity("layers", "layers at each edge", "1"),
+    Quantity("poles", "poles of the depth; 0 where it is exact", "1"),
+    Quantity("cells", "tetrahedra of a volume; 0 of other models", "1", value=lambda size: size.get("cells", 0)),
+    Quantity("iterations",
+        "iterations of each solution of Laplace's equation by multigrid, in the mean; 0 of a factorization", "1",
+        value=lambda size: size.get("iterations", 0)),
+    Quantity("dofs", "unknowns of all problems", "1"),
+    Quantity("surface_unknowns", "unknowns of plates and water", "1"),
+    Quantity("plate_shapes", "dry modes of the plates, of all problems", "1"),
+    PROCESSES,
+), record=lambda it: it.tank.size)
 # Of the patches and elevations, a `output.level_tank.sample.SampledModes`.
 _ARRAYS = (
     array("point", "number of a place", None, "point", lambda it: np.arange(len(it.sample.points), dtype=np.int32)),
-    array(
-        "shape",
-        "mode, with the second one of a pair after the first",
-        None,
-        "shape",
-        lambda it: np.array(it.sample.names),
-    ),
+    array("shape", "mode, with the second one of a pair after the first", None, "shape",
+        lambda it: np.array(it.sample.names)),
     array("x", "x of a place on the still surface", "m", "point", lambda it: it.sample.points[:, 0]),
     array("y", "y of a place on the still surface", "m", "point", lambda it: it.sample.points[:, 1]),
     array("plate", "number of the plate at a place, 0 for water", None, "point", lambda it: it.sample.plate_of_points),
-    array(
-        "elevation",
-        "upward displacement of plate or water in a mode",
-        "m",
-        "shape point",
-        lambda it: it.sample.elevations,
-    ),
+    array("elevation", "upward displacement of plate or water in a mode", "m", "shape point",
+        lambda it: it.sample.elevations),
 )
-LEVEL_TANK = Group(
-    "",
-    "a tank in three dimensions",
-    (
-        MODES,
-        Quantity("zero_modes", "motions without stiffness", "1", value=lambda result: result.tank.zero_modes),
-        FIRST_ELASTIC,
-        TONES,
-        ESTIMATES,
-        EXACT,
-        SOLVER,
-        SIZE,
-        *_ARRAYS,
-    ),
-)
+LEVEL_TANK = Group("", "a tank in three dimensions", (
+    MODES,
+    Quantity("zero_modes", "motions without stiffness", "1", value=lambda it: it.tank.zero_modes),
+    FIRST_ELASTIC, TONES, ESTIMATES, EXACT, SOLVER, SIZE, *_ARRAYS,
+))

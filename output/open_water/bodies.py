@@ -8,6 +8,7 @@ from typing import Any
 
 from hydroelastic.output.quantities import Group, Quantity
 from hydroelastic.output.sections import Section
+from hydroelastic.output.whole_units import of_whole_solids
 from hydroelastic.physics.tank import Tank
 
 # Part of the width of the waterplane.
@@ -16,7 +17,7 @@ _ROUNDING = 1e-12
 
 @dataclass(frozen=True, kw_only=True)
 class BodyAtRest:
-    """A body at rest, SI units per metre of width; ``None`` where a body has no such value.
+    """A body at rest, SI units per metre of width or of a whole solid; ``None`` where a body has no such value.
 
     Attributes:
         number: of the body, from 1.
@@ -72,7 +73,9 @@ def _float(tank: Tank, index: int) -> BodyAtRest:
 
     def above_level(point: tuple[float, float]) -> tuple[float, float]:
         # A number that is zero but for rounding is shown as zero.
-        return point[0] if abs(point[0]) > _ROUNDING * (right - left) else 0.0, point[1] - rest.level
+        x, y = point[0], point[1] - rest.level
+        least = _ROUNDING * (right - left)
+        return x if abs(x) > least else 0.0, y if abs(y) > least else 0.0
 
     return BodyAtRest(
         number=index + 1,
@@ -116,10 +119,17 @@ BODIES = Group("bodies", "bodies at rest", (
 
 def bodies_section(solution: Any) -> Section:
     """Return the table of the bodies at rest."""
-    found = [BODIES.evaluated(one) for one in bodies_at_rest(solution.tank)]
-    heads = [part for part in BODIES.parts if isinstance(part, Quantity)][1:]
+    return bodies_at_rest_section(solution.tank)
+
+
+def bodies_at_rest_section(tank: Tank) -> Section:
+    """Return the table of the bodies of a tank or of open water at rest, in SI units."""
+    found = [BODIES.evaluated(one) for one in bodies_at_rest(tank)]
+    whole = tank.geometry.is_whole
+    group = of_whole_solids(BODIES) if whole else BODIES
+    heads = [part for part in group.parts if isinstance(part, Quantity)][1:]
     return Section(
-        title="Bodies at rest, per metre of width",
+        title="Bodies at rest" if whole else "Bodies at rest, per metre of width",
         headings=("quantity", *(f"{values['kind']} {values['number']}" for values in found)),
         rows=[
             (part.label, *(part.cell(values, BODIES) for values in found))

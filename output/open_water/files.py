@@ -56,7 +56,9 @@ def open_columns(group: Group, table: Any) -> Iterator[Column]:
     motions = dict.fromkeys(("influenced_dof", "radiating_dof", "dof"), table.dofs)
     waves = dict.fromkeys(("wave", "outgoing_wave"), getattr(table, "waves", ()))
     motions["spectrum_quantity"] = getattr(table, "quantities", ())
-    labels = {**motions, **waves, "wave_direction": ("from_left", "from_right")}
+    partial = getattr(table, "partial_waves", None)
+    orders = [f"order_{number}" for number in range(0 if partial is None else partial.shape[-1])]
+    labels = {**motions, **waves, "wave_direction": ("from_left", "from_right"), "azimuthal_order": orders}
     return columns_of(group, table, ROWS[group.key], labels)
 
 

@@ -105,7 +105,9 @@ def region_words(region: Region | None) -> str:
 
 def _responses(solution: Any) -> list[WavesAndMotions]:
     motions = motions_of(*solution.radiation) or motions_of(*solution.response)
-    centres = tuple(sum(body.waterplane) / 2.0 - solution.tank.phase_at for body in solution.tank.bodies)
+    tank = solution.tank
+    middles = [0.0 if tank.geometry.is_revolved else sum(body.waterplane) / 2.0 for body in tank.bodies]
+    centres = tuple(middle - tank.phase_at for middle in middles)
     return [WavesAndMotions(**vars(table), centres=centres, motions=motions) for table in solution.response]
 
 
@@ -129,6 +131,15 @@ def _phase_at_body(table: WavesAndMotions) -> Floats:
     is_known = np.abs(table.amplitudes) > table.relative_error[:, None, None] * sizes.max(axis=-1, initial=0.0)
     # No negative zero.
     return np.where(is_known, np.degrees(np.angle(at_body)) + 0.0, np.nan)
+
+
+def scattering_width(table: ResponseTable) -> Floats | None:
+    """Return σ = (4/k) Σ εₙ |aₙ|², m, shape (frequencies, 1); of solids of revolution in waves on one level."""
+    if table.partial_waves is None or len(table.waves) > 1:
+        return None
+    sizes = np.abs(table.partial_waves[:, :, 0]) ** 2
+    factors = np.where(np.arange(sizes.shape[-1]) == 0, 1.0, 2.0)
+    return np.asarray(4.0 / table.wavenumbers * (sizes @ factors))
 
 
 def _inverse(name: str) -> Callable[[Any], Floats]:
@@ -229,11 +240,20 @@ RESPONSE = Group("response", "motions and waves per unit elevation of the incide
     own_array("wave_direction", "direction in which incident waves travel", "wave_direction",
         lambda it: [it.direction], unit="rad"),
     joined_array("reflection", "elevation of the reflected wave over that of the incident one", *_RATIOS, unit="1",
-        symbol="|R|", error="relative_error", variable="reflection_coefficient", phase=CREST),
+        symbol="|R|", error="relative_error", variable="reflection_coefficient", phase=CREST,
+        note="`null` of solids of revolution"),
     joined_array("transmission", "elevation of the transmitted wave over that of the incident one", *_RATIOS, unit="1",
-        symbol="|T|", error="relative_error", variable="transmission_coefficient", phase=CREST),
+        symbol="|T|", error="relative_error", variable="transmission_coefficient", phase=CREST,
+        note="`null` of solids of revolution"),
     joined_array("amplitudes", "motion per unit elevation of the incident wave", *_AMPLITUDES, error="relative_error",
         variable="RAO", column="", **_PER_ELEVATION),
+    joined_array("partial_waves",
+        "a_n of the elevation eps_n i^n [J_n(kr) + a_n H_n(kr)] cos(n theta) of each azimuthal order n",
+        "omega wave outgoing_wave azimuthal_order", "omega wave_direction wave outgoing_wave azimuthal_order", unit="1",
+        printed=False, column="partial_wave", note="about the axis of solids of revolution; `null` of sections"),
+    joined_array("scattering_width", "power of the scattered waves over that of the incident wave per metre of crest",
+        "omega wave", "omega wave_direction wave", unit="m", symbol="σ", error="relative_error",
+        value=scattering_width, note="of solids of revolution, in waves on one level; `null` of sections"),
     joined_array("phase_at_body",
         "phase of the motion beside the crest of the incident wave at the middle of the body's waterplane",
         *_AMPLITUDES, unit="degree", value=_phase_at_body, shown=".1f", variable="RAO_phase_at_body",
@@ -246,7 +266,12 @@ RESPONSE = Group("response", "motions and waves per unit elevation of the incide
         order="omega wave_direction wave shape", unit="degree"),
     joined_array("absorption", "power that damping from outside takes, over that of the incident wave", "omega wave",
         "omega wave_direction wave", unit="1", short="absorbed", shown=".4g",
-        variable="absorbed_power_fraction"),
+        variable="absorbed_power_fraction", value=lambda it: it.absorption if it.partial_waves is None else None,
+        note="`null` of solids of revolution"),
+    joined_array("capture_width", "power that damping from outside takes, over that of a metre of the incident crest",
+        "omega wave", "omega wave_direction wave", unit="m", short="capture width", shown=".4g",
+        value=lambda it: None if it.partial_waves is None else it.absorption / it.wavenumbers,
+        note="of solids of revolution; `null` of sections"),
     joined_array("drift_force", "mean force along x over the square of the amplitude of the waves", "omega wave",
         "omega wave_direction wave", unit="N/m^3", short="drift/A²", error="relative_error"),
     joined_array("near_field_drift", "the same by pressures on the hull, as a check", "omega wave",

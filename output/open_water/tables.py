@@ -30,7 +30,9 @@ from hydroelastic.output.open_water.quantities import (
     region_words,
 )
 from hydroelastic.output.provenance import Summary
+from hydroelastic.output.quantities import Group
 from hydroelastic.output.sections import Row, Section
+from hydroelastic.output.whole_units import of_whole_solids
 from hydroelastic.physics.dofs import Dof
 
 MOST_ROWS = 25
@@ -47,10 +49,11 @@ def open_sections(solution: Any, summary: Summary) -> Iterator[Section]:
         summary: content of ``summary.json``.
     """
     yield bodies_section(solution)
+    whole = solution.tank.geometry.is_whole
     for radiation in solution.radiation:
-        yield from _radiation(radiation)
+        yield from _radiation(radiation, of_whole_solids(RADIATION) if whole else RADIATION)
     for response in RESPONSE.of(solution):
-        yield from _response(response)
+        yield from _response(response, of_whole_solids(RESPONSE) if whole else RESPONSE)
     for resonance in solution.resonance:
         yield _resonance(resonance)
     for decay in solution.decay:
@@ -112,7 +115,7 @@ def open_cost(summary: Summary) -> str:
     )
 
 
-def _radiation(table: RadiationTable) -> Iterator[Section]:
+def _radiation(table: RadiationTable, group: Group) -> Iterator[Section]:
     """One table for each motion: the diagonals of a and b, and the excitation by waves from the left."""
     several = len(table.waves) > 1
     shown, thinned = _shown(len(table.omega), "frequencies", "radiation.csv")
@@ -124,7 +127,7 @@ def _radiation(table: RadiationTable) -> Iterator[Section]:
     left_out = ("wavenumbers",) if several else ()
     printed = [
         column
-        for column in open_columns(RADIATION, table)
+        for column in open_columns(group, table)
         if column.quantity.printed and column.quantity.key not in left_out
     ]
     for place, motion in enumerate(table.dofs):
@@ -133,30 +136,32 @@ def _radiation(table: RadiationTable) -> Iterator[Section]:
         yield Section(
             title=f"Radiation by {motion.words}",
             headings=headings_of(columns, "wave" if several else ""),
-            rows=rows_of(RADIATION, columns, shown),
+            rows=rows_of(group, columns, shown),
             lines=(*thinned, *(further if place == len(table.dofs) - 1 else ())),
         )
 
 
-def _response(table: WavesAndMotions) -> Iterator[Section]:
+def _response(table: WavesAndMotions, group: Group) -> Iterator[Section]:
     """Outgoing waves and motions of the bodies for each incident wave."""
     count = len(table.waves)
     places = max(MOST_ROWS // count, 2)
     shown, thinned = _shown(len(table.omega), "frequencies", "response.csv", places=places)
     rows = [place * count + wave for place in shown for wave in range(count)]
     found: dict[str, list[Column]] = {}
-    for column in open_columns(RESPONSE, table):
+    for column in open_columns(group, table):
         found.setdefault(column.quantity.key, []).append(column)
     first = [*found["omega"], *(found["waves"] if count > 1 else ())]
-    absorbed = ("absorption",) if table.absorption.any() else ()
+    absorbed = ("absorption", "capture_width") if table.absorption.any() else ()
     # Of two waves the table is as wide as a terminal without it.
     drift = ("drift_force",) if count == 1 else ()
-    keys = ("wavenumbers", "reflection", "transmission", *absorbed, *drift, "energy_residual", "relative_error")
-    ratios = [*first, *(column for key in keys for column in found[key])]
+    scattered = ("reflection", "transmission", "scattering_width")
+    keys = ("wavenumbers", *scattered, *absorbed, *drift, "energy_residual", "relative_error")
+    ratios = [*first, *(column for key in keys for column in found.get(key, []))]
+    what = "ratios of elevations" if table.partial_waves is None else "scattered waves"
     yield Section(
-        title=f"Waves from the {table.waves_from}: ratios of elevations",
+        title=f"Waves from the {table.waves_from}: {what}",
         headings=headings_of(ratios, "outgoing_wave" if count > 1 else ""),
-        rows=rows_of(RESPONSE, ratios, rows),
+        rows=rows_of(group, ratios, rows),
         lines=thinned,
     )
     motions, phases = (found.get(key, [])[:_MOST_MOTIONS] for key in ("amplitudes", "phase_at_body"))
@@ -167,7 +172,7 @@ def _response(table: WavesAndMotions) -> Iterator[Section]:
         headings=headings_of([*first, *motions], "radiating_dof"),
         rows=[
             (*begin, *(f"{size} ∠ {angle}°" for size, angle in zip(sizes, angles, strict=False)))
-            for begin, sizes, angles in zip(*(rows_of(RESPONSE, part, rows) for part in shown_parts), strict=True)
+            for begin, sizes, angles in zip(*(rows_of(group, part, rows) for part in shown_parts), strict=True)
         ],
         lines=(
             "|a| ∠ θ is the motion |a| cos(ωt − θ); at t = 0 the crest of the wave is at the middle of the body.",

@@ -16,6 +16,9 @@ from hydroelastic.output.open_water.quantities import (
     motions_of,
 )
 from hydroelastic.output.variables import Variable, array_variables
+from hydroelastic.output.whole_units import of_whole_solids
+
+_GROUPS = (RADIATION, RESPONSE, RESONANCE, DECAY, SPECTRUM)
 
 COMMENT = "exp(-i omega t); per metre of width; x along the waves, heave upwards, roll anticlockwise"
 """Signs and units of all arrays."""
@@ -32,7 +35,7 @@ def open_variables(solution: Any) -> list[Variable]:
     with_rolls = any(dof.is_rotation for dof in (*motions, *others))
     parts = {
         group.key: [list(record_variables(group, one, with_rolls=with_rolls)) for one in group.of(solution)]
-        for group in (RADIATION, RESPONSE, RESONANCE, DECAY, SPECTRUM)
+        for group in (map(of_whole_solids, _GROUPS) if solution.tank.geometry.is_whole else _GROUPS)
     }
     for kind in ("resonance", "decay", "spectrum"):
         if len(parts[kind]) > 1:

@@ -35,15 +35,17 @@ class Attachment(SceneModel):
     )
     stiffness: Matrix = Field(
         default=_NOTHING,
-        description="three numbers for [heave, sway, roll] about the point, or a symmetric matrix of three rows; "
-        "forces in N/m and moments in N by displacements in m and rad",
+        description="three numbers for [heave, sway, roll], of solids [heave, surge, pitch], about the point, or a "
+        "symmetric matrix of three rows, N/m²; of solids a metre more; "
+        "of one roll in N/m, of two in N",
     )
     damping: Matrix = Field(
-        default=_NOTHING, description="the same by velocities in m/s and rad/s; it must not add power"
+        default=_NOTHING,
+        description="the same by velocities, which must not add power, kg/(m·s); of one roll in kg/s, of two in kg·m/s",
     )
     quadratic_damping: tuple[NotNegative, NotNegative, NotNegative] = Field(
         default=(0.0, 0.0, 0.0),
-        description="β of [heave, sway, roll] about the point: forces β |v| v by velocities v in m/s and rad/s",
+        description="β of [heave, sway, roll] about the point in forces β |v| v, kg/m²; of roll in kg·m",
     )
 
     @model_serializer(mode="wrap")

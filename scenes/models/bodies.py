@@ -22,7 +22,7 @@ from pydantic_core import InitErrorDetails
 
 from hydroelastic.physics import beams
 from hydroelastic.physics.beam_parts import Joint, Section
-from hydroelastic.physics.motions import Level, Motion
+from hydroelastic.physics.motions import Level, SectionMotion
 from hydroelastic.scenes.errors import scene_error
 from hydroelastic.scenes.models.plain import plain
 from hydroelastic.scenes.models.problems import problem_at
@@ -280,7 +280,7 @@ class Float(SceneModel):
     inertia: PositiveNumber | None = Field(
         default=None, description="moment of inertia about the centre of mass, kg·m; instead of radius_of_gyration"
     )
-    motions: tuple[Motion, ...] = Field(
+    motions: tuple[SectionMotion, ...] = Field(
         default=("heave",), min_length=1, max_length=3, description="its free motions, each once"
     )
     boundary: Literal["exact", "thin"] = Field(
@@ -313,7 +313,7 @@ class Float(SceneModel):
 
     @model_validator(mode="after")
     def _keys_fit(self) -> Float:
-        problems = [*_keys_of_the_shape(self), *_motions_differ(self), *_thin_floats(self)]
+        problems = [*_keys_of_the_shape(self), *motions_differ(self.motions), *_thin_floats(self)]
         if problems:
             raise ValidationError.from_exception_data(type(self).__name__, problems)
         return self
@@ -358,9 +358,10 @@ def _keys_of_the_shape(body: Float) -> Iterator[InitErrorDetails]:
             )
 
 
-def _motions_differ(body: Float) -> Iterator[InitErrorDetails]:
-    if len(set(body.motions)) < len(body.motions):
-        yield problem_at(("motions",), ", ".join(body.motions), "a motion is named twice", remedy="Name each once")
+def motions_differ(motions: tuple[str, ...]) -> Iterator[InitErrorDetails]:
+    """Yield a problem of motions of which one is named twice."""
+    if len(set(motions)) < len(motions):
+        yield problem_at(("motions",), ", ".join(motions), "a motion is named twice", remedy="Name each once")
 
 
 def _thin_floats(body: Float) -> Iterator[InitErrorDetails]:

@@ -7,16 +7,28 @@ from typing import Annotated, Any, TypeAlias
 from pydantic import Discriminator, Tag
 
 from hydroelastic.scenes.models.bodies import Beam, Float
+from hydroelastic.scenes.models.solids import SOLID_SHAPES, SolidFloat
 from hydroelastic.scenes.models.varying_beam import VaryingBeam
 
 AnyBeam: TypeAlias = Beam | VaryingBeam
 """A body that bends."""
 
 
+AnyFloat: TypeAlias = Float | SolidFloat
+"""A rigid body: a section, or a solid of revolution."""
+
+
 def kind_of_body(body: Any) -> str:
     """Return the kind of the model with which a body is read; that of the beam refuses what is not a table."""
     kind = body.get("kind", "beam") if isinstance(body, dict) else getattr(body, "kind", "beam")
     return str(kind)
+
+
+def kind_of_sea_body(body: Any) -> str:
+    """Return the same in the open sea, where the shape tells solids of revolution, "solid", from sections."""
+    kind = kind_of_body(body)
+    shape = body.get("shape") if isinstance(body, dict) else getattr(body, "shape", None)
+    return "solid" if kind == "float" and shape in SOLID_SHAPES else kind
 
 
 Body: TypeAlias = Annotated[

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from pydantic_core import InitErrorDetails
 
-from hydroelastic.scenes.models.bodies import SUBSTITUTES, THIN_SHAPES, Float
-from hydroelastic.scenes.models.body_kinds import AnyBeam
+from hydroelastic.scenes.models.bodies import SUBSTITUTES, THIN_SHAPES
+from hydroelastic.scenes.models.body_kinds import AnyBeam, AnyFloat
 from hydroelastic.scenes.models.open_checks import length_scale_of_bodies
 from hydroelastic.scenes.models.problems import problem_at
 
@@ -16,6 +16,7 @@ from hydroelastic.scenes.models.problems import problem_at
 if TYPE_CHECKING:
     from hydroelastic.physics.contours import Contour
     from hydroelastic.physics.floats import RigidFloat
+    from hydroelastic.physics.revolution import SolidOfRevolution
     from hydroelastic.scenes.models.tank_parts import TankParts
 
 SLENDERNESS = {"exact": (1e-3, 1e3), "thin": (1e-9, 1e3)}
@@ -50,11 +51,11 @@ def floats_are_in_equilibrium(scene: TankParts) -> Iterator[InitErrorDetails]:
             yield found
 
 
-def _problems_of(scene: TankParts, index: int, body: Float) -> Iterator[InitErrorDetails]:
+def _problems_of(scene: TankParts, index: int, body: AnyFloat) -> Iterator[InitErrorDetails]:
     from hydroelastic.scenes.models.floats import float_contour, level_at_rest, placed_float
 
     if body.vertices is not None:
-        yield from _vertices_make_a_polygon(index, body.vertices)
+        yield from _vertices_make_a_polygon(index, body.shape_key, body.vertices)
     shape = ("body", index, body.shape_key)
     try:
         contour = float_contour(body, scene.folder)
@@ -91,10 +92,12 @@ def _problems_of(scene: TankParts, index: int, body: Float) -> Iterator[InitErro
     yield from _arms_fit(index, body, placed.hull.bounds)
 
 
-def _vertices_make_a_polygon(index: int, vertices: tuple[tuple[float, float], ...]) -> Iterator[InitErrorDetails]:
+def _vertices_make_a_polygon(
+    index: int, body_key: str, vertices: tuple[tuple[float, float], ...]
+) -> Iterator[InitErrorDetails]:
     from hydroelastic.physics.point_contours import shortest_side
 
-    location = ("body", index, "vertices")
+    location = ("body", index, body_key)
     length, size, number = shortest_side(vertices)
     if length <= SHORTEST_SIDE * size:
         yield problem_at(
@@ -105,12 +108,15 @@ def _vertices_make_a_polygon(index: int, vertices: tuple[tuple[float, float], ..
         )
 
 
-def _section_is_simple(location: tuple[str | int, ...], contour: Contour) -> Iterator[InitErrorDetails]:
+def _section_is_simple(
+    location: tuple[str | int, ...], contour: Contour | SolidOfRevolution
+) -> Iterator[InitErrorDetails]:
+    from hydroelastic.physics.contours import Contour
     from hydroelastic.physics.point_contours import self_crossing
 
-    if location[-1] not in ("vertices", "file"):
+    if location[-1] not in ("vertices", "file", "outline"):
         return
-    crossing = self_crossing(contour)
+    crossing = self_crossing(contour if isinstance(contour, Contour) else contour.contour)
     if crossing is not None:
         x, y = crossing
         yield problem_at(
@@ -121,7 +127,9 @@ def _section_is_simple(location: tuple[str | int, ...], contour: Contour) -> Ite
         )
 
 
-def _sizes_fit(scene: TankParts, index: int, body: Float, contour: Contour) -> Iterator[InitErrorDetails]:
+def _sizes_fit(
+    scene: TankParts, index: int, body: AnyFloat, contour: Contour | SolidOfRevolution
+) -> Iterator[InitErrorDetails]:
     width, height = _extents(contour.bounds)
     least, most = SLENDERNESS[body.boundary]
     if not least <= width / height <= most:
@@ -146,11 +154,11 @@ def _sizes_fit(scene: TankParts, index: int, body: Float, contour: Contour) -> I
         )
 
 
-def _other_models(body: Float) -> str:
+def _other_models(body: AnyFloat) -> str:
     return 'boundary = "thin" takes it' if body.boundary == "exact" and body.shape in THIN_SHAPES else ""
 
 
-def _floats_elsewhere(index: int, body: Float, area: float, densities: tuple[float, float]) -> InitErrorDetails:
+def _floats_elsewhere(index: int, body: AnyFloat, area: float, densities: tuple[float, float]) -> InitErrorDetails:
     below, above = densities
     heavy = (body.mass or 0.0) >= below * area
     return problem_at(
@@ -162,7 +170,9 @@ def _floats_elsewhere(index: int, body: Float, area: float, densities: tuple[flo
     )
 
 
-def _parts_on_both_sides(index: int, body: Float, contour: Contour, level: float) -> Iterator[InitErrorDetails]:
+def _parts_on_both_sides(
+    index: int, body: AnyFloat, contour: Contour | SolidOfRevolution, level: float
+) -> Iterator[InitErrorDetails]:
     _, _, low, high = contour.bounds
     least = SMALLEST_PART * (high - low)
     if body.mass is None and body.draught is not None and not level <= high - least:
@@ -182,7 +192,7 @@ def _parts_on_both_sides(index: int, body: Float, contour: Contour, level: float
         )
 
 
-def _keys_agree(index: int, body: Float, placed: RigidFloat) -> Iterator[InitErrorDetails]:
+def _keys_agree(index: int, body: AnyFloat, placed: RigidFloat) -> Iterator[InitErrorDetails]:
     """Yield values at rest that contradict those in whose place they may stand."""
     rest, (_, _, low, high) = placed.hydrostatics, placed.hull.bounds
     found = {
@@ -201,12 +211,20 @@ def _keys_agree(index: int, body: Float, placed: RigidFloat) -> Iterator[InitErr
             )
 
 
-def _has_room(scene: TankParts, index: int, body: Float, bounds: _Box) -> Iterator[InitErrorDetails]:
+def _has_room(scene: TankParts, index: int, body: AnyFloat, bounds: _Box) -> Iterator[InitErrorDetails]:
     left, right, low, high = bounds
     gap = SMALLEST_GAP * max(_extents(bounds))
     length = scene.tank.length
     if scene.is_open:
         yield from _lies_in_the_stretch(scene, index, body)
+    elif scene.is_revolved:
+        if right > length - gap:
+            yield problem_at(
+                ("body", index, body.shape_key),
+                body.half_width,
+                f"the float has a radius of {right:g} m, and the tank one of {length:g} m",
+                allowed=f"{gap:g} m of liquid beside it",
+            )
     elif right - left > length - 2 * gap:
         yield problem_at(
             ("body", index, body.shape_key),
@@ -241,7 +259,7 @@ def _has_room(scene: TankParts, index: int, body: Float, bounds: _Box) -> Iterat
         )
 
 
-def _lies_in_the_stretch(scene: TankParts, index: int, body: Float) -> Iterator[InitErrorDetails]:
+def _lies_in_the_stretch(scene: TankParts, index: int, body: AnyFloat) -> Iterator[InitErrorDetails]:
     """Floats in open water of a drawn length lie within it."""
     if scene.kind == "tank" and body.position > scene.tank.length:
         yield problem_at(
@@ -252,14 +270,14 @@ def _lies_in_the_stretch(scene: TankParts, index: int, body: Float) -> Iterator[
         )
 
 
-def _limits(scene: TankParts, body: Float) -> tuple[float, float | None]:
+def _limits(scene: TankParts, body: AnyFloat) -> tuple[float, float | None]:
     """Ordinates between which a float must stay, m: the layers on either side of its level, air included."""
     if len(scene.layers) == 2 and scene.level_of(body) == "surface":
         return 0.0, None
     return -scene.liquid[0].depth, scene.liquid[1].depth if len(scene.liquid) == 2 else None
 
 
-def _arms_fit(index: int, body: Float, bounds: _Box) -> Iterator[InitErrorDetails]:
+def _arms_fit(index: int, body: AnyFloat, bounds: _Box) -> Iterator[InitErrorDetails]:
     longest = LONGEST_ARM * max(_extents(bounds))
     for key, least in (("centre_of_mass", 0.0), ("radius_of_gyration", longest * 1e-9)):
         value = getattr(body, key)
@@ -305,11 +323,11 @@ def _neighbours(scene: TankParts, boxes: list[_Box]) -> list[tuple[int, int]]:
 
 
 def _is_float(scene: TankParts, index: int) -> bool:
-    return isinstance(scene.body[index], Float)
+    return isinstance(scene.body[index], AnyFloat)
 
 
-def _box(scene: TankParts, index: int, body: AnyBeam | Float) -> _Box:
-    if not isinstance(body, Float):
+def _box(scene: TankParts, index: int, body: AnyBeam | AnyFloat) -> _Box:
+    if not isinstance(body, AnyFloat):
         height = scene.height_of(scene.level_of(body))
         return body.start, body.end, height, height
     from hydroelastic.scenes.models.floats import placed_float
@@ -335,7 +353,8 @@ def _floats_are_stable(scene: TankParts) -> Iterator[InitErrorDetails]:
 
         placed = placed_float(scene, index)
         at_rest, stiffness = placed.hydrostatics, placed.roll_stiffness
-        if "roll" not in body.motions or body.unstable == "solve" or stiffness >= 0.0:
+        found = {"roll", "pitch"} & {*body.motions}
+        if not found or body.unstable == "solve" or stiffness >= 0.0:
             continue
         # Height of the centre of mass at which the roll stiffness is zero.
         arm = stiffness / (at_rest.mass * scene.tank.gravity)
@@ -349,7 +368,7 @@ def _floats_are_stable(scene: TankParts) -> Iterator[InitErrorDetails]:
             f"the float capsizes: its centre of mass lies {height:g} m above its reference level, and the metacentre "
             f"{height - metacentre:.3g} m lower",
             allowed=f"a centre_of_mass of at most {metacentre:g} m",
-            remedy='Leave roll out of the motions, or set unstable = "solve"',
+            remedy=f'Leave {found.pop()} out of the motions, or set unstable = "solve"',
         )
 
 

@@ -11,27 +11,35 @@ from hydroelastic.physics.contours import Contour
 from hydroelastic.physics.floats import RigidFloat
 from hydroelastic.physics.hulls import Hull
 from hydroelastic.physics.hydrostatics import hydrostatics, still_level
-from hydroelastic.physics.motions import MOTIONS, Level
+from hydroelastic.physics.motions import PLACES, Level
 from hydroelastic.physics.point_contours import outline_contour, polygon_contour
 from hydroelastic.physics.profiles import DEFAULT_TAIL, Profile, float_profile, profile_contour
-from hydroelastic.scenes.models.bodies import MOST_BODIES, Float
+from hydroelastic.physics.revolution import SolidOfRevolution
+from hydroelastic.physics.solids import solid_of_revolution
+from hydroelastic.scenes.models.bodies import MOST_BODIES
+from hydroelastic.scenes.models.body_kinds import AnyFloat
 from hydroelastic.scenes.models.outline_files import read_outline
+from hydroelastic.scenes.models.solids import SolidFloat
 from hydroelastic.scenes.models.tank_parts import TankParts
 
 DEFAULT_CORNER_ANGLE = 30.0
 """Degrees by which an outline turns in a corner, unless the scene says it."""
 
 
-def float_section(body: Float) -> Profile | None:
-    """Return the half-width of a symmetric float as a function of height, or None for polygons and outlines."""
+def float_section(body: AnyFloat) -> Profile | None:
+    """Return the half-width of a symmetric section as a function of height, or None for polygons and outlines."""
+    if isinstance(body, SolidFloat):
+        return None
     if body.shape == "polygon" or body.shape == "outline" or body.half_width is None or body.half_height is None:
         return None
     tail = DEFAULT_TAIL if body.tail is None else body.tail
     return float_profile(body.shape, body.half_width, body.half_height, tail)
 
 
-def float_contour(body: Float, folder: Path) -> Contour:
-    """Return the contour of a float in its own frame, m: x = 0 at its position, y = 0 at its reference level.
+def float_contour(body: AnyFloat, folder: Path) -> Contour | SolidOfRevolution:
+    """Return the contour, or the solid, of a float in its own frame, m.
+
+    In it x = 0 at its position and y = 0 at its reference level.
 
     Args:
         body: the float.
@@ -40,6 +48,14 @@ def float_contour(body: Float, folder: Path) -> Contour:
     Raises:
         ValueError: if an outline cannot be read, or is not a contour.
     """
+    if isinstance(body, SolidFloat):
+        return solid_of_revolution(
+            body.shape,
+            radius=body.radius or 0.0,
+            draught=body.draught,
+            inner_radius=body.inner_radius or 0.0,
+            outline=body.outline or (),
+        )
     profile = float_section(body)
     if profile is not None:
         return profile_contour(profile)
@@ -49,7 +65,7 @@ def float_contour(body: Float, folder: Path) -> Contour:
     return polygon_contour(body.vertices or ())
 
 
-def level_at_rest(body: Float, contour: Contour, densities: tuple[float, float]) -> float:
+def level_at_rest(body: AnyFloat, contour: Contour | SolidOfRevolution, densities: tuple[float, float]) -> float:
     """Return the ordinate of the still level in a float's frame, m: by its mass, or by its draught without one.
 
     Args:
@@ -76,7 +92,7 @@ def placed_float(scene: TankParts, index: int) -> RigidFloat:
         ValueError: if it cannot float, or not with a section that the level cuts once.
     """
     body = scene.body[index]
-    if not isinstance(body, Float):
+    if not isinstance(body, AnyFloat):
         raise TypeError(f"body {index} is not a float")
     level = scene.level_of(body)
     state = (scene.folder / body.file).stat() if body.file is not None else None
@@ -94,7 +110,7 @@ def placed_float(scene: TankParts, index: int) -> RigidFloat:
 # Cached; the key contains the time of the last change of an outline's file, which may be edited meanwhile.
 @lru_cache(maxsize=2 * MOST_BODIES)
 def _placed(
-    body: Float,
+    body: AnyFloat,
     folder: Path,
     level: Level,
     height: float,
@@ -123,7 +139,7 @@ def _placed(
     at_rest, thin = at_rest.moved(place), body.boundary == "thin"
     return RigidFloat(
         hull=Hull(
-            contour=contour.moved(place),
+            contour=contour.moved(place) if isinstance(contour, Contour) else contour.moved(place).contour,
             profile=float_section(body),
             is_thin=thin,
             height=at_rest.level,
@@ -133,5 +149,5 @@ def _placed(
         ),
         hydrostatics=at_rest,
         level=level,
-        motions=tuple(motion for motion in MOTIONS if motion in body.motions),
+        motions=tuple(sorted(body.motions, key=PLACES.__getitem__)),
     )

@@ -79,8 +79,8 @@ class Response(SceneModel):
     @model_serializer(mode="wrap")
     def _as_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
         """Serialize without further keys that are not given."""
-        idle = {"wave_amplitude": None, "hull_pressures": False, "fields_at": ()}
-        return {key: value for key, value in write(self).items() if key not in idle or value != idle[key]}
+        further = ("wave_amplitude", "hull_pressures", "fields_at")
+        return {key: value for key, value in write(self).items() if key not in further or value}
 
 
 class Resonance(SceneModel):
@@ -107,13 +107,18 @@ class Release(SceneModel):
     """Displacement from which a float is released at rest."""
 
     heave: AnyNumber = Field(default=0.0, description="upwards, m")
-    roll: AnyNumber = Field(default=0.0, description="anticlockwise, rad")
+    roll: AnyNumber = Field(default=0.0, description="of a section, anticlockwise, rad")
+    pitch: AnyNumber = Field(default=0.0, description="of a solid, with its top towards −x, rad")
 
     @model_validator(mode="after")
     def _is_somewhere(self) -> Release:
-        if self.heave == self.roll == 0.0:
+        if self.heave == self.roll == self.pitch == 0.0:
             raise problem("the float is released from its equilibrium", allowed="a heave or a roll other than 0")
         return self
+
+    @model_serializer(mode="wrap")
+    def _as_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        return {key: value for key, value in write(self).items() if key != "pitch" or value}
 
 
 def _as_heave(value: Any) -> Any:
@@ -137,7 +142,7 @@ class Decay(SceneModel):
     def request(self) -> DecayRequest:
         """What the solver is asked for; bodies are counted from 0."""
         start = self.displacement
-        return DecayRequest(body=self.body - 1, heave=start.heave, roll=start.roll, times=self.times)
+        return DecayRequest(body=self.body - 1, heave=start.heave, roll=start.roll or start.pitch, times=self.times)
 
 
 Analysis: TypeAlias = Annotated[

@@ -8,9 +8,10 @@ from math import inf, isinf, sqrt
 from pydantic_core import InitErrorDetails
 
 from hydroelastic.fem.open_water.region import MOST_DAMPING_ANYWHERE
-from hydroelastic.scenes.models.bodies import Float
+from hydroelastic.scenes.models.body_kinds import AnyFloat
 from hydroelastic.scenes.models.open_analyses import Decay, Resonance, Response
 from hydroelastic.scenes.models.problems import problem_at
+from hydroelastic.scenes.models.solids import SOLID_SHAPES, SolidFloat
 from hydroelastic.scenes.models.tank_parts import TankParts
 
 SLOWEST, FASTEST = 1e-6, 1e3
@@ -140,6 +141,35 @@ def _nothing_lies_above_an_infinite_liquid(scene: TankParts) -> Iterator[InitErr
             )
 
 
+def bodies_are_all_sections_or_all_solids(scene: TankParts) -> Iterator[InitErrorDetails]:
+    """Yield sections, per metre of width, beside solids of revolution, and what only sections have."""
+    for index, body in enumerate(scene.body if scene.is_revolved else ()):
+        if not isinstance(body, SolidFloat):
+            what = ("kind", body.kind) if body.kind != "float" else ("shape", body.shape)
+            yield problem_at(
+                ("body", index, what[0]),
+                what[1],
+                "it is a section, per metre of width, and other bodies of the scene are solids of revolution",
+                allowed=", ".join(f'"{shape}"' for shape in SOLID_SHAPES) + " beside these",
+                remedy="Put sections and solids into scenes of their own",
+            )
+    for index, analysis in enumerate(scene.analysis if scene.is_revolved else ()):
+        if analysis.kind == "spectrum" or getattr(analysis, "hull_pressures", False):
+            yield problem_at(
+                ("analysis", index, "kind" if analysis.kind == "spectrum" else "hull_pressures"),
+                analysis.kind,
+                "it is computed for sections only, and the bodies are solids of revolution",
+                remedy="Leave it out",
+            )
+        if isinstance(analysis, Resonance) and analysis.largest_damping > MOST_DAMPING_ANYWHERE:
+            yield problem_at(
+                ("analysis", index, "largest_damping"),
+                analysis.largest_damping,
+                "such strongly damped resonances are computed for sections only",
+                allowed=f"at most {MOST_DAMPING_ANYWHERE:g}",
+            )
+
+
 def open_water_beams_have_free_ends(scene: TankParts) -> Iterator[InitErrorDetails]:
     """Yield beams with guided ends, which need walls."""
     for index, beam in scene.beams:
@@ -159,7 +189,7 @@ def decaying_bodies_are_floats(scene: TankParts) -> Iterator[InitErrorDetails]:
             continue
         numbers = [str(number + 1) for number, _ in scene.floats]
         body = scene.body[analysis.body - 1] if analysis.body <= len(scene.body) else None
-        if not isinstance(body, Float):
+        if not isinstance(body, AnyFloat):
             what = "there is no body of that number" if body is None else "it is a beam, and only floats are released"
             yield problem_at(
                 ("analysis", index, "body"),
@@ -168,7 +198,7 @@ def decaying_bodies_are_floats(scene: TankParts) -> Iterator[InitErrorDetails]:
                 allowed=" or ".join(numbers) if numbers else "none: this scene has no float",
             )
             continue
-        for motion in ("heave", "roll"):
+        for motion in ("heave", "roll", "pitch"):
             value = getattr(analysis.displacement, motion)
             if value != 0.0 and motion not in body.motions:
                 yield problem_at(

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 
 from hydroelastic.physics import attachments as physics
 from hydroelastic.physics.beams import Beam
+from hydroelastic.physics.geometry import PLANE, Geometry
 from hydroelastic.physics.tank import Tank, tank
 from hydroelastic.scenes.models.attachments import Attachment
-from hydroelastic.scenes.models.bodies import Float
+from hydroelastic.scenes.models.body_kinds import AnyFloat
 from hydroelastic.scenes.models.tank_parts import TankParts
 
 if TYPE_CHECKING:
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def physical_tank(scene: TankParts) -> Tank:
-    """Return the tank, or the open water, of a scene; SI units, per metre of width.
+    """Return the tank, or the open water, of a scene; SI units, per metre of width or of revolution.
 
     Raises:
         ValueError: if a float cannot float at its level.
@@ -29,12 +30,14 @@ def physical_tank(scene: TankParts) -> Tank:
         liquids=tuple((layer.density, layer.depth) for layer in scene.layers),
         top=scene.top,
         bodies=tuple(_body(scene, index) for index in range(len(scene.body))),
+        geometry=Geometry(kind="revolved") if scene.is_revolved else PLANE,
     )
     return replace(
         found,
         start=scene.stretch[0],
         phase_at=scene.phase_at,
         attachments=tuple(_attachment(scene, one) for one in scene.attachment),
+        bed=scene.bed,
     )
 
 
@@ -57,7 +60,7 @@ def _attachment(scene: TankParts, one: Attachment) -> physics.Attachment:
 
 def _body(scene: TankParts, index: int) -> Beam | RigidFloat:
     body = scene.body[index]
-    if isinstance(body, Float):
+    if isinstance(body, AnyFloat):
         # Contours need SciPy's root finders, whose import is slow.
         from hydroelastic.scenes.models.floats import placed_float
 

@@ -9,11 +9,12 @@ from pydantic import Discriminator, Field, SerializerFunctionWrapHandler, Tag, m
 
 from hydroelastic.scenes.models.attachments import Attachment
 from hydroelastic.scenes.models.bodies import MOST_BODIES, AnyNumber, Beam, Float, PositiveNumber, SceneModel
-from hydroelastic.scenes.models.body_kinds import kind_of_body
+from hydroelastic.scenes.models.body_kinds import AnyFloat, kind_of_sea_body
 from hydroelastic.scenes.models.open_analyses import Analysis
 from hydroelastic.scenes.models.open_checks import drag_is_heeded
 from hydroelastic.scenes.models.problems import problem, require_fit
 from hydroelastic.scenes.models.sea_checks import attachments_hold_bodies
+from hydroelastic.scenes.models.solids import SolidFloat
 from hydroelastic.scenes.models.tank_checks import STAGES
 from hydroelastic.scenes.models.tank_parts import Accuracy, Liquids, Tank, TankParts
 from hydroelastic.scenes.models.title import Title
@@ -70,8 +71,9 @@ class SeaFloat(Float):
 SeaBody = Annotated[
     Annotated[SeaBeam, Tag("beam")]
     | Annotated[SeaVaryingBeam, Tag("varying_beam")]
-    | Annotated[SeaFloat, Tag("float")],
-    Discriminator(kind_of_body),
+    | Annotated[SeaFloat, Tag("float")]
+    | Annotated[SolidFloat, Tag("solid")],
+    Discriminator(kind_of_sea_body),
 ]
 
 
@@ -125,9 +127,9 @@ class SeaScene(TankParts):
         return self
 
 
-def _span(body: SeaBeam | SeaVaryingBeam | SeaFloat, scene: SeaScene) -> tuple[float, float]:
+def _span(body: SeaBeam | SeaVaryingBeam | AnyFloat, scene: SeaScene) -> tuple[float, float]:
     """Smallest and largest x of a body, m."""
-    if not isinstance(body, Float):
+    if not isinstance(body, AnyFloat):
         return body.start, body.end
     # Contours need SciPy, whose import is slow.
     from hydroelastic.scenes.models.floats import float_contour

@@ -8,7 +8,7 @@ from pydantic_core import InitErrorDetails
 
 from hydroelastic.physics import attachments as physics
 from hydroelastic.scenes.models.attachments import Attachment
-from hydroelastic.scenes.models.bodies import Float
+from hydroelastic.scenes.models.body_kinds import AnyFloat
 from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.sea_states import Spectrum
 from hydroelastic.scenes.models.tank_parts import TankParts
@@ -26,6 +26,13 @@ def attachments_hold_bodies(scene: TankParts) -> Iterator[InitErrorDetails]:
                     "it is not symmetric, so that a closed path of motions would gain or lose energy",
                     allowed="three numbers, or a symmetric matrix of three rows",
                 )
+        if scene.is_revolved and not _is_round(one):
+            yield problem_at(
+                ("attachment", index, "at" if one.at is not None and one.at[0] != 0.0 else "stiffness"),
+                None,
+                "it couples heave to surge or pitch, which solids of revolution on their axis do not",
+                allowed="a point [0, z], and matrices without terms between heave and the other two",
+            )
         if physics.is_symmetric(one.damping) and not physics.is_passive(one.damping):
             yield problem_at(
                 ("attachment", index, "damping"),
@@ -33,6 +40,12 @@ def attachments_hold_bodies(scene: TankParts) -> Iterator[InitErrorDetails]:
                 "in some motion it adds power instead of taking it",
                 allowed="a matrix without negative eigenvalues",
             )
+
+
+def _is_round(one: Attachment) -> bool:
+    """Whether heave stays uncoupled from surge and pitch."""
+    coupled = [row for matrix in (one.stiffness, one.damping) for row in (matrix[0][1], matrix[0][2])]
+    return (one.at is None or one.at[0] == 0.0) and not any(coupled)
 
 
 def _ends_are_bodies(scene: TankParts, index: int, one: Attachment) -> Iterator[InitErrorDetails]:
@@ -53,7 +66,7 @@ def _ends_are_bodies(scene: TankParts, index: int, one: Attachment) -> Iterator[
         if number is None:
             continue
         body = scene.body[number - 1]
-        if isinstance(body, Float):
+        if isinstance(body, AnyFloat):
             continue
         if one.at is None:
             yield problem_at(
@@ -88,7 +101,7 @@ def sea_points_lie_on_bodies(scene: TankParts) -> Iterator[InitErrorDetails]:
                 )
                 continue
             body = scene.body[point.body - 1]
-            if not isinstance(body, Float) and not body.start <= point.at[0] <= body.end:
+            if not isinstance(body, AnyFloat) and not body.start <= point.at[0] <= body.end:
                 yield problem_at(
                     (*where, "at"),
                     None,

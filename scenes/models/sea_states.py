@@ -50,7 +50,7 @@ class Spectrum(SceneModel):
         default=(), max_length=MOST_VALUES, description="ascending frequencies of a table, rad/s"
     )
     density: tuple[_NotNegative, ...] = Field(
-        default=(), max_length=MOST_VALUES, description="S(ω) of a table in m²·s/rad, linear between the frequencies"
+        default=(), max_length=MOST_VALUES, description="S(ω) of a table, linear between the frequencies, m²·s/rad"
     )
     waves_from: Literal["left", "right"] = Field(default="left", description="the side from which waves come")
     duration: PositiveNumber = Field(default=10800.0, description="duration of the sea state, s")
@@ -104,7 +104,7 @@ class Spectrum(SceneModel):
 
     @model_serializer(mode="wrap")
     def _as_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        return {key: value for key, value in write(self).items() if value is not None and value != ()}
+        return {key: value for key, value in write(self).items() if value not in (None, (), [])}
 
     @model_validator(mode="after")
     def _keys_fit(self) -> Spectrum:

@@ -12,6 +12,7 @@ from hydroelastic.physics.tank import ROUND_OFF
 from hydroelastic.scenes.models.body_kinds import AnyBeam
 from hydroelastic.scenes.models.float_checks import CHECKS_OF_FLOATS_AT_REST, floats_are_in_equilibrium
 from hydroelastic.scenes.models.open_checks import (
+    bodies_are_all_sections_or_all_solids,
     closed_tanks_have_no_open_water_keys,
     decaying_bodies_are_floats,
     frequencies_and_times_can_be_resolved,
@@ -324,6 +325,7 @@ STAGES: tuple[tuple[_Check, ...], ...] = (
     ),
     (
         open_water_is_complete,
+        bodies_are_all_sections_or_all_solids,
         decaying_bodies_are_floats,
         frequencies_and_times_can_be_resolved,
         resonance_regions_are_covered_by_theory,

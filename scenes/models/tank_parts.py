@@ -19,16 +19,18 @@ from hydroelastic.meshes.formats import FORMATS
 from hydroelastic.scenes.models.attachments import Attachment
 from hydroelastic.scenes.models.bodies import (
     LARGEST,
+    MOST_VERTICES,
     SMALLEST,
-    Float,
+    AnyNumber,
     Level,
     PositiveNumber,
     SceneModel,
 )
-from hydroelastic.scenes.models.body_kinds import AnyBeam
+from hydroelastic.scenes.models.body_kinds import AnyBeam, AnyFloat
 from hydroelastic.scenes.models.infinity import PositiveOrInfinite
 from hydroelastic.scenes.models.open_analyses import Analysis, Resonance
 from hydroelastic.scenes.models.problems import problem
+from hydroelastic.scenes.models.solids import SolidFloat
 
 
 class Tank(SceneModel):
@@ -99,6 +101,33 @@ Liquids: TypeAlias = Annotated[
 """The liquids of a scene."""
 
 
+class RoundTank(SceneModel):
+    """A tank of revolution about the vertical axis r = 0, with z = 0 at the still surface."""
+
+    radius: PositiveNumber = Field(description="radius at the still surface, m")
+    gravity: PositiveNumber = Field(default=9.81, description="acceleration of gravity, m/s²")
+    top: Literal["free", "rigid", "pressure_release"] = Field(
+        default="free", description="the top beside the floats: free surface, lid, or ψ = 0 without gravity waves"
+    )
+    outline: tuple[tuple[AnyNumber, AnyNumber], ...] | None = Field(
+        default=None,
+        min_length=2,
+        max_length=MOST_VERTICES,
+        description=f"2 to {MOST_VERTICES} corners [r, z] of the bed from the axis to the wall, m; by default it is "
+        "level",
+    )
+
+    @property
+    def length(self) -> float:
+        """The radius."""
+        return self.radius
+
+    @property
+    def ends(self) -> Literal["walls", "open"]:
+        """A tank of revolution has a wall."""
+        return "walls"
+
+
 class TankParts(SceneModel):
     """What the scenes of a tank and of the sea share: their liquids, bodies and analyses.
 
@@ -119,7 +148,7 @@ class TankParts(SceneModel):
             """Title of tables and images."""
 
         @property
-        def tank(self) -> Tank:
+        def tank(self) -> Tank | RoundTank:
             """The tank, or the stretch of the sea that is drawn."""
 
         @property
@@ -127,7 +156,7 @@ class TankParts(SceneModel):
             """The liquids, from the bottom up."""
 
         @property
-        def body(self) -> tuple[AnyBeam | Float, ...]:
+        def body(self) -> tuple[AnyBeam | AnyFloat, ...]:
             """The bodies."""
 
         @property
@@ -199,6 +228,16 @@ class TankParts(SceneModel):
         return self.tank.ends == "open"
 
     @property
+    def bed(self) -> tuple[tuple[float, float], ...] | None:
+        """Corners of the bed from the left to the right wall, m; None where it is level."""
+        return None
+
+    @property
+    def is_revolved(self) -> bool:
+        """Whether it is a sea of revolution: its bodies are solids on one vertical axis, not sections."""
+        return any(isinstance(body, SolidFloat) for body in self.body)
+
+    @property
     def analyses(self) -> tuple[Analysis, ...]:
         """Analyses of open water; empty for a closed tank, whose modes are computed."""
         return (self.analysis or (Resonance(),)) if self.is_open else ()
@@ -206,14 +245,14 @@ class TankParts(SceneModel):
     @property
     def beams(self) -> tuple[tuple[int, AnyBeam], ...]:
         """The beams, each with its index among the bodies."""
-        return tuple((index, body) for index, body in enumerate(self.body) if not isinstance(body, Float))
+        return tuple((index, body) for index, body in enumerate(self.body) if not isinstance(body, AnyFloat))
 
     @property
-    def floats(self) -> tuple[tuple[int, Float], ...]:
+    def floats(self) -> tuple[tuple[int, AnyFloat], ...]:
         """The floats, each with its index among the bodies."""
-        return tuple((index, body) for index, body in enumerate(self.body) if isinstance(body, Float))
+        return tuple((index, body) for index, body in enumerate(self.body) if isinstance(body, AnyFloat))
 
-    def level_of(self, body: AnyBeam | Float) -> Level:
+    def level_of(self, body: AnyBeam | AnyFloat) -> Level:
         """Return the level at which a body floats; with one modelled liquid it is the surface."""
         if len(self.layers) == 1:
             return "surface"

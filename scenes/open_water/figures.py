@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hydroelastic.fem.open_water.results import DecayTable, RadiationTable, ResonanceTable, ResponseTable, SpectrumTable
+from hydroelastic.output.open_water.quantities import scattering_width
 from hydroelastic.output.pictures.colours import BLUE
 from hydroelastic.output.pictures.curves import COLOURS, GREY, Sheets, label_axes, plot_curve, sequence_colours
 from hydroelastic.output.pictures.options import PictureOptions
@@ -39,7 +40,7 @@ def draw_open(solution: OpenSolution, folder: Path, options: PictureOptions) -> 
     """
     sheets = Sheets(folder=folder, title=solution.scene.title, options=options)
     for number, radiation in enumerate(solution.radiation, 1):
-        _draw_radiation(radiation, sheets, f"radiation_{number}")
+        _draw_radiation(radiation, sheets, f"radiation_{number}", solution.tank.geometry.is_whole)
     for number, response in enumerate(solution.response, 1):
         _draw_response(response.curve or response, sheets, f"response_{number}")
         for place, plate in enumerate(response.plates):
@@ -73,7 +74,7 @@ def _by_unit(dofs: tuple[Dof, ...]) -> list[tuple[bool, list[int]]]:
     return [(kind, [place for place, turn in enumerate(turns) if turn == kind]) for kind in dict.fromkeys(turns)]
 
 
-def _draw_radiation(table: RadiationTable, sheets: Sheets, name: str) -> None:
+def _draw_radiation(table: RadiationTable, sheets: Sheets, name: str, is_whole: bool) -> None:
     """Diagonals of a and b and the force of waves over finite ω: a row for displacements, and one for rotations."""
     order = np.argsort(table.omega)
     order = order[np.isfinite(table.omega[order])]
@@ -102,9 +103,12 @@ def _draw_radiation(table: RadiationTable, sheets: Sheets, name: str) -> None:
             if len(places) > _MOST_MOTIONS:
                 left.set_title(f"the first {_MOST_MOTIONS} of {len(places)} motions")
             mass_name, unit = ("added inertia", "kg·m") if turns else ("added mass", "kg/m")
+            force = "N/m" if turns else "N/m²"
+            if is_whole:
+                unit, force = ("kg·m²", "N") if turns else ("kg", "N/m")
             label_axes(left, _FREQUENCY, f"{mass_name} a, {unit}")
             label_axes(right, _FREQUENCY, f"radiation damping b, {unit}/s")
-            label_axes(last, _FREQUENCY, "excitation moment |f|, N/m" if turns else "excitation force |f|, N/m²")
+            label_axes(last, _FREQUENCY, f"excitation {'moment' if turns else 'force'} |f|, {force}")
 
 
 def _plot_forces(axes: Axes, table: RadiationTable, order: np.ndarray, places: list[int]) -> None:
@@ -126,7 +130,10 @@ def _draw_response(table: ResponseTable, sheets: Sheets, name: str) -> None:
     heading = f"response per metre of waves from the {table.waves_from}"
     with sheets.sheet(name, heading, width=5.5 * (1 + len(groups)), height=6.0) as figure:
         first, *others = figure.subplots(1, 1 + len(groups))
-        _plot_waves(first, table, order)
+        if table.partial_waves is None:
+            _plot_waves(first, table, order)
+        else:
+            _plot_widths(first, table, order)
         number = 0
         for axes, (turns, places) in zip(others, groups, strict=True):
             for motion in places:
@@ -145,9 +152,21 @@ def _plot_waves(axes: Axes, table: ResponseTable, order: np.ndarray) -> None:
         for outgoing, other in enumerate(table.waves):
             which = f", {wave} to {other}" if len(table.waves) > 1 else ""
             for ratio, label in ((table.reflection, "reflection |R|"), (table.transmission, "transmission |T|")):
+                assert ratio is not None
                 plot_curve(axes, table.omega[order], np.abs(ratio[order, incident, outgoing]), number, label + which)
                 number += 1
     label_axes(axes, _FREQUENCY, "size of elevation, m/m")
+
+
+def _plot_widths(axes: Axes, table: ResponseTable, order: np.ndarray) -> None:
+    """Power that solids of revolution scatter and absorb, over that of a metre of crest."""
+    scattered = scattering_width(table)
+    if scattered is not None:
+        plot_curve(axes, table.omega[order], scattered[order, 0], 0, "scattering width")
+    if table.absorption.any():
+        width = table.absorption[order, 0] / table.wavenumbers[order, 0]
+        plot_curve(axes, table.omega[order], width, 1, "capture width")
+    label_axes(axes, _FREQUENCY, "width, m")
 
 
 def _incident(table: RadiationTable | ResponseTable) -> list[str]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from mpi4py import MPI
 
@@ -25,6 +26,10 @@ from hydroelastic.scenes.open_water.results import OpenSolution
 from hydroelastic.scenes.open_water.solve import solve_open
 from hydroelastic.scenes.staged_run import StagedRun
 
+if TYPE_CHECKING:
+    from hydroelastic.fem.open_water.plan_waves import PlanWaves
+    from hydroelastic.fem.open_water.problem import OpenWaterProblem
+
 
 @dataclass(frozen=True, kw_only=True)
 class SampledWater:
@@ -33,18 +38,21 @@ class SampledWater:
     Attributes:
         solution: the tables.
         fields: fields of the analyses, on rank 0.
+        plans: waves around solids of revolution in plan view, on rank 0.
         missing: which fields there are not, and why.
     """
 
     solution: OpenSolution
     fields: tuple[SampledField, ...]
+    plans: tuple[PlanWaves, ...]
     missing: tuple[str, ...]
 
 
 def _sample(solution: OpenSolution, _summary: Summary) -> SampledWater:
     sampled, missing = [], []
     problem = open_water_problem(solution.scene, MPI.COMM_WORLD, Stopwatch())
-    for name, fields in open_fields(problem, solution):
+    plans = _plans(problem, solution) if solution.scene.is_revolved else ()
+    for name, fields in () if solution.scene.is_revolved else open_fields(problem, solution):
         try:
             # One field after the other: each comes with a mesh and matrices of its own.
             sampled += [sample_field(field) for field in fields]
@@ -52,7 +60,13 @@ def _sample(solution: OpenSolution, _summary: Summary) -> SampledWater:
             # A field that fails does not affect the tables.
             missing.append(f"no field of {name}: {error}")
     fields_here = tuple(field for field in sampled if field is not None)
-    return SampledWater(solution=solution, fields=fields_here, missing=tuple(missing))
+    return SampledWater(solution=solution, fields=fields_here, plans=plans, missing=tuple(missing))
+
+
+def _plans(problem: OpenWaterProblem, solution: OpenSolution) -> tuple[PlanWaves, ...]:
+    from hydroelastic.fem.open_water.plan_waves import plan_waves
+
+    return tuple(waves for number, one in enumerate(solution.response, 1) for waves in plan_waves(problem, one, number))
 
 
 def _write(water: SampledWater, folder: Path) -> None:
@@ -68,6 +82,11 @@ def _draw(water: SampledWater, folder: Path, options: PictureOptions, report: Re
     draw_open(water.solution, folder, options)
     report("pictures of fields")
     draw_fields(water.fields, folder, options)
+    if water.plans:
+        from hydroelastic.output.open_water.plan_pictures import draw_plan_waves
+
+        for waves in water.plans:
+            draw_plan_waves(waves, water.solution.scene.title, folder, options)
 
 
 run_open = StagedRun(

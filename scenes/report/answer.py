@@ -7,8 +7,14 @@ from math import hypot, inf
 from typing import TypeAlias
 
 from hydroelastic.output.digits import with_certain_digits
+from hydroelastic.output.level_tank.quantities import LEVEL_TANK
 from hydroelastic.output.provenance import Summary
+from hydroelastic.output.quantities import Group
+from hydroelastic.output.roll.quantities import RESPONSE as ROLL_RESPONSE
 from hydroelastic.output.sections import Row, Section
+from hydroelastic.output.string.quantities import HANGING_STRING
+from hydroelastic.output.tank.quantities import TANK
+from hydroelastic.output.thread.quantities import THREAD
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.scenes.models.level_tank import is_level_tank
 
@@ -50,38 +56,45 @@ def _of_absolute(quantity: str, value: float, error: _Error) -> Row:
     return _row(quantity, value, error / abs(value))
 
 
+def _declared(group: Group, values: Summary, key: str, name: str, index: int | None = None) -> Row:
+    """A quantity with the unit and the error that are declared for it; of a list, one entry."""
+    quantity = group[key]
+    value = values[key] if index is None else values[key][index]
+    name = ", ".join(filter(None, (name, quantity.unit_text)))
+    return (_row if group[quantity.error].unit == "1" else _of_absolute)(name, value, values[quantity.error])
+
+
 def _tank(summary: Summary) -> Iterator[Row]:
     """Growing motions, the lowest frequencies, and those of the bodies."""
     for growing in summary["growing"][:1]:
-        yield _row("fastest growth of an unstable motion, 1/s", growing["growth_rate"], growing["relative_error"])
-    yield from _modes(summary)
-    yield from _elastic(summary, "beam")
+        yield _declared(TANK["growing"], growing, "growth_rate", "fastest growth of an unstable motion")
+    yield from _modes(TANK, summary)
+    yield from _elastic(TANK, summary, "beam")
     for body in summary["floats"]:
         for mode in body["modes"]:
-            if mode["omega"] is None:
-                continue
-            name = f"ω of {mode['motion']} of float {body['body']}, mode {mode['index']}, rad/s"
-            yield _row(name, mode["omega"], mode["relative_error"])
+            if mode["omega"] is not None:
+                name = f"ω of {mode['motion']} of float {body['body']}, mode {mode['index']}"
+                yield _declared(TANK["floats"]["modes"], mode, "omega", name)
 
 
 def _level_tank(summary: Summary) -> Iterator[Row]:
     """The lowest frequencies, and those of the plates."""
-    yield from _modes(summary)
-    yield from _elastic(summary, "plate")
+    yield from _modes(LEVEL_TANK, summary)
+    yield from _elastic(LEVEL_TANK, summary, "plate")
 
 
-def _modes(summary: Summary) -> Iterator[Row]:
+def _modes(kind: Group, summary: Summary) -> Iterator[Row]:
     for number, mode in enumerate(summary["modes"][:_MOST_MODES], 1):
-        yield _row(f"ω of mode {number} ({mode['kind']}), rad/s", mode["omega"], mode["relative_error"])
+        yield _declared(kind["modes"], mode, "omega", f"ω of mode {number} ({mode['kind']})")
 
 
-def _elastic(summary: Summary, what: str) -> Iterator[Row]:
+def _elastic(kind: Group, summary: Summary, what: str) -> Iterator[Row]:
     for elastic in summary["first_elastic_by_body"]:
         if elastic["omega"] is not None:
             # Of plates the tone is sought in its own order too, above the modes that were asked for.
             index = "" if elastic["index"] is None else f", mode {elastic['index']}"
-            name = f"ω of the first mode of {what} {elastic['body']}{index}, rad/s"
-            yield _row(name, elastic["omega"], elastic["relative_error"])
+            name = f"ω of the first mode of {what} {elastic['body']}{index}"
+            yield _declared(kind["first_elastic_by_body"], elastic, "omega", name)
 
 
 def _open_water(summary: Summary) -> Iterator[Row]:
@@ -128,32 +141,30 @@ def _largest_damping(table: Summary) -> Iterator[Row]:
 def _string(summary: Summary) -> Iterator[Row]:
     for number, mode in enumerate(summary["modes"][:_MOST_MODES], 1):
         if mode["kind"] == "oscillating":
-            yield _row(f"ω of free motion {number}, rad/s", mode["omega"], mode["relative_error"])
+            yield _declared(HANGING_STRING["modes"], mode, "omega", f"ω of free motion {number}")
     response = summary["response"]
-    name = f"largest displacement, {response['at_time']:.4g} s, {response['at_position']:.4g} m above the free end, m"
-    yield _of_absolute(name, response["largest_displacement"], response["absolute_error"])
+    name = f"largest displacement, {response['at_time']:.4g} s, {response['at_position']:.4g} m above the free end"
+    yield _declared(HANGING_STRING["response"], response, "largest_displacement", name)
 
 
 def _thread(summary: Summary) -> Iterator[Row]:
-    rest = summary["equilibrium"]
-    for end, tension in zip("AB", rest["end_tensions"], strict=True):
-        yield _of_absolute(f"tension at end {end} at rest, N", tension, rest["tension_error"])
+    for index, end in enumerate("AB"):
+        name = f"tension at end {end} at rest"
+        yield _declared(THREAD["equilibrium"], summary["equilibrium"], "end_tensions", name, index)
     for modes in summary["modes"]:
         for number, mode in enumerate(modes["oscillating"][:_MOST_MODES], 1):
-            yield _row(f"Im λ of free motion {number}, rad/s", mode["damped_omega"], mode["relative_error"])
+            yield _declared(THREAD["modes"]["oscillating"], mode, "damped_omega", f"Im λ of free motion {number}")
     for sweep in summary["stability"]:
         for threshold in sweep["thresholds"][:1]:
-            yield _row(
-                f"{threshold['kind']} begins at times the stream", threshold["factor"], threshold["relative_error"]
-            )
+            name = f"{threshold['kind']} begins at times the stream"
+            yield _declared(THREAD["stability"]["thresholds"], threshold, "factor", name)
     for motion in summary["motion"]:
-        name = f"largest tension in motion, at {motion['largest_tension_at'][0]:.4g} s, N"
-        yield _of_absolute(name, motion["largest_tension"], motion["tension_error"])
+        name = f"largest tension in motion, at {motion['largest_tension_at'][0]:.4g} s"
+        yield _declared(THREAD["motion"], motion, "largest_tension", name)
 
 
 def _roll(summary: Summary) -> Iterator[Row]:
     response = summary["response"]
-    angle, time = response["largest_angle"], response["time_of_largest_angle"]
-    yield _of_absolute(f"largest angle, at {time:.4g} s, rad", angle, response["absolute_error"])
-    degrees = response["absolute_error"] * response["largest_angle_degrees"] / angle if angle else 0.0
-    yield _of_absolute("the same in degrees", response["largest_angle_degrees"], abs(degrees))
+    name = f"largest angle, at {response['time_of_largest_angle']:.4g} s"
+    yield _declared(ROLL_RESPONSE, response, "largest_angle", name)
+    yield _declared(ROLL_RESPONSE, response, "largest_angle_degrees", "the same")

@@ -9,8 +9,10 @@ from mpi4py import MPI
 
 from hydroelastic.output.outcome import Outcome
 from hydroelastic.output.sections import Section
+from hydroelastic.output.tank.quantities import TANK
 from hydroelastic.scenes.level_tank.run import NOTHING_TO_COMPARE
 from hydroelastic.scenes.models.level_tank import LevelTankScene
+from hydroelastic.scenes.models.round_tank import RoundTankScene
 from hydroelastic.scenes.models.string import StringScene
 from hydroelastic.scenes.models.tank import TankScene
 from hydroelastic.scenes.models.thread import ThreadScene
@@ -29,7 +31,7 @@ def comparison_of(scene: Scene, outcome: Outcome) -> tuple[Section, ...] | str:
     """
     if isinstance(scene, TankScene):
         return _tank(scene, outcome)
-    if isinstance(scene, LevelTankScene):
+    if isinstance(scene, LevelTankScene | RoundTankScene):
         found = tuple(section for section in outcome.sections if section.compares)
         return found or NOTHING_TO_COMPARE
     if isinstance(scene, StringScene):
@@ -46,7 +48,7 @@ def _tank(scene: TankScene, outcome: Outcome) -> tuple[Section, ...] | str:
         return found
     if scene.is_open:
         return "There is no comparison with older theories: that of thin floats does not fit these bodies and analyses."
-    if outcome.summary["exact"]:
+    if TANK["exact"].records(outcome.solution):
         return "The modes have an exact solution; how far they are from it is said below their table."
     return (
         "There is no comparison with older theories: they apply to a beam with free ends beside a free surface, and to "

@@ -8,7 +8,7 @@ from math import isinf
 from hydroelastic.output.sections import Row, Section
 from hydroelastic.physics.rigid_motions import heave_is_excluded
 from hydroelastic.physics.tank import Piece, StillLevel
-from hydroelastic.scenes.models.bodies import Float
+from hydroelastic.scenes.models.body_kinds import AnyFloat
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.tank_parts import TankParts
 from hydroelastic.scenes.tank.beam_words import BeamWords
@@ -167,6 +167,6 @@ def hydrostatics_table(scene: TankParts) -> Section:
 
 def _words_of(scene: TankParts, index: int) -> BodyWords:
     body = scene.body[index]
-    if isinstance(body, Float):
+    if isinstance(body, AnyFloat):
         return FloatWords(scene=scene, index=index, body=body)
     return BeamWords(scene=scene, index=index, beam=body)

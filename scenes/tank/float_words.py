@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from hydroelastic.scenes.models.bodies import Float
+from hydroelastic.scenes.models.body_kinds import AnyFloat
 from hydroelastic.scenes.models.floats import placed_float
 from hydroelastic.scenes.tank.body_words import BodyWords
 from hydroelastic.scenes.tank.symbols import Group, depth_group, jump_of, potential_of
@@ -15,7 +15,7 @@ from hydroelastic.scenes.tank.symbols import Group, depth_group, jump_of, potent
 class FloatWords(BodyWords):
     """Description of a float: its boundary condition, motions, dimensionless groups and hydrostatics."""
 
-    body: Float
+    body: AnyFloat
     symbol = "s"
     name = "float"
 
@@ -93,7 +93,7 @@ class FloatWords(BodyWords):
         }
 
 
-def _stability(body: Float, stiffness: float) -> str:
+def _stability(body: AnyFloat, stiffness: float) -> str:
     if stiffness > 0.0:
         return "stable"
     found = "neutral" if stiffness == 0.0 else "unstable"

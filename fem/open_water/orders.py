@@ -1,0 +1,232 @@
+"""Solids of revolution, order by order: one problem of the half-plane for each azimuthal order, joined afterwards.
+
+Heave is of order 0, surge and pitch are of order 1; higher orders scatter waves without a force on the bodies.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TypeVar
+
+import numpy as np
+
+from hydroelastic.fem.open_water.basin import open_basin
+from hydroelastic.fem.open_water.decay import DecaySolution, solve_decay
+from hydroelastic.fem.open_water.problem import OpenWaterProblem
+from hydroelastic.fem.open_water.radiation import RadiationSolution, solve_radiation
+from hydroelastic.fem.open_water.region import Region
+from hydroelastic.fem.open_water.requests import (
+    DecayRequest,
+    RadiationRequest,
+    Request,
+    ResonanceRequest,
+    ResponseRequest,
+)
+from hydroelastic.fem.open_water.resonance import ResonanceSolution, solve_resonance
+from hydroelastic.fem.open_water.response import ResponseSolution, solve_response
+from hydroelastic.fem.open_water.results import RadiationTable, ResonanceTable, ResponseTable
+from hydroelastic.modal.liquid.travelling_waves import travelling_waves
+from hydroelastic.modal.tank_estimates import two_layers
+from hydroelastic.physics.dofs import Dof, dof_names
+
+Solution = TypeVar("Solution", RadiationSolution, ResponseSolution, ResonanceSolution, DecaySolution)
+
+
+def solve_by_order(
+    problem: OpenWaterProblem, request: Request
+) -> RadiationSolution | ResponseSolution | ResonanceSolution | DecaySolution:
+    """Solve an analysis for the orders that it needs, and join them (collective)."""
+    match request:
+        case RadiationRequest():
+            return _solve_radiation(problem, request)
+        case ResponseRequest():
+            return _solve_response(problem, request)
+        case DecayRequest():
+            return _solve_decay(problem, request)
+        case ResonanceRequest():
+            return _solve_resonance(problem, request)
+        case _:
+            raise TypeError(f"{request.kind} is not solved for solids of revolution")
+
+
+def _solve_radiation(problem: OpenWaterProblem, request: RadiationRequest) -> RadiationSolution:
+    """Solve for the motions of each order (collective); see `solve_radiation`."""
+    found = [solve_radiation(problem.of_order(order), request) for order in problem.tank.orders]
+    return replace(_largest(found), table=_radiation(problem, [one.table for one in found]), error=_error(found))
+
+
+def _radiation(problem: OpenWaterProblem, tables: list[RadiationTable]) -> RadiationTable:
+    dofs = _dofs(problem)
+    first = tables[0]
+    places = [_places(dofs, table.dofs) for table in tables]
+
+    def matrices(name: str) -> np.ndarray:
+        values = [getattr(table, name) for table in tables]
+        whole = np.zeros((*values[0].shape[:-2], len(dofs), len(dofs)))
+        for own, value in zip(places, values, strict=True):
+            whole[..., own[:, None], own] = value
+        return whole
+
+    def forces(name: str) -> np.ndarray:
+        return _by_dof(dofs, [(table.dofs, getattr(table, name)) for table in tables])
+
+    def largest(name: str) -> np.ndarray:
+        return np.max([getattr(table, name) for table in tables], axis=0)
+
+    return replace(
+        first,
+        dofs=dofs,
+        added_mass=matrices("added_mass"),
+        radiation_damping=matrices("radiation_damping"),
+        excitation_force=forces("excitation_force"),
+        froude_krylov_force=forces("froude_krylov_force"),
+        diffraction_force=forces("diffraction_force"),
+        relative_error=largest("relative_error"),
+        energy_residual=largest("energy_residual"),
+        haskind_residual=largest("haskind_residual"),
+        inertia=matrices("inertia"),
+        stiffness=matrices("stiffness"),
+        infinite_frequency_added_mass=(
+            None if first.infinite_frequency_added_mass is None else matrices("infinite_frequency_added_mass")
+        ),
+        factorizations=sum(table.factorizations for table in tables),
+    )
+
+
+def _solve_response(problem: OpenWaterProblem, request: ResponseRequest) -> ResponseSolution:
+    """Solve for the motions of each order, and for the waves that fixed bodies scatter in higher orders (collective).
+
+    Orders are added until the scattered waves of one are below the tolerance at all frequencies.
+    """
+    found: list[ResponseSolution] = []
+    last = max(problem.tank.orders)
+    while not found or len(found) <= last or _scatters(problem, found[-1].table):
+        own = problem.of_order(len(found))
+        # No other analysis asks for the orders in which nothing moves: their solvers need not be kept.
+        found.append(solve_response(own if len(found) <= last else replace(own, solvers={}), request))
+    return replace(_largest(found), table=_response(problem, [one.table for one in found]), error=_error(found))
+
+
+def _scatters(problem: OpenWaterProblem, table: ResponseTable) -> bool:
+    assert table.partial_waves is not None
+    return bool(np.abs(table.partial_waves).max() > problem.tolerance)
+
+
+def _response(problem: OpenWaterProblem, tables: list[ResponseTable]) -> ResponseTable:
+    dofs = _dofs(problem)
+    waves = np.concatenate([table.partial_waves for table in tables if table.partial_waves is not None], axis=-1)
+    peaks = [peak for table in tables for peak in table.missed_peaks]
+    return replace(
+        tables[0],
+        dofs=dofs,
+        amplitudes=_by_dof(dofs, [(table.dofs, table.amplitudes) for table in tables]),
+        partial_waves=waves,
+        drift_force=_drift_force(problem, tables[0], waves),
+        absorption=np.sum(
+            [table.absorption * (1.0 if order == 0 else 2.0) for order, table in enumerate(tables)], axis=0
+        ),
+        energy_residual=np.max([np.abs(table.energy_residual) for table in tables], axis=0),
+        relative_error=np.max([table.relative_error for table in tables], axis=0),
+        missed_peaks=tuple(peaks),
+    )
+
+
+def _drift_force(problem: OpenWaterProblem, table: ResponseTable, waves: np.ndarray) -> np.ndarray:
+    """Mean force along x per square of the amplitude, N/m²; NaN in waves on two levels.
+
+    The momentum that the scattered waves leave is F = −(4/k) E (c_g/c) Re Σ_{n≥0} [aₙ + aₙ₊₁ + 2aₙāₙ₊₁] of waves to the
+    right, E = ½ρgA² (Maruo 1960), with E c_g/c = ½ω²k²N/η̂² of a wave of unit elevation.
+    """
+    if len(table.waves) > 1:
+        return np.full(table.energy_residual.shape, np.nan)
+    layers, towards = two_layers(problem.tank), 1.0 if table.waves_from == "left" else -1.0
+    own, following = waves[:, 0, 0, :-1], waves[:, 0, 0, 1:]
+    widths = -4.0 / table.wavenumbers[:, 0] * (own + following + 2.0 * own * following.conj()).real.sum(axis=-1)
+    momenta = []
+    for omega in table.omega:
+        (wave,) = travelling_waves(layers, float(omega))
+        momenta.append(0.5 * omega**2 * wave.wavenumber**2 * wave.energy / wave.elevation**2)
+    return np.asarray(towards * np.array(momenta) * widths)[:, None]
+
+
+def _solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> ResonanceSolution:
+    """Find the resonances of each order, and keep those of smallest |ω| (collective); see `solve_resonance`."""
+    found = [solve_resonance(problem.of_order(order), request) for order in problem.tank.orders]
+    dofs = _dofs(problem)
+    tables = [one.table for one in found]
+    omega = np.concatenate([table.omega for table in tables])
+    chosen = np.argsort(np.abs(omega), kind="stable")[: request.count]
+    motions = [_by_dof(dofs, [(table.dofs, table.body_amplitudes)]) for table in tables]
+    counts = [table.counted for table in tables]
+    labels = [label for table in tables for label in table.labels]
+    table = ResonanceTable(
+        omega=omega[chosen],
+        dofs=dofs,
+        labels=tuple(labels[place] for place in chosen),
+        body_amplitudes=np.concatenate(motions)[chosen],
+        residuals=np.concatenate([one.residuals for one in tables])[chosen],
+        relative_error=np.concatenate([one.relative_error for one in tables])[chosen],
+        counted=None if None in counts else sum(count for count in counts if count is not None),
+        region=_joined_region([one.region for one in tables if one.region is not None]),
+    )
+    return ResonanceSolution(
+        table=table,
+        model=_largest(found).model,
+        error=_error(found),
+        known=sum(one.known for one in found),
+        unstable=any(one.unstable for one in found),
+    )
+
+
+def _joined_region(regions: list[Region]) -> Region | None:
+    """Return a region with those of all orders in it."""
+    if not regions:
+        return None
+    lowest, highest = min(one.lowest for one in regions), max(one.highest for one in regions)
+    return Region(lowest=lowest, highest=highest, damping=max(one.damping for one in regions))
+
+
+def _solve_decay(problem: OpenWaterProblem, request: DecayRequest) -> DecaySolution:
+    """Solve for the motions of the orders that are released (collective); see `solve_decay`."""
+    given = {0: request.heave, 1: request.roll}
+    orders = [order for order in problem.tank.orders if given.get(order)]
+    found = [solve_decay(problem.of_order(order), request) for order in orders]
+    dofs = _dofs(problem)
+    tables = [one.table for one in found]
+    table = replace(
+        tables[0],
+        dofs=dofs,
+        displacement=_by_dof(dofs, [(one.dofs, one.displacement) for one in tables]),
+        initial=_by_dof(dofs, [(one.dofs, one.initial) for one in tables]),
+        absolute_error=np.max([one.absolute_error for one in tables], axis=0),
+        tail=None,
+        certified_until=min(one.certified_until for one in tables),
+    )
+    return replace(_largest(found), table=table, error=_error(found), solved=sum(one.solved for one in found))
+
+
+def _dofs(problem: OpenWaterProblem) -> tuple[Dof, ...]:
+    """Degrees of freedom of all orders, body by body."""
+    return dof_names(body.rigid_motions for body in open_basin(problem.tank, 0.0).tank.bodies)
+
+
+def _places(dofs: tuple[Dof, ...], own: tuple[Dof, ...]) -> np.ndarray:
+    return np.array([dofs.index(dof) for dof in own], dtype=int)
+
+
+def _by_dof(dofs: tuple[Dof, ...], parts: list[tuple[tuple[Dof, ...], np.ndarray]]) -> np.ndarray:
+    """Values of the motions of some orders, shape (…, own motions), among all: shape (…, motions)."""
+    values = parts[0][1]
+    whole = np.zeros((*values.shape[:-1], len(dofs)), dtype=values.dtype)
+    for own, value in parts:
+        whole[..., _places(dofs, own)] = value
+    return whole
+
+
+def _largest(found: list[Solution]) -> Solution:
+    """The solution with the largest problem."""
+    return max(found, key=lambda one: one.model.pencil.size if one.model is not None else 0)
+
+
+def _error(found: list[Solution]) -> float:
+    return max(one.error for one in found)

@@ -1,0 +1,109 @@
+"""The elevation of the water around solids of revolution, in plan view.
+
+At a distance r and an angle θ from the direction in which the waves travel, per unit elevation of these,
+
+    η = e^{ikx} + Σₙ εₙ iⁿ λψₙ(r)/η̂ cos nθ,
+
+with the scattered ψₙ of each order, solved for once more in a basin as wide as the picture, and the elevation η̂ of the
+wave Jₙ Z of which it is scattered.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from hydroelastic.fem.open_water.field_model import Band, first_resolution, open_model
+from hydroelastic.fem.open_water.incident_waves import RIGHTWARD, Circular
+from hydroelastic.fem.open_water.problem import OpenWaterProblem
+from hydroelastic.fem.open_water.results import ResponseTable
+from hydroelastic.fem.open_water.solver import OpenSolver
+from hydroelastic.fem.surface_line import along_the_surface
+
+# Distance from the bodies to the edge of a picture in radians of the wave.
+_RADIANS = 13.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlanWaves:
+    """The elevation around solids of revolution in waves towards +x, per unit of theirs.
+
+    Attributes:
+        name: name of its files.
+        title: one line of text.
+        omega: ω, rad/s.
+        radii: r, m, ascending, shape (points,); between free surfaces there are bodies.
+        wavenumber: k, 1/m.
+        phase_at: x at which the crest of the incident wave is at t = 0, m.
+        orders: the scattered and radiated waves of each azimuthal order, complex, shape (orders, points).
+        waterplanes: inner and outer radius of each body in the water, m.
+    """
+
+    name: str
+    title: str
+    omega: float
+    radii: np.ndarray
+    wavenumber: float
+    phase_at: float
+    orders: np.ndarray
+    waterplanes: tuple[tuple[float, float], ...]
+
+    def elevation(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Return the complex elevation at places, NaN in bodies and beyond the largest radius; shape of x."""
+        r, angle = np.hypot(x, y), np.arctan2(y, x)
+        total = np.exp(1j * self.wavenumber * (x - self.phase_at))
+        for order, part in enumerate(self.orders):
+            total += np.interp(r, self.radii, part) * np.cos(order * angle)
+        dry = r > self.radii[-1]
+        for inner, outer in self.waterplanes:
+            dry |= (inner < r) & (r < outer)
+        return np.where(dry, np.nan, total)
+
+
+def plan_waves(problem: OpenWaterProblem, table: ResponseTable, number: int) -> Iterator[PlanWaves]:
+    """Yield the elevation where the motion of a body is largest, on rank 0 (collective).
+
+    Args:
+        problem: the sea with solids of revolution.
+        table: the response; of waves on one level only.
+        number: of the analysis.
+    """
+    if table.partial_waves is None or len(table.waves) > 1 or table.waves_from != "left":
+        return
+    turns = np.array([dof.is_rotation for dof in table.dofs])
+    sizes = np.where(turns, 0.0, np.abs(table.amplitudes[:, 0])).max(axis=1)
+    omega = float(table.omega[int(np.argmax(sizes))])
+    rough, band = problem.rough(), Band(lowest=omega, highest=omega)
+    # From the axis to two wavelengths beyond the bodies.
+    reach = max(right for _, right in (body.waterplane for body in problem.tank.bodies))
+    reach += _RADIANS / band.wavenumbers(problem.tank)[1]
+    rough = replace(rough, tank=replace(rough.tank, start=-reach, length=2.0 * reach))
+    parts = []
+    for order in range(table.partial_waves.shape[-1]):
+        own = rough.of_order(order)
+        resolution = first_resolution(own.tank, own.tolerance, band, drawn=_RADIANS)
+        model = open_model(own, band, resolution, drawn=_RADIANS)
+        found = OpenSolver(model, problem.watch).response(omega, [0])
+        wave = found.incidence.planes[0]
+        assert isinstance(wave, Circular)
+        psi = found.squared * found.scattered[0] / wave.elevation
+        vectors = [model.pencil.vector(part) for part in (psi.real, psi.imag)]
+        r, (real, imaginary) = along_the_surface(model.pencil.liquid, vectors, model.basin.bounds[1][0])
+        scattered = real + 1j * imaginary
+        parts.append((r * model.basin.units.length, wave.part(RIGHTWARD, model.basin) * scattered))
+    if problem.comm.rank:
+        return
+    radii = parts[0][0]
+    bodies = [body.waterplane for body in problem.tank.bodies]
+    yield PlanWaves(
+        name=f"response_{number}",
+        title=f"Waves from the left around the bodies at ω = {omega:.5g} rad/s, where a motion is largest",
+        omega=omega,
+        radii=radii,
+        wavenumber=band.wavenumbers(problem.tank)[1],
+        phase_at=problem.tank.phase_at,
+        orders=np.array([np.interp(radii, r, values) for r, values in parts]),
+        waterplanes=tuple((max(left, 0.0), right) for left, right in bodies),
+    )

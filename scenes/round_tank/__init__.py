@@ -1,0 +1,1 @@
+"""Running a scene of a tank of revolution."""

@@ -1,0 +1,30 @@
+"""Description of a tank of revolution, before anything is solved."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from hydroelastic.output.open_water.bodies import bodies_at_rest_section
+from hydroelastic.output.sections import Section
+from hydroelastic.scenes.models.physical import physical_tank
+from hydroelastic.scenes.models.round_tank import RoundTankScene
+
+
+def check_round_tank(scene: RoundTankScene) -> Iterator[Section]:
+    """Yield what is asked, the tank, and the floats at rest.
+
+    Args:
+        scene: a validated scene; nothing is solved.
+    """
+    asked = scene.accuracy
+    bed = "level bed" if scene.tank.outline is None else f"bed of {len(scene.tank.outline) - 1} cones"
+    yield Section(
+        title="What is asked",
+        lines=(
+            f"The lowest {asked.modes} modes to a relative error of {asked.tolerance:g} in frequency.",
+            f"A tank of revolution of radius {scene.tank.radius:g} m with a {bed}, order by order in the half-plane "
+            "(r, z): ψ cos nθ, heave in order 0, surge and pitch in order 1.",
+        ),
+    )
+    if scene.body:
+        yield bodies_at_rest_section(physical_tank(scene))

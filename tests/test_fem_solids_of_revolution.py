@@ -1,0 +1,231 @@
+"""Solids of revolution in the open sea against references by other methods, closed limits and identities."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from mpi4py import MPI
+from open_cases import TOO_SMALL, complex_of, stored
+from scipy.special import h1vp, jvp
+
+from hydroelastic.fem.open_water.requests import RadiationRequest, ResonanceRequest, ResponseRequest
+from hydroelastic.fem.open_water.solve import OpenWaterSolution, solve_open_water
+from hydroelastic.fem.stopwatch import Stopwatch
+from hydroelastic.scenes.models.sea import SeaScene
+from hydroelastic.scenes.open_water.physics import open_water_problem
+
+CASES = {case["name"]: case for case in stored("axisymmetric_sea.json")["cases"]}
+DENSITY, GRAVITY = 1000.0, 9.81
+MOTIONS = ("heave", "surge", "pitch")
+SLOW = pytest.mark.slow
+
+
+def solved(
+    bodies: list[dict[str, Any]], depth: float, tolerance: float, *requests: Any, motions: tuple[str, ...] = MOTIONS
+) -> OpenWaterSolution:
+    """Solve for solids; pitch is about the still level."""
+    body = [{"kind": "float", "motions": list(motions), "vertical_centre_of_gravity": 0.0} | one for one in bodies]
+    scene = SeaScene.model_validate(
+        {
+            "liquid": [{"density": DENSITY, "depth": depth}],
+            "body": [one | {"unstable": "solve"} for one in body],
+            "accuracy": {"tolerance": tolerance},
+        }
+    )
+    return solve_open_water(open_water_problem(scene, MPI.COMM_WORLD, Stopwatch()), requests)
+
+
+def bodies_of(case: dict[str, Any]) -> list[dict[str, Any]]:
+    """Return the bodies of a case as they are written in scenes."""
+    given = case["inputs"]
+    if "list" not in given:
+        kind = {"shape": "cylinder", "draught": float(given["draught"])} if "draught" in given else {"shape": "sphere"}
+        return [kind | {"radius": float(given["radius"])}]
+    bodies, inner = [], 0.0
+    for outer, draught, body in given["list"]:
+        if body is not None:
+            hole = {"inner_radius": inner} if inner else {}
+            bodies.append({"shape": "cylinder", "radius": float(outer), "draught": float(draught), **hole})
+        inner = float(outer)
+    return bodies
+
+
+def depth_of(case: dict[str, Any]) -> float:
+    """Return the depth of a case, m."""
+    return float(case["inputs"]["depth"])
+
+
+RADIATION = [
+    pytest.param("hemisphere Ka=1.5", 1e-5),
+    pytest.param("c1 Ka=0.5", 1e-5),
+    pytest.param("hemisphere Ka=0.01", 1e-6, marks=SLOW),
+    pytest.param("hemisphere Ka=10.0", 1e-6, marks=SLOW),
+    pytest.param("hemisphere Ka=3.0", 1e-8, marks=SLOW),
+    pytest.param("c5 Ka=0.05", 1e-6, marks=SLOW),
+    pytest.param("c6 Ka=4.0", 1e-6, marks=SLOW),
+    pytest.param("c7 Ka=2.0", 1e-6, marks=SLOW),
+    pytest.param("c8 Ka=1.0", 1e-6, marks=SLOW),
+    pytest.param("c9 deep Ka=0.5", 1e-8, marks=SLOW),
+]
+
+
+@pytest.mark.mpi
+@pytest.mark.parametrize(("name", "tolerance"), RADIATION)
+def test_radiation_and_excitation_agree_with_the_references(name: str, tolerance: float) -> None:
+    """A wrong weight, c_n, n² term or phase of a plane wave is an error of order 1."""
+    case = CASES[name]
+    values = case["values"]
+    motions = MOTIONS if "added_mass_pitch" in values else MOTIONS[:2]
+    (table,) = solved(
+        bodies_of(case), depth_of(case), tolerance, RadiationRequest(omega=(values["omega"],)), motions=motions
+    ).radiation
+    assert table.dofs == motions
+    found = table.added_mass[0] + 1j * table.radiation_damping[0] / values["omega"]
+    sizes = np.sqrt(np.abs(np.diag(found)))
+    keys = {(motion, motion): motion for motion in motions}
+    keys |= {("surge", "pitch"): "surge_pitch"} if "pitch" in motions else {}
+    errors = []
+    for (one, other), key in keys.items():
+        row, column = motions.index(one), motions.index(other)
+        known = values[f"added_mass_{key}"] + 1j * values[f"damping_{key}"] / values["omega"]
+        errors.append(abs(found[row, column] - known) / (sizes[row] * sizes[column]))
+    assert max(errors) < TOO_SMALL * table.relative_error[0] < tolerance * TOO_SMALL
+    # Excitation is of the same order; of pitch it nearly cancels between bottom and side, and e^{−kd} of heave is tiny.
+    for place, motion in enumerate(motions):
+        known = complex_of(values[f"excitation_{motion}"])
+        scale = abs(known) + 1e-6 * DENSITY * GRAVITY
+        assert abs(table.excitation_force[0, 0, 0, place] - known) < 5.0 * tolerance * scale
+    assert table.energy_residual[0] < 10.0 * tolerance
+    assert table.haskind_residual[0] < 10.0 * tolerance
+    assert found[0, 1] == 0.0
+
+
+def test_waves_from_the_other_side_turn_surge_and_pitch_over() -> None:
+    """The force of order n has the factor (±i)ⁿ."""
+    case = CASES["c1 Ka=0.5"]
+    (table,) = solved(bodies_of(case), 2.0, 1e-3, RadiationRequest(omega=(case["values"]["omega"],))).radiation
+    right, left = table.excitation_force[0, 0]
+    np.testing.assert_allclose(left, right * [1.0, -1.0, -1.0], rtol=1e-12)
+
+
+def test_a_spar_in_a_ring_float_couples_to_it() -> None:
+    """Matrices of two bodies on one axis with a gap of a tenth of the radius between them."""
+    case = CASES["m4 spar in annulus with gap K=1.3"]
+    values = case["values"]
+    (table,) = solved(
+        bodies_of(case), depth_of(case), 1e-5, RadiationRequest(omega=(values["omega"],)), motions=MOTIONS[:2]
+    ).radiation
+    assert table.dofs == ("body_1__heave", "body_1__surge", "body_2__heave", "body_2__surge")
+    for order, own in ((0, [0, 2]), (1, [1, 3])):
+        mass, damping = (np.array(values[f"{name}_n{order}"]) for name in ("added_mass", "damping"))
+        scale = np.abs(mass).max()
+        np.testing.assert_allclose(table.added_mass[0][np.ix_(own, own)], mass, atol=1e-5 * scale)
+        np.testing.assert_allclose(
+            table.radiation_damping[0][np.ix_(own, own)], damping, atol=1e-5 * scale * values["omega"]
+        )
+        force = complex_of(values[f"excitation_n{order}"])
+        np.testing.assert_allclose(table.excitation_force[0, 0, 0, own], force, atol=1e-5 * np.abs(force).max())
+
+
+def test_limits_of_a_hemisphere_are_the_closed_ones() -> None:
+    """Of ρ 2πa³/3: heave 0.83095132047 and 1/2, surge 1/2 and 4/π − 1, at ω = 0 and ∞."""
+    request = RadiationRequest(omega=(0.0, math.inf))
+    (table,) = solved([{"shape": "sphere", "radius": 2.0}], math.inf, 1e-5, request, motions=MOTIONS[:2]).radiation
+    displaced = DENSITY * 2.0 * math.pi * 8.0 / 3.0
+    found = np.diagonal(table.added_mass, axis1=1, axis2=2) / displaced
+    known = [[0.83095132047, 0.5], [0.5, 4.0 / math.pi - 1.0]]
+    np.testing.assert_allclose(found, known, rtol=1e-5)
+    assert table.infinite_frequency_added_mass is not None
+
+
+def test_heave_of_long_waves_over_a_bed_has_no_limit() -> None:
+    """Its added mass grows like −ln ka; surge has a limit."""
+    values = CASES["c1 limits"]["values"]
+    (table,) = solved(bodies_of(CASES["c1 limits"]), 2.0, 1e-4, RadiationRequest(omega=(0.0,))).radiation
+    assert np.isinf(table.added_mass[0, 0, 0])
+    assert table.added_mass[0, 1, 1] == pytest.approx(values["added_mass_omega_0_surge"], rel=1e-4)
+    assert table.added_mass[0, 1, 2] == pytest.approx(values["added_mass_omega_0_surge_pitch"], rel=1e-3)
+
+
+def test_a_thin_ring_of_large_radius_is_a_section_bent_to_a_circle() -> None:
+    """At infinite frequency the added mass per length differs from that of the section by a part of a/R."""
+    request = RadiationRequest(omega=(math.inf,))
+    section = SeaScene.model_validate(
+        {
+            "liquid": [{"density": DENSITY, "depth": math.inf}],
+            "body": [{"kind": "float", "shape": "rectangle", "half_width": 0.5, "half_height": 0.5}],
+            "accuracy": {"tolerance": 1e-4},
+        }
+    )
+    plane = solve_open_water(open_water_problem(section, MPI.COMM_WORLD, Stopwatch()), (request,)).radiation[0]
+    differences = []
+    for radius in (10.0, 20.0):
+        ring = {"shape": "cylinder", "inner_radius": radius - 0.5, "radius": radius + 0.5, "draught": 0.5}
+        (table,) = solved([ring], math.inf, 1e-4, request, motions=("heave",)).radiation
+        per_length = table.added_mass[0, 0, 0] / (2.0 * math.pi * radius)
+        differences.append(abs(per_length / plane.added_mass[0, 0, 0] - 1.0))
+    # Measured: 2.36e-3 and 7.3e-4, between 1/R and 1/R²: the section is its own mirror image.
+    assert differences[0] == pytest.approx(2.36e-3, rel=0.05)
+    assert 0.2 * differences[0] < differences[1] < 0.4 * differences[0]
+
+
+@pytest.mark.mpi
+def test_motions_in_waves_follow_from_forces_and_no_order_loses_power() -> None:
+    """[C − ω²(M + a) − iωb] ξ = X, and |1 + 2aₙ| = 1 of every partial wave."""
+    case = CASES["c1 Ka=0.5"]
+    omega = case["values"]["omega"]
+    requests = RadiationRequest(omega=(omega,)), ResponseRequest(omega=(omega,))
+    solution = solved(bodies_of(case), 2.0, 1e-5, *requests)
+    (forces,), (response,) = solution.radiation, solution.response
+    dynamic = (
+        forces.stiffness - omega**2 * (forces.inertia + forces.added_mass[0]) - 1j * omega * forces.radiation_damping[0]
+    )
+    known = np.linalg.solve(dynamic, forces.excitation_force[0, 0, 0])
+    np.testing.assert_allclose(response.amplitudes[0, 0], known, rtol=1e-4)
+    waves = response.partial_waves
+    assert waves is not None
+    # Orders up to where the scattered wave is below the tolerance.
+    assert 3 <= waves.shape[-1] <= 8
+    assert abs(waves[0, 0, 0, -1]) < 1e-5 < abs(waves[0, 0, 0, 1])
+    np.testing.assert_allclose(np.abs(1.0 + 2.0 * waves), 1.0, atol=1e-6)
+
+
+def test_a_floating_cylinder_heaves_at_its_resonance() -> None:
+    """Complex frequency, and a count that knows of the water's own resonance beside the cylinder in order 1."""
+    name = "heave resonance of the floating cylinder d=1.0 H=10.0"
+    (table,) = solved(
+        [{"shape": "cylinder", "radius": 1.0, "draught": 1.0, "vertical_centre_of_gravity": -0.6}],
+        10.0,
+        1e-5,
+        ResonanceRequest(),
+    ).resonance
+    assert table.labels == ("pitch", "heave")
+    assert abs(table.omega[1] - complex_of(CASES[name]["values"]["omega"])) < 1e-5 * abs(table.omega[1])
+    assert table.counted == 2
+
+
+def test_a_deep_cylinder_scatters_as_one_that_stands_on_the_bed() -> None:
+    """aₙ = −Jₙ′(ka)/Hₙ′(ka) of MacCamy and Fuchs up to e^{−kd} = 6e-6: a factor n in place of n² shows from n = 2 on.
+
+    The drift force is that of the momentum of these waves; for ka → ∞ it would be (2/3) ρgA²a.
+    """
+    wavenumber, radius = 2.0, 1.0
+    omega = math.sqrt(GRAVITY * wavenumber)
+    (table,) = solved(
+        [{"shape": "cylinder", "radius": radius, "draught": 6.0}],
+        math.inf,
+        1e-4,
+        ResponseRequest(omega=(omega,)),
+        motions=("heave",),
+    ).response
+    assert table.partial_waves is not None
+    found = table.partial_waves[0, 0, 0]
+    orders = np.arange(len(found))
+    known = -jvp(orders, wavenumber * radius) / h1vp(orders, wavenumber * radius)
+    assert len(found) >= 5
+    np.testing.assert_allclose(found, known, atol=1e-4)
+    # ½ρgA² (c_g/c) times the width in which the waves lose their momentum.
+    assert table.drift_force[0, 0] == pytest.approx(0.6271746654 * DENSITY * GRAVITY * radius, rel=1e-4)

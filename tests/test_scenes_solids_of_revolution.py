@@ -1,0 +1,93 @@
+"""Scenes of solids of revolution, in the sea and in round tanks: what is read, refused and told."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from pydantic import ValidationError
+
+from hydroelastic.scenes.models.round_tank import RoundTankScene, is_round_tank
+from hydroelastic.scenes.models.sea import SeaScene
+from hydroelastic.scenes.models.solids import SolidFloat
+from hydroelastic.scenes.open_water.run import run_open
+from hydroelastic.scenes.round_tank.run import run_round_tank
+
+CYLINDER: dict[str, Any] = {"kind": "float", "shape": "cylinder", "radius": 1.0, "draught": 1.0}
+WATER: list[dict[str, Any]] = [{"density": 1000.0, "depth": 10.0}]
+
+
+def sea(*bodies: dict[str, Any], **more: Any) -> SeaScene:
+    """Return a scene of the sea."""
+    return SeaScene.model_validate({"liquid": WATER, "body": list(bodies), **more})
+
+
+def refusal(**given: Any) -> str:
+    """Return why a solid is refused."""
+    with pytest.raises(ValidationError) as caught:
+        SolidFloat.model_validate(given)
+    return str(caught.value)
+
+
+def test_the_shape_tells_a_solid_from_a_section() -> None:
+    section = {"kind": "float", "shape": "ellipse", "half_width": 1.0, "half_height": 1.0}
+    assert sea(CYLINDER).is_revolved
+    assert not sea(section).is_revolved
+    with pytest.raises(ValidationError, match="other bodies of the scene are solids of revolution"):
+        sea(CYLINDER, section)
+
+
+def test_keys_that_do_not_fit_are_refused() -> None:
+    assert "needs it" in refusal(shape="cylinder", radius=1.0)
+    assert "does not belong" in refusal(shape="cone", radius=1.0, draught=1.0, inner_radius=0.5)
+    assert "inside the ring" in refusal(shape="cylinder", radius=1.0, inner_radius=1.0, draught=1.0)
+    assert "under water" in refusal(shape="sphere", radius=1.0, draught=2.0)
+    assert "one side of a section" in refusal(shape="revolved", outline=[[0, -1], [1, -1], [0, 0], [1, 1]])
+    with pytest.raises(ValidationError, match="sections only"):
+        sea(CYLINDER, analysis=[{"kind": "resonance", "largest_damping": 1.0}], liquid=[{**WATER[0]}])
+
+
+def test_results_of_solids_are_whole_and_named_as_theirs() -> None:
+    """Units, degrees of freedom, partial waves; a floating body without damping absorbs nothing."""
+    scene = sea(
+        CYLINDER | {"motions": ["heave", "surge"]},
+        analysis=[{"kind": "radiation", "omega": [1.0]}, {"kind": "response", "omega": [1.0]}],
+        accuracy={"tolerance": 1e-3},
+    )
+    outcome = run_open(scene)
+    summary = outcome.summary
+    assert summary["radiation"][0]["dofs"] == ["heave", "surge"]
+    response = summary["response"][0]
+    assert response["reflection"] is None
+    assert len(response["partial_waves"][0][0][0]) >= 2
+    assert response["scattering_width"][0][0] > 0.0
+    assert response["capture_width"] == [[0.0]]
+    headings = {heading for section in outcome.sections for heading in section.headings}
+    assert {"a, kg", "b, kg/s", "|f|, N/m"} <= headings
+    assert next(section for section in outcome.sections if section.title == "Bodies at rest")
+
+
+def test_a_round_tank_with_a_float_or_a_bed_is_solved_by_order() -> None:
+    tank = {"radius": 3.0, "outline": [[0.0, -3.0], [3.0, -1.0]]}
+    document = {"tank": tank, "liquid": [{"density": 1000.0, "depth": 3.0}], "body": [CYLINDER]}
+    assert is_round_tank(document)
+    assert not is_round_tank({"tank": {"radius": 3.0}})
+    scene = RoundTankScene.model_validate(document | {"accuracy": {"modes": 4, "tolerance": 1e-3}})
+    modes = run_round_tank(scene).summary["modes"]
+    assert [mode["order"] for mode in modes] == [1, 0, 2, 3]
+    assert [mode["multiplicity"] for mode in modes] == [2, 1, 2, 2]
+    assert modes[1]["kind"] == "heave"
+
+
+@pytest.mark.parametrize(
+    ("outline", "wrong"),
+    [
+        ([[0.0, -3.0], [2.0, -1.0]], "from the axis to the wall"),
+        ([[0.0, -2.0], [3.0, -1.0]], "lowest corner"),
+    ],
+)
+def test_a_bed_that_does_not_fit_is_refused(outline: list[list[float]], wrong: str) -> None:
+    with pytest.raises(ValidationError, match=wrong):
+        RoundTankScene.model_validate(
+            {"tank": {"radius": 3.0, "outline": outline}, "liquid": [{"density": 1000.0, "depth": 3.0}]}
+        )

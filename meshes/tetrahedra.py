@@ -88,11 +88,20 @@ def _renumbered(mesh: NodedMesh) -> NodedMesh:
     return replace(mesh, points=mesh.points[used], cells=order[mesh.cells], facets=order[mesh.facets])
 
 
-def checked(mesh: NodedMesh) -> NodedMesh:
-    """Straighten cells that are inverted, as at the tip of a cone, whose shape tells nothing of a curve.
+class FoldedError(MeshError):
+    """A cell at a curved wall is inverted: smaller ones there help."""
+
+
+def checked(mesh: NodedMesh, *, tips: bool) -> NodedMesh:
+    """Refuse inverted cells, or straighten them.
+
+    Args:
+        mesh: the mesh.
+        tips: whether walls may have tips, as cones: cells there are straightened.
 
     Raises:
-        MeshError: if cells are inverted all the same, or there is no still surface.
+        FoldedError: if cells are inverted.
+        MeshError: if there is no still surface.
     """
     if not len(mesh.facets):
         raise MeshError("the liquid has no still surface at z = 0")
@@ -102,12 +111,14 @@ def checked(mesh: NodedMesh) -> NodedMesh:
         (folded,) = np.nonzero(smallest < _SMALLEST_JACOBIAN)
         if not len(folded):
             return mesh
+        if not tips:
+            break
         places = _element(mesh).points
         corners = np.column_stack([1.0 - places.sum(axis=1), places])
         points = mesh.points.copy()
         points[mesh.cells[folded]] = corners @ mesh.points[mesh.cells[folded, :4]]
         mesh = replace(mesh, points=points)
-    raise MeshError("a cell at a curved wall is inverted: ask for smaller cells")
+    raise FoldedError("a cell at a curved wall is inverted: ask for smaller cells")
 
 
 def jacobians(mesh: NodedMesh, lattice: int) -> NDArray[np.float64]:

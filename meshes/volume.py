@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from math import atan, hypot
+from math import atan, hypot, pi
 
 import gmsh
 import numpy as np
@@ -71,7 +71,8 @@ def volume_mesh(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors = (None, 
         mirrors: x and y of planes of symmetry, below which nothing is meshed.
 
     Raises:
-        MeshError: if gmsh fails, if a cell is inverted, or if the file's groups do not fit.
+        FoldedError: if a cell is inverted.
+        MeshError: if gmsh fails, or if the file's groups do not fit.
     """
     if isinstance(tank.plan, FilePlan) and tank.plan.file.suffix.lower() == ".msh":
         return mesh_of_file(tank.plan)
@@ -94,7 +95,7 @@ def volume_mesh(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors = (None, 
         faces = {tag: _name(tank, tag, owners, mirrors) for _, tag in gmsh.model.getBoundary([liquid], oriented=False)}
         _require_covered(tank, owners, faces, 2 ** sum(mirror is not None for mirror in mirrors))
         volume = occ.getMass(*liquid)
-        _set_sizes(sizes, _singular_edges(tank, faces, mirrors))
+        _set_sizes(tank, sizes, _singular_edges(tank, faces, mirrors))
         with interrupts_deferred():
             gmsh.model.mesh.generate(3)
             degree = sizes.geometry if _is_curved(tank) else 1
@@ -107,7 +108,7 @@ def volume_mesh(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors = (None, 
         points = mesh.points.copy()
         points[:, 2] *= bed(points[:, :2]) / tank.depth
         mesh = replace(mesh, points=points)
-    return VolumeMesh(noded=checked(mesh), volume=volume)
+    return VolumeMesh(noded=checked(mesh, tips=isinstance(tank.plan, FilePlan) and not tank.floats), volume=volume)
 
 
 def depth_over(tank: VolumeTank) -> Callable[[FloatArray], FloatArray]:
@@ -283,9 +284,10 @@ def _singular_edges(tank: VolumeTank, faces: dict[int, str], mirrors: Mirrors) -
     return found
 
 
-def _set_sizes(sizes: VolumeSizes, edges: set[int]) -> None:
+def _set_sizes(tank: VolumeTank, sizes: VolumeSizes, edges: set[int]) -> None:
     """Cells grow from singular edges, and follow curved walls."""
     mesh = gmsh.model.mesh
+    around = [pi * min(solid.size) / sizes.around for solid in tank.floats if solid.shape != "box"]
     if edges and sizes.edge < sizes.bulk:
         near = mesh.field.add("Distance")
         mesh.field.setNumbers(near, "CurvesList", sorted(edges))
@@ -300,7 +302,7 @@ def _set_sizes(sizes: VolumeSizes, edges: set[int]) -> None:
     for option, value in {
         "MeshSizeMax": sizes.bulk,
         # Curvature is unbounded at the tip of a cone.
-        "MeshSizeMin": min(sizes.edge, _LEAST_CURVED * sizes.bulk),
+        "MeshSizeMin": min([sizes.edge, _LEAST_CURVED * sizes.bulk, *around]),
         "MeshSizeFromPoints": 0,
         "MeshSizeExtendFromBoundary": 0,
         "MeshSizeFromCurvature": sizes.around,

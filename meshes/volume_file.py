@@ -140,5 +140,5 @@ def mesh_of_file(plan: FilePlan) -> VolumeMesh:
     points[:, 2] -= points[mesh.facets, 2].mean()
     if np.abs(points[mesh.facets, 2]).max() > _LEVEL * np.ptp(points):
         raise MeshError(f'the surface "{FREE_SURFACE}" of {plan.file} is not level')
-    mesh = checked(replace(mesh, points=np.asarray(points, dtype=np.float64)))
+    mesh = checked(tips=True, mesh=replace(mesh, points=np.asarray(points, dtype=np.float64)))
     return VolumeMesh(noded=mesh, volume=mesh_volume(mesh))

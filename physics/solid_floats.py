@@ -24,6 +24,9 @@ SolidMotion: TypeAlias = Literal["surge", "sway", "heave", "roll", "pitch", "yaw
 SOLID_MOTIONS: tuple[SolidMotion, ...] = get_args(SolidMotion)
 """Along x, y and z, and about axes along x, y and z through the centre of mass."""
 
+# Part of ρg I_x below which a stiffness is rounding.
+_ROUNDING = 1e-12
+
 FloatShape: TypeAlias = Literal["cylinder", "sphere", "box"]
 
 
@@ -102,7 +105,10 @@ class SolidFloat:
         found = self.hydrostatics
         lever = found.volume * (found.buoyancy - self.centre_of_gravity)
         values = {"heave": found.waterplane, "roll": found.second[0] + lever, "pitch": found.second[1] + lever}
-        return np.array([values.get(motion, 0.0) for motion in self.motions])
+        stiffness = np.array([values.get(motion, 0.0) for motion in self.motions])
+        # That of a sphere about its centre is rounding.
+        negligible = _ROUNDING * max(found.second)
+        return np.where(np.abs(stiffness) < negligible, 0.0, stiffness)
 
     def inertia(self) -> FloatArray:
         """Return mass or moment of inertia of its motions over ρ, shape (motions,)."""

@@ -32,11 +32,13 @@ from hydroelastic.fem.volume.resolution import VolumeErrors, VolumeResolution, v
 from hydroelastic.meshes.distribute import TankMesh, distribute_nodes
 from hydroelastic.meshes.plan_loops import Mirrors
 from hydroelastic.meshes.tagged_mesh import MeshError
-from hydroelastic.meshes.tetrahedra import VolumeMesh, mesh_volume
+from hydroelastic.meshes.tetrahedra import FoldedError, VolumeMesh, mesh_volume
 from hydroelastic.meshes.volume import VolumeSizes, volume_mesh
 from hydroelastic.physics.volume_tank import VolumeTank
 
 _MOST_ATTEMPTS = 5
+# Largest multiple of cells around curved walls, where they are inverted.
+_MOST_AROUND = 3
 # The decay of the energy in cells at an edge shows 0.36 to 0.57 of the error, that of waves more; measured on plates
 # in boxes and cylinders.
 _OF_EDGES, _OF_WAVES = 3.0, 1.8
@@ -169,7 +171,7 @@ def distributed_volume(
     made: VolumeMesh | MeshError | None = None
     if comm.rank == 0:
         try:
-            made = volume_mesh(tank, sizes, mirrors)
+            made = unfolded_volume(tank, sizes, mirrors)
         except MeshError as error:
             made = error
     failed, deviation = comm.bcast(
@@ -180,6 +182,16 @@ def distributed_volume(
     if failed is not None:
         raise failed
     return distribute_nodes(comm, made.noded if isinstance(made, VolumeMesh) else None), _GEOMETRY * deviation
+
+
+def unfolded_volume(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors) -> VolumeMesh:
+    """A mesh with more cells around curved walls where they would be inverted."""
+    for more in range(1, _MOST_AROUND):
+        try:
+            return volume_mesh(tank, replace(sizes, around=more * sizes.around), mirrors)
+        except FoldedError:
+            continue
+    return volume_mesh(tank, replace(sizes, around=_MOST_AROUND * sizes.around), mirrors)
 
 
 def require_memory(unknowns: int, degree: int, comm: MPI.Comm) -> None:

@@ -154,14 +154,19 @@ def _size_of_volume(tank: VolumeTank, tolerance: float, modes: int) -> Iterator[
     from hydroelastic.fem.volume.memory import DIRECT_UNKNOWNS, free_memory, memory_needed
     from hydroelastic.fem.volume.model import volume_mirrors
     from hydroelastic.fem.volume.resolution import volume_resolution
+    from hydroelastic.fem.volume.solve import unfolded_volume
+    from hydroelastic.meshes.tagged_mesh import MeshError
     from hydroelastic.meshes.tetrahedra import unknown_count
-    from hydroelastic.meshes.volume import volume_mesh
 
     words = MODEL_WORDS["volume"]
     yield f"{words[0].upper()}{words[1:]}."
     resolution = volume_resolution(tank, tolerance, modes)
     mirrors = volume_mirrors(tank)
-    mesh = volume_mesh(tank, resolution.sizes, mirrors).noded
+    try:
+        mesh = unfolded_volume(tank, resolution.sizes, mirrors).noded
+    except MeshError as error:
+        yield f"The volume cannot be meshed: {error}."
+        return
     unknowns = unknown_count(mesh, resolution.degree)
     shapes = f", {' + '.join(map(str, resolution.polynomials))} polynomials along each direction of the plates"
     parts = 2 ** sum(mirror is not None for mirror in mirrors)

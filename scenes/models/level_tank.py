@@ -172,8 +172,14 @@ def _floats_lie_in_the_tank(scene: LevelTankParts) -> Iterator[InitErrorDetails]
         place = next(index for index, body in enumerate(scene.body) if isinstance(body, TankFloat))
         yield problem_at(("body", place, "kind"), "float", "a float comes before a plate", remedy=remedy)
         return
-    spheres = [(first + index, body, body.solid(middle)) for index, body in enumerate(scene.floats)]
-    for index, body, solid in spheres:
+    bed = scene.tank.bed
+    if scene.floats and bed is not None and bed.slope is None:
+        yield problem_at(
+            ("tank", "bed"), None, "a bed through points would stretch the float too", allowed="a slope, or a level bed"
+        )
+        return
+    solids = [(first + index, body, body.solid(middle)) for index, body in enumerate(scene.floats)]
+    for index, body, solid in solids:
         if solid.draught >= depth * (1.0 - LEAST_DEPTH):
             most = f"less than {depth * (1.0 - LEAST_DEPTH):g} m"
             yield problem_at(("body", index, "draught"), solid.draught, "it leaves no liquid below", allowed=most)
@@ -182,7 +188,7 @@ def _floats_lie_in_the_tank(scene: LevelTankParts) -> Iterator[InitErrorDetails]
             yield problem_at(("body", index, key), getattr(body, key), "the float does not lie inside the tank")
         stiffness = dict(zip(solid.motions, solid.stiffness(), strict=True))
         for motion in ("roll", "pitch"):
-            if stiffness.get(motion, 1.0) <= 0.0:
+            if stiffness.get(motion, 1.0) < 0.0:
                 yield problem_at(
                     ("body", index, "vertical_centre_of_gravity"),
                     solid.centre_of_gravity,
@@ -190,7 +196,7 @@ def _floats_lie_in_the_tank(scene: LevelTankParts) -> Iterator[InitErrorDetails]
                     remedy="Lower its centre of gravity",
                 )
                 break
-    for (_, _, one), (index, body, other) in combinations(spheres, 2):
+    for (_, _, one), (index, body, other) in combinations(solids, 2):
         apart = [abs(a - b) for a, b in zip(one.position, other.position, strict=True)]
         if all(gap <= 0.5 * (a + b) for gap, a, b in zip(apart, one.size, other.size, strict=True)):
             yield problem_at(("body", index, body.shape_key), None, "the float touches another one")

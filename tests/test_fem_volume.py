@@ -31,7 +31,7 @@ from hydroelastic.meshes.volume import VolumeSizes, volume_mesh
 from hydroelastic.meshes.volume_file import file_plan
 from hydroelastic.physics.level_tank import Box, Cylinder, LevelTank
 from hydroelastic.physics.plate import Disc, Plate, Rectangle
-from hydroelastic.physics.solid_floats import SOLID_MOTIONS, SolidFloat
+from hydroelastic.physics.solid_floats import RIGID_MOTIONS, SolidFloat
 from hydroelastic.physics.volume_tank import SlopingBed, SurveyedBed, VolumeTank
 
 SILENT: Report = lambda _message: None  # noqa: E731
@@ -206,7 +206,7 @@ def floating_cylinder(name: str) -> VolumeTank:
         position=(0.0, 0.0),
         centre_of_gravity=given["zg"],
         gyration=(gyration, gyration, 1.0),
-        motions=SOLID_MOTIONS[:5],
+        motions=RIGID_MOTIONS[:5],
     )
     return VolumeTank(plan=Cylinder(radius=given["R"]), depth=given["H"], density=1000.0, gravity=9.81, floats=(solid,))
 
@@ -247,7 +247,7 @@ def test_hydrostatics_of_a_box_and_a_sphere_are_those_of_their_wetted_surface() 
             position=(0.9, 0.8),
             centre_of_gravity=0.05,
             gyration=(1.0, 1.0, 1.0),
-            motions=SOLID_MOTIONS,
+            motions=RIGID_MOTIONS,
         )
         tank = VolumeTank(plan=Box(length=2.0, width=1.5), depth=0.6, density=1.0, gravity=1.0, floats=(solid,))
         sizes = VolumeSizes(edge=0.2, bulk=0.3, geometry=4)

@@ -8,9 +8,9 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 
+from hydroelastic.scenes.models.revolved_floats import RevolvedFloat
 from hydroelastic.scenes.models.round_tank import RoundTankScene, is_round_tank
 from hydroelastic.scenes.models.sea import SeaScene
-from hydroelastic.scenes.models.solids import SolidFloat
 from hydroelastic.scenes.open_water.run import run_open
 from hydroelastic.scenes.round_tank.run import run_round_tank
 from hydroelastic.scenes.tank.check_tables import hydrostatics_table
@@ -27,7 +27,7 @@ def sea(*bodies: dict[str, Any], **more: Any) -> SeaScene:
 def refusal(**given: Any) -> str:
     """Return why a solid is refused."""
     with pytest.raises(ValidationError) as caught:
-        SolidFloat.model_validate(given)
+        RevolvedFloat.model_validate(given)
     return str(caught.value)
 
 

@@ -34,4 +34,6 @@ def of_whole_solids(group: Group) -> Group:
 
 def _whole(part: Quantity) -> Quantity:
     unit = None if part.unit is None else whole_unit(part.unit)
-    return replace(part, unit=unit, of_roll=tuple(map(whole_unit, part.of_roll)))
+    # A section rolls in the plane in which a solid of revolution pitches.
+    meaning = part.meaning.replace("of roll", "of pitch")
+    return replace(part, meaning=meaning, unit=unit, of_roll=tuple(map(whole_unit, part.of_roll)))

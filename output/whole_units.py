@@ -1,7 +1,4 @@
-"""Units of whole solids, of quantities that are declared per metre of width: they have one metre more.
-
-What is roll of a section is pitch of a solid of revolution.
-"""
+"""Units of whole solids, of quantities that are declared per metre of width: they have one metre more."""
 
 from __future__ import annotations
 
@@ -38,5 +35,6 @@ def of_whole_solids(group: Group) -> Group:
 
 def _whole(part: Quantity) -> Quantity:
     unit = None if part.unit is None else whole_unit(part.unit)
+    # A section rolls in the plane in which a solid of revolution pitches.
     meaning = re.sub(r"\broll\b", "pitch", part.meaning)
     return replace(part, meaning=meaning, unit=unit, of_roll=tuple(map(whole_unit, part.of_roll)))

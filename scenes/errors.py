@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeAlias, get_args, get_origin
 
-from pydantic import BaseModel, BeforeValidator, ValidationError
+from pydantic import BaseModel, BeforeValidator, Tag, ValidationError
 from pydantic.fields import FieldInfo
 
 from hydroelastic.output.folder import FolderError
@@ -229,7 +229,7 @@ def _unknown_kind(place: _Place, entry: Any) -> Problem:
     if not isinstance(entry, dict):
         return Problem(key=readable_key(place.location), value=shown_value(entry), wrong=_WRONG["model_type"])
     kind = entry.get("kind")
-    kinds = [str(model.model_fields["kind"].default) for model in _nested_models(place.field)]
+    kinds = list(dict.fromkeys(map(_kind, _nested_models(place.field).values())))
     return Problem(
         key=readable_key((*place.location, "kind")),
         value=shown_value(kind),
@@ -244,7 +244,9 @@ def _unknown_key(place: _Place, detail: Any, root: type[BaseModel]) -> Problem:
     parent = _place(root, detail["loc"][:-1])
     known = list((parent.model or root).model_fields)
     many = isinstance(value, list) and bool(value) and all(isinstance(entry, dict) for entry in value)
-    owners = [kind for kind, model in parent.siblings.items() if name in model.model_fields]
+    # A section and a solid share their kind, which then tells nothing.
+    own = _kind(parent.model or root)
+    owners = [_kind(model) for model in parent.siblings.values() if name in model.model_fields and _kind(model) != own]
     return Problem(
         key=readable_key(place.location, table="one" if isinstance(value, dict) else "many" if many else ""),
         value=shown_value(value),
@@ -334,7 +336,7 @@ class _Place:
         location: the location without the kinds of entries, which pydantic inserts.
         field: the last known field along the location.
         model: the model at the location, or None.
-        siblings: by their kind, all models that the model was chosen from.
+        siblings: by their tag, all models that the model was chosen from.
     """
 
     location: Location
@@ -357,20 +359,28 @@ def _place(root: type[BaseModel], location: Location) -> _Place:
         if isinstance(part, str):
             field = model.model_fields.get(part) if model is not None else None
             models = _nested_models(field)
-            choices = {str(nested.model_fields["kind"].default): nested for nested in models} if len(models) > 1 else {}
-            model = models[0] if len(models) == 1 else None
+            choices = models if len(models) > 1 else {}
+            model = next(iter(models.values())) if len(models) == 1 else None
     return _Place(location=tuple(shown), field=field, model=model, siblings=siblings)
 
 
-def _nested_models(field: FieldInfo | None) -> list[type[BaseModel]]:
-    return list(_models_in(field.annotation)) if field is not None else []
+def _kind(model: type[BaseModel]) -> str:
+    kind = model.model_fields.get("kind")
+    return "" if kind is None else str(kind.default)
 
 
-def _models_in(annotation: Any) -> Iterator[type[BaseModel]]:
+def _nested_models(field: FieldInfo | None) -> dict[str, type[BaseModel]]:
+    """The models of a field, by the tag that pydantic inserts in locations: two may share a ``kind``."""
+    return dict(_models_in(field.annotation)) if field is not None else {}
+
+
+def _models_in(annotation: Any, tag: str = "") -> Iterator[tuple[str, type[BaseModel]]]:
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
-        yield annotation
-    for part in get_args(annotation):
-        yield from _models_in(part)
+        yield tag, annotation
+    parts = get_args(annotation)
+    tag = next((part.tag for part in parts if isinstance(part, Tag)), tag)
+    for part in parts:
+        yield from _models_in(part, tag)
 
 
 def _table(field: FieldInfo | None) -> Literal["", "one", "many"]:

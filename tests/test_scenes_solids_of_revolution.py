@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 from math import pi
+from pathlib import Path
 from typing import Any
 
 import pytest
 from pydantic import ValidationError
 
+from hydroelastic.scenes.errors import SceneError
+from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.models.revolved_floats import RevolvedFloat
 from hydroelastic.scenes.models.round_tank import RoundTankScene, is_round_tank
 from hydroelastic.scenes.models.sea import SeaScene
+from hydroelastic.scenes.open_water.check import check_open
 from hydroelastic.scenes.open_water.run import run_open
+from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.round_tank.run import run_round_tank
 from hydroelastic.scenes.tank.check_tables import hydrostatics_table
 
@@ -98,3 +103,40 @@ def test_a_bed_that_does_not_fit_is_refused(outline: list[list[float]], wrong: s
         RoundTankScene.model_validate(
             {"tank": {"radius": 3.0, "outline": outline}, "liquid": [{"density": 1000.0, "depth": 3.0}]}
         )
+
+
+def said(tmp_path: Path, body: str) -> str:
+    """Return the message about a body of the sea."""
+    scene = tmp_path / "scene.toml"
+    scene.write_text(f'kind = "sea"\nliquid = [{{density = 1000.0, depth = 10.0}}]\nbody = [{{{body}}}]\n')
+    with pytest.raises(SceneError) as caught:
+        read_scene(scene)
+    return str(caught.value)
+
+
+def test_messages_name_the_keys_of_the_body_at_hand(tmp_path: Path) -> None:
+    """A section and a solid are both of kind "float"."""
+    solid = 'kind = "float", shape = "cylinder", radius = 1.0'
+    negative = said(tmp_path, f"{solid}, draught = -1.0")
+    assert 'key "draught" = -1.0: it is too small. Allowed: a positive number' in negative
+    misplaced = said(tmp_path, f"{solid}, draught = 1.0, half_width = 1.0")
+    assert "inner_radius" in misplaced
+    assert "belongs to kind" not in misplaced
+    assert 'key "draught" = 12.0: the float reaches down' in said(tmp_path, f"{solid}, draught = 12.0")
+    section = 'kind = "float", shape = "ellipse", half_width = 1.0, half_height = 1.0'
+    assert "half_width, half_height, tail" in said(tmp_path, f"{section}, colour = 1.0")
+    assert '"beam" or "varying_beam" or "float". ' in said(tmp_path, 'kind = "boat"')
+
+
+def test_check_describes_whole_solids() -> None:
+    tables = {section.title: section for section in check_open(sea(CYLINDER))}
+    rest = {str(row[0]): row[1] for row in tables["Bodies at rest"].rows}
+    assert float(rest["mass, kg"]) == pytest.approx(1000.0 * pi, rel=1e-5)
+    assert "hydrostatic stiffness of pitch c55, N·m" in rest
+
+
+def test_a_float_on_the_axis_over_a_sloping_bed_is_of_three_dimensions() -> None:
+    document = {"tank": {"radius": 3.0, "bed": {"slope": [0.1, 0.0]}}, "body": [CYLINDER]}
+    assert not is_round_tank(document)
+    upright = CYLINDER | {"vertical_centre_of_gravity": -0.5}
+    assert LevelTankScene.model_validate(document | {"liquid": [{"density": 1000.0, "depth": 3.0}], "body": [upright]})

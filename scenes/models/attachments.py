@@ -7,6 +7,7 @@ from typing import Annotated, Any, TypeAlias
 from pydantic import BeforeValidator, Field, Strict
 
 from hydroelastic.scenes.models.bodies import LARGEST, AnyNumber, SparseModel
+from hydroelastic.scenes.models.problems import problem
 from hydroelastic.scenes.models.values import OrElse
 
 _NOTHING = ((0.0, 0.0, 0.0),) * 3
@@ -14,7 +15,9 @@ _NOTHING = ((0.0, 0.0, 0.0),) * 3
 
 def _as_matrix(value: Any) -> Any:
     """Three numbers are a diagonal."""
-    if isinstance(value, list | tuple) and len(value) == 3 and not any(isinstance(row, list | tuple) for row in value):
+    if isinstance(value, list | tuple) and not any(isinstance(row, list | tuple) for row in value):
+        if len(value) != 3:
+            raise problem(f"there are {len(value)} numbers", allowed="three numbers, or three rows of three numbers")
         return tuple(tuple(entry if row == place else 0.0 for place in range(3)) for row, entry in enumerate(value))
     return value
 

@@ -240,11 +240,12 @@ def _has_room(scene: TankParts, index: int, body: AnyFloat, bounds: _Box) -> Ite
             allowed=f"{body.position - left + gap:g} to {length - gap - right + body.position:g} m for this float",
         )
     floor, ceiling = _limits(scene, body)
-    location = ("body", index, "half_height" if body.shape_key == "half_width" else body.shape_key)
+    key = next((key for key in ("draught", "half_height") if getattr(body, key) is not None), None)
+    location, value = ("body", index, key or body.shape_key), key and getattr(body, key)
     if low < floor + gap:
         yield problem_at(
             location,
-            body.half_height,
+            value,
             f"the float reaches down to y = {low:g} m, and the liquid below it ends at y = {floor:g} m",
             allowed=f"a draught that leaves {gap:g} m",
             remedy="Make the liquid deeper, the float lower or its mass smaller",
@@ -252,7 +253,7 @@ def _has_room(scene: TankParts, index: int, body: AnyFloat, bounds: _Box) -> Ite
     elif ceiling is not None and high > ceiling - gap:
         yield problem_at(
             location,
-            body.half_height,
+            value,
             f"the float reaches up to y = {high:g} m, and the layer above its level ends at y = {ceiling:g} m",
             allowed=f"a height that leaves {gap:g} m",
             remedy="Make that layer deeper, the float lower or its mass greater",

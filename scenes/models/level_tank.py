@@ -208,7 +208,8 @@ def _is_inside(plan: Plan, solid: SolidFloat) -> bool:
         return 0.5 * along < x < plan.length - 0.5 * along and 0.5 * across < y < plan.width - 0.5 * across
     if isinstance(plan, Cylinder):
         reach = 0.5 * (hypot(along, across) if solid.shape == "box" else along)
-        return plan.inner_radius < hypot(x, y) - reach * bool(plan.inner_radius) and hypot(x, y) + reach < plan.radius
+        away = hypot(x, y)
+        return (not plan.inner_radius or plan.inner_radius < away - reach) and away + reach < plan.radius
     # Of other plans gmsh tells.
     return True
 

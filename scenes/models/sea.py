@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Discriminator, Field, SerializerFunctionWrapHandler, Tag, model_serializer, model_validator
 
 from hydroelastic.scenes.models.attachments import Attachment
-from hydroelastic.scenes.models.bodies import MOST_BODIES, AnyNumber, Beam, Float, PositiveNumber, SceneModel
+from hydroelastic.scenes.models.bodies import MOST_BODIES, AnyNumber, Beam, Float, PositiveNumber, SceneModel, Shape
 from hydroelastic.scenes.models.body_kinds import AnyFloat, kind_of_sea_body
 from hydroelastic.scenes.models.export import Export
 from hydroelastic.scenes.models.export_checks import export_is_possible
@@ -68,6 +68,9 @@ class SeaFloat(Float):
     """A rigid body that floats, as in tanks; x may be negative."""
 
     position: AnyNumber = Field(default=0.0, description="x of the origin of the float's frame, m")
+    shape: Shape = Field(
+        description="shape of the section; cylinder, sphere, ellipsoid, cone and revolved are solids of revolution"
+    )
 
 
 SeaBody = Annotated[

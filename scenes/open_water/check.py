@@ -69,8 +69,9 @@ def _request(scene: TankParts, analysis: Analysis) -> str:
             f"rad/s{shapes}"
         )
     if isinstance(analysis, Response):
+        waves = "scattered waves" if scene.is_revolved else "reflection and transmission"
         return (
-            f"response: motions, reflection and transmission in waves from the {analysis.waves_from} at "
+            f"response: motions, {waves} in waves from the {analysis.waves_from} at "
             f"{_span(analysis.omega, 'frequency')} rad/s"
         )
     if isinstance(analysis, Decay):

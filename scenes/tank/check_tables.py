@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import isinf
 
+from hydroelastic.output.open_water.bodies import bodies_at_rest_section
 from hydroelastic.output.sections import Row, Section
 from hydroelastic.physics.rigid_motions import heave_is_excluded
 from hydroelastic.physics.tank import Piece, StillLevel
@@ -53,14 +54,15 @@ def _walls(scene: TankParts) -> Iterator[tuple[str, str, str, str]]:
 
 
 def _open_ends(scene: TankParts) -> Iterator[tuple[str, str, str, str]]:
-    yield "open ends", "-inf", "inf", "outgoing waves only"
+    start = "0" if scene.is_revolved else "-inf"
+    yield "open ends", start, "inf", "outgoing waves only"
     potential = potential_of(scene, 0)
     if isinf(scene.liquid[0].depth):
-        yield "deep below", "-inf", "inf", f"∇{potential} → 0 as y → −∞"
+        yield "deep below", start, "inf", f"∇{potential} → 0 as y → −∞"
     else:
-        yield f"bottom, y = {-scene.liquid[0].depth:g} m", "-inf", "inf", f"∂{potential}/∂y = 0"
+        yield f"bottom, y = {-scene.liquid[0].depth:g} m", start, "inf", f"∂{potential}/∂y = 0"
     if len(scene.layers) == 2 and isinf(scene.layers[1].depth):
-        yield "high above", "-inf", "inf", f"∇{potential_of(scene, 1)} → 0 as y → ∞"
+        yield "high above", start, "inf", f"∇{potential_of(scene, 1)} → 0 as y → ∞"
 
 
 def _surface_name(scene: TankParts, level: StillLevel, piece: Piece) -> str:
@@ -155,7 +157,9 @@ def _groups(scene: TankParts) -> Iterator[Group]:
 
 
 def hydrostatics_table(scene: TankParts) -> Section:
-    """Return hydrostatics and stiffness of each float; no rows without floats."""
+    """Return hydrostatics and stiffness of each float, or of each solid of revolution; no rows without floats."""
+    if scene.is_revolved:
+        return bodies_at_rest_section(physical_tank(scene))
     columns = {index: found for index in range(len(scene.body)) if (found := _words_of(scene, index).at_rest())}
     quantities = next(iter(columns.values()), {})
     return Section(

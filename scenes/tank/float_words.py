@@ -52,7 +52,8 @@ class FloatWords(BodyWords):
         below, _ = scene.densities_at(self.level)
         of_float = f"float {self.index + 1}: "
         if body.half_width is not None and body.half_height is not None:
-            yield "b/h", body.half_width / body.half_height, of_float + "half width over half height"
+            names = ("R/T", "radius over draught") if scene.is_revolved else ("b/h", "half width over half height")
+            yield names[0], body.half_width / body.half_height, of_float + names[1]
         else:
             yield "b/h", (right - left) / (high - low), of_float + "width over height"
         breadth = placed.hydrostatics.waterplane[1] - placed.hydrostatics.waterplane[0]

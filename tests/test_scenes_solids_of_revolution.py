@@ -74,9 +74,7 @@ def test_results_of_solids_are_whole_and_named_as_theirs() -> None:
     at_rest = next(section for section in outcome.sections if section.title == "Bodies at rest")
     # m = ρπ; c33 = ρgπ; c55 = ρgπ(1/4 − 1/2), of a homogeneous cylinder as high above the water as below it.
     assert [*at_rest.rows[-1]] == ["hydrostatic stiffness of pitch c55, N·m", f"{-9810.0 * pi / 4:.6g}"]
-    rows = dict(hydrostatics_table(scene).rows)
-    assert (rows["mass, kg"], rows["c33 heave, N/m"]) == (f"{1000.0 * pi:.6g}", f"{9810.0 * pi:.6g}")
-    assert rows["c55 pitch, N·m"] == f"{-9810.0 * pi / 4:.6g}"
+    assert hydrostatics_table(scene).rows == at_rest.rows
 
 
 def test_a_round_tank_with_a_float_or_a_bed_is_solved_by_order() -> None:

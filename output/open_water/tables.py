@@ -264,7 +264,7 @@ def _spectrum(table: SpectrumTable) -> Iterator[Section]:
         (responses, "Responses to irregular waves", about),
         (
             plates,
-            "Bending moment M, shear force Q and deflection w of beams in irregular waves, per metre of width",
+            "Moment M, shear force Q and deflection w of beams in irregular waves, per metre of width",
             (),
         ),
     ):

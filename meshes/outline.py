@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from math import inf
@@ -159,10 +159,6 @@ class Outline:
             ends=np.vstack([polyline[1:] for polyline in polylines]),
             curves=np.repeat(np.arange(len(polylines)), [len(polyline) - 1 for polyline in polylines]),
         )
-
-    def clockwise(self, region: Region) -> Iterator[tuple[int, bool]]:
-        """The region's loop in reverse."""
-        return ((number, not forward) for number, forward in reversed(region.loop))
 
     def _check_loop(self, region: Region) -> None:
         numbers = [number for number, _ in region.loop]

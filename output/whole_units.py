@@ -1,7 +1,11 @@
-"""Units of whole solids, of quantities that are declared per metre of width: they have one metre more."""
+"""Units of whole solids, of quantities that are declared per metre of width: they have one metre more.
+
+What is roll of a section is pitch of a solid of revolution.
+"""
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 from hydroelastic.output.quantities import Group, Quantity
@@ -26,7 +30,7 @@ def whole_unit(unit: str) -> str:
 
 
 def of_whole_solids(group: Group) -> Group:
-    """Return a group of quantities in the units of whole solids."""
+    """Return a group of quantities in the units and words of whole solids."""
     return replace(
         group, parts=tuple(of_whole_solids(part) if isinstance(part, Group) else _whole(part) for part in group.parts)
     )
@@ -35,5 +39,5 @@ def of_whole_solids(group: Group) -> Group:
 def _whole(part: Quantity) -> Quantity:
     unit = None if part.unit is None else whole_unit(part.unit)
     # A section rolls in the plane in which a solid of revolution pitches.
-    meaning = part.meaning.replace("of roll", "of pitch")
+    meaning = re.sub(r"\broll\b", "pitch", part.meaning)
     return replace(part, meaning=meaning, unit=unit, of_roll=tuple(map(whole_unit, part.of_roll)))

@@ -11,7 +11,7 @@ Surge, sway and yaw have no stiffness.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import pi
+from functools import cached_property
 from typing import Literal, TypeAlias, get_args
 
 import numpy as np
@@ -19,15 +19,16 @@ import numpy as np
 from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.plate import Point, scaled_point
 from hydroelastic.physics.scales import Scales
+from hydroelastic.physics.solids import solid_of_revolution
 
-SolidMotion: TypeAlias = Literal["surge", "sway", "heave", "roll", "pitch", "yaw"]
-SOLID_MOTIONS: tuple[SolidMotion, ...] = get_args(SolidMotion)
+RigidMotion: TypeAlias = Literal["surge", "sway", "heave", "roll", "pitch", "yaw"]
+RIGID_MOTIONS: tuple[RigidMotion, ...] = get_args(RigidMotion)
 """Along x, y and z, and about axes along x, y and z through the centre of mass."""
 
 # Part of ρg I_x below which a stiffness is rounding.
 _ROUNDING = 1e-12
 
-FloatShape: TypeAlias = Literal["cylinder", "sphere", "box"]
+SolidFloatShape: TypeAlias = Literal["cylinder", "sphere", "box"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,13 +62,13 @@ class SolidFloat:
         motions: those that are free.
     """
 
-    shape: FloatShape
+    shape: SolidFloatShape
     size: Point
     draught: float
     position: Point
     centre_of_gravity: float
     gyration: tuple[float, float, float]
-    motions: tuple[SolidMotion, ...]
+    motions: tuple[RigidMotion, ...]
 
     def scaled(self, units: Scales) -> SolidFloat:
         """Return it in units of a length."""
@@ -82,7 +83,7 @@ class SolidFloat:
             gyration=(x / length, y / length, z / length),
         )
 
-    @property
+    @cached_property
     def hydrostatics(self) -> Hydrostatics:
         """Volume, centre of buoyancy and waterplane."""
         (along, across), depth = self.size, self.draught
@@ -90,15 +91,11 @@ class SolidFloat:
             area = along * across
             second = (along * across**3 / 12.0, across * along**3 / 12.0)
             return Hydrostatics(volume=area * depth, buoyancy=-0.5 * depth, waterplane=area, second=second)
-        radius = 0.5 * along
-        if self.shape == "cylinder":
-            area, volume, buoyancy = pi * radius**2, pi * radius**2 * depth, -0.5 * depth
-        else:
-            # A spherical cap.
-            area, volume = pi * depth * (2.0 * radius - depth), pi * depth**2 * (3.0 * radius - depth) / 3.0
-            buoyancy = (radius - depth) - 0.75 * (2.0 * radius - depth) ** 2 / (3.0 * radius - depth)
-        moment = area**2 / (4.0 * pi)
-        return Hydrostatics(volume=volume, buoyancy=buoyancy, waterplane=area, second=(moment, moment))
+        solid = solid_of_revolution(self.shape, radius=0.5 * along, draught=depth)
+        wetted, contact = solid.moments(0.0), solid.below(0.0)[-1].end[0]
+        area, moment = solid.waterplane(-contact, contact)
+        buoyancy = wetted.first[1] / wetted.area
+        return Hydrostatics(volume=wetted.area, buoyancy=buoyancy, waterplane=area, second=(moment, moment))
 
     def stiffness(self) -> FloatArray:
         """Return the hydrostatic stiffness of its motions over ρg, shape (motions,)."""
@@ -112,12 +109,12 @@ class SolidFloat:
 
     def inertia(self) -> FloatArray:
         """Return mass or moment of inertia of its motions over ρ, shape (motions,)."""
-        radii = dict(zip(SOLID_MOTIONS, (1.0, 1.0, 1.0, *self.gyration), strict=True))
+        radii = dict(zip(RIGID_MOTIONS, (1.0, 1.0, 1.0, *self.gyration), strict=True))
         return np.array([self.hydrostatics.volume * radii[motion] ** 2 for motion in self.motions])
 
-    def displacement(self, motion: SolidMotion, points: FloatArray) -> FloatArray:
+    def displacement(self, motion: RigidMotion, points: FloatArray) -> FloatArray:
         """Return the displacement of points (3, n) by a unit of a motion, (3, n)."""
-        place = SOLID_MOTIONS.index(motion)
+        place = RIGID_MOTIONS.index(motion)
         axis = np.zeros(3)
         axis[place % 3] = 1.0
         if place < 3:

@@ -19,7 +19,7 @@ import numpy as np
 from case_files import write_cases
 
 from hydroelastic.fem.level_bed.choice import LevelModel
-from hydroelastic.fem.plan.solve import solve_upright_tank
+from hydroelastic.fem.plan.solve import solve_smallest_model
 from hydroelastic.physics.level_tank import Box, Cylinder, LevelTank
 from hydroelastic.physics.plate import Disc, Plate, Polygon, Rectangle
 
@@ -114,7 +114,7 @@ def frequencies(case: LevelCase, tolerance: float, model: LevelModel | None = No
         low, high = points.min(axis=0), points.max(axis=0)
         outline = Rectangle(position=tuple(0.5 * (low + high)), size=tuple(high - low))
         tank = replace(tank, plates=(replace(tank.plates[0], outline=outline),))
-    solution = solve_upright_tank(tank, tolerance=tolerance, modes=case.modes, model=model, tones=False)
+    solution = solve_smallest_model(tank, tolerance=tolerance, modes=case.modes, model=model, tones=False)
     omega = [solution.omega(one.mode.eigenvalue) for one in solution.modes for _ in range(one.problem.multiplicity)]
     return np.array(omega[: case.modes]), solution
 

@@ -13,7 +13,7 @@ from plan_tanks import CASES, WATER, frequencies, reference_tank
 from hydroelastic.fem.level_bed.choice import NotTreatedError, level_model
 from hydroelastic.fem.plan import plan
 from hydroelastic.fem.plan.plan import PlanSolution, solve_plan
-from hydroelastic.fem.plan.solve import solve_upright_tank
+from hydroelastic.fem.plan.solve import solve_smallest_model
 from hydroelastic.physics.level_tank import Box, Cylinder, LevelTank, PolygonPlan
 from hydroelastic.physics.plate import Disc, Plate, Polygon, Rectangle, Strip
 
@@ -94,7 +94,7 @@ def test_a_rectangle_is_a_polygon_and_the_poles_are_the_depth() -> None:
     polygon = replace(tank, plates=(replace(tank.plates[0], outline=Polygon(points=corners)),))
     assert level_model(tank) == "box"
     assert level_model(polygon) == "plan"
-    found = solve_upright_tank(polygon, tolerance=1e-4, modes=8)
+    found = solve_smallest_model(polygon, tolerance=1e-4, modes=8)
     omega = np.array([found.omega(one.mode.eigenvalue) for one in found.modes])
     assert not found.reasons
     errors = np.abs(omega / frequencies("rectangle_base_s0")[:8] - 1.0)
@@ -121,9 +121,9 @@ def test_elevations_of_the_water_are_those_of_its_potential() -> None:
         Plate(outline=Disc(position=(7.0, 3.2), radius=1.2), flexural_rigidity=1e4, mass_per_area=80.0),
     )
     tank = LevelTank(plan=Box(length=10.0, width=6.0), depth=2.0, plates=plates, **WATER)
-    found = solve_upright_tank(tank, tolerance=1e-3, modes=3)
+    found = solve_smallest_model(tank, tolerance=1e-3, modes=3)
     box = replace(tank, plates=plates[:1])
-    for solution in (found, solve_upright_tank(box, tolerance=1e-3, modes=3)):
+    for solution in (found, solve_smallest_model(box, tolerance=1e-3, modes=3)):
         # The third place is under no plate, the second one under the rectangle.
         x, y = np.array([0.52, 0.25, 0.05]), np.array([0.30, 0.34, 0.55])
         for one in solution.modes:
@@ -211,7 +211,7 @@ def test_parts_of_a_plan_have_the_modes_of_the_whole(monkeypatch: pytest.MonkeyP
     assert np.all(np.abs(omega / expected - 1.0) < parts.relative_errors[:8] + whole.relative_errors[:8])
     # Energies are those of the whole tank, and a mode has the parity of its class on all of it.
     assert parts.modes.completed(0).energy.sum() == pytest.approx(1.0)
-    found = solve_upright_tank(tank, tolerance=1e-3, modes=4, tones=False)
+    found = solve_smallest_model(tank, tolerance=1e-3, modes=4, tones=False)
     x, y = np.array([0.3, -0.3, 0.7, -0.7]), np.array([0.1, 0.1, -0.3, -0.3])
     for one in found.modes:
         sampled = one.problem.sampled(one.mode, x, y, second=False)
@@ -236,9 +236,9 @@ def test_a_plate_with_a_reentrant_corner_keeps_its_tolerance(tolerance: float) -
 def test_tones_of_a_disc_and_a_strip_are_those_of_their_orders() -> None:
     for name, model in (("disc_base_s0", "plan"), ("strip_base_s1", "box")):
         tank = reference_tank(name)
-        (exact,) = solve_upright_tank(tank, tolerance=1e-5, modes=4).tones
+        (exact,) = solve_smallest_model(tank, tolerance=1e-5, modes=4).tones
         # Above the one mode that is asked for.
-        (tone,) = solve_upright_tank(tank, tolerance=1e-3, modes=1, model=model).tones
+        (tone,) = solve_smallest_model(tank, tolerance=1e-3, modes=1, model=model).tones
         for value, error, own in (
             (tone.eigenvalue, tone.relative_error, exact.eigenvalue),
             (tone.pressure_release, tone.pressure_release_error, exact.pressure_release),

@@ -16,7 +16,7 @@ from hydroelastic.benchmarks.volume_scaling import measured
 from hydroelastic.fem.facets import facet_groups
 from hydroelastic.fem.liquid import liquid_space
 from hydroelastic.fem.modes import solve_modes
-from hydroelastic.fem.plan.solve import solve_upright_tank
+from hydroelastic.fem.plan.solve import solve_smallest_model
 from hydroelastic.fem.shape_loads import facet_quadrature
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.fem.volume.floats import float_body
@@ -31,7 +31,7 @@ from hydroelastic.meshes.volume import VolumeSizes, volume_mesh
 from hydroelastic.meshes.volume_file import file_plan
 from hydroelastic.physics.level_tank import Box, Cylinder, LevelTank
 from hydroelastic.physics.plate import Disc, Plate, Rectangle
-from hydroelastic.physics.solid_floats import SOLID_MOTIONS, SolidFloat
+from hydroelastic.physics.solid_floats import RIGID_MOTIONS, SolidFloat
 from hydroelastic.physics.volume_tank import SlopingBed, SurveyedBed, VolumeTank
 
 SILENT: Report = lambda _message: None  # noqa: E731
@@ -61,7 +61,7 @@ def volume_tank(name: str) -> VolumeTank:
 @cache
 def errors_and_estimates(name: str, tolerance: float, count: int) -> tuple[np.ndarray, np.ndarray]:
     tank = volume_tank(name)
-    solution = solve_upright_tank(tank, tolerance=tolerance, modes=count)
+    solution = solve_smallest_model(tank, tolerance=tolerance, modes=count)
     assert solution.reasons == ()
     exact = np.repeat(CASES[name]["omega"], CASES[name].get("multiplicity", [1] * 12))[:count]
     omega = np.array([solution.omega(one.mode.eigenvalue) for one in solution.modes])
@@ -122,7 +122,7 @@ def of_file(file: Path) -> VolumeTank:
 
 def test_a_canal_with_walls_of_45_degrees_has_its_closed_frequency(tmp_path: Path) -> None:
     """ψ = xz, z from the tip, is harmonic with ψ_n = 0 on both walls: ω² = g/H."""
-    solution = solve_upright_tank(of_file(written(tmp_path, cone=False)), tolerance=1e-3, modes=1)
+    solution = solve_smallest_model(of_file(written(tmp_path, cone=False)), tolerance=1e-3, modes=1)
     (one,) = solution.modes
     # A polynomial of degree 2: rounding is left.
     assert solution.omega(one.mode.eigenvalue) == pytest.approx(np.sqrt(9.81 / 2.0), rel=1e-10)
@@ -130,7 +130,7 @@ def test_a_canal_with_walls_of_45_degrees_has_its_closed_frequency(tmp_path: Pat
 
 @pytest.mark.slow
 def test_a_cone_has_its_closed_frequency_and_those_of_the_meridian_plane(tmp_path: Path) -> None:
-    solution = solve_upright_tank(of_file(written(tmp_path, cone=True)), tolerance=1e-5, modes=7)
+    solution = solve_smallest_model(of_file(written(tmp_path, cone=True)), tolerance=1e-5, modes=7)
     omega = [solution.omega(one.mode.eigenvalue) for one in solution.modes]
     # n = 1 twice, ω² = g/H; n = 0 by polynomials of degree 8 in the meridian plane, ten digits.
     assert omega[:2] == pytest.approx([np.sqrt(9.81 / 2.0)] * 2, rel=2e-6)
@@ -149,7 +149,7 @@ def test_a_mesh_of_a_file_has_the_frequencies_of_its_solid(tmp_path: Path) -> No
         gmsh.model.mesh.generate(3)
         gmsh.write(str(file))
     tank = VolumeTank(plan=file_plan(file, 2.5), depth=2.5, density=1000.0, gravity=9.81)
-    solution = solve_upright_tank(tank, tolerance=1e-3, modes=1)
+    solution = solve_smallest_model(tank, tolerance=1e-3, modes=1)
     assert solution.omega(solution.modes[0].mode.eigenvalue) == pytest.approx(np.sqrt(9.81 / 2.5), rel=1e-10)
 
 
@@ -162,12 +162,12 @@ def test_a_plane_bed_by_its_slope_and_by_points_is_one() -> None:
     sloping = as_volume(basin, bed=SlopingBed(slope=slope))
     surveyed = as_volume(basin, bed=SurveyedBed(points=corners), depth=deepest)
     values = [
-        [one.mode.eigenvalue for one in solve_upright_tank(tank, tolerance=1e-5, modes=2).modes]
+        [one.mode.eigenvalue for one in solve_smallest_model(tank, tolerance=1e-5, modes=2).modes]
         for tank in (sloping, surveyed)
     ]
     assert values[0] == pytest.approx(values[1], rel=1e-5)
     # The bed matters: 2 % of the first one, of a level bed.
-    level = solve_upright_tank(basin, tolerance=1e-4, modes=1).modes[0].mode.eigenvalue
+    level = solve_smallest_model(basin, tolerance=1e-4, modes=1).modes[0].mode.eigenvalue
     assert abs(values[0][0] / level - 1.0) > 5e-3
 
 
@@ -206,7 +206,7 @@ def floating_cylinder(name: str) -> VolumeTank:
         position=(0.0, 0.0),
         centre_of_gravity=given["zg"],
         gyration=(gyration, gyration, 1.0),
-        motions=SOLID_MOTIONS[:5],
+        motions=RIGID_MOTIONS[:5],
     )
     return VolumeTank(plan=Cylinder(radius=given["R"]), depth=given["H"], density=1000.0, gravity=9.81, floats=(solid,))
 
@@ -247,7 +247,7 @@ def test_hydrostatics_of_a_box_and_a_sphere_are_those_of_their_wetted_surface() 
             position=(0.9, 0.8),
             centre_of_gravity=0.05,
             gyration=(1.0, 1.0, 1.0),
-            motions=SOLID_MOTIONS,
+            motions=RIGID_MOTIONS,
         )
         tank = VolumeTank(plan=Box(length=2.0, width=1.5), depth=0.6, density=1.0, gravity=1.0, floats=(solid,))
         sizes = VolumeSizes(edge=0.2, bulk=0.3, geometry=4)

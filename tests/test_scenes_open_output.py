@@ -226,7 +226,7 @@ def test_a_folder_appears_whole_or_not_at_all(scene_file: Path, monkeypatch: pyt
         raise RuntimeError("no pen")
 
     def sample(solution: OpenSolution, _summary: Any) -> Any:
-        return open_run.SampledWater(solution=solution, fields=(), missing=())
+        return open_run.SampledWater(solution=solution, fields=(), missing=(), plans=())
 
     monkeypatch.setattr(open_run, "run_open", replace(open_run.run_open, sample=sample, draw=refuse))
     with pytest.raises(RuntimeError, match="no pen"):

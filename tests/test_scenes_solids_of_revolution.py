@@ -11,13 +11,14 @@ from pydantic import ValidationError
 
 from hydroelastic.scenes.errors import SceneError
 from hydroelastic.scenes.models.level_tank import LevelTankScene
+from hydroelastic.scenes.models.revolved_floats import RevolvedFloat
 from hydroelastic.scenes.models.round_tank import RoundTankScene, is_round_tank
 from hydroelastic.scenes.models.sea import SeaScene
-from hydroelastic.scenes.models.solids import SolidFloat
 from hydroelastic.scenes.open_water.check import check_open
 from hydroelastic.scenes.open_water.run import run_open
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.round_tank.run import run_round_tank
+from hydroelastic.scenes.tank.check_tables import hydrostatics_table
 
 CYLINDER: dict[str, Any] = {"kind": "float", "shape": "cylinder", "radius": 1.0, "draught": 1.0}
 WATER: list[dict[str, Any]] = [{"density": 1000.0, "depth": 10.0}]
@@ -31,7 +32,7 @@ def sea(*bodies: dict[str, Any], **more: Any) -> SeaScene:
 def refusal(**given: Any) -> str:
     """Return why a solid is refused."""
     with pytest.raises(ValidationError) as caught:
-        SolidFloat.model_validate(given)
+        RevolvedFloat.model_validate(given)
     return str(caught.value)
 
 
@@ -70,7 +71,12 @@ def test_results_of_solids_are_whole_and_named_as_theirs() -> None:
     assert response["capture_width"] == [[0.0]]
     headings = {heading for section in outcome.sections for heading in section.headings}
     assert {"a, kg", "b, kg/s", "|f|, N/m"} <= headings
-    assert next(section for section in outcome.sections if section.title == "Bodies at rest")
+    at_rest = next(section for section in outcome.sections if section.title == "Bodies at rest")
+    # m = ρπ; c33 = ρgπ; c55 = ρgπ(1/4 − 1/2), of a homogeneous cylinder as high above the water as below it.
+    assert [*at_rest.rows[-1]] == ["hydrostatic stiffness of pitch c55, N·m", f"{-9810.0 * pi / 4:.6g}"]
+    rows = dict(hydrostatics_table(scene).rows)
+    assert (rows["mass, kg"], rows["c33 heave, N/m"]) == (f"{1000.0 * pi:.6g}", f"{9810.0 * pi:.6g}")
+    assert rows["c55 pitch, N·m"] == f"{-9810.0 * pi / 4:.6g}"
 
 
 def test_a_round_tank_with_a_float_or_a_bed_is_solved_by_order() -> None:

@@ -6,13 +6,13 @@ from hydroelastic.benchmarks.basin.cases import basin_named
 from hydroelastic.benchmarks.cases import Answer, Case
 from hydroelastic.benchmarks.tank.hydroelastic import versions as versions
 from hydroelastic.fem.level_bed.choice import LevelModel
-from hydroelastic.fem.plan.solve import solve_upright_tank
+from hydroelastic.fem.plan.solve import solve_smallest_model
 
 
 def solve(case: Case) -> Answer:
     """Solve the basin to the tolerance of a case."""
     basin = basin_named(case.tank)
-    solution = solve_upright_tank(
+    solution = solve_smallest_model(
         basin.tank, tolerance=case.tolerance, modes=len(basin.omega), tones=False, model=_MODELS[case.variant]
     )
     error = max(one.relative_error for one in solution.modes)

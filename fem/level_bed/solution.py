@@ -1,4 +1,4 @@
-"""The modes of an upright tank with a level bed, whichever way its plan is solved."""
+"""The modes of a tank in three dimensions, whichever model it is solved in."""
 
 from __future__ import annotations
 
@@ -133,10 +133,10 @@ class PlateTone:
 
 @dataclass(frozen=True, kw_only=True)
 class LevelSolution(ClosedSolution[LevelTank]):
-    """The solution of an upright tank; what it adds to those of all closed tanks.
+    """The solution of a tank in three dimensions; what it adds to those of all closed tanks.
 
     Attributes:
-        model: how its plan was solved, in words.
+        model: how it was solved, in words.
         modes: the lowest modes, ascending; two of the same shape but for a turn about the axis are one with the
             multiplicity 2.
         tones: one for each elastic plate.

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from hydroelastic.fem.volume.solve import VolumeSolution
 
 
-def solve_upright_tank(
+def solve_smallest_model(
     physical: LevelTank,
     *,
     tolerance: float,

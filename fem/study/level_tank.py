@@ -11,7 +11,7 @@ from mpi4py import MPI
 from hydroelastic.fem.level_bed.choice import LevelModel, level_model, models_of
 from hydroelastic.fem.level_bed.solution import LevelSolution
 from hydroelastic.fem.memory import peak_memory
-from hydroelastic.fem.plan.solve import solve_upright_tank
+from hydroelastic.fem.plan.solve import solve_smallest_model
 from hydroelastic.modal.plate.closed_forms import exact_frequencies
 from hydroelastic.physics.level_tank import LevelTank
 
@@ -132,6 +132,6 @@ def level_rows(
 
 def _frequencies(tank: LevelTank, model: LevelModel, tolerance: float, modes: int) -> tuple[np.ndarray, LevelSolution]:
     """The lowest frequencies, each as often as it occurs, and the solution."""
-    solution = solve_upright_tank(tank, tolerance=tolerance, modes=modes, model=model, tones=False)
+    solution = solve_smallest_model(tank, tolerance=tolerance, modes=modes, model=model, tones=False)
     omega = [solution.omega(one.mode.eigenvalue) for one in solution.modes for _ in range(one.problem.multiplicity)]
     return np.array(omega[:modes]), solution

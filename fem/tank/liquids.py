@@ -12,12 +12,12 @@ from dataclasses import dataclass, field, replace
 
 from mpi4py import MPI
 
+from hydroelastic.fem.liquid_pencil import liquid_answer
 from hydroelastic.fem.pencil import with_bodies
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.fem.tank.field_model import build_mesh, half_bodies, whole_bodies
 from hydroelastic.fem.tank.field_solution import PartPencils, part_models
 from hydroelastic.fem.tank.resolution import Resolution
-from hydroelastic.fem.volume_pencil import liquid_answer
 from hydroelastic.meshes.distribute import TankMesh
 from hydroelastic.physics.beams import Beam
 from hydroelastic.physics.symmetry import Parity, shapes_of_twins

@@ -8,11 +8,11 @@ from numpy.typing import NDArray
 from hydroelastic.fem.plan.rectangle_body import ClassParity
 from hydroelastic.fem.surfaces import Body
 from hydroelastic.physics.dofs import Dof
-from hydroelastic.physics.solid_floats import SolidFloat, SolidMotion
+from hydroelastic.physics.solid_floats import RigidMotion, SolidFloat
 from hydroelastic.physics.symmetry import Parity
 
 # Whether a motion is odd about planes normal to x and to y through the float.
-_ODD: dict[SolidMotion, tuple[int, int]] = {
+_ODD: dict[RigidMotion, tuple[int, int]] = {
     "surge": (1, 0),
     "sway": (0, 1),
     "heave": (0, 0),

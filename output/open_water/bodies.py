@@ -111,7 +111,8 @@ BODIES = Group("bodies", "bodies at rest", (
         short="radius of gyration"),
     Quantity("metacentric_height", "metacentric height", "m", symbol="GM", shown=".6g"),
     Quantity("heave_stiffness", "hydrostatic stiffness of heave", "N/m^2", symbol="c33", shown=".6g"),
-    Quantity("roll_stiffness", "hydrostatic stiffness of roll", "N", symbol="c55", shown=".6g"),
+    Quantity("roll_stiffness", "hydrostatic stiffness of roll", "N", symbol="c55", shown=".6g",
+        note="of solids of revolution that of pitch"),
 ), record=lambda solution: list(bodies_at_rest(solution.tank)), dimension="body", prefix="body",
     note="`null` where a beam has no such value")
 # fmt: on

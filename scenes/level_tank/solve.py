@@ -59,7 +59,7 @@ def solve_level_scene(scene: LevelTankScene, comm: MPI.Comm, report: Report) -> 
     """
     require_treated(scene)
     from hydroelastic.fem.modes import EigenSolverError
-    from hydroelastic.fem.plan.solve import solve_upright_tank
+    from hydroelastic.fem.plan.solve import solve_smallest_model
     from hydroelastic.meshes.tagged_mesh import MeshError
 
     physical = physical_level_tank(scene)
@@ -71,7 +71,7 @@ def solve_level_scene(scene: LevelTankScene, comm: MPI.Comm, report: Report) -> 
             exact = exact_frequencies(physical, scene.accuracy.modes)
             estimates = plate_estimates(physical)
     try:
-        solution = solve_upright_tank(
+        solution = solve_smallest_model(
             physical, tolerance=scene.accuracy.tolerance, modes=scene.accuracy.modes, comm=comm, report=report
         )
     except (EigenSolverError, MeshError) as error:

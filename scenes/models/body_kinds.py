@@ -7,14 +7,14 @@ from typing import Annotated, Any, TypeAlias
 from pydantic import Discriminator, Tag
 
 from hydroelastic.scenes.models.bodies import Beam, Float
-from hydroelastic.scenes.models.solids import SOLID_SHAPES, SolidFloat
+from hydroelastic.scenes.models.revolved_floats import SOLID_SHAPES, RevolvedFloat
 from hydroelastic.scenes.models.varying_beam import VaryingBeam
 
 AnyBeam: TypeAlias = Beam | VaryingBeam
 """A body that bends."""
 
 
-AnyFloat: TypeAlias = Float | SolidFloat
+AnyFloat: TypeAlias = Float | RevolvedFloat
 """A rigid body: a section, or a solid of revolution."""
 
 

@@ -19,7 +19,7 @@ from hydroelastic.physics.solids import solid_of_revolution
 from hydroelastic.scenes.models.bodies import MOST_BODIES
 from hydroelastic.scenes.models.body_kinds import AnyFloat
 from hydroelastic.scenes.models.outline_files import read_outline
-from hydroelastic.scenes.models.solids import SolidFloat
+from hydroelastic.scenes.models.revolved_floats import RevolvedFloat
 from hydroelastic.scenes.models.tank_parts import TankParts
 
 DEFAULT_CORNER_ANGLE = 30.0
@@ -28,7 +28,7 @@ DEFAULT_CORNER_ANGLE = 30.0
 
 def float_section(body: AnyFloat) -> Profile | None:
     """Return the half-width of a symmetric section as a function of height, or None for polygons and outlines."""
-    if isinstance(body, SolidFloat):
+    if isinstance(body, RevolvedFloat):
         return None
     if body.shape == "polygon" or body.shape == "outline" or body.half_width is None or body.half_height is None:
         return None
@@ -48,7 +48,7 @@ def float_contour(body: AnyFloat, folder: Path) -> Contour | SolidOfRevolution:
     Raises:
         ValueError: if an outline cannot be read, or is not a contour.
     """
-    if isinstance(body, SolidFloat):
+    if isinstance(body, RevolvedFloat):
         return solid_of_revolution(
             body.shape,
             radius=body.radius or 0.0,

@@ -24,8 +24,8 @@ from hydroelastic.scenes.models.level_tank_physics import (
     shape_file,
 )
 from hydroelastic.scenes.models.problems import problem_at, require_fit
-from hydroelastic.scenes.models.solid_parts import TankFloat
 from hydroelastic.scenes.models.tank_checks import DEPTH_TO_LENGTH, MASS_GROUP, SHORTEST_BEAM, STIFFNESS_GROUP
+from hydroelastic.scenes.models.volume_floats import VolumeFloat
 
 LEAST_INNER_RADIUS = 1e-3
 """Part of the outer radius: around a thinner column no fewer digits are lost than without it."""
@@ -167,9 +167,9 @@ def _volumes_are_of_plates(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
 def _floats_lie_in_the_tank(scene: LevelTankParts) -> Iterator[InitErrorDetails]:
     plan, depth = physical_plan(scene), scene.liquid[0].depth
     middle, first = middle_of(plan), len(scene.plates)
-    if any(isinstance(body, TankFloat) for body in scene.body[:first]):
+    if any(isinstance(body, VolumeFloat) for body in scene.body[:first]):
         remedy = "Move it to the end of the scene"
-        place = next(index for index, body in enumerate(scene.body) if isinstance(body, TankFloat))
+        place = next(index for index, body in enumerate(scene.body) if isinstance(body, VolumeFloat))
         yield problem_at(("body", place, "kind"), "float", "a float comes before a plate", remedy=remedy)
         return
     bed = scene.tank.bed

@@ -31,9 +31,9 @@ from hydroelastic.scenes.models.bodies import (
 )
 from hydroelastic.scenes.models.folder import SceneInFolder
 from hydroelastic.scenes.models.problems import problem_at
-from hydroelastic.scenes.models.solid_parts import TankFloat
 from hydroelastic.scenes.models.tank_parts import Accuracy
 from hydroelastic.scenes.models.title import Title
+from hydroelastic.scenes.models.volume_floats import VolumeFloat
 
 PlanPoint: TypeAlias = tuple[AnyNumber, AnyNumber]
 OutlineName: TypeAlias = Literal["rectangle", "strip", "disc", "ring", "polygon"]
@@ -315,7 +315,7 @@ class LevelTankParts(SceneInFolder):
     liquid: tuple[PlanLiquid, ...] = Field(min_length=1, max_length=1, description="the liquid")
     body: tuple[
         Annotated[
-            Annotated[Plate, Tag("plate")] | Annotated[Slats, Tag("beam")] | Annotated[TankFloat, Tag("float")],
+            Annotated[Plate, Tag("plate")] | Annotated[Slats, Tag("beam")] | Annotated[VolumeFloat, Tag("float")],
             Discriminator(_kind_of),
         ],
         ...,
@@ -329,9 +329,9 @@ class LevelTankParts(SceneInFolder):
     @property
     def plates(self) -> tuple[PlanBody, ...]:
         """The plates and the beams side by side."""
-        return tuple(body for body in self.body if not isinstance(body, TankFloat))
+        return tuple(body for body in self.body if not isinstance(body, VolumeFloat))
 
     @property
-    def floats(self) -> tuple[TankFloat, ...]:
+    def floats(self) -> tuple[VolumeFloat, ...]:
         """The solid floats, which come after the plates."""
-        return tuple(body for body in self.body if isinstance(body, TankFloat))
+        return tuple(body for body in self.body if isinstance(body, VolumeFloat))

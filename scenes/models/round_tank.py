@@ -11,7 +11,7 @@ from pydantic_core import InitErrorDetails
 
 from hydroelastic.scenes.models.bodies import MOST_BODIES
 from hydroelastic.scenes.models.problems import problem_at, require_fit
-from hydroelastic.scenes.models.solids import SOLID_SHAPES, SolidFloat
+from hydroelastic.scenes.models.revolved_floats import SOLID_SHAPES, RevolvedFloat
 from hydroelastic.scenes.models.tank_checks import STAGES
 from hydroelastic.scenes.models.tank_parts import Accuracy, Liquids, RoundTank, TankParts
 from hydroelastic.scenes.models.title import Title
@@ -28,7 +28,7 @@ class RoundTankScene(TankParts):
     title: Title = Field(default="", description="title of tables and images")
     tank: RoundTank = Field(description="the tank")
     liquid: Liquids
-    body: tuple[SolidFloat, ...] = Field(
+    body: tuple[RevolvedFloat, ...] = Field(
         default=(), max_length=MOST_BODIES, description=f"up to {MOST_BODIES} floats on the axis, in any order"
     )
     accuracy: Accuracy = Field(default=Accuracy(), description="what is asked of the answer")

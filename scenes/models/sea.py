@@ -15,8 +15,8 @@ from hydroelastic.scenes.models.export_checks import export_is_possible
 from hydroelastic.scenes.models.open_analyses import Analysis
 from hydroelastic.scenes.models.open_checks import drag_is_heeded
 from hydroelastic.scenes.models.problems import problem, require_fit
+from hydroelastic.scenes.models.revolved_floats import RevolvedFloat
 from hydroelastic.scenes.models.sea_checks import attachments_hold_bodies
-from hydroelastic.scenes.models.solids import SolidFloat
 from hydroelastic.scenes.models.tank_checks import STAGES
 from hydroelastic.scenes.models.tank_parts import Accuracy, Liquids, Tank, TankParts
 from hydroelastic.scenes.models.title import Title
@@ -77,7 +77,7 @@ SeaBody = Annotated[
     Annotated[SeaBeam, Tag("beam")]
     | Annotated[SeaVaryingBeam, Tag("varying_beam")]
     | Annotated[SeaFloat, Tag("float")]
-    | Annotated[SolidFloat, Tag("solid")],
+    | Annotated[RevolvedFloat, Tag("solid")],
     Discriminator(kind_of_sea_body),
 ]
 

@@ -31,7 +31,7 @@ from hydroelastic.scenes.models.export import Export
 from hydroelastic.scenes.models.infinity import PositiveOrInfinite
 from hydroelastic.scenes.models.open_analyses import Analysis, Resonance
 from hydroelastic.scenes.models.problems import problem
-from hydroelastic.scenes.models.solids import SolidFloat
+from hydroelastic.scenes.models.revolved_floats import RevolvedFloat
 
 
 class Tank(SceneModel):
@@ -240,7 +240,7 @@ class TankParts(SceneModel):
     @property
     def is_revolved(self) -> bool:
         """Whether it is a sea of revolution: its bodies are solids on one vertical axis, not sections."""
-        return any(isinstance(body, SolidFloat) for body in self.body)
+        return any(isinstance(body, RevolvedFloat) for body in self.body)
 
     @property
     def analyses(self) -> tuple[Analysis, ...]:

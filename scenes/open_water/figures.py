@@ -70,12 +70,6 @@ def _draw_spectrum(table: SpectrumTable, sheets: Sheets, name: str) -> None:
             label_axes(axes, _FREQUENCY, f"spectrum of the response, ({unit})²·s/rad")
 
 
-def _by_unit(dofs: tuple[Dof, ...]) -> list[tuple[bool, list[int]]]:
-    """Places of the motions that are rotations, rad, and of the others, m; those first that come first."""
-    turns = [motion.is_rotation for motion in dofs]
-    return [(kind, [place for place, turn in enumerate(turns) if turn == kind]) for kind in dict.fromkeys(turns)]
-
-
 def _draw_radiation(table: RadiationTable, sheets: Sheets, name: str, is_whole: bool) -> None:
     """Diagonals of a and b and the force of waves over finite ω: a row for displacements, and one for rotations."""
     order = np.argsort(table.omega)

@@ -163,7 +163,7 @@ def hydrostatics_table(scene: TankParts) -> Section:
     columns = {index: found for index in range(len(scene.body)) if (found := _words_of(scene, index).at_rest())}
     quantities = next(iter(columns.values()), {})
     return Section(
-        title="Floats at rest, per metre of width",
+        title="Floats at rest" if scene.is_revolved else "Floats at rest, per metre of width",
         headings=("quantity", *(f"float {index + 1}" for index in columns)),
         rows=[(quantity, *(column[quantity] for column in columns.values())) for quantity in quantities],
     )

@@ -39,7 +39,8 @@ class FloatWords(BodyWords):
     def basis(self, *, is_held: bool) -> str:
         """Return a description of its motions."""
         body = self.body
-        motions = ", ".join("roll about its centre of mass" if motion == "roll" else motion for motion in body.motions)
+        about = dict.fromkeys(("roll", "pitch"), " about its centre of mass")
+        motions = ", ".join(motion + about.get(motion, "") for motion in body.motions)
         held = "; heave is excluded by the volume" if "heave" in body.motions and is_held else ""
         return f"rigid motions: {motions}{held}"
 
@@ -71,7 +72,10 @@ class FloatWords(BodyWords):
             yield "x₀/L", body.position / scene.tank.length, of_float + "position"
 
     def at_rest(self) -> dict[str, str]:
-        """Return its hydrostatics, by quantity and unit."""
+        """Return its hydrostatics, by quantity and unit: per metre of width, or of a whole solid of revolution."""
+        is_whole = self.scene.is_revolved
+        turn = "pitch" if is_whole else "roll"
+        mass, heave, coupled, turned = ("kg", "N/m", "N", "N·m") if is_whole else ("kg/m", "N/m²", "N/m", "N")
         placed = placed_float(self.scene, self.index)
         rest = placed.hydrostatics
         _, _, low, high = placed.hull.bounds
@@ -80,22 +84,22 @@ class FloatWords(BodyWords):
             density * area for density, area in zip(self.scene.densities_at(self.level), rest.areas, strict=True)
         ]
         return {
-            "mass, kg/m": f"{rest.mass:.6g}",
-            "displaced below + above, kg/m": f"{displaced[0]:.6g} + {displaced[1]:.6g}",
+            f"mass, {mass}": f"{rest.mass:.6g}",
+            f"displaced below + above, {mass}": f"{displaced[0]:.6g} + {displaced[1]:.6g}",
             "reference level above the still level, m": f"{rest.reference_level - rest.level:.6g}",
             "draught, height above the level, m": f"{rest.level - low:.6g}, {high - rest.level:.6g}",
             "waterplane, m": f"{left:.6g} to {right:.6g}",
             "centre of mass x, y, m": f"{rest.centre_of_mass[0]:.6g}, {rest.centre_of_mass[1]:.6g}",
             "radius of gyration, m": f"{rest.radius_of_gyration:.6g}",
-            "c33 heave, N/m²": f"{rest.heave_stiffness:.6g}",
-            "c35 heave and roll, N/m": f"{rest.coupling_stiffness:.6g}",
-            "c55 roll, N": f"{rest.roll_stiffness:.6g}",
-            "at rest": _stability(self.body, placed.roll_stiffness),
+            f"c33 heave, {heave}": f"{rest.heave_stiffness:.6g}",
+            f"c35 heave and {turn}, {coupled}": f"{rest.coupling_stiffness:.6g}",
+            f"c55 {turn}, {turned}": f"{rest.roll_stiffness:.6g}",
+            "at rest": _stability(self.body, placed.roll_stiffness, turn),
         }
 
 
-def _stability(body: AnyFloat, stiffness: float) -> str:
+def _stability(body: AnyFloat, stiffness: float, turn: str) -> str:
     if stiffness > 0.0:
         return "stable"
     found = "neutral" if stiffness == 0.0 else "unstable"
-    return f"{found} in roll" if "roll" in body.motions else f"stable; {found} if it could roll"
+    return f"{found} in {turn}" if turn in body.motions else f"stable; {found} if it could {turn}"

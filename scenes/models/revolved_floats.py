@@ -24,7 +24,7 @@ from hydroelastic.scenes.models.problems import problem_at
 SOLID_SHAPES: tuple[SolidShape, ...] = get_args(SolidShape)
 
 
-class SolidFloat(SceneModel):
+class RevolvedFloat(SceneModel):
     """A rigid solid of revolution about the vertical axis r = 0, z up from the still level.
 
     Raises:
@@ -111,7 +111,7 @@ class SolidFloat(SceneModel):
         return {key: value for key, value in write(self).items() if key not in SUBSTITUTES or value is not None}
 
     @model_validator(mode="after")
-    def _keys_fit(self) -> SolidFloat:
+    def _keys_fit(self) -> RevolvedFloat:
         problems = [*_keys_of_the_shape(self), *motions_differ(self.motions)]
         if problems:
             raise ValidationError.from_exception_data(type(self).__name__, problems)
@@ -132,13 +132,13 @@ _FURTHER: dict[SolidShape, tuple[str, ...]] = {
 }
 
 
-def _keys_of_the_shape(body: SolidFloat) -> Iterator[InitErrorDetails]:
+def _keys_of_the_shape(body: RevolvedFloat) -> Iterator[InitErrorDetails]:
     needed = _NEEDED[body.shape]
     allowed = (*needed, *_FURTHER.get(body.shape, ()))
     for key in ("radius", "inner_radius", "draught", "outline"):
         value = getattr(body, key)
         if value is None and key in needed:
-            meaning = SolidFloat.model_fields[key].description
+            meaning = RevolvedFloat.model_fields[key].description
             yield problem_at((key,), None, f'it is missing, and shape = "{body.shape}" needs it', allowed=f"{meaning}")
         elif value is not None and key not in allowed:
             yield problem_at(

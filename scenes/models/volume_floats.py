@@ -1,4 +1,4 @@
-"""A solid float in a tank in three dimensions, as it is written in scenes."""
+"""A float in a tank that is meshed in its volume, as it is written in scenes: cylinder, sphere, box."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ from pydantic import Field, SerializerFunctionWrapHandler, ValidationError, mode
 from pydantic_core import InitErrorDetails
 
 from hydroelastic.physics.plate import Point
-from hydroelastic.physics.solid_floats import SOLID_MOTIONS, FloatShape, SolidFloat, SolidMotion
+from hydroelastic.physics.solid_floats import RIGID_MOTIONS, RigidMotion, SolidFloat, SolidFloatShape
 from hydroelastic.scenes.models.bodies import AnyNumber, PositiveNumber, SceneModel
 from hydroelastic.scenes.models.problems import problem_at
 
-_NEEDED: dict[FloatShape, tuple[str, ...]] = {
+_NEEDED: dict[SolidFloatShape, tuple[str, ...]] = {
     "cylinder": ("radius", "draught"),
     "sphere": ("radius",),
     "box": ("size", "draught"),
 }
 
 
-class TankFloat(SceneModel):
+class VolumeFloat(SceneModel):
     """A rigid solid that floats upright by Archimedes' principle: its mass is that of the liquid it displaces.
 
     Raises:
@@ -28,7 +28,7 @@ class TankFloat(SceneModel):
     """
 
     kind: Literal["float"] = Field(description="kind of the body")
-    shape: FloatShape = Field(description="shape of the solid: an upright cylinder, a sphere, a box")
+    shape: SolidFloatShape = Field(description="shape of the solid: an upright cylinder, a sphere, a box")
     position: tuple[AnyNumber, AnyNumber] | None = Field(
         default=None, description="[x, y] of its axis, m; by default the middle of the tank"
     )
@@ -50,8 +50,8 @@ class TankFloat(SceneModel):
         description="[roll, pitch, yaw] about axes through the centre of mass, m; by default those of the homogeneous "
         "solid",
     )
-    motions: tuple[SolidMotion, ...] = Field(
-        default=SOLID_MOTIONS[:5], min_length=1, max_length=6, description="its free motions, each once"
+    motions: tuple[RigidMotion, ...] = Field(
+        default=RIGID_MOTIONS[:5], min_length=1, max_length=6, description="its free motions, each once"
     )
 
     outline: ClassVar[str] = "float"
@@ -61,7 +61,7 @@ class TankFloat(SceneModel):
         return {key: value for key, value in write(self).items() if value is not None}
 
     @model_validator(mode="after")
-    def _keys_fit(self) -> TankFloat:
+    def _keys_fit(self) -> VolumeFloat:
         problems = [*_keys_of_the_shape(self)]
         if len(set(self.motions)) < len(self.motions):
             problems.append(problem_at(("motions",), list(self.motions), "a motion is given twice"))
@@ -100,13 +100,13 @@ class TankFloat(SceneModel):
         )
 
 
-def _keys_of_the_shape(body: TankFloat) -> Iterator[InitErrorDetails]:
+def _keys_of_the_shape(body: VolumeFloat) -> Iterator[InitErrorDetails]:
     needed = _NEEDED[body.shape]
     allowed = (*needed, "draught")
     for key in ("radius", "size", "draught"):
         value = getattr(body, key)
         if value is None and key in needed:
-            meaning = TankFloat.model_fields[key].description
+            meaning = VolumeFloat.model_fields[key].description
             yield problem_at((key,), None, f'it is missing, and shape = "{body.shape}" needs it', allowed=f"{meaning}")
         elif value is not None and key not in allowed:
             wrong = f'it does not belong to shape = "{body.shape}", which takes {" and ".join(needed)}'

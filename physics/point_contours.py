@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from itertools import pairwise
 from math import radians
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from hydroelastic.physics.contours import Arc, Array, Contour, Point, straight_arc
+
+if TYPE_CHECKING:
+    from scipy.interpolate import CubicSpline
 
 STRAIGHT = 1e-4
 """Where the line from point to point turns by a smaller angle, in radians, it goes straight on."""
@@ -109,6 +111,8 @@ def _point(values: Array) -> Point:
 
 
 def _spline(points: Array, ends: Any) -> Arc:
+    from scipy.interpolate import CubicSpline  # slow to import, so only when used
+
     lengths = np.hypot(*np.diff(points, axis=0).T)
     reached = np.concatenate([[0.0], np.cumsum(lengths)])
     spline = CubicSpline(reached, points, bc_type=ends)

@@ -124,4 +124,6 @@ def test_what_is_refused(tmp_path: Path, text: str, words: list[str]) -> None:
 
 
 def test_an_unknown_kind_names_all(tmp_path: Path) -> None:
-    assert '"tank" or "sea" or "string" or "thread" or "roll"' in refused(tmp_path, SINE.replace('"string"', '"strnig"', 1))
+    assert '"tank" or "sea" or "string" or "thread" or "roll"' in refused(
+        tmp_path, SINE.replace('"string"', '"strnig"', 1)
+    )

@@ -262,7 +262,11 @@ def _spectrum(table: SpectrumTable) -> Iterator[Section]:
     )
     for group, title, lines in (
         (responses, "Responses to irregular waves", about),
-        (plates, "Largest loads along beams in irregular waves, per metre of width", ()),
+        (
+            plates,
+            "Moment M, shear force Q and deflection w of beams in irregular waves, per metre of width",
+            (),
+        ),
     ):
         found = [group.evaluated(one) for one in group.records(table)]
         parts = [part for part in group.parts if part.printed and any(one[part.key] is not None for one in found)]

@@ -161,7 +161,7 @@ def bodies_are_all_sections_or_all_solids(scene: TankParts) -> Iterator[InitErro
         if is_refused or getattr(analysis, "hull_pressures", False):
             yield problem_at(
                 ("analysis", index, "kind" if is_refused else "hull_pressures"),
-                analysis.kind,
+                analysis.kind if is_refused else True,
                 "it is computed for sections only, and the bodies are solids of revolution",
                 remedy="Leave it out",
             )

@@ -17,6 +17,7 @@ from hydroelastic.output.tank.quantities import TANK
 from hydroelastic.output.thread.quantities import THREAD
 from hydroelastic.physics.dofs import Dof
 from hydroelastic.scenes.models.level_tank import is_level_tank
+from hydroelastic.scenes.models.revolved_floats import SOLID_SHAPES
 
 # Number of frequencies of one analysis; the others are in its table.
 _MOST_MODES = 3
@@ -99,9 +100,13 @@ def _elastic(kind: Group, summary: Summary, what: str) -> Iterator[Row]:
 
 def _open_water(summary: Summary) -> Iterator[Row]:
     """The largest values of each analysis, and the slowest resonances."""
+    is_whole = any(body.get("shape") in SOLID_SHAPES for body in summary["scene"]["body"])
     for table in summary["radiation"]:
-        yield from _largest_damping(table)
+        yield from _largest_damping(table, is_whole)
     for table in summary["response"]:
+        if is_whole:
+            yield from _largest_motions(table)
+            continue
         for wave, name in enumerate(table["waves"]):
             sizes = [hypot(*row[wave][wave]) for row in table["reflection"]]
             place = sizes.index(max(sizes))
@@ -136,16 +141,25 @@ def _open_water(summary: Summary) -> Iterator[Row]:
             yield _row(quantity, table["largest"][place], table["relative_error"])
 
 
-def _largest_damping(table: Summary) -> Iterator[Row]:
+def _largest_motions(table: Summary) -> Iterator[Row]:
+    """The largest motions of solids in waves of unit amplitude."""
+    for motion, dof in enumerate(map(Dof, table["dofs"][:_MOST_MODES])):
+        sizes = [hypot(*row[0][motion]) for row in table["amplitudes"]]
+        place = sizes.index(max(sizes))
+        quantity = f"largest {dof.words} in waves, at ω = {table['omega'][place]:.4g} rad/s"
+        unit = "rad/m" if dof.is_rotation else "m/m"
+        yield _of_absolute(f"{quantity}, {unit}", sizes[place], sizes[place] * table["relative_error"][place])
+
+
+def _largest_damping(table: Summary, is_whole: bool) -> Iterator[Row]:
     """The largest damping of each motion of a rigid body, at finite frequencies."""
     finite = [place for place, omega in enumerate(table["omega"]) if omega != "inf"]
     for motion, dof in enumerate(map(Dof, table["dofs"][:_MOST_MODES] if finite else ())):
         damping = [table["radiation_damping"][place][motion][motion] or -inf for place in finite]
         place = finite[damping.index(max(damping))]
         quantity = f"largest radiation damping of {dof.words}, at ω = {table['omega'][place]:.4g} rad/s"
-        yield _row(
-            f"{quantity}, {'kg·m/s' if dof.is_rotation else 'kg/m/s'}", max(damping), table["relative_error"][place]
-        )
+        units = ("kg/s", "kg·m²/s") if is_whole else ("kg/m/s", "kg·m/s")
+        yield _row(f"{quantity}, {units[dof.is_rotation]}", max(damping), table["relative_error"][place])
 
 
 def _string(summary: Summary) -> Iterator[Row]:

@@ -1,7 +1,4 @@
-"""Units of whole solids, of quantities that are declared per metre of width: they have one metre more.
-
-What is roll of a section is pitch of a solid of revolution.
-"""
+"""Units of whole solids, of quantities that are declared per metre of width: they have one metre more."""
 
 from __future__ import annotations
 

@@ -93,7 +93,7 @@ def _float(tank: Tank, index: int) -> BodyAtRest:
 
 
 def _point(key: str, meaning: str) -> Quantity:
-    return Quantity(key, meaning, "m", dimensions=("x_and_y",), shown=".6g", variable="")
+    return Quantity(key, meaning, "m", dimensions=("x_and_y",), shown=".6g")
 
 
 # fmt: off
@@ -104,7 +104,7 @@ BODIES = Group("bodies", "bodies at rest", (
     Quantity("draught", "draught", "m", shown=".6g", short="draught",
         note="of a beam that of its mean weight, which is not modelled"),
     Quantity("waterplane", "x of both ends of the waterplane", "m", dimensions=("end",), shown=".6g",
-        short="waterplane x", variable=""),
+        short="waterplane x"),
     _point("centre_of_gravity", "x of the centre of gravity, and its height above the still level"),
     _point("centre_of_buoyancy", "x of the centre of buoyancy, and its height above the still level"),
     Quantity("radius_of_gyration", "radius of gyration about the centre of gravity", "m", shown=".6g",

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated, Any, TypeAlias
 
-from pydantic import BeforeValidator, Field, SerializerFunctionWrapHandler, Strict, model_serializer
+from pydantic import BeforeValidator, Field, Strict
 
-from hydroelastic.scenes.models.bodies import LARGEST, AnyNumber, SceneModel
+from hydroelastic.scenes.models.bodies import LARGEST, AnyNumber, SparseModel
 from hydroelastic.scenes.models.problems import problem
 from hydroelastic.scenes.models.values import OrElse
 
@@ -29,7 +29,7 @@ Matrix: TypeAlias = Annotated[tuple[Triple, Triple, Triple], BeforeValidator(_as
 NotNegative: TypeAlias = Annotated[float, Strict(), Field(ge=0, le=LARGEST)]
 
 
-class Attachment(SceneModel):
+class Attachment(SparseModel):
     """A spring and damper at a point of a body: a mooring, a fender, bilge keels, a power take-off."""
 
     body: Annotated[int, Strict(), Field(ge=1, le=1000)] = Field(default=1, description="number of the body, from 1")
@@ -53,7 +53,3 @@ class Attachment(SceneModel):
         default=(0.0, 0.0, 0.0),
         description="β of [heave, sway, roll] about the point in forces β |v| v, kg/m²; of roll in kg·m",
     )
-
-    @model_serializer(mode="wrap")
-    def _as_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        return {key: value for key, value in write(self).items() if value is not None}

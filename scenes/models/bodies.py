@@ -69,6 +69,14 @@ class SceneModel(BaseModel, metaclass=_Keyworded):
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False, defer_build=True)
 
 
+class SparseModel(SceneModel):
+    """A part of a scene that is written without the keys that are not given."""
+
+    @model_serializer(mode="wrap")
+    def _as_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        return {key: value for key, value in write(self).items() if value not in (None, (), [])}
+
+
 class BeamSection(SceneModel):
     """A uniform part of a stepped beam."""
 

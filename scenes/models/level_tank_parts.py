@@ -28,6 +28,7 @@ from hydroelastic.scenes.models.bodies import (
     Place,
     PositiveNumber,
     SceneModel,
+    SparseModel,
 )
 from hydroelastic.scenes.models.folder import SceneInFolder
 from hydroelastic.scenes.models.problems import problem_at
@@ -59,7 +60,7 @@ KEYS_OF_OUTLINES: dict[OutlineName, tuple[tuple[str, ...], tuple[str, ...]]] = {
 _OUTLINE_KEYS = ("position", "size", "start", "length", "radius", "inner_radius", "points")
 
 
-class ShapedBed(SceneModel):
+class ShapedBed(SparseModel):
     """The bed of an upright tank that is not level: a slope, or a smooth surface through points.
 
     Raises:
@@ -85,10 +86,6 @@ class ShapedBed(SceneModel):
             found = problem_at((given[-1] if given else "slope",), None, wrong, allowed="one of slope, points and file")
             raise ValidationError.from_exception_data(type(self).__name__, [found])
         return self
-
-    @model_serializer(mode="wrap")
-    def _without_idle_keys(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        return {key: value for key, value in write(self).items() if value is not None}
 
 
 class PlanTank(SceneModel):
@@ -138,7 +135,7 @@ class PlanLiquid(SceneModel):
     )
 
 
-class Plate(SceneModel):
+class Plate(SparseModel):
     """A thin elastic or rigid plate without draught that floats on the liquid.
 
     Raises:
@@ -198,10 +195,6 @@ class Plate(SceneModel):
         if problems:
             raise ValidationError.from_exception_data(type(self).__name__, problems)
         return self
-
-    @model_serializer(mode="wrap")
-    def _without_idle_keys(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        return {key: value for key, value in write(self).items() if value is not None}
 
     @property
     def whole_rigidity(self) -> float:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import pairwise
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
-from pydantic import Field, SerializerFunctionWrapHandler, Strict, ValidationError, model_serializer, model_validator
+from pydantic import Field, Strict, ValidationError, model_validator
 from pydantic_core import InitErrorDetails
 
 from hydroelastic.fem.open_water.requests import SpectrumRequest
-from hydroelastic.scenes.models.bodies import LARGEST, AnyNumber, PositiveNumber, SceneModel
+from hydroelastic.scenes.models.bodies import LARGEST, AnyNumber, PositiveNumber, SceneModel, SparseModel
 from hydroelastic.scenes.models.problems import problem_at
 from hydroelastic.scenes.models.values import MOST_VALUES
 
@@ -32,7 +32,7 @@ class SeaPoint(SceneModel):
     at: tuple[AnyNumber, AnyNumber] = Field(description="[x, y] of the point at rest, m")
 
 
-class Spectrum(SceneModel):
+class Spectrum(SparseModel):
     """Motions, accelerations and loads in irregular waves."""
 
     kind: Literal["spectrum"] = Field(default="spectrum", description="kind of the analysis")
@@ -101,10 +101,6 @@ class Spectrum(SceneModel):
             positions=self.positions,
             thickness=self.thickness,
         )
-
-    @model_serializer(mode="wrap")
-    def _as_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        return {key: value for key, value in write(self).items() if value not in (None, (), [])}
 
     @model_validator(mode="after")
     def _keys_fit(self) -> Spectrum:

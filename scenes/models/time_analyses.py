@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
-from pydantic import Field, SerializerFunctionWrapHandler, Strict, model_serializer, model_validator
+from pydantic import Field, Strict, model_validator
 
 from hydroelastic.fem.open_water.requests import ImpulseResponseRequest, MotionRequest, RegularWave
-from hydroelastic.scenes.models.bodies import AnyNumber, PositiveNumber, SceneModel
+from hydroelastic.scenes.models.bodies import AnyNumber, PositiveNumber, SceneModel, SparseModel
 from hydroelastic.scenes.models.problems import problem
 from hydroelastic.scenes.models.values import (
     DISTINCT,
@@ -82,7 +82,7 @@ class RandomWaves(SceneModel):
             yield RegularWave(omega=float(omega), amplitude=float(amplitude), phase=float(phase))
 
 
-class Motion(SceneModel):
+class Motion(SparseModel):
     """Motions over time in waves that begin at t = 0, from rest."""
 
     kind: Literal["motion"] = Field(default="motion", description="kind of the analysis")
@@ -98,10 +98,6 @@ class Motion(SceneModel):
     waves_from: Literal["left", "right"] = Field(default="left", description="the side from which waves come")
     ramp: NumberFromZero = Field(default=0.0, description="time in which the waves grow to their height, s")
     elastic_modes: ElasticModes = Field(default=4, description="how many elastic shapes of each beam move")
-
-    @model_serializer(mode="wrap")
-    def _as_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        return {key: value for key, value in write(self).items() if value is not None and value != ()}
 
     @model_validator(mode="after")
     def _has_waves(self) -> Motion:

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import cached_property
 from itertools import pairwise
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Literal, TypeAlias
 
 import numpy as np
-from pydantic import Field, SerializerFunctionWrapHandler, Strict, ValidationError, model_serializer, model_validator
+from pydantic import Field, Strict, ValidationError, model_validator
 from pydantic_core import InitErrorDetails
 
 from hydroelastic.physics import varying_beam
@@ -20,7 +20,7 @@ from hydroelastic.scenes.models.bodies import (
     BeamSection,
     Place,
     PositiveNumber,
-    SceneModel,
+    SparseModel,
     physical_joints,
     physical_sections,
 )
@@ -29,7 +29,7 @@ from hydroelastic.scenes.models.problems import problem_at
 Table: TypeAlias = Annotated[tuple[tuple[Place, PositiveNumber], ...], Field(min_length=2, max_length=MOST_SECTIONS)]
 
 
-class VaryingBeam(SceneModel):
+class VaryingBeam(SparseModel):
     """An Euler–Bernoulli beam without draught with free ends, given by tables of rows [x, value], x in m from its left
     end: by its thickness, or by its rigidity and mass. Values go linearly from row to row; two rows with the same x are
     a step.
@@ -152,11 +152,6 @@ class VaryingBeam(SceneModel):
         if problems:
             raise ValidationError.from_exception_data(type(self).__name__, problems)
         return self
-
-    @model_serializer(mode="wrap")
-    def _as_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        """Leave out the keys of the alternative form, and an empty list of joints."""
-        return {key: value for key, value in write(self).items() if value not in (None, (), [])}
 
 
 _TABLES = ("thickness", "flexural_rigidity", "mass_per_length")

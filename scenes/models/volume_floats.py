@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any, ClassVar, Literal
+from typing import ClassVar, Literal
 
-from pydantic import Field, SerializerFunctionWrapHandler, ValidationError, model_serializer, model_validator
+from pydantic import Field, ValidationError, model_validator
 from pydantic_core import InitErrorDetails
 
 from hydroelastic.physics.plate import Point
 from hydroelastic.physics.solid_floats import RIGID_MOTIONS, RigidMotion, SolidFloat, SolidFloatShape
-from hydroelastic.scenes.models.bodies import AnyNumber, PositiveNumber, SceneModel
+from hydroelastic.scenes.models.bodies import AnyNumber, PositiveNumber, SparseModel
 from hydroelastic.scenes.models.problems import problem_at
 
 _NEEDED: dict[SolidFloatShape, tuple[str, ...]] = {
@@ -20,7 +20,7 @@ _NEEDED: dict[SolidFloatShape, tuple[str, ...]] = {
 }
 
 
-class VolumeFloat(SceneModel):
+class VolumeFloat(SparseModel):
     """A rigid solid that floats upright by Archimedes' principle: its mass is that of the liquid it displaces.
 
     Raises:
@@ -55,10 +55,6 @@ class VolumeFloat(SceneModel):
     )
 
     outline: ClassVar[str] = "float"
-
-    @model_serializer(mode="wrap")
-    def _without_idle_keys(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        return {key: value for key, value in write(self).items() if value is not None}
 
     @model_validator(mode="after")
     def _keys_fit(self) -> VolumeFloat:

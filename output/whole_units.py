@@ -35,6 +35,5 @@ def of_whole_solids(group: Group) -> Group:
 
 def _whole(part: Quantity) -> Quantity:
     unit = None if part.unit is None else whole_unit(part.unit)
-    # A section rolls in the plane in which a solid of revolution pitches.
     meaning = re.sub(r"\broll\b", "pitch", part.meaning)
     return replace(part, meaning=meaning, unit=unit, of_roll=tuple(map(whole_unit, part.of_roll)))

@@ -14,7 +14,6 @@ from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.models.revolved_floats import RevolvedFloat
 from hydroelastic.scenes.models.round_tank import RoundTankScene, is_round_tank
 from hydroelastic.scenes.models.sea import SeaScene
-from hydroelastic.scenes.open_water.check import check_open
 from hydroelastic.scenes.open_water.run import run_open
 from hydroelastic.scenes.read import read_scene
 from hydroelastic.scenes.round_tank.run import run_round_tank
@@ -124,13 +123,6 @@ def test_messages_name_the_keys_of_the_body_at_hand(tmp_path: Path) -> None:
     section = 'kind = "float", shape = "ellipse", half_width = 1.0, half_height = 1.0'
     assert "half_width, half_height, tail" in said(tmp_path, f"{section}, colour = 1.0")
     assert '"beam" or "varying_beam" or "float". ' in said(tmp_path, 'kind = "boat"')
-
-
-def test_check_describes_whole_solids() -> None:
-    tables = {section.title: section for section in check_open(sea(CYLINDER))}
-    rest = {str(row[0]): row[1] for row in tables["Bodies at rest"].rows}
-    assert float(rest["mass, kg"]) == pytest.approx(1000.0 * pi, rel=1e-5)
-    assert "hydrostatic stiffness of pitch c55, N·m" in rest
 
 
 def test_a_float_on_the_axis_over_a_sloping_bed_is_of_three_dimensions() -> None:

@@ -51,7 +51,8 @@ def cell_jacobians(mesh: Mesh, cells: np.ndarray, reference: np.ndarray) -> np.n
     slopes = _coordinate_basis(mesh, reference, 1)[1:]
     dim, points, nodes = slopes.shape
     products = slopes.reshape(-1, nodes) @ cell_nodes(mesh, cells)
-    jacobians: np.ndarray = products.reshape(len(cells), dim, points, -1).transpose(0, 2, 3, 1)
+    # In full, because −1 stands for nothing where a process has none of the cells.
+    jacobians: np.ndarray = products.reshape(len(cells), dim, points, products.shape[2]).transpose(0, 2, 3, 1)
     return jacobians
 
 

@@ -70,8 +70,6 @@ def fill(points: Iterable[NDArray[np.float64]], loops: Iterable[list[Line]], siz
         gmsh.model.geo.synchronize()
         for option in ("MeshSizeFromPoints", "MeshSizeExtendFromBoundary", "MeshSizeFromCurvature"):
             gmsh.option.setNumber(f"Mesh.{option}", 0)
-        # The default of 1e-9 asks for ten times as many sizes, and moves no node by more than 1e-5.
-        gmsh.option.setNumber("Mesh.LcIntegrationPrecision", 1e-4)
         gmsh.option.setNumber("Mesh.Algorithm", 6)  # frontal-Delaunay: the best-shaped triangles
         gmsh.model.mesh.setSizeCallback(lambda dim, tag, x, y, z, lc: size(x, y))
         with interrupts_deferred():

@@ -94,8 +94,7 @@ def test_corners_of_more_than_half_a_turn_are_refined() -> None:
     near = np.linalg.norm(corners - [0.5, 0.5], axis=2).min(axis=1) < 1e-12
     assert near.any()
     assert _area(mesh, "water") == pytest.approx(0.75, rel=1e-13)
-    # Less than half the thickness of the graded layers, 0.1; cells away from corners are of 0.25.
-    assert sizes[near].max() < 0.04
+    assert sizes[near].max() < 0.02
 
 
 MIRRORS: list[Mirrors] = [(0.0, None), (None, 0.0), (0.0, 0.0)]

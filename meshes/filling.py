@@ -79,11 +79,14 @@ def fill(points: Iterable[NDArray[np.float64]], loops: Iterable[list[Line]], siz
 
 @contextmanager
 def gmsh_model() -> Iterator[None]:
-    """A new gmsh model without messages; gmsh is initialized once in a process, and its state is restored."""
+    """A new gmsh model with default options and without messages; gmsh is initialized once in a process."""
     if not gmsh.isInitialized():
         # gmsh would otherwise take over Ctrl-C, and a long run could no longer be interrupted.
         gmsh.initialize(readConfigFiles=False, interruptible=False)
-        gmsh.option.setNumber("General.Verbosity", 0)
+    # Limits of size that one mesh was given would otherwise hold for the next one too.
+    gmsh.option.restoreDefaults()
+    gmsh.option.setNumber("General.AbortOnError", 2)  # raise it, as gmsh.initialize has it
+    gmsh.option.setNumber("General.Verbosity", 0)
     gmsh.model.add("tank")
     try:
         yield

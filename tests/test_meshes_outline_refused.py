@@ -102,6 +102,12 @@ def test_gmsh_works_on_after_it_failed() -> None:
     assert len(build_mesh(circle_tank(Circle()), bulk_size=0.5).cells) > 100
 
 
+def test_options_of_an_earlier_mesh_do_not_change_the_next_one() -> None:
+    first = build_mesh(circle_tank(Circle()), bulk_size=0.5)
+    gmsh.option.setNumber("Mesh.MeshSizeMax", 0.01)
+    assert np.array_equal(build_mesh(circle_tank(Circle()), bulk_size=0.5).cells, first.cells)
+
+
 def test_a_slit_of_one_element_is_refused() -> None:
     """Both its ends are single: nothing would be open."""
     outline = surface_slit(low=-0.3, high=-0.2, rings=False)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import isinf
 
+from hydroelastic.output.open_water.bodies import bodies_at_rest_section
 from hydroelastic.output.sections import Row, Section
 from hydroelastic.physics.rigid_motions import heave_is_excluded
 from hydroelastic.physics.tank import Piece, StillLevel
@@ -156,7 +157,9 @@ def _groups(scene: TankParts) -> Iterator[Group]:
 
 
 def hydrostatics_table(scene: TankParts) -> Section:
-    """Return hydrostatics and stiffness of each float; no rows without floats."""
+    """Return hydrostatics and stiffness of each float, or of each solid of revolution; no rows without floats."""
+    if scene.is_revolved:
+        return bodies_at_rest_section(physical_tank(scene))
     columns = {index: found for index in range(len(scene.body)) if (found := _words_of(scene, index).at_rest())}
     quantities = next(iter(columns.values()), {})
     return Section(

@@ -94,7 +94,7 @@ def test_the_answer_is_that_of_the_tables() -> None:
 def test_an_answer_without_errors_says_so() -> None:
     summary = {
         "scene": {"kind": "tank", "tank": {"ends": "open"}, "body": []},
-        **{kind: [] for kind in ("radiation", "decay", "impulse_response", "motion")},
+        **{kind: [] for kind in ("radiation", "decay", "spectrum", "impulse_response", "motion")},
         "response": [{"waves": ["surface"], "reflection": [[[[0.3, 0.4]]]], "omega": [2.0], "relative_error": [None]}],
         "resonance": [{"omega": [[1.0, -0.1]], "relative_error": ["inf"]}],
     }

@@ -129,7 +129,10 @@ def _open_water(summary: Summary) -> Iterator[Row]:
         name = f"{motion.words} largest swing to the other side after release, at t = {table['times'][back]:.4g} s"
         name += ", rad" if motion.is_rotation else ", m"
         yield _of_absolute(name, table["displacement"][back][released], table["absolute_error"][back])
-
+    for table in summary["spectrum"]:
+        for response in table["responses"][:_MOST_MODES]:
+            quantity = f"significant amplitude of {response['quantity']} in irregular waves, {response['unit']}"
+            yield _row(quantity, response["significant_amplitude"], response["relative_error"])
     for table in summary["impulse_response"]:
         for place, dof in enumerate(map(Dof, table["dofs"][:_MOST_MODES])):
             unit = "kg·m" if dof.is_rotation else "kg/m"

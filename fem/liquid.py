@@ -305,7 +305,7 @@ class LiquidSolver:
             loads[layer.dofs] -= np.outer(layer.load, own.sum(axis=0) / layer.measure)
         free, answers = self._local_free, np.zeros(loads.shape, order="F")
         # The transposed array holds one load after the other.
-        right = PETSc.Mat().createDense((len(free), loads.shape[1]), array=loads.T[:, free].T)
+        right = PETSc.Mat().createDense((len(free), loads.shape[1]), array=loads.T[:, free].T, comm=PETSc.COMM_SELF)
         result = right.duplicate()
         self._solver.getPC().getFactorMatrix().matSolve(right, result)
         answers.T[:, free] = result.getDenseArray().T

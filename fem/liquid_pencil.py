@@ -73,7 +73,8 @@ def liquid_answer(pencil: CoupledPencil[LiquidSpace], most: int) -> LiquidAnswer
         return None
     assert isinstance(pencil.solver, LiquidSolver)
     potentials = pencil.solver.solve_all(dense(pencil.coupling))
-    momentum = pencil.momentum.transposeMatMult(PETSc.Mat().createDense(potentials.shape, array=potentials))
+    columns = PETSc.Mat().createDense(potentials.shape, array=potentials, comm=PETSc.COMM_SELF)
+    momentum = pencil.momentum.transposeMatMult(columns)
     added_mass = momentum.getDenseArray()
     return LiquidAnswer(potentials=potentials, added_mass=0.5 * (added_mass + added_mass.T))
 

@@ -35,6 +35,11 @@ class Rectangle:
         """Its area, m²."""
         return self.size[0] * self.size[1]
 
+    @property
+    def extent(self) -> float:
+        """The larger of its lengths along x and y, m."""
+        return max(self.size)
+
     def scaled(self, length: float) -> Rectangle:
         """Return it in units of a length."""
         return replace(self, position=scaled_point(self.position, length), size=scaled_point(self.size, length))
@@ -64,6 +69,11 @@ class Strip:
         """Its area, m²."""
         return self.length * self.width
 
+    @property
+    def extent(self) -> float:
+        """The larger of its lengths along x and y, m."""
+        return max(self.length, self.width)
+
     def scaled(self, length: float) -> Strip:
         """Return it in units of a length."""
         return replace(self, start=self.start / length, length=self.length / length, width=self.width / length)
@@ -87,6 +97,11 @@ class Disc:
     def area(self) -> float:
         """Its area, m²."""
         return pi * (self.radius**2 - self.inner_radius**2)
+
+    @property
+    def extent(self) -> float:
+        """The larger of its lengths along x and y, m."""
+        return 2.0 * self.radius
 
     def scaled(self, length: float) -> Disc:
         """Return it in units of a length."""
@@ -113,6 +128,11 @@ class Polygon:
         """Its area, m²."""
         following = (*self.points[1:], self.points[0])
         return 0.5 * abs(sum(x * v - u * y for (x, y), (u, v) in zip(self.points, following, strict=True)))
+
+    @property
+    def extent(self) -> float:
+        """The larger of its lengths along x and y, m."""
+        return float(np.ptp(np.array(self.points), axis=0).max())
 
     @property
     def corners(self) -> FloatArray:

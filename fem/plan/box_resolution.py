@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.fem.level_bed.interval import IntervalSpace
-from hydroelastic.fem.plan.rectangle_body import rectangle_of
+from hydroelastic.fem.plan.polynomials import more_polynomials, polynomial_counts
 from hydroelastic.fem.tank.resolution import radians
 from hydroelastic.physics.beam_parts import Section
 from hydroelastic.physics.level_tank import Box, LevelTank
@@ -18,7 +18,6 @@ from hydroelastic.physics.local_waves import LevelPiece
 from hydroelastic.physics.plate import Plate
 
 HIGHEST_DEGREE = 12
-MOST_POLYNOMIALS = 40
 MOST_LAYERS = 9
 # Largest cell, in parts of a box's side.
 _OF_SIDE = 0.3
@@ -66,11 +65,7 @@ class BoxResolution:
                 largest=self.largest * (0.7 if self.degree >= HIGHEST_DEGREE else 0.9),
             )
         if plates > 1.0:
-            factor = min(max(1.2 * plates ** (1.0 / 8.0), 1.2), 2.0)
-            finer = replace(
-                finer,
-                polynomials=tuple(min(ceil(factor * count), MOST_POLYNOMIALS) for count in self.polynomials),
-            )
+            finer = replace(finer, polynomials=more_polynomials(self.polynomials, plates))
         return None if finer == self or (self.degree, self.layers) == (HIGHEST_DEGREE, MOST_LAYERS) else finer
 
 
@@ -87,16 +82,12 @@ def box_resolution(tank: LevelTank, tolerance: float, eigenvalue: float, *, rele
     degree = min(max(ceil(0.5 + 0.75 * digits), 4), HIGHEST_DEGREE - 2)
     wavenumbers = [plate_wavenumber(tank, plate, eigenvalue) for plate in tank.plates]
     shortest = max([0.0 if released else water_wavenumber(tank, eigenvalue), *wavenumbers, 1.0])
-    polynomials = tuple(
-        min(ceil(1.1 * wavenumber * max(rectangle_of(plate.outline).size) / pi + 1.2 * digits) + 4, MOST_POLYNOMIALS)
-        for plate, wavenumber in zip(tank.plates, wavenumbers, strict=True)
-    )
     assert isinstance(tank.plan, Box)
     return BoxResolution(
         degree=degree,
         largest=min(radians(degree, tolerance) / shortest, _OF_SIDE * max(tank.plan.length, tank.plan.width)),
         layers=min(max(ceil(digits / 1.4 - 1.9), 1), MOST_LAYERS - 2),
-        polynomials=polynomials,
+        polynomials=polynomial_counts(tank, wavenumbers, tolerance),
     )
 
 

@@ -26,6 +26,7 @@ from hydroelastic.fem.plan.plan_pencil import (
     stacked_pencil,
 )
 from hydroelastic.fem.plan.plates import plan_plate
+from hydroelastic.fem.plan.polynomials import more_polynomials, polynomial_counts
 from hydroelastic.fem.plan.rectangle_body import AxisParity, ClassParity
 from hydroelastic.fem.plan.released_plan import released_plan_pencil
 from hydroelastic.fem.stopwatch import Report
@@ -37,11 +38,9 @@ from hydroelastic.meshes.plan_loops import Mirrors
 from hydroelastic.meshes.plan_regions import mirrors_of, plan_regions
 from hydroelastic.modal.liquid.vertical_poles import VerticalPoles, vertical_poles
 from hydroelastic.physics.level_tank import LevelTank
-from hydroelastic.physics.plate import Disc, Plate, Polygon, Rectangle
 
 HIGHEST_DEGREE = 10
 MOST_LAYERS = 8
-MOST_POLYNOMIALS = 40
 _MOST_ATTEMPTS = 5
 # Largest cell, in parts of the plan's extent.
 _OF_PLAN = 0.25
@@ -99,10 +98,7 @@ class PlanResolution:
         if poles > 1.0:
             finer = replace(finer, pole_error=self.pole_error / (2.0 * poles))
         if plates > 1.0:
-            factor = min(max(1.2 * plates ** (1.0 / 8.0), 1.2), 2.0)
-            finer = replace(
-                finer, polynomials=tuple(min(ceil(factor * count), MOST_POLYNOMIALS) for count in self.polynomials)
-            )
+            finer = replace(finer, polynomials=more_polynomials(self.polynomials, plates))
         return None if finer == self else finer
 
 
@@ -285,21 +281,8 @@ def plan_resolution(tank: LevelTank, tolerance: float, eigenvalue: float, *, rel
         layers=min(max(ceil(digits / 1.4 - 1.7), 1), MOST_LAYERS - 2),
         pole_error=2.0 * tolerance,
         wavenumber=max(shortest, 3.0),
-        polynomials=tuple(
-            min(ceil(1.1 * wavenumber * _extent(plate) / pi + 1.2 * digits) + 4, MOST_POLYNOMIALS)
-            for plate, wavenumber in zip(tank.plates, wavenumbers, strict=True)
-        ),
+        polynomials=polynomial_counts(tank, wavenumbers, tolerance),
     )
-
-
-def _extent(plate: Plate) -> float:
-    outline = plate.outline
-    if isinstance(outline, Disc):
-        return 2.0 * outline.radius
-    if isinstance(outline, Rectangle):
-        return max(outline.size)
-    assert isinstance(outline, Polygon)
-    return float(np.ptp(np.array(outline.points), axis=0).max())
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import ceil, log10, pi
+from math import ceil
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.fem.plan.box_resolution import expected_eigenvalue, plate_wavenumber, water_wavenumber
+from hydroelastic.fem.plan.polynomials import more_polynomials, polynomial_counts
 from hydroelastic.meshes.volume import VolumeSizes
-from hydroelastic.physics.plate import Disc, Plate, Polygon, Rectangle, Strip
 from hydroelastic.physics.volume_tank import VolumeTank
 
-MOST_POLYNOMIALS = 30
+_MOST_POLYNOMIALS = 30
 _DEGREE, _FINE_DEGREE, _FINE = 4, 6, 1e-8
 # Largest and smallest cells, in units of the tank.
 _LARGEST, _SMALLEST = 0.35, 5e-4
@@ -93,10 +93,7 @@ class VolumeResolution:
         sizes = replace(sizes, edge=min(sizes.edge, sizes.bulk))
         finer = replace(self, sizes=sizes)
         if plates > 1.0:
-            factor = min(max(1.2 * plates ** (1.0 / 8.0), 1.2), 2.0)
-            finer = replace(
-                finer, polynomials=tuple(min(ceil(factor * count), MOST_POLYNOMIALS) for count in self.polynomials)
-            )
+            finer = replace(finer, polynomials=more_polynomials(self.polynomials, plates, most=_MOST_POLYNOMIALS))
         return None if finer == self or sizes.edge < _SMALLEST else finer
 
 
@@ -106,7 +103,6 @@ def _step(excess: float, order: float) -> float:
 
 def volume_resolution(tank: VolumeTank, tolerance: float, count: int) -> VolumeResolution:
     """Return the first resolution for some modes of a dimensionless tank."""
-    digits = -log10(tolerance)
     degree = _FINE_DEGREE if tolerance < _FINE else _DEGREE
     eigenvalue = expected_eigenvalue(tank, count)
     wavenumbers = [plate_wavenumber(tank, plate, eigenvalue) for plate in tank.plates]
@@ -123,20 +119,5 @@ def volume_resolution(tank: VolumeTank, tolerance: float, count: int) -> VolumeR
             geometry=4,
             around=16,
         ),
-        polynomials=tuple(
-            min(ceil(1.1 * wavenumber * _extent(plate) / pi + 1.2 * digits) + 4, MOST_POLYNOMIALS)
-            for plate, wavenumber in zip(tank.plates, wavenumbers, strict=True)
-        ),
+        polynomials=polynomial_counts(tank, wavenumbers, tolerance, most=_MOST_POLYNOMIALS),
     )
-
-
-def _extent(plate: Plate) -> float:
-    outline = plate.outline
-    if isinstance(outline, Disc):
-        return 2.0 * outline.radius
-    if isinstance(outline, Strip):
-        return max(outline.length, outline.width)
-    if isinstance(outline, Rectangle):
-        return max(outline.size)
-    assert isinstance(outline, Polygon)
-    return float(np.ptp(np.array(outline.points), axis=0).max())

@@ -1,0 +1,35 @@
+"""How many polynomials along each direction the plates of a tank need."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import ceil, log10, pi
+
+from hydroelastic.physics.level_tank import LevelTank
+
+MOST_POLYNOMIALS = 40
+"""Along each direction of a plate on a plan."""
+
+
+def polynomial_counts(
+    tank: LevelTank, wavenumbers: Sequence[float], tolerance: float, *, most: int = MOST_POLYNOMIALS
+) -> tuple[int, ...]:
+    """Return the number of polynomials of each plate: those that resolve its waves, and more for each digit.
+
+    Args:
+        tank: the dimensionless tank.
+        wavenumbers: of the shortest waves in each plate.
+        tolerance: largest relative error that is accepted.
+        most: the largest number.
+    """
+    digits = -log10(tolerance)
+    return tuple(
+        min(ceil(1.1 * wavenumber * plate.outline.extent / pi + 1.2 * digits) + 4, most)
+        for plate, wavenumber in zip(tank.plates, wavenumbers, strict=True)
+    )
+
+
+def more_polynomials(counts: tuple[int, ...], excess: float, *, most: int = MOST_POLYNOMIALS) -> tuple[int, ...]:
+    """Return the next numbers of polynomials where their error is ``excess`` > 1 times the one that is accepted."""
+    factor = min(max(1.2 * excess ** (1.0 / 8.0), 1.2), 2.0)
+    return tuple(min(ceil(factor * count), most) for count in counts)

@@ -14,6 +14,7 @@ from hydroelastic.physics.volume_tank import VolumeTank
 from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
 from hydroelastic.scenes.models.level_tank import LevelTankScene
 from hydroelastic.scenes.models.level_tank_physics import physical_level_tank
+from hydroelastic.scenes.models.round_tank import RoundTankScene
 
 if TYPE_CHECKING:
     from hydroelastic.fem.level_bed.solution import LevelSolution
@@ -33,7 +34,7 @@ class SolvedLevelTank:
         estimating: the time that they took, by stage.
     """
 
-    scene: LevelTankScene
+    scene: LevelTankScene | RoundTankScene
     tank: LevelSolution
     exact: tuple[ExactMode, ...] = ()
     estimates: tuple[PlateEstimate, ...] = ()

@@ -2,46 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
-
 from mpi4py import MPI
 
 from hydroelastic.fem.stopwatch import Report
 from hydroelastic.scenes.errors import Problem, SceneError, UnsolvedError
+from hydroelastic.scenes.level_tank.solve import SolvedLevelTank
 from hydroelastic.scenes.models.physical import physical_tank
 from hydroelastic.scenes.models.round_tank import RoundTankScene
 
-if TYPE_CHECKING:
-    from hydroelastic.fem.level_bed.solution import LevelSolution
 
-
-@dataclass(frozen=True, kw_only=True)
-class SolvedRoundTank:
-    """The field solution of a tank of revolution.
-
-    Attributes:
-        scene: the scene.
-        tank: its field solution.
-    """
-
-    scene: RoundTankScene
-    tank: LevelSolution
-    exact: tuple[()] = ()
-    estimates: tuple[()] = ()
-
-    @property
-    def reasons(self) -> tuple[str, ...]:
-        """Reasons why the tolerance is not kept; empty if it is."""
-        return self.tank.reasons
-
-    @property
-    def seconds(self) -> dict[str, float]:
-        """Time by stage, s."""
-        return self.tank.seconds
-
-
-def solve_round_scene(scene: RoundTankScene, comm: MPI.Comm, report: Report) -> SolvedRoundTank:
+def solve_round_scene(scene: RoundTankScene, comm: MPI.Comm, report: Report) -> SolvedLevelTank:
     """Solve a tank of revolution (collective).
 
     Raises:
@@ -62,4 +32,4 @@ def solve_round_scene(scene: RoundTankScene, comm: MPI.Comm, report: Report) -> 
         raise SceneError(problem) from error
     except EigenSolverError as error:
         raise UnsolvedError(f"the eigen-solver failed: {error}") from error
-    return SolvedRoundTank(scene=scene, tank=solution)
+    return SolvedLevelTank(scene=scene, tank=solution)

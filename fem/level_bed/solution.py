@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 
 from hydroelastic.fem.closed_solution import ClosedSolution
-from hydroelastic.fem.kept_tolerance import kept_tolerance
+from hydroelastic.fem.kept_tolerance import excess
 from hydroelastic.fem.modes import Mode, ModeSet
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.fem.surfaces import Body
@@ -18,7 +18,7 @@ from hydroelastic.physics.arrays import FloatArray
 from hydroelastic.physics.level_tank import LevelTank
 
 
-class PlanProblem(Protocol):
+class LevelProblem(Protocol):
     """One of the problems into which a tank falls: an order, or a symmetry of the plan."""
 
     @property
@@ -40,6 +40,11 @@ class PlanProblem(Protocol):
     @property
     def modes(self) -> ModeSet:
         """Its lowest modes."""
+
+
+@runtime_checkable
+class PlanProblem(LevelProblem, Protocol):
+    """A problem whose modes are sampled at places of the plan."""
 
     def sampled(self, mode: Mode, x: FloatArray, y: FloatArray, *, second: bool) -> SampledSurface:
         """Return a mode at places of the plan.
@@ -86,7 +91,7 @@ class LevelMode:
         relative_error: estimated, of ω.
     """
 
-    problem: PlanProblem
+    problem: LevelProblem
     mode: Mode
     relative_error: float
 
@@ -174,24 +179,17 @@ def shift_above(eigenvalues: np.ndarray) -> float:
 
 def shortcomings(solution: LevelSolution) -> Iterator[str]:
     """Yield messages on why a solution does not keep the tolerance or is incomplete."""
-
-    def excess(quantity: str, error: float | None) -> Iterator[str]:
-        if error is not None and error > solution.tolerance:
-            yield (
-                f"{quantity} has an estimated relative error of {error:.1e}, above the tolerance "
-                f"{solution.tolerance:g}; {kept_tolerance(error)}"
-            )
-
+    tolerance, estimated = solution.tolerance, "has an estimated relative error"
     errors = [one.relative_error for one in solution.modes]
     if errors:
-        yield from excess(f"mode {int(np.argmax(errors)) + 1}", max(errors))
+        yield from excess(f"mode {int(np.argmax(errors)) + 1} {estimated}", max(errors), tolerance)
     if not solution.counted:
         yield "an independent count of the modes by inertia disagrees: a mode may be missing"
     for tone in solution.tones:
         plate = f"of plate {tone.plate + 1}"
         if tone.tone is not None and not tone.tone.certain:
             yield f"the first elastic tone {plate} may lie above the modes computed"
-        yield from excess(f"the first elastic tone {plate}", tone.relative_error)
+        yield from excess(f"the first elastic tone {plate} {estimated}", tone.relative_error, tolerance)
         # In boxes and plans it is a companion of fewer digits, told with its error.
         if tone.order is not None:
-            yield from excess(f"the pressure-release tone {plate}", tone.pressure_release_error)
+            yield from excess(f"the pressure-release tone {plate} {estimated}", tone.pressure_release_error, tolerance)

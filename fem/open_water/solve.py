@@ -9,7 +9,7 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
-from hydroelastic.fem.kept_tolerance import kept_tolerance
+from hydroelastic.fem.kept_tolerance import excess
 from hydroelastic.fem.memory import release_memory
 from hydroelastic.fem.open_water.decay import DecaySolution, solve_decay
 from hydroelastic.fem.open_water.impulse_response import ImpulseResponseSolution, solve_impulse_response
@@ -175,12 +175,7 @@ def _solved(problem: OpenWaterProblem, request: Request, memory: Callable[[int],
 
 def _reasons(tolerance: float, number: int, kind: str, solution: _Solution) -> list[str]:
     """Return messages on why a solution does not keep the tolerance or is incomplete."""
-    reasons = []
-    if solution.error > tolerance:
-        reasons.append(
-            f"analysis {number} ({kind}) has an estimated relative error of {solution.error:.1e}, above the "
-            f"tolerance {tolerance:g}; {kept_tolerance(solution.error)}"
-        )
+    reasons = [*excess(f"analysis {number} ({kind}) has an estimated relative error", solution.error, tolerance)]
     if isinstance(solution, RadiationSolution | ResponseSolution):
         residual = float(np.nanmax(np.abs(solution.table.energy_residual), initial=0.0))
         if residual > _POWER * tolerance:

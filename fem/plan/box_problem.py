@@ -7,10 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from hydroelastic.fem.level_bed.solution import SampledSurface
-from hydroelastic.fem.modes import Mode, ModeSet
-from hydroelastic.fem.pencil import CoupledPencil
-from hydroelastic.fem.plan.box_pencil import BoxLiquid, water_columns, water_masses
-from hydroelastic.fem.plan.classes import SymmetryClass
+from hydroelastic.fem.modes import Mode
+from hydroelastic.fem.plan.box_pencil import water_columns, water_masses
+from hydroelastic.fem.plan.classes import ClassProblem
 from hydroelastic.fem.plan.rectangle_body import RectangleBody
 from hydroelastic.physics.arrays import FloatArray
 
@@ -19,43 +18,16 @@ _UNSEEN = 1e-7
 
 
 @dataclass(frozen=True, kw_only=True)
-class BoxProblem:
+class BoxProblem(ClassProblem):
     """A symmetry class of a box; see `PlanProblem`.
 
     Attributes:
-        symmetry_class: its problem and modes.
         plates: the plates in its shapes.
         size: sides of the box.
     """
 
-    symmetry_class: SymmetryClass
     plates: tuple[RectangleBody, ...]
     size: tuple[float, float]
-
-    @property
-    def order(self) -> int | None:
-        """Orders are not separated."""
-        return None
-
-    @property
-    def symmetry(self) -> str:
-        """Name of the symmetry."""
-        return self.symmetry_class.label
-
-    @property
-    def multiplicity(self) -> int:
-        """Frequencies are single, but for chance."""
-        return 1
-
-    @property
-    def pencil(self) -> CoupledPencil[BoxLiquid]:
-        """Its matrices."""
-        return self.symmetry_class.pencil
-
-    @property
-    def modes(self) -> ModeSet:
-        """Its lowest modes."""
-        return self.symmetry_class.modes
 
     def sampled(self, mode: Mode, x: FloatArray, y: FloatArray, *, second: bool) -> SampledSurface:
         """See `PlanProblem.sampled`; there is no second mode."""

@@ -50,6 +50,42 @@ class SymmetryClass:
 
 
 @dataclass(frozen=True, kw_only=True)
+class ClassProblem:
+    """A symmetry class as a problem of the common solution; see `LevelProblem`.
+
+    Attributes:
+        symmetry_class: its problem and modes.
+    """
+
+    symmetry_class: SymmetryClass
+
+    @property
+    def order(self) -> int | None:
+        """Orders are not separated."""
+        return None
+
+    @property
+    def symmetry(self) -> str:
+        """Name of the symmetry."""
+        return self.symmetry_class.label
+
+    @property
+    def multiplicity(self) -> int:
+        """Equal frequencies are different modes."""
+        return 1
+
+    @property
+    def pencil(self) -> CoupledPencil:
+        """Its matrices."""
+        return self.symmetry_class.pencil
+
+    @property
+    def modes(self) -> ModeSet:
+        """Its lowest modes."""
+        return self.symmetry_class.modes
+
+
+@dataclass(frozen=True, kw_only=True)
 class ClassModes:
     """The modes of all classes.
 

@@ -12,10 +12,9 @@ from slepc4py import SLEPc
 
 from hydroelastic.fem.direct import configure_direct
 from hydroelastic.fem.level_bed.solution import SampledSurface
-from hydroelastic.fem.modes import Mode, ModeSet
-from hydroelastic.fem.pencil import CoupledPencil
-from hydroelastic.fem.plan.classes import SymmetryClass
-from hydroelastic.fem.plan.plan_pencil import PlanLiquid, PlanPlate, PlanSpace, water_unknowns
+from hydroelastic.fem.modes import Mode
+from hydroelastic.fem.plan.classes import ClassProblem
+from hydroelastic.fem.plan.plan_pencil import PlanPlate, PlanSpace, water_unknowns
 from hydroelastic.meshes.geometry import FREE_SURFACE
 from hydroelastic.meshes.plan_loops import Mirrors, PlanRegion
 from hydroelastic.physics.arrays import FloatArray
@@ -25,45 +24,18 @@ _CARRIED = 120
 
 
 @dataclass(frozen=True, kw_only=True)
-class MeshProblem:
+class MeshProblem(ClassProblem):
     """A symmetry class of a tank on its plan; see `PlanProblem`.
 
     Attributes:
-        symmetry_class: its problem and modes.
         plates: the plates as bodies.
         regions: their outlines.
         mirrors: x and y of the mirror planes.
     """
 
-    symmetry_class: SymmetryClass
     plates: tuple[PlanPlate, ...]
     regions: tuple[PlanRegion, ...]
     mirrors: Mirrors
-
-    @property
-    def order(self) -> int | None:
-        """Orders are not separated."""
-        return None
-
-    @property
-    def symmetry(self) -> str:
-        """Name of the symmetry."""
-        return self.symmetry_class.label
-
-    @property
-    def multiplicity(self) -> int:
-        """Equal frequencies are different modes."""
-        return 1
-
-    @property
-    def pencil(self) -> CoupledPencil[PlanLiquid]:
-        """Its matrices."""
-        return self.symmetry_class.pencil
-
-    @property
-    def modes(self) -> ModeSet:
-        """Its lowest modes."""
-        return self.symmetry_class.modes
 
     @cached_property
     def _waves_at(self) -> dict[bytes, FloatArray]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from mpi4py import MPI
 
 from hydroelastic.fem.level_bed.choice import MODEL_WORDS, LevelModel, level_model
-from hydroelastic.fem.level_bed.solution import LevelMode, LevelSolution, PlanProblem, shortcomings
+from hydroelastic.fem.level_bed.solution import LevelMode, LevelProblem, LevelSolution, shortcomings
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.physics.level_tank import Box, LevelTank
 from hydroelastic.physics.volume_tank import VolumeTank
@@ -56,7 +56,7 @@ def solve_smallest_model(
 
     watch = Stopwatch()
     tank = physical.scaled()
-    problems: list[PlanProblem] = []
+    problems: list[LevelProblem] = []
     found: BoxSolution | PlanSolution | VolumeSolution
     with watch.stage("modes"):
         if model == "box":

@@ -18,7 +18,7 @@ from mpi4py import MPI
 from hydroelastic.fem.adaptive import ErrorEstimate, adaptive_solve
 from hydroelastic.fem.bodies.registry import ends_of_motions, expected_tones
 from hydroelastic.fem.closed_solution import ClosedSolution
-from hydroelastic.fem.kept_tolerance import kept_tolerance
+from hydroelastic.fem.kept_tolerance import excess
 from hydroelastic.fem.modes import Mode, ModeSet
 from hydroelastic.fem.stopwatch import Report, Stopwatch
 from hydroelastic.fem.tank.elastic_tone import ElasticTone, elastic_tone
@@ -281,19 +281,15 @@ def _tone(
 
 def _reasons(solution: TankSolution) -> Iterator[str]:
     """Yield messages on why a solution does not keep the tolerance or is incomplete."""
-
-    def excess(quantity: str, error: float | None, *, rounding: float = 0.0) -> Iterator[str]:
-        if error is not None and error > tolerance:
-            cause = f"rounding alone leaves {rounding:.1e}; " if rounding > 0.5 * tolerance else ""
-            yield f"{quantity} of {error:.1e}, above the tolerance {tolerance:g}; {cause}{kept_tolerance(error)}"
-
     tolerance, errors, estimated = solution.tolerance, solution.relative_errors, "has an estimated error"
     # Mode numbers start at one; the zero is for a tank without modes.
     modes = [0.0, *errors[: len(solution.asked)]]
     number = int(np.argmax(modes))
     rounding = solution.causes.largest("rounding")
-    yield from excess(f"mode {number} has an estimated relative error", modes[number], rounding=rounding)
-    yield from excess("a growth rate has an estimated relative error", max(solution.growing_errors, default=0.0))
+    yield from excess(f"mode {number} has an estimated relative error", modes[number], tolerance, rounding=rounding)
+    yield from excess(
+        "a growth rate has an estimated relative error", max(solution.growing_errors, default=0.0), tolerance
+    )
     if len(solution.asked) < min(solution.count, _modes_there(solution)):
         yield f"{len(solution.asked)} of {solution.count} modes exceed the rounding of the lowest"
     if not solution.counted:
@@ -303,13 +299,15 @@ def _reasons(solution: TankSolution) -> Iterator[str]:
         if tone.tone is not None and not tone.tone.certain:
             yield f"the first elastic tone {beam} may lie above the modes computed"
         elif tone.tone is not None:
-            yield from excess(f"the first elastic tone {beam} {estimated}", errors[tone.tone.index])
-        yield from excess(f"the pressure-release tone {beam} {estimated}", tone.pressure_release_error)
+            yield from excess(f"the first elastic tone {beam} {estimated}", errors[tone.tone.index], tolerance)
+        yield from excess(f"the pressure-release tone {beam} {estimated}", tone.pressure_release_error, tolerance)
     for mode in solution.float_modes:
         if mode.index is not None:
-            yield from excess(f"the {mode.motion} mode of float {mode.body + 1} {estimated}", errors[mode.index])
+            yield from excess(
+                f"the {mode.motion} mode of float {mode.body + 1} {estimated}", errors[mode.index], tolerance
+            )
     if solution.added_mass is not None:
-        yield from excess(f"the added mass at infinite frequency {estimated}", solution.added_mass.error)
+        yield from excess(f"the added mass at infinite frequency {estimated}", solution.added_mass.error, tolerance)
 
 
 def _modes_there(solution: TankSolution) -> float:

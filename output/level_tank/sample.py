@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hydroelastic.fem.level_bed.patches import Patch
-from hydroelastic.fem.level_bed.solution import LevelSolution
+from hydroelastic.fem.level_bed.solution import LevelSolution, PlanProblem
 from hydroelastic.physics.dofs import body_name
 
 # Horizontal layers of the volume.
@@ -81,9 +81,11 @@ def sample_modes(solution: LevelSolution, patches: tuple[Patch, ...]) -> Sampled
     unit = _unit(solution)
     names, numbers, elevations, potentials = [], [], [], []
     for number, one in enumerate(solution.modes):
-        pair = one.problem.multiplicity == 2
+        problem = one.problem
+        assert isinstance(problem, PlanProblem)
+        pair = problem.multiplicity == 2
         for second in (False, True)[: 1 + pair]:
-            parts = [one.problem.sampled(one.mode, *patch.points.T, second=second) for patch in patches]
+            parts = [problem.sampled(one.mode, *patch.points.T, second=second) for patch in patches]
             elevation = np.concatenate([part.elevation for part in parts])
             sign = float(np.sign(elevation[np.argmax(np.abs(elevation))])) or 1.0
             names.append(f"{number + 1:03d}" + ("_sin" if second else "_cos" if pair else ""))

@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from float_scenes import BARGE
 from mpi4py import MPI
 from open_cases import problem_of
 from scipy.integrate import solve_ivp
@@ -24,15 +25,6 @@ from hydroelastic.scenes.models import SeaScene
 from hydroelastic.scenes.open_water.solve import solve_open
 
 DEEP = [{"density": 1000.0, "depth": float("inf")}]
-BARGE: dict[str, Any] = {
-    "kind": "float",
-    "shape": "rectangle",
-    "half_width": 1.0,
-    "half_height": 0.5,
-    "vertical_centre_of_gravity": 0.1,
-    "radius_of_gyration": 0.8,
-    "motions": ["heave", "sway", "roll"],
-}
 THIN = {"kind": "float", "shape": "parabola", "half_width": 0.1, "half_height": 1.0, "boundary": "thin"}
 PROFILE = float_profile("parabola", 0.1, 1.0)
 LAYERS = TwoLayers(

@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from float_scenes import BARGE
 from open_cases import problem_of
 
 from hydroelastic.fem.open_water.field_model import Band, first_resolution, open_model
@@ -13,15 +14,6 @@ from hydroelastic.fem.open_water.solver import OpenSolver
 from hydroelastic.scenes.models import SeaScene
 
 CIRCLE: dict[str, Any] = {"kind": "float", "shape": "ellipse", "half_width": 1.0, "half_height": 1.0}
-BARGE: dict[str, Any] = {
-    "kind": "float",
-    "shape": "rectangle",
-    "half_width": 1.0,
-    "half_height": 0.5,
-    "vertical_centre_of_gravity": 0.1,
-    "radius_of_gyration": 0.8,
-    "motions": ["heave", "sway", "roll"],
-}
 
 
 def solver_of(body: dict[str, Any], omega: float, tolerance: float, depth: float, *held: dict[str, Any]) -> OpenSolver:

@@ -11,6 +11,15 @@ from hydroelastic.scenes.errors import scene_error
 from hydroelastic.scenes.models.tank import TankScene
 
 WEDGE: dict[str, Any] = {"kind": "float", "shape": "wedge", "position": 5.0, "half_width": 0.5, "half_height": 0.4}
+BARGE: dict[str, Any] = {
+    "kind": "float",
+    "shape": "rectangle",
+    "half_width": 1.0,
+    "half_height": 0.5,
+    "vertical_centre_of_gravity": 0.1,
+    "radius_of_gyration": 0.8,
+    "motions": ["heave", "sway", "roll"],
+}
 WATER, OIL, AIR = ({"density": density, "depth": depth} for density, depth in ((1000.0, 2.0), (800.0, 1.0), (0.0, 1.0)))
 SQUARE = ((-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5))
 

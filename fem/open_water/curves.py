@@ -7,14 +7,14 @@ between them are halved until cubic splines through the motions meet the next on
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 
 from hydroelastic.fem.open_water.frequency import OpenResponse
 from hydroelastic.fem.open_water.solver import OpenSolver
-from hydroelastic.fem.open_water.sweep import Swept
+from hydroelastic.fem.open_water.sweep import SHARE, Problem, Swept, sweep
 
 # Most frequencies in the end.
 _MOST = 1500
@@ -39,6 +39,30 @@ class Curves:
     omegas: np.ndarray
     responses: list[OpenResponse]
     errors: np.ndarray
+
+    @property
+    def motions(self) -> np.ndarray:
+        """Motions per elevation of the only incident wave, shape (n, body unknowns)."""
+        return np.array([_motions_of(response)[0] for response in self.responses])
+
+
+def certified_curves(
+    solver: OpenSolver, incident: list[int], omegas: np.ndarray, problem: Problem[OpenResponse], tolerance: float
+) -> Curves:
+    """Return refined curves by a reduced basis that is accurate at all of their frequencies (collective).
+
+    Args:
+        solver: of the problem.
+        incident: indices of the incident waves.
+        omegas: frequencies to begin with, rad/s, shape (n,).
+        problem: solves at a frequency.
+        tolerance: of what `Problem.difference` compares, and of the splines, see `refined_curves`.
+    """
+    curves = refined_curves(solver, incident, omegas, sweep(problem, omegas, tolerance), tolerance)
+    if curves.errors.max() <= SHARE * tolerance:
+        return curves
+    swept = sweep(problem, curves.omegas, tolerance)
+    return replace(curves, responses=swept.solutions, errors=swept.errors)
 
 
 def refined_curves(

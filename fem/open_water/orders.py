@@ -24,7 +24,7 @@ from hydroelastic.fem.open_water.requests import (
 )
 from hydroelastic.fem.open_water.resonance import ResonanceSolution, solve_resonance
 from hydroelastic.fem.open_water.response import ResponseSolution, solve_response
-from hydroelastic.fem.open_water.results import RadiationTable, ResonanceTable, ResponseTable
+from hydroelastic.fem.open_water.results import Floats, RadiationTable, ResonanceTable, ResponseTable
 from hydroelastic.modal.liquid.travelling_waves import travelling_waves
 from hydroelastic.modal.tank_estimates import two_layers
 from hydroelastic.physics.dofs import Dof, dof_names
@@ -116,12 +116,14 @@ def _response(problem: OpenWaterProblem, tables: list[ResponseTable]) -> Respons
     dofs = _dofs(problem)
     waves = np.concatenate([table.partial_waves for table in tables if table.partial_waves is not None], axis=-1)
     peaks = [peak for table in tables for peak in table.missed_peaks]
+    drift, drift_error = _drift(problem, tables, waves)
     return replace(
         tables[0],
         dofs=dofs,
         amplitudes=_by_dof(dofs, [(table.dofs, table.amplitudes) for table in tables]),
         partial_waves=waves,
-        drift_force=_drift_force(problem, tables[0], waves),
+        drift_force=drift,
+        drift_error=drift_error,
         absorption=np.sum(
             [table.absorption * (1.0 if order == 0 else 2.0) for order, table in enumerate(tables)], axis=0
         ),
@@ -131,14 +133,17 @@ def _response(problem: OpenWaterProblem, tables: list[ResponseTable]) -> Respons
     )
 
 
-def _drift_force(problem: OpenWaterProblem, table: ResponseTable, waves: np.ndarray) -> np.ndarray:
-    """Mean force along x per square of the amplitude, N/m²; NaN in waves on two levels.
+def _drift(problem: OpenWaterProblem, tables: list[ResponseTable], waves: np.ndarray) -> tuple[Floats, Floats]:
+    """Mean force along x per square of the amplitude, N/m², and its error; NaN in waves on two levels.
 
     The momentum that the scattered waves leave is F = −(4/k) E (c_g/c) Re Σ_{n≥0} [aₙ + aₙ₊₁ + 2aₙāₙ₊₁] of waves to the
-    right, E = ½ρgA² (Maruo 1960), with E c_g/c = ½ω²k²N/η̂² of a wave of unit elevation.
+    right, E = ½ρgA² (Maruo 1960), with E c_g/c = ½ω²k²N/η̂² of a wave of unit elevation. With the power lost in an
+    order, Re aₙ + |aₙ|², the terms are those of −|aₙ − aₙ₊₁|², which tell the error.
     """
+    table = tables[0]
     if len(table.waves) > 1:
-        return np.full(table.energy_residual.shape, np.nan)
+        nothing = np.full(table.energy_residual.shape, np.nan)
+        return nothing, nothing
     layers, towards = two_layers(problem.tank), 1.0 if table.waves_from == "left" else -1.0
     own, following = waves[:, 0, 0, :-1], waves[:, 0, 0, 1:]
     widths = -4.0 / table.wavenumbers[:, 0] * (own + following + 2.0 * own * following.conj()).real.sum(axis=-1)
@@ -146,7 +151,12 @@ def _drift_force(problem: OpenWaterProblem, table: ResponseTable, waves: np.ndar
     for omega in table.omega:
         (wave,) = travelling_waves(layers, float(omega))
         momenta.append(0.5 * omega**2 * wave.wavenumber**2 * wave.energy / wave.elevation**2)
-    return np.asarray(towards * np.array(momenta) * widths)[:, None]
+    errors = np.array([one.relative_error for one in tables]).T
+    lost = 2.0 * errors * np.abs(waves[:, 0, 0].real + np.abs(waves[:, 0, 0]) ** 2)
+    lost += 0.25 * np.abs([one.energy_residual[:, 0] for one in tables]).T
+    terms = (2.0 * np.abs(own - following) * (errors[:, 1:] + errors[:, :-1]) + lost[:, 1:] + lost[:, :-1]).sum(axis=1)
+    sizes = np.array(momenta)[:, None]
+    return towards * sizes * widths[:, None], sizes * 4.0 / table.wavenumbers[:, :1] * terms[:, None]
 
 
 def _solve_resonance(problem: OpenWaterProblem, request: ResonanceRequest) -> ResonanceSolution:

@@ -13,16 +13,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hydroelastic.fem.open_water.attempts import best_over_band
-from hydroelastic.fem.open_water.curves import Curves, elevation_of, refined_curves
+from hydroelastic.fem.open_water.beam_loads import BeamLoads
+from hydroelastic.fem.open_water.curves import Curves, certified_curves, elevation_of
 from hydroelastic.fem.open_water.field_model import Band, OpenModel
 from hydroelastic.fem.open_water.outside import displacement_at
 from hydroelastic.fem.open_water.problem import OpenWaterProblem
-from hydroelastic.fem.open_water.radiation import between, estimated_places, relative_difference
+from hydroelastic.fem.open_water.radiation import estimated_places, relative_difference
 from hydroelastic.fem.open_water.requests import SpectrumRequest
-from hydroelastic.fem.open_water.response import along_beam, outcome, response_errors
+from hydroelastic.fem.open_water.response import outcome, plate_deflection, response_errors
 from hydroelastic.fem.open_water.results import IrregularResponse, PlateStatistics, SpectrumTable
 from hydroelastic.fem.open_water.solver import shared_solver
-from hydroelastic.fem.open_water.sweep import Problem, sweep
+from hydroelastic.fem.open_water.sweep import SHARE, Problem
 from hydroelastic.fem.tank.attempts import Attempt
 from hydroelastic.fem.tank.error_estimates import joined_errors
 from hydroelastic.fem.tank.resolution import Resolution
@@ -31,6 +32,14 @@ from hydroelastic.physics.irregular_waves import moments, statistics
 
 # Frequencies at first.
 _FIRST = 33
+# Part of the tolerance that waves beyond the frequencies may leave, and the largest factor by which these are widened.
+_BEYOND, _WIDEST = 0.5, 2.0
+# Frequencies over the last one, above which the drift force tells how it may change beyond.
+_LAST = 0.7
+_CAUSES = ("sampling_error", "truncation_error", "transfer_error")
+_LOADS = ("deflection", "bending_moment", "shear_force")
+# How often all intervals between frequencies are halved for the sake of the moments.
+_HALVINGS = 3
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,7 +49,7 @@ class SpectrumSolution:
     Attributes:
         table: the results in SI units.
         model: the last field model.
-        error: the largest relative error of transfer functions.
+        error: the largest relative error, of transfer functions or of statistics.
     """
 
     table: SpectrumTable
@@ -59,7 +68,7 @@ def solve_spectrum(problem: OpenWaterProblem, request: SpectrumRequest) -> Spect
     low, high = problem.shared_band(lowest, highest)
     band = Band(lowest=low, highest=high)
 
-    def solve(resolution: Resolution) -> Attempt[Curves]:
+    def solve(resolution: Resolution) -> Attempt[tuple[SpectrumTable, OpenModel]]:
         solver = shared_solver(problem, band, resolution)
         solver.elevation, solver.damping = 0.0, np.zeros_like(solver.model.mass)
         incident = [0 if request.waves_from == "left" else len(solver.model.basin.scaled_layers.branches)]
@@ -69,28 +78,56 @@ def solve_spectrum(problem: OpenWaterProblem, request: SpectrumRequest) -> Spect
             difference=lambda one, other: relative_difference(outcome(one), outcome(other)),
         )
         omegas = np.geomspace(lowest, highest, _FIRST)
-        swept = sweep(frequencies, omegas, problem.tolerance)
-        with problem.watch.stage("errors"):
-            places = estimated_places(omegas)
-            causes = [response_errors(swept.solutions[place]) for place in places]
-        curves = refined_curves(solver, incident, omegas, swept, problem.tolerance)
-        total = np.array([cause.total.max() for cause in causes])
-        known = [int(np.searchsorted(curves.omegas, omegas[place])) for place in places]
-        errors = curves.errors + between(curves.omegas, known, total)
+        for _ in range(_HALVINGS + 1):
+            curves = certified_curves(solver, incident, omegas, frequencies, problem.tolerance)
+            with problem.watch.stage("errors"):
+                places = _estimated(curves)
+                causes = [response_errors(curves.responses[place]) for place in places]
+            total = np.array([cause.total.max() for cause in causes])
+            # About a resonance they change by orders of magnitude.
+            errors = curves.errors + np.exp(np.interp(curves.omegas, curves.omegas[places], np.log(total)))
+            table = _table(request, replace(curves, errors=errors))
+            if table.largest_error("sampling_error") <= SHARE * problem.tolerance:
+                break
+            omegas = curves.omegas
+        joined = joined_errors(causes, float(curves.errors.max()))
+        units = solver.model.basin.units
+        # The drift force of waves that are reflected in full.
+        reflected = units.density * units.gravity * request.spectrum.significant_height**2 / 16.0
+        drift = table.mean_drift_error / reflected
+        # Waves that carry no energy need no accuracy.
+        own = max(table.largest_error("transfer_error"), drift)
         return Attempt(
-            result=replace(curves, errors=errors),
-            causes=joined_errors(causes, float(curves.errors.max())),
+            result=(table, solver.model),
+            causes=joined.scaled(own / joined.largest_total),
             resolution=resolution,
         )
 
     attempt = best_over_band(problem, band, solve)
-    table = _table(request, attempt.result)
-    return SpectrumSolution(table=table, model=attempt.result.solver.model, error=attempt.error)
+    table, model = attempt.result
+    beyond = table.largest_error("truncation_error")
+    if request.highest is None and beyond > _BEYOND * problem.tolerance:
+        # The energy beyond falls like ω⁻⁴.
+        wider = min((beyond / (0.5 * _BEYOND * problem.tolerance)) ** 0.25, _WIDEST)
+        return solve_spectrum(problem, replace(request, highest=wider * highest))
+    return SpectrumSolution(table=table, model=model, error=max(attempt.error, table.largest_error("relative_error")))
+
+
+def _estimated(curves: Curves) -> list[int]:
+    """Return indices of frequencies whose errors are estimated: a few of all, and the tops and sides of peaks."""
+    sizes = np.abs(curves.motions)
+    found = set(estimated_places(curves.omegas))
+    for size in sizes.T:
+        top = int(size.argmax())
+        low = np.flatnonzero(size < 0.5 * size[top])
+        sides = [top, *low[low < top][-1:], *low[low > top][:1]]
+        found.update(int(place) for place in sides)
+    return sorted(found)
 
 
 def _table(request: SpectrumRequest, curves: Curves) -> SpectrumTable:
     model, omegas = curves.solver.model, curves.omegas
-    damping, motions = _with_drag(request, curves)
+    damping, drag, motions = _with_drag(request, curves)
     rows = _rows(model, request)
     directions = np.array([row.direction for row in rows]).reshape(len(rows), motions.shape[1])
     factors = np.where([row.is_acceleration for row in rows], -(omegas**2)[:, None], 1.0)
@@ -100,6 +137,7 @@ def _table(request: SpectrumRequest, curves: Curves) -> SpectrumTable:
     density = request.spectrum.density(omegas)
     back = np.linalg.inv(model.scale.turn * model.scale.lengths[:, None])
     unit = model.basin.units.density * model.basin.units.gravity * model.basin.units.length**3
+    drift, drift_error = _mean_drift(request, curves, motions)
     return SpectrumTable(
         waves=request.words,
         waves_from=request.waves_from,
@@ -126,15 +164,16 @@ def _table(request: SpectrumRequest, curves: Curves) -> SpectrumTable:
             for place, row in enumerate(rows)
         ),
         dofs=model.scale.dofs,
-        mean_drift_force=_mean_drift(request, curves, motions),
+        mean_drift_force=drift,
+        mean_drift_error=drift_error,
         equivalent_damping=back.T @ damping @ back * (unit / model.basin.units.frequency),
-        plates=tuple(_plates(model, request, curves, motions)),
+        plates=tuple(_plates(request, curves, motions, drag)),
     )
 
 
-def _with_drag(request: SpectrumRequest, curves: Curves) -> tuple[np.ndarray, np.ndarray]:
-    """Return the damping in place of drag, dimensionless, and the motions with it per elevation, shape (n,
-    unknowns)."""
+def _with_drag(request: SpectrumRequest, curves: Curves) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the damping in place of drag, its part of each drag, dimensionless, and the motions with it per elevation,
+    shape (n, unknowns)."""
     model, outside = curves.solver.model, curves.solver.model.outside
     equations = [response.equations for response in curves.responses]
     dynamic = np.array([one.dynamic for one in equations])
@@ -154,11 +193,11 @@ def _with_drag(request: SpectrumRequest, curves: Curves) -> tuple[np.ndarray, np
         return deviations / model.basin.units.length
 
     damping = outside.equivalent_damping(speeds, IRREGULAR) if len(outside.drag) else np.zeros_like(model.mass)
-    return damping, moved(damping)
+    return damping, IRREGULAR * outside.drag * speeds(damping), moved(damping)
 
 
-def _mean_drift(request: SpectrumRequest, curves: Curves, motions: np.ndarray) -> float:
-    """Mean of the drift force along x, 2 ∫ (F/A²) S dω, N/m.
+def _mean_drift(request: SpectrumRequest, curves: Curves, motions: np.ndarray) -> tuple[float, float]:
+    """Mean of the drift force along x, 2 ∫ (F/A²) S dω, and its estimated error, N/m.
 
     Args:
         request: the request.
@@ -166,14 +205,25 @@ def _mean_drift(request: SpectrumRequest, curves: Curves, motions: np.ndarray) -
         motions: per elevation, with the damping in place of drag, shape (n, unknowns).
     """
     units = curves.solver.model.basin.units
-    forces = [
-        float(one.drift_force((elevation_of(one) * motion)[None])[0]) / abs(elevation_of(one)) ** 2
-        for one, motion in zip(curves.responses, motions, strict=True)
-    ]
+    forces, errors = np.empty((2, len(motions)))
+    for place, (one, motion) in enumerate(zip(curves.responses, motions, strict=True)):
+        elevation = elevation_of(one)
+        moved = (elevation * motion)[None]
+        forces[place] = one.drift_force(moved)[0] / abs(elevation) ** 2
+        errors[place] = one.drift_error(float(curves.errors[place]), moved)[0] / abs(elevation) ** 2
     # F/A² is the square of a transfer function: it is along the waves, for no more waves pass than come.
     roots = np.sqrt(np.abs(forces))[:, None]
-    mean = 2.0 * units.density * units.gravity * float(moments(request.spectrum, curves.omegas, roots, (0,))[0, 0])
-    return mean if request.waves_from == "left" else -mean
+    told = statistics(
+        request.spectrum, curves.omegas, roots, np.sqrt(roots**2 + errors[:, None]) - roots, request.duration
+    )
+    # Short waves are reflected: the force beyond is as at the end, and changes no more than up to there.
+    unit, tail = 2.0 * units.density * units.gravity, request.spectrum.tail(curves.omegas[-1], 0)
+    last = np.abs(forces[curves.omegas >= _LAST * curves.omegas[-1]])
+    within = unit * float(told.moments[0, 0])
+    mean = within + unit * tail * last[-1]
+    # Of an amplitude, half of that of its square.
+    error = 2.0 * float((told.sampling_error + told.transfer_error)[0]) * within + unit * tail * float(np.ptp(last))
+    return mean if request.waves_from == "left" else -mean, error
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -218,38 +268,39 @@ def _deviation(model: OpenModel, curves: Curves, motions: np.ndarray) -> np.ndar
 
 
 def _plates(
-    model: OpenModel, request: SpectrumRequest, curves: Curves, motions: np.ndarray
+    request: SpectrumRequest, curves: Curves, motions: np.ndarray, drag: np.ndarray
 ) -> Iterator[PlateStatistics]:
     """Deflection, bending moment and shear force along each beam."""
-    first, units = 0, model.basin.units
-    errors = _deviation(model, curves, motions)
-    for index, body in enumerate(model.pencil.bodies):
-        own = slice(first, first + body.size)
-        first += body.size
-        if not model.basin.tank.bodies[index].is_elastic:
-            continue
-        piece = model.basin.tank.piece_of(index)
-        x: np.ndarray = np.linspace(0.0, piece.length, request.positions)
-        tables = along_beam(model, index, body.size, x)
-        # Of a tip or an end, moment and shear are zero but for the dry modes that are left out.
-        deflection, moment, shear = (
-            statistics(
-                request.spectrum,
-                curves.omegas,
-                motions[:, own] @ table,
-                errors[:, own].max(axis=1)[:, None] * np.abs(table).max(axis=0, initial=0.0),
-                request.duration,
-            )
-            for table in tables
-        )
+    model = curves.solver.model
+    for index, beam in model.basin.tank.beams.items():
+        x: np.ndarray = np.linspace(0.0, beam.length, request.positions)
+        along = BeamLoads(model, index, x)
+        found = [
+            along.of(one, (elevation_of(one) * motion)[None], drag[None])
+            for one, motion in zip(curves.responses, motions, strict=True)
+        ]
+        plate = plate_deflection(model, index, x, curves.responses, found, curves.errors)
+        told, parts = {}, np.zeros((len(_CAUSES), len(_LOADS)))
+        for place, name in enumerate(_LOADS):
+            transfer = getattr(plate, name)[:, 0]
+            deviation = np.broadcast_to(getattr(plate, f"{name}_error"), transfer.shape)
+            told[name] = statistics(request.spectrum, curves.omegas, transfer, deviation, request.duration)
+            sizes = told[name].significant_amplitude
+            for row, cause in enumerate(_CAUSES):
+                # √(m₀ + δm₀) − √m₀: where hardly anything acts, as at the ends, the error is larger than the value.
+                grown = np.sqrt(1.0 + 2.0 * getattr(told[name], cause)) - 1.0
+                parts[row, place] = (grown * sizes).max() / max(sizes.max(), np.finfo(float).tiny)
+        largest = parts.max(axis=1).tolist()
         yield PlateStatistics(
             body=index,
-            positions=model.basin.origin + units.length * (piece.start + x),
-            significant_deflection=deflection.significant_amplitude,
-            significant_bending_moment=moment.significant_amplitude,
-            largest_bending_moment=moment.largest_amplitude,
-            significant_shear_force=shear.significant_amplitude,
-            largest_stress=np.multiply(6.0 / request.thickness**2, moment.largest_amplitude)
+            positions=plate.positions,
+            significant_deflection=told["deflection"].significant_amplitude,
+            significant_bending_moment=told["bending_moment"].significant_amplitude,
+            largest_bending_moment=told["bending_moment"].largest_amplitude,
+            significant_shear_force=told["shear_force"].significant_amplitude,
+            largest_stress=np.multiply(6.0 / request.thickness**2, told["bending_moment"].largest_amplitude)
             if request.thickness
             else None,
+            relative_errors=dict(zip(_LOADS, parts.sum(axis=0).tolist(), strict=True)),
+            **dict(zip(_CAUSES, largest, strict=True)),
         )

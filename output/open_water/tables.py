@@ -159,7 +159,7 @@ def _response(table: WavesAndMotions, group: Group) -> Iterator[Section]:
     yield Section(
         title=f"Waves from the {table.waves_from}: {what}",
         headings=headings_of(ratios, "outgoing_wave" if count > 1 else ""),
-        rows=rows_of(group, ratios, rows),
+        rows=rows_of(group, ratios, rows, found["drift_error"]),
         lines=thinned,
     )
     motions, phases = (found.get(key, [])[:_MOST_MOTIONS] for key in ("amplitudes", "phase_at_body"))
@@ -255,7 +255,7 @@ def _spectrum(table: SpectrumTable) -> Iterator[Section]:
     """Statistics of the responses to irregular waves, and of loads along beams."""
     responses, plates = SPECTRUM["responses"], SPECTRUM["plates"]
     about = (
-        f"Mean drift force along x: {table.mean_drift_force:.4g} N/m.",
+        f"Mean drift force along x: {beyond_error(table.mean_drift_force, table.mean_drift_error)} N/m.",
         f"{table.waves}; {table.duration:g} s from the {table.waves_from}. Amplitudes are half of heights.",
         f"{len(table.omega)} frequencies from {table.omega[0]:.4g} to {table.omega[-1]:.4g} rad/s, chosen so that no "
         "peak lies between them: spectrum.csv.",

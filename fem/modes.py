@@ -1,20 +1,25 @@
-"""Natural modes: SLEPc's Krylov–Schur method on the added-mass form of the pencil, and an independent count."""
+"""Natural modes: SLEPc's Krylov–Schur method on the added-mass form of the pencil, LAPACK where it is small and dense,
+and an independent count."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 import numpy as np
 from petsc4py import PETSc
-from scipy.linalg import lapack
-from slepc4py import SLEPc
 
-from hydroelastic.fem.added_mass import CondensedKinetics, dense
+from hydroelastic.fem.added_mass import CondensedKinetics
+from hydroelastic.fem.dense_modes import CompletedModes, DenseModes, dense_count
 from hydroelastic.fem.direct import configure_direct, configure_indefinite
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.meshes.interrupts import interrupts_deferred
+
+if TYPE_CHECKING:
+    from slepc4py import SLEPc
 
 HIDDEN = 1e-14
 """Part of the largest 1/λ below which double precision cannot tell one from zero."""
@@ -63,7 +68,7 @@ class ModeSet:
         zero_modes: how many motions without stiffness exist (not reported as modes).
         growing: the motions of an unstable float, λ < 0, that grow like e^{√(−λ) t}.
         converged: number of converged eigenpairs.
-        iterations: restarts of the Krylov–Schur method.
+        iterations: restarts of the Krylov–Schur method; 0 of LAPACK.
         solves: solutions of Laplace's equation; those of a known answer are counted too.
     """
 
@@ -82,7 +87,8 @@ def solve_modes(pencil: CoupledPencil, count: int, *, shapes: int | None = None,
     """Lowest modes of the coupled problem.
 
     Solves (M + M_a) ζ = μ K ζ for the largest μ = 1/λ: only the liquid is factorized, the Krylov space lives on the
-    surface, and nothing is shifted.
+    surface, and nothing is shifted. Where the answer of the liquid to all surface unknowns is known and they are few,
+    LAPACK finds all modes.
 
     Args:
         pencil: the coupled problem.
@@ -96,6 +102,10 @@ def solve_modes(pencil: CoupledPencil, count: int, *, shapes: int | None = None,
     Raises:
         EigenSolverError: if SLEPc stops before enough pairs have converged.
     """
+    if pencil.answer is not None and pencil.answer.root is not None and not len(pencil.unstable):
+        return _dense_modes(pencil, DenseModes(pencil, pencil.answer), count, shapes)
+    from slepc4py import SLEPc  # slow to import
+
     kinetics = CondensedKinetics(pencil)
     available = pencil.size - len(pencil.constraints) - pencil.zero_mode_count - kinetics.negative
     count = min(count, available)
@@ -105,10 +115,7 @@ def solve_modes(pencil: CoupledPencil, count: int, *, shapes: int | None = None,
     solver = _krylov_schur(pencil, kinetics, count, tolerance, SLEPc.EPS.Which.LARGEST_REAL)
     converged, inverses = _inverses(solver, count, tolerance)
     order = np.argsort(-inverses)
-    # M + M_a is positive: eigenvalues that are not, or nearly zero, are rounding of the largest.
-    count = int(np.sum(inverses > HIDDEN * inverses.max(initial=0.0)))
-    if count == 0:
-        raise EigenSolverError(f"no eigenvalue 1/ω² is positive; the largest is {inverses.max(initial=0.0):g}")
+    count = _visible(inverses)
     order = order[:count]
     eigenvalues = 1.0 / inverses[order]
     wanted = count if shapes is None else min(shapes, count)
@@ -138,6 +145,55 @@ def solve_modes(pencil: CoupledPencil, count: int, *, shapes: int | None = None,
     )
 
 
+def _visible(inverses: np.ndarray) -> int:
+    """How many 1/λ are eigenvalues: M + M_a is positive, and those that are not, or nearly zero, are rounding of the
+    largest."""
+    largest = inverses.max(initial=0.0)
+    count = int(np.sum(inverses > HIDDEN * largest))
+    if count == 0:
+        raise EigenSolverError(f"no eigenvalue 1/ω² is positive; the largest is {largest:g}")
+    return count
+
+
+def _dense_modes(pencil: CoupledPencil, dense: DenseModes, count: int, shapes: int | None) -> ModeSet:
+    """The lowest modes by LAPACK."""
+    available = pencil.size - len(pencil.constraints) - pencil.zero_mode_count
+    inverses, vectors = dense.eigenpairs()
+    count = min(count, available)
+    count = _visible(inverses[:count]) if count else 0
+    eigenvalues, vectors = 1.0 / inverses[:count], vectors[:, :count]
+    amplitudes = dense.displacements(vectors * np.sqrt(eigenvalues))[: pencil.body_size].T
+
+    @cache
+    def shaped() -> CompletedModes:
+        return dense.completed(eigenvalues, vectors)
+
+    def completed(place: int) -> Mode:
+        found = shaped()
+        displacement, potential = pencil.coupling.createVecs()
+        displacement.array[:] = found.displacements[:, place]
+        potential.array[:] = found.potentials[:, place]
+        return Mode(
+            eigenvalue=float(eigenvalues[place]),
+            displacement=displacement,
+            potential=potential,
+            residual=float(found.residuals[place]),
+            body_amplitudes=found.displacements[: pencil.body_size, place],
+            energy=found.energies[:, place],
+        )
+
+    return ModeSet(
+        eigenvalues=eigenvalues,
+        elastic_amplitudes=amplitudes,
+        modes=tuple(completed(place) for place in range(count if shapes is None else min(shapes, count))),
+        completed=completed,
+        zero_modes=pencil.zero_mode_count,
+        converged=count,
+        iterations=0,
+        solves=pencil.size,
+    )
+
+
 def _no_modes(pencil: CoupledPencil, kinetics: CondensedKinetics, tolerance: float) -> ModeSet:
     """The result where nothing oscillates: motions without stiffness, and growing ones."""
 
@@ -162,6 +218,8 @@ def _growing(pencil: CoupledPencil, kinetics: CondensedKinetics, tolerance: floa
     count = kinetics.negative
     if count == 0:
         return ()
+    from slepc4py import SLEPc
+
     solver = _krylov_schur(pencil, kinetics, count, tolerance, SLEPc.EPS.Which.SMALLEST_REAL)
     # Fast growth is a 1/λ close to zero, beside the largest of slow waves: a few vectors do not separate it from the
     # rest.
@@ -193,13 +251,12 @@ def _inverses(solver: SLEPc.EPS, count: int, tolerance: float) -> tuple[int, np.
 def _krylov_schur(
     pencil: CoupledPencil, kinetics: CondensedKinetics, count: int, tolerance: float, which: SLEPc.EPS.Which
 ) -> SLEPc.EPS:
+    from slepc4py import SLEPc
+
     stable = len(pencil.unstable) == 0
-    if stable and pencil.answer is not None:
-        operator = PETSc.Mat().createDense(pencil.stiffness.getSizes(), array=kinetics.matrix(), comm=PETSc.COMM_SELF)
-    else:
-        context = kinetics if stable else _Turned(kinetics)
-        operator = PETSc.Mat().createPython(pencil.stiffness.getSizes(), context, comm=pencil.stiffness.comm)
-        operator.setUp()
+    context = kinetics if stable else _Turned(kinetics)
+    operator = PETSc.Mat().createPython(pencil.stiffness.getSizes(), context, comm=pencil.stiffness.comm)
+    operator.setUp()
     solver = SLEPc.EPS().create(pencil.stiffness.comm)
     solver.setOperators(operator, kinetics.definite_stiffness)
     solver.setProblemType(SLEPc.EPS.ProblemType.GHEP if stable else SLEPc.EPS.ProblemType.PGNHEP)
@@ -290,7 +347,10 @@ def count_below(pencil: CoupledPencil, eigenvalue: float) -> int:
         The count, without zero modes; modes that grow have λ < 0 and count (collective).
     """
     if pencil.answer is not None:
-        return _dense_count(pencil, pencil.answer.added_mass, eigenvalue)
+        below = dense_count(pencil, pencil.answer, eigenvalue)
+        if below is None:
+            raise EigenSolverError(f"the shift {eigenvalue:g} is an eigenvalue to working precision")
+        return below
     block = pencil.stiffness.copy()
     block.axpy(-eigenvalue, pencil.mass, structure=PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN)
     rows = _unconstrained(pencil)
@@ -319,26 +379,6 @@ def count_below(pencil: CoupledPencil, eigenvalue: float) -> int:
     negative, zero, _ = factored.getInertia()
     if zero:
         raise EigenSolverError(f"the shift {eigenvalue:g} is an eigenvalue to working precision")
-    return int(negative) - len(pencil.constraints) - pencil.zero_mode_count
-
-
-def _dense_count(pencil: CoupledPencil, added_mass: np.ndarray, eigenvalue: float) -> int:
-    """As `count_below`, from the factorization LDLᵀ of K − σ(M + M_a) bordered by the volume constraints."""
-    volumes = np.array([constraint.volume.array_r for constraint in pencil.constraints]).reshape(-1, pencil.size)
-    stiffness, inertia = dense(pencil.stiffness), eigenvalue * (dense(pencil.mass) + added_mass)
-    # Sylvester's law: scaled so that stiff shapes and small elements weigh alike.
-    scale = 1.0 / np.sqrt(np.abs(np.diag(stiffness)) + np.diag(inertia))
-    block = scale[:, None] * (stiffness - inertia) * scale
-    volumes = volumes * scale
-    volumes /= np.linalg.norm(volumes, axis=1, keepdims=True)
-    corner = np.zeros((len(volumes), len(volumes)))
-    whole = np.block([[0.5 * (block + block.T), volumes.T], [volumes, corner]])
-    # Bunch and Kaufman: a pivot of two rows, which negative numbers mark, has one negative eigenvalue.
-    factor, rows, _ = lapack.dsytrf(whole, lower=1)
-    pivots = np.diag(factor)[rows > 0]
-    if np.abs(pivots).min(initial=np.inf) <= np.finfo(float).eps:
-        raise EigenSolverError(f"the shift {eigenvalue:g} is an eigenvalue to working precision")
-    negative = np.count_nonzero(pivots < 0.0) + np.count_nonzero(rows < 0) // 2
     return int(negative) - len(pencil.constraints) - pencil.zero_mode_count
 
 

@@ -7,9 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 from petsc4py import PETSc
 
-# Measured: up to so many surface unknowns LAPACK finds all modes sooner than the Krylov–Schur method some of them.
-_MOST_SCALED = 160
-
 
 @dataclass(frozen=True, kw_only=True)
 class LiquidAnswer:
@@ -25,8 +22,8 @@ class LiquidAnswer:
 
     potentials: np.ndarray
     added_mass: np.ndarray
-    root: np.ndarray | None
-    scaled: np.ndarray | None
+    root: np.ndarray
+    scaled: np.ndarray
 
 
 def liquid_answer(potentials: np.ndarray, added_mass: np.ndarray, stiffness: PETSc.Mat, bodies: int) -> LiquidAnswer:
@@ -39,8 +36,6 @@ def liquid_answer(potentials: np.ndarray, added_mass: np.ndarray, stiffness: PET
         bodies: number of the first ones, which belong to bodies.
     """
     added_mass = 0.5 * (added_mass + added_mass.T)
-    if len(added_mass) > _MOST_SCALED:
-        return LiquidAnswer(potentials=potentials, added_mass=added_mass, root=None, scaled=None)
     root = np.linalg.inv(np.linalg.cholesky(dense(stiffness)[bodies:, bodies:])).T
     scaled = added_mass.copy()
     scaled[:, bodies:] = scaled[:, bodies:] @ root

@@ -1,5 +1,4 @@
-"""Natural modes: SLEPc's Krylov–Schur method on the added-mass form of the pencil, LAPACK where it is small and dense,
-and an independent count."""
+"""Natural modes: SLEPc's Krylov–Schur method on the added-mass form of the pencil, LAPACK where it is small."""
 
 from __future__ import annotations
 
@@ -13,8 +12,8 @@ import numpy as np
 from petsc4py import PETSc
 
 from hydroelastic.fem.added_mass import CondensedKinetics
-from hydroelastic.fem.dense_modes import CompletedModes, DenseModes, dense_count
-from hydroelastic.fem.direct import configure_direct, configure_indefinite
+from hydroelastic.fem.dense_modes import FEW, CompletedModes, DenseModes
+from hydroelastic.fem.direct import configure_direct
 from hydroelastic.fem.pencil import CoupledPencil
 from hydroelastic.meshes.interrupts import interrupts_deferred
 
@@ -27,6 +26,8 @@ HIDDEN = 1e-14
 # Of the Krylov space for growing motions: with 14 one that grows 10⁴ times faster than waves travel was not found in
 # 1400 solutions of Laplace's equation, with 120 in one pass.
 _GROWING_VECTORS = 120
+# Neighbouring modes that are completed together where the answer of the liquid is known.
+_AT_ONCE = 8
 
 
 class EigenSolverError(RuntimeError):
@@ -102,8 +103,8 @@ def solve_modes(pencil: CoupledPencil, count: int, *, shapes: int | None = None,
     Raises:
         EigenSolverError: if SLEPc stops before enough pairs have converged.
     """
-    if pencil.answer is not None and pencil.answer.root is not None and not len(pencil.unstable):
-        return _dense_modes(pencil, DenseModes(pencil, pencil.answer), count, shapes)
+    if pencil.answer is not None and not len(pencil.unstable):
+        return _dense_modes(pencil, DenseModes(pencil, pencil.answer), (count, shapes), tolerance)
     from slepc4py import SLEPc  # slow to import
 
     kinetics = CondensedKinetics(pencil)
@@ -155,26 +156,32 @@ def _visible(inverses: np.ndarray) -> int:
     return count
 
 
-def _dense_modes(pencil: CoupledPencil, dense: DenseModes, count: int, shapes: int | None) -> ModeSet:
-    """The lowest modes by LAPACK."""
-    available = pencil.size - len(pencil.constraints) - pencil.zero_mode_count
-    inverses, vectors = dense.eigenpairs()
-    count = min(count, available)
+def _dense_modes(pencil: CoupledPencil, dense: DenseModes, asked: tuple[int, int | None], tolerance: float) -> ModeSet:
+    """A number of the lowest modes, and their shapes: all by LAPACK where there are few, else by SLEPc."""
+    count, shapes = asked
+    count = min(count, pencil.size - len(pencil.constraints) - pencil.zero_mode_count)
+    if pencil.size <= FEW or not count:
+        values, columns = np.linalg.eigh(dense.operator())
+        inverses, vectors, iterations = values[::-1], columns[:, ::-1], 0
+    else:
+        inverses, vectors, iterations = _largest(dense.operator(), count, tolerance)
     count = _visible(inverses[:count]) if count else 0
     eigenvalues, vectors = 1.0 / inverses[:count], vectors[:, :count]
     amplitudes = dense.displacements(vectors * np.sqrt(eigenvalues))[: pencil.body_size].T
 
     @cache
-    def shaped() -> CompletedModes:
-        return dense.completed(eigenvalues, vectors)
+    def shaped(first: int) -> CompletedModes:
+        some = slice(first, first + _AT_ONCE)
+        return dense.completed(eigenvalues[some], vectors[:, some])
 
-    def completed(place: int) -> Mode:
-        found = shaped()
+    def completed(number: int) -> Mode:
+        place = number % _AT_ONCE
+        found = shaped(number - place)
         displacement, potential = pencil.coupling.createVecs()
         displacement.array[:] = found.displacements[:, place]
         potential.array[:] = found.potentials[:, place]
         return Mode(
-            eigenvalue=float(eigenvalues[place]),
+            eigenvalue=float(eigenvalues[number]),
             displacement=displacement,
             potential=potential,
             residual=float(found.residuals[place]),
@@ -189,9 +196,30 @@ def _dense_modes(pencil: CoupledPencil, dense: DenseModes, count: int, shapes: i
         completed=completed,
         zero_modes=pencil.zero_mode_count,
         converged=count,
-        iterations=0,
+        iterations=iterations,
         solves=pencil.size,
     )
+
+
+def _largest(operator: np.ndarray, count: int, tolerance: float) -> tuple[np.ndarray, np.ndarray, int]:
+    """The largest eigenvalues of a dense matrix, descending, their vectors, and the number of restarts."""
+    from slepc4py import SLEPc
+
+    matrix = PETSc.Mat().createDense(operator.shape, array=operator, comm=PETSc.COMM_SELF)
+    solver = SLEPc.EPS().create(PETSc.COMM_SELF)
+    solver.setOperators(matrix)
+    solver.setProblemType(SLEPc.EPS.ProblemType.HEP)
+    solver.setWhichEigenpairs(SLEPc.EPS.Which.LARGEST_REAL)
+    solver.setTolerances(tolerance, 200)
+    solver.setDimensions(count, min(2 * count + 12, len(operator)))
+    _, inverses = _inverses(solver, count, tolerance)
+    order = np.argsort(-inverses)
+    vector = matrix.createVecRight()
+    columns = []
+    for number in order:
+        solver.getEigenvector(int(number), vector)
+        columns.append(vector.array_r.copy())
+    return inverses[order], np.array(columns).T, solver.getIterationNumber()
 
 
 def _no_modes(pencil: CoupledPencil, kinetics: CondensedKinetics, tolerance: float) -> ModeSet:
@@ -330,67 +358,3 @@ def _energy_shares(pencil: CoupledPencil, displacement: PETSc.Vec, force: PETSc.
     stops = np.cumsum([len(local) - sum(pencil.surface_sizes), *pencil.surface_sizes])
     surfaces = [comm.allreduce(float(local[start:stop].sum())) for start, stop in pairwise(stops)]
     return np.array([*bodies, *surfaces]) / total
-
-
-def count_below(pencil: CoupledPencil, eigenvalue: float) -> int:
-    """Number of modes with λ < ``eigenvalue``, from the inertia of one factorization.
-
-    The matrix [[K − σM, −σρCᵀ], [−σρC, σρA]] has as many negative pivots as there are modes below σ, zero modes
-    included, and one more where the constant of ψ multiplies the volume constraint. It is independent of the iterative
-    solution.
-
-    Args:
-        pencil: the coupled problem.
-        eigenvalue: σ > 0, not itself an eigenvalue.
-
-    Returns:
-        The count, without zero modes; modes that grow have λ < 0 and count (collective).
-    """
-    if pencil.answer is not None:
-        below = dense_count(pencil, pencil.answer, eigenvalue)
-        if below is None:
-            raise EigenSolverError(f"the shift {eigenvalue:g} is an eigenvalue to working precision")
-        return below
-    block = pencil.stiffness.copy()
-    block.axpy(-eigenvalue, pencil.mass, structure=PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN)
-    rows = _unconstrained(pencil)
-    # Copies are needed: PETSc returns the matrix itself where all of it is requested.
-    laplace = pencil.laplace.createSubMatrix(rows, rows).copy()
-    weights = laplace.createVecLeft()
-    weights.array[:] = eigenvalue * _densities(pencil)[rows.getIndices() - pencil.laplace.getOwnershipRange()[0]]
-    laplace.diagonalScale(L=weights)
-    columns = PETSc.IS().createStride(
-        pencil.stiffness.getLocalSize()[0],
-        first=pencil.stiffness.getOwnershipRange()[0],
-        step=1,
-        comm=pencil.laplace.comm,
-    )
-    coupling = pencil.momentum.createSubMatrix(rows, columns).copy()
-    coupling.scale(-eigenvalue)
-    transpose = coupling.transpose(PETSc.Mat())
-    whole = PETSc.Mat().createNest([[block, transpose], [coupling, laplace]], comm=block.comm).convert("aij")
-    whole.setOption(PETSc.Mat.Option.SYMMETRIC, True)
-    solver = PETSc.KSP().create(whole.comm)
-    solver.setOperators(whole)
-    factored = configure_indefinite(solver)
-    factored.setMumpsIcntl(24, 1)  # a null pivot would be reported, not divided by
-    factored.setMumpsIcntl(13, 1)  # without ScaLAPACK for the last block, which does not give the signs of its pivots
-    solver.setUp()
-    negative, zero, _ = factored.getInertia()
-    if zero:
-        raise EigenSolverError(f"the shift {eigenvalue:g} is an eigenvalue to working precision")
-    return int(negative) - len(pencil.constraints) - pencil.zero_mode_count
-
-
-def _unconstrained(pencil: CoupledPencil) -> PETSc.IS:
-    """Unknowns of ψ off surfaces with ψ = 0, without one of each layer whose constant is arbitrary."""
-    first, last = pencil.laplace.getOwnershipRange()
-    fixed = np.union1d(pencil.liquid.zero_dofs(), pencil.free_constants)
-    free = np.setdiff1d(np.arange(last - first, dtype=np.int32), fixed)
-    return PETSc.IS().createGeneral((free + first).astype(PETSc.IntType), comm=pencil.laplace.comm)
-
-
-def _densities(pencil: CoupledPencil) -> np.ndarray:
-    """ρ at each owned unknown of ψ."""
-    densities: np.ndarray = np.array(pencil.liquid.densities)[pencil.liquid.owned_layer_of]
-    return densities

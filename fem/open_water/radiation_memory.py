@@ -8,8 +8,10 @@ on the free surface is its limit, both agree. A resonance of the water between t
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import pi, sqrt
+from typing import TypeAlias
 
 import numpy as np
 
@@ -83,6 +85,10 @@ class WaterMemory:
         sizes = np.sqrt(np.abs(np.einsum("cii->ci", self.hydrodynamic)).max(axis=0))
         largest: Floats = (differences / np.outer(sizes, sizes)).max(axis=(1, 2))
         return largest
+
+
+Memory: TypeAlias = Callable[[int, int], WaterMemory]
+"""The memory of the water by azimuthal order, 0 of sections, and number of elastic shapes of each beam (collective)."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -38,6 +38,8 @@ from hydroelastic.physics.irregular_waves import moments, statistics
 
 # Frequencies at first.
 _FIRST = 33
+# Relative error of the mean drift force by the waves that solids scatter in orders in which they do not move.
+_DRIFT = 1e-4
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -237,17 +239,18 @@ def _drift_of_orders(
 ) -> np.ndarray:
     """Drift force along the waves per square of their amplitude about an axis, N/m², shape (n,) (collective).
 
-    Orders are added until the waves of one scatter no more of the spectrum's power than the tolerance.
+    Orders are added until one scatters no more of the spectrum than `_DRIFT`.
     """
     waves: list[np.ndarray] = []
     density = request.spectrum.density(omegas)
-    while len(waves) <= max(known) or (np.abs(waves[-1]) ** 2 * density).max() > problem.tolerance * density.max():
+    # Nothing moves in the others, and no other analysis asks for them.
+    fixed = replace(problem, solvers={}, tolerance=max(problem.tolerance, _DRIFT))
+    while len(waves) <= max(known) or (np.abs(waves[-1]) ** 2 * density).max() > _DRIFT * density.max():
         order = len(waves)
         if order in known:
             waves.append(known[order][:, 0])
             continue
-        # Nothing moves in it, and no other analysis asks for it.
-        own = _curves(replace(problem.of_order(order), solvers={}), request).result.at(omegas)
+        own = _curves(fixed.of_order(order), request).result.at(omegas)
         chosen = np.searchsorted(own.omegas, omegas)
         waves.append(np.array([own.responses[place].partial_waves()[0, 0] for place in chosen]))
     layers = two_layers(problem.tank)

@@ -68,7 +68,7 @@ class MultigridSolver:
         self._comm = matrix.comm.tompi4py()
         spaces = [liquid]
         while spaces[0].degree > 1:
-            spaces.insert(0, liquid_space(liquid.tank, spaces[0].degree // 2, liquid.zero_potential))
+            spaces.insert(0, liquid_space(liquid.tank, spaces[0].degree // 2, liquid.zero_potential, liquid.layers))
         self._fixed = liquid.zero_dofs()
         matrices = [volume_laplace(space, images) for space in spaces[:-1]]
         matrices.append(matrix.copy() if liquid.zero_potential else matrix)

@@ -16,6 +16,7 @@ from scipy.sparse.csgraph import connected_components
 
 from hydroelastic.meshes.distribute import NodedMesh
 from hydroelastic.meshes.geometry import LIQUID
+from hydroelastic.meshes.tagged_mesh import MeshError
 
 _DIM = 3
 
@@ -28,7 +29,9 @@ def cut_volume(mesh: NodedMesh, names: tuple[str, ...], kept: tuple[str, ...]) -
         names: those that are cut.
         kept: those of them that keep their names, on both sides.
     """
-    element = basix.create_element(basix.ElementFamily.P, basix.CellType.tetrahedron, mesh.degree)
+    element = basix.create_element(
+        basix.ElementFamily.P, basix.CellType.tetrahedron, mesh.degree, basix.LagrangeVariant.gll_warped
+    )
     # The closure of each of the four faces: its corners first.
     places = np.array(element.entity_closure_dofs[_DIM - 1])
     corners = np.sort(mesh.cells[:, basix.topology(basix.CellType.tetrahedron)[_DIM - 1]], axis=2)
@@ -65,10 +68,20 @@ def cut_volume(mesh: NodedMesh, names: tuple[str, ...], kept: tuple[str, ...]) -
 
 
 def with_regions(mesh: NodedMesh) -> NodedMesh:
-    """Name the parts of the liquid that share no node ``liquid_1``, ``liquid_2``, …; leave a single one as it is."""
+    """Name the parts of one liquid that share no node ``liquid_1``, ``liquid_2``, …; leave a single one as it is.
+
+    Raises:
+        MeshError: if nothing moves in a part, or there are two liquids and more parts.
+    """
     count, part = connected_parts(mesh.cells)
-    if count == 1:
+    if count == len(mesh.cell_names):
         return mesh
+    if len(mesh.cell_names) > 1:
+        raise MeshError("baffles divide one of two liquids, which is not modelled")
+    moving = [number for name, number in mesh.facet_names.items() if not name.startswith("mirror")]
+    surface = np.isin(mesh.cells, mesh.facets[np.isin(mesh.facet_tags, moving)]).any(axis=1)
+    if len(np.unique(part[surface])) < count:
+        raise MeshError("baffles close in a part of the liquid that has no still surface")
     return replace(
         mesh,
         cell_tags=(part + 1).astype(np.int32),

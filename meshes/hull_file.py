@@ -26,6 +26,8 @@ _Entities = list[tuple[int, int]]
 # Part of the height to which the still level of a mass is found.
 _LEVEL = 1e-7
 _MOST_STEPS = 40
+# Part of the volume by which a hull may differ from its mirror image.
+_SAME = 1e-6
 # Triangles on CAD: around a full circle, their degree, and the smallest ones in units of the extent.
 _AROUND, _DEGREE, _SMALLEST = 16, 4, 0.02
 # Part of the waterplane that the sum of all areas may differ from zero.
@@ -62,7 +64,26 @@ def _wetted_hull(file: Path, draught: float | None, volume: float | None, _chang
         low=tuple(map(float, corners[0])),
         high=tuple(map(float, corners[1])),
         hydrostatics=found,
+        symmetric=(False, False) if file.suffix.lower() == ".stl" else _symmetries(file, level, found.axis),
     )
+
+
+def _symmetries(file: Path, level: float, middle: tuple[float, float]) -> tuple[bool, bool]:
+    """Whether a solid is its own mirror image in planes normal to x and to y through its middle."""
+    found = []
+    for axis in (0, 1):
+        try:
+            with _solid(file) as solid:
+                occ, wetted = gmsh.model.occ, immersed(solid, level)
+                image = occ.copy(wetted)
+                occ.mirror(image, 1.0 - axis, float(axis), 0.0, -middle[axis])
+                volume = sum(occ.getMass(*one) for one in wetted)
+                left = [one for one in occ.cut(image, wetted)[0] if one[0] == 3]
+                found.append(sum(occ.getMass(*one) for one in left) < _SAME * volume)
+        except MeshError:
+            # Coinciding free-form faces may be too much for OpenCASCADE.
+            found.append(False)
+    return found[0], found[1]
 
 
 def _level_of(file: Path, volume: float, low: float, high: float) -> float:

@@ -101,8 +101,7 @@ def volume_mesh(tank: VolumeTank, sizes: VolumeSizes, mirrors: Mirrors = (None, 
         mesh = read_gmsh(degree, {tag: name for tag, name in parts.faces.items() if name}, parts.layers)
     cuts = tuple({BAFFLE, INTERFACE} & set(mesh.facet_names))
     if cuts:
-        mesh = cut_volume(mesh, cuts, (INTERFACE,))
-        mesh = mesh if tank.lower else with_regions(mesh)
+        mesh = with_regions(cut_volume(mesh, cuts, (INTERFACE,)))
     volume = parts.volume
     if isinstance(tank.bed, SurveyedBed):
         stretched = mesh_integral(mesh, lambda places: np.asarray(bed(places[:, :2]) / tank.depth))
@@ -167,6 +166,9 @@ def _parts(tank: VolumeTank, mirrors: Mirrors) -> _Parts:
         tag: owners.get(tag) or _name(tag, wetted, mirrors)
         for _, tag in gmsh.model.getBoundary(sorted(liquids), combined=False, oriented=False)
     }
+    left = set(gmsh.model.getEntities(2))
+    if any((2, tag) not in left for tag, name in owners.items() if name == BAFFLE):
+        raise MeshError("a baffle meets a float")
     faces |= {tag: BAFFLE for tag, name in owners.items() if name == BAFFLE}
     if lower:
         shared = faces_of(sorted(lower)) & faces_of(sorted(liquids - lower))

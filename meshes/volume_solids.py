@@ -20,6 +20,9 @@ from hydroelastic.physics.volume_tank import SlopingBed, VolumeTank
 Entities = list[tuple[int, int]]
 """Dimension and tag of parts of a model of gmsh."""
 
+# Part of the volume that counts as nothing.
+_NOTHING = 1e-9
+
 
 def plan_middle(tank: VolumeTank) -> tuple[float, float]:
     """Return the middle of the box around the plan."""
@@ -41,8 +44,12 @@ def liquid_solid(tank: VolumeTank) -> Entities:
         solid = solid_of_file(plan)
     else:
         solid = _upright(tank)
-    columns = [one for outline in tank.columns for one in _prism(face(outline), 2.0 * _reach(tank))]
-    return occ.cut(solid, columns)[0] if columns else solid
+    for number, outline in enumerate(tank.columns, 1):
+        whole = occ.getMass(*solid[0])
+        solid = [one for one in occ.cut(solid, _prism(face(outline), 2.0 * _reach(tank)))[0] if one[0] == 3]
+        if len(solid) != 1 or occ.getMass(*solid[0]) > whole * (1.0 - _NOTHING):
+            raise MeshError(f"column {number} does not stand in the tank, or divides it")
+    return solid
 
 
 def _reach(tank: VolumeTank) -> float:
@@ -162,7 +169,7 @@ def kept(entities: Entities, tank: VolumeTank, mirrors: Mirrors) -> Entities:
 
 def box_around(entity: tuple[int, int]) -> np.ndarray:
     """Return the corners of a box around a part, shape (2, 3)."""
-    return np.array(gmsh.model.occ.getBoundingBox(*entity)).reshape(2, 3)
+    return np.array(gmsh.model.getBoundingBox(*entity)).reshape(2, 3)
 
 
 def faces_of(entities: Entities) -> set[int]:

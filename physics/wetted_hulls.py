@@ -91,6 +91,8 @@ class WettedHull:
         low: least x, y and z of the wetted part from the file's origin at the still level, m.
         high: the largest ones.
         hydrostatics: of the wetted part, from that origin.
+        symmetric: whether it is known to be its own mirror image, in planes normal to x and to y through the centre of
+            buoyancy.
         metres: the unit of all lengths but ``level``, m.
     """
 
@@ -99,6 +101,7 @@ class WettedHull:
     low: tuple[float, float, float]
     high: tuple[float, float, float]
     hydrostatics: Hydrostatics
+    symmetric: tuple[bool, bool]
     metres: float = 1.0
 
     @property

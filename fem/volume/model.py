@@ -26,10 +26,11 @@ from hydroelastic.physics.dofs import body_name
 from hydroelastic.physics.level_tank import FilePlan
 from hydroelastic.physics.obstacles import VerticalBaffle, mirrored_outline
 from hydroelastic.physics.plate import Strip
+from hydroelastic.physics.solid_floats import SolidFloat
 from hydroelastic.physics.volume_tank import SlopingBed, SurveyedBed, VolumeTank
 
 # A float this close to a plane of symmetry, in units of the tank, is in it.
-_MIDDLE = 1e-9
+_MIDDLE = 1e-7
 
 
 def volume_mirrors(tank: VolumeTank) -> Mirrors:
@@ -42,7 +43,7 @@ def volume_mirrors(tank: VolumeTank) -> Mirrors:
     )
     along, across = (
         mirror
-        if mirror is not None and all(abs(one.position[axis] - mirror) < _MIDDLE for one in tank.floats)
+        if mirror is not None and all(_is_in_plane(one, axis, mirror) for one in tank.floats)
         else None
         for axis, mirror in enumerate(mirrors_of(*plan_regions(replace(tank, plates=outlines))))
     )
@@ -55,6 +56,12 @@ def volume_mirrors(tank: VolumeTank) -> Mirrors:
             None if slope else mirror for mirror, slope in zip((along, across), tank.bed.slope, strict=True)
         )
     return along, across
+
+
+def _is_in_plane(solid: SolidFloat, axis: int, middle: float) -> bool:
+    """Whether a plane divides a float into halves that are alike."""
+    alike = solid.hull is None or solid.hull.symmetric[axis]
+    return alike and abs(solid.position[axis] - middle) < _MIDDLE
 
 
 def _are_symmetric(tank: VolumeTank, axis: int, middle: float) -> bool:
